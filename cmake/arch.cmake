@@ -1,0 +1,55 @@
+# The instruction set and the lane width of this build, and the flags that every target shares.
+#
+# Bits of pixels do not depend on either (but for x86-64-v2, which has no fma instruction and makes no such promise).
+
+set(HALFSPACE_ARCH native CACHE STRING "native, x86-64-v2, x86-64-v3 or x86-64-v4")
+set_property(CACHE HALFSPACE_ARCH PROPERTY STRINGS native x86-64-v2 x86-64-v3 x86-64-v4)
+set(HALFSPACE_LANES "" CACHE STRING "Lanes per packet: 1, 4, 8 or 16 (empty: the width of the instruction set)")
+
+if(NOT HALFSPACE_ARCH MATCHES "^(native|x86-64-v[234])$")
+  message(FATAL_ERROR "HALFSPACE_ARCH is '${HALFSPACE_ARCH}'; expected native, x86-64-v2, x86-64-v3 or x86-64-v4")
+endif()
+
+# Which macros the compiler defines for this instruction set decides the default width.
+execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=${HALFSPACE_ARCH} -dM -E -x c++ /dev/null
+  OUTPUT_VARIABLE arch_macros RESULT_VARIABLE arch_result ERROR_VARIABLE arch_error)
+if(NOT arch_result EQUAL 0)
+  message(FATAL_ERROR "${CMAKE_CXX_COMPILER} does not know -march=${HALFSPACE_ARCH}: ${arch_error}")
+endif()
+
+set(lanes "${HALFSPACE_LANES}")
+if(lanes STREQUAL "")
+  if(arch_macros MATCHES "__AVX512DQ__" AND arch_macros MATCHES "__AVX512VL__" AND arch_macros MATCHES "__AVX512BW__")
+    set(lanes 16)
+  elseif(arch_macros MATCHES "__AVX2__")
+    set(lanes 8)
+  else()
+    set(lanes 4)
+  endif()
+endif()
+if(NOT lanes MATCHES "^(1|4|8|16)$")
+  message(FATAL_ERROR "HALFSPACE_LANES is '${lanes}'; expected 1, 4, 8 or 16")
+endif()
+message(STATUS "halfspace: ${HALFSPACE_ARCH}, ${lanes} lanes")
+
+add_library(halfspace_flags INTERFACE)
+target_include_directories(halfspace_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes} HALFSPACE_ARCH="${HALFSPACE_ARCH}"
+  GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR)
+# No contraction of a*b + c, no errno: the first would change bits with the compiler, the second only costs.
+# Wpsabi: vectors wider than the baseline are passed between our own translation units only.
+target_compile_options(halfspace_flags INTERFACE -march=${HALFSPACE_ARCH} -ffp-contract=off -fno-math-errno
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-psabi)
+if(arch_macros MATCHES "__AVX512F__")
+  target_compile_options(halfspace_flags INTERFACE -mprefer-vector-width=512)
+endif()
+if(HALFSPACE_WERROR)
+  target_compile_options(halfspace_flags INTERFACE -Werror)
+endif()
+if(HALFSPACE_ASSERTS)
+  target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_ASSERTS)
+endif()
+if(HALFSPACE_SANITIZE)
+  target_compile_options(halfspace_flags INTERFACE -fsanitize=${HALFSPACE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(halfspace_flags INTERFACE -fsanitize=${HALFSPACE_SANITIZE})
+endif()

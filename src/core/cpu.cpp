@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// CPUID against the macros that the compiler defined for HALFSPACE_ARCH (src/CMakeLists.txt hands them over as one
+// string and compiles this file alone for plain x86-64). CPUID directly rather than __builtin_cpu_supports: clang 14
+// has no name there for F16C, LZCNT and MOVBE, which x86-64-v3 code uses.
+//
+// Bits: Intel SDM volume 2A, CPUID; AMD APM volume 3, appendix E. State: SDM volume 1, section 13.3 (XCR0).
+#include "core/cpu.h"
+
+#include <cpuid.h>
+#include <string.h>
+
+namespace halfspace {
+
+namespace {
+
+enum class Register : unsigned char { eax, ebx, ecx, edx };
+
+struct Feature {
+  const char* macro;  // as in __AVX2__
+  const char* name;   // as people say it; what starts with "512" is printed in the parentheses of AVX-512 (…)
+  unsigned leaf, subleaf;
+  Register where;
+  unsigned bit;
+  unsigned state;  // bits of XCR0 that the operating system must save
+};
+
+constexpr unsigned kYmm = 0x06;
+constexpr unsigned kZmm = 0xe6;
+
+constexpr Feature kFeatures[] = {
+    {"SSE3", "SSE3", 1, 0, Register::ecx, 0, 0},
+    {"SSSE3", "SSSE3", 1, 0, Register::ecx, 9, 0},
+    {"SSE4_1", "SSE4.1", 1, 0, Register::ecx, 19, 0},
+    {"SSE4_2", "SSE4.2", 1, 0, Register::ecx, 20, 0},
+    {"POPCNT", "POPCNT", 1, 0, Register::ecx, 23, 0},
+    {"MOVBE", "MOVBE", 1, 0, Register::ecx, 22, 0},
+    {"LZCNT", "LZCNT", 0x80000001, 0, Register::ecx, 5, 0},
+    {"BMI", "BMI1", 7, 0, Register::ebx, 3, 0},
+    {"BMI2", "BMI2", 7, 0, Register::ebx, 8, 0},
+    {"ADX", "ADX", 7, 0, Register::ebx, 19, 0},
+    {"AVX", "AVX", 1, 0, Register::ecx, 28, kYmm},
+    {"F16C", "F16C", 1, 0, Register::ecx, 29, kYmm},
+    {"FMA", "FMA", 1, 0, Register::ecx, 12, kYmm},
+    {"AVX2", "AVX2", 7, 0, Register::ebx, 5, kYmm},
+    {"FMA4", "FMA4", 0x80000001, 0, Register::ecx, 16, kYmm},
+    {"XOP", "XOP", 0x80000001, 0, Register::ecx, 11, kYmm},
+    {"TBM", "TBM", 0x80000001, 0, Register::ecx, 21, 0},
+    {"SSE4A", "SSE4A", 0x80000001, 0, Register::ecx, 6, 0},
+    {"GFNI", "GFNI", 7, 0, Register::ecx, 8, 0},
+    {"AVXVNNI", "AVX-VNNI", 7, 1, Register::eax, 4, kYmm},
+    {"AVX512F", "512F", 7, 0, Register::ebx, 16, kZmm},
+    {"AVX512BW", "512BW", 7, 0, Register::ebx, 30, kZmm},
+    {"AVX512DQ", "512DQ", 7, 0, Register::ebx, 17, kZmm},
+    {"AVX512VL", "512VL", 7, 0, Register::ebx, 31, kZmm},
+    {"AVX512CD", "512CD", 7, 0, Register::ebx, 28, kZmm},
+    {"AVX512IFMA", "512IFMA", 7, 0, Register::ebx, 21, kZmm},
+    {"AVX512VBMI", "512VBMI", 7, 0, Register::ecx, 1, kZmm},
+    {"AVX512VBMI2", "512VBMI2", 7, 0, Register::ecx, 6, kZmm},
+    {"AVX512VNNI", "512VNNI", 7, 0, Register::ecx, 11, kZmm},
+    {"AVX512BITALG", "512BITALG", 7, 0, Register::ecx, 12, kZmm},
+    {"AVX512VPOPCNTDQ", "512VPOPCNTDQ", 7, 0, Register::ecx, 14, kZmm},
+    {"AVX512BF16", "512BF16", 7, 1, Register::eax, 5, kZmm},
+    {"AVX512FP16", "512FP16", 7, 0, Register::edx, 23, kZmm},
+};
+
+// What x86-64-v2 and v3 promise, to name the build that would run here.
+constexpr char kLevel2[] = " SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT ";
+constexpr char kLevel3[] = " SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT AVX AVX2 BMI BMI2 F16C FMA LZCNT MOVBE ";
+
+// The low half of XCR0: which registers the operating system saves. 0 where it saves none beyond SSE.
+unsigned saved_state() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c >> 27 & 1u) == 0) return 0;
+  unsigned low = 0, high = 0;
+  __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+  return low;
+}
+
+bool has(const Feature& f, unsigned state) {
+  unsigned r[4] = {};
+  if (__get_cpuid_count(f.leaf, f.subleaf, &r[0], &r[1], &r[2], &r[3]) == 0) return false;
+  return (r[static_cast<unsigned>(f.where)] >> f.bit & 1u) != 0 && (state & f.state) == f.state;
+}
+
+// Does the list " A B C " hold the word?
+bool lists(const char* list, const char* word) {
+  const size_t n = strlen(word);
+  for (const char* p = strstr(list, word); p != nullptr; p = strstr(p + n, word)) {
+    if (p > list && p[-1] == ' ' && p[n] == ' ') return true;
+  }
+  return false;
+}
+
+bool runs(const char* list, unsigned state) {
+  for (const Feature& f : kFeatures) {
+    if (lists(list, f.macro) && !has(f, state)) return false;
+  }
+  return true;
+}
+
+// A line that grows and is cut at its end rather than overrun.
+struct Line {
+  char text[768];
+  size_t size;
+  void add(const char* s) {
+    for (; *s != '\0' && size + 1 < sizeof text; ++s) text[size++] = *s;
+    text[size] = '\0';
+  }
+};
+
+// Adds the missing features of one kind, separated by commas; how many there were.
+int add_missing(Line& line, bool avx512, unsigned state) {
+  int count = 0;
+  for (const Feature& f : kFeatures) {
+    const bool is512 = strncmp(f.name, "512", 3) == 0;
+    if (is512 != avx512 || !lists(HALFSPACE_NEEDS, f.macro) || has(f, state)) continue;
+    if (count++ > 0) line.add(", ");
+    line.add(is512 ? f.name + 3 : f.name);
+  }
+  return count;
+}
+
+}  // namespace
+
+const char* missing_cpu_features() noexcept {
+  static Line line;
+  line.size = 0;
+  line.text[0] = '\0';
+  const unsigned state = saved_state();
+  if (runs(HALFSPACE_NEEDS, state)) return line.text;
+
+  line.add("this build needs ");
+  const bool others = add_missing(line, false, state) > 0;
+  const size_t before = line.size;
+  line.add(others ? " and AVX-512 (" : "AVX-512 (");
+  if (add_missing(line, true, state) > 0) {
+    line.add(")");
+  } else {
+    line.text[line.size = before] = '\0';
+  }
+  line.add(", which this processor lacks; ");
+  if (runs(kLevel3, state)) {
+    line.add("rebuild with -DHALFSPACE_ARCH=x86-64-v3");
+  } else if (runs(kLevel2, state)) {
+    line.add("rebuild with -DHALFSPACE_ARCH=x86-64-v2");
+  } else {
+    line.add("no build of halfspace runs here: x86-64-v2 is the least");
+  }
+  return line.text;
+}
+
+#define HS_TEXT2(x) #x
+#define HS_TEXT(x) HS_TEXT2(x)
+
+const char* build_description() noexcept { return HALFSPACE_ARCH ", " HS_TEXT(HALFSPACE_LANES) " lanes"; }
+
+}  // namespace halfspace

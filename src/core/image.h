@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/check.h"
+
+namespace halfspace {
+
+/// A rectangle of texels or pixels, row by row without gaps. Row 0 is the top row of a picture, and t = 0 of a texture.
+/// The image owns its memory; copying copies the texels.
+template <class T>
+class Image {
+ public:
+  Image() = default;
+  /// width, height >= 0; texels start as T().
+  Image(int width, int height) : width_(width), height_(height) {
+    HS_CHECK_OP(width, >=, 0);
+    HS_CHECK_OP(height, >=, 0);
+    texels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool empty() const { return texels_.empty(); }
+
+  T& at(int x, int row) { return texels_[index(x, row)]; }
+  const T& at(int x, int row) const { return texels_[index(x, row)]; }
+  std::span<T> row(int r) { return std::span<T>(texels_).subspan(index(0, r), static_cast<std::size_t>(width_)); }
+  std::span<const T> row(int r) const { return std::span<const T>(texels_).subspan(index(0, r), static_cast<std::size_t>(width_)); }
+  T* data() { return texels_.data(); }
+  const T* data() const { return texels_.data(); }
+  std::span<const T> texels() const { return texels_; }
+
+  friend bool operator==(const Image&, const Image&) = default;
+
+ private:
+  std::size_t index(int x, int row) const {
+    HS_DCHECK(x >= 0 && x < width_ && row >= 0 && row < height_);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> texels_;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,528 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lanes: W pixels, vertices or triangles computed at once.
+//
+// RealN<W>, IntN<W> and MaskN<W> wrap the vector extension of GCC and Clang. Every operation is lane-wise and
+// correctly rounded (IEEE 754 binary32), so lane i of any width holds the bits that plain float would hold: the
+// same function template run with R = float, RealN<8> or RealN<16> gives the same bits. Nothing here adds across
+// lanes. A mask never turns into bool by itself: say any(m), all(m), none(m), or select(m, a, b).
+//
+// Width 1 is plain float, int32_t and bool; all functions below exist for them too.
+#pragma once
+
+#include <immintrin.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#define HS_INLINE inline __attribute__((always_inline))
+
+namespace halfspace {
+
+namespace detail {
+
+// The compiler's vector types, one explicit row a width: g++ 12 drops a vector_size that depends on a template.
+template <int W>
+struct Vectors;
+template <>
+struct Vectors<4> {
+  using F = float __attribute__((vector_size(16)));
+  using I = int32_t __attribute__((vector_size(16)));
+};
+template <>
+struct Vectors<8> {
+  using F = float __attribute__((vector_size(32)));
+  using I = int32_t __attribute__((vector_size(32)));
+};
+template <>
+struct Vectors<16> {
+  using F = float __attribute__((vector_size(64)));
+  using I = int32_t __attribute__((vector_size(64)));
+};
+
+#ifdef __AVX512F__
+// The unmasked 512-bit intrinsics of g++ 12 read an uninitialized register by design and warn of it; those with a
+// mask do not, and a full mask costs nothing.
+inline constexpr __mmask16 kAll16 = 0xffff;
+#endif
+
+}  // namespace detail
+
+/// W booleans, each held as an int of all zeros (false) or all ones (true).
+template <int W>
+struct MaskN {
+  using V = typename detail::Vectors<W>::I;
+  V v;
+
+  MaskN() = default;
+  HS_INLINE MaskN(bool b) : v(V{} - static_cast<int32_t>(b)) {}
+  HS_INLINE explicit MaskN(V bits) : v(bits) {}
+
+  friend HS_INLINE MaskN operator&(MaskN a, MaskN b) { return MaskN(a.v & b.v); }
+  friend HS_INLINE MaskN operator|(MaskN a, MaskN b) { return MaskN(a.v | b.v); }
+  friend HS_INLINE MaskN operator^(MaskN a, MaskN b) { return MaskN(a.v ^ b.v); }
+  friend HS_INLINE MaskN operator!(MaskN a) { return MaskN(~a.v); }
+  friend HS_INLINE MaskN operator&&(MaskN a, MaskN b) { return a & b; }
+  friend HS_INLINE MaskN operator||(MaskN a, MaskN b) { return a | b; }
+  HS_INLINE MaskN& operator&=(MaskN b) { return v &= b.v, *this; }
+  HS_INLINE MaskN& operator|=(MaskN b) { return v |= b.v, *this; }
+};
+
+/// W 32-bit integers. Arithmetic wraps round as two's complement; >> on them is arithmetic.
+template <int W>
+struct IntN {
+  using V = typename detail::Vectors<W>::I;
+  using U = typename std::conditional_t<W == 4, std::type_identity<uint32_t __attribute__((vector_size(16)))>,
+                                        std::conditional_t<W == 8, std::type_identity<uint32_t __attribute__((vector_size(32)))>,
+                                                           std::type_identity<uint32_t __attribute__((vector_size(64)))>>>::type;
+  V v;
+
+  IntN() = default;
+  HS_INLINE IntN(int32_t s) : v(V{} + s) {}
+  HS_INLINE explicit IntN(V lanes) : v(lanes) {}
+
+  // Sums and products go through unsigned, where wrapping round is defined.
+  friend HS_INLINE IntN operator+(IntN a, IntN b) { return IntN((V)((U)a.v + (U)b.v)); }
+  friend HS_INLINE IntN operator-(IntN a, IntN b) { return IntN((V)((U)a.v - (U)b.v)); }
+  friend HS_INLINE IntN operator*(IntN a, IntN b) { return IntN((V)((U)a.v * (U)b.v)); }
+  friend HS_INLINE IntN operator-(IntN a) { return IntN((V)(U{} - (U)a.v)); }
+  friend HS_INLINE IntN operator&(IntN a, IntN b) { return IntN(a.v & b.v); }
+  friend HS_INLINE IntN operator|(IntN a, IntN b) { return IntN(a.v | b.v); }
+  friend HS_INLINE IntN operator^(IntN a, IntN b) { return IntN(a.v ^ b.v); }
+  friend HS_INLINE IntN operator~(IntN a) { return IntN(~a.v); }
+  friend HS_INLINE IntN operator<<(IntN a, int n) { return IntN((V)((U)a.v << n)); }
+  friend HS_INLINE IntN operator>>(IntN a, int n) { return IntN(a.v >> n); }
+  HS_INLINE IntN& operator+=(IntN b) { return *this = *this + b; }
+  HS_INLINE IntN& operator-=(IntN b) { return *this = *this - b; }
+
+  friend HS_INLINE MaskN<W> operator<(IntN a, IntN b) { return MaskN<W>(a.v < b.v); }
+  friend HS_INLINE MaskN<W> operator<=(IntN a, IntN b) { return MaskN<W>(a.v <= b.v); }
+  friend HS_INLINE MaskN<W> operator>(IntN a, IntN b) { return MaskN<W>(a.v > b.v); }
+  friend HS_INLINE MaskN<W> operator>=(IntN a, IntN b) { return MaskN<W>(a.v >= b.v); }
+  friend HS_INLINE MaskN<W> operator==(IntN a, IntN b) { return MaskN<W>(a.v == b.v); }
+  friend HS_INLINE MaskN<W> operator!=(IntN a, IntN b) { return MaskN<W>(a.v != b.v); }
+};
+
+/// W binary32 numbers.
+template <int W>
+struct RealN {
+  using V = typename detail::Vectors<W>::F;
+  V v;
+
+  RealN() = default;
+  HS_INLINE RealN(float s) : v(s - V{}) {}  // s - 0 keeps the sign of a zero; 0 + s would not
+  HS_INLINE explicit RealN(V lanes) : v(lanes) {}
+
+  friend HS_INLINE RealN operator+(RealN a, RealN b) { return RealN(a.v + b.v); }
+  friend HS_INLINE RealN operator-(RealN a, RealN b) { return RealN(a.v - b.v); }
+  friend HS_INLINE RealN operator*(RealN a, RealN b) { return RealN(a.v * b.v); }
+  friend HS_INLINE RealN operator/(RealN a, RealN b) { return RealN(a.v / b.v); }
+  friend HS_INLINE RealN operator-(RealN a) { return RealN(-a.v); }
+  friend HS_INLINE RealN operator+(RealN a) { return a; }
+  HS_INLINE RealN& operator+=(RealN b) { return v += b.v, *this; }
+  HS_INLINE RealN& operator-=(RealN b) { return v -= b.v, *this; }
+  HS_INLINE RealN& operator*=(RealN b) { return v *= b.v, *this; }
+  HS_INLINE RealN& operator/=(RealN b) { return v /= b.v, *this; }
+
+  friend HS_INLINE MaskN<W> operator<(RealN a, RealN b) { return MaskN<W>(a.v < b.v); }
+  friend HS_INLINE MaskN<W> operator<=(RealN a, RealN b) { return MaskN<W>(a.v <= b.v); }
+  friend HS_INLINE MaskN<W> operator>(RealN a, RealN b) { return MaskN<W>(a.v > b.v); }
+  friend HS_INLINE MaskN<W> operator>=(RealN a, RealN b) { return MaskN<W>(a.v >= b.v); }
+  friend HS_INLINE MaskN<W> operator==(RealN a, RealN b) { return MaskN<W>(a.v == b.v); }
+  friend HS_INLINE MaskN<W> operator!=(RealN a, RealN b) { return MaskN<W>(a.v != b.v); }
+};
+
+// ---- the types that go with a number type R -------------------------------------------------------------------
+
+/// What a shader's letter R implies: how many values it holds, and its integer and truth types.
+template <class R>
+struct LaneTraits;
+template <>
+struct LaneTraits<float> {
+  static constexpr int width = 1;
+  using Int = int32_t;
+  using Mask = bool;
+};
+template <>
+struct LaneTraits<double> : LaneTraits<float> {};
+template <int W>
+struct LaneTraits<RealN<W>> {
+  static constexpr int width = W;
+  using Int = IntN<W>;
+  using Mask = MaskN<W>;
+};
+
+template <class R>
+using IntOf = typename LaneTraits<R>::Int;
+template <class R>
+using MaskOf = typename LaneTraits<R>::Mask;
+template <class R>
+inline constexpr int kWidthOf = LaneTraits<R>::width;
+
+template <class T>
+inline constexpr bool kIsLanes = false;
+template <int W>
+inline constexpr bool kIsLanes<RealN<W>> = true;
+
+/// float, double, or lanes of float: what may stand for R in a shader.
+template <class R>
+concept Number = std::is_same_v<R, float> || std::is_same_v<R, double> || kIsLanes<R>;
+
+// The width that this build computes with (CMake sets HALFSPACE_LANES; 1, 4, 8 or 16).
+inline constexpr int kLanes = HALFSPACE_LANES;
+using Real = std::conditional_t<kLanes == 1, std::type_identity<float>, std::type_identity<RealN<kLanes == 1 ? 4 : kLanes>>>::type;
+using Int = IntOf<Real>;
+using Mask = MaskOf<Real>;
+
+// ---- masks -----------------------------------------------------------------------------------------------------
+
+HS_INLINE uint32_t bits(bool m) { return m ? 1u : 0u; }
+/// One bit a lane, lane 0 lowest.
+template <int W>
+HS_INLINE uint32_t bits(MaskN<W> m) {
+#ifdef __AVX512DQ__
+  if constexpr (W == 16) return static_cast<uint32_t>(_mm512_movepi32_mask((__m512i)m.v));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return static_cast<uint32_t>(_mm256_movemask_ps((__m256)m.v));
+#endif
+  if constexpr (W == 4) return static_cast<uint32_t>(_mm_movemask_ps((__m128)m.v));
+  uint32_t b = 0;
+  for (int i = 0; i < W; ++i) b |= (m.v[i] != 0 ? 1u : 0u) << i;
+  return b;
+}
+template <class M>
+inline constexpr uint32_t kAllBits = 1u;
+template <int W>
+inline constexpr uint32_t kAllBits<MaskN<W>> = (W == 32 ? 0u : (1u << W)) - 1u;
+
+template <class M>
+HS_INLINE bool any(M m) {
+  return bits(m) != 0;
+}
+template <class M>
+HS_INLINE bool all(M m) {
+  return bits(m) == kAllBits<M>;
+}
+template <class M>
+HS_INLINE bool none(M m) {
+  return bits(m) == 0;
+}
+
+HS_INLINE float select(bool m, float a, float b) { return m ? a : b; }
+HS_INLINE double select(bool m, double a, double b) { return m ? a : b; }
+HS_INLINE int32_t select(bool m, int32_t a, int32_t b) { return m ? a : b; }
+HS_INLINE bool select(bool m, bool a, bool b) { return m ? a : b; }
+/// Lane by lane: a where m, else b.
+template <int W>
+HS_INLINE RealN<W> select(MaskN<W> m, RealN<W> a, std::type_identity_t<RealN<W>> b) {
+  return RealN<W>(m.v ? a.v : b.v);
+}
+template <int W>
+HS_INLINE RealN<W> select(MaskN<W> m, float a, std::type_identity_t<RealN<W>> b) {
+  return select(m, RealN<W>(a), b);
+}
+template <int W>
+HS_INLINE IntN<W> select(MaskN<W> m, IntN<W> a, std::type_identity_t<IntN<W>> b) {
+  return IntN<W>(m.v ? a.v : b.v);
+}
+template <int W>
+HS_INLINE IntN<W> select(MaskN<W> m, int32_t a, std::type_identity_t<IntN<W>> b) {
+  return select(m, IntN<W>(a), b);
+}
+template <int W>
+HS_INLINE MaskN<W> select(MaskN<W> m, MaskN<W> a, std::type_identity_t<MaskN<W>> b) {
+  return (m & a) | (!m & b);
+}
+
+// ---- memory ----------------------------------------------------------------------------------------------------
+
+/// Loads the width of T from consecutive values; p need not be aligned.
+template <class T, class S>
+HS_INLINE T load(const S* p) {
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0);
+  T t;
+  std::memcpy(&t, p, sizeof t);
+  return t;
+}
+/// Stores all lanes of t to consecutive values; p need not be aligned.
+template <class S, class T>
+HS_INLINE void store(S* p, const T& t) {
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0);
+  std::memcpy(p, &t, sizeof t);
+}
+
+HS_INLINE float gather(const float* base, int32_t i) { return base[i]; }
+HS_INLINE int32_t gather(const int32_t* base, int32_t i) { return base[i]; }
+/// base[i] lane by lane. Every lane's index must be valid, whether its result is used or not.
+template <int W>
+HS_INLINE RealN<W> gather(const float* base, IntN<W> i) {
+#ifdef __AVX512F__
+  if constexpr (W == 16) return RealN<W>((typename RealN<W>::V)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), detail::kAll16, (__m512i)i.v, base, 4));
+#endif
+#ifdef __AVX2__
+  if constexpr (W == 8) return RealN<W>((typename RealN<W>::V)_mm256_i32gather_ps(base, (__m256i)i.v, 4));
+  if constexpr (W == 4) return RealN<W>((typename RealN<W>::V)_mm_i32gather_ps(base, (__m128i)i.v, 4));
+#endif
+  RealN<W> r;
+  for (int k = 0; k < W; ++k) r.v[k] = base[i.v[k]];
+  return r;
+}
+template <int W>
+HS_INLINE IntN<W> gather(const int32_t* base, IntN<W> i) {
+#ifdef __AVX512F__
+  if constexpr (W == 16) return IntN<W>((typename IntN<W>::V)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), detail::kAll16, (__m512i)i.v, base, 4));
+#endif
+#ifdef __AVX2__
+  if constexpr (W == 8) return IntN<W>((typename IntN<W>::V)_mm256_i32gather_epi32(base, (__m256i)i.v, 4));
+  if constexpr (W == 4) return IntN<W>((typename IntN<W>::V)_mm_i32gather_epi32(base, (__m128i)i.v, 4));
+#endif
+  IntN<W> r;
+  for (int k = 0; k < W; ++k) r.v[k] = base[i.v[k]];
+  return r;
+}
+
+// One lane as a scalar, and one lane set.
+HS_INLINE float lane(float r, int) { return r; }
+HS_INLINE double lane(double r, int) { return r; }
+HS_INLINE int32_t lane(int32_t r, int) { return r; }
+HS_INLINE bool lane(bool r, int) { return r; }
+template <int W>
+HS_INLINE float lane(RealN<W> r, int i) {
+  return r.v[i];
+}
+template <int W>
+HS_INLINE int32_t lane(IntN<W> r, int i) {
+  return r.v[i];
+}
+template <int W>
+HS_INLINE bool lane(MaskN<W> r, int i) {
+  return r.v[i] != 0;
+}
+HS_INLINE void set_lane(float& r, int, float x) { r = x; }
+HS_INLINE void set_lane(double& r, int, double x) { r = x; }
+HS_INLINE void set_lane(int32_t& r, int, int32_t x) { r = x; }
+template <int W>
+HS_INLINE void set_lane(RealN<W>& r, int i, float x) {
+  r.v[i] = x;
+}
+template <int W>
+HS_INLINE void set_lane(IntN<W>& r, int i, int32_t x) {
+  r.v[i] = x;
+}
+
+/// 0, 1, 2, … one a lane.
+template <class I>
+HS_INLINE I iota() {
+  I r{};
+  for (int i = 0; i < static_cast<int>(sizeof(I) / 4); ++i) set_lane(r, i, i);
+  return r;
+}
+
+/// Lanes 0 … n−1 true.
+template <class M>
+HS_INLINE M first_lanes(int n) {
+  if constexpr (std::is_same_v<M, bool>) {
+    return n > 0;
+  } else {
+    return iota<IntN<static_cast<int>(sizeof(M) / 4)>>() < n;
+  }
+}
+
+// ---- bit patterns and conversions ------------------------------------------------------------------------------
+
+HS_INLINE int32_t as_int(float r) { return std::bit_cast<int32_t>(r); }
+HS_INLINE float as_real(int32_t i) { return std::bit_cast<float>(i); }
+template <int W>
+HS_INLINE IntN<W> as_int(RealN<W> r) {
+  return IntN<W>((typename IntN<W>::V)r.v);
+}
+template <int W>
+HS_INLINE IntN<W> as_int(MaskN<W> m) {
+  return IntN<W>(m.v);
+}
+template <int W>
+HS_INLINE RealN<W> as_real(IntN<W> i) {
+  return RealN<W>((typename RealN<W>::V)i.v);
+}
+
+/// The nearest float (ties to even).
+template <class R>
+HS_INLINE R to_real(int32_t i) {
+  return static_cast<R>(i);
+}
+template <class R, int W>
+HS_INLINE RealN<W> to_real(IntN<W> i) {
+  static_assert(std::is_same_v<R, RealN<W>>);
+  return RealN<W>(__builtin_convertvector(i.v, typename RealN<W>::V));
+}
+
+// Rounding to an integer. NaN and what does not fit an int32 give INT32_MIN, at every width (the x86 convention).
+HS_INLINE int32_t truncate_to_int(float r) { return _mm_cvttss_si32(_mm_set_ss(r)); }
+HS_INLINE int32_t round_to_int(float r) { return _mm_cvtss_si32(_mm_set_ss(r)); }
+HS_INLINE int32_t truncate_to_int(double r) { return _mm_cvttsd_si32(_mm_set_sd(r)); }
+HS_INLINE int32_t round_to_int(double r) { return _mm_cvtsd_si32(_mm_set_sd(r)); }
+template <int W>
+HS_INLINE IntN<W> truncate_to_int(RealN<W> r) {
+#ifdef __AVX512F__
+  if constexpr (W == 16) return IntN<W>((typename IntN<W>::V)_mm512_maskz_cvttps_epi32(detail::kAll16, (__m512)r.v));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return IntN<W>((typename IntN<W>::V)_mm256_cvttps_epi32((__m256)r.v));
+#endif
+  if constexpr (W == 4) return IntN<W>((typename IntN<W>::V)_mm_cvttps_epi32((__m128)r.v));
+  IntN<W> i;
+  for (int k = 0; k < W; ++k) i.v[k] = truncate_to_int(r.v[k]);
+  return i;
+}
+/// To the nearest integer, ties to even.
+template <int W>
+HS_INLINE IntN<W> round_to_int(RealN<W> r) {
+#ifdef __AVX512F__
+  if constexpr (W == 16) return IntN<W>((typename IntN<W>::V)_mm512_maskz_cvtps_epi32(detail::kAll16, (__m512)r.v));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return IntN<W>((typename IntN<W>::V)_mm256_cvtps_epi32((__m256)r.v));
+#endif
+  if constexpr (W == 4) return IntN<W>((typename IntN<W>::V)_mm_cvtps_epi32((__m128)r.v));
+  IntN<W> i;
+  for (int k = 0; k < W; ++k) i.v[k] = round_to_int(r.v[k]);
+  return i;
+}
+
+// ---- correctly rounded functions -------------------------------------------------------------------------------
+
+HS_INLINE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+HS_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+/// a·b + c, rounded once.
+template <int W>
+HS_INLINE RealN<W> fma(RealN<W> a, std::type_identity_t<RealN<W>> b, std::type_identity_t<RealN<W>> c) {
+  using V [[maybe_unused]] = typename RealN<W>::V;
+#ifdef __AVX512F__
+  if constexpr (W == 16) return RealN<W>((V)_mm512_fmadd_ps((__m512)a.v, (__m512)b.v, (__m512)c.v));
+#endif
+#ifdef __FMA__
+  if constexpr (W == 8) return RealN<W>((V)_mm256_fmadd_ps((__m256)a.v, (__m256)b.v, (__m256)c.v));
+  if constexpr (W == 4) return RealN<W>((V)_mm_fmadd_ps((__m128)a.v, (__m128)b.v, (__m128)c.v));
+#endif
+  RealN<W> r;
+  for (int k = 0; k < W; ++k) r.v[k] = __builtin_fmaf(a.v[k], b.v[k], c.v[k]);
+  return r;
+}
+
+HS_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
+HS_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
+template <int W>
+HS_INLINE RealN<W> sqrt(RealN<W> a) {
+  using V [[maybe_unused]] = typename RealN<W>::V;
+#ifdef __AVX512F__
+  if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_sqrt_ps(detail::kAll16, (__m512)a.v));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return RealN<W>((V)_mm256_sqrt_ps((__m256)a.v));
+#endif
+  if constexpr (W == 4) return RealN<W>((V)_mm_sqrt_ps((__m128)a.v));
+  RealN<W> r;
+  for (int k = 0; k < W; ++k) r.v[k] = __builtin_sqrtf(a.v[k]);
+  return r;
+}
+
+HS_INLINE float floor(float a) { return __builtin_floorf(a); }
+HS_INLINE double floor(double a) { return __builtin_floor(a); }
+template <int W>
+HS_INLINE RealN<W> floor(RealN<W> a) {
+  using V [[maybe_unused]] = typename RealN<W>::V;
+#ifdef __AVX512F__
+  if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_roundscale_ps(detail::kAll16, (__m512)a.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return RealN<W>((V)_mm256_floor_ps((__m256)a.v));
+#endif
+#ifdef __SSE4_1__
+  if constexpr (W == 4) return RealN<W>((V)_mm_floor_ps((__m128)a.v));
+#endif
+  RealN<W> r;
+  for (int k = 0; k < W; ++k) r.v[k] = __builtin_floorf(a.v[k]);
+  return r;
+}
+
+HS_INLINE float round_even(float a) { return __builtin_rintf(a); }
+HS_INLINE double round_even(double a) { return __builtin_rint(a); }
+/// The nearest integer as a float, ties to even.
+template <int W>
+HS_INLINE RealN<W> round_even(RealN<W> a) {
+  using V [[maybe_unused]] = typename RealN<W>::V;
+#ifdef __AVX512F__
+  if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_roundscale_ps(detail::kAll16, (__m512)a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return RealN<W>((V)_mm256_round_ps((__m256)a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+#endif
+  RealN<W> r;
+  for (int k = 0; k < W; ++k) r.v[k] = __builtin_rintf(a.v[k]);
+  return r;
+}
+
+HS_INLINE float abs(float a) { return __builtin_fabsf(a); }
+HS_INLINE double abs(double a) { return __builtin_fabs(a); }
+template <int W>
+HS_INLINE RealN<W> abs(RealN<W> a) {
+  return as_real(as_int(a) & 0x7fffffff);
+}
+
+// min and max return the second argument when either is NaN, as the SSE instructions do, at every width.
+HS_INLINE float min(float a, float b) { return a < b ? a : b; }
+HS_INLINE float max(float a, float b) { return a > b ? a : b; }
+HS_INLINE double min(double a, double b) { return a < b ? a : b; }
+HS_INLINE double max(double a, double b) { return a > b ? a : b; }
+HS_INLINE int32_t min(int32_t a, int32_t b) { return a < b ? a : b; }
+HS_INLINE int32_t max(int32_t a, int32_t b) { return a > b ? a : b; }
+template <int W>
+HS_INLINE RealN<W> min(RealN<W> a, std::type_identity_t<RealN<W>> b) {
+  return RealN<W>(a.v < b.v ? a.v : b.v);
+}
+template <int W>
+HS_INLINE RealN<W> max(RealN<W> a, std::type_identity_t<RealN<W>> b) {
+  return RealN<W>(a.v > b.v ? a.v : b.v);
+}
+template <int W>
+HS_INLINE RealN<W> min(float a, RealN<W> b) {
+  return min(RealN<W>(a), b);
+}
+template <int W>
+HS_INLINE RealN<W> max(float a, RealN<W> b) {
+  return max(RealN<W>(a), b);
+}
+template <int W>
+HS_INLINE IntN<W> min(IntN<W> a, std::type_identity_t<IntN<W>> b) {
+  return IntN<W>(a.v < b.v ? a.v : b.v);
+}
+template <int W>
+HS_INLINE IntN<W> max(IntN<W> a, std::type_identity_t<IntN<W>> b) {
+  return IntN<W>(a.v > b.v ? a.v : b.v);
+}
+
+/// x held to [lo, hi]; NaN gives lo.
+template <Number R>
+HS_INLINE R clamp(R x, std::type_identity_t<R> lo, std::type_identity_t<R> hi) {
+  return min(max(x, lo), hi);
+}
+
+/// a·b − c·d with an error of at most 1.5 ulp (Kahan; Jeannerod, Louvet and Muller, "Further analysis of Kahan's
+/// algorithm for the accurate computation of 2x2 determinants", Math. Comp. 82, 2013).
+template <Number R>
+HS_INLINE R difference_of_products(R a, std::type_identity_t<R> b, std::type_identity_t<R> c, std::type_identity_t<R> d) {
+  const R cd = c * d;
+  const R error = fma(-c, d, cd);
+  return fma(a, b, -cd) + error;
+}
+
+}  // namespace halfspace
+
+/// GLM asks this of an element type before it offers normalize, length and the like.
+template <int W>
+struct std::numeric_limits<halfspace::RealN<W>> : std::numeric_limits<float> {};

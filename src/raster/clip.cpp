@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/clip.h"
+
+#include <cmath>
+
+#include "core/check.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr double kMinW = 0x1p-96;  // as the vertex stage's
+
+// Distance-like value of a point to each plane: inside where ≥ 0. In the order in which planes are met.
+double plane_distance(int plane, const Viewport& v, const DepthState& depth, const glm::dvec4& p) {
+  switch (plane) {
+    case 0: return p.w - kMinW;
+    case 1: return depth.clip == ClipDepth::negative_one_to_one ? p.z + p.w : p.z;
+    case 2: return p.w - p.z;
+    case 3: return p.x - static_cast<double>(v.guard_left) * p.w;
+    case 4: return static_cast<double>(v.guard_right) * p.w - p.x;
+    case 5: return p.y - static_cast<double>(v.guard_bottom) * p.w;
+    default: return static_cast<double>(v.guard_top) * p.w - p.y;
+  }
+}
+
+ClipCorner cut(const ClipCorner& inside, double d_in, const ClipCorner& outside, double d_out) {
+  const double t = d_in / (d_in - d_out);
+  return {inside.pos_clip + t * (outside.pos_clip - inside.pos_clip), inside.weights + t * (outside.weights - inside.weights)};
+}
+
+void clip_plane(int plane, const Viewport& v, const DepthState& depth, ClipPolygon& polygon) {
+  std::array<double, kMaxCorners> d;
+  bool all_inside = true;
+  for (int i = 0; i < polygon.count; ++i) {
+    d[static_cast<std::size_t>(i)] = plane_distance(plane, v, depth, polygon.corners[static_cast<std::size_t>(i)].pos_clip);
+    all_inside &= d[static_cast<std::size_t>(i)] >= 0;
+  }
+  if (all_inside) return;
+  ClipPolygon kept;
+  for (int i = 0; i < polygon.count; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    const auto b = static_cast<std::size_t>((i + 1) % polygon.count);
+    const bool a_in = d[a] >= 0;
+    const bool b_in = d[b] >= 0;
+    const auto keep = [&kept](const ClipCorner& c) {
+      HS_CHECK_OP(kept.count, <, kMaxCorners);
+      kept.corners[static_cast<std::size_t>(kept.count++)] = c;
+    };
+    if (a_in) keep(polygon.corners[a]);
+    if (a_in && !b_in) keep(cut(polygon.corners[a], d[a], polygon.corners[b], d[b]));
+    if (!a_in && b_in) keep(cut(polygon.corners[b], d[b], polygon.corners[a], d[a]));
+  }
+  polygon = kept;
+}
+
+int32_t snap(double ndc, float half, float center) {
+  const double sub = (ndc * static_cast<double>(half) + static_cast<double>(center)) * kSubPixels;
+  // A corner on the guard plane may round beyond it by the quotient's last place; the band's bit budget allows 1 px.
+  return static_cast<int32_t>(std::nearbyint(sub));
+}
+
+}  // namespace
+
+ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip) {
+  ClipPolygon polygon;
+  polygon.count = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    polygon.corners[i] = {glm::dvec4(pos_clip[i]), glm::dvec3(i == 0, i == 1, i == 2)};
+  }
+  for (int plane = 0; plane < kClipPlanes && polygon.count != 0; ++plane) {
+    const bool near_or_far = plane == 1 || plane == 2;
+    if (near_or_far && depth.clamp) continue;
+    clip_plane(plane, viewport, depth, polygon);
+  }
+  if (polygon.count < 3) polygon.count = 0;
+  return polygon;
+}
+
+ScreenVertex project_corner(const Viewport& v, const glm::dvec4& p) {
+  const double inv_w = 1.0 / p.w;
+  const double z = p.z * inv_w * static_cast<double>(v.depth_scale) + static_cast<double>(v.depth_bias);
+  return {snap(p.x * inv_w, v.half_width, v.center_x), snap(p.y * inv_w, v.half_height, v.center_y),
+          static_cast<float>(std::fmin(std::fmax(z, -1e30), 1e30)), static_cast<float>(inv_w)};
+}
+
+void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, const std::array<const float*, 3>& rows, int provoking,
+                        const ShaderKernels& kernels, float* out) {
+  const glm::dvec3& smooth = c.weights;
+  // Linear in the window: the weight of a vertex there is its clip-space weight times w over the corner's w.
+  const glm::dvec3 linear = glm::dvec3(smooth.x * w[0], smooth.y * w[1], smooth.z * w[2]) / c.pos_clip.w;
+  for (int i = 0; i < kernels.varying_count; ++i) {
+    if (kernels.interpolations[i] == Interpolation::flat) {
+      out[i] = rows[static_cast<std::size_t>(provoking)][i];
+      continue;
+    }
+    const glm::dvec3& weight = kernels.interpolations[i] == Interpolation::linear ? linear : smooth;
+    out[i] = static_cast<float>(weight.x * static_cast<double>(rows[0][i]) + weight.y * static_cast<double>(rows[1][i]) +
+                                weight.z * static_cast<double>(rows[2][i]));
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Clip. In: a triangle in clip space. Out: the convex polygon left of it inside w > 0, near, far and the guard band,
+// each corner as weights of the three vertices. Rare: only triangles that cross near, far or the guard band come here;
+// what crosses the sides of the view alone is cut by its pixel bounds.
+//
+// Sutherland and Hodgman, "Reentrant polygon clipping" (CACM 17, 1974), in double. A new corner is computed from the
+// inside end of its edge, and every triangle meets the planes in the same order, so two triangles that share an edge
+// get the same bits on it.
+#pragma once
+
+#include <array>
+
+#include "raster/stages.h"
+
+namespace halfspace {
+
+/// A triangle cut by n planes has at most 3 + n corners in exact arithmetic; rounding can bend an edge, and cut it twice.
+inline constexpr int kClipPlanes = 7;
+inline constexpr int kMaxCorners = 3 + 2 * kClipPlanes;
+/// Triangles of the fan that a clipped triangle becomes, at the most.
+inline constexpr int kMaxPieces = kMaxCorners - 2;
+
+struct ClipCorner {
+  glm::dvec4 pos_clip;
+  glm::dvec3 weights;  ///< of the triangle's vertices: linear in clip space, summing to 1
+};
+
+struct ClipPolygon {
+  std::array<ClipCorner, kMaxCorners> corners;
+  int count = 0;  ///< 0: nothing is left
+};
+
+/// pos_clip finite. The polygon keeps the triangle's orientation.
+ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip);
+
+/// The corner in window coordinates, snapped.
+ScreenVertex project_corner(const Viewport& viewport, const glm::dvec4& pos_clip);
+
+/// Corner c's varyings: smooth and linear ones interpolated, flat ones the provoking vertex's. rows are the varyings
+/// of the three vertices, w their clip-space w.
+void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, const std::array<const float*, 3>& rows, int provoking,
+                        const ShaderKernels& kernels, float* out);
+
+}  // namespace halfspace

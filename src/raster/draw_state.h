@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The state of a draw: plain values with OpenGL's names and, as defaults, OpenGL's initial values (but for the depth
+// test, which is on). Nothing here is global; every draw carries its own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace halfspace {
+
+/// A rectangle of pixels in window coordinates (origin lower left): [x, x + width) × [y, y + height).
+struct Rect {
+  int x = 0, y = 0, width = 0, height = 0;
+  friend bool operator==(const Rect&, const Rect&) = default;
+};
+
+enum class CompareOp : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
+enum class CullMode : uint8_t { none, front, back, front_and_back };
+enum class Winding : uint8_t { counter_clockwise, clockwise };
+enum class ProvokingVertex : uint8_t { last, first };
+
+/// Where clip-space z lies before the divide.
+enum class ClipDepth : uint8_t {
+  negative_one_to_one,  ///< OpenGL: −w ≤ z ≤ w, window depth 0.5·z/w + 0.5
+  zero_to_one           ///< D3D, Vulkan, reversed Z: 0 ≤ z ≤ w, window depth z/w
+};
+
+/// Depth test and write. Reversed Z is ClipDepth::zero_to_one, a projection that maps near to 1, and greater.
+struct DepthState {
+  bool test = true;
+  bool write = true;
+  CompareOp compare = CompareOp::less;
+  ClipDepth clip = ClipDepth::negative_one_to_one;
+  bool clamp = false;        ///< GL_DEPTH_CLAMP: no clipping at near and far, depth held to the range instead
+  float range_near = 0.0f;   ///< glDepthRange, both in [0, 1]
+  float range_far = 1.0f;
+};
+
+/// Polygon offset, added to a triangle's window depth: o = slope·m + constant·r, then clamped (OpenGL 4.6, section
+/// 14.6.5), with m = max(|dz/dx|, |dz/dy|) and r the smallest step of the depth format (for D32F 2^(e−23), e the
+/// exponent of the largest |z| of the triangle). Positive moves away from the eye under the OpenGL convention and
+/// towards it under reversed Z.
+struct DepthOffset {
+  float slope = 0.0f;
+  float constant = 0.0f;
+  float clamp = 0.0f;  ///< > 0: at most this; < 0: at least this; 0: no clamp
+};
+
+enum class BlendFactor : uint8_t {
+  zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color,
+  src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha
+};
+enum class BlendEquation : uint8_t { add, subtract, reverse_subtract, min, max };
+
+/// result = src·source + dst·destination, channel by channel (OpenGL 4.6, section 17.3.6). Alpha has its own factors.
+struct BlendState {
+  BlendEquation color_equation = BlendEquation::add;
+  BlendFactor source_color = BlendFactor::src_alpha, destination_color = BlendFactor::one_minus_src_alpha;
+  BlendEquation alpha_equation = BlendEquation::add;
+  BlendFactor source_alpha = BlendFactor::one, destination_alpha = BlendFactor::one_minus_src_alpha;
+};
+
+/// Everything that a draw sets besides its shader and vertices.
+struct DrawState {
+  std::optional<Rect> viewport;  ///< default: the whole target
+  std::optional<Rect> scissor;   ///< default: no scissor test
+  CullMode cull = CullMode::none;
+  Winding front = Winding::counter_clockwise;
+  ProvokingVertex provoking = ProvokingVertex::last;
+  DepthState depth;
+  DepthOffset offset;
+  std::optional<BlendState> blend;  ///< default: replace
+};
+
+}  // namespace halfspace

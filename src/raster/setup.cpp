@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/clip.h"
+#include "raster/vertex_stage.h"
+
+namespace halfspace {
+
+namespace {
+
+// Largest extent at which every edge function fits in int32 without a shift anywhere in a tile that the triangle meets:
+// at most (63 + 64)·256 < 2^15 sub-pixels from a vertex, times an edge of at most 63·256 < 2^14, twice: below 2^30.
+constexpr int32_t kSmallExtent = 63 * kSubPixels;
+
+// The smallest depth step that makes a difference: OpenGL 4.6, section 14.6.5.
+double smallest_depth_step(DepthFormat format, float largest_z) {
+  switch (format) {
+    case DepthFormat::d16: return 1.0 / 65535.0;
+    case DepthFormat::d24: return 1.0 / 16777215.0;
+    default: return std::ldexp(1.0, (std::fabs(largest_z) > 0.0f ? std::ilogb(largest_z) : -126) - 23);
+  }
+}
+
+struct DepthPlane {
+  double dz1, dz2;  // depth differences of vertices 1, 2 to vertex 0
+  double area;      // in (1/256 px)²
+};
+
+float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, const DepthPlane& p, float largest_z) {
+  double offset = 0.0;
+  if (o.slope != 0.0f) {  // 0·Inf is not NaN here: no slope term where none is asked for
+    const double e1x = t.x[1] - t.x[0], e1y = t.y[1] - t.y[0], e2x = t.x[2] - t.x[0], e2y = t.y[2] - t.y[0];
+    const double dz_dx = (e2y * p.dz1 - e1y * p.dz2) / p.area * kSubPixels;
+    const double dz_dy = (e1x * p.dz2 - e2x * p.dz1) / p.area * kSubPixels;
+    offset += static_cast<double>(o.slope) * std::max(std::fabs(dz_dx), std::fabs(dz_dy));
+  }
+  offset += static_cast<double>(o.constant) * smallest_depth_step(format, largest_z);
+  if (o.clamp > 0.0f) offset = std::min(offset, static_cast<double>(o.clamp));
+  if (o.clamp < 0.0f) offset = std::max(offset, static_cast<double>(o.clamp));
+  return static_cast<float>(offset);
+}
+
+bool culls(const DrawState& s, bool front) {
+  switch (s.cull) {
+    case CullMode::none: return false;
+    case CullMode::front: return front;
+    case CullMode::back: return !front;
+    case CullMode::front_and_back: return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+PixelBounds pixel_bounds(const Triangle& t, const PixelBounds& b) {
+  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  constexpr int32_t half = kSubPixels / 2;
+  // first centre at or right of x_low, one past the last centre at or left of x_high
+  return {std::max(b.x0, (x_low + half - 1) >> kSubPixelBits), std::max(b.y0, (y_low + half - 1) >> kSubPixelBits),
+          std::min(b.x1, ((x_high - half) >> kSubPixelBits) + 1), std::min(b.y1, ((y_high - half) >> kSubPixelBits) + 1)};
+}
+
+Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<const ScreenVertex*, 3>& v, const std::array<uint32_t, 3>& index,
+                     uint32_t provoking, Triangle& out) {
+  const int64_t e1x = v[1]->x - v[0]->x, e1y = v[1]->y - v[0]->y;
+  const int64_t e2x = v[2]->x - v[0]->x, e2y = v[2]->y - v[0]->y;
+  const int64_t area = e1x * e2y - e1y * e2x;
+  if (area == 0) return Cull::degenerate;
+  const bool front = (area > 0) == (draw.state.front == Winding::counter_clockwise);
+  if (culls(draw.state, front)) return Cull::face;
+
+  // Order: counter-clockwise, starting at the smallest depth; among equals at the first submitted.
+  std::array<std::size_t, 3> order{0, 1, 2};
+  if (area < 0) std::swap(order[1], order[2]);
+  const float z_min = std::min({v[0]->z, v[1]->z, v[2]->z});
+  while (v[order[0]]->z != z_min) std::rotate(order.begin(), order.begin() + 1, order.end());
+
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.x[i] = v[order[i]]->x;
+    out.y[i] = v[order[i]]->y;
+    out.vertex[i] = index[order[i]];
+    if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
+  }
+  if (pixel_bounds(out, draw.bounds).empty()) return Cull::no_sample;
+
+  const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
+                         static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
+  const float z_max = std::max({v[0]->z, v[1]->z, v[2]->z});
+  const float offset = depth_offset(draw.state.offset, format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
+  out.z0 = z_min + offset;
+  out.z_max = z_max + offset;
+  out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
+  out.z_edge2 = static_cast<float>(plane.dz2 / plane.area);
+
+  const auto [x_low, x_high] = std::minmax({out.x[0], out.x[1], out.x[2]});
+  const auto [y_low, y_high] = std::minmax({out.y[0], out.y[1], out.y[2]});
+  if (x_high - x_low <= kSmallExtent && y_high - y_low <= kSmallExtent) out.flags |= kSmall;
+  if (front) out.flags |= kFrontFacing;
+  return Cull::none;
+}
+
+namespace {
+
+// Sets up the triangles of one segment.
+class SegmentSetup {
+ public:
+  SegmentSetup(const Frame& frame, Chunk& chunk, uint32_t segment)
+      : chunk_(chunk),
+        segment_(segment),
+        draw_(frame.draws[chunk.segments[segment].draw]),
+        shaded_(frame.shaded[chunk.segments[segment].draw]),
+        format_(frame.depth_format),
+        provoking_(draw_.state.provoking == ProvokingVertex::first ? 0 : 2) {}
+
+  void submit(uint32_t triangle) {
+    ++chunk_.statistics.primitives_in;
+    std::array<uint32_t, 3> id;
+    Outcode any = 0;
+    Outcode all = kOutView;
+    for (uint32_t i = 0; i < 3; ++i) {
+      id[i] = (*draw_.indices)[std::size_t{triangle} * 3 + i] - shaded_.first;
+      any |= shaded_.outcodes[id[i]];
+      all &= shaded_.outcodes[id[i]];
+    }
+    if (any & kOutNonFinite) {
+      ++chunk_.statistics.culled_non_finite;
+    } else if (all) {
+      ++chunk_.statistics.culled_outside;
+    } else if (any & (kOutNear | kOutFar | kOutGuard)) {
+      clip(id);
+    } else {
+      const std::array<const ScreenVertex*, 3> v{&shaded_.screen[id[0]], &shaded_.screen[id[1]], &shaded_.screen[id[2]]};
+      count(append(v, id, 0, provoking_), 1);
+    }
+  }
+
+ private:
+  void count(Cull why, uint64_t n) {
+    PassStatistics& s = chunk_.statistics;
+    if (why == Cull::degenerate) s.culled_degenerate += n;
+    if (why == Cull::face) s.culled_face += n;
+    if (why == Cull::no_sample) s.culled_no_sample += n;
+  }
+
+  Cull append(const std::array<const ScreenVertex*, 3>& v, const std::array<uint32_t, 3>& index, uint32_t flags, uint32_t provoking) {
+    Triangle t;
+    const Cull why = set_up_triangle(draw_, format_, v, index, provoking, t);
+    if (why != Cull::none) return why;
+    t.flags |= flags | segment_ << kSegmentShift;
+    chunk_.triangles.push_back(t);
+    return Cull::none;
+  }
+
+  void clip(const std::array<uint32_t, 3>& id) {
+    alignas(64) std::array<float, 4 * kVertexBatch> rows{};
+    const std::array<uint32_t, 3> global{id[0] + shaded_.first, id[1] + shaded_.first, id[2] + shaded_.first};
+    draw_.kernels.position(draw_.shader.get(), {&draw_.vertices, global.data(), 0, 3, 0, nullptr, rows.data()});
+    std::array<glm::vec4, 3> pos_clip;
+    for (std::size_t i = 0; i < 3; ++i) {
+      pos_clip[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
+    }
+    const ClipPolygon polygon = clip_triangle(draw_.viewport, draw_.state.depth, pos_clip);
+    if (polygon.count == 0) {
+      ++chunk_.statistics.culled_outside;
+      return;
+    }
+    ++chunk_.statistics.clipped;
+    append_fan(polygon, id, {static_cast<double>(pos_clip[0].w), static_cast<double>(pos_clip[1].w), static_cast<double>(pos_clip[2].w)});
+  }
+
+  // The polygon's corners become clip vertices of the chunk, its fan triangles. Counted as culled only if no piece is left.
+  void append_fan(const ClipPolygon& polygon, const std::array<uint32_t, 3>& id, const std::array<double, 3>& w) {
+    const auto n = static_cast<std::size_t>(shaded_.varying_count);
+    const std::array<const float*, 3> varyings{&shaded_.varyings[id[0] * n], &shaded_.varyings[id[1] * n], &shaded_.varyings[id[2] * n]};
+    const auto first = static_cast<uint32_t>(chunk_.clip_vertices.size());
+    for (int i = 0; i < polygon.count; ++i) {
+      const ClipCorner& c = polygon.corners[static_cast<std::size_t>(i)];
+      const auto first_varying = static_cast<uint32_t>(chunk_.clip_varyings.size());
+      chunk_.clip_varyings.resize(first_varying + n);
+      interpolate_corner(c, w, varyings, static_cast<int>(provoking_), draw_.kernels, chunk_.clip_varyings.data() + first_varying);
+      ScreenVertex screen = project_corner(draw_.viewport, c.pos_clip);
+      for (int k = 0; k < 3; ++k) {  // a corner of the triangle itself keeps the vertex stage's bits
+        if (c.weights[k] == 1.0) screen = shaded_.screen[id[static_cast<std::size_t>(k)]];
+      }
+      chunk_.clip_vertices.push_back({screen, first_varying});
+    }
+    const std::size_t before = chunk_.triangles.size();
+    Cull why = Cull::none;
+    for (uint32_t i = 2; i < static_cast<uint32_t>(polygon.count); ++i) {
+      const std::array<uint32_t, 3> index{first, first + i - 1, first + i};
+      const ClipVertex* v = chunk_.clip_vertices.data();
+      // All corners carry the provoking vertex's flat values.
+      why = append({&v[index[0]].screen, &v[index[1]].screen, &v[index[2]].screen}, index, kClipped, 0);
+    }
+    if (chunk_.triangles.size() != before) {
+      chunk_.clip_sources.push_back({static_cast<uint32_t>(before), id});
+    } else {
+      count(why, 1);
+    }
+  }
+
+  Chunk& chunk_;
+  uint32_t segment_;
+  const Draw& draw_;
+  const ShadedVertices& shaded_;
+  DepthFormat format_;
+  uint32_t provoking_;
+};
+
+}  // namespace
+
+void set_up_chunk(const Frame& frame, Chunk& chunk) {
+  for (uint32_t s = 0; s < chunk.segments.size(); ++s) {
+    Segment& segment = chunk.segments[s];
+    segment.first_triangle = static_cast<uint32_t>(chunk.triangles.size());
+    SegmentSetup setup(frame, chunk, s);
+    for (uint32_t t = 0; t < segment.count; ++t) setup.submit(segment.first + t);
+  }
+  chunk.statistics.triangles_binned = chunk.triangles.size();
+}
+
+}  // namespace halfspace

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the stages hand to each other, in the order of the pipeline; each struct says who writes it and who reads it.
+//
+//   vertex_stage → clip → setup → bin → (per tile) visibility → shade → blend → tile store
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "raster/draw_state.h"
+#include "raster/statistics.h"
+#include "raster/target.h"
+#include "raster/vertex_view.h"
+
+namespace halfspace {
+
+// ---- window coordinates ----------------------------------------------------------------------------------------
+
+/// Sub-pixel grid: positions are snapped to 1/256 px (D3D11.3, section 3.2.4.1; also llvmpipe's).
+inline constexpr int kSubPixelBits = 8;
+inline constexpr int kSubPixels = 1 << kSubPixelBits;
+
+/// Positions reach the rasterizer within ±16384 px (2^22 sub-pixels); what goes beyond is clipped. Then edge vectors
+/// have 24 bits with their sign and are exact in float and edge functions fit in 48 bits. After the shift by
+/// kSubPixelBits, what an edge crossing a tile reaches inside it is below 64·2·2^23 = 2^30, so it fits in int32.
+inline constexpr float kGuardBand = 16384.0f;
+
+/// Pixels a side of a tile, at the most: what the bit budget above allows.
+inline constexpr int kMaxTileSize = 64;
+inline constexpr int kMaxTilePixels = kMaxTileSize * kMaxTileSize;
+
+// ---- vertex stage → clip, setup, shade -------------------------------------------------------------------------
+
+/// A vertex in window coordinates (origin lower left). Undefined where the outcode has kOutNeedsClip or kOutNonFinite.
+struct ScreenVertex {
+  int32_t x, y;  ///< 24.8 fixed point
+  float z;       ///< window depth, before offset and clamp
+  float inv_w;   ///< 1 / w_clip
+};
+
+using Outcode = uint8_t;
+inline constexpr Outcode kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 8, kOutNear = 16, kOutFar = 32;
+inline constexpr Outcode kOutGuard = 64;       ///< beyond the guard band, or w too small: no window position
+inline constexpr Outcode kOutNonFinite = 128;  ///< a NaN or Inf among x, y, z, w
+inline constexpr Outcode kOutView = 63;        ///< the six planes of the view volume
+
+/// The vertices of one draw, indexed by (vertex index − first).
+struct ShadedVertices {
+  uint32_t first = 0;
+  uint32_t count = 0;
+  int varying_count = 0;                    ///< floats per vertex in varyings
+  std::unique_ptr<ScreenVertex[]> screen;   ///< uninitialized where no index refers to it
+  std::unique_ptr<Outcode[]> outcodes;
+  std::unique_ptr<float[]> varyings;
+};
+
+// ---- the viewport transform ------------------------------------------------------------------------------------
+
+/// Clip space → window: x_px = x/w · half_width + center_x, and so on.
+struct Viewport {
+  float half_width, half_height;  ///< px
+  float center_x, center_y;       ///< px
+  float depth_scale, depth_bias;  ///< window depth = z/w · scale + bias
+  float guard_left, guard_right, guard_bottom, guard_top;  ///< x ≥ guard_left·w, x ≤ guard_right·w, …
+};
+
+/// The pixels a draw may touch, half open.
+struct PixelBounds {
+  int x0, y0, x1, y1;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+// ---- clip and setup → bin, visibility, shade -------------------------------------------------------------------
+
+inline constexpr uint32_t kFrontFacing = 1;    ///< the triangle faces front
+inline constexpr uint32_t kClipped = 2;        ///< vertex[] index the chunk's clip vertices
+inline constexpr uint32_t kSmall = 4;          ///< every edge function fits in int32 without a shift
+inline constexpr uint32_t kProvokingShift = 3; ///< two bits: which of vertex[] is the provoking vertex
+inline constexpr uint32_t kSegmentShift = 8;   ///< the rest: which segment of the chunk
+
+/// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
+struct Triangle {
+  std::array<int32_t, 3> x, y;  ///< snapped, 24.8
+  float z0;                     ///< depth at vertex 0, offset included
+  float z_edge1, z_edge2;       ///< depth = z0 + E1·z_edge1 + E2·z_edge2, both ≥ 0 (E as in shading/pixel.h)
+  float z_max;                  ///< the largest depth of the three vertices, offset included
+  std::array<uint32_t, 3> vertex;
+  uint32_t flags;
+
+  uint32_t segment() const { return flags >> kSegmentShift; }
+  uint32_t provoking() const { return (flags >> kProvokingShift) & 3; }
+  bool is(uint32_t flag) const { return (flags & flag) != 0; }
+};
+
+/// A vertex made or copied by the clipper. Its flat varyings are those of its triangle's provoking vertex.
+struct ClipVertex {
+  ScreenVertex screen;
+  uint32_t first_varying;  ///< into Chunk::clip_varyings
+};
+
+/// Where a clipped triangle came from, for the primitive stage: the vertices of the triangle that was submitted.
+struct ClipSource {
+  uint32_t triangle;              ///< index into Chunk::triangles of the first piece
+  std::array<uint32_t, 3> vertex;
+};
+
+/// A run of consecutive triangles of one draw.
+struct Segment {
+  uint32_t draw;
+  uint32_t first, count;          ///< triangles of the draw's index list
+  uint32_t first_triangle = 0;    ///< written by setup: where its triangles start in Chunk::triangles
+  uint32_t first_primitive = 0;   ///< written by the primitive stage: where its values start in Chunk::primitives
+};
+
+/// Up to some thousand submitted triangles, through clip, setup and bin: written by one task, then only read.
+struct Chunk {
+  std::vector<Segment> segments;
+  std::vector<Triangle> triangles;
+  std::vector<ClipVertex> clip_vertices;
+  std::vector<float> clip_varyings;
+  std::vector<ClipSource> clip_sources;
+  std::vector<float> primitives;       ///< primitive stage's floats, one row a triangle
+
+  // Bins: triangle indices by tile, each list in submission order.
+  int tile_x0 = 0, tile_y0 = 0, tile_x1 = 0, tile_y1 = 0;  ///< the tiles that have a list, half open
+  std::vector<uint32_t> bin_start;     ///< (tiles + 1) offsets into bin_triangles
+  std::vector<uint16_t> bin_triangles;
+
+  PassStatistics statistics;
+};
+
+/// A triangle as a pixel remembers it: chunk and index in the chunk.
+using TriangleId = uint32_t;
+inline constexpr TriangleId kNoTriangle = 0xffffffffu;
+inline constexpr uint32_t kMaxChunks = 0xffff;
+inline constexpr uint32_t kMaxTrianglesPerChunk = 0xffff;
+constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chunk << 16 | triangle; }
+
+// ---- a draw ----------------------------------------------------------------------------------------------------
+
+struct VertexBatch;
+struct PrimitiveBatch;
+struct FragmentBatch;
+struct VisibilityPacket;
+
+/// The thin functions that call one shader; everything else in the pipeline is shared by all shaders.
+struct ShaderKernels {
+  void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
+  void (*position)(const void* shader, const VertexBatch&) = nullptr;          ///< as vertex, without varyings
+  void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;      ///< null: no primitive stage
+  void (*visibility)(const void* shader, const VisibilityPacket&) = nullptr;   ///< null: the triangle decides
+  void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
+  int varying_count = 0;     ///< floats per vertex
+  int primitive_count = 0;   ///< floats per triangle
+  const Interpolation* interpolations = nullptr;  ///< varying_count entries
+  bool discards = false;
+  bool writes_depth = false;
+};
+
+/// A draw as the pass keeps it: its arguments, and what follows from them once for all triangles.
+struct Draw {
+  ShaderKernels kernels;
+  std::shared_ptr<const void> shader;  ///< a copy of the caller's, so that uniforms may change after draw()
+  VertexView vertices;
+  std::shared_ptr<const Indices> indices;
+  DrawState state;
+
+  Viewport viewport{};
+  PixelBounds bounds{};        ///< viewport ∩ scissor ∩ target
+  float depth_low = 0.0f;      ///< depth range in order
+  float depth_high = 1.0f;
+  bool deferred = false;       ///< shaded after visibility, once per visible pixel; else at once, in order
+
+  uint32_t triangle_count() const { return static_cast<uint32_t>(indices->size() / 3); }
+};
+
+/// Everything the stages after the vertex stage read.
+struct Frame {
+  std::vector<Draw> draws;
+  std::vector<ShadedVertices> shaded;  ///< one a draw
+  std::vector<Chunk> chunks;
+  int width = 0, height = 0;           ///< target, px
+  int tile_size = 64;
+  int tiles_x = 0, tiles_y = 0;
+  DepthFormat depth_format = DepthFormat::none;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/statistics.h"
+
+namespace halfspace {
+
+PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
+  vertices_shaded += o.vertices_shaded;
+  primitives_in += o.primitives_in;
+  culled_non_finite += o.culled_non_finite;
+  culled_outside += o.culled_outside;
+  culled_face += o.culled_face;
+  culled_degenerate += o.culled_degenerate;
+  culled_no_sample += o.culled_no_sample;
+  clipped += o.clipped;
+  triangles_binned += o.triangles_binned;
+  bin_entries += o.bin_entries;
+  samples_tested += o.samples_tested;
+  samples_passed += o.samples_passed;
+  fragments_shaded += o.fragments_shaded;
+  tiles_touched += o.tiles_touched;
+  flushes += o.flushes;
+  return *this;
+}
+
+}  // namespace halfspace

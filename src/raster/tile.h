@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tile memory: the pixels of one tile while the pass works on it, and its way from and to the images.
+//
+// Pixels lie in 8x8 blocks, and in a block in Z order (bits y2 x2 y1 x1 y0 x0 of the index). So every run of W
+// consecutive pixels is a compact packet: 4x4 at W = 16, 4x2 at 8, 2x2 at 4, and one layout serves all widths.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/lanes.h"
+#include "raster/stages.h"
+
+namespace halfspace {
+
+inline constexpr int kBlockSize = 8;
+inline constexpr int kBlocksPerRow = kMaxTileSize / kBlockSize;
+inline constexpr int kBlocks = kBlocksPerRow * kBlocksPerRow;
+inline constexpr int kPixelsPerBlock = kBlockSize * kBlockSize;
+inline constexpr int kPacketsPerBlock = kPixelsPerBlock / kLanes;
+inline constexpr int kPackets = kMaxTilePixels / kLanes;
+inline constexpr int kPacketWidth = kLanes >= 8 ? 4 : kLanes >= 4 ? 2 : 1;
+inline constexpr int kPacketHeight = kLanes / kPacketWidth;
+
+/// x and y of pixel i of a block (or of a packet: i < W).
+constexpr int block_x(int i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4); }
+constexpr int block_y(int i) { return (i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4); }
+
+/// x and y in the tile of packet p's lowest corner.
+constexpr int packet_x(int p) {
+  const int i = p * kLanes;
+  return i / kPixelsPerBlock % kBlocksPerRow * kBlockSize + block_x(i % kPixelsPerBlock);
+}
+constexpr int packet_y(int p) {
+  const int i = p * kLanes;
+  return i / kPixelsPerBlock / kBlocksPerRow * kBlockSize + block_y(i % kPixelsPerBlock);
+}
+
+/// The lanes' places in their packet.
+HS_INLINE Int lane_x() {
+  Int r{};
+  for (int i = 0; i < kLanes; ++i) set_lane(r, i, block_x(i));
+  return r;
+}
+HS_INLINE Int lane_y() {
+  Int r{};
+  for (int i = 0; i < kLanes; ++i) set_lane(r, i, block_y(i));
+  return r;
+}
+
+/// Some lanes of one packet of a tile.
+struct PacketMask {
+  uint16_t packet;
+  uint16_t lanes;  ///< bit i: lane i
+};
+
+/// One task's workspace. About 100 KB: it lives on the stack of the task that owns the tile.
+struct Tile {
+  int x0 = 0, y0 = 0;           ///< window coordinates of its lower left pixel
+  int width = 0, height = 0;    ///< pixels inside the target
+  int size = kMaxTileSize;
+  DepthFormat depth_format = DepthFormat::none;
+  ColorFormat color_format = ColorFormat::none;
+
+  /// Depth values as the format holds them: d32f the depth itself, d16 and d24 the code (a whole number; exact in float).
+  alignas(64) std::array<float, kMaxTilePixels> depth;
+  /// The visible triangle of each pixel not shaded yet, or kNoTriangle.
+  alignas(64) std::array<TriangleId, kMaxTilePixels> id;
+  /// Colour in the target's format: 8-bit formats as one uint32 a pixel (r lowest); rgba16f and rgba32f as 4 planes.
+  alignas(64) std::array<std::byte, kMaxTilePixels * 16> color;
+
+  /// Bounds of the depth values in each block: never narrower than the values.
+  std::array<float, kBlocks> block_min, block_max;
+  /// Writes since the bounds were last exact.
+  std::array<uint8_t, kBlocks> block_writes;
+};
+
+/// A depth in [0, 1] as the format's value (see Tile::depth): unorm codes rounded to the nearest.
+template <Number R>
+HS_INLINE R depth_value(DepthFormat format, R z) {
+  if (format == DepthFormat::d24) return round_even(z * R(16777215.0f));
+  if (format == DepthFormat::d16) return round_even(z * R(65535.0f));
+  return z;
+}
+
+/// Fills the tile: clear values, or the images' pixels.
+void load_tile(const ColorTarget& color, const DepthTarget& depth, int target_width, int target_height, Tile& tile);
+
+/// Writes the tile's pixels to the images of the targets that store.
+void store_tile(const ColorTarget& color, const DepthTarget& depth, int target_width, int target_height, const Tile& tile);
+
+/// Makes a block's depth bounds exact.
+void refresh_block_bounds(Tile& tile, int block);
+
+}  // namespace halfspace

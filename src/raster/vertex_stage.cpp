@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/vertex_stage.h"
+
+namespace halfspace {
+
+namespace {
+
+// w below this is clipped: 1/w and x/w stay finite for all |x| ≤ guard·w.
+constexpr float kMinW = 0x1p-96f;
+
+// x/w·half + center in 1/256 px, rounded to the nearest whole number. The float quotient alone would err by up to half
+// a sub-pixel near the guard band; its remainder and the rounding of each step are kept, so that the result is that of
+// exact arithmetic but for ties within 2^-20 of a sub-pixel. half and center are multiples of 1/2 px.
+HS_INLINE Int snap(Real x, Real w, Real inv_w, float half, float center) {
+  const Real half_sub(half * static_cast<float>(kSubPixels));
+  const Real center_sub(center * static_cast<float>(kSubPixels));
+  const Real quotient = x * inv_w;
+  const Real quotient_low = fma(-quotient, w, x) * inv_w;
+  const Real scaled = quotient * half_sub;
+  const Real scaled_low = fma(quotient, half_sub, -scaled);
+  const Real sum = scaled + center_sub;
+  const Real back = sum - scaled;
+  const Real sum_low = (scaled - (sum - back)) + (center_sub - back);  // Knuth's two-sum
+  const Real whole = clamp(round_even(sum), Real(-0x1p24f), Real(0x1p24f));  // only matters beyond the guard band
+  const Real rest = clamp((sum - whole) + (sum_low + fma(quotient_low, half_sub, scaled_low)), Real(-2.0f), Real(2.0f));
+  return round_to_int(whole) + round_to_int(rest);
+}
+
+HS_INLINE Int bit(Mask m, Outcode code) { return select(m, Int(code), Int(0)); }
+
+HS_INLINE Int outcode(const Viewport& v, const DepthState& depth, Real x, Real y, Real z, Real w) {
+  const Real zero(0.0f);
+  const Mask finite = (x - x == zero) & (y - y == zero) & (z - z == zero) & (w - w == zero);
+  const Real z_low = depth.clip == ClipDepth::negative_one_to_one ? -w : zero;
+  const Mask inside_guard = (x >= w * Real(v.guard_left)) & (x <= w * Real(v.guard_right)) & (y >= w * Real(v.guard_bottom)) &
+                            (y <= w * Real(v.guard_top)) & (w >= Real(kMinW));
+  Int code = bit(x < -w, kOutLeft) | bit(x > w, kOutRight) | bit(y < -w, kOutBottom) | bit(y > w, kOutTop);
+  if (!depth.clamp) code = code | bit(z < z_low, kOutNear) | bit(z > w, kOutFar);
+  return code | bit(!inside_guard, kOutGuard) | bit(!finite, kOutNonFinite);
+}
+
+// Clip space → window and outcodes, for the vertices whose clip positions are in the rows of `clip`.
+void project(const Draw& draw, const float* clip, int count, ScreenVertex* screen, Outcode* outcodes) {
+  const Viewport& v = draw.viewport;
+  for (int begin = 0; begin < count; begin += kLanes) {
+    const Real x = load<Real>(clip + begin);
+    const Real y = load<Real>(clip + kVertexBatch + begin);
+    const Real z = load<Real>(clip + 2 * kVertexBatch + begin);
+    const Real w = load<Real>(clip + 3 * kVertexBatch + begin);
+    const Int code = outcode(v, draw.state.depth, x, y, z, w);
+    const Real inv_w = Real(1.0f) / w;
+    const Int x_fixed = snap(x, w, inv_w, v.half_width, v.center_x);
+    const Int y_fixed = snap(y, w, inv_w, v.half_height, v.center_y);
+    // The bound only matters with depth clamp, where z/w may overflow.
+    const Real z_window = clamp(fma(z * inv_w, Real(v.depth_scale), Real(v.depth_bias)), Real(-1e30f), Real(1e30f));
+    for (int i = 0; i < std::min(kLanes, count - begin); ++i) {
+      screen[begin + i] = {lane(x_fixed, i), lane(y_fixed, i), lane(z_window, i), lane(inv_w, i)};
+      outcodes[begin + i] = static_cast<Outcode>(lane(code, i));
+    }
+  }
+}
+
+}  // namespace
+
+Viewport make_viewport(const Rect& r, const DepthState& depth) {
+  Viewport v{};
+  v.half_width = 0.5f * static_cast<float>(r.width);
+  v.half_height = 0.5f * static_cast<float>(r.height);
+  v.center_x = static_cast<float>(r.x) + v.half_width;
+  v.center_y = static_cast<float>(r.y) + v.half_height;
+  const float range = depth.range_far - depth.range_near;
+  const bool gl = depth.clip == ClipDepth::negative_one_to_one;
+  v.depth_scale = gl ? 0.5f * range : range;
+  v.depth_bias = gl ? 0.5f * (depth.range_near + depth.range_far) : depth.range_near;
+  v.guard_left = (-kGuardBand - v.center_x) / v.half_width;
+  v.guard_right = (kGuardBand - v.center_x) / v.half_width;
+  v.guard_bottom = (-kGuardBand - v.center_y) / v.half_height;
+  v.guard_top = (kGuardBand - v.center_y) / v.half_height;
+  return v;
+}
+
+void allocate_vertices(const Draw& draw, ShadedVertices& out) {
+  out.first = draw.indices->first_vertex();
+  out.count = draw.indices->end_vertex() - out.first;
+  out.varying_count = draw.kernels.varying_count;
+  const std::size_t n = out.count;
+  out.screen.reset(new ScreenVertex[n]);  // not make_unique: rows that no index uses need no initialization
+  out.outcodes.reset(new Outcode[n]);
+  out.varyings.reset(new float[n * static_cast<std::size_t>(out.varying_count)]);
+}
+
+void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
+  alignas(64) std::array<float, 4 * kVertexBatch> clip{};
+  std::array<ScreenVertex, kVertexBatch> screen;
+  std::array<Outcode, kVertexBatch> outcodes;
+  const std::span<const uint32_t> used = draw.indices->used();
+  for (std::size_t b = begin; b < end; b += kVertexBatch) {
+    const int count = static_cast<int>(std::min<std::size_t>(kVertexBatch, end - b));
+    const uint32_t first = out.first + static_cast<uint32_t>(b);
+    const uint32_t* ids = used.empty() ? nullptr : used.data() + b;
+    draw.kernels.vertex(draw.shader.get(), {&draw.vertices, ids, first, count, out.first, out.varyings.get(), clip.data()});
+    if (ids == nullptr) {
+      project(draw, clip.data(), count, out.screen.get() + b, out.outcodes.get() + b);
+      continue;
+    }
+    project(draw, clip.data(), count, screen.data(), outcodes.data());
+    for (int i = 0; i < count; ++i) {
+      out.screen[ids[i] - out.first] = screen[static_cast<std::size_t>(i)];
+      out.outcodes[ids[i] - out.first] = outcodes[static_cast<std::size_t>(i)];
+    }
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Vertex stage. In: a draw's streams and the indices it uses. Out: ShadedVertices: window positions snapped to
+// 1/256 px, outcodes and varyings, each used vertex once.
+#pragma once
+
+#include <algorithm>
+
+#include "raster/stages.h"
+#include "shading/contract.h"
+
+namespace halfspace {
+
+/// Up to kVertexBatch vertices for a vertex kernel.
+inline constexpr int kVertexBatch = 256;
+struct VertexBatch {
+  const VertexView* vertices;
+  const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
+  uint32_t first;
+  int count;
+  uint32_t slot_base;   ///< varyings of vertex i go to row i − slot_base
+  float* varyings;      ///< null for the position kernel
+  float* clip;          ///< out: x, y, z, w of clip space as four rows of kVertexBatch
+};
+
+/// The transform of a draw's clip space to the window. viewport in pixels; depth range as in DepthState.
+Viewport make_viewport(const Rect& viewport, const DepthState& depth);
+
+/// Shades vertices [begin, end) of the list of vertices that the draw's indices use.
+void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out);
+
+/// Allocates out for all the vertices that the draw uses.
+void allocate_vertices(const Draw& draw, ShadedVertices& out);
+
+namespace detail {
+
+/// The attributes of W vertices; lanes beyond the batch repeat its last vertex.
+template <class A>
+HS_INLINE A load_attributes(const VertexView& view, Int ids) {
+  std::array<Real, kComponents<A>> components;
+  std::size_t c = 0;
+  for (int s = 0; s < view.stream_count; ++s) {
+    const VertexStream& stream = view.streams[static_cast<std::size_t>(s)];
+    const Int row = ids * stream.stride;
+    for (int32_t k = 0; k < stream.components && c < components.size(); ++k) components[c++] = gather(stream.data + k, row);
+  }
+  return from_components<A, Real>(components);
+}
+
+template <class S, bool with_varyings>
+void vertex_kernel(const void* shader, const VertexBatch& batch) {
+  using Attributes = typename S::template Attributes<Real>;
+  using Varyings = typename S::template Varyings<Real>;
+  constexpr std::size_t n = kComponents<Varyings>;
+  const S& s = *static_cast<const S*>(shader);
+  for (int begin = 0; begin < batch.count; begin += kLanes) {
+    const int count = std::min(kLanes, batch.count - begin);
+    const Int lane_index = min(iota<Int>(), Int(count - 1)) + begin;
+    const Int ids = batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index)
+                              : lane_index + static_cast<int32_t>(batch.first);
+    Varyings out;
+    const vec4<Real> clip = s.vertex(load_attributes<Attributes>(*batch.vertices, ids), out);
+    for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
+    if constexpr (with_varyings && n != 0) {
+      std::array<float, n * static_cast<std::size_t>(kLanes)> rows;
+      store(rows.data(), to_components<Real>(out));
+      for (int i = 0; i < count; ++i) {
+        float* row = batch.varyings + static_cast<std::size_t>(static_cast<uint32_t>(lane(ids, i)) - batch.slot_base) * n;
+        for (std::size_t c = 0; c < n; ++c) row[c] = rows[c * static_cast<std::size_t>(kLanes) + static_cast<std::size_t>(i)];
+      }
+    }
+  }
+}
+
+}  // namespace detail
+
+}  // namespace halfspace

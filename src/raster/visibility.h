@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Visibility. In: one triangle and one tile. Out, for deferred draws: the tile's depth and visible triangle; for
+// immediate draws: the packets to shade now, in the order of the tile.
+//
+// Coverage is exact: edge functions in whole numbers (raster/edge.h). Depth is z0 + E1·z_edge1 + E2·z_edge2 with
+// non-negative terms, so it keeps its relative accuracy: E exact for small triangles, else a difference of products.
+#pragma once
+
+#include "raster/tile.h"
+
+namespace halfspace {
+
+/// Room for what one triangle covers in a tile.
+struct CoverageList {
+  std::array<PacketMask, kPackets> packets;
+  int count = 0;
+  /// Depth of the covered pixels, as Tile::depth holds it; valid where a mask has its bit.
+  alignas(64) std::array<float, kMaxTilePixels> depth;
+};
+
+/// What a triangle's samples do to the tile before they are shaded.
+enum class VisibilityMode : uint8_t {
+  deferred,    ///< test, write depth and triangle id
+  early,       ///< test, write depth, list what passed
+  test_only,   ///< test, list what passed: depth is written after the shader has spoken
+  cover_only   ///< list what is covered: the shader replaces the depth, and the test comes after it
+};
+
+/// May a depth test come before the fragment function (OpenGL 4.6, section 15.2.4 allows it where no one can tell)?
+VisibilityMode visibility_mode(const Draw& draw);
+
+/// Rasterizes triangle `index` of chunk `chunk` in the tile. list is needed but for VisibilityMode::deferred.
+void rasterize(const Frame& frame, uint32_t chunk, uint32_t index, VisibilityMode mode, Tile& tile, CoverageList* list, PassStatistics& statistics);
+
+/// The depth test of a packet: which lanes of mask pass, with z as Tile::depth holds it.
+Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask);
+
+/// Writes z where mask says, if the state writes depth, and keeps the block's bounds true.
+void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask mask);
+
+/// One packet for a shader's visibility function.
+struct VisibilityPacket {
+  const Frame* frame;
+  TriangleId id;
+  int x, y;             ///< window coordinates of the packet's lowest corner
+  float* depth;         ///< in and out: W depths; the triangle's, then the shader's
+  uint32_t* lanes;      ///< in and out: bits of the covered lanes, then of those kept
+};
+
+}  // namespace halfspace

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shapes from formulas, computed in double without libm and rounded to float once: the same bits on every machine.
+// All are y up, wound counter-clockwise seen from outside, with outward unit normals, texture coordinates and tangents.
+#pragma once
+
+#include "scene/mesh.h"
+
+namespace halfspace {
+
+/// A sphere round the origin of `latitudes` ≥ 2 bands and `longitudes` ≥ 3 sectors:
+///
+///   P(u, v) = r · (sin πv · cos 2πu, cos πv, −sin πv · sin 2πu)
+///
+/// v = 0 is the north pole (+y, top row of a map) and u grows eastwards, so a map whose left edge is 180° W reads the
+/// right way round from outside, with that meridian at +x. The seam is closed by vertices at u = 0 and u = 1 with
+/// equal positions. A pole has one vertex per sector, u at the sector's middle, so the map does not swirl there.
+/// Triangles: 2 · longitudes · (latitudes − 1), none degenerate.
+Mesh uv_sphere(int latitudes, int longitudes, float radius);
+
+/// A square in the plane y = 0 with corners at ±size/2, facing up; u grows along +x, v along +z. Two triangles.
+Mesh plane(float size);
+
+/// An axis-aligned cube round the origin with edges of length `size`: 24 vertices, every face with the whole of
+/// [0, 1]² as its texture coordinates. Twelve triangles.
+Mesh cube(float size);
+
+}  // namespace halfspace

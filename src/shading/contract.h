@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a shader is: a plain struct whose members are its uniforms, with
+//
+//   template <class R> struct Attributes { … };      the vertex streams, e.g. vec3<R> position; vec2<R> uv;
+//   template <class R> struct Varyings { … };        what the vertex function hands to the fragment function
+//   template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;      → clip space
+//   template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const; → linear colour
+//
+// and, where it wants them,
+//
+//   template <class R> struct Primitive { … };       one value a triangle, and the function that makes it, run once
+//   template <class R> Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const;
+//     per surviving triangle; fragment then takes (const Varyings<R>&, const Primitive<R>&, const Pixel<R>&).
+//   template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;
+//     the keep mask and depth that fragment will return, without its colour: lets a shader that discards or writes
+//     depth be shaded once per visible pixel like an opaque one.
+//
+// R is float, double or lanes; float and glm::vec3 are uniform, R and vec3<R> vary from pixel to pixel. What fragment
+// returns says what it does: Fragment (colour only), DiscardingFragment, DepthFragment.
+#pragma once
+
+#include "shading/pixel.h"
+
+namespace halfspace {
+
+/// Colour only: linear, straight alpha.
+template <class R>
+struct Fragment {
+  vec4<R> color;
+};
+
+/// Colour, and whether the fragment lives (keep false: discard).
+template <class R>
+struct DiscardingFragment {
+  vec4<R> color;
+  MaskOf<R> keep;
+};
+
+/// Colour, whether the fragment lives, and its window depth in [0, 1] instead of the triangle's.
+template <class R>
+struct DepthFragment {
+  vec4<R> color;
+  MaskOf<R> keep;
+  R depth;
+};
+
+/// What decides visibility: the part of a DepthFragment that is not colour.
+template <class R>
+struct Visibility {
+  MaskOf<R> keep;
+  R depth;
+};
+
+template <class S>
+concept HasAttributes = requires { typename S::template Attributes<float>; };
+template <class S>
+concept HasVaryings = requires { typename S::template Varyings<float>; };
+template <class S>
+concept HasPrimitive = requires { typename S::template Primitive<float>; };
+template <class S>
+concept HasVertexFunction =
+    requires(const S& s, const typename S::template Attributes<float>& in, typename S::template Varyings<float>& out) {
+      { s.vertex(in, out) } -> std::same_as<vec4<float>>;
+    };
+template <class S>
+concept HasPrimitiveFunction = requires(const S& s, const typename S::template Varyings<float>& v) {
+  { s.primitive(v, v, v) } -> std::same_as<typename S::template Primitive<float>>;
+};
+template <class S>
+concept HasPlainFragmentFunction =
+    requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) { s.fragment(in, px); };
+template <class S>
+concept HasPrimitiveFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in,
+                                                const typename S::template Primitive<float>& face, const Pixel<float>& px) {
+  s.fragment(in, face, px);
+};
+template <class S>
+concept HasFragmentFunction = (HasPrimitive<S> && HasPrimitiveFunction<S> && HasPrimitiveFragmentFunction<S>) ||
+                              (!HasPrimitive<S> && HasPlainFragmentFunction<S>);
+template <class S>
+concept HasVisibilityFunction =
+    requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
+      { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
+    };
+
+/// What pass.draw asks of a shader. A shader that only writes depth leaves fragment out and says DepthOnlyShader.
+template <class S>
+concept Shader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> && HasFragmentFunction<S>;
+
+/// Calls the shader's fragment function, with its primitive's value where it has one.
+template <class S, class R, class P>
+HS_INLINE auto call_fragment(const S& s, const typename S::template Varyings<R>& in, const P& face, const Pixel<R>& px) {
+  if constexpr (HasPrimitive<S>) {
+    return s.fragment(in, face, px);
+  } else {
+    return s.fragment(in, px);
+  }
+}
+
+namespace detail {
+struct NoPrimitive {};
+template <class S, class R>
+struct PrimitiveOfT {
+  using type = NoPrimitive;
+};
+template <HasPrimitive S, class R>
+struct PrimitiveOfT<S, R> {
+  using type = typename S::template Primitive<R>;
+};
+template <class F>
+inline constexpr bool kIsDiscarding = false;
+template <class R>
+inline constexpr bool kIsDiscarding<DiscardingFragment<R>> = true;
+template <class R>
+inline constexpr bool kIsDiscarding<DepthFragment<R>> = true;
+template <class F>
+inline constexpr bool kWritesDepth = false;
+template <class R>
+inline constexpr bool kWritesDepth<DepthFragment<R>> = true;
+}  // namespace detail
+
+/// The shader's per-triangle value, or an empty struct.
+template <class S, class R>
+using PrimitiveOf = typename detail::PrimitiveOfT<S, R>::type;
+
+template <class S>
+using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), std::declval<const typename S::template Varyings<float>&>(),
+                                                    std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
+
+/// May the shader drop a fragment?
+template <class S>
+inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;
+/// Does the shader replace the triangle's depth?
+template <class S>
+inline constexpr bool kWritesDepth = detail::kWritesDepth<FragmentOf<S>>;
+
+}  // namespace halfspace

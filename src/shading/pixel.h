@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Interpolation, and what a fragment shader is told of its pixel.
+//
+// In: for each lane a triangle (snapped positions, 1/w, component values) and a pixel centre. Out: perspective-correct
+// weights, component values there, their exact derivatives, and values at other pixels of the 2x2 quad.
+//
+// Let d = p − v0, e1 = v1 − v0, e2 = v2 − v0 in units of 1/256 px (whole numbers, exact in a float), and
+//   E1 = d × e2,  E2 = e1 × d,  A = e1 × e2        so that E1/A and E2/A are the barycentric weights of v1 and v2.
+// With q = 1/w the perspective weights (OpenGL 4.6, section 14.6.1, equation 14.9) are
+//   p1 = E1·q1 / D,  p2 = E2·q2 / D,  D = A·q0 + E1·(q1 − q0) + E2·(q2 − q0),
+// where v0 is the vertex with the smallest q: every term of D is then non-negative inside the triangle, nothing cancels,
+// and a = a0 + p1·(a1 − a0) + p2·(a2 − a0) errs by a few units in the last place of the largest |a| at any triangle
+// shape. The 2x2 determinants come from difference_of_products.
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "shading/varyings.h"
+
+namespace halfspace {
+
+/// The triangle of each lane, ready to interpolate. Positions are 24.8 fixed point window coordinates.
+template <class R>
+struct TriangleLanes {
+  R x0, y0;              ///< v0 in 1/256 px: a whole number, |x| ≤ 2^22, as the lanes' float
+  R e1x, e1y, e2x, e2y;  ///< edge vectors from v0 in 1/256 px
+  R area;                ///< A > 0, in (1/256 px)²
+  R q0, q1, q2;          ///< 1/w of the vertices times q_scale: the largest lies in [1, 2)
+  R q_unscale;           ///< 1/q_scale, a power of two
+};
+
+/// Weights of a point in its lane's triangle.
+template <class R>
+struct Weights {
+  R p1, p2;       ///< perspective-correct weights of v1, v2
+  R b1, b2;       ///< window-space (linear) weights of v1, v2
+  R denominator;  ///< D above: 1/w at the point is D / A, rescaled
+};
+
+template <class R>
+HS_INLINE Weights<R> weights_at(const TriangleLanes<R>& t, R dx, R dy) {
+  const R e1 = difference_of_products(dx, t.e2y, dy, t.e2x);
+  const R e2 = difference_of_products(t.e1x, dy, t.e1y, dx);
+  const R d = fma(e1, t.q1 - t.q0, fma(e2, t.q2 - t.q0, t.area * t.q0));
+  const R inverse = R(1) / d;
+  return {(e1 * t.q1) * inverse, (e2 * t.q2) * inverse, e1 / t.area, e2 / t.area, d};
+}
+
+/// One component at a point with weights w: value0 at v0, and its differences to v1 and v2.
+template <Interpolation mode, class R>
+HS_INLINE R interpolate(const Weights<R>& w, R value0, R delta1, R delta2) {
+  if constexpr (mode == Interpolation::flat) {
+    return value0;
+  } else if constexpr (mode == Interpolation::linear) {
+    return fma(w.b2, delta2, fma(w.b1, delta1, value0));
+  } else {
+    return fma(w.p2, delta2, fma(w.p1, delta1, value0));
+  }
+}
+
+/// The component values of each lane's triangle, for the N components of a Varyings struct.
+template <class R, std::size_t N>
+struct ComponentLanes {
+  std::array<R, N> value0;  ///< at v0; for flat components the triangle's one value
+  std::array<R, N> delta1;  ///< value at v1 − value at v0
+  std::array<R, N> delta2;  ///< value at v2 − value at v0
+};
+
+/// All components of the varyings V at weights w.
+template <class V, class R, std::size_t... I>
+HS_INLINE V interpolate_all(const Weights<R>& w, const ComponentLanes<R, sizeof...(I)>& c, std::index_sequence<I...>) {
+  std::array<R, sizeof...(I)> out{interpolate<kInterpolations<V>[I]>(w, c.value0[I], c.delta1[I], c.delta2[I])...};
+  return from_components<V, R>(out);
+}
+
+/// What a fragment shader is told of its pixel, lane by lane.
+template <class R>
+struct Pixel {
+  R x, y;                  ///< window coordinates of the pixel centre (origin lower left, centres at +0.5)
+  R z;                     ///< window depth of the fragment, in [0, 1]
+  R inv_w;                 ///< 1/w_clip at the pixel
+  MaskOf<R> front_facing;  ///< the triangle is counter-clockwise (as DrawState::front says)
+
+  /// d/dx of a varying, per pixel: px.ddx(&Varyings<R>::uv). Exact by the triangle's plane, with no helper lanes.
+  template <class V, class F>
+  HS_INLINE F ddx(F V::*member) const {
+    return derivative(member, R(256) * triangle->e2y, R(-256) * triangle->e1y);
+  }
+  /// d/dy of a varying, per pixel (y up).
+  template <class V, class F>
+  HS_INLINE F ddy(F V::*member) const {
+    return derivative(member, R(-256) * triangle->e2x, R(256) * triangle->e1x);
+  }
+
+  /// The varyings V at pixel (i, j) of the 2x2 quad that holds this pixel (i, j in {0, 1}; quads start at even window
+  /// coordinates), by the same triangle, which need not cover it. For differences of computed values, as dFdx takes.
+  template <class V>
+  HS_INLINE V at_quad(int i, int j) const {
+    const R to_x = (R(static_cast<float>(i)) - quad_x) * R(256);
+    const R to_y = (R(static_cast<float>(j)) - quad_y) * R(256);
+    const Weights<R> w = weights_at(*triangle, dx + to_x, dy + to_y);
+    return interpolate_all<V>(w, components<V>(), std::make_index_sequence<kComponents<V>>());
+  }
+
+  // Filled by the pipeline.
+  const TriangleLanes<R>* triangle;
+  const void* component_lanes;  ///< ComponentLanes<R, kComponents<V>> of the shader's Varyings V
+  Weights<R> weights;
+  R dx, dy;          ///< pixel centre − v0, in 1/256 px
+  R quad_x, quad_y;  ///< 0 or 1: the pixel's place in its quad
+
+ private:
+  template <class V>
+  HS_INLINE const ComponentLanes<R, kComponents<V>>& components() const {
+    return *static_cast<const ComponentLanes<R, kComponents<V>>*>(component_lanes);
+  }
+
+  // dE1 and dE2: the step of E1 and E2 from this pixel to the next.
+  template <class V, class F>
+  HS_INLINE F derivative(F V::*member, R dE1, R dE2) const {
+    using Field = detail::FieldTraits<F>;
+    static_assert(Field::interpolation == Interpolation::smooth, "only smooth varyings have derivatives");
+    const R inverse = R(1) / weights.denominator;
+    const R dD = dE1 * (triangle->q1 - triangle->q0) + dE2 * (triangle->q2 - triangle->q0);
+    const R dp1 = (dE1 * triangle->q1 - weights.p1 * dD) * inverse;
+    const R dp2 = (dE2 * triangle->q2 - weights.p2 * dD) * inverse;
+    const std::size_t first = first_component(member);
+    const auto& c = components<V>();
+    std::array<R, Field::components> out;
+    for (std::size_t k = 0; k < Field::components; ++k) {
+      out[k] = fma(dp2, c.delta2[first + k], dp1 * c.delta1[first + k]);
+    }
+    return std::bit_cast<F>(out);
+  }
+
+  template <class V, class F>
+  HS_INLINE static std::size_t first_component(F V::*member) {
+    const V v{};
+    const auto offset = reinterpret_cast<const char*>(&(v.*member)) - reinterpret_cast<const char*>(&v);
+    return static_cast<std::size_t>(offset) / sizeof(R);
+  }
+};
+
+}  // namespace halfspace

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a shader's Attributes, Varyings and Primitive structs are to the pipeline: a row of components of type R, and
+// for varyings how each component is interpolated. Found from the member types alone; a shader registers nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "core/fields.h"
+#include "core/vec.h"
+
+namespace halfspace {
+
+/// A varying that keeps the provoking vertex's value over the whole triangle (GLSL: flat).
+template <class T>
+struct Flat {
+  T value;
+};
+
+/// A varying interpolated linearly in window space (GLSL: noperspective).
+template <class T>
+struct Linear {
+  T value;
+};
+
+enum class Interpolation : uint8_t { smooth, flat, linear };
+
+namespace detail {
+
+template <class T>
+struct FieldTraits;
+template <Number R>
+struct FieldTraits<R> {
+  static constexpr std::size_t components = 1;
+  static constexpr Interpolation interpolation = Interpolation::smooth;
+};
+template <glm::length_t L, Number R>
+struct FieldTraits<glm::vec<L, R>> {
+  static constexpr std::size_t components = static_cast<std::size_t>(L);
+  static constexpr Interpolation interpolation = Interpolation::smooth;
+};
+template <class T>
+struct FieldTraits<Flat<T>> : FieldTraits<T> {
+  static constexpr Interpolation interpolation = Interpolation::flat;
+};
+template <class T>
+struct FieldTraits<Linear<T>> : FieldTraits<T> {
+  static constexpr Interpolation interpolation = Interpolation::linear;
+};
+
+template <class T>
+using FieldsOf = decltype(tie_fields(std::declval<T&>()));
+
+template <class Tuple>
+struct TupleTraits;
+template <class... F>
+struct TupleTraits<std::tuple<F&...>> {
+  static constexpr std::size_t components = (std::size_t{0} + ... + FieldTraits<std::remove_const_t<F>>::components);
+  static constexpr auto interpolations() {
+    std::array<Interpolation, components> modes{};
+    std::size_t i = 0;
+    const auto add = [&](Interpolation mode, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k) modes[i++] = mode;
+    };
+    (add(FieldTraits<std::remove_const_t<F>>::interpolation, FieldTraits<std::remove_const_t<F>>::components), ...);
+    (void)add;
+    return modes;
+  }
+};
+
+}  // namespace detail
+
+/// How many components (values of R) the struct T holds.
+template <class T>
+inline constexpr std::size_t kComponents = detail::TupleTraits<detail::FieldsOf<T>>::components;
+
+/// How each component of the varyings V is interpolated.
+template <class V>
+inline constexpr auto kInterpolations = detail::TupleTraits<detail::FieldsOf<V>>::interpolations();
+
+/// The components of t as an array of R, in order of declaration.
+template <class R, class T>
+HS_INLINE std::array<R, kComponents<T>> to_components(const T& t) {
+  std::array<R, kComponents<T>> a;
+  if constexpr (kComponents<T> != 0) {
+    static_assert(sizeof(T) == sizeof(a), "the members of attributes and varyings are R, vec2<R>, vec3<R>, vec4<R>, Flat or Linear of these");
+    std::memcpy(&a, &t, sizeof a);
+  }
+  return a;
+}
+
+/// The struct whose components are a.
+template <class T, class R>
+HS_INLINE T from_components(const std::array<R, kComponents<T>>& a) {
+  T t;
+  if constexpr (kComponents<T> != 0) {
+    static_assert(sizeof(T) == sizeof(a));
+    std::memcpy(static_cast<void*>(&t), &a, sizeof a);
+  }
+  return t;
+}
+
+}  // namespace halfspace
