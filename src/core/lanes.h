@@ -236,7 +236,7 @@ HS_INLINE IntN<W> select(MaskN<W> m, int32_t a, std::type_identity_t<IntN<W>> b)
 }
 template <int W>
 HS_INLINE MaskN<W> select(MaskN<W> m, MaskN<W> a, std::type_identity_t<MaskN<W>> b) {
-  return (m & a) | (!m & b);
+  return MaskN<W>((m.v & a.v) | (~m.v & b.v));
 }
 
 // ---- memory ----------------------------------------------------------------------------------------------------
@@ -330,6 +330,19 @@ HS_INLINE M first_lanes(int n) {
     return n > 0;
   } else {
     return iota<IntN<static_cast<int>(sizeof(M) / 4)>>() < n;
+  }
+}
+
+/// The mask whose bits() are b.
+template <class M>
+HS_INLINE M mask_from_bits(uint32_t b) {
+  if constexpr (std::is_same_v<M, bool>) {
+    return (b & 1) != 0;
+  } else {
+    using I = IntN<static_cast<int>(sizeof(M) / 4)>;
+    I lane_bit{};
+    for (int i = 0; i < static_cast<int>(sizeof(M) / 4); ++i) set_lane(lane_bit, i, 1 << i);
+    return (I(static_cast<int32_t>(b)) & lane_bit) != I(0);
   }
 }
 

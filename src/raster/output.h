@@ -12,12 +12,9 @@ namespace halfspace {
 using PacketColor = std::array<Real, 4>;
 
 /// The packet's colours, decoded to linear floats.
-PacketColor read_color(const Tile& tile, int packet);
+PacketColor read_color(const ColorBuffer& buffer, int packet);
 
 /// Writes src where mask says: blended with what is there if blend is given, else replacing it.
-void write_color(Tile& tile, int packet, Mask mask, const PacketColor& src, const BlendState* blend);
-
-/// A colour as one pixel of the format, for clears: 4, 8 or 16 bytes.
-std::array<std::byte, 16> encode_pixel(ColorFormat format, const glm::vec4& color);
+void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const BlendState* blend);
 
 }  // namespace halfspace

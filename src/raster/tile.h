@@ -56,20 +56,25 @@ struct PacketMask {
   uint16_t lanes;  ///< bit i: lane i
 };
 
+/// The colours of a tile, in a target's format: 8-bit formats as one uint32 a pixel (r lowest); rgba16f and rgba32f as
+/// four planes.
+struct ColorBuffer {
+  ColorFormat format = ColorFormat::none;
+  alignas(64) std::array<std::byte, kMaxTilePixels * 16> bytes;
+};
+
 /// One task's workspace. About 100 KB: it lives on the stack of the task that owns the tile.
 struct Tile {
   int x0 = 0, y0 = 0;           ///< window coordinates of its lower left pixel
   int width = 0, height = 0;    ///< pixels inside the target
   int size = kMaxTileSize;
   DepthFormat depth_format = DepthFormat::none;
-  ColorFormat color_format = ColorFormat::none;
 
   /// Depth values as the format holds them: d32f the depth itself, d16 and d24 the code (a whole number; exact in float).
   alignas(64) std::array<float, kMaxTilePixels> depth;
   /// The visible triangle of each pixel not shaded yet, or kNoTriangle.
   alignas(64) std::array<TriangleId, kMaxTilePixels> id;
-  /// Colour in the target's format: 8-bit formats as one uint32 a pixel (r lowest); rgba16f and rgba32f as 4 planes.
-  alignas(64) std::array<std::byte, kMaxTilePixels * 16> color;
+  ColorBuffer color;
 
   /// Bounds of the depth values in each block: never narrower than the values.
   std::array<float, kBlocks> block_min, block_max;
@@ -85,11 +90,11 @@ HS_INLINE R depth_value(DepthFormat format, R z) {
   return z;
 }
 
-/// Fills the tile: clear values, or the images' pixels.
-void load_tile(const ColorTarget& color, const DepthTarget& depth, int target_width, int target_height, Tile& tile);
-
-/// Writes the tile's pixels to the images of the targets that store.
-void store_tile(const ColorTarget& color, const DepthTarget& depth, int target_width, int target_height, const Tile& tile);
+// Between tile and image. Images hold the top row first, tiles the bottom row: rows are turned round here.
+void load_color(const ColorTarget& target, int target_width, int target_height, Tile& tile);
+void load_depth(const DepthTarget& target, int target_width, int target_height, Tile& tile);
+void store_color(const ColorTarget& target, int target_width, int target_height, const Tile& tile, const ColorBuffer& color);
+void store_depth(const DepthTarget& target, int target_width, int target_height, const Tile& tile);
 
 /// Makes a block's depth bounds exact.
 void refresh_block_bounds(Tile& tile, int block);

@@ -163,17 +163,7 @@ void ask_shader(const Context& c, int packet, Real& z, Mask& mask) {
                             {&c.frame, c.id, c.tile.x0 + packet_x(packet), c.tile.y0 + packet_y(packet), depth.data(), &lanes});
   const Real shader_z = clamp(load<Real>(depth.data()), Real(c.draw.depth_low), Real(c.draw.depth_high));
   if (c.draw.kernels.writes_depth) z = depth_value(c.tile.depth_format, shader_z);
-  const Int lane_bit = Int(1);
-  Mask kept(false);
-  for (int i = 0; i < kLanes; ++i) {
-    if constexpr (kLanes == 1) {
-      kept = (lanes & 1) != 0;
-    } else {
-      kept.v[i] = (lanes >> i & 1) != 0 ? -1 : 0;
-    }
-  }
-  (void)lane_bit;
-  mask = mask & kept;
+  mask = mask & mask_from_bits<Mask>(lanes);
 }
 
 void visit_packet(const Context& c, int packet, Mask mask, Real z) {

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Elementary functions that give the same bits at every width, on every CPU and compiler: exp2 log2 exp log pow sin
+// cos atan2 atan asin acos.
+//
+// One template serves float and lanes of float. It uses only + − × ÷ sqrt, fma and bit operations, each correctly
+// rounded, so lane i holds what plain float would. libm is not used because it picks its code by CPU. For double the
+// functions are std's own: the accuracy reference, which makes no promise of bits. (x86-64-v2 has no fma instruction;
+// there fma goes to libm's, which is exact too but slow.)
+//
+// How: split off the exponent or the quadrant exactly (Cody and Waite, Software Manual for the Elementary Functions,
+// 1980), then a minimax polynomial. The coefficients come from scripts/fit_polynomials.py, which also prints the error
+// of each fit. The errors named below are in units in the last place (ulp) of the correctly rounded float, measured by
+// tests/core/lane_math_test.cpp. NaN gives NaN unless said otherwise.
+//
+// Call them as halfspace::exp2(x), or from within namespace halfspace: a plain float argument elsewhere finds libm's.
+#pragma once
+
+#include "core/lanes.h"
+
+namespace halfspace {
+
+namespace detail {
+
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+inline constexpr int32_t kSignBit = std::numeric_limits<int32_t>::min();
+
+/// c[0] + c[1]·x + … + c[N−1]·x^(N−1), by Horner's rule with one rounding a step.
+template <class R, int N>
+HS_INLINE R polynomial(R x, const float (&c)[N]) {
+  R r(c[N - 1]);
+  for (int i = N - 2; i >= 0; --i) r = fma(r, x, R(c[i]));
+  return r;
+}
+
+/// p·2^n, rounded once (also into the subnormals) for 0.5 < p < 2 and −200 < n < 200: two factors, for 2^n itself may
+/// not be a float, and the first product is exact.
+template <class R>
+HS_INLINE R scale(R p, IntOf<R> n) {
+  const IntOf<R> half = n >> 1;
+  return p * as_real((half + 127) << 23) * as_real((n - half + 127) << 23);
+}
+
+/// 2^f for |f| <= 0.50001.
+template <class R>
+HS_INLINE R exp2_of_fraction(R f) {
+  static constexpr float kC[] = {0.693147182f, 0.240226477f, 0.0555033237f, 0.00961843692f, 0.00133988773f, 0.000153533663f};
+  return fma(f, polynomial(f, kC), R(1.0f));
+}
+
+/// x = m·2^e with sqrt(1/2) <= m < sqrt(2), for 0 < x < infinity.
+template <class R>
+struct MantissaExponent {
+  R m;
+  IntOf<R> e;
+};
+template <class R>
+HS_INLINE MantissaExponent<R> split(R x) {
+  const IntOf<R> root_half = 0x3f3504f3;  // the bits of sqrt(1/2)
+  const MaskOf<R> subnormal = x < R(0x1p-126f);
+  const IntOf<R> i = as_int(select(subnormal, x * R(0x1p23f), x)) - root_half;
+  return {as_real((i & 0x7fffff) + root_half), (i >> 23) - select(subnormal, IntOf<R>(23), IntOf<R>(0))};
+}
+
+/// A logarithm where the argument is not a positive finite number: log 0 = −inf, log inf = inf, else NaN.
+template <class R>
+HS_INLINE R hold_log_domain(R x, R log_x) {
+  const R special = select(x == R(0.0f), R(-kInfinity), select(x > R(0.0f), R(kInfinity), R(kNaN)));
+  return select(x > R(0.0f) && x < R(kInfinity), log_x, special);
+}
+
+/// A number held as high + low, |low| <= about an ulp of high: some 45 bits.
+template <class R>
+struct Sum {
+  R high, low;
+};
+
+/// log2(x) with a relative error below 2^-34, for 0 < x < infinity.
+///
+/// With s = (m − 1)/(m + 1), log2(m) = (2/ln 2)·(s + s³/3 + s⁵/5 + …) = s·(c + u), u = s²·(c1 + s²·(c2 + …)) < c/100.
+/// Each float product or sum that matters keeps its rounding error, found exactly by fma or by Dekker's fast two-sum.
+template <class R>
+HS_INLINE Sum<R> log2_in_two(R x) {
+  static constexpr float kC[] = {0.577082872f, 0.411706328f, 0.340218514f};
+  static constexpr float kC0 = 2.88539004f, kC0Low = 3.85192607e-08f, kC1 = 0.961796701f, kC1Low = -2.17613092e-08f;
+  const MantissaExponent<R> me = split(x);
+  const R f = me.m - R(1.0f);  // exact
+  const R d = me.m + R(1.0f);
+  const R d_low = me.m - (d - R(1.0f));
+  const R d_inverse = R(1.0f) / d;
+  const R s = f * d_inverse;
+  const R s_low = fma(-s, d_low, fma(-s, d, f)) * d_inverse;
+  const R z = s * s;
+  const R z_low = fma(s, s, -z) + R(2.0f) * s * s_low;
+  const R tail = z * polynomial(z, kC);
+  const R p = R(kC1) + tail;
+  const R p_low = (R(kC1) - p) + tail + R(kC1Low);
+  const R u = z * p;
+  const R u_low = fma(z, p, -u) + fma(z, p_low, z_low * p);
+  const R g = R(kC0) + u;
+  const R g_low = (R(kC0) - g) + u + (R(kC0Low) + u_low);
+  const R l = s * g;
+  const R l_low = fma(s, g, -l) + fma(s, g_low, s_low * g);
+  const R e = to_real<R>(me.e);
+  const R high = e + l;  // |e| >= 1 > |l|, or e = 0
+  return {high, (e - high) + l + l_low};
+}
+
+template <class R>
+HS_INLINE R copy_sign_bits(R magnitude, IntOf<R> sign) {
+  return as_real(as_int(magnitude) ^ (sign & kSignBit));
+}
+
+}  // namespace detail
+
+/// 2^x. Error at most 1 ulp (subnormal results too); exact for integers; never decreasing where tested.
+/// Below −150 it gives 0, from 128 on infinity.
+template <Number R>
+HS_INLINE R exp2(R x) {
+  if constexpr (std::is_same_v<R, double>) return std::exp2(x);
+  else {
+    const R held = clamp(x, -160.0f, 160.0f);
+    const R n = round_even(held);
+    const R r = detail::scale(detail::exp2_of_fraction(held - n), round_to_int(n));
+    return select(x == x, r, x);
+  }
+}
+
+/// e^x. Error at most 1 ulp. Below −104 it gives 0, above 88.8 infinity.
+template <Number R>
+HS_INLINE R exp(R x) {
+  if constexpr (std::is_same_v<R, double>) return std::exp(x);
+  else {
+    static constexpr float kC[] = {0.49999994f, 0.166665211f, 0.041668389f, 0.00836871099f, 0.00138146093f};
+    const R held = clamp(x, -110.0f, 110.0f);
+    const R n = round_even(held * R(1.44269502f));
+    const R f = fma(-n, R(1.42860677e-06f), fma(-n, R(0.693145752f), held));  // ln 2 in two parts; the first step is exact
+    const R p = fma(f * f, detail::polynomial(f, kC), f) + R(1.0f);
+    return select(x == x, detail::scale(p, round_to_int(n)), x);
+  }
+}
+
+/// The logarithm to base 2. Error at most 1.5 ulp; exact for powers of two. log2(±0) = −inf, log2(inf) = inf, x < 0
+/// gives NaN.
+template <Number R>
+HS_INLINE R log2(R x) {
+  if constexpr (std::is_same_v<R, double>) return std::log2(x);
+  else {
+    static constexpr float kC[] = {-0.721347332f, 0.480898231f, -0.360696584f, 0.288567483f, -0.239618421f,
+                                   0.204600647f,  -0.191055983f, 0.186170802f, -0.109957926f};
+    const detail::MantissaExponent<R> me = detail::split(x);
+    const R f = me.m - R(1.0f);
+    const R tail = f * fma(f, detail::polynomial(f, kC), R(1.92596303e-08f));  // the low part of 1/ln 2
+    return detail::hold_log_domain(x, to_real<R>(me.e) + fma(f, R(1.44269502f), tail));
+  }
+}
+
+/// The natural logarithm. Error at most 1.5 ulp. Zero, infinity and x < 0 as log2.
+template <Number R>
+HS_INLINE R log(R x) {
+  if constexpr (std::is_same_v<R, double>) return std::log(x);
+  else {
+    static constexpr float kC[] = {-0.499999881f, 0.333333254f, -0.250015825f, 0.200019732f, -0.166090831f,
+                                   0.141818359f,  -0.132429913f, 0.129043773f, -0.0762170255f};
+    const detail::MantissaExponent<R> me = detail::split(x);
+    const R f = me.m - R(1.0f);
+    const R e = to_real<R>(me.e);
+    const R low = fma(f * f, detail::polynomial(f, kC), e * R(1.42860677e-06f));
+    return detail::hold_log_domain(x, fma(e, R(0.693145752f), f + low));
+  }
+}
+
+/// x^y for x >= 0. Error at most 1.5 ulp wherever the result is a float, for any y (subnormal results too).
+///
+/// pow(x, 0) = 1 and pow(1, y) = 1 for every x and y, NaN included; pow(0, y) = 0 for y > 0 and inf for y < 0;
+/// infinities as in IEEE 754. Unlike std::pow, x < 0 gives NaN for every y but 0, also where y is an integer; −0
+/// counts as 0. R = double follows the same rules.
+template <Number R>
+HS_INLINE R pow(R x, std::type_identity_t<R> y) {
+  if constexpr (std::is_same_v<R, double>) {
+    return x < 0.0 && y != 0.0 ? static_cast<double>(detail::kNaN) : std::pow(x == 0.0 ? 0.0 : x, y);
+  } else {
+    const detail::Sum<R> log_x = detail::log2_in_two(x);
+    const R special = select(x > R(0.0f), R(detail::kInfinity), R(-detail::kInfinity));
+    const R high = select(x > R(0.0f) && x < R(detail::kInfinity), log_x.high, special);
+    const R product = y * high;
+    // The rest of y·log2(x). Where the product is far out of range it may be NaN, and does not matter.
+    const R rest = select(abs(product) < R(200.0f), fma(y, high, -product) + y * log_x.low, R(0.0f));
+    const R held = clamp(product, -200.0f, 200.0f);
+    const R n = round_even(held);
+    const R power = detail::scale(detail::exp2_of_fraction((held - n) + rest), round_to_int(n));
+    const R r = select(x >= R(0.0f) && y == y, power, R(detail::kNaN));
+    return select(x == R(1.0f) || y == R(0.0f), R(1.0f), r);
+  }
+}
+
+/// The sine and cosine of one angle.
+template <class R>
+struct SinCos {
+  R sin, cos;
+};
+
+/// sin and cos of x radians. Error at most 2 ulp for |x| <= 1e4, at the zeros too: π/2 is taken off in three parts, the
+/// first of them without rounding. Up to |x| = 1e6 the absolute error is below 1e-6; beyond, the result is in [−1, 1] but
+/// has nothing to do with x. ±infinity gives NaN. sin is odd (sin(−0) = −0), cos even, bit by bit.
+template <Number R>
+HS_INLINE SinCos<R> sin_cos(R x) {
+  if constexpr (std::is_same_v<R, double>) return {std::sin(x), std::cos(x)};
+  else {
+    static constexpr float kSin[] = {-0.166666552f, 0.00833215564f, -0.00019514632f};
+    static constexpr float kCos[] = {0.0416666456f, -0.00138873095f, 2.44324128e-05f};
+    const R a = abs(x);
+    const R n = round_even(a * R(0.636619772f));
+    R r = fma(-n, R(1.57079637f), a);
+    r = fma(-n, R(-4.37113883e-08f), r);
+    r = fma(-n, R(-1.71512451e-15f), r);
+    r = clamp(r, -1.0f, 1.0f);  // holds back only what is out of range
+    const R z = r * r;
+    const R s = fma(r * z, detail::polynomial(z, kSin), r);
+    const R c = fma(z, fma(z, detail::polynomial(z, kCos), R(-0.5f)), R(1.0f));
+    const IntOf<R> quadrant = round_to_int(n);
+    const MaskOf<R> swap = (quadrant & 1) != 0;
+    const R sin = detail::copy_sign_bits(select(swap, c, s), as_int(x) ^ (quadrant << 30));
+    const R cos = detail::copy_sign_bits(select(swap, s, c), (quadrant + 1) << 30);
+    const MaskOf<R> finite = a < R(detail::kInfinity);
+    return {select(finite, sin, R(detail::kNaN)), select(finite, cos, R(detail::kNaN))};
+  }
+}
+template <Number R>
+HS_INLINE R sin(R x) {
+  return sin_cos(x).sin;
+}
+template <Number R>
+HS_INLINE R cos(R x) {
+  return sin_cos(x).cos;
+}
+
+/// The angle of the point (x, y), in [−π, π] rounded to float. Error at most 2.5 ulp. Zeros and infinities as in
+/// IEEE 754: atan2(±0, +0) = ±0, atan2(±0, −0) = ±π, atan2(±inf, inf) = ±π/4. The sign is y's.
+template <Number R>
+HS_INLINE R atan2(R y, std::type_identity_t<R> x) {
+  if constexpr (std::is_same_v<R, double>) return std::atan2(y, x);
+  else {
+    static constexpr float kC[] = {-0.333332986f, 0.199985474f,  -0.142642379f, 0.10952165f,    -0.0840339512f,
+                                   0.0579567254f, -0.0311770439f, 0.0109142046f, -0.00179352728f};  // the last moved by 1e-8, so that atan(1) is π/4
+    const R ax = abs(x), ay = abs(y);
+    const MaskOf<R> steep = ay > ax;
+    const MaskOf<R> left = as_int(x) < 0;  // −0 is left of the y axis
+    const R low = select(steep, ax, ay), high = select(steep, ay, ax);
+    const R diagonal = select(high > R(0.0f), R(1.0f), R(0.0f));  // instead of 0/0 and inf/inf
+    const R t = select(low == high, diagonal, low / high);
+    const R z = t * t;
+    const R r = fma(t * z, detail::polynomial(z, kC), t);  // atan of 0 <= t <= 1
+    const R from = select(steep, R(1.57079637f), select(left, R(3.14159274f), R(0.0f)));
+    const R from_low = from * R(-2.78275e-08f);  // π/2 and π less their floats
+    const R angle = from + (select(steep ^ left, -r, r) + from_low);
+    return detail::copy_sign_bits(angle, as_int(y));
+  }
+}
+
+/// The arc tangent, in [−π/2, π/2]. Error at most 2.5 ulp.
+template <Number R>
+HS_INLINE R atan(R x) {
+  return atan2(x, R(1.0f));
+}
+
+namespace detail {
+
+/// asin(s) − s over s³, s² = z <= 1/4.
+template <class R>
+HS_INLINE R asin_tail(R z) {
+  static constexpr float kC[] = {0.166667521f, 0.0749529749f, 0.0454703756f, 0.0241795238f, 0.0421662852f};
+  return polynomial(z, kC);
+}
+
+}  // namespace detail
+
+/// The arc sine, in [−π/2, π/2]. Error at most 2.5 ulp; |x| > 1 gives NaN. From 1/2 on, asin(x) = π/2 − 2·asin(sqrt((1 − x)/2)).
+template <Number R>
+HS_INLINE R asin(R x) {
+  if constexpr (std::is_same_v<R, double>) return std::asin(x);
+  else {
+    const R a = abs(x);
+    const MaskOf<R> outer = a > R(0.5f);
+    const R z = select(outer, (R(1.0f) - a) * R(0.5f), a * a);
+    const R s = select(outer, sqrt(z), a);
+    const R r = fma(s * z, detail::asin_tail(z), s);
+    return detail::copy_sign_bits(select(outer, R(1.57079637f) - (R(2.0f) * r + R(4.37113883e-08f)), r), as_int(x));
+  }
+}
+
+/// The arc cosine, in [0, π]. Error at most 2.5 ulp; |x| > 1 gives NaN.
+template <Number R>
+HS_INLINE R acos(R x) {
+  if constexpr (std::is_same_v<R, double>) return std::acos(x);
+  else {
+    const R a = abs(x);
+    const MaskOf<R> outer = a > R(0.5f);
+    const R z = select(outer, (R(1.0f) - a) * R(0.5f), a * a);
+    const R s = select(outer, sqrt(z), a);
+    const R r = fma(s * z, detail::asin_tail(z), s);
+    const R inner = R(1.57079637f) - (detail::copy_sign_bits(r, as_int(x)) + R(4.37113883e-08f));
+    const R twice = R(2.0f) * r;
+    const R ends = select(x < R(0.0f), R(3.14159274f) - (twice + R(8.74227766e-08f)), twice);
+    return select(outer, ends, inner);
+  }
+}
+
+}  // namespace halfspace

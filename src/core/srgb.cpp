@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The two tables of srgb.h, made by the compiler. decode(v) is needed to a float's 24 bits; double arithmetic gives it
+// to about 2^-50. Should an exact value lie so near to a rounding boundary that this could matter, the test with long
+// double would say so: the nearest is 2^-34 away, relative to the value.
+#include "core/srgb.h"
+
+namespace halfspace {
+
+namespace {
+
+/// a^2.4 for 0 < a <= 1: the fifth root of a^12, by Newton's iteration from above.
+constexpr double power_of_2_4(double a) {
+  const double a2 = a * a, a4 = a2 * a2, a12 = a4 * a4 * a4;
+  double y = 1.0;
+  for (int i = 0; i < 60; ++i) {  // shrinks by 4/5 at first (a^2.4 > 1/900: 31 steps), then squares its error
+    const double y2 = y * y;
+    y -= (y2 * y2 * y - a12) / (5.0 * y2 * y2);
+  }
+  return y;
+}
+
+constexpr double decode(double v) { return v <= 0.04045 ? v / 12.92 : power_of_2_4((v + 0.055) / 1.055); }
+
+/// The bits of the smallest float that is not below x > 0.
+constexpr int32_t bits_at_or_above(double x) {
+  const float f = static_cast<float>(x);
+  return std::bit_cast<int32_t>(f) + (static_cast<double>(f) < x ? 1 : 0);
+}
+
+constexpr std::array<float, 256> make_decode_table() {
+  std::array<float, 256> table{};
+  for (int c = 0; c < 256; ++c) table[static_cast<std::size_t>(c)] = static_cast<float>(decode(c / 255.0));
+  return table;
+}
+
+/// Where code c begins: the first float that is nearer to it than to c − 1.
+constexpr int32_t threshold_bits(int c) { return bits_at_or_above(decode((c - 0.5) / 255.0)); }
+
+struct EncodeTable {
+  std::array<int32_t, detail::kSrgbBuckets> entries{};
+  bool one_threshold_a_bucket = true;
+};
+
+constexpr EncodeTable make_encode_table() {
+  EncodeTable table;
+  int code = 0;
+  int32_t next = threshold_bits(1);
+  for (int b = 0; b < detail::kSrgbBuckets; ++b) {
+    const int32_t begin = detail::kSrgbFirstBits + (b << 16);
+    const int32_t end = begin + 0x10000;
+    int32_t carry = 0;  // what lifts the threshold's low bits to 2^16; 0 never carries
+    if (code < 255 && next < end) carry = end - next;
+    table.entries[static_cast<std::size_t>(b)] = (code << 16) + carry;
+    if (carry == 0) continue;
+    ++code;
+    if (code < 255) next = threshold_bits(code + 1);
+    if (code < 255 && next < end) table.one_threshold_a_bucket = false;
+  }
+  return table;
+}
+
+constexpr EncodeTable kTable = make_encode_table();
+static_assert(kTable.one_threshold_a_bucket);
+
+}  // namespace
+
+constexpr std::array<float, 256> kSrgbToLinear = make_decode_table();
+constexpr std::array<int32_t, detail::kSrgbBuckets> detail::kSrgbEncode = kTable.entries;
+
+}  // namespace halfspace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// 8-bit codes ↔ linear values: the sRGB curve (IEC 61966-2-1) and plain unsigned normalized numbers, both correctly
+// rounded, both the same bits at every width. No powers are computed here: decoding reads a table of 256 floats,
+// encoding a table of thresholds, and the compiler makes both tables with + − × ÷ alone (srgb.cpp).
+//
+//   decode(v) = v/12.92 for v <= 0.04045, else ((v + 0.055)/1.055)^2.4        encode is its inverse
+#pragma once
+
+#include <array>
+
+#include "core/lanes.h"
+
+namespace halfspace {
+
+namespace detail {
+
+// The encoder cuts [2^-13, 1) into buckets of equal exponent and 7 leading mantissa bits. The codes change slowly
+// enough that no bucket holds more than one threshold (srgb.cpp asserts it). A bucket's entry is, in 16.16 fixed
+// point, its first code plus what must be added to a float's 16 low bits so that they carry from the threshold on.
+inline constexpr int32_t kSrgbFirstBits = 0x39000000;  // 2^-13; all below encodes to 0
+inline constexpr int kSrgbBuckets = 13 * 128;
+extern const std::array<int32_t, kSrgbBuckets> kSrgbEncode;
+
+}  // namespace detail
+
+/// kSrgbToLinear[c] is the float nearest to decode(c/255).
+extern const std::array<float, 256> kSrgbToLinear;
+
+/// The linear value of each sRGB code: the nearest float. Every lane of code must lie in 0 … 255.
+template <Number R>
+HS_INLINE R srgb_to_linear(IntOf<R> code) {
+  return R(gather(kSrgbToLinear.data(), code));
+}
+
+/// The sRGB code 0 … 255 nearest to 255·encode(x), for every float x. Below 0 and NaN: 0; above 1: 255. (A double is
+/// first rounded to float.)
+template <Number R>
+HS_INLINE IntOf<R> linear_to_srgb(R x) {
+  if constexpr (std::is_same_v<R, double>) return linear_to_srgb(static_cast<float>(x));
+  else {
+    const IntOf<R> i = as_int(clamp(x, 0x1p-13f, 0x1.fffffep-1f)) - IntOf<R>(detail::kSrgbFirstBits);
+    return (gather(detail::kSrgbEncode.data(), i >> 16) + (i & 0xffff)) >> 16;
+  }
+}
+
+/// code/255 to the nearest float, for code (whole or between two codes) in [0, 255]: never decreasing, 255 gives 1.
+template <Number R>
+HS_INLINE R unorm8_to_linear(R code) {
+  if constexpr (std::is_same_v<R, double>) return code / 255.0;
+  else {
+    constexpr float kHigh = 1.0f / 255.0f;
+    constexpr float kLow = static_cast<float>(1.0 / 255.0 - static_cast<double>(kHigh));
+    return fma(code, R(kHigh), code * R(kLow));
+  }
+}
+
+/// The code 0 … 255 nearest to 255·x, for every float x. Below 0 and NaN: 0; above 1: 255. (No float lies half-way
+/// between two codes.)
+template <Number R>
+HS_INLINE IntOf<R> linear_to_unorm8(R x) {
+  if constexpr (std::is_same_v<R, double>) return round_to_int(clamp(x, 0.0, 1.0) * 255.0);
+  else {
+    // Beside 2^23 the last bit of a float weighs 1: the sum of the exact product rounds to a whole code, once.
+    return as_int(fma(clamp(x, 0.0f, 1.0f), R(255.0f), R(0x1p23f))) & 0xff;
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/output.h"
+
+#include <cstring>
+
+#include "core/half.h"
+#include "core/srgb.h"
+
+namespace halfspace {
+
+namespace {
+
+template <class T>
+T* plane(ColorBuffer& b, int k) {
+  return reinterpret_cast<T*>(b.bytes.data()) + k * kMaxTilePixels;
+}
+template <class T>
+const T* plane(const ColorBuffer& b, int k) {
+  return reinterpret_cast<const T*>(b.bytes.data()) + k * kMaxTilePixels;
+}
+
+Real decode8(ColorFormat format, Int code, bool alpha) {
+  return format == ColorFormat::srgb8a8 && !alpha ? srgb_to_linear<Real>(code) : unorm8_to_linear(to_real<Real>(code));
+}
+Int encode8(ColorFormat format, Real value, bool alpha) {
+  return format == ColorFormat::srgb8a8 && !alpha ? linear_to_srgb(value) : linear_to_unorm8(value);
+}
+
+Int load_halves(const uint16_t* p) {
+  Int r{};
+  for (int i = 0; i < kLanes; ++i) set_lane(r, i, p[i]);
+  return r;
+}
+void store_halves(uint16_t* p, Int h, uint32_t lanes) {
+  for (int i = 0; i < kLanes; ++i) {
+    if (lanes >> i & 1) p[i] = static_cast<uint16_t>(lane(h, i));
+  }
+}
+
+Real factor(BlendFactor f, const PacketColor& src, const PacketColor& dst, std::size_t k) {
+  const Real one(1.0f);
+  switch (f) {
+    case BlendFactor::zero: return Real(0.0f);
+    case BlendFactor::one: return one;
+    case BlendFactor::src_color: return src[k];
+    case BlendFactor::one_minus_src_color: return one - src[k];
+    case BlendFactor::dst_color: return dst[k];
+    case BlendFactor::one_minus_dst_color: return one - dst[k];
+    case BlendFactor::src_alpha: return src[3];
+    case BlendFactor::one_minus_src_alpha: return one - src[3];
+    case BlendFactor::dst_alpha: return dst[3];
+    case BlendFactor::one_minus_dst_alpha: return one - dst[3];
+  }
+  return one;
+}
+
+Real combine(BlendEquation e, Real src, Real src_factor, Real dst, Real dst_factor) {
+  switch (e) {
+    case BlendEquation::add: return src * src_factor + dst * dst_factor;
+    case BlendEquation::subtract: return src * src_factor - dst * dst_factor;
+    case BlendEquation::reverse_subtract: return dst * dst_factor - src * src_factor;
+    case BlendEquation::min: return min(src, dst);
+    case BlendEquation::max: return max(src, dst);
+  }
+  return src;
+}
+
+bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
+
+PacketColor blend_colors(const BlendState& s, const PacketColor& src, const PacketColor& dst) {
+  PacketColor out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool alpha = k == 3;
+    const BlendFactor sf = alpha ? s.source_alpha : s.source_color;
+    const BlendFactor df = alpha ? s.destination_alpha : s.destination_color;
+    out[k] = combine(alpha ? s.alpha_equation : s.color_equation, src[k], factor(sf, src, dst, k), dst[k], factor(df, src, dst, k));
+  }
+  return out;
+}
+
+void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c) {
+  Int packed(0);
+  for (int k = 0; k < 4; ++k) packed = packed | encode8(buffer.format, c[static_cast<std::size_t>(k)], k == 3) << (8 * k);
+  int32_t* pixels = plane<int32_t>(buffer, 0) + first;
+  store(pixels, select(mask, packed, load<Int>(pixels)));
+}
+
+}  // namespace
+
+PacketColor read_color(const ColorBuffer& buffer, int packet) {
+  const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
+  PacketColor c;
+  for (int k = 0; k < 4; ++k) {
+    Real& out = c[static_cast<std::size_t>(k)];
+    switch (buffer.format) {
+      case ColorFormat::rgba32f: out = load<Real>(plane<float>(buffer, k) + first); break;
+      case ColorFormat::rgba16f: out = Real(half_to_float(load_halves(plane<uint16_t>(buffer, k) + first))); break;
+      default: out = decode8(buffer.format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3); break;
+    }
+  }
+  return c;
+}
+
+void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const BlendState* blend) {
+  PacketColor c = src;
+  if (blend != nullptr) {
+    if (is_fixed_point(buffer.format)) {  // OpenGL 4.6, section 17.3.6: clamped before blending
+      for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
+    }
+    c = blend_colors(*blend, c, read_color(buffer, packet));
+  }
+  const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
+  if (is_fixed_point(buffer.format)) {
+    write_packed(buffer, first, mask, c);
+    return;
+  }
+  for (int k = 0; k < 4; ++k) {
+    const Real value = c[static_cast<std::size_t>(k)];
+    if (buffer.format == ColorFormat::rgba16f) {
+      store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(value)), bits(mask));
+    } else {
+      float* to = plane<float>(buffer, k) + first;
+      store(to, select(mask, value, load<Real>(to)));
+    }
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pass: a target, what happens to it at start and end, and draws in order. This is the header a renderer includes.
+//
+//   Image<glm::u8vec4> image(640, 480);
+//   Pass pass(640, 480, srgb8a8_target(image), {.format = DepthFormat::d32f});
+//   pass.draw(shader, vertices(stream(positions), stream(normals)), indices, state);
+//   PassStatistics statistics = pass.run(workers);
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/parallel.h"
+#include "raster/output.h"
+#include "raster/shade.h"
+#include "raster/primitive_stage.h"
+#include "raster/vertex_stage.h"
+
+namespace halfspace {
+
+/// How a pass does its work. None of these changes a pixel.
+struct PassOptions {
+  int tile_size = kMaxTileSize;              ///< 8, 16, 32 or 64 px
+  uint32_t chunk_triangles = 4096;           ///< submitted triangles per setup task, 1 … 4096
+  std::size_t bin_budget = std::size_t{256} << 20;  ///< bytes of set-up triangles and bins before the tiles are flushed
+  bool defer = true;                         ///< false: shade every fragment at once, in order
+};
+
+/// A functor for the end of the pass: template <class R> vec4<R> operator()(vec4<R> color) const, from the pass's colour
+/// to that of the post target; for tone mapping and encoding while the tile is in cache.
+using PostKernel = void (*)(const void* function, PacketColor& color);
+
+namespace detail {
+template <class F>
+void post_kernel(const void* function, PacketColor& color) {
+  const vec4<Real> out = (*static_cast<const F*>(function))(vec4<Real>(color[0], color[1], color[2], color[3]));
+  for (int k = 0; k < 4; ++k) color[static_cast<std::size_t>(k)] = out[k];
+}
+
+/// The kernels of a shader: what it lacks is left null.
+template <class S>
+ShaderKernels kernels_of() {
+  using V = typename S::template Varyings<float>;
+  ShaderKernels k;
+  k.vertex = vertex_kernel<S, true>;
+  k.position = vertex_kernel<S, false>;
+  k.varying_count = static_cast<int>(kComponents<V>);
+  k.interpolations = kInterpolations<V>.data();
+  if constexpr (HasPrimitive<S>) {
+    k.primitive = primitive_kernel<S>;
+    k.primitive_count = static_cast<int>(kComponents<typename S::template Primitive<float>>);
+  }
+  if constexpr (HasFragmentFunction<S>) {
+    k.fragment = fragment_kernel<S>;
+    k.discards = kDiscards<S>;
+    k.writes_depth = kWritesDepth<S>;
+  }
+  if constexpr (HasVisibilityFunction<S>) k.visibility = visibility_kernel<S>;
+  return k;
+}
+}  // namespace detail
+
+/// A shader without a fragment function: it draws into depth alone.
+template <class S>
+concept DepthOnlyShader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> && !HasFragmentFunction<S>;
+
+class Pass {
+ public:
+  /// width, height: 1 … 16384 px, the size of every target. Targets' images must outlive the pass.
+  Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {});
+
+  /// Adds a draw of a triangle list. The shader is copied; the vertices' and indices' memory, and whatever the shader
+  /// points to, must stay unchanged until run() returns. Indices beyond a multiple of 3 are ignored, as GL does.
+  template <Shader S>
+  void draw(const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
+    add(shader, vertices, std::shared_ptr<const Indices>(std::shared_ptr<void>(), &indices), state);
+  }
+  /// The same without an index list: vertices 0, 1, 2, …
+  template <Shader S>
+  void draw(const S& shader, const VertexView& vertices, const DrawState& state = {}) {
+    add(shader, vertices, std::make_shared<const Indices>(Indices::sequential(vertices.vertex_count)), state);
+  }
+  /// Draws depth alone; the pass must have no colour target.
+  template <DepthOnlyShader S>
+  void draw_depth(const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
+    add(shader, vertices, std::shared_ptr<const Indices>(std::shared_ptr<void>(), &indices), state);
+  }
+
+  /// Sends the finished colour of every pixel through function into another target of the same size.
+  template <class F>
+  void post(const F& function, const ColorTarget& target) {
+    post_function_ = std::make_shared<const F>(function);
+    post_kernel_ = detail::post_kernel<F>;
+    post_target_ = target;
+  }
+
+  /// Runs the draws and returns what was done. The pass is then empty and may be filled again.
+  PassStatistics run(const Workers& workers);
+
+ private:
+  template <class S>
+  void add(const S& shader, const VertexView& vertices, std::shared_ptr<const Indices> indices, const DrawState& state) {
+    HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<typename S::template Attributes<float>>));
+    add_draw(detail::kernels_of<S>(), std::make_shared<const S>(shader), vertices, std::move(indices), state);
+  }
+  void add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> shader, const VertexView& vertices,
+                std::shared_ptr<const Indices> indices, const DrawState& state);
+
+  void run_vertex_stage(const Workers& workers, PassStatistics& statistics);
+  std::vector<std::vector<Segment>> split_into_chunks() const;
+  void run_tiles(const Workers& workers, bool first, bool last, PassStatistics& statistics);
+  void run_tile(int index, bool first, bool last, PassStatistics& statistics) const;
+  void draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
+  void keep_between_flushes();
+
+  Frame frame_;
+  ColorTarget color_;
+  DepthTarget depth_;
+  PassOptions options_;
+  std::shared_ptr<const void> post_function_;
+  PostKernel post_kernel_ = nullptr;
+  ColorTarget post_target_;
+  std::vector<std::byte> color_spill_, depth_spill_;  ///< hold a target that has no image, from flush to flush
+};
+
+}  // namespace halfspace

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shade. In: packets of a tile, each lane with the triangle it shows. Out: linear colours, and for shaders that ask,
+// keep masks and depths. A packet may show one triangle, a few, or a different one in every lane: the values of each
+// are merged into the lanes that show it, and the shader runs once.
+#pragma once
+
+#include <bit>
+#include <cmath>
+
+#include "raster/tile.h"
+#include "raster/visibility.h"
+#include "shading/contract.h"
+
+namespace halfspace {
+
+/// Packets that a fragment kernel shades in one call.
+inline constexpr int kFragmentBatch = 16;
+
+/// Colours, and where the shader decides them keep masks and depths, of a batch.
+struct FragmentOutput {
+  alignas(64) std::array<Real, 4 * kFragmentBatch> color;  ///< r, g, b, a of packet i from 4·i
+  alignas(64) std::array<Real, kFragmentBatch> depth;      ///< if the shader writes depth
+  std::array<uint16_t, kFragmentBatch> keep;               ///< bit a lane; if the shader discards
+};
+
+struct FragmentBatch {
+  const Frame* frame;
+  int tile_x0, tile_y0;         ///< window coordinates of the tile
+  const TriangleId* ids;        ///< the tile's triangle of each pixel, or null: uniform_id everywhere
+  TriangleId uniform_id;
+  const PacketMask* packets;
+  int count;                    ///< ≤ kFragmentBatch
+  FragmentOutput* out;
+};
+
+/// What the kernels read of one triangle, wherever it is kept.
+struct TriangleSource {
+  const Triangle* triangle;
+  std::array<const ScreenVertex*, 3> vertex;
+  std::array<const float*, 3> varyings;
+  const float* flat_varyings;   ///< the provoking vertex's row
+  const float* primitive;       ///< the primitive stage's row, or null
+};
+TriangleSource find_triangle(const Frame& frame, TriangleId id);
+
+/// Shades all pixels of the tile that wait for it, and writes their colours.
+void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
+
+/// Shades one triangle's packets now: late depth test where needed, blending, colour write.
+void shade_immediate(const Frame& frame, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile, PassStatistics& statistics);
+
+namespace detail {
+
+/// The floats of one triangle that interpolation needs, before they are spread to lanes. Vertex 0 is the one with the
+/// smallest 1/w.
+template <std::size_t N>
+struct TriangleScalars {
+  float x0, y0, e1x, e1y, e2x, e2y, area, q0, q1, q2, q_unscale;
+  std::array<float, N> value0, delta1, delta2;
+};
+
+/// V is the Varyings struct with R = float, which tells how each component is interpolated.
+template <class V, std::size_t N = kComponents<V>>
+HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
+  std::size_t a = 0;
+  if (s.vertex[1]->inv_w < s.vertex[a]->inv_w) a = 1;
+  if (s.vertex[2]->inv_w < s.vertex[a]->inv_w) a = 2;
+  const std::size_t b = a == 2 ? 0 : a + 1;
+  const std::size_t c = b == 2 ? 0 : b + 1;
+  const ScreenVertex &v0 = *s.vertex[a], &v1 = *s.vertex[b], &v2 = *s.vertex[c];
+  TriangleScalars<N> r;
+  r.x0 = static_cast<float>(v0.x);
+  r.y0 = static_cast<float>(v0.y);
+  r.e1x = static_cast<float>(v1.x - v0.x);
+  r.e1y = static_cast<float>(v1.y - v0.y);
+  r.e2x = static_cast<float>(v2.x - v0.x);
+  r.e2y = static_cast<float>(v2.y - v0.y);
+  r.area = static_cast<float>(int64_t{v1.x - v0.x} * (v2.y - v0.y) - int64_t{v1.y - v0.y} * (v2.x - v0.x));
+  // 1/w over a power of two near the largest: products with areas up to 2^47 then neither overflow nor underflow.
+  const float q_max = max(v0.inv_w, max(v1.inv_w, v2.inv_w));
+  const int32_t exponent = as_int(q_max) & 0x7f800000;
+  const float q_scale = as_real(0x7f000000 - exponent);  // 2^(127 − e) for q_max in [2^(e−127), 2^(e−126))
+  r.q_unscale = as_real(exponent);
+  r.q0 = v0.inv_w * q_scale;
+  r.q1 = v1.inv_w * q_scale;
+  r.q2 = v2.inv_w * q_scale;
+  for (std::size_t i = 0; i < N; ++i) {
+    const bool flat = kInterpolations<V>[i] == Interpolation::flat;
+    r.value0[i] = flat ? s.flat_varyings[i] : s.varyings[a][i];
+    r.delta1[i] = flat ? 0.0f : s.varyings[b][i] - s.varyings[a][i];
+    r.delta2[i] = flat ? 0.0f : s.varyings[c][i] - s.varyings[a][i];
+  }
+  return r;
+}
+
+/// Everything a packet needs of its triangles, lane by lane. P: components of the primitive stage's struct.
+template <std::size_t N, std::size_t P>
+struct PacketTriangles {
+  TriangleLanes<Real> lanes;
+  ComponentLanes<Real, N> components;
+  std::array<Real, P> primitive;
+  Mask front;
+  Real z0, z_edge1, z_edge2, z_low, z_high;       // as DepthPlane of the visibility stage
+  Real zx0, zy0, z_e1x, z_e1y, z_e2x, z_e2y;
+};
+
+/// Spreads one triangle's values: the packet's first to all lanes, so that lanes without a triangle compute with finite
+/// values; the others to the lanes of m.
+template <class V, bool first, std::size_t N, std::size_t P>
+HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketTriangles<N, P>& out) {
+  const TriangleSource source = find_triangle(frame, id);
+  const TriangleScalars<N> s = triangle_scalars<V>(source);
+  const auto put = [m](Real& to, float value) {
+    if constexpr (first) {
+      to = Real(value);
+    } else {
+      to = select(m, Real(value), to);
+    }
+  };
+  TriangleLanes<Real>& t = out.lanes;
+  put(t.x0, s.x0);
+  put(t.y0, s.y0);
+  put(t.e1x, s.e1x);
+  put(t.e1y, s.e1y);
+  put(t.e2x, s.e2x);
+  put(t.e2y, s.e2y);
+  put(t.area, s.area);
+  put(t.q0, s.q0);
+  put(t.q1, s.q1);
+  put(t.q2, s.q2);
+  put(t.q_unscale, s.q_unscale);
+  for (std::size_t i = 0; i < N; ++i) {
+    put(out.components.value0[i], s.value0[i]);
+    put(out.components.delta1[i], s.delta1[i]);
+    put(out.components.delta2[i], s.delta2[i]);
+  }
+  for (std::size_t i = 0; i < P; ++i) put(out.primitive[i], source.primitive[i]);
+  const Triangle& tri = *source.triangle;
+  const Draw& draw = frame.draws[frame.chunks[id >> 16].segments[tri.segment()].draw];
+  out.front = first ? Mask(tri.is(kFrontFacing)) : select(m, Mask(tri.is(kFrontFacing)), out.front);
+  put(out.z0, tri.z0);
+  put(out.z_edge1, tri.z_edge1);
+  put(out.z_edge2, tri.z_edge2);
+  put(out.z_low, draw.depth_low);
+  put(out.z_high, clamp(tri.z_max, draw.depth_low, draw.depth_high));
+  put(out.zx0, static_cast<float>(tri.x[0]));
+  put(out.zy0, static_cast<float>(tri.y[0]));
+  put(out.z_e1x, static_cast<float>(tri.x[1] - tri.x[0]));
+  put(out.z_e1y, static_cast<float>(tri.y[1] - tri.y[0]));
+  put(out.z_e2x, static_cast<float>(tri.x[2] - tri.x[0]));
+  put(out.z_e2y, static_cast<float>(tri.y[2] - tri.y[0]));
+}
+
+/// The window depth at the packet's pixels, within an ulp of what the visibility stage tested.
+template <std::size_t N, std::size_t P>
+HS_INLINE Real packet_depth(const PacketTriangles<N, P>& t, Real x_sub, Real y_sub) {
+  const Real dx = x_sub - t.zx0, dy = y_sub - t.zy0;
+  const Real e1 = difference_of_products(dx, t.z_e2y, dy, t.z_e2x);
+  const Real e2 = difference_of_products(t.z_e1x, dy, t.z_e1y, dx);
+  return clamp(fma(e1, t.z_edge1, fma(e2, t.z_edge2, t.z0)), t.z_low, t.z_high);
+}
+
+/// Merges the triangles of a packet: one, few or many.
+template <class V, std::size_t N, std::size_t P>
+HS_INLINE void gather_triangles(const FragmentBatch& batch, PacketMask packet, PacketTriangles<N, P>& t) {
+  if (batch.ids == nullptr) {
+    merge_triangle<V, true>(*batch.frame, batch.uniform_id, Mask(true), t);
+    return;
+  }
+  const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
+  const Int packet_ids = load<Int>(ids);
+  uint32_t rest = packet.lanes;
+  const auto next = [&] { return ids[std::countr_zero(rest)]; };
+  const auto showing = [&](TriangleId id) { return packet_ids == Int(std::bit_cast<int32_t>(id)); };
+  TriangleId id = next();
+  merge_triangle<V, true>(*batch.frame, id, Mask(true), t);
+  for (rest &= ~bits(showing(id)); rest != 0; rest &= ~bits(showing(id))) {
+    id = next();
+    merge_triangle<V, false>(*batch.frame, id, showing(id), t);
+  }
+}
+
+/// Sets up the Pixel of a packet and interpolates its varyings.
+template <class S, std::size_t N, std::size_t P>
+HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const PacketTriangles<N, P>& t, Pixel<Real>& px) {
+  using V = typename S::template Varyings<Real>;
+  const Int ix = lane_x() + x, iy = lane_y() + y;
+  const Real x_sub = to_real<Real>(ix * kSubPixels + kSubPixels / 2);
+  const Real y_sub = to_real<Real>(iy * kSubPixels + kSubPixels / 2);
+  px.dx = x_sub - t.lanes.x0;
+  px.dy = y_sub - t.lanes.y0;
+  px.triangle = &t.lanes;
+  px.component_lanes = &t.components;
+  px.weights = weights_at(t.lanes, px.dx, px.dy);
+  px.x = to_real<Real>(ix) + Real(0.5f);
+  px.y = to_real<Real>(iy) + Real(0.5f);
+  px.quad_x = to_real<Real>(ix & Int(1));
+  px.quad_y = to_real<Real>(iy & Int(1));
+  px.z = packet_depth(t, x_sub, y_sub);
+  px.inv_w = px.weights.denominator / t.lanes.area * t.lanes.q_unscale;
+  px.front_facing = t.front;
+  return interpolate_all<V>(px.weights, t.components, std::make_index_sequence<N>());
+}
+
+template <class S>
+void fragment_kernel(const void* shader, const FragmentBatch& batch) {
+  using V = typename S::template Varyings<Real>;
+  using F = typename S::template Varyings<float>;
+  using P = PrimitiveOf<S, Real>;
+  constexpr std::size_t n = kComponents<V>;
+  constexpr std::size_t p = HasPrimitive<S> ? kComponents<P> : 0;
+  const S& s = *static_cast<const S*>(shader);
+  for (int i = 0; i < batch.count; ++i) {
+    const PacketMask packet = batch.packets[i];
+    PacketTriangles<n, p> triangles;
+    gather_triangles<F>(batch, packet, triangles);
+    Pixel<Real> px;
+    const V in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), triangles, px);
+    P face{};
+    if constexpr (p != 0) face = from_components<P, Real>(triangles.primitive);
+    const auto fragment = call_fragment<S, Real>(s, in, face, px);
+    const auto at = static_cast<std::size_t>(i);
+    for (int k = 0; k < 4; ++k) batch.out->color[4 * at + static_cast<std::size_t>(k)] = fragment.color[k];
+    if constexpr (kDiscards<S>) batch.out->keep[at] = static_cast<uint16_t>(bits(fragment.keep));
+    if constexpr (kWritesDepth<S>) batch.out->depth[at] = fragment.depth;
+  }
+}
+
+template <class S>
+void visibility_kernel(const void* shader, const VisibilityPacket& packet) {
+  using V = typename S::template Varyings<Real>;
+  using F = typename S::template Varyings<float>;
+  PacketTriangles<kComponents<V>, 0> triangles;
+  merge_triangle<F, true>(*packet.frame, packet.id, Mask(true), triangles);
+  Pixel<Real> px;
+  const V in = begin_packet<S>(packet.x, packet.y, triangles, px);
+  px.z = load<Real>(packet.depth);
+  const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
+  store(packet.depth, v.depth);
+  *packet.lanes &= bits(v.keep);
+}
+
+}  // namespace detail
+
+}  // namespace halfspace

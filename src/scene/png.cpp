@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/png.h"
+
+#include <spng.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+#include "scene/image_limits.h"
+
+namespace halfspace {
+
+namespace {
+
+struct FreeContext {
+  void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using Context = std::unique_ptr<spng_ctx, FreeContext>;
+
+Context new_context(int flags) {
+  Context context(spng_ctx_new(flags));
+  if (context == nullptr) throw std::bad_alloc();
+  return context;
+}
+
+void check_encoding(int result) {
+  if (result != SPNG_OK) throw OutputError(std::string("PNG encoder: ") + spng_strerror(result));
+}
+
+void check_decoding(int result, const std::string& name) {
+  if (result == SPNG_EMEM) throw std::bad_alloc();
+  if (result != SPNG_OK) throw InputError(name + ": damaged PNG (" + spng_strerror(result) + "); expected a whole PNG file");
+}
+
+// The texels without their alpha.
+std::vector<std::byte> rgb_bytes(std::span<const glm::u8vec4> texels) {
+  std::vector<std::byte> bytes(3 * texels.size());
+  std::byte* out = bytes.data();
+  for (const glm::u8vec4& t : texels) {
+    for (int i = 0; i < 3; ++i) *out++ = static_cast<std::byte>(t[i]);
+  }
+  return bytes;
+}
+
+Image<glm::u8vec4> round_to_8_bits(const std::vector<glm::u16vec4>& wide, int width, int height) {
+  Image<glm::u8vec4> image(width, height);
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    for (int c = 0; c < 4; ++c) image.data()[i][c] = static_cast<uint8_t>((wide[i][c] * 255u + 32767u) / 65535u);
+  }
+  return image;
+}
+
+// Deflate shrinks at most 1032 times: a file that claims more than that is a bomb or is cut.
+void check_claimed_size(const spng_ihdr& header, std::size_t file_bytes, const std::string& name) {
+  check_image_size(header.width, header.height, name);
+  constexpr uint64_t kChannels[] = {1, 1, 3, 1, 2, 1, 4};
+  const uint64_t bits = uint64_t{header.bit_depth} * kChannels[header.color_type];
+  const uint64_t raw = (uint64_t{header.width} * bits + 7) / 8 * header.height;
+  if (raw / 1032 > file_bytes) {
+    throw InputError(name + ": claims " + std::to_string(header.width) + "x" + std::to_string(header.height) + " pixels but has only " +
+                     std::to_string(file_bytes) + " bytes; expected a whole PNG file");
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image) {
+  HS_CHECK(!image.empty());
+  const bool opaque = std::ranges::all_of(image.texels(), [](const glm::u8vec4& t) { return t.w == 255; });
+  const Context context = new_context(SPNG_CTX_ENCODER);
+  spng_ihdr header = {};
+  header.width = static_cast<uint32_t>(image.width());
+  header.height = static_cast<uint32_t>(image.height());
+  header.bit_depth = 8;
+  header.color_type = opaque ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
+  check_encoding(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
+  check_encoding(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 3));
+  check_encoding(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB));
+  check_encoding(spng_set_ihdr(context.get(), &header));
+  check_encoding(spng_set_srgb(context.get(), 0));
+  if (opaque) {
+    const std::vector<std::byte> rgb = rgb_bytes(image.texels());
+    check_encoding(spng_encode_image(context.get(), rgb.data(), rgb.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));
+  } else {
+    const std::size_t bytes = image.texels().size_bytes();
+    check_encoding(spng_encode_image(context.get(), image.data(), bytes, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));
+  }
+  std::size_t size = 0;
+  int error = 0;
+  const std::unique_ptr<void, decltype(&std::free)> buffer(spng_get_png_buffer(context.get(), &size, &error), &std::free);
+  check_encoding(error);
+  const std::byte* first = static_cast<const std::byte*>(buffer.get());
+  return std::vector<std::byte>(first, first + size);
+}
+
+bool is_png(std::span<const std::byte> bytes) {
+  constexpr unsigned char kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
+}
+
+Image<glm::u8vec4> decode_png(std::span<const std::byte> bytes, const std::string& name) {
+  const Context context = new_context(0);
+  check_decoding(spng_set_image_limits(context.get(), kMostImageEdge, kMostImageEdge), name);
+  check_decoding(spng_set_chunk_limits(context.get(), std::size_t{1} << 26, std::size_t{1} << 26), name);
+  check_decoding(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()), name);
+  spng_ihdr header = {};
+  check_decoding(spng_get_ihdr(context.get(), &header), name);
+  check_claimed_size(header, bytes.size(), name);
+  const int width = static_cast<int>(header.width);
+  const int height = static_cast<int>(header.height);
+  if (header.bit_depth == 16) {
+    std::vector<glm::u16vec4> wide(std::size_t{header.width} * header.height);
+    const std::size_t size = wide.size() * sizeof(glm::u16vec4);
+    check_decoding(spng_decode_image(context.get(), wide.data(), size, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS), name);
+    return round_to_8_bits(wide, width, height);
+  }
+  Image<glm::u8vec4> image(width, height);
+  const std::size_t size = image.texels().size_bytes();
+  check_decoding(spng_decode_image(context.get(), image.data(), size, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS), name);
+  return image;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "core/image.h"
+#include "core/parallel.h"
+
+namespace halfspace {
+
+/// An invented Earth as an equirectangular colour map (8-bit sRGB codes, alpha 255): continents with mountains,
+/// climate by latitude and height, tinted seas, polar caps. Row 0 is the north, the left and right edge meet, and the
+/// poles are not pinched, because everything is computed on the sphere of uv_sphere. The bits depend on the size
+/// alone. width, height ≥ 1.
+Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& workers);
+
+}  // namespace halfspace

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Accuracy (against std's functions of double, whose own error of 1e-16 does not count here), same bits at
+// every width, exact special values, and monotony.
+//
+// The bounds are what was measured over these sweeps, rounded up to the next half ulp: the functions are deterministic,
+// so a sweep gives the same figure on every machine. A correctly rounded function would have 0.5.
+#include "core/lane_math.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <vector>
+
+namespace halfspace {
+namespace {
+
+constexpr float kInf = detail::kInfinity;
+constexpr float kNaN = detail::kNaN;
+
+/// |got − want| in units of the last place that a float of want's size has.
+double ulps(float got, double want) {
+  if (std::isnan(want)) return std::isnan(got) ? 0.0 : 1e30;
+  if (std::fabs(want) >= 0x1.ffffffp127) return std::fabs(got) == kInf && (got > 0) == (want > 0) ? 0.0 : 1e30;
+  if (!std::isfinite(got)) return 1e30;
+  const int exponent = want == 0 ? -200 : std::ilogb(want);
+  return std::fabs(static_cast<double>(got) - want) / std::ldexp(1.0, std::max(exponent, -126) - 23);
+}
+
+struct Worst {
+  double ulp = 0.0;
+  float x = 0.0f, y = 0.0f;
+  void add(double error, float at_x, float at_y = 0.0f) {
+    if (error > ulp) *this = {error, at_x, at_y};
+  }
+};
+std::ostream& operator<<(std::ostream& out, const Worst& w) { return out << w.ulp << " ulp at " << w.x << ", " << w.y; }
+
+/// The largest error over about 2^22 floats of every exponent in [lo, hi] (both of one sign).
+template <class F, class G>
+Worst sweep(F f, G reference, float lo, float hi) {
+  Worst worst;
+  const int64_t a = std::min(as_int(abs(lo)), as_int(abs(hi))), b = std::max(as_int(abs(lo)), as_int(abs(hi)));
+  const int64_t stride = std::max<int64_t>(1, (b - a) >> 22) | 1;
+  for (int64_t i = a; i <= b; i += stride) {
+    const float x = std::copysign(as_real(static_cast<int32_t>(i)), std::signbit(lo) ? -1.0f : 1.0f);
+    worst.add(ulps(f(x), reference(static_cast<double>(x))), x);
+  }
+  return worst;
+}
+
+/// The largest error over 2^22 floats spread evenly over [lo, hi].
+template <class F, class G>
+Worst sweep_evenly(F f, G reference, float lo, float hi) {
+  Worst worst;
+  const double step = (static_cast<double>(hi) - static_cast<double>(lo)) / (1 << 22);
+  for (int i = 0; i <= (1 << 22); ++i) {
+    const float x = static_cast<float>(static_cast<double>(lo) + i * step);
+    worst.add(ulps(f(x), reference(static_cast<double>(x))), x);
+  }
+  return worst;
+}
+
+void expect_at_most(double bound, const char* what, const Worst& worst) {
+  if (std::getenv("HALFSPACE_PRINT_ULPS") != nullptr) std::cout << what << ": " << worst << '\n';
+  EXPECT_LE(worst.ulp, bound) << what << ": " << worst;
+}
+
+TEST(LaneMath, Exp2IsWithinAnUlp) {
+  const auto f = [](float x) { return exp2(x); };
+  const auto g = [](double x) { return std::exp2(x); };
+  expect_at_most(1.0, "exp2 positive", sweep(f, g, 0.0f, 200.0f));
+  expect_at_most(1.0, "exp2 negative", sweep(f, g, -0.0f, -200.0f));
+  expect_at_most(1.0, "exp2 even", sweep_evenly(f, g, -151.0f, 128.5f));
+  for (int n = -149; n < 128; ++n) EXPECT_EQ(exp2(static_cast<float>(n)), std::ldexp(1.0f, n));
+}
+
+TEST(LaneMath, ExpIsWithinAnUlp) {
+  const auto f = [](float x) { return exp(x); };
+  const auto g = [](double x) { return std::exp(x); };
+  expect_at_most(1.0, "exp positive", sweep(f, g, 0.0f, 100.0f));
+  expect_at_most(1.0, "exp negative", sweep(f, g, -0.0f, -120.0f));
+  expect_at_most(1.0, "exp even", sweep_evenly(f, g, -105.0f, 89.5f));
+}
+
+TEST(LaneMath, LogarithmsAreWithinOneAndAHalfUlp) {
+  const auto f2 = [](float x) { return log2(x); };
+  const auto g2 = [](double x) { return std::log2(x); };
+  const auto fe = [](float x) { return log(x); };
+  const auto ge = [](double x) { return std::log(x); };
+  expect_at_most(1.5, "log2 all", sweep(f2, g2, 0x1p-149f, 0x1.fffffep127f));
+  expect_at_most(1.5, "log2 near 1", sweep(f2, g2, 0.5f, 2.0f));
+  expect_at_most(1.5, "log all", sweep(fe, ge, 0x1p-149f, 0x1.fffffep127f));
+  expect_at_most(1.5, "log near 1", sweep(fe, ge, 0.5f, 2.0f));
+  for (int n = -149; n < 128; ++n) EXPECT_EQ(log2(std::ldexp(1.0f, n)), static_cast<float>(n));
+}
+
+/// Bases of every exponent and near 1, each with exponents that put the result anywhere in the floats' range.
+Worst sweep_pow(float y_limit, int count) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Worst worst;
+  for (int i = 0; i < count; ++i) {
+    const double spread = i % 2 == 0 ? 127.0 : std::exp2(unit(random) * 12.0 - 12.0);
+    const float x = static_cast<float>(std::exp2(spread * unit(random)));
+    if (x == 1.0f || x == 0.0f || x == kInf) continue;
+    const double log_x = std::log2(static_cast<double>(x));
+    const float y = static_cast<float>(std::clamp(150.0 * unit(random) / log_x, -static_cast<double>(y_limit), static_cast<double>(y_limit)));
+    worst.add(ulps(pow(x, y), std::pow(static_cast<double>(x), static_cast<double>(y))), x, y);
+  }
+  return worst;
+}
+
+TEST(LaneMath, PowIsWithinOneAndAHalfUlp) {
+  expect_at_most(1.5, "pow |y| <= 8", sweep_pow(8.0f, 1 << 21));
+  expect_at_most(1.5, "pow |y| <= 1e5", sweep_pow(1e5f, 1 << 21));
+  expect_at_most(1.5, "pow any y", sweep_pow(1e9f, 1 << 21));
+  // The exponents of light: a highlight's sharpness, gamma.
+  for (const float y : {2.4f, 1.0f / 2.4f, 2.2f, 5.0f, 32.0f, 1000.0f}) {
+    const auto g = [y](double x) { return std::pow(x, static_cast<double>(y)); };
+    expect_at_most(1.5, "pow of cosines", sweep([y](float x) { return pow(x, y); }, g, 0x1p-20f, 1.0f));
+  }
+}
+
+TEST(LaneMath, SineAndCosineAreWithinTwoUlp) {
+  const auto f = [](float x) { return sin(x); };
+  const auto g = [](double x) { return std::sin(x); };
+  const auto fc = [](float x) { return cos(x); };
+  const auto gc = [](double x) { return std::cos(x); };
+  expect_at_most(2.0, "sin all exponents", sweep(f, g, 0.0f, 1e4f));
+  expect_at_most(2.0, "sin even", sweep_evenly(f, g, -1e4f, 1e4f));
+  expect_at_most(2.0, "sin near 0", sweep_evenly(f, g, -7.0f, 7.0f));
+  expect_at_most(2.0, "cos all exponents", sweep(fc, gc, 0.0f, 1e4f));
+  expect_at_most(2.0, "cos even", sweep_evenly(fc, gc, -1e4f, 1e4f));
+  expect_at_most(2.0, "cos near 0", sweep_evenly(fc, gc, -7.0f, 7.0f));
+}
+
+TEST(LaneMath, SineAndCosineKeepTheirRelativeAccuracyAtZeros) {
+  Worst worst;
+  for (int n = 1; n <= 6366; ++n) {  // every multiple of π/2 up to 1e4, and the floats beside it
+    float x = static_cast<float>(n * 1.57079632679489661923);
+    for (int k = 0; k < 8; ++k) x = std::nextafter(x, 0.0f);
+    for (int k = 0; k < 16; ++k, x = std::nextafter(x, 1e9f)) {
+      const double want_sin = std::sin(static_cast<double>(x)), want_cos = std::cos(static_cast<double>(x));
+      worst.add(std::max(ulps(sin(x), want_sin), ulps(cos(x), want_cos)), x);
+    }
+  }
+  expect_at_most(2.0, "sin, cos at their zeros", worst);
+}
+
+TEST(LaneMath, SineOfLargeArgumentsStaysInBoundsAndFadesSlowly) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> large(1e4f, 1e6f);
+  for (int i = 0; i < 1 << 18; ++i) {
+    const float x = large(random);
+    // n is found to 636620·2^-23 = 0.08, so that the polynomials are used up to 0.12 beyond their interval ±0.785, where
+    // their error grows to 3e-7; the reduced angle itself stays good to a few ulp.
+    EXPECT_NEAR(static_cast<double>(sin(x)), std::sin(static_cast<double>(x)), 1e-6) << x;
+    EXPECT_NEAR(static_cast<double>(cos(x)), std::cos(static_cast<double>(x)), 1e-6) << x;
+  }
+  for (float x = 1e6f; x < kInf; x *= 1.7f) {
+    EXPECT_LE(std::fabs(sin(x)), 1.0f);
+    EXPECT_LE(std::fabs(cos(x)), 1.0f);
+  }
+}
+
+TEST(LaneMath, ArcTangentIsWithinTwoAndAHalfUlp) {
+  const auto g = [](double x) { return std::atan(x); };
+  expect_at_most(2.5, "atan", sweep([](float x) { return atan(x); }, g, 0x1p-149f, 0x1.fffffep127f));
+  expect_at_most(2.5, "atan of -1 ... 1", sweep_evenly([](float x) { return atan(x); }, g, -1.0f, 1.0f));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
+  Worst worst;
+  for (int i = 0; i < 1 << 21; ++i) {
+    const float x = unit(random) * std::exp2(20.0f * unit(random)), y = unit(random);
+    worst.add(ulps(atan2(y, x), std::atan2(static_cast<double>(y), static_cast<double>(x))), x, y);
+  }
+  expect_at_most(2.5, "atan2", worst);
+}
+
+TEST(LaneMath, ArcSineAndCosineAreWithinTwoAndAHalfUlp) {
+  const auto s = [](float x) { return asin(x); };
+  const auto c = [](float x) { return acos(x); };
+  const auto gs = [](double x) { return std::asin(x); };
+  const auto gc = [](double x) { return std::acos(x); };
+  expect_at_most(2.5, "asin", sweep(s, gs, 0.0f, 1.0f));
+  expect_at_most(2.5, "asin even", sweep_evenly(s, gs, -1.0f, 1.0f));
+  expect_at_most(2.5, "acos", sweep(c, gc, 0.0f, 1.0f));
+  expect_at_most(2.5, "acos even", sweep_evenly(c, gc, -1.0f, 1.0f));
+}
+
+void expect_value(const char* what, float got, float want) {
+  if (std::isnan(want)) EXPECT_TRUE(std::isnan(got)) << what << " is " << got;
+  else EXPECT_EQ(as_int(got), as_int(want)) << what << " is " << got;
+}
+#define EXPECT_VALUE(expression, want) expect_value(#expression, expression, want)
+
+TEST(LaneMath, SpecialValuesOfExponentialAndLogarithm) {
+  for (const float x : {0.0f, -0.0f}) {
+    EXPECT_VALUE(exp2(x), 1.0f);
+    EXPECT_VALUE(exp(x), 1.0f);
+    EXPECT_VALUE(log2(x), -kInf);
+    EXPECT_VALUE(log(x), -kInf);
+  }
+  EXPECT_VALUE(exp2(-kInf), 0.0f);
+  EXPECT_VALUE(exp2(kInf), kInf);
+  EXPECT_VALUE(exp2(128.0f), kInf);
+  EXPECT_VALUE(exp2(-1e30f), 0.0f);
+  EXPECT_VALUE(exp2(kNaN), kNaN);
+  EXPECT_VALUE(exp(-kInf), 0.0f);
+  EXPECT_VALUE(exp(1e30f), kInf);
+  EXPECT_VALUE(exp(kNaN), kNaN);
+  for (const float x : {-1.0f, -0x1p-149f, -kInf, kNaN}) {
+    EXPECT_VALUE(log2(x), kNaN);
+    EXPECT_VALUE(log(x), kNaN);
+  }
+  EXPECT_VALUE(log2(kInf), kInf);
+  EXPECT_VALUE(log(kInf), kInf);
+  EXPECT_VALUE(log2(1.0f), 0.0f);
+  EXPECT_VALUE(log(1.0f), 0.0f);
+}
+
+TEST(LaneMath, SpecialValuesOfPowFollowIeeeForBasesFromZero) {
+  const float values[] = {0.0f, -0.0f, 0x1p-149f, 0.5f, 1.0f, 2.0f, 3.0f, 0x1.fffffep127f, kInf, kNaN, -1.0f, -0.5f, -kInf};
+  for (const float x : values) {
+    for (const float y : values) {
+      const bool negative = x < 0.0f && y != 0.0f;
+      const double want = negative ? static_cast<double>(kNaN) : std::pow(x == 0.0f ? 0.0 : static_cast<double>(x), static_cast<double>(y));
+      // 0, 1, inf and NaN exactly; a number as near as pow is.
+      const bool exact = !std::isfinite(want) || want == 0.0 || want == 1.0;
+      EXPECT_LE(ulps(pow(x, y), want), exact ? 0.0 : 1.0) << x << " to the " << y;
+      const float from_double = static_cast<float>(pow(static_cast<double>(x), static_cast<double>(y)));
+      EXPECT_EQ(std::isnan(from_double), std::isnan(pow(x, y))) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(LaneMath, SpecialValuesOfAnglesFollowIeee) {
+  const float values[] = {0.0f, -0.0f, 1.0f, -1.0f, kInf, -kInf, kNaN, 0x1p-149f, -0x1p-149f, 0x1.fffffep127f};
+  for (const float y : values) {
+    for (const float x : values) {
+      const double want = std::atan2(static_cast<double>(y), static_cast<double>(x));
+      expect_value("atan2", atan2(y, x), static_cast<float>(want));
+    }
+  }
+  for (const float x : {kInf, -kInf, kNaN}) {
+    EXPECT_VALUE(sin(x), kNaN);
+    EXPECT_VALUE(cos(x), kNaN);
+    EXPECT_VALUE(asin(x), kNaN);
+    EXPECT_VALUE(acos(x), kNaN);
+  }
+  EXPECT_VALUE(sin(0.0f), 0.0f);
+  EXPECT_VALUE(sin(-0.0f), -0.0f);
+  EXPECT_VALUE(cos(-0.0f), 1.0f);
+  EXPECT_VALUE(asin(-0.0f), -0.0f);
+  EXPECT_VALUE(asin(1.0f), 1.57079637f);
+  EXPECT_VALUE(acos(1.0f), 0.0f);
+  EXPECT_VALUE(acos(-1.0f), 3.14159274f);
+  EXPECT_VALUE(acos(1.0000001f), kNaN);
+}
+
+/// Does f never step down from one tested float to the next?
+template <class F>
+void expect_monotone(const char* what, F f, float lo, float hi) {
+  float last = f(lo);
+  for (float x = lo; x <= hi; x = std::nextafter(x, kInf)) {
+    const float value = f(x);
+    ASSERT_GE(value, last) << what << " steps down at " << x;
+    last = value;
+  }
+}
+
+TEST(LaneMath, NeverStepsDownWhereItShouldRise) {
+  // Every float of one octave or more; the reduction repeats itself in the others.
+  expect_monotone("exp2", [](float x) { return exp2(x); }, 1.0f, 2.0f);
+  expect_monotone("exp", [](float x) { return exp(x); }, 1.0f, 2.0f);
+  expect_monotone("log2", [](float x) { return log2(x); }, 0.7f, 3.0f);
+  expect_monotone("log", [](float x) { return log(x); }, 0.7f, 3.0f);
+  expect_monotone("square root by pow", [](float x) { return pow(x, 0.5f); }, 1.0f, 4.0f);
+  expect_monotone("gamma by pow", [](float x) { return pow(x, 2.4f); }, 0.25f, 1.0f);
+}
+
+/// f at width W against f at width 1, over floats of all bit patterns (NaN may differ in its bits).
+template <int W, class F>
+void expect_width_agrees(const char* what, F f) {
+  constexpr uint32_t kStride = 9973;  // prime: meets all low bits, signs and exponents; 430,000 inputs
+  uint32_t pattern = 0;
+  for (int packet = 0; packet < (1 << 22) / (W * 10); ++packet) {
+    RealN<W> x, y;
+    for (int i = 0; i < W; ++i, pattern += kStride) {
+      set_lane(x, i, as_real(static_cast<int32_t>(pattern)));
+      // Exponents for pow and abscissae for atan2: half of them ordinary, half of them anything.
+      const uint32_t other = pattern * 2654435761u;
+      set_lane(y, i, other & 1 ? as_real(static_cast<int32_t>(other)) : static_cast<float>(static_cast<int32_t>(other)) * 0x1p-24f);
+    }
+    const RealN<W> got = f(x, y);
+    for (int i = 0; i < W; ++i) {
+      const float want = f(lane(x, i), lane(y, i));
+      if (std::isnan(want) && std::isnan(lane(got, i))) continue;
+      ASSERT_EQ(as_int(lane(got, i)), as_int(want)) << what << " at width " << W << " of " << lane(x, i) << ", " << lane(y, i);
+    }
+  }
+}
+template <class F>
+void expect_all_widths_agree(const char* what, F f) {
+  expect_width_agrees<4>(what, f);
+  expect_width_agrees<8>(what, f);
+  expect_width_agrees<16>(what, f);
+}
+
+TEST(LaneMath, LanesHoldTheBitsOfFloat) {
+  expect_all_widths_agree("exp2", [](auto x, auto) { return exp2(x); });
+  expect_all_widths_agree("exp", [](auto x, auto) { return exp(x); });
+  expect_all_widths_agree("log2", [](auto x, auto) { return log2(x); });
+  expect_all_widths_agree("log", [](auto x, auto) { return log(x); });
+  expect_all_widths_agree("pow", [](auto x, auto y) { return pow(x, y); });
+  expect_all_widths_agree("pow of |x|", [](auto x, auto y) { return pow(abs(x), y); });
+  expect_all_widths_agree("sin", [](auto x, auto) { return sin(x); });
+  expect_all_widths_agree("cos", [](auto x, auto) { return cos(x); });
+  expect_all_widths_agree("sin of y", [](auto, auto y) { return sin(y); });
+  expect_all_widths_agree("cos of y", [](auto, auto y) { return cos(y); });
+  expect_all_widths_agree("atan2", [](auto x, auto y) { return atan2(x, y); });
+  expect_all_widths_agree("atan", [](auto x, auto) { return atan(x); });
+  expect_all_widths_agree("asin", [](auto x, auto) { return asin(x); });
+  expect_all_widths_agree("acos", [](auto x, auto) { return acos(x); });
+}
+
+/// The bits themselves, so that another compiler, optimisation level or CPU cannot differ unseen. They change only
+/// when a function's arithmetic is changed on purpose.
+TEST(LaneMath, BitsAreTheCommittedOnes) {
+  uint64_t hash = 14695981039346656037u;
+  const auto add = [&hash](float value) {
+    const uint32_t b = std::isnan(value) ? 0x7fc00000u : static_cast<uint32_t>(as_int(value));
+    hash = (hash ^ b) * 1099511628211u;
+  };
+  for (uint32_t pattern = 0, n = 0; n < 1u << 17; ++n, pattern += 32749) {
+    const float x = as_real(static_cast<int32_t>(pattern));
+    const float y = static_cast<float>(static_cast<int32_t>(n) - (1 << 16)) * 0x1p-9f;
+    for (const float v : {exp2(y), exp(y), log2(x), log(x), pow(abs(x), y), sin(x), cos(x), sin(y), cos(y), atan2(x, y), asin(x), acos(x)}) add(v);
+  }
+  EXPECT_EQ(hash, 0u);
+}
+
+}  // namespace
+}  // namespace halfspace
