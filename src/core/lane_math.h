@@ -10,8 +10,9 @@
 //
 // How: split off the exponent or the quadrant exactly (Cody and Waite, Software Manual for the Elementary Functions,
 // 1980), then a minimax polynomial. The coefficients come from scripts/fit_polynomials.py, which also prints the error
-// of each fit. The errors named below are in units in the last place (ulp) of the correctly rounded float, measured by
-// tests/core/lane_math_test.cpp. NaN gives NaN unless said otherwise.
+// of each fit. The errors named below are in units in the last place (ulp) of the exact result (correct rounding: 0.5),
+// measured over every float of the domain, and by tests/core/lane_math_test.cpp over a part of them; pow's and atan2's
+// over random pairs only. NaN gives NaN unless said otherwise.
 //
 // Call them as halfspace::exp2(x), or from within namespace halfspace: a plain float argument elsewhere finds libm's.
 #pragma once
@@ -114,7 +115,7 @@ HS_INLINE R copy_sign_bits(R magnitude, IntOf<R> sign) {
 
 }  // namespace detail
 
-/// 2^x. Error at most 1 ulp (subnormal results too); exact for integers; never decreasing where tested.
+/// 2^x. Error at most 0.96 ulp (subnormal results too); exact for integers.
 /// Below −150 it gives 0, from 128 on infinity.
 template <Number R>
 HS_INLINE R exp2(R x) {
@@ -127,7 +128,7 @@ HS_INLINE R exp2(R x) {
   }
 }
 
-/// e^x. Error at most 1 ulp. Below −104 it gives 0, above 88.8 infinity.
+/// e^x. Error at most 1.02 ulp. Below −104 it gives 0, above 88.8 infinity.
 template <Number R>
 HS_INLINE R exp(R x) {
   if constexpr (std::is_same_v<R, double>) return std::exp(x);
@@ -141,7 +142,7 @@ HS_INLINE R exp(R x) {
   }
 }
 
-/// The logarithm to base 2. Error at most 1.5 ulp; exact for powers of two. log2(±0) = −inf, log2(inf) = inf, x < 0
+/// The logarithm to base 2. Error at most 1.04 ulp; exact for powers of two. log2(±0) = −inf, log2(inf) = inf, x < 0
 /// gives NaN.
 template <Number R>
 HS_INLINE R log2(R x) {
@@ -156,7 +157,7 @@ HS_INLINE R log2(R x) {
   }
 }
 
-/// The natural logarithm. Error at most 1.5 ulp. Zero, infinity and x < 0 as log2.
+/// The natural logarithm. Error at most 0.89 ulp. Zero, infinity and x < 0 as log2.
 template <Number R>
 HS_INLINE R log(R x) {
   if constexpr (std::is_same_v<R, double>) return std::log(x);
@@ -171,7 +172,7 @@ HS_INLINE R log(R x) {
   }
 }
 
-/// x^y for x >= 0. Error at most 1.5 ulp wherever the result is a float, for any y (subnormal results too).
+/// x^y for x >= 0. Error at most 1.2 ulp wherever the result is a float, for any y (1.07 found; subnormal results too).
 ///
 /// pow(x, 0) = 1 and pow(1, y) = 1 for every x and y, NaN included; pow(0, y) = 0 for y > 0 and inf for y < 0;
 /// infinities as in IEEE 754. Unlike std::pow, x < 0 gives NaN for every y but 0, also where y is an integer; −0
@@ -201,7 +202,7 @@ struct SinCos {
   R sin, cos;
 };
 
-/// sin and cos of x radians. Error at most 2 ulp for |x| <= 1e4, at the zeros too: π/2 is taken off in three parts, the
+/// sin and cos of x radians. Error at most 1.54 ulp for |x| <= 1e4, at the zeros too: π/2 is taken off in three parts, the
 /// first of them without rounding. Up to |x| = 1e6 the absolute error is below 1e-6; beyond, the result is in [−1, 1] but
 /// has nothing to do with x. ±infinity gives NaN. sin is odd (sin(−0) = −0), cos even, bit by bit.
 template <Number R>
@@ -236,7 +237,7 @@ HS_INLINE R cos(R x) {
   return sin_cos(x).cos;
 }
 
-/// The angle of the point (x, y), in [−π, π] rounded to float. Error at most 2.5 ulp. Zeros and infinities as in
+/// The angle of the point (x, y), in [−π, π] rounded to float. Error at most 1.5 ulp (1.39 found). Zeros and infinities as in
 /// IEEE 754: atan2(±0, +0) = ±0, atan2(±0, −0) = ±π, atan2(±inf, inf) = ±π/4. The sign is y's.
 template <Number R>
 HS_INLINE R atan2(R y, std::type_identity_t<R> x) {
@@ -259,7 +260,7 @@ HS_INLINE R atan2(R y, std::type_identity_t<R> x) {
   }
 }
 
-/// The arc tangent, in [−π/2, π/2]. Error at most 2.5 ulp.
+/// The arc tangent, in [−π/2, π/2]. Error at most 1.4 ulp.
 template <Number R>
 HS_INLINE R atan(R x) {
   return atan2(x, R(1.0f));
@@ -276,7 +277,7 @@ HS_INLINE R asin_tail(R z) {
 
 }  // namespace detail
 
-/// The arc sine, in [−π/2, π/2]. Error at most 2.5 ulp; |x| > 1 gives NaN. From 1/2 on, asin(x) = π/2 − 2·asin(sqrt((1 − x)/2)).
+/// The arc sine, in [−π/2, π/2]. Error at most 2.37 ulp; |x| > 1 gives NaN. From 1/2 on, asin(x) = π/2 − 2·asin(sqrt((1 − x)/2)).
 template <Number R>
 HS_INLINE R asin(R x) {
   if constexpr (std::is_same_v<R, double>) return std::asin(x);
@@ -290,7 +291,7 @@ HS_INLINE R asin(R x) {
   }
 }
 
-/// The arc cosine, in [0, π]. Error at most 2.5 ulp; |x| > 1 gives NaN.
+/// The arc cosine, in [0, π]. Error at most 1.13 ulp; |x| > 1 gives NaN.
 template <Number R>
 HS_INLINE R acos(R x) {
   if constexpr (std::is_same_v<R, double>) return std::acos(x);

@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-struct SinCos {
+struct SinCosDouble {
   double sin, cos;
 };
 
@@ -19,7 +19,7 @@ namespace detail {
 
 // sin and cos of hi + lo, |hi| ≤ π/4, |lo| ≤ ulp(hi): Taylor polynomials; the first term left out is below
 // (π/4)^19/19! = 9e-20 for the sine and (π/4)^18/18! = 2e-18 for the cosine.
-inline SinCos sincos_small(double hi, double lo) {
+inline SinCosDouble sincos_small(double hi, double lo) {
   const double z = hi * hi;
   double s = 1.0 / 355687428096000.0;  // 1/17!
   s = std::fma(s, z, -1.0 / 1307674368000.0);
@@ -47,7 +47,7 @@ inline SinCos sincos_small(double hi, double lo) {
 }  // namespace detail
 
 /// Sine and cosine of `turns` full turns (1 is 360°), |turns| < 2^50; within 1 ulp of the true value.
-inline SinCos sincos_turns(double turns) {
+inline SinCosDouble sincos_turns(double turns) {
   const double quarters = std::rint(4.0 * turns);
   const double rest = std::fma(-0.25, quarters, turns);  // exact: |rest| ≤ 1/8 and a multiple of turns' last bit
   // 2π in two doubles; the second is 2π − (double)2π.
@@ -55,7 +55,7 @@ inline SinCos sincos_turns(double turns) {
   constexpr double kLow = 2.4492935982947064e-16;
   const double hi = kHigh * rest;
   const double lo = std::fma(kHigh, rest, -hi) + kLow * rest;
-  const SinCos r = detail::sincos_small(hi, lo);
+  const SinCosDouble r = detail::sincos_small(hi, lo);
   // + 0.0 turns a negative zero into zero.
   switch (static_cast<long long>(quarters) & 3) {
     case 0: return {r.sin + 0.0, r.cos + 0.0};
@@ -66,6 +66,6 @@ inline SinCos sincos_turns(double turns) {
 }
 
 /// The same of an angle in radians (one rounding more: the division by 2π).
-inline SinCos sincos_radians(double radians) { return sincos_turns(radians / (2.0 * std::numbers::pi)); }
+inline SinCosDouble sincos_radians(double radians) { return sincos_turns(radians / (2.0 * std::numbers::pi)); }
 
 }  // namespace halfspace

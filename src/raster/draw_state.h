@@ -15,8 +15,19 @@ struct Rect {
   friend bool operator==(const Rect&, const Rect&) = default;
 };
 
+/// The pixels in both; width or height <= 0 where there are none.
+constexpr Rect intersect(const Rect& a, const Rect& b) {
+  const int x0 = a.x > b.x ? a.x : b.x, y0 = a.y > b.y ? a.y : b.y;
+  const int x1 = a.x + a.width < b.x + b.width ? a.x + a.width : b.x + b.width;
+  const int y1 = a.y + a.height < b.y + b.height ? a.y + a.height : b.y + b.height;
+  return {x0, y0, x1 - x0, y1 - y0};
+}
+
 enum class CompareOp : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class CullMode : uint8_t { none, front, back, front_and_back };
+constexpr bool is_culled(CullMode mode, bool front_facing) {
+  return mode == CullMode::front_and_back || mode == (front_facing ? CullMode::front : CullMode::back);
+}
 enum class Winding : uint8_t { counter_clockwise, clockwise };
 enum class ProvokingVertex : uint8_t { last, first };
 

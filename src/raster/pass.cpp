@@ -25,10 +25,6 @@ std::size_t bytes_of(const Chunk& c) {
 
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
 
-PixelBounds intersect(const PixelBounds& a, const PixelBounds& b) {
-  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
 void check_rect(const Rect& r, int smallest) {
   HS_CHECK_OP(r.width, >=, smallest);
   HS_CHECK_OP(r.height, >=, smallest);
@@ -69,11 +65,12 @@ void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> sh
   const Rect viewport = state.viewport.value_or(whole);
   check_rect(viewport, 1);
   d.viewport = make_viewport(viewport, state.depth);
-  d.bounds = intersect(to_bounds(whole), to_bounds(viewport));
+  Rect bounds = intersect(whole, viewport);
   if (state.scissor) {
     check_rect(*state.scissor, 0);
-    d.bounds = intersect(d.bounds, to_bounds(*state.scissor));
+    bounds = intersect(bounds, *state.scissor);
   }
+  d.bounds = to_bounds(bounds);
   d.depth_low = std::min(state.depth.range_near, state.depth.range_far);
   d.depth_high = std::max(state.depth.range_near, state.depth.range_far);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;

@@ -43,16 +43,6 @@ float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, 
   return static_cast<float>(offset);
 }
 
-bool culls(const DrawState& s, bool front) {
-  switch (s.cull) {
-    case CullMode::none: return false;
-    case CullMode::front: return front;
-    case CullMode::back: return !front;
-    case CullMode::front_and_back: return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 PixelBounds pixel_bounds(const Triangle& t, const PixelBounds& b) {
@@ -71,7 +61,7 @@ Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<cons
   const int64_t area = e1x * e2y - e1y * e2x;
   if (area == 0) return Cull::degenerate;
   const bool front = (area > 0) == (draw.state.front == Winding::counter_clockwise);
-  if (culls(draw.state, front)) return Cull::face;
+  if (is_culled(draw.state.cull, front)) return Cull::face;
 
   // Order: counter-clockwise, starting at the smallest depth; among equals at the first submitted.
   std::array<std::size_t, 3> order{0, 1, 2};

@@ -4,26 +4,13 @@
 #include <algorithm>
 #include <bit>
 
+#include "raster/compare.h"
 #include "raster/edge.h"
 #include "raster/setup.h"
 
 namespace halfspace {
 
 namespace {
-
-HS_INLINE Mask compare(CompareOp op, Real z, Real stored) {
-  switch (op) {
-    case CompareOp::never: return Mask(false);
-    case CompareOp::less: return z < stored;
-    case CompareOp::equal: return z == stored;
-    case CompareOp::less_equal: return z <= stored;
-    case CompareOp::greater: return z > stored;
-    case CompareOp::not_equal: return z != stored;
-    case CompareOp::greater_equal: return z >= stored;
-    case CompareOp::always: return Mask(true);
-  }
-  return Mask(false);
-}
 
 // Can no value in [low, high] pass against any stored value in [block_min, block_max]?
 bool never_passes(CompareOp op, float low, float high, float block_min, float block_max) {

@@ -23,7 +23,7 @@ glm::dmat4 perspective(double fovy, double aspect, double a, double b) {
   HS_CHECK_OP(fovy, >, 0.0);
   HS_CHECK_OP(fovy, <, std::numbers::pi);
   HS_CHECK_OP(aspect, >, 0.0);
-  const SinCos half = sincos_radians(0.5 * fovy);
+  const SinCosDouble half = sincos_radians(0.5 * fovy);
   glm::dmat4 m(0.0);
   m[0][0] = half.cos / (half.sin * aspect);
   m[1][1] = half.cos / half.sin;

@@ -195,14 +195,14 @@ Longitudes longitudes_of(int width) {
   const std::size_t padded = static_cast<std::size_t>((width + kLanes - 1) / kLanes * kLanes);
   Longitudes l{std::vector<float>(padded), std::vector<float>(padded)};
   for (std::size_t x = 0; x < padded; ++x) {
-    const SinCos a = sincos_turns((static_cast<double>(x) + 0.5) / width);
+    const SinCosDouble a = sincos_turns((static_cast<double>(x) + 0.5) / width);
     l.cos[x] = static_cast<float>(a.cos);
     l.minus_sin[x] = static_cast<float>(-a.sin);
   }
   return l;
 }
 
-void fill_row(std::span<glm::u8vec4> out, const Longitudes& longitudes, const SinCos& latitude) {
+void fill_row(std::span<glm::u8vec4> out, const Longitudes& longitudes, const SinCosDouble& latitude) {
   const int width = static_cast<int>(out.size());
   const Real y(static_cast<float>(latitude.cos));
   const Real ring(static_cast<float>(latitude.sin));

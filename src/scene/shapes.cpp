@@ -9,7 +9,7 @@ namespace halfspace {
 namespace {
 
 // A point of the unit sphere at latitude v, longitude u, with its texture coordinates and the direction of east.
-void add_sphere_vertex(Mesh& mesh, double radius, const SinCos& v_angle, const SinCos& u_angle, glm::dvec2 uv) {
+void add_sphere_vertex(Mesh& mesh, double radius, const SinCosDouble& v_angle, const SinCosDouble& u_angle, glm::dvec2 uv) {
   // + 0.0: no negative zeros, so that equal points have equal bits.
   const glm::dvec3 n(v_angle.sin * u_angle.cos + 0.0, v_angle.cos + 0.0, -v_angle.sin * u_angle.sin + 0.0);
   mesh.positions.emplace_back(radius * n);
@@ -21,7 +21,7 @@ void add_sphere_vertex(Mesh& mesh, double radius, const SinCos& v_angle, const S
 // Row i of the sphere's vertices: one per sector at a pole, one more than sectors elsewhere.
 void add_sphere_row(Mesh& mesh, int i, int latitudes, int longitudes, double radius) {
   const double v = static_cast<double>(i) / latitudes;
-  const SinCos v_angle = sincos_turns(0.5 * v);
+  const SinCosDouble v_angle = sincos_turns(0.5 * v);
   if (i == 0 || i == latitudes) {
     for (int j = 0; j < longitudes; ++j) {
       const double u = (j + 0.5) / longitudes;

@@ -3,8 +3,10 @@
 // Accuracy (against std's functions of double, whose own error of 1e-16 does not count here), same bits at
 // every width, exact special values, and monotony.
 //
-// The bounds are what was measured over these sweeps, rounded up to the next half ulp: the functions are deterministic,
-// so a sweep gives the same figure on every machine. A correctly rounded function would have 0.5.
+// The bounds of functions of one argument are the largest errors over every float of the domain (measured once, 3e9
+// values), rounded up: the sweeps here, of some 2^22 floats each, cannot exceed them, for the bits are the same on every
+// machine. Those of pow and atan2, which only random pairs can try, have 0.1 ulp of room over the largest error found.
+// Correct rounding would have 0.5.
 #include "core/lane_math.h"
 
 #include <gtest/gtest.h>
@@ -70,32 +72,32 @@ void expect_at_most(double bound, const char* what, const Worst& worst) {
   EXPECT_LE(worst.ulp, bound) << what << ": " << worst;
 }
 
-TEST(LaneMath, Exp2IsWithinAnUlp) {
+TEST(LaneMath, Exp2IsWithinOneUlp) {
   const auto f = [](float x) { return exp2(x); };
   const auto g = [](double x) { return std::exp2(x); };
-  expect_at_most(1.0, "exp2 positive", sweep(f, g, 0.0f, 200.0f));
-  expect_at_most(1.0, "exp2 negative", sweep(f, g, -0.0f, -200.0f));
-  expect_at_most(1.0, "exp2 even", sweep_evenly(f, g, -151.0f, 128.5f));
+  expect_at_most(0.96, "exp2 positive", sweep(f, g, 0.0f, 200.0f));
+  expect_at_most(0.96, "exp2 negative", sweep(f, g, -0.0f, -200.0f));
+  expect_at_most(0.96, "exp2 even", sweep_evenly(f, g, -151.0f, 128.5f));
   for (int n = -149; n < 128; ++n) EXPECT_EQ(exp2(static_cast<float>(n)), std::ldexp(1.0f, n));
 }
 
-TEST(LaneMath, ExpIsWithinAnUlp) {
+TEST(LaneMath, ExpIsWithinOneUlp) {
   const auto f = [](float x) { return exp(x); };
   const auto g = [](double x) { return std::exp(x); };
-  expect_at_most(1.0, "exp positive", sweep(f, g, 0.0f, 100.0f));
-  expect_at_most(1.0, "exp negative", sweep(f, g, -0.0f, -120.0f));
-  expect_at_most(1.0, "exp even", sweep_evenly(f, g, -105.0f, 89.5f));
+  expect_at_most(1.02, "exp positive", sweep(f, g, 0.0f, 100.0f));
+  expect_at_most(1.02, "exp negative", sweep(f, g, -0.0f, -120.0f));
+  expect_at_most(1.02, "exp even", sweep_evenly(f, g, -105.0f, 89.5f));
 }
 
-TEST(LaneMath, LogarithmsAreWithinOneAndAHalfUlp) {
+TEST(LaneMath, LogarithmsAreWithinOneUlp) {
   const auto f2 = [](float x) { return log2(x); };
   const auto g2 = [](double x) { return std::log2(x); };
   const auto fe = [](float x) { return log(x); };
   const auto ge = [](double x) { return std::log(x); };
-  expect_at_most(1.5, "log2 all", sweep(f2, g2, 0x1p-149f, 0x1.fffffep127f));
-  expect_at_most(1.5, "log2 near 1", sweep(f2, g2, 0.5f, 2.0f));
-  expect_at_most(1.5, "log all", sweep(fe, ge, 0x1p-149f, 0x1.fffffep127f));
-  expect_at_most(1.5, "log near 1", sweep(fe, ge, 0.5f, 2.0f));
+  expect_at_most(1.04, "log2 all", sweep(f2, g2, 0x1p-149f, 0x1.fffffep127f));
+  expect_at_most(1.04, "log2 near 1", sweep(f2, g2, 0.5f, 2.0f));
+  expect_at_most(0.89, "log all", sweep(fe, ge, 0x1p-149f, 0x1.fffffep127f));
+  expect_at_most(0.89, "log near 1", sweep(fe, ge, 0.5f, 2.0f));
   for (int n = -149; n < 128; ++n) EXPECT_EQ(log2(std::ldexp(1.0f, n)), static_cast<float>(n));
 }
 
@@ -115,28 +117,28 @@ Worst sweep_pow(float y_limit, int count) {
   return worst;
 }
 
-TEST(LaneMath, PowIsWithinOneAndAHalfUlp) {
-  expect_at_most(1.5, "pow |y| <= 8", sweep_pow(8.0f, 1 << 21));
-  expect_at_most(1.5, "pow |y| <= 1e5", sweep_pow(1e5f, 1 << 21));
-  expect_at_most(1.5, "pow any y", sweep_pow(1e9f, 1 << 21));
+TEST(LaneMath, PowIsWithinOneUlpAndAFifth) {
+  expect_at_most(1.2, "pow |y| <= 8", sweep_pow(8.0f, 1 << 21));
+  expect_at_most(1.2, "pow |y| <= 1e5", sweep_pow(1e5f, 1 << 21));
+  expect_at_most(1.2, "pow any y", sweep_pow(1e9f, 1 << 21));
   // The exponents of light: a highlight's sharpness, gamma.
   for (const float y : {2.4f, 1.0f / 2.4f, 2.2f, 5.0f, 32.0f, 1000.0f}) {
     const auto g = [y](double x) { return std::pow(x, static_cast<double>(y)); };
-    expect_at_most(1.5, "pow of cosines", sweep([y](float x) { return pow(x, y); }, g, 0x1p-20f, 1.0f));
+    expect_at_most(1.2, "pow of cosines", sweep([y](float x) { return pow(x, y); }, g, 0x1p-20f, 1.0f));
   }
 }
 
-TEST(LaneMath, SineAndCosineAreWithinTwoUlp) {
+TEST(LaneMath, SineAndCosineAreWithinOneAndAHalfUlp) {
   const auto f = [](float x) { return sin(x); };
   const auto g = [](double x) { return std::sin(x); };
   const auto fc = [](float x) { return cos(x); };
   const auto gc = [](double x) { return std::cos(x); };
-  expect_at_most(2.0, "sin all exponents", sweep(f, g, 0.0f, 1e4f));
-  expect_at_most(2.0, "sin even", sweep_evenly(f, g, -1e4f, 1e4f));
-  expect_at_most(2.0, "sin near 0", sweep_evenly(f, g, -7.0f, 7.0f));
-  expect_at_most(2.0, "cos all exponents", sweep(fc, gc, 0.0f, 1e4f));
-  expect_at_most(2.0, "cos even", sweep_evenly(fc, gc, -1e4f, 1e4f));
-  expect_at_most(2.0, "cos near 0", sweep_evenly(fc, gc, -7.0f, 7.0f));
+  expect_at_most(1.54, "sin all exponents", sweep(f, g, 0.0f, 1e4f));
+  expect_at_most(1.54, "sin even", sweep_evenly(f, g, -1e4f, 1e4f));
+  expect_at_most(1.54, "sin near 0", sweep_evenly(f, g, -7.0f, 7.0f));
+  expect_at_most(1.54, "cos all exponents", sweep(fc, gc, 0.0f, 1e4f));
+  expect_at_most(1.54, "cos even", sweep_evenly(fc, gc, -1e4f, 1e4f));
+  expect_at_most(1.54, "cos near 0", sweep_evenly(fc, gc, -7.0f, 7.0f));
 }
 
 TEST(LaneMath, SineAndCosineKeepTheirRelativeAccuracyAtZeros) {
@@ -149,7 +151,7 @@ TEST(LaneMath, SineAndCosineKeepTheirRelativeAccuracyAtZeros) {
       worst.add(std::max(ulps(sin(x), want_sin), ulps(cos(x), want_cos)), x);
     }
   }
-  expect_at_most(2.0, "sin, cos at their zeros", worst);
+  expect_at_most(1.54, "sin, cos at their zeros", worst);
 }
 
 TEST(LaneMath, SineOfLargeArgumentsStaysInBoundsAndFadesSlowly) {
@@ -168,10 +170,10 @@ TEST(LaneMath, SineOfLargeArgumentsStaysInBoundsAndFadesSlowly) {
   }
 }
 
-TEST(LaneMath, ArcTangentIsWithinTwoAndAHalfUlp) {
+TEST(LaneMath, ArcTangentIsWithinOneAndAHalfUlp) {
   const auto g = [](double x) { return std::atan(x); };
-  expect_at_most(2.5, "atan", sweep([](float x) { return atan(x); }, g, 0x1p-149f, 0x1.fffffep127f));
-  expect_at_most(2.5, "atan of -1 ... 1", sweep_evenly([](float x) { return atan(x); }, g, -1.0f, 1.0f));
+  expect_at_most(1.4, "atan", sweep([](float x) { return atan(x); }, g, 0x1p-149f, 0x1.fffffep127f));
+  expect_at_most(1.4, "atan of -1 ... 1", sweep_evenly([](float x) { return atan(x); }, g, -1.0f, 1.0f));
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
   Worst worst;
@@ -179,7 +181,7 @@ TEST(LaneMath, ArcTangentIsWithinTwoAndAHalfUlp) {
     const float x = unit(random) * std::exp2(20.0f * unit(random)), y = unit(random);
     worst.add(ulps(atan2(y, x), std::atan2(static_cast<double>(y), static_cast<double>(x))), x, y);
   }
-  expect_at_most(2.5, "atan2", worst);
+  expect_at_most(1.5, "atan2", worst);
 }
 
 TEST(LaneMath, ArcSineAndCosineAreWithinTwoAndAHalfUlp) {
@@ -187,10 +189,10 @@ TEST(LaneMath, ArcSineAndCosineAreWithinTwoAndAHalfUlp) {
   const auto c = [](float x) { return acos(x); };
   const auto gs = [](double x) { return std::asin(x); };
   const auto gc = [](double x) { return std::acos(x); };
-  expect_at_most(2.5, "asin", sweep(s, gs, 0.0f, 1.0f));
-  expect_at_most(2.5, "asin even", sweep_evenly(s, gs, -1.0f, 1.0f));
-  expect_at_most(2.5, "acos", sweep(c, gc, 0.0f, 1.0f));
-  expect_at_most(2.5, "acos even", sweep_evenly(c, gc, -1.0f, 1.0f));
+  expect_at_most(2.37, "asin", sweep(s, gs, 0.0f, 1.0f));
+  expect_at_most(2.37, "asin even", sweep_evenly(s, gs, -1.0f, 1.0f));
+  expect_at_most(1.13, "acos", sweep(c, gc, 0.0f, 1.0f));
+  expect_at_most(1.13, "acos even", sweep_evenly(c, gc, -1.0f, 1.0f));
 }
 
 void expect_value(const char* what, float got, float want) {
@@ -232,7 +234,7 @@ TEST(LaneMath, SpecialValuesOfPowFollowIeeeForBasesFromZero) {
       const double want = negative ? static_cast<double>(kNaN) : std::pow(x == 0.0f ? 0.0 : static_cast<double>(x), static_cast<double>(y));
       // 0, 1, inf and NaN exactly; a number as near as pow is.
       const bool exact = !std::isfinite(want) || want == 0.0 || want == 1.0;
-      EXPECT_LE(ulps(pow(x, y), want), exact ? 0.0 : 1.0) << x << " to the " << y;
+      EXPECT_LE(ulps(pow(x, y), want), exact ? 0.0 : 1.2) << x << " to the " << y;
       const float from_double = static_cast<float>(pow(static_cast<double>(x), static_cast<double>(y)));
       EXPECT_EQ(std::isnan(from_double), std::isnan(pow(x, y))) << x << ' ' << y;
     }
@@ -342,7 +344,7 @@ TEST(LaneMath, BitsAreTheCommittedOnes) {
     const float y = static_cast<float>(static_cast<int32_t>(n) - (1 << 16)) * 0x1p-9f;
     for (const float v : {exp2(y), exp(y), log2(x), log(x), pow(abs(x), y), sin(x), cos(x), sin(y), cos(y), atan2(x, y), asin(x), acos(x)}) add(v);
   }
-  EXPECT_EQ(hash, 0u);
+  EXPECT_EQ(hash, 9039259078911432705u);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `halfspace info`: what this program is and what it found on this machine.
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/cpu.h"
+#include "core/lanes.h"
+#include "core/parallel.h"
+#include "halfspace/commands.h"
+#include "scene/image_io.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr const char* kCompiler =
+#ifdef __clang__
+    "Clang " __clang_version__;
+#else
+    "GCC " __VERSION__;
+#endif
+
+void print_text() {
+  const std::filesystem::path module = find_image_module();
+  std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
+            << "build         " << build_description() << ", " << kCompiler << '\n'
+            << "cores         " << Workers::cores() << '\n'
+            << "image module  " << (module.empty() ? "absent: maps can be read from PNG only" : module.string()) << '\n';
+}
+
+void print_json() {
+  const std::filesystem::path module = find_image_module();
+  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", HALFSPACE_ARCH},       {"lanes", kLanes},
+                                 {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_module", nullptr}};
+  if (!module.empty()) json["image_module"] = module.string();
+  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("info", "Tell version, instruction set, compiler, cores and modules");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "As JSON");
+  command->footer("Examples:\n  halfspace info\n  halfspace info --json");
+  command->callback([json] { *json ? print_json() : print_text(); });
+}
+
+}  // namespace halfspace

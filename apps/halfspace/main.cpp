@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command line program: parses, runs one subcommand, and turns what went wrong into one line on standard error
+// and an exit code.
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/check.h"
+#include "halfspace/commands.h"
+#include "scene/nearest_name.h"
+#include "scene/output_file.h"
+
+namespace halfspace {
+
+namespace {
+
+// An interrupted program leaves no partial file, and dies of the signal as its parent expects. The handler is used
+// once (SA_RESETHAND), so the second raise, delivered when it returns, ends the program.
+extern "C" void on_signal(int signal) {
+  remove_unfinished_output();
+  std::raise(signal);
+}
+
+void handle_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction old = {};
+    if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;  // nohup, background jobs
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+// The names that begin with "--" in a parser's options, or the names of its subcommands.
+std::vector<std::string> names_of(const CLI::App& app, bool options) {
+  std::vector<std::string> names;
+  if (options) {
+    for (const CLI::Option* option : app.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  } else {
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  }
+  return names;
+}
+
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return halfspace::suggestion(wrong, views);
+}
+
+std::string see_help(const CLI::App& program) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  return "; see 'halfspace " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help'";
+}
+
+// What remained unparsed, as an error that names the nearest right word.
+UsageError unknown_argument(const CLI::App& program) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& app = chosen.empty() ? program : *chosen.front();
+  std::vector<std::string> rest = app.remaining();
+  if (rest.empty()) rest = program.remaining();
+  const std::string word = rest.empty() ? "" : rest.front();
+  if (word.starts_with("-")) return UsageError("unknown option '" + word + "'" + suggestion(word.substr(0, word.find('=')), names_of(app, true)));
+  if (chosen.empty()) return UsageError("unknown command '" + word + "'" + suggestion(word, names_of(program, false)));
+  return UsageError(app.get_name() + ": unexpected argument '" + word + "'" + see_help(program));
+}
+
+// CLI11's messages may have several lines.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  while (text.ends_with(' ') || text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+int report(ExitCode code, const char* what) {
+  std::fprintf(stderr, "halfspace: %s\n", what);
+  return code;
+}
+
+// CLI11 shows a flag's default value in braces; here it stands for "no value given".
+class HelpFormatter : public CLI::Formatter {
+  std::string make_option_name(const CLI::Option* option, bool positional) const override {
+    const std::string name = CLI::Formatter::make_option_name(option, positional);
+    return name.substr(0, name.find('{'));
+  }
+};
+
+void parse_and_run(CLI::App& program, int argc, char** argv) {
+  program.name("halfspace");
+  program.require_subcommand(0, 1);
+  program.set_help_flag("-h,--help", "Print this help and exit");
+  program.set_version_flag("--version", "halfspace " HALFSPACE_VERSION, "Print the version and exit");
+  program.formatter(std::make_shared<HelpFormatter>());
+  program.get_formatter()->column_width(28);
+  add_render_command(program);
+  add_info_command(program);
+  program.footer("halfspace COMMAND --help tells more of a command.");
+  if (argc < 2) throw UsageError("no command; expected one of render, info (see 'halfspace --help')");
+  program.parse(argc, argv);
+}
+
+int run(int argc, char** argv) {
+  handle_signals();
+  CLI::App program("Halfspace: a renderer that runs on the CPU alone");
+  try {
+    parse_and_run(program, argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    return report(kUsage, unknown_argument(program).what());
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() != 0) return report(kUsage, (one_line(e.what()) + see_help(program)).c_str());
+    program.exit(e, std::cout, std::cerr);  // --help
+  } catch (const UsageError& e) {
+    return report(kUsage, e.what());
+  } catch (const InputError& e) {
+    return report(kBadInput, e.what());
+  } catch (const OutputError& e) {
+    return report(kCannotWrite, e.what());
+  } catch (const std::bad_alloc&) {
+    return report(kBadInput, "not enough memory; expected a smaller --size or map");
+  }
+  std::cout.flush();
+  if (!std::cout) return report(kCannotWrite, "standard output: cannot write");
+  return kOk;
+}
+
+}  // namespace
+
+}  // namespace halfspace
+
+int main(int argc, char** argv) { return halfspace::run(argc, argv); }

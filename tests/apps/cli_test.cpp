@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The program as its users meet it: run as a process, judged by exit code, streams and files. CMake gives the
+// program's place as HALFSPACE_PROGRAM.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace halfspace {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code = -1;  // −1: died of a signal
+  int signal = 0;
+  std::string out, err;
+};
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+int lines_of(const std::string& text) { return static_cast<int>(std::ranges::count(text, '\n')); }
+
+// Runs the program in a directory of its own, which is gone when the test ends.
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "halfspace-cli-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    root = name;
+    directory = root / "here";
+    fs::create_directory(directory);
+  }
+  void TearDown() override { fs::remove_all(root); }
+
+  pid_t start(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> words = {HALFSPACE_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& w : words) argv.push_back(w.data());
+    argv.push_back(nullptr);
+    const std::string out = (root / "out").string(), err = (root / "err").string();
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    const int o = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int e = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (::chdir(directory.c_str()) != 0 || ::dup2(o, STDOUT_FILENO) < 0 || ::dup2(e, STDERR_FILENO) < 0) ::_exit(99);
+    ::execv(argv[0], argv.data());
+    ::_exit(99);
+  }
+
+  Outcome finish(pid_t child) const {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0, text_of(root / "out"), text_of(root / "err")};
+    return o;
+  }
+
+  Outcome run(const std::vector<std::string>& arguments) const { return finish(start(arguments)); }
+
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+  }
+
+  fs::path root, directory;
+};
+
+// ---- wrong input: the exit code and the one line ---------------------------------------------------------------
+
+struct Mistake {
+  const char* name;
+  std::vector<std::string> arguments;
+  int exit_code;
+  const char* line;  // without "halfspace: " and the line's end
+};
+
+void PrintTo(const Mistake& m, std::ostream* os) { *os << m.name; }
+
+const Mistake kMistakes[] = {
+    {"NoCommand", {}, 2, "no command; expected one of render, info (see 'halfspace --help')"},
+    {"WrongCommand", {"rendr", "earth"}, 2, "unknown command 'rendr'; did you mean 'render'?"},
+    {"FarCommand", {"paint"}, 2, "unknown command 'paint'; expected one of render, info"},
+    {"WrongOption", {"render", "earth", "--siez", "3x3"}, 2, "unknown option '--siez'; did you mean '--size'?"},
+    {"OptionOfNoCommand", {"--jsn"}, 2, "unknown option '--jsn'; expected one of --help, --version"},
+    {"NoScene", {"render"}, 2, "SCENE is required; see 'halfspace render --help'"},
+    {"TwoScenes", {"render", "earth", "moon"}, 2, "render: unexpected argument 'moon'; see 'halfspace render --help'"},
+    {"SizeWithoutX", {"render", "earth", "--size", "640"}, 2, "--size is '640'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeZero", {"render", "earth", "--size", "0x480"}, 2, "--size is '0x480'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeTooLarge", {"render", "earth", "--size", "640x16385"}, 2, "--size is '640x16385'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeNegative", {"render", "earth", "--size=-640x480"}, 2, "--size is '-640x480'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeOverflow", {"render", "earth", "--size", "99999999999x1"}, 2, "--size is '99999999999x1'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeTail", {"render", "earth", "--size", "640x480px"}, 2, "--size is '640x480px'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeMissing", {"render", "earth", "--size"}, 2, "--size: 1 required WxH missing; see 'halfspace render --help'"},
+    {"ThreadsZero", {"render", "earth", "--threads", "0"}, 2, "--threads is '0'; expected 1 to 1024"},
+    {"ThreadsNegative", {"render", "earth", "--threads=-2"}, 2, "--threads is '-2'; expected 1 to 1024"},
+    {"ThreadsWord", {"render", "earth", "--threads", "two"}, 2, "--threads is 'two'; expected 1 to 1024"},
+    {"StatsFormat", {"render", "earth", "--stats=xml"}, 2, "--stats is 'xml'; expected --stats or --stats=json"},
+    {"SetWithoutValue", {"render", "earth", "--set", "earth.color"}, 2, "--set is 'earth.color'; expected KEY=VALUE, for example earth.color=FILE"},
+    {"OutputFormat", {"render", "earth", "-o", "earth.jpg"}, 2, "-o is 'earth.jpg'; expected a name that ends in .png"},
+    {"NearScene", {"render", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
+    {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected earth"},
+    {"NearKey", {"render", "earth", "--set", "earth.colour=a.png"}, 3, "--set: unknown key 'earth.colour'; did you mean 'earth.color'?"},
+    {"FarKey", {"render", "earth", "--set", "x=1"}, 3, "--set: unknown key 'x'; expected earth.color"},
+    {"EmptyValue", {"render", "earth", "--set", "earth.color="}, 3, "--set: earth.color is empty; expected the name of an image file"},
+    {"NoMap", {"render", "earth", "--set", "earth.color=none.jpg"}, 3, "none.jpg: no such file; expected an image"},
+    {"MapIsADirectory", {"render", "earth", "--set", "earth.color=."}, 3, ".: is a directory; expected an image file"},
+    {"MapIsADevice", {"render", "earth", "--set", "earth.color=/dev/zero"}, 3, "/dev/zero: is no regular file; expected an image file"},
+    {"NoDirectory", {"render", "earth", "-o", "none/earth.png"}, 4, "none/earth.png: cannot write (there is no directory none)"},
+    {"OutputIsADirectory", {"render", "earth", "-o", ".."}, 4, "..: is a directory; expected a file name"},
+    {"FullDisk", {"render", "earth", "--size", "8x8", "-o", "/dev/full"}, 4, "/dev/full: cannot write (No space left on device)"},
+};
+
+class CliMistake : public Cli, public testing::WithParamInterface<Mistake> {};
+
+TEST_P(CliMistake, IsToldInOneLine) {
+  const Outcome o = run(GetParam().arguments);
+  EXPECT_EQ(o.exit_code, GetParam().exit_code);
+  EXPECT_EQ(o.err, std::string("halfspace: ") + GetParam().line + "\n");
+  EXPECT_EQ(o.out, "");
+  EXPECT_TRUE(files().empty()) << files().front() << " was left behind";
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, CliMistake, testing::ValuesIn(kMistakes), [](const auto& mistake) { return mistake.param.name; });
+
+TEST_F(Cli, AFileThatIsNoImageIsBadInput) {
+  std::ofstream(directory / "map.png") << "no picture";
+  const Outcome o = run({"render", "earth", "--set", "earth.color=map.png"});
+  EXPECT_EQ(o.exit_code, 3);
+  EXPECT_TRUE(o.err.starts_with("halfspace: map.png: is no image that can be read; expected PNG, ")) << o.err;
+  EXPECT_EQ(lines_of(o.err), 1);
+}
+
+// ---- what works ------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, RenderWritesTheSceneUnderItsName) {
+  const Outcome o = run({"render", "earth", "--size", "64x36"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(o.out + o.err, "") << "nothing is said where nothing was asked";
+  EXPECT_EQ(files(), std::vector<std::string>{"earth.png"});
+}
+
+TEST_F(Cli, ThreadsDoNotChangeTheFile) {
+  for (const char* n : {"1", "2", "7"}) EXPECT_EQ(run({"render", "earth", "--size", "200x120", "--threads", n, "-o", std::string(n) + ".png"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "2.png"));
+  EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "7.png"));
+}
+
+TEST_F(Cli, AColorMapIsUsed) {
+  EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "map.png"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "again.png", "--set", "earth.color=map.png"}).exit_code, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"again.png", "map.png"}));
+}
+
+TEST_F(Cli, StatisticsAsTextAndJson) {
+  const Outcome text = run({"render", "--stats", "earth", "--size", "64x36"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_TRUE(text.out.starts_with("earth, 64x36, ")) << text.out;
+  const Outcome json = run({"render", "earth", "--stats=json", "--size", "64x36"});
+  const auto parsed = nlohmann::json::parse(json.out);
+  EXPECT_EQ(parsed.at("width"), 64);
+  EXPECT_TRUE(parsed.at("counts").contains("fragments_shaded"));
+}
+
+TEST_F(Cli, Info) {
+  EXPECT_TRUE(run({"info"}).out.starts_with("halfspace "));
+  const auto parsed = nlohmann::json::parse(run({"info", "--json"}).out);
+  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_module"}) EXPECT_TRUE(parsed.contains(key)) << key;
+}
+
+TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
+  for (const char* command : {"render", "info"}) {
+    const Outcome o = run({command, "--help"});
+    EXPECT_EQ(o.exit_code, 0);
+    EXPECT_LE(lines_of(o.out), 24);
+    std::istringstream lines(o.out);
+    std::vector<std::string> tail;
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LE(line.size(), 80u) << line;
+      if (!line.empty()) tail.push_back(line);
+    }
+    ASSERT_GE(tail.size(), 3u);
+    EXPECT_EQ(tail[tail.size() - 3], "Examples:");
+    for (std::size_t i = tail.size() - 2; i < tail.size(); ++i) EXPECT_TRUE(tail[i].starts_with("  halfspace " + std::string(command))) << tail[i];
+  }
+}
+
+TEST_F(Cli, AFullStandardOutputIsTold) {
+  const std::string command = std::string(HALFSPACE_PROGRAM) + " info > /dev/full 2> " + (root / "err").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  EXPECT_EQ(text_of(root / "err"), "halfspace: standard output: cannot write\n");
+}
+
+// Interrupted at many moments, the program ends at once and leaves either the whole picture or nothing.
+TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (int delay_ms = 5; delay_ms < 400; delay_ms += 30) {
+      const pid_t child = start({"render", "earth", "--size", "1920x1080"});
+      std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+      ::kill(child, signal);
+      const auto sent = std::chrono::steady_clock::now();
+      const Outcome o = finish(child);
+      EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::milliseconds(1000));
+      EXPECT_TRUE(o.signal == signal || o.exit_code == 0);
+      const std::vector<std::string> left = files();
+      if (o.exit_code == 0) {
+        EXPECT_EQ(left, std::vector<std::string>{"earth.png"});
+      }
+      for (const std::string& name : left) {
+        EXPECT_EQ(name, "earth.png");
+        fs::remove(directory / name);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfspace

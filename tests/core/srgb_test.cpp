@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The sRGB tables against the curve in long double (64 bits; powl errs by less than 2^-62), whose distance to every
+// rounding boundary is checked to be far larger than that: the tables are then proven correctly rounded. Encoding is
+// tried on every float that has a code above 0.
+#include "core/srgb.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/half.h"
+
+namespace halfspace {
+namespace {
+
+static_assert(std::numeric_limits<long double>::digits >= 64);
+
+long double decode(long double v) { return v <= 0.04045L ? v / 12.92L : std::pow((v + 0.055L) / 1.055L, 2.4L); }
+long double encode(long double x) { return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L; }
+
+/// Where code c begins, as a real number: halfway between c − 1 and c.
+long double threshold(int c) { return decode((2 * c - 1) / 510.0L); }
+
+constexpr int32_t kOne = 0x3f800000;
+
+TEST(Srgb, DecodedValuesAreTheNearestFloats) {
+  for (int c = 1; c < 256; ++c) {
+    const float got = srgb_to_linear<float>(c);
+    const long double want = decode(c / 255.0L);
+    const long double below = (static_cast<long double>(got) + std::nextafter(got, 0.0f)) / 2;
+    const long double above = (static_cast<long double>(got) + std::nextafter(got, 2.0f)) / 2;
+    // The exact value lies between the two rounding boundaries with a margin that neither long double here (2^-62) nor
+    // the compiler's double in srgb.cpp (2^-50) can cross.
+    EXPECT_GT(want, below + want * 0x1p-40L) << c;
+    EXPECT_LT(want, above - want * 0x1p-40L) << c;
+  }
+  EXPECT_EQ(srgb_to_linear<float>(0), 0.0f);
+  EXPECT_EQ(srgb_to_linear<float>(255), 1.0f);
+}
+
+TEST(Srgb, EveryCodeSurvivesTheRoundTrip) {
+  for (int c = 0; c < 256; ++c) {
+    EXPECT_EQ(linear_to_srgb(srgb_to_linear<float>(c)), c);
+    EXPECT_EQ(linear_to_srgb(srgb_to_linear<double>(c)), c);
+    EXPECT_EQ(linear_to_unorm8(unorm8_to_linear(static_cast<float>(c))), c);
+    EXPECT_EQ(linear_to_unorm8(unorm8_to_linear(static_cast<double>(c))), c);
+  }
+}
+
+TEST(Srgb, NoThresholdIsNearAFloat) {
+  for (int c = 1; c < 256; ++c) {
+    const long double t = threshold(c);
+    const float nearest = static_cast<float>(t);
+    EXPECT_GT(std::fabs(static_cast<long double>(nearest) - t), t * 0x1p-40L) << c;
+  }
+}
+
+TEST(Srgb, EveryFloatEncodesToTheNearestCode) {
+  int code = 0;
+  float next = static_cast<float>(threshold(1));
+  const auto first_at_or_above = [](int c) {
+    const float f = static_cast<float>(threshold(c));
+    return static_cast<long double>(f) < threshold(c) ? std::nextafter(f, 2.0f) : f;
+  };
+  next = first_at_or_above(1);
+  int64_t wrong = 0;
+  for (int32_t i = 0x38000000; i <= kOne; i += 16) {  // 2^-15 … 1, every float
+    const RealN<16> x = as_real(iota<IntN<16>>() + i);
+    const IntN<16> got = linear_to_srgb(x);
+    for (int k = 0; k < 16 && i + k <= kOne; ++k) {
+      while (code < 255 && lane(x, k) >= next) next = ++code < 255 ? first_at_or_above(code + 1) : 2.0f;
+      wrong += lane(got, k) != code;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(code, 255);
+  for (int32_t i = 0; i < 0x38000000; i += 1009) ASSERT_EQ(linear_to_srgb(as_real(i)), 0);  // the rest: 0 to the eye of the clamp
+}
+
+TEST(Srgb, EveryHalfEncodesToTheRoundedCurve) {
+  for (int h = 0; h < 65536; ++h) {
+    const float x = half_to_float(static_cast<uint16_t>(h));
+    const long double held = x > 0 ? std::min(static_cast<long double>(x), 1.0L) : 0.0L;  // NaN: 0
+    EXPECT_EQ(linear_to_srgb(x), static_cast<int>(std::floor(encode(held) * 255 + 0.5L))) << x;
+  }
+}
+
+TEST(Srgb, UnormIsTheNearestCodeForEveryFloat) {
+  int64_t wrong = 0;
+  for (int32_t i = 0x3a000000; i <= kOne; i += 16) {  // 2^-11 … 1; 0.5/255 is 2^-9
+    const RealN<16> x = as_real(iota<IntN<16>>() + i);
+    const IntN<16> got = linear_to_unorm8(x);
+    for (int k = 0; k < 16 && i + k <= kOne; ++k) {
+      const double exact = static_cast<double>(lane(x, k)) * 255.0;  // 24 + 8 bits: exact
+      wrong += lane(got, k) != static_cast<int>(exact + 0.5);        // exact too, and never a tie
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  for (int c = 0; c < 256; ++c) EXPECT_EQ(unorm8_to_linear(static_cast<float>(c)), static_cast<float>(c) / 255.0f);
+}
+
+TEST(Srgb, WhatIsOutsideGoesToTheEnds) {
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float x : {-1.0f, -inf, nan, -nan, 0.0f, -0.0f, 0x1p-149f}) {
+    EXPECT_EQ(linear_to_srgb(x), 0) << x;
+    EXPECT_EQ(linear_to_unorm8(x), 0) << x;
+    EXPECT_EQ(linear_to_srgb(static_cast<double>(x)), 0) << x;
+    EXPECT_EQ(linear_to_unorm8(static_cast<double>(x)), 0) << x;
+  }
+  for (const float x : {1.0f, 1.5f, 1e30f, inf}) {
+    EXPECT_EQ(linear_to_srgb(x), 255) << x;
+    EXPECT_EQ(linear_to_unorm8(x), 255) << x;
+    EXPECT_EQ(linear_to_unorm8(static_cast<double>(x)), 255) << x;
+  }
+}
+
+template <int W>
+void expect_lanes_agree() {
+  for (uint64_t i = 0; i < 1ull << 32; i += 4093 * W) {
+    RealN<W> x;
+    for (int k = 0; k < W; ++k) set_lane(x, k, as_real(static_cast<int32_t>(i + static_cast<uint64_t>(k) * 4093)));
+    const IntN<W> srgb = linear_to_srgb(x), unorm = linear_to_unorm8(x);
+    const RealN<W> linear = srgb_to_linear<RealN<W>>(srgb), plain = unorm8_to_linear(clamp(x, 0.0f, 255.0f));
+    for (int k = 0; k < W; ++k) {
+      ASSERT_EQ(lane(srgb, k), linear_to_srgb(lane(x, k))) << lane(x, k);
+      ASSERT_EQ(lane(unorm, k), linear_to_unorm8(lane(x, k))) << lane(x, k);
+      ASSERT_EQ(as_int(lane(linear, k)), as_int(srgb_to_linear<float>(lane(srgb, k)))) << lane(x, k);
+      ASSERT_EQ(as_int(lane(plain, k)), as_int(unorm8_to_linear(clamp(lane(x, k), 0.0f, 255.0f)))) << lane(x, k);
+    }
+  }
+}
+
+TEST(Srgb, LanesHoldTheBitsOfFloat) {
+  expect_lanes_agree<4>();
+  expect_lanes_agree<8>();
+  expect_lanes_agree<16>();
+}
+
+}  // namespace
+}  // namespace halfspace

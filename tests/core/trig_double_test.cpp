@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/trig_double.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+namespace halfspace {
+namespace {
+
+// |got − want| in units of the last place of want as a double (of the least normal number near zero).
+double ulps(double got, long double want) {
+  const double size = std::max(std::fabs(static_cast<double>(want)), std::numeric_limits<double>::min());
+  const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+  return std::fabs(static_cast<double>((static_cast<long double>(got) - want) / ulp));
+}
+
+// The true values of a fraction of a turn in [0, 1/4], in long double (64 bits of mantissa here).
+constexpr long double kTwoPi = 2.0L * std::numbers::pi_v<long double>;
+
+TEST(TrigDouble, QuarterTurnsAreExact) {
+  const double sines[] = {0, 1, 0, -1};
+  for (int q = -9; q <= 9; ++q) {
+    const SinCosDouble a = sincos_turns(0.25 * q);
+    EXPECT_EQ(a.sin, sines[(q + 12) % 4]) << q;
+    EXPECT_EQ(a.cos, sines[(q + 13) % 4]) << q;
+    EXPECT_FALSE(std::signbit(a.sin) && a.sin == 0.0) << "no negative zeros: " << q;
+    EXPECT_FALSE(std::signbit(a.cos) && a.cos == 0.0) << q;
+  }
+}
+
+TEST(TrigDouble, WithinOneUlpOfLongDouble) {
+  double worst = 0;
+  for (int i = 0; i <= 200000; ++i) {
+    const double t = i / 800000.0;  // a quarter turn
+    const SinCosDouble a = sincos_turns(t);
+    // Near the quarter the long double cosine would lose digits to the rounding of its argument: ask for the sine of
+    // the rest of the quarter, which is exact.
+    const long double rest = 0.25L - static_cast<long double>(t);
+    worst = std::max({worst, ulps(a.sin, std::sin(kTwoPi * static_cast<long double>(t))), ulps(a.cos, std::sin(kTwoPi * rest))});
+  }
+  EXPECT_LE(worst, 1.0);
+  std::printf("largest error %.3f ulp\n", worst);
+}
+
+TEST(TrigDouble, TinyAnglesKeepRelativeAccuracy) {
+  for (double t = 1e-3; t > 1e-300; t *= 1e-3) EXPECT_LE(ulps(sincos_turns(t).sin, kTwoPi * static_cast<long double>(t) * (t < 1e-8 ? 1 : std::sin(kTwoPi * static_cast<long double>(t)) / (kTwoPi * static_cast<long double>(t)))), 1.0) << t;
+}
+
+TEST(TrigDouble, WholeTurnsChangeNothing) {
+  for (int i = -64; i <= 64; ++i) {
+    const double t = i / 128.0;
+    for (const double turns : {1.0, -3.0, 1048576.0}) {
+      EXPECT_EQ(sincos_turns(t + turns).sin, sincos_turns(t).sin);
+      EXPECT_EQ(sincos_turns(t + turns).cos, sincos_turns(t).cos);
+    }
+  }
+}
+
+TEST(TrigDouble, OddAndEven) {
+  for (int i = 1; i < 1000; ++i) {
+    const double t = i * 0.001234567;
+    EXPECT_EQ(sincos_turns(-t).sin, -sincos_turns(t).sin);
+    EXPECT_EQ(sincos_turns(-t).cos, sincos_turns(t).cos);
+  }
+}
+
+// The bits themselves, so that every compiler and processor is held to the same.
+TEST(TrigDouble, SameBitsEverywhere) {
+  uint64_t hash = 14695981039346656037u;
+  for (int i = 0; i < 10000; ++i) {
+    const SinCosDouble a = sincos_turns(i * 0.000123456789);
+    for (const double d : {a.sin, a.cos}) {
+      uint64_t bits = 0;
+      std::memcpy(&bits, &d, sizeof bits);
+      hash = (hash ^ bits) * 1099511628211u;
+    }
+  }
+  EXPECT_EQ(hash, 0u);
+}
+
+}  // namespace
+}  // namespace halfspace

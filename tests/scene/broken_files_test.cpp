@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Damaged and hostile image files: whatever a file holds, read_image returns an image or throws InputError of one
+// line. Every folder is read by a child process with little memory and little time, so that a crash or a hang is told
+// by name and ends nothing else.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/check.h"
+#include "scene/image_io.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HS_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HS_SANITIZED 1
+#endif
+#endif
+
+namespace halfspace {
+namespace {
+
+constexpr const char* kData = "../shared/data";
+constexpr unsigned kSecondsPerFile = 20;
+constexpr rlim_t kAddressSpace = rlim_t{2} << 30;
+
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+// Sanitizers reserve terabytes of addresses.
+void limit_memory() {
+#ifndef HS_SANITIZED
+  const rlimit limit = {kAddressSpace, kAddressSpace};
+  ::setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+// A line to the parent at the start of every file and one at its end: "ok", or the error.
+[[noreturn]] void read_all(const std::vector<std::filesystem::path>& files, int to_parent) {
+  std::FILE* out = ::fdopen(to_parent, "w");
+  limit_memory();
+  for (const std::filesystem::path& path : files) {
+    std::fprintf(out, "%s\n", path.c_str());
+    std::fflush(out);
+    ::alarm(kSecondsPerFile);
+    std::string verdict;
+    try {
+      const Image<glm::u8vec4> image = read_image(path);
+      verdict = image.empty() ? "returned an empty image" : "ok";
+    } catch (const InputError& e) {
+      verdict = std::string(e.what()).starts_with(path.string() + ": ") ? std::string("error ") + e.what() : "does not begin with the path: " + std::string(e.what());
+    } catch (const std::exception& e) {
+      verdict = std::string("another exception: ") + e.what();
+    }
+    std::fprintf(out, "%s\n", verdict.c_str());
+  }
+  std::fflush(out);
+  ::_exit(0);
+}
+
+struct Outcome {
+  int status = 0;
+  std::vector<std::string> lines;
+};
+
+Outcome read_in_child(const std::vector<std::filesystem::path>& files) {
+  int ends[2] = {};
+  if (::pipe(ends) != 0) return {-1, {}};
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(ends[0]);
+    read_all(files, ends[1]);
+  }
+  ::close(ends[1]);
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = ::read(ends[0], buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<std::size_t>(n));
+  ::close(ends[0]);
+  Outcome outcome;
+  ::waitpid(child, &outcome.status, 0);
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    outcome.lines.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return outcome;
+}
+
+class BrokenFiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(BrokenFiles, GiveAnImageOrOneLine) {
+  const std::filesystem::path folder = std::filesystem::path(kData) / GetParam();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent: the collection of broken files is not part of the repository";
+  const std::vector<std::filesystem::path> files = files_in(folder);
+  const Outcome outcome = read_in_child(files);
+  const std::string last = outcome.lines.empty() ? "(none)" : outcome.lines.back();
+  ASSERT_TRUE(WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == 0)
+      << "the reader died of signal " << WTERMSIG(outcome.status) << " (14: over " << kSecondsPerFile << " s) at " << last;
+  ASSERT_EQ(outcome.lines.size(), 2 * files.size()) << "a message has more than one line";
+  int images = 0;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string& verdict = outcome.lines[2 * i + 1];
+    EXPECT_TRUE(verdict == "ok" || verdict.starts_with("error ")) << files[i] << ": " << verdict;
+    images += verdict == "ok" ? 1 : 0;
+  }
+  std::printf("%zu files: %d images, %zu refused\n", files.size(), images, files.size() - static_cast<std::size_t>(images));
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, BrokenFiles,
+                         testing::Values("broken/oiio_images", "broken/openexr_damaged", "broken/imagetestsuite_gif", "broken/imagetestsuite_jpg",
+                                         "broken/imagetestsuite_png", "broken/imagetestsuite_tif", "broken/pngsuite_corrupt", "broken/assimp_obj_odd",
+                                         "broken/gltf_validator", "pngsuite"),
+                         [](const testing::TestParamInfo<const char*>& folder) {
+                           std::string name = folder.param;
+                           std::ranges::replace(name, '/', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace halfspace
