@@ -9,7 +9,7 @@
 #include "core/lanes.h"
 #include "core/parallel.h"
 #include "halfspace/commands.h"
-#include "scene/image_io.h"
+#include "scene/image_reader.h"
 
 namespace halfspace {
 
@@ -23,18 +23,18 @@ constexpr const char* kCompiler =
 #endif
 
 void print_text() {
-  const std::filesystem::path module = find_image_module();
+  const std::filesystem::path reader = find_image_reader();
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
             << "build         " << build_description() << ", " << kCompiler << '\n'
             << "cores         " << Workers::cores() << '\n'
-            << "image module  " << (module.empty() ? "absent: maps can be read from PNG only" : module.string()) << '\n';
+            << "image reader  " << (reader.empty() ? "absent: maps can be read from PNG only" : reader.string()) << '\n';
 }
 
 void print_json() {
-  const std::filesystem::path module = find_image_module();
+  const std::filesystem::path reader = find_image_reader();
   nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", HALFSPACE_ARCH},       {"lanes", kLanes},
-                                 {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_module", nullptr}};
-  if (!module.empty()) json["image_module"] = module.string();
+                                 {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_reader", nullptr}};
+  if (!reader.empty()) json["image_reader"] = reader.string();
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 

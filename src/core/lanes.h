@@ -19,7 +19,9 @@
 #include <limits>
 #include <type_traits>
 
+// What must be inlined for lanes to stay in registers; and a function that inlines all it calls, shaders included.
 #define HS_INLINE inline __attribute__((always_inline))
+#define HS_FLATTEN __attribute__((flatten))
 
 namespace halfspace {
 

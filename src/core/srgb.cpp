@@ -65,7 +65,7 @@ static_assert(kTable.one_threshold_a_bucket);
 
 }  // namespace
 
-constexpr std::array<float, 256> kSrgbToLinear = make_decode_table();
+alignas(64) constexpr std::array<float, 256> kSrgbToLinear = make_decode_table();
 constexpr std::array<int32_t, detail::kSrgbBuckets> detail::kSrgbEncode = kTable.entries;
 
 }  // namespace halfspace

@@ -25,11 +25,33 @@ extern const std::array<int32_t, kSrgbBuckets> kSrgbEncode;
 }  // namespace detail
 
 /// kSrgbToLinear[c] is the float nearest to decode(c/255).
-extern const std::array<float, 256> kSrgbToLinear;
+alignas(64) extern const std::array<float, 256> kSrgbToLinear;
+
+#ifdef __AVX512F__
+namespace detail {
+
+/// table[code] for codes 0 … 255, by permutes of the table's 16 registers: a third of a gather's time. Five bits of the
+/// code pick from two registers, three pick the pair.
+HS_INLINE RealN<16> permute_256(const float* table, IntN<16> code) {
+  const __m512i c = (__m512i)code.v;
+  const auto pair = [&](int i) { return _mm512_permutex2var_ps(_mm512_load_ps(table + 32 * i), c, _mm512_load_ps(table + 32 * i + 16)); };
+  const __mmask16 bit5 = _mm512_test_epi32_mask(c, _mm512_set1_epi32(32));
+  const __mmask16 bit6 = _mm512_test_epi32_mask(c, _mm512_set1_epi32(64));
+  const __mmask16 bit7 = _mm512_test_epi32_mask(c, _mm512_set1_epi32(128));
+  const auto four = [&](int i) { return _mm512_mask_blend_ps(bit5, pair(i), pair(i + 1)); };
+  const auto eight = [&](int i) { return _mm512_mask_blend_ps(bit6, four(i), four(i + 2)); };
+  return RealN<16>((typename RealN<16>::V)_mm512_mask_blend_ps(bit7, eight(0), eight(4)));
+}
+
+}  // namespace detail
+#endif
 
 /// The linear value of each sRGB code: the nearest float. Every lane of code must lie in 0 … 255.
 template <Number R>
 HS_INLINE R srgb_to_linear(IntOf<R> code) {
+#ifdef __AVX512F__
+  if constexpr (std::is_same_v<R, RealN<16>>) return detail::permute_256(kSrgbToLinear.data(), code);
+#endif
   return R(gather(kSrgbToLinear.data(), code));
 }
 

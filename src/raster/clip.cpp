@@ -24,9 +24,23 @@ double plane_distance(int plane, const Viewport& v, const DepthState& depth, con
   }
 }
 
+// Where the edge meets the plane. Products of d and a vertex's coordinates are exact (two floats each), so every
+// coordinate of the corner keeps its relative accuracy however small it is beside the edge's ends.
 ClipCorner cut(const ClipCorner& inside, double d_in, const ClipCorner& outside, double d_out) {
-  const double t = d_in / (d_in - d_out);
-  return {inside.pos_clip + t * (outside.pos_clip - inside.pos_clip), inside.weights + t * (outside.weights - inside.weights)};
+  const double length = d_in - d_out;
+  return {(d_in * outside.pos_clip - d_out * inside.pos_clip) / length, (d_in * outside.weights - d_out * inside.weights) / length};
+}
+
+// Where the edge meets w = kMinW: the point where w = 0, and the little way back from it towards the inside end. An edge
+// that leads straight into the eye, where x = y = w = 0, so keeps its direction.
+ClipCorner cut_at_min_w(const ClipCorner& inside, const ClipCorner& outside) {
+  const double w_in = inside.pos_clip.w, w_out = outside.pos_clip.w;
+  ClipCorner c = cut(inside, w_in, outside, w_out);
+  const double back = kMinW / (w_in - w_out);
+  c.pos_clip += back * (inside.pos_clip - outside.pos_clip);
+  c.weights += back * (inside.weights - outside.weights);
+  c.pos_clip.w = kMinW;
+  return c;
 }
 
 void clip_plane(int plane, const Viewport& v, const DepthState& depth, ClipPolygon& polygon) {
@@ -43,13 +57,17 @@ void clip_plane(int plane, const Viewport& v, const DepthState& depth, ClipPolyg
     const auto b = static_cast<std::size_t>((i + 1) % polygon.count);
     const bool a_in = d[a] >= 0;
     const bool b_in = d[b] >= 0;
+    const auto cut_edge = [&](std::size_t in, std::size_t out) {
+      const ClipCorner &inside = polygon.corners[in], &outside = polygon.corners[out];
+      return plane == 0 ? cut_at_min_w(inside, outside) : cut(inside, d[in], outside, d[out]);
+    };
     const auto keep = [&kept](const ClipCorner& c) {
       HS_CHECK_OP(kept.count, <, kMaxCorners);
       kept.corners[static_cast<std::size_t>(kept.count++)] = c;
     };
     if (a_in) keep(polygon.corners[a]);
-    if (a_in && !b_in) keep(cut(polygon.corners[a], d[a], polygon.corners[b], d[b]));
-    if (!a_in && b_in) keep(cut(polygon.corners[b], d[b], polygon.corners[a], d[a]));
+    if (a_in && !b_in) keep(cut_edge(a, b));
+    if (!a_in && b_in) keep(cut_edge(b, a));
   }
   polygon = kept;
 }
@@ -66,7 +84,7 @@ ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, con
   ClipPolygon polygon;
   polygon.count = 3;
   for (std::size_t i = 0; i < 3; ++i) {
-    polygon.corners[i] = {glm::dvec4(pos_clip[i]), glm::dvec3(i == 0, i == 1, i == 2)};
+    polygon.corners[i] = {glm::dvec4(pos_clip[i]), glm::dvec3(i == 0, i == 1, i == 2), static_cast<int>(i)};
   }
   for (int plane = 0; plane < kClipPlanes && polygon.count != 0; ++plane) {
     const bool near_or_far = plane == 1 || plane == 2;

@@ -24,6 +24,7 @@ inline constexpr int kMaxPieces = kMaxCorners - 2;
 struct ClipCorner {
   glm::dvec4 pos_clip;
   glm::dvec3 weights;  ///< of the triangle's vertices: linear in clip space, summing to 1
+  int vertex = -1;     ///< the triangle's vertex that this corner is, or −1 where a plane cut an edge
 };
 
 struct ClipPolygon {

@@ -61,10 +61,6 @@ ShaderKernels kernels_of() {
 }
 }  // namespace detail
 
-/// A shader without a fragment function: it draws into depth alone.
-template <class S>
-concept DepthOnlyShader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> && !HasFragmentFunction<S>;
-
 class Pass {
  public:
   /// width, height: 1 … 16384 px, the size of every target. Targets' images must outlive the pass.
@@ -72,14 +68,14 @@ class Pass {
 
   /// Adds a draw of a triangle list. The shader is copied; the vertices' and indices' memory, and whatever the shader
   /// points to, must stay unchanged until run() returns. Indices beyond a multiple of 3 are ignored, as GL does.
-  template <Shader S>
+  template <class S>
   void draw(const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
-    add(shader, vertices, std::shared_ptr<const Indices>(std::shared_ptr<void>(), &indices), state);
+    if constexpr (require_shader<S>()) add(shader, vertices, std::shared_ptr<const Indices>(std::shared_ptr<void>(), &indices), state);
   }
   /// The same without an index list: vertices 0, 1, 2, …
-  template <Shader S>
+  template <class S>
   void draw(const S& shader, const VertexView& vertices, const DrawState& state = {}) {
-    add(shader, vertices, std::make_shared<const Indices>(Indices::sequential(vertices.vertex_count)), state);
+    if constexpr (require_shader<S>()) add(shader, vertices, std::make_shared<const Indices>(Indices::sequential(vertices.vertex_count)), state);
   }
   /// Draws depth alone; the pass must have no colour target.
   template <DepthOnlyShader S>

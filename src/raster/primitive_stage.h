@@ -36,7 +36,7 @@ HS_INLINE V load_rows(const PrimitiveBatch& batch, int begin, std::size_t vertex
 }
 
 template <class S>
-void primitive_kernel(const void* shader, const PrimitiveBatch& batch) {
+HS_FLATTEN void primitive_kernel(const void* shader, const PrimitiveBatch& batch) {
   using V = typename S::template Varyings<Real>;
   using P = typename S::template Primitive<Real>;
   constexpr std::size_t n = kComponents<P>;

@@ -172,10 +172,9 @@ class SegmentSetup {
       const auto first_varying = static_cast<uint32_t>(chunk_.clip_varyings.size());
       chunk_.clip_varyings.resize(first_varying + n);
       interpolate_corner(c, w, varyings, static_cast<int>(provoking_), draw_.kernels, chunk_.clip_varyings.data() + first_varying);
-      ScreenVertex screen = project_corner(draw_.viewport, c.pos_clip);
-      for (int k = 0; k < 3; ++k) {  // a corner of the triangle itself keeps the vertex stage's bits
-        if (c.weights[k] == 1.0) screen = shaded_.screen[id[static_cast<std::size_t>(k)]];
-      }
+      // A corner of the triangle itself keeps the vertex stage's bits.
+      const bool cut = c.vertex < 0;
+      const ScreenVertex screen = cut ? project_corner(draw_.viewport, c.pos_clip) : shaded_.screen[id[static_cast<std::size_t>(c.vertex)]];
       chunk_.clip_vertices.push_back({screen, first_varying});
     }
     const std::size_t before = chunk_.triangles.size();

@@ -204,7 +204,7 @@ HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const P
 }
 
 template <class S>
-void fragment_kernel(const void* shader, const FragmentBatch& batch) {
+HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) {
   using V = typename S::template Varyings<Real>;
   using F = typename S::template Varyings<float>;
   using P = PrimitiveOf<S, Real>;
@@ -228,7 +228,7 @@ void fragment_kernel(const void* shader, const FragmentBatch& batch) {
 }
 
 template <class S>
-void visibility_kernel(const void* shader, const VisibilityPacket& packet) {
+HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityPacket& packet) {
   using V = typename S::template Varyings<Real>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;

@@ -26,9 +26,12 @@ HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_hei
     const std::size_t out = row + static_cast<std::size_t>(tile.x0);
     for (int x = 0; x < tile.width; x += kBlockSize) {
       const std::size_t block = static_cast<std::size_t>(y / kBlockSize * kBlocksPerRow + x / kBlockSize) * kPixelsPerBlock;
-      const uint8_t* place = &kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize)];
-      const int n = std::min(kBlockSize, tile.width - x);
-      for (int i = 0; i < n; ++i) f(block + place[i], out + static_cast<std::size_t>(x + i));
+      const std::size_t first = block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize)];
+      if (tile.width - x >= kBlockSize) {  // a whole row of the block: places known when compiling
+        for (std::size_t i = 0; i < kBlockSize; ++i) f(first + kZOrder[i], out + static_cast<std::size_t>(x) + i);
+      } else {
+        for (int i = 0; i < tile.width - x; ++i) f(first + kZOrder[static_cast<std::size_t>(i)], out + static_cast<std::size_t>(x + i));
+      }
     }
   }
 }
@@ -73,6 +76,20 @@ void store_depth_codes(const DepthTarget& target, int width, int height, const T
   for_each_pixel(tile, width, height, [&](std::size_t t, std::size_t i) { image[i] = static_cast<T>(tile.depth[t]); });
 }
 
+// Sets all pixels to the first.
+void repeat_first_pixel(ColorBuffer& color) {
+  const auto repeat = [&color]<class T>(T* values, int count) { std::fill_n(values, count, *values); };
+  switch (color.format) {
+    case ColorFormat::rgba32f:
+      for (int k = 0; k < 4; ++k) repeat(planes<float>(color) + k * kMaxTilePixels, kMaxTilePixels);
+      break;
+    case ColorFormat::rgba16f:
+      for (int k = 0; k < 4; ++k) repeat(planes<uint16_t>(color) + k * kMaxTilePixels, kMaxTilePixels);
+      break;
+    default: repeat(planes<uint32_t>(color), kMaxTilePixels); break;
+  }
+}
+
 }  // namespace
 
 void load_color(const ColorTarget& target, int width, int height, Tile& tile) {
@@ -80,7 +97,8 @@ void load_color(const ColorTarget& target, int width, int height, Tile& tile) {
   if (target.format == ColorFormat::none || target.load == LoadOp::dont_care) return;
   if (target.load == LoadOp::clear) {
     const PacketColor c{Real(target.clear_value.x), Real(target.clear_value.y), Real(target.clear_value.z), Real(target.clear_value.w)};
-    for (int p = 0; p < kPackets; ++p) write_color(tile.color, p, Mask(true), c, nullptr);
+    write_color(tile.color, 0, Mask(true), c, nullptr);
+    repeat_first_pixel(tile.color);
     return;
   }
   switch (target.format) {

@@ -48,7 +48,7 @@ HS_INLINE A load_attributes(const VertexView& view, Int ids) {
 }
 
 template <class S, bool with_varyings>
-void vertex_kernel(const void* shader, const VertexBatch& batch) {
+HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
   using Attributes = typename S::template Attributes<Real>;
   using Varyings = typename S::template Varyings<Real>;
   constexpr std::size_t n = kComponents<Varyings>;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/image_io.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -13,8 +10,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "scene/image_limits.h"
-#include "scene/image_module/image_module.h"
+#include "scene/image_reader.h"
 #include "scene/output_file.h"
 #include "scene/png.h"
 
@@ -22,16 +18,15 @@ namespace halfspace {
 
 namespace {
 
-constexpr const char* kModuleName = "halfspace_image.so";
 constexpr const char* kFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS";
 
-/// A format that the module reads: OpenImageIO's name, and the bytes that it begins with.
+/// A format that halfspace-read-image reads: OpenImageIO's name, and the bytes that it begins with.
 struct Format {
   const char* name;
   std::string_view magic;
 };
 using namespace std::string_view_literals;
-constexpr Format kModuleFormats[] = {
+constexpr Format kReaderFormats[] = {
     {"jpeg", "\xff\xd8\xff"sv}, {"tiff", "II*\0"sv}, {"tiff", "MM\0*"sv}, {"tiff", "II+\0"sv}, {"tiff", "MM\0+"sv},
     {"bmp", "BM"sv},            {"gif", "GIF8"sv},   {"pnm", "P1"sv},     {"pnm", "P2"sv},     {"pnm", "P3"sv},
     {"pnm", "P4"sv},            {"pnm", "P5"sv},     {"pnm", "P6"sv},     {"psd", "8BPS"sv},   {"dds", "DDS "sv},
@@ -71,8 +66,8 @@ const Format* find_format(std::span<const Format> formats, std::string_view head
 }
 
 // OpenImageIO's name of the format. TGA has no signature: there the extension decides.
-const char* module_format(const std::filesystem::path& path, std::string_view head) {
-  if (const Format* f = find_format(kModuleFormats, head)) return f->name;
+const char* reader_format(const std::filesystem::path& path, std::string_view head) {
+  if (const Format* f = find_format(kReaderFormats, head)) return f->name;
   if (head.starts_with("RIFF") && head.substr(std::min<std::size_t>(8, head.size())).starts_with("WEBP")) return "webp";
   if (const Format* f = find_format(kFloatFormats, head)) {
     fail(path, std::string("is ") + f->name + ", which holds linear numbers; expected 8- or 16-bit codes: " + kFormats);
@@ -83,55 +78,7 @@ const char* module_format(const std::filesystem::path& path, std::string_view he
   fail(path, std::string("is no image that can be read; expected ") + kFormats);
 }
 
-/// The module's function, or null, and then why.
-struct Module {
-  HalfspaceReadImage* read = nullptr;
-  std::string why;
-};
-
-Module open_module() {
-  const std::filesystem::path path = find_image_module();
-  if (path.empty()) return {nullptr, std::string("the image module ") + kModuleName + " is not installed"};
-  void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed: OpenImageIO has threads and statics
-  if (library == nullptr) return {nullptr, std::string("the image module cannot be opened: ") + ::dlerror()};
-  void* function = ::dlsym(library, HALFSPACE_READ_IMAGE);
-  if (function == nullptr) return {nullptr, "the image module " + path.string() + " is of another version"};
-  return {reinterpret_cast<HalfspaceReadImage*>(function), ""};
-}
-
-// The module's request for memory. Exceptions must not cross it.
-uint8_t* allocate_image(void* user, int width, int height) try {
-  Image<glm::u8vec4>& image = *static_cast<Image<glm::u8vec4>*>(user);
-  image = Image<glm::u8vec4>(width, height);
-  return &image.data()->x;
-} catch (const std::bad_alloc&) {
-  return nullptr;
-}
-
-Image<glm::u8vec4> read_by_module(const std::filesystem::path& path, const char* format, uint64_t file_bytes) {
-  static const Module module = open_module();
-  if (module.read == nullptr) fail(path, "is no PNG, and " + module.why + "; expected PNG, or the module (built where OpenImageIO is)");
-  Image<glm::u8vec4> image;
-  std::array<char, 512> error = {};
-  const std::string name = path.string();
-  const HalfspaceImageRequest request = {name.c_str(), format,       kMostImagePixels, file_bytes, allocate_image,
-                                         &image,       error.data(), error.size()};
-  if (module.read(&request) == 0) fail(path, error.data());
-  return image;
-}
-
 }  // namespace
-
-std::filesystem::path find_image_module() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return {};
-  const std::filesystem::path directory = program.parent_path();
-  for (const std::filesystem::path& candidate : {directory / kModuleName, directory / "../lib/halfspace" / kModuleName}) {
-    if (std::filesystem::is_regular_file(candidate, error)) return candidate.lexically_normal();
-  }
-  return {};
-}
 
 void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image) { write_file(path, encode_png(image)); }
 
@@ -140,7 +87,7 @@ Image<glm::u8vec4> read_image(const std::filesystem::path& path) try {
   const std::vector<std::byte> start = read_bytes(path, std::min<uint64_t>(size, 16));
   if (is_png(start)) return decode_png(read_bytes(path, size), path.string());
   const std::string_view head(reinterpret_cast<const char*>(start.data()), start.size());
-  return read_by_module(path, module_format(path, head), size);
+  return read_by_reader(path, reader_format(path, head), size);
 } catch (const std::bad_alloc&) {
   fail(path, "needs more memory than there is; expected a smaller picture");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures and texture maps as files. PNG is read and written here; the other formats are read by a module of their
-// own (the only user of OpenImageIO), opened when the first file needs it.
+// Pictures and texture maps as files. PNG is read and written here; the other formats are read by a program of its
+// own, halfspace-read-image (the only user of OpenImageIO), in a process that a hostile file may kill.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,7 @@ void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& imag
 /// Reads PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS as the codes in the file: grey is repeated, absent
 /// alpha is 255, 16 bits are rounded to 8. No colour conversion, no turning by EXIF; the first picture of several.
 /// The format is told by the content. Throws InputError ("PATH: what is wrong; what would be right") for what is
-/// missing, damaged, too large (2^28 pixels) or holds floating-point numbers. Not thread-safe on the first call.
+/// missing, damaged, too large (2^28 pixels) or holds floating-point numbers. Thread-safe.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
-
-/// Where the module for the formats other than PNG lies, or empty where it is not installed. Does not open it.
-std::filesystem::path find_image_module();
 
 }  // namespace halfspace

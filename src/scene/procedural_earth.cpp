@@ -136,7 +136,7 @@ Terrain terrain_at(const Vec& p) {
   t.height = cloud(q, 8, 1) - Real(kSeaLevel);
   t.mountains = t.moisture = t.detail = Real(0.0f);
   const Real y2 = p.y * p.y;
-  t.temperature = Real(1.02f) - Real(0.98f) * y2 * (Real(0.35f) + Real(0.65f) * y2) + Real(0.10f) * cloud(scaled(p, 3.0f, 7.7f, 1.9f, 4.2f), 3, 61);
+  t.temperature = Real(1.02f) - Real(1.08f) * y2 * (Real(0.35f) + Real(0.65f) * y2) + Real(0.10f) * cloud(scaled(p, 3.0f, 7.7f, 1.9f, 4.2f), 3, 61);
   const bool all_sea = none(t.height > Real(-kCoast));
   if (all_sea && none(t.temperature < Real(0.25f))) return t;
   t.detail = cloud(scaled(p, 21.0f, 1.3f, 5.7f, 3.9f), 4, 71);

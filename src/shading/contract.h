@@ -53,23 +53,30 @@ struct Visibility {
 };
 
 template <class S>
-concept HasAttributes = requires { typename S::template Attributes<float>; };
+concept HasAttributes = requires {
+  typename S::template Attributes<float>;
+};
 template <class S>
-concept HasVaryings = requires { typename S::template Varyings<float>; };
+concept HasVaryings = requires {
+  typename S::template Varyings<float>;
+};
 template <class S>
-concept HasPrimitive = requires { typename S::template Primitive<float>; };
+concept HasPrimitive = requires {
+  typename S::template Primitive<float>;
+};
 template <class S>
-concept HasVertexFunction =
-    requires(const S& s, const typename S::template Attributes<float>& in, typename S::template Varyings<float>& out) {
-      { s.vertex(in, out) } -> std::same_as<vec4<float>>;
-    };
+concept HasVertexFunction = requires(const S& s, const typename S::template Attributes<float>& in,
+                                     typename S::template Varyings<float>& out) {
+  { s.vertex(in, out) } -> std::same_as<vec4<float>>;
+};
 template <class S>
 concept HasPrimitiveFunction = requires(const S& s, const typename S::template Varyings<float>& v) {
   { s.primitive(v, v, v) } -> std::same_as<typename S::template Primitive<float>>;
 };
 template <class S>
-concept HasPlainFragmentFunction =
-    requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) { s.fragment(in, px); };
+concept HasPlainFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
+  s.fragment(in, px);
+};
 template <class S>
 concept HasPrimitiveFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in,
                                                 const typename S::template Primitive<float>& face, const Pixel<float>& px) {
@@ -79,14 +86,48 @@ template <class S>
 concept HasFragmentFunction = (HasPrimitive<S> && HasPrimitiveFunction<S> && HasPrimitiveFragmentFunction<S>) ||
                               (!HasPrimitive<S> && HasPlainFragmentFunction<S>);
 template <class S>
-concept HasVisibilityFunction =
-    requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
-      { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
-    };
+concept HasVisibilityFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
+  { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
+};
 
-/// What pass.draw asks of a shader. A shader that only writes depth leaves fragment out and says DepthOnlyShader.
+/// What Pass::draw asks of a shader.
 template <class S>
 concept Shader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> && HasFragmentFunction<S>;
+
+/// What Pass::draw_depth asks of a shader: no fragment function, so that there is nothing to run.
+template <class S>
+concept DepthOnlyShader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> && !HasFragmentFunction<S>;
+
+namespace detail {
+// False for every S, but not before S is known.
+template <class S>
+inline constexpr bool kComplete = false;
+}  // namespace detail
+
+/// Says in words what S lacks to be a shader, as a compile-time error; true if it lacks nothing.
+template <class S>
+consteval bool require_shader() {
+  if constexpr (!HasAttributes<S>) {
+    static_assert(detail::kComplete<S>, "the shader lacks: template <class R> struct Attributes { vec3<R> position; … };");
+  } else if constexpr (!HasVaryings<S>) {
+    static_assert(detail::kComplete<S>, "the shader lacks: template <class R> struct Varyings { … };");
+  } else if constexpr (!HasVertexFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader lacks: template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;");
+  } else if constexpr (HasPrimitive<S> && !HasPrimitiveFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has a Primitive struct and lacks: template <class R> Primitive<R> primitive(const Varyings<R>& v0, "
+                  "const Varyings<R>& v1, const Varyings<R>& v2) const;");
+  } else if constexpr (HasPrimitive<S> && !HasPrimitiveFragmentFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has a Primitive struct and lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, "
+                  "const Primitive<R>& face, const Pixel<R>& px) const;");
+  } else if constexpr (!HasFragmentFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
+  }
+  return Shader<S>;
+}
 
 /// Calls the shader's fragment function, with its primitive's value where it has one.
 template <class S, class R, class P>

@@ -4,6 +4,7 @@
 #include "shading/texture.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace halfspace {
 
@@ -86,16 +87,15 @@ std::vector<Image<glm::u8vec4>> mip_chain(const Image<glm::u8vec4>& base, TexelF
 
 Texture2D::Texture2D(const Image<glm::u8vec4>& base, TexelFormat format) : format_(format) {
   add_level(base);  // checks the size
-  const auto size = static_cast<std::size_t>(base.width()) * static_cast<std::size_t>(base.height());
-  texels_.reserve(size + size / 3 + static_cast<std::size_t>(base.width() + base.height()));
+  const auto size = static_cast<std::size_t>(base.width() + 1) * static_cast<std::size_t>(base.height());
+  texels_.reserve(size + size / 2);
   for (const Image<glm::u8vec4>& level : mip_chain(base, format)) add_level(level);
-  texels_.shrink_to_fit();
 }
 
 Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format) : format_(format) {
   HS_CHECK_OP(levels.size(), >=, 1u);
   std::size_t size = 0;
-  for (const Image<glm::u8vec4>& level : levels) size += level.texels().size();
+  for (const Image<glm::u8vec4>& level : levels) size += static_cast<std::size_t>(level.width() + 1) * static_cast<std::size_t>(level.height());
   texels_.reserve(size);
   for (const Image<glm::u8vec4>& level : levels) add_level(level);
 }
@@ -113,16 +113,18 @@ void Texture2D::add_level(const Image<glm::u8vec4>& image) {
   width_[l] = image.width();
   height_[l] = image.height();
   offset_[l] = static_cast<int32_t>(texels_.size());
-  const std::size_t size = image.texels().size();
-  texels_.resize(texels_.size() + size);
-  std::transform(image.texels().begin(), image.texels().end(), texels_.end() - static_cast<std::ptrdiff_t>(size), packed);
+  for (int y = 0; y < image.height(); ++y) {
+    const auto row = image.row(y);
+    std::transform(row.begin(), row.end(), std::back_inserter(texels_), packed);
+    texels_.push_back(packed(row[0]));
+  }
 }
 
 glm::u8vec4 Texture2D::texel(int level, int x, int row) const {
   HS_CHECK_OP(level, <, levels_);
   HS_CHECK(x >= 0 && x < width(level) && row >= 0 && row < height(level));
   const auto l = static_cast<std::size_t>(level);
-  const auto t = static_cast<uint32_t>(texels_[static_cast<std::size_t>(offset_[l] + row * width_[l] + x)]);
+  const auto t = static_cast<uint32_t>(texels_[static_cast<std::size_t>(offset_[l] + row * (width_[l] + 1) + x)]);
   return {t & 255, (t >> 8) & 255, (t >> 16) & 255, t >> 24};
 }
 

@@ -89,10 +89,10 @@ class Texture2D {
   struct Level {
     IntOf<R> width, height, offset;
   };
-  // The two texels of one axis, and the weight of the second.
+  // Where a look-up falls on one axis: between texel i (−1 … size − 1) and its neighbour, whose weight is fraction.
   template <class R>
   struct Axis {
-    IntOf<R> i0, i1;
+    IntOf<R> i;
     R fraction;
   };
 
@@ -102,16 +102,20 @@ class Texture2D {
   template <class R>
   static R wrapped(R coordinate, Wrap wrap);
   template <class R>
-  static Axis<R> axis(R coordinate, IntOf<R> size, Wrap wrap, MaskOf<R> nearest);
+  static Axis<R> axis(R coordinate, IntOf<R> size, MaskOf<R> nearest);
   template <class R>
-  vec4<R> fetch(IntOf<R> index) const;
+  vec4<R> decoded(IntOf<R> texel) const;
+  template <class R>
+  vec4<R> filter_row(IntOf<R> index, R fraction) const;
   template <class R>
   vec4<R> filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const;
 
   TexelFormat format_;
   int levels_ = 0;
   std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{};  // offset: index of a level's first texel
-  std::vector<int32_t> texels_;                                    // all levels; red in the low byte
+  // All levels; red in the low byte. After each row its first texel stands once more, so that one 64-bit load brings a
+  // texel and its right neighbour, across the seam too.
+  std::vector<int32_t> texels_;
 };
 
 /// The full chain of levels below base, largest first, base not included; the last is 1 × 1.
@@ -140,16 +144,16 @@ HS_INLINE R Texture2D::wrapped(R coordinate, Wrap wrap) {
   return clamp(wrap == Wrap::repeat ? coordinate - floor(coordinate) : coordinate, R(0.0f), R(1.0f));
 }
 
-/// Texel centres lie at i + 1/2. In: a coordinate in [0, 1]. Out: indices in [0, size − 1].
+/// Texel centres lie at i + 1/2. In: a coordinate in [0, 1].
 template <class R>
-HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, IntOf<R> size, Wrap wrap, MaskOf<R> nearest) {
+HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, IntOf<R> size, MaskOf<R> nearest) {
   const R n = to_real<R>(size);
   const R u = fma(coordinate, n, R(-0.5f));  // in [−1/2, size − 1/2]
   R i = floor(u);
   R fraction = u - i;
   if constexpr (!std::is_same_v<R, double>) {
     fraction = (fraction + R(256.0f)) - R(256.0f);  // to a multiple of 2^-15, the last bit beside 256
-    const MaskOf<R> up = fraction >= R(1.0f);
+    const MaskOf<R> up = fraction >= R(1.0f);       // not in the last texel, where u ends half-way
     i = select(up, i + R(1.0f), i);
     fraction = select(up, R(0.0f), fraction);
   }
@@ -157,18 +161,12 @@ HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, IntOf<R> size, Wrap w
     i = select(nearest, min(floor(coordinate * n), n - R(1.0f)), i);
     fraction = select(nearest, R(0.0f), fraction);
   }
-  const IntOf<R> last = size - 1;
-  const IntOf<R> before = wrap == Wrap::repeat ? last : IntOf<R>(0);   // what stands for texel −1
-  const IntOf<R> behind = wrap == Wrap::repeat ? IntOf<R>(0) : last;   // and for texel size
-  const IntOf<R> i0 = truncate_to_int(i);
-  const IntOf<R> i1 = i0 + 1;
-  return {select(i0 < 0, before, i0), select(i1 > last, behind, i1), fraction};
+  return {truncate_to_int(i), fraction};
 }
 
-/// One texel as the numbers that are filtered: codes, and linear values where the format decodes.
+/// Texels as the numbers that are filtered: codes, and linear values where the format decodes.
 template <class R>
-HS_INLINE vec4<R> Texture2D::fetch(IntOf<R> index) const {
-  const IntOf<R> texel = gather(texels_.data(), index);
+HS_INLINE vec4<R> Texture2D::decoded(IntOf<R> texel) const {
   const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255, a = (texel >> 24) & 255;
   if (format_ == TexelFormat::srgb8a8) return {srgb_to_linear<R>(r), srgb_to_linear<R>(g), srgb_to_linear<R>(b), to_real<R>(a)};
   return {to_real<R>(r), to_real<R>(g), to_real<R>(b), to_real<R>(a)};
@@ -183,20 +181,71 @@ HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
   return {fma(f, b.x - a.x, a.x), fma(f, b.y - a.y, a.y), fma(f, b.z - a.z, a.z), fma(f, b.w - a.w, a.w)};
 }
 
+template <class I>
+struct Pair {
+  I first, second;
+};
+/// base[i] and base[i + 1]. Lanes load 64 bits each and are then sorted: faster than gathers, which pay by the element
+/// (measured on Sapphire Rapids: bilinear −16% at 16 lanes, −34% at 8; 64-bit gathers gain nothing).
+HS_INLINE Pair<int32_t> load_pairs(const int32_t* base, int32_t i) { return {base[i], base[i + 1]}; }
+template <int W>
+HS_INLINE Pair<IntN<W>> load_pairs(const int32_t* base, IntN<W> i) {
+  using V = typename IntN<W>::V;
+  alignas(64) int32_t at[W];
+  store(at, i);
+  [[maybe_unused]] const auto two = [&](int k) { return _mm_set_epi64x(load<int64_t>(base + at[k + 1]), load<int64_t>(base + at[k])); };
+#ifdef __AVX512F__
+  if constexpr (W == 16) {
+    const auto four = [&](int k) { return _mm256_inserti128_si256(_mm256_castsi128_si256(two(k)), two(k + 2), 1); };
+    const auto eight = [&](int k) { return _mm512_inserti64x4(_mm512_castsi256_si512(four(k)), four(k + 4), 1); };
+    const __m512i a = eight(0), b = eight(8);
+    const IntN<16> even = iota<IntN<16>>() << 1;
+    return {IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)even.v, b)), IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)(even + 1).v, b))};
+  }
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) {  // a holds the pairs of lanes 0 1 4 5, b those of 2 3 6 7: the shuffle works within 128 bits
+    const auto four = [&](int k) { return _mm256_castsi256_ps(_mm256_insertf128_si256(_mm256_castsi128_si256(two(k)), two(k + 4), 1)); };
+    const __m256 a = four(0), b = four(2);
+    return {IntN<W>((V)_mm256_castps_si256(_mm256_shuffle_ps(a, b, 0b10001000))), IntN<W>((V)_mm256_castps_si256(_mm256_shuffle_ps(a, b, 0b11011101)))};
+  }
+#endif
+  if constexpr (W == 4) {
+    const __m128 a = _mm_castsi128_ps(two(0)), b = _mm_castsi128_ps(two(2));
+    return {IntN<W>((V)_mm_castps_si128(_mm_shuffle_ps(a, b, 0b10001000))), IntN<W>((V)_mm_castps_si128(_mm_shuffle_ps(a, b, 0b11011101)))};
+  }
+  Pair<IntN<W>> r;
+  for (int k = 0; k < W; ++k) {
+    set_lane(r.first, k, base[at[k]]);
+    set_lane(r.second, k, base[at[k] + 1]);
+  }
+  return r;
+}
+
 }  // namespace detail
+
+/// The texels at index and right of it, mixed.
+template <class R>
+HS_INLINE vec4<R> Texture2D::filter_row(IntOf<R> index, R fraction) const {
+  const auto texels = detail::load_pairs(texels_.data(), index);
+  return detail::lerp(decoded<R>(texels.first), decoded<R>(texels.second), fraction);
+}
 
 /// One level, bilinear or (where nearest) one texel, in filtering units. st in [0, 1].
 template <class R>
 HS_INLINE vec4<R> Texture2D::filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const {
   const Level<R> l = level<R>(level_index);
-  const Axis<R> x = axis<R>(st.x, l.width, sampler.wrap_s, nearest);
-  const Axis<R> y = axis<R>(st.y, l.height, sampler.wrap_t, nearest);
-  const IntOf<R> row0 = l.offset + y.i0 * l.width;
-  if (all(nearest)) return fetch<R>(row0 + x.i0);
-  const IntOf<R> row1 = l.offset + y.i1 * l.width;
-  const vec4<R> low = detail::lerp(fetch<R>(row0 + x.i0), fetch<R>(row0 + x.i1), x.fraction);
-  const vec4<R> high = detail::lerp(fetch<R>(row1 + x.i0), fetch<R>(row1 + x.i1), x.fraction);
-  return detail::lerp(low, high, y.fraction);
+  const IntOf<R> last_x = l.width - 1, last_y = l.height - 1, pitch = l.width + 1;
+  Axis<R> x = axis<R>(st.x, l.width, nearest);
+  const Axis<R> y = axis<R>(st.y, l.height, nearest);
+  // Left of texel 0 lies the last one (its pair crosses the seam); or, where clamped, texel 0 alone, as the last at the end.
+  if (sampler.wrap_s == Wrap::clamp) x.fraction = select(x.i >= 0 && x.i < last_x, x.fraction, R(0.0f));
+  x.i = select(x.i < 0, sampler.wrap_s == Wrap::repeat ? last_x : IntOf<R>(0), x.i);
+  const bool seam = sampler.wrap_t == Wrap::repeat;
+  const IntOf<R> row0 = l.offset + select(y.i < 0, seam ? last_y : IntOf<R>(0), y.i) * pitch;
+  if (all(nearest)) return decoded<R>(gather(texels_.data(), row0 + x.i));
+  const IntOf<R> row1 = l.offset + select(y.i < last_y, y.i + 1, seam ? IntOf<R>(0) : last_y) * pitch;
+  return detail::lerp(filter_row<R>(row0 + x.i, x.fraction), filter_row<R>(row1 + x.i, x.fraction), y.fraction);
 }
 
 template <Number R>

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Installs what halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing where all is there.
+#
+#   scripts/install_deps.sh [--tests]     with --tests also what the tests and benchmarks need
+set -euo pipefail
+
+packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libspng-dev libcli11-dev nlohmann-json3-dev libfmt-dev)
+test_packages=(libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
+
+case "${1:-}" in
+  "") ;;
+  --tests) packages+=("${test_packages[@]}") ;;
+  *) echo "install_deps.sh: unknown argument '$1'; expected --tests or nothing" >&2; exit 2 ;;
+esac
+
+fail() { echo "install_deps.sh: $*" >&2; exit 1; }
+
+if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+  fail "this system has no apt; install the counterparts of: ${packages[*]}"
+fi
+
+installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]; }
+
+missing=()
+for package in "${packages[@]}"; do
+  installed "$package" || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+run=(env DEBIAN_FRONTEND=noninteractive)
+if [ "$(id -u)" -ne 0 ]; then
+  sudo -n true 2> /dev/null || fail "no right to install (neither root nor sudo without a password); ask for: ${missing[*]}"
+  run=(sudo -n env DEBIAN_FRONTEND=noninteractive)
+fi
+
+echo "install_deps.sh: installing ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+# The lists may be stale or absent: fetch them only where the packages cannot be had without.
+if ! "${run[@]}" apt-get -o DPkg::Lock::Timeout=120 install -y --no-install-recommends "${missing[@]}" > "$log" 2>&1; then
+  "${run[@]}" apt-get update > "$log" 2>&1 || true
+  if ! "${run[@]}" apt-get -o DPkg::Lock::Timeout=120 install -y --no-install-recommends "${missing[@]}" > "$log" 2>&1; then
+    reason=$(grep -m 1 '^E:' "$log" || tail -n 1 "$log")
+    fail "cannot install ${missing[*]} ($reason)"
+  fi
+fi

@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Plants faults in a copy of the tree, one by one, and shows that the tests catch each.
+#
+#   scripts/mutate.sh        all faults
+#   scripts/mutate.sh N      the N-th alone
+#   scripts/mutate.sh list   their names
+#
+# Ends in "N caught, M missed"; exit 1 if any was missed. A fault is a text in one file and what it becomes; the text
+# must stand in the file exactly once. It counts as caught if the tests no longer build or one of them fails.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+names=() files=() olds=() news=()
+fault() { names+=("$1"); files+=("$2"); olds+=("$3"); news+=("$4"); }
+
+fault "fill rule: left edges lose their samples" src/raster/edge.h 'e.ey < 0 ||' 'e.ey > 0 ||'
+fault "fill rule: horizontal edges the wrong way" src/raster/edge.h 'e.ey == 0 && e.ex' 'e.ey == 0 && -e.ex'
+fault "fill rule: shared edges drawn twice" src/raster/edge.h 'owns_its_samples(e) ? 0 : 1' 'owns_its_samples(e) ? 0 : 0'
+fault "snapping truncates" src/raster/vertex_stage.cpp 'round_to_int(whole) + round_to_int(rest)' 'round_to_int(whole) + truncate_to_int(rest)'
+fault "snapping to 1/128 px" src/raster/vertex_stage.cpp 'return round_to_int(whole) + round_to_int(rest);' 'return (round_to_int(whole) + round_to_int(rest)) & Int(-2);'
+fault "pixel centres half a pixel off" src/raster/visibility.cpp 'constexpr int half = kSubPixels / 2;' 'constexpr int half = 0;'
+fault "clip: near plane left out" src/raster/clip.cpp 'case 1: return depth.clip == ClipDepth::negative_one_to_one ? p.z + p.w : p.z;' 'case 1: return 1.0;'
+fault "clip: far plane before w is made positive" src/raster/clip.cpp 'const bool near_or_far = plane == 1 || plane == 2;' 'const bool near_or_far = plane == 0 || plane == 2;'
+fault "clip: place of a new corner rounded to float" src/raster/clip.cpp 'const double t = d_in / (d_in - d_out);' 'const double t = static_cast<double>(static_cast<float>(d_in / (d_in - d_out)));'
+fault "clip: guard band not applied" src/raster/vertex_stage.cpp 'bit(!inside_guard, kOutGuard)' 'bit(!inside_guard & Mask(false), kOutGuard)'
+fault "clip: flat varyings interpolated" src/raster/clip.cpp 'kernels.interpolations[i] == Interpolation::flat' 'kernels.interpolations[i] == Interpolation::flat && false'
+fault "non-finite vertices drawn" src/raster/setup.cpp 'if (any & kOutNonFinite) {' 'if (false) {'
+fault "depth function: less also passes equal" src/raster/compare.h 'case CompareOp::less: return z < stored;' 'case CompareOp::less: return z <= stored;'
+fault "depth function: greater and greater_equal swapped" src/raster/compare.h 'case CompareOp::greater_equal: return z >= stored;' 'case CompareOp::greater_equal: return z > stored;'
+fault "depth: plane not from the nearest vertex" src/raster/setup.cpp 'const float z_min = std::min({v[0]->z, v[1]->z, v[2]->z});' 'const float z_min = v[0]->z;'
+fault "depth: block bounds too narrow" src/raster/visibility.cpp 'if (!raises) tile.block_min[b] = std::min(tile.block_min[b], low);' 'if (!raises) tile.block_min[b] = std::min(tile.block_min[b], high);'
+fault "depth: hierarchical test drops equal values" src/raster/visibility.cpp 'case CompareOp::less_equal: return low > block_max;' 'case CompareOp::less_equal: return low >= block_max;'
+fault "depth written although the test has write off" src/raster/visibility.cpp 'tests && draw.state.depth.write' 'tests'
+fault "depth offset: slope ignores y" src/raster/setup.cpp 'std::max(std::fabs(dz_dx), std::fabs(dz_dy))' 'std::fabs(dz_dx)'
+fault "perspective divide left out" src/shading/pixel.h 'return fma(w.p2, delta2, fma(w.p1, delta1, value0));' 'return fma(w.b2, delta2, fma(w.b1, delta1, value0));'
+fault "interpolation: products rounded separately" src/core/lanes.h 'return fma(a, b, -cd) + error;' 'return (void)error, a * b - cd;'
+fault "derivatives: x and y swapped" src/shading/pixel.h 'return derivative(member, R(256) * triangle->e2y, R(-256) * triangle->e1y);' 'return derivative(member, R(-256) * triangle->e2x, R(256) * triangle->e1x);'
+fault "cull: winding turned round" src/raster/draw_state.h 'front_facing ? CullMode::front : CullMode::back' 'front_facing ? CullMode::back : CullMode::front'
+fault "provoking vertex: always the last" src/raster/setup.cpp 'draw_.state.provoking == ProvokingVertex::first ? 0 : 2' 'draw_.state.provoking == ProvokingVertex::first ? 2 : 2'
+fault "bins: last column of a triangle's box left out" src/raster/bin.cpp 'const int x0 = b.x0 / size, x1 = (b.x1 - 1) / size;' 'const int x0 = b.x0 / size, x1 = std::max(b.x0 / size, (b.x1 - 2) / size);'
+fault "bins: tile rejected by the wrong corner" src/raster/bin.cpp 'e.ey < 0 ? size - 1 : 0' 'e.ey > 0 ? size - 1 : 0'
+fault "scissor ignored inside a packet" src/raster/visibility.cpp 'if (cut) mask = mask &' 'if (false) mask = mask &'
+fault "blending before the pixels that wait are shaded" src/raster/pass.cpp 'if (waiting && shades) shade_deferred(frame_, tile, statistics);
+      waiting = false;' 'waiting = waiting;'
+fault "flush forgets the depth" src/raster/pass.cpp 'if (!first) color.load = depth.load = LoadOp::load;' 'if (!first) color.load = LoadOp::load;'
+fault "rows stored bottom up" src/raster/tile.cpp 'target_height - 1 - (tile.y0 + y)' 'tile.y0 + y'
+fault "texture: one level too coarse" src/shading/texture.h 'return R(0.5f) * log2(' 'return R(1.0f) + R(0.5f) * log2('
+
+if [ "${1:-}" = list ]; then
+  for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done
+  exit 0
+fi
+only=${1:-}
+if [ -n "$only" ] && ! { [[ $only =~ ^[0-9]+$ ]] && [ "$only" -ge 1 ] && [ "$only" -le ${#names[@]} ]; }; then
+  echo "mutate.sh: '$only' is not a fault; expected 1 to ${#names[@]}, or list" >&2
+  exit 2
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work"
+mkdir -p "$work/build"
+tests=(raster property shading core)
+build() { cmake --build "$work/build" --target "${tests[@]/#/test-}" > "$work/build.log" 2>&1; }
+run_tests() {
+  for t in "${tests[@]}"; do
+    (cd "$work" && timeout 600 "build/bin/test-$t" --gtest_fail_fast --gtest_brief=1) > "$work/test.log" 2>&1 || return 1
+  done
+}
+
+echo "building the tree without faults"
+cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_BENCHMARKS=OFF > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
+build || { tail -30 "$work/build.log"; exit 1; }
+run_tests || { echo "the tests fail without any fault:"; tail -30 "$work/test.log"; exit 1; }
+
+caught=0 missed=0
+for i in "${!names[@]}"; do
+  [ -z "$only" ] || [ "$only" -eq $((i + 1)) ] || continue
+  file=$work/${files[$i]}
+  text=$(cat "$file"; echo .)
+  text=${text%.}
+  once=${text/"${olds[$i]}"/"${news[$i]}"}
+  rest=${text#*"${olds[$i]}"}
+  if [ "$once" = "$text" ] || [[ $rest == *"${olds[$i]}"* ]]; then
+    echo "fault $((i + 1)) (${names[$i]}): its text does not stand exactly once in ${files[$i]}" >&2
+    exit 1
+  fi
+  printf '%s' "$once" > "$file"
+  if build && run_tests; then
+    missed=$((missed + 1))
+    echo "MISSED $((i + 1)) ${names[$i]}"
+  else
+    caught=$((caught + 1))
+    echo "caught $((i + 1)) ${names[$i]} ($(grep -m1 -oE '\[  FAILED  \] [A-Za-z0-9_/.]+' "$work/test.log" | cut -c14- || echo 'does not build'))"
+  fi
+  printf '%s' "$text" > "$file"
+  : > "$work/test.log"
+done
+echo "$caught caught, $missed missed"
+[ "$missed" -eq 0 ]

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shader that lacks the primitive function that goes with its Primitive struct: must not compile, and the message must name: primitive(const Varyings.
+#include "raster/pass.h"
+
+using namespace halfspace;
+
+struct Incomplete {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+  };
+
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+  };
+
+  template <class R>
+  struct Primitive {
+    vec3<R> normal;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = vec3<R>(R(1));
+    return in.position;
+  }
+
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {vec4<R>(in.color, R(1))};
+  }
+};
+
+void draw_incomplete(Pass& pass, const VertexView& view) { pass.draw(Incomplete{}, view); }

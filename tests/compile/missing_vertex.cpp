@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shader that lacks its vertex function: must not compile, and the message must name: vertex(const Attributes.
+#include "raster/pass.h"
+
+using namespace halfspace;
+
+struct Incomplete {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+  };
+
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+  };
+
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {vec4<R>(in.color, R(1))};
+  }
+};
+
+void draw_incomplete(Pass& pass, const VertexView& view) { pass.draw(Incomplete{}, view); }

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every operation of lanes.h at widths 4, 8 and 16 against the same operation on plain numbers, bit by bit: over special
+// values in all pairs (zeros, infinities, NaN, subnormals, ties, the ends of the int32 range) and over random bits.
+// A NaN result need only be a NaN: the sign and payload of one that an operation makes are not ours to choose.
+#include "core/lanes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace halfspace {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kMax = std::numeric_limits<float>::max();
+constexpr int32_t kIntMin = std::numeric_limits<int32_t>::min(), kIntMax = std::numeric_limits<int32_t>::max();
+
+const std::vector<float>& reals() {
+  static const std::vector<float> values = [] {
+    std::vector<float> v = {0.0f, 0.5f, 1.0f, 1.5f, 2.5f, 3.5f, 0x1p-149f, 0x1p-126f, 0x1.fffffcp-127f, 0.49999997f, 8388607.5f, 8388609.0f, 2147483520.0f, 2147483648.0f, 4294967296.0f, kMax, kInf, kNaN};
+    for (std::size_t i = 0, n = v.size(); i < n; ++i) v.push_back(-v[i]);
+    std::mt19937 random(1);
+    for (int i = 0; i < 60; ++i) v.push_back(as_real(static_cast<int32_t>(random())));
+    return v;
+  }();
+  return values;
+}
+const std::vector<int32_t>& ints() {
+  static const std::vector<int32_t> values = [] {
+    std::vector<int32_t> v = {0, 1, -1, 2, 255, 65535, 65536, 16777217, kIntMax, kIntMin, kIntMin + 1, -65536};
+    std::mt19937 random(2);
+    for (int i = 0; i < 60; ++i) v.push_back(static_cast<int32_t>(random()));
+    return v;
+  }();
+  return values;
+}
+
+bool same(float a, float b) { return (std::isnan(a) && std::isnan(b)) || as_int(a) == as_int(b); }
+bool same(int32_t a, int32_t b) { return a == b; }
+bool same(bool a, bool b) { return a == b; }
+
+template <int W>
+RealN<W> pack(const std::vector<float>& v, std::size_t from, std::size_t step) {
+  RealN<W> r;
+  for (int k = 0; k < W; ++k) set_lane(r, k, v[(from + static_cast<std::size_t>(k) * step) % v.size()]);
+  return r;
+}
+template <int W>
+IntN<W> pack(const std::vector<int32_t>& v, std::size_t from, std::size_t step) {
+  IntN<W> r;
+  for (int k = 0; k < W; ++k) set_lane(r, k, v[(from + static_cast<std::size_t>(k) * step) % v.size()]);
+  return r;
+}
+
+/// f(a, b, c) on lanes against f on each lane alone, for all pairs (a, b) of the values and some c.
+template <int W, class T, class F>
+void expect_lanes_agree(const char* what, const std::vector<T>& v, F f) {
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    for (std::size_t j = 0; j < v.size(); j += W) {
+      const auto a = pack<W>(v, i, 0), b = pack<W>(v, j, 1), c = pack<W>(v, i + 3 * j, 5);
+      const auto got = f(a, b, c);
+      for (int k = 0; k < W; ++k) {
+        const auto want = f(lane(a, k), lane(b, k), lane(c, k));
+        ASSERT_TRUE(same(lane(got, k), want)) << what << " at width " << W << ": " << lane(a, k) << ", " << lane(b, k) << ", " << lane(c, k) << " gives " << lane(got, k) << ", not " << want;
+      }
+    }
+  }
+}
+template <class F>
+void check_real(const char* what, F f) {
+  expect_lanes_agree<4>(what, reals(), f);
+  expect_lanes_agree<8>(what, reals(), f);
+  expect_lanes_agree<16>(what, reals(), f);
+}
+template <class F>
+void check_int(const char* what, F f) {
+  expect_lanes_agree<4>(what, ints(), f);
+  expect_lanes_agree<8>(what, ints(), f);
+  expect_lanes_agree<16>(what, ints(), f);
+}
+
+TEST(Lanes, ArithmeticIsThatOfFloat) {
+  check_real("+", [](auto a, auto b, auto) { return a + b; });
+  check_real("-", [](auto a, auto b, auto) { return a - b; });
+  check_real("*", [](auto a, auto b, auto) { return a * b; });
+  check_real("/", [](auto a, auto b, auto) { return a / b; });
+  check_real("negation", [](auto, auto b, auto) { return -b; });
+  check_real("+=", [](auto a, auto b, auto) { return a += b; });
+  check_real("-=", [](auto a, auto b, auto) { return a -= b; });
+  check_real("*=", [](auto a, auto b, auto) { return a *= b; });
+  check_real("/=", [](auto a, auto b, auto) { return a /= b; });
+  check_real("fma", [](auto a, auto b, auto c) { return fma(a, b, c); });
+  check_real("sqrt", [](auto, auto b, auto) { return sqrt(b); });
+  check_real("floor", [](auto, auto b, auto) { return floor(b); });
+  check_real("round_even", [](auto, auto b, auto) { return round_even(b); });
+  check_real("abs", [](auto, auto b, auto) { return abs(b); });
+  check_real("min", [](auto a, auto b, auto) { return min(a, b); });
+  check_real("max", [](auto a, auto b, auto) { return max(a, b); });
+  check_real("clamp", [](auto a, auto b, auto c) { return clamp(a, b, c); });
+  check_real("difference_of_products", [](auto a, auto b, auto c) { return difference_of_products(a, b, c, a); });
+}
+
+TEST(Lanes, IntegerArithmeticWraps) {
+  // The scalar side goes through unsigned, where wrapping is defined.
+  const auto scalar = [](auto op) {
+    return [op](auto a, auto b, auto) {
+      if constexpr (std::is_same_v<decltype(a), int32_t>) return static_cast<int32_t>(op(static_cast<uint32_t>(a), static_cast<uint32_t>(b)));
+      else return op(a, b);
+    };
+  };
+  check_int("+", scalar([](auto a, auto b) { return a + b; }));
+  check_int("-", scalar([](auto a, auto b) { return a - b; }));
+  check_int("*", scalar([](auto a, auto b) { return a * b; }));
+  check_int("negation", scalar([](auto, auto b) { return decltype(b)(0) - b; }));
+  check_int("+=", scalar([](auto a, auto b) { return a += b; }));
+  check_int("-=", scalar([](auto a, auto b) { return a -= b; }));
+  check_int("&", [](auto a, auto b, auto) { return a & b; });
+  check_int("|", [](auto a, auto b, auto) { return a | b; });
+  check_int("^", [](auto a, auto b, auto) { return a ^ b; });
+  check_int("~", [](auto, auto b, auto) { return ~b; });
+  check_int("<< 7", [](auto, auto b, auto) { return b << 7; });
+  check_int(">> 5", [](auto, auto b, auto) { return b >> 5; });
+  check_int("min", [](auto a, auto b, auto) { return min(a, b); });
+  check_int("max", [](auto a, auto b, auto) { return max(a, b); });
+  EXPECT_EQ(lane(-IntN<8>(kIntMin), 3), kIntMin);
+}
+
+TEST(Lanes, ComparisonsAndSelectAgree) {
+  check_real("<", [](auto a, auto b, auto) { return a < b; });
+  check_real("<=", [](auto a, auto b, auto) { return a <= b; });
+  check_real(">", [](auto a, auto b, auto) { return a > b; });
+  check_real(">=", [](auto a, auto b, auto) { return a >= b; });
+  check_real("==", [](auto a, auto b, auto) { return a == b; });
+  check_real("!=", [](auto a, auto b, auto) { return a != b; });
+  check_real("select", [](auto a, auto b, auto c) { return select(a < b, b, c); });
+  check_real("select scalar", [](auto a, auto b, auto c) { return select(a < b, 2.0f, c); });
+  check_real("mask and, or", [](auto a, auto b, auto c) { return (a < b && b < c) || c < a; });
+  check_int("<", [](auto a, auto b, auto) { return a < b; });
+  check_int("<=", [](auto a, auto b, auto) { return a <= b; });
+  check_int(">", [](auto a, auto b, auto) { return a > b; });
+  check_int(">=", [](auto a, auto b, auto) { return a >= b; });
+  check_int("==", [](auto a, auto b, auto) { return a == b; });
+  check_int("!=", [](auto a, auto b, auto) { return a != b; });
+  check_int("select", [](auto a, auto b, auto c) { return select(a < b, b, c); });
+  check_int("select scalar", [](auto a, auto b, auto c) { return select(a < b, 7, c); });
+  check_int("select mask", [](auto a, auto b, auto c) { return select(a < b, b < c, c < a); });
+}
+
+TEST(Lanes, ConversionsAgreeOnTiesNaNAndWhatDoesNotFit) {
+  check_real("truncate_to_int", [](auto, auto b, auto) { return truncate_to_int(b); });
+  check_real("round_to_int", [](auto, auto b, auto) { return round_to_int(b); });
+  check_int("as_real", [](auto, auto b, auto) { return as_real(b); });
+  check_real("as_int", [](auto, auto b, auto) { return as_int(b); });
+  expect_lanes_agree<4>("to_real", ints(), [](auto, auto b, auto) { return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<4>>>(b); });
+  expect_lanes_agree<8>("to_real", ints(), [](auto, auto b, auto) { return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<8>>>(b); });
+  expect_lanes_agree<16>("to_real", ints(), [](auto, auto b, auto) { return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<16>>>(b); });
+  for (const float x : {kNaN, kInf, -kInf, 2147483648.0f, -2147483904.0f, 1e30f}) {
+    EXPECT_EQ(truncate_to_int(x), kIntMin) << x;
+    EXPECT_EQ(round_to_int(x), kIntMin) << x;
+    EXPECT_EQ(round_to_int(static_cast<double>(x)), kIntMin) << x;
+  }
+  const float ties[] = {0.5f, 1.5f, 2.5f, -0.5f, -1.5f, -2.5f}, even[] = {0, 2, 2, 0, -2, -2};
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(round_to_int(ties[i]), static_cast<int>(even[i]));
+    EXPECT_EQ(round_even(ties[i]), even[i]);
+  }
+}
+
+TEST(Lanes, MinAndMaxReturnTheSecondOfNaN) {
+  for (const auto& [a, b] : {std::pair(kNaN, 1.0f), std::pair(1.0f, kNaN), std::pair(0.0f, -0.0f), std::pair(-0.0f, 0.0f)}) {
+    EXPECT_TRUE(same(min(a, b), b));
+    EXPECT_TRUE(same(max(a, b), b));
+    EXPECT_TRUE(same(lane(min(RealN<16>(a), RealN<16>(b)), 9), b));
+    EXPECT_TRUE(same(lane(max(RealN<16>(a), RealN<16>(b)), 9), b));
+  }
+  EXPECT_EQ(clamp(kNaN, 2.0f, 3.0f), 2.0f);
+}
+
+template <int W>
+void check_width() {
+  // Broadcast keeps every bit, the sign of zero among them.
+  for (const float x : reals()) {
+    for (int k = 0; k < W; ++k) EXPECT_TRUE(same(lane(RealN<W>(x), k), x)) << x;
+  }
+  EXPECT_EQ(as_int(lane(RealN<W>(-0.0f), W - 1)), kIntMin);
+  for (const int32_t x : ints()) EXPECT_EQ(lane(IntN<W>(x), W - 1), x);
+
+  // Memory.
+  std::vector<float> table(1000);
+  std::vector<int32_t> int_table(1000);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    table[i] = static_cast<float>(i) * 0.25f;
+    int_table[i] = static_cast<int32_t>(i * i);
+  }
+  std::mt19937 random(W);
+  for (int trial = 0; trial < 100; ++trial) {
+    IntN<W> index;
+    for (int k = 0; k < W; ++k) set_lane(index, k, static_cast<int32_t>(random() % 500) - 250);
+    const RealN<W> r = gather(table.data() + 250, index);  // negative indices too
+    const IntN<W> n = gather(int_table.data() + 250, index);
+    for (int k = 0; k < W; ++k) {
+      EXPECT_EQ(lane(r, k), gather(table.data() + 250, lane(index, k)));
+      EXPECT_EQ(lane(n, k), gather(int_table.data() + 250, lane(index, k)));
+    }
+  }
+  const RealN<W> loaded = load<RealN<W>>(table.data() + 3);  // unaligned
+  for (int k = 0; k < W; ++k) EXPECT_EQ(lane(loaded, k), table[static_cast<std::size_t>(3 + k)]);
+  store(table.data() + 7, -loaded);
+  for (int k = 0; k < W; ++k) EXPECT_EQ(table[static_cast<std::size_t>(7 + k)], -lane(loaded, k));
+
+  // Masks.
+  for (uint32_t pattern = 0; pattern < (1u << W); pattern += W == 16 ? 7u : 1u) {
+    MaskN<W> m(false);
+    for (int k = 0; k < W; ++k) m |= (iota<IntN<W>>() == IntN<W>(k)) & MaskN<W>((pattern >> k & 1) != 0);
+    EXPECT_EQ(bits(m), pattern);
+    EXPECT_EQ(any(m), pattern != 0);
+    EXPECT_EQ(none(m), pattern == 0);
+    EXPECT_EQ(all(m), pattern == kAllBits<MaskN<W>>);
+    EXPECT_EQ(bits(!m), ~pattern & kAllBits<MaskN<W>>);
+    EXPECT_EQ(bits(m ^ MaskN<W>(true)), bits(!m));
+    for (int k = 0; k < W; ++k) {
+      EXPECT_EQ(lane(m, k), (pattern >> k & 1) != 0);
+      EXPECT_EQ(lane(as_int(m), k), lane(m, k) ? -1 : 0);
+    }
+  }
+  EXPECT_TRUE(all(MaskN<W>(true)));
+  for (int n = -1; n <= W + 1; ++n) EXPECT_EQ(bits(first_lanes<MaskN<W>>(n)), n <= 0 ? 0u : n >= W ? kAllBits<MaskN<W>> : (1u << n) - 1u);
+}
+
+TEST(Lanes, BroadcastMemoryAndMasksOfWidth4) { check_width<4>(); }
+TEST(Lanes, BroadcastMemoryAndMasksOfWidth8) { check_width<8>(); }
+TEST(Lanes, BroadcastMemoryAndMasksOfWidth16) { check_width<16>(); }
+
+TEST(Lanes, WidthOneIsPlainNumbers) {
+  EXPECT_EQ(bits(true), 1u);
+  EXPECT_TRUE(all(true) && any(true) && none(false));
+  EXPECT_TRUE(first_lanes<bool>(1));
+  EXPECT_FALSE(first_lanes<bool>(0));
+  EXPECT_EQ(iota<int32_t>(), 0);
+  static_assert(kWidthOf<float> == 1 && kWidthOf<double> == 1 && kWidthOf<RealN<8>> == 8);
+  static_assert(Number<float> && Number<double> && Number<RealN<4>> && !Number<int>);
+}
+
+TEST(Lanes, DifferenceOfProductsErrsByAtMostOneAndAHalfUlp) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
+  double worst = 0.0;
+  for (int i = 0; i < 2000000; ++i) {
+    float a = unit(random), b = unit(random), c = unit(random), d = unit(random);
+    if (i % 2 == 0) {  // products that nearly cancel
+      c = a * (1.0f + static_cast<float>(static_cast<int>(random() % 9) - 4) * 0x1p-23f);
+      d = b * (1.0f + static_cast<float>(static_cast<int>(random() % 9) - 4) * 0x1p-23f);
+    }
+    const float got = difference_of_products(a, b, c, d);
+    // Products of floats are exact in double; their difference is then rounded once, to 2^-53 of itself.
+    const double want = static_cast<double>(a) * static_cast<double>(b) - static_cast<double>(c) * static_cast<double>(d);
+    if (want == 0.0) {
+      ASSERT_EQ(got, 0.0f);
+      continue;
+    }
+    const double ulp = std::ldexp(1.0, std::max(std::ilogb(want), -126) - 23);
+    worst = std::max(worst, std::fabs(static_cast<double>(got) - want) / ulp);
+  }
+  EXPECT_LE(worst, 1.5);  // the theorem of Jeannerod, Louvet and Muller
+  EXPECT_GE(worst, 1.0);  // and the inputs do come near it: a plain a·b − c·d would err by millions
+}
+
+TEST(Vec, UniformsMixWithLanesAsWithFloat) {
+  const glm::mat4 m(1.5f, 2.25f, -3.1f, 0.4f, 5.3f, 0.6f, 7.7f, -0.8f, 9.1f, 1.2f, 0.3f, 4.4f, 0.1f, 2.3f, 4.5f, 6.7f);
+  const glm::vec4 v(0.3f, -1.7f, 2.9f, 1.1f);
+  const glm::vec3 u(0.7f, 0.2f, -0.9f);
+  using R = RealN<8>;
+  const vec4<R> lanes(R(v.x), R(v.y), R(v.z), R(v.w));
+  const vec3<R> three(R(v.x), R(v.y), R(v.z));
+  const vec4<R> product = m * lanes;
+  const vec3<R> turned = glm::mat3(m) * three;
+  for (int c = 0; c < 4; ++c) EXPECT_EQ(as_int(lane(product[c], 5)), as_int((m * v)[c]));
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(as_int(lane(turned[c], 5)), as_int((glm::mat3(m) * glm::vec3(v))[c]));
+  EXPECT_EQ(as_int(lane(dot(three, u), 2)), as_int(glm::dot(glm::vec3(v), u)));
+  EXPECT_EQ(as_int(lane(normalize(three).y, 2)), as_int(glm::normalize(glm::vec3(v)).y));
+  const vec3<R> picked = select(MaskN<8>(true), three, -three);
+  EXPECT_EQ(lane(picked.z, 0), v.z);
+}
+
+}  // namespace
+}  // namespace halfspace

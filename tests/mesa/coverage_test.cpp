@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Coverage alone: every fragment adds 1/255, so a pixel holds the number of triangles that cover it, and a fragment
+// that only one renderer draws cannot hide behind another.
+#include "mesa_context.h"
+#include "scenes.h"
+#include "twin_pass.h"
+#include "twin_shaders.h"
+
+namespace halfspace::test {
+
+namespace {
+
+DrawState counting() {
+  DrawState state;
+  state.depth.test = false;
+  state.depth.write = false;
+  state.blend = BlendState{.source_color = BlendFactor::one, .destination_color = BlendFactor::one, .source_alpha = BlendFactor::one,
+                           .destination_alpha = BlendFactor::one};
+  return state;
+}
+
+Figures count_fragments(const ColoredMesh& mesh, const TargetSpec& target) {
+  TwinPass pass(target);
+  pass.draw(OneColor{glm::vec4(1.0f / 255.0f)}, mesh.positions(), mesh.indices, counting());
+  pass.run();
+  const Figures figures = pass.fragment_figures();
+  report(figures);
+  return figures;
+}
+
+struct SoupCase {
+  const char* name;
+  Soup soup;
+  friend void PrintTo(const SoupCase& c, std::ostream* os) { *os << c.name; }
+};
+
+}  // namespace
+
+class CoverageOf : public MesaFixture<testing::TestWithParam<SoupCase>> {};
+
+TEST_P(CoverageOf, DiffersOnAtMostOneFragmentInTenThousand) {
+  const Figures figures = count_fragments(make_soup(GetParam().soup, 640, 360), {.width = 640, .height = 360});
+  EXPECT_GT(figures.covered, 1000);
+  EXPECT_LE(figures.coverage_share(), 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Soup, CoverageOf,
+                         testing::Values(SoupCase{"tiny", {.triangles = 200000, .size = 2}},                             //
+                                         SoupCase{"small", {.triangles = 20000, .size = 12}},                            //
+                                         SoupCase{"large", {.triangles = 200, .size = 400}},                             //
+                                         SoupCase{"beyond_the_window", {.triangles = 100, .size = 3000}},                //
+                                         SoupCase{"beyond_the_guard_band", {.triangles = 100, .size = 40000}},           //
+                                         SoupCase{"slivers", {.triangles = 5000, .size = 300, .thickness = 0.7f}},       //
+                                         SoupCase{"in_perspective", {.triangles = 2000, .size = 60, .w_ratio = 100}},    //
+                                         SoupCase{"on_half_pixels", {.triangles = 5000, .size = 20, .grid = 0.5f}},      //
+                                         SoupCase{"crossing_near", {.triangles = 300, .size = 150, .crosses_near = true}}),
+                         case_name);
+
+using Coverage = MesaTest;
+
+// Every pixel of a sheet that covers the window is drawn exactly once, by both.
+TEST_F(Coverage, OfSheetsOfSharedVerticesIsOneEverywhere) {
+  for (const float jitter : {0.0f, 0.1f, 0.3f}) {
+    const ColoredMesh mesh = make_sheet(150, 90, jitter, 7);
+    TwinPass pass({.width = 640, .height = 360});
+    pass.draw(OneColor{glm::vec4(1.0f / 255.0f)}, mesh.positions(), mesh.indices, counting());
+    pass.run();
+    report(pass.fragment_figures());
+    for (const Picture* picture : {&pass.halfspace(), &pass.mesa()}) {
+      int64_t not_once = 0;
+      for (const glm::u8vec4& c : picture->color.texels()) not_once += c.x != 1;
+      EXPECT_EQ(not_once, 0) << (picture == &pass.mesa() ? "Mesa" : "Halfspace") << ", jitter " << jitter;
+    }
+  }
+}
+
+TEST_F(Coverage, OfTinyTrianglesSideBySide) {
+  const Figures figures = count_fragments(make_tiny(640, 360), {.width = 640, .height = 360});
+  EXPECT_LE(figures.coverage_share(), 1e-4);
+}
+
+}  // namespace halfspace::test

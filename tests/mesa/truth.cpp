@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth.h"
+
+namespace halfspace::test {
+
+bool passes(CompareOp op, double value, double held) {
+  switch (op) {
+    case CompareOp::never: return false;
+    case CompareOp::less: return value < held;
+    case CompareOp::equal: return value == held;
+    case CompareOp::less_equal: return value <= held;
+    case CompareOp::greater: return value > held;
+    case CompareOp::not_equal: return value != held;
+    case CompareOp::greater_equal: return value >= held;
+    default: return true;
+  }
+}
+
+glm::u8vec4 truth_codes(const glm::dvec4& color, ColorFormat format) {
+  glm::u8vec4 codes;
+  for (int k = 0; k < 4; ++k) {
+    double v = std::clamp(color[k], 0.0, 1.0);
+    if (format == ColorFormat::srgb8a8 && k < 3) v = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+    codes[k] = static_cast<uint8_t>(std::lround(v * 255.0));
+  }
+  return codes;
+}
+
+TruthTriangle truth_triangle(const std::array<glm::vec4, 3>& pos_clip, const Rect& viewport, const DepthState& depth, Positions positions) {
+  TruthTriangle t;
+  const double near = static_cast<double>(depth.range_near), far = static_cast<double>(depth.range_far);
+  const bool in_front = std::all_of(pos_clip.begin(), pos_clip.end(), [](const glm::vec4& p) { return p.w > 0.0f; });
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec4 p(pos_clip[i]);
+    t.q[i] = 1.0 / p.w;
+    t.x[i] = (viewport.x + (p.x / p.w + 1.0) * 0.5 * viewport.width) * 256.0;
+    t.y[i] = (viewport.y + (p.y / p.w + 1.0) * 0.5 * viewport.height) * 256.0;
+    t.z[i] = near + (far - near) * (depth.clip == ClipDepth::zero_to_one ? p.z / p.w : 0.5 * p.z / p.w + 0.5);
+    if (positions == Positions::snapped && in_front) {
+      t.x[i] = std::nearbyint(t.x[i]);
+      t.y[i] = std::nearbyint(t.y[i]);
+    }
+  }
+  t.area = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
+  return t;
+}
+
+std::array<double, 3> TruthTriangle::weights(double px, double py) const {
+  std::array<double, 3> b;
+  for (std::size_t i = 0; i < 3; ++i) {  // exact for snapped positions: products below 2^53
+    const std::size_t s = (i + 1) % 3, e = (i + 2) % 3;
+    b[i] = ((x[e] - x[s]) * (py - y[s]) - (y[e] - y[s]) * (px - x[s])) / area;
+  }
+  return b;
+}
+
+bool TruthTriangle::covers(const std::array<double, 3>& b, bool fill_rule) const {
+  if (!(b[0] * q[0] + b[1] * q[1] + b[2] * q[2] > 0.0)) return false;  // behind the eye
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double p = b[i] * (q[i] > 0.0 ? 1.0 : -1.0);
+    if (p < 0.0) return false;
+    if (p > 0.0 || !fill_rule) continue;
+    // On the edge: the samples of left edges, and of horizontal ones below the inside, belong to the triangle.
+    const std::size_t s = (i + 1) % 3, e = (i + 2) % 3;
+    const double turn = area > 0.0 ? 1.0 : -1.0;
+    const double ex = (x[e] - x[s]) * turn, ey = (y[e] - y[s]) * turn;
+    if (!(ey < 0.0 || (ey == 0.0 && ex > 0.0))) return false;
+  }
+  return true;
+}
+
+bool truth_culled(const TruthTriangle& t, const DrawState& state) {
+  const bool counter_clockwise = t.area * t.q[0] * t.q[1] * t.q[2] > 0.0;
+  const bool front = counter_clockwise == (state.front == Winding::counter_clockwise);
+  return state.cull == CullMode::front_and_back || (state.cull == CullMode::front && front) || (state.cull == CullMode::back && !front);
+}
+
+}  // namespace halfspace::test

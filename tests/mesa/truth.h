@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pixel in double precision, by the plainest reading of OpenGL: every triangle in turn, no clipping (a point of the
+// plane is judged by the signs of its clip-space weights), the shader run with R = double. It tells whose error a
+// difference is. Vertex functions run in float, as both renderers run them. Opaque draws only.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mesa_draw.h"
+#include "shading/contract.h"
+
+namespace halfspace::test {
+
+/// Where the vertices lie: as computed, or rounded to the 1/256 px grid (triangles that reach w ≤ 0 are never rounded).
+enum class Positions { exact, snapped };
+
+/// What a pixel holds so far.
+struct TruthPixel {
+  glm::dvec4 color{0.0};
+  double depth = 1.0;
+};
+
+bool passes(CompareOp op, double value, double held);
+/// The 8-bit codes of a linear colour.
+glm::u8vec4 truth_codes(const glm::dvec4& color, ColorFormat format);
+
+/// A triangle in window coordinates, in 1/256 px. Weights may be negative or w below 0: the formulas are projective.
+struct TruthTriangle {
+  std::array<double, 3> x, y, z, q;  ///< q = 1/w
+  double area;
+
+  /// Window-space (linear) weights at a point, in the same units.
+  std::array<double, 3> weights(double px, double py) const;
+  /// Does the point belong to the triangle? owner: points exactly on an edge follow the fill rule, else all belong.
+  bool covers(const std::array<double, 3>& b, bool fill_rule) const;
+};
+TruthTriangle truth_triangle(const std::array<glm::vec4, 3>& pos_clip, const Rect& viewport, const DepthState& depth, Positions positions);
+bool truth_culled(const TruthTriangle& t, const DrawState& state);
+
+/// A draw that can be asked for its fragments at a pixel.
+class TruthDraw {
+ public:
+  virtual ~TruthDraw() = default;
+  /// Draws into one pixel; its centre is (x + 1/2, y + 1/2), y up.
+  virtual void draw(int x, int y, Positions positions, TruthPixel& pixel) const = 0;
+};
+
+template <Shader S>
+class TruthDrawOf final : public TruthDraw {
+  using V = typename S::template Varyings<float>;
+  using VD = typename S::template Varyings<double>;
+  static constexpr std::size_t kN = kComponents<V>;
+
+ public:
+  TruthDrawOf(const S& shader, const VertexView& view, std::vector<uint32_t> indices, const DrawState& state, const TargetSpec& target)
+      : shader_(shader), indices_(std::move(indices)), state_(state), viewport_(state.viewport.value_or(Rect{0, 0, target.width, target.height})) {
+    for (std::size_t i = 0; i < view.vertex_count; ++i) shade_vertex(view, i);
+  }
+
+  void draw(int x, int y, Positions positions, TruthPixel& pixel) const override {
+    const auto inside = [x, y](const Rect& r) { return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height; };
+    if (!inside(viewport_) || (state_.scissor && !inside(*state_.scissor))) return;
+    for (std::size_t i = 0; i + 2 < indices_.size(); i += 3) draw_triangle({indices_[i], indices_[i + 1], indices_[i + 2]}, x, y, positions, pixel);
+  }
+
+ private:
+  void shade_vertex(const VertexView& view, std::size_t i) {
+    using A = typename S::template Attributes<float>;
+    std::array<float, kComponents<A>> row;
+    std::size_t c = 0;
+    for (int s = 0; s < view.stream_count; ++s) {
+      const VertexStream& stream = view.streams[static_cast<std::size_t>(s)];
+      for (int k = 0; k < stream.components; ++k) row[c++] = stream.data[i * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)];
+    }
+    V out{};
+    pos_clip_.push_back(shader_.vertex(from_components<A, float>(row), out));
+    varyings_.push_back(to_components<float>(out));
+  }
+
+  void draw_triangle(const std::array<uint32_t, 3>& id, int x, int y, Positions positions, TruthPixel& pixel) const {
+    const TruthTriangle t =
+        truth_triangle({pos_clip_[id[0]], pos_clip_[id[1]], pos_clip_[id[2]]}, viewport_, state_.depth, positions);
+    if (t.area == 0.0 || truth_culled(t, state_)) return;
+    const std::array<double, 3> b = t.weights((x + 0.5) * 256.0, (y + 0.5) * 256.0);
+    if (!t.covers(b, positions == Positions::snapped)) return;
+    double z = b[0] * t.z[0] + b[1] * t.z[1] + b[2] * t.z[2];
+    const auto [low, high] = std::minmax(static_cast<double>(state_.depth.range_near), static_cast<double>(state_.depth.range_far));
+    if (!state_.depth.clamp && (z < low || z > high)) return;
+    z = std::clamp(z, low, high);
+    if (state_.depth.test && !passes(state_.depth.compare, z, pixel.depth)) return;
+    if (state_.depth.test && state_.depth.write) pixel.depth = z;
+    pixel.color = shade(t, b, id, x, y, z);
+  }
+
+  glm::dvec4 shade(const TruthTriangle& t, const std::array<double, 3>& b, const std::array<uint32_t, 3>& id, int x, int y, double z) const {
+    const double q = b[0] * t.q[0] + b[1] * t.q[1] + b[2] * t.q[2];
+    const std::size_t provoking = id[state_.provoking == ProvokingVertex::last ? 2 : 0];
+    std::array<double, kN> varyings;
+    ComponentLanes<double, kN> lanes;
+    for (std::size_t c = 0; c < kN; ++c) {
+      const std::array<double, 3> v{static_cast<double>(varyings_[id[0]][c]), static_cast<double>(varyings_[id[1]][c]),
+                                    static_cast<double>(varyings_[id[2]][c])};
+      const double linear = b[0] * v[0] + b[1] * v[1] + b[2] * v[2];
+      const double smooth = (b[0] * t.q[0] * v[0] + b[1] * t.q[1] * v[1] + b[2] * t.q[2] * v[2]) / q;
+      const Interpolation mode = kInterpolations<V>[c];
+      varyings[c] = mode == Interpolation::flat     ? static_cast<double>(varyings_[provoking][c])
+                    : mode == Interpolation::linear ? linear
+                                                    : smooth;
+      lanes.value0[c] = v[0];
+      lanes.delta1[c] = v[1] - v[0];
+      lanes.delta2[c] = v[2] - v[0];
+    }
+    TriangleLanes<double> triangle{t.x[0], t.y[0], t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0],
+                                   t.area, t.q[0], t.q[1],          t.q[2],          1.0};
+    Pixel<double> px{};
+    px.x = x + 0.5;
+    px.y = y + 0.5;
+    px.z = z;
+    px.inv_w = q;
+    px.triangle = &triangle;
+    px.component_lanes = &lanes;
+    px.dx = px.x * 256.0 - t.x[0];
+    px.dy = px.y * 256.0 - t.y[0];
+    px.weights = weights_at(triangle, px.dx, px.dy);
+    px.quad_x = x & 1;
+    px.quad_y = y & 1;
+    return shader_.fragment(from_components<VD, double>(varyings), px).color;
+  }
+
+  S shader_;
+  std::vector<uint32_t> indices_;
+  DrawState state_;
+  Rect viewport_;
+  std::vector<glm::vec4> pos_clip_;
+  std::vector<std::array<float, kN>> varyings_;
+};
+
+}  // namespace halfspace::test

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scene drawn twice, by Halfspace's Pass and by Mesa, and how far the two agree.
+#pragma once
+
+#include <string>
+
+#include "mesa_draw.h"
+#include "raster/pass.h"
+#include "truth.h"
+#include "twin_shaders.h"
+
+namespace halfspace::test {
+
+/// The figures of a comparison. A pixel is covered where alpha left its clear value 0.
+struct Figures {
+  int64_t covered = 0;           ///< pixels covered in either picture
+  int64_t coverage_differs = 0;  ///< … in one only
+  int64_t color_differs = 0;     ///< a channel differs by more than one code
+  int worst = 0;                 ///< the largest difference of a channel, in codes
+  double worst_depth = 0.0;      ///< the largest difference of window depths, where both are covered and colours agree
+
+  // Of the pixels whose colour differs, judged in double precision (a sample of them, where they are many).
+  int64_t judged = 0;
+  int64_t halfspace_right = 0, mesa_right = 0;              ///< within one code of the truth of snapped vertices
+  int64_t halfspace_right_exact = 0, mesa_right_exact = 0;  ///< … of unsnapped vertices
+
+  double coverage_share() const { return share(coverage_differs); }
+  double color_share() const { return share(color_differs); }
+
+ private:
+  double share(int64_t n) const { return covered == 0 ? 0.0 : static_cast<double>(n) / static_cast<double>(covered); }
+};
+
+class TwinPass {
+ public:
+  explicit TwinPass(const TargetSpec& target = {}) : target_(target) {}
+
+  /// Adds a draw to both. Vertices, indices and textures must outlive run().
+  template <Shader S>
+  void draw(const S& shader, const VertexView& vertices, const std::vector<uint32_t>& indices, const DrawState& state = {}) {
+    our_draws_.push_back([=, this](Pass& pass) {
+      lists_.push_back(std::make_unique<Indices>(indices_of(indices, vertices.vertex_count)));
+      pass.draw(shader, vertices, *lists_.back(), state);
+    });
+    mesa_draws_.push_back({kSharedGlsl, S::kVertexGlsl, S::kFragmentGlsl, [shader](const UniformSetter& set) { shader.uniforms(set); }, vertices, indices, state});
+    truths_.push_back(std::make_unique<TruthDrawOf<S>>(shader, vertices, indices, state, target_));
+  }
+
+  /// Draws both pictures.
+  void run();
+  const Picture& halfspace() const { return ours_; }
+  const Picture& mesa() const { return mesa_; }
+
+  /// Compares the pictures, and judges up to most_judged differing pixels in double precision (opaque draws only).
+  Figures figures(int most_judged = 0) const;
+  /// For additive draws of 1/255: the number of fragments of every pixel, compared; covered counts fragments.
+  Figures fragment_figures() const;
+  /// The truth of one pixel.
+  glm::u8vec4 truth(int x, int row, Positions positions) const;
+
+ private:
+  static Indices indices_of(const std::vector<uint32_t>& list, std::size_t vertex_count) { return Indices(list, vertex_count); }
+  void judge(int x, int row, Figures& f) const;
+
+  TargetSpec target_;
+  std::vector<std::function<void(Pass&)>> our_draws_;
+  std::vector<MesaDraw> mesa_draws_;
+  std::vector<std::unique_ptr<TruthDraw>> truths_;
+  std::vector<std::unique_ptr<Indices>> lists_;
+  Picture ours_, mesa_;
+};
+
+/// The default state, changed: state_with([](DrawState& s) { s.cull = CullMode::back; }).
+template <class Change>
+DrawState state_with(const Change& change) {
+  DrawState state;
+  change(state);
+  return state;
+}
+
+/// The name of a parameterized test: its parameter's.
+inline const auto case_name = [](const auto& test) { return std::string(test.param.name); };
+
+/// Prints the figures, and records them as properties of the running test.
+void report(const Figures& figures);
+/// The bounds of issue 2: coverage differs on at most 0.01% of the covered pixels, colour is within 1/255 on at least
+/// 99.9% of them.
+void expect_agreement(const Figures& figures);
+
+}  // namespace halfspace::test

@@ -1,0 +1,670 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "oracle/oracle.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "core/srgb.h"
+
+namespace halfspace::oracle {
+
+// ---- images ----------------------------------------------------------------------------------------------------
+
+namespace {
+
+float hold(float x, float low, float high) {  // NaN becomes low
+  const float raised = x > low ? x : low;
+  return raised < high ? raised : high;
+}
+
+uint8_t encode_unorm8(float x) {
+  return static_cast<uint8_t>(std::lround(static_cast<double>(hold(x, 0.0f, 1.0f)) * 255.0));  // the product is exact, and never half-way
+}
+
+float decode_half(uint16_t h) {
+  const int exponent = h >> 10 & 31;
+  const int mantissa = h & 1023;
+  if (exponent == 31 && mantissa != 0) return std::bit_cast<float>((h & 0x8000u) << 16 | 0x7fc00000u | static_cast<uint32_t>(mantissa) << 13);
+  const double size = exponent == 31  ? HUGE_VAL
+                      : exponent == 0 ? std::ldexp(mantissa, -24)
+                                      : std::ldexp(1024 + mantissa, exponent - 25);
+  return static_cast<float>((h & 0x8000) != 0 ? -size : size);
+}
+
+// To the nearest half, ties to even, infinities and all beyond them held to the largest finite half.
+uint16_t encode_half(float x) {
+  const uint32_t sign = std::bit_cast<uint32_t>(x) >> 16 & 0x8000u;
+  if (std::isnan(x)) return static_cast<uint16_t>(sign | 0x7e00u | (std::bit_cast<uint32_t>(x) >> 13 & 0x3ffu));
+  const double size = std::fmin(std::fabs(static_cast<double>(x)), 65504.0);
+  if (size < 0x1p-14) return static_cast<uint16_t>(sign | static_cast<uint32_t>(std::nearbyint(size * 0x1p24)));
+  const int exponent = std::ilogb(size);
+  const auto mantissa = static_cast<uint32_t>(std::nearbyint(std::ldexp(size, 10 - exponent)));  // 1024 … 2048: 2048 carries into the exponent
+  return static_cast<uint16_t>(sign | ((static_cast<uint32_t>(exponent + 14) << 10) + mantissa));
+}
+
+int depth_bytes_per_pixel(DepthFormat f) { return f == DepthFormat::none ? 0 : f == DepthFormat::d16 ? 2 : 4; }
+
+template <class T>
+T read(const std::vector<std::byte>& bytes, std::size_t index) {
+  T t;
+  std::memcpy(&t, &bytes[index * sizeof(T)], sizeof t);
+  return t;
+}
+template <class T>
+void write(std::vector<std::byte>& bytes, std::size_t index, T t) {
+  std::memcpy(&bytes[index * sizeof(T)], &t, sizeof t);
+}
+
+}  // namespace
+
+Framebuffer::Framebuffer(int width, int height, ColorFormat color, DepthFormat depth)
+    : width_(width), height_(height), color_format_(color), depth_format_(depth) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  color_bytes.resize(pixels * static_cast<std::size_t>(bytes_per_pixel(color)));
+  depth_bytes.resize(pixels * static_cast<std::size_t>(depth_bytes_per_pixel(depth)));
+}
+
+std::size_t Framebuffer::pixel(int x, int y) const {
+  return static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+}
+
+void Framebuffer::clear_color(glm::vec4 value) {
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) set_color(x, y, value);
+  }
+}
+
+void Framebuffer::clear_depth(float value) {
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) set_depth(x, y, depth_value(hold(value, 0.0f, 1.0f)));
+  }
+}
+
+glm::vec4 Framebuffer::color(int x, int y) const {
+  glm::vec4 c(0.0f);
+  for (int k = 0; k < 4; ++k) {
+    const std::size_t i = pixel(x, y) * 4 + static_cast<std::size_t>(k);
+    switch (color_format_) {
+      case ColorFormat::none: break;
+      case ColorFormat::rgba8: c[k] = static_cast<float>(read<uint8_t>(color_bytes, i)) / 255.0f; break;
+      case ColorFormat::srgb8a8:
+        c[k] = k == 3 ? static_cast<float>(read<uint8_t>(color_bytes, i)) / 255.0f : kSrgbToLinear[read<uint8_t>(color_bytes, i)];
+        break;
+      case ColorFormat::rgba16f: c[k] = decode_half(read<uint16_t>(color_bytes, i)); break;
+      case ColorFormat::rgba32f: c[k] = read<float>(color_bytes, i); break;
+    }
+  }
+  return c;
+}
+
+void Framebuffer::set_color(int x, int y, glm::vec4 value) {
+  for (int k = 0; k < 4; ++k) {
+    const std::size_t i = pixel(x, y) * 4 + static_cast<std::size_t>(k);
+    switch (color_format_) {
+      case ColorFormat::none: break;
+      case ColorFormat::rgba8: write(color_bytes, i, encode_unorm8(value[k])); break;
+      case ColorFormat::srgb8a8:
+        write(color_bytes, i, k == 3 ? encode_unorm8(value[k]) : static_cast<uint8_t>(linear_to_srgb(value[k])));
+        break;
+      case ColorFormat::rgba16f: write(color_bytes, i, encode_half(value[k])); break;
+      case ColorFormat::rgba32f: write(color_bytes, i, value[k]); break;
+    }
+  }
+}
+
+double Framebuffer::depth(int x, int y) const {
+  switch (depth_format_) {
+    case DepthFormat::none: break;
+    case DepthFormat::d16: return read<uint16_t>(depth_bytes, pixel(x, y));
+    case DepthFormat::d24: return read<uint32_t>(depth_bytes, pixel(x, y));
+    case DepthFormat::d32f: return static_cast<double>(read<float>(depth_bytes, pixel(x, y)));
+  }
+  return 0.0;
+}
+
+void Framebuffer::set_depth(int x, int y, double value) {
+  switch (depth_format_) {
+    case DepthFormat::none: break;
+    case DepthFormat::d16: write(depth_bytes, pixel(x, y), static_cast<uint16_t>(value)); break;
+    case DepthFormat::d24: write(depth_bytes, pixel(x, y), static_cast<uint32_t>(value)); break;
+    case DepthFormat::d32f: write(depth_bytes, pixel(x, y), static_cast<float>(value)); break;
+  }
+}
+
+double Framebuffer::depth_value(float z) const {
+  switch (depth_format_) {
+    case DepthFormat::d16: return std::nearbyint(static_cast<double>(z * 65535.0f));
+    case DepthFormat::d24: return std::nearbyint(static_cast<double>(z * 16777215.0f));
+    default: return static_cast<double>(z);
+  }
+}
+
+// ---- clip space → window -----------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr float kGuard = 16384.0f;   // px
+constexpr float kLeastW = 0x1p-96f;
+
+// Clip space → window, for one viewport and depth range.
+struct Transform {
+  float half_width, half_height, center_x, center_y;
+  float z_scale, z_bias;
+  float left, right, bottom, top;  // the guard band in units of w
+};
+
+Transform make_transform(const Rect& r, const DepthState& d) {
+  Transform t{};
+  t.half_width = static_cast<float>(r.width) / 2.0f;
+  t.half_height = static_cast<float>(r.height) / 2.0f;
+  t.center_x = static_cast<float>(r.x) + t.half_width;
+  t.center_y = static_cast<float>(r.y) + t.half_height;
+  if (d.clip == ClipDepth::zero_to_one) {
+    t.z_scale = d.range_far - d.range_near;
+    t.z_bias = d.range_near;
+  } else {
+    t.z_scale = (d.range_far - d.range_near) * 0.5f;
+    t.z_bias = (d.range_near + d.range_far) * 0.5f;
+  }
+  t.left = (-kGuard - t.center_x) / t.half_width;
+  t.right = (kGuard - t.center_x) / t.half_width;
+  t.bottom = (-kGuard - t.center_y) / t.half_height;
+  t.top = (kGuard - t.center_y) / t.half_height;
+  return t;
+}
+
+// x/w·half + center in 1/256 px, to the nearest whole number. Within 2^-20 of a tie the pipeline may go either way; there
+// its arithmetic is followed: quotient and remainder, product and its error, sum and its error.
+int64_t snap(float x, float w, float half, float center) {
+  const long double exact = (static_cast<long double>(x) / static_cast<long double>(w) * static_cast<long double>(half) +
+                             static_cast<long double>(center)) * 256.0L;
+  const long double nearest = std::nearbyint(exact);
+  if (0.5L - std::fabs(exact - nearest) > 0x1p-20L) return static_cast<int64_t>(nearest);
+  const float h = half * 256.0f, c = center * 256.0f, inverse = 1.0f / w;
+  const float quotient = x * inverse;
+  const float quotient_rest = std::fma(-quotient, w, x) * inverse;
+  const float product = quotient * h;
+  const float product_rest = std::fma(quotient, h, -product);
+  const float sum = product + c;
+  const float c_part = sum - product;
+  const float sum_rest = (product - (sum - c_part)) + (c - c_part);
+  const float whole = std::nearbyint(sum);
+  const float rest = (sum - whole) + (sum_rest + std::fma(quotient_rest, h, product_rest));
+  return static_cast<int64_t>(whole) + static_cast<int64_t>(std::nearbyint(rest));
+}
+
+Corner project(const Transform& t, const ShadedVertex& v) {
+  const glm::vec4& p = v.pos_clip;
+  Corner c;
+  c.x = snap(p.x, p.w, t.half_width, t.center_x);
+  c.y = snap(p.y, p.w, t.half_height, t.center_y);
+  c.inv_w = 1.0f / p.w;
+  c.z = hold(std::fma(p.z * c.inv_w, t.z_scale, t.z_bias), -1e30f, 1e30f);
+  c.varyings = v.varyings;
+  return c;
+}
+
+bool is_finite(const glm::vec4& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w); }
+
+bool beyond_near(const DepthState& d, const glm::vec4& p) { return d.clip == ClipDepth::zero_to_one ? p.z < 0.0f : p.z < -p.w; }
+bool beyond_far(const glm::vec4& p) { return p.z > p.w; }
+
+bool needs_clip(const Transform& t, const DepthState& d, const glm::vec4& p) {
+  if (!d.clamp && (beyond_near(d, p) || beyond_far(p))) return true;
+  const bool inside_guard = p.x >= p.w * t.left && p.x <= p.w * t.right && p.y >= p.w * t.bottom && p.y <= p.w * t.top;
+  return !inside_guard || p.w < kLeastW;
+}
+
+// Are all three vertices beyond one plane of the view volume?
+bool all_outside(const DepthState& d, const std::array<const ShadedVertex*, 3>& v) {
+  const auto all = [&](auto beyond) { return beyond(v[0]->pos_clip) && beyond(v[1]->pos_clip) && beyond(v[2]->pos_clip); };
+  if (all([](const glm::vec4& p) { return p.x < -p.w; }) || all([](const glm::vec4& p) { return p.x > p.w; })) return true;
+  if (all([](const glm::vec4& p) { return p.y < -p.w; }) || all([](const glm::vec4& p) { return p.y > p.w; })) return true;
+  if (d.clamp) return false;
+  return all([&](const glm::vec4& p) { return beyond_near(d, p); }) || all([](const glm::vec4& p) { return beyond_far(p); });
+}
+
+// ---- clipping ----------------------------------------------------------------------------------------------------
+
+// A corner of the polygon that clipping leaves: a position, and as which mixture of the triangle's vertices.
+struct ClipPoint {
+  std::array<double, 4> p;
+  std::array<double, 3> weight;
+};
+using Polygon = std::vector<ClipPoint>;
+
+// Inside is a·x + b·y + c·z + d·w + k ≥ 0.
+struct Plane {
+  double a, b, c, d, k;
+
+  double operator()(const ClipPoint& q) const { return a * q.p[0] + b * q.p[1] + c * q.p[2] + d * q.p[3] + k; }
+};
+
+// In the order in which they cut.
+std::vector<Plane> clip_planes(const Transform& t, const DepthState& state) {
+  std::vector<Plane> planes{{0, 0, 0, 1, -static_cast<double>(kLeastW)}};
+  if (!state.clamp) {
+    planes.push_back(state.clip == ClipDepth::zero_to_one ? Plane{0, 0, 1, 0, 0} : Plane{0, 0, 1, 1, 0});
+    planes.push_back({0, 0, -1, 1, 0});
+  }
+  planes.push_back({1, 0, 0, -static_cast<double>(t.left), 0});
+  planes.push_back({-1, 0, 0, static_cast<double>(t.right), 0});
+  planes.push_back({0, 1, 0, -static_cast<double>(t.bottom), 0});
+  planes.push_back({0, -1, 0, static_cast<double>(t.top), 0});
+  return planes;
+}
+
+// Where the edge from an inside to an outside point meets the plane.
+ClipPoint meet(const Plane& plane, const ClipPoint& in, const ClipPoint& out) {
+  const double t = plane(in) / (plane(in) - plane(out));
+  ClipPoint r{};
+  for (std::size_t i = 0; i < 4; ++i) r.p[i] = in.p[i] + t * (out.p[i] - in.p[i]);
+  for (std::size_t i = 0; i < 3; ++i) r.weight[i] = in.weight[i] + t * (out.weight[i] - in.weight[i]);
+  return r;
+}
+
+Polygon cut(const Plane& plane, const Polygon& polygon) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipPoint& here = polygon[i];
+    const ClipPoint& next = polygon[(i + 1) % polygon.size()];
+    const bool here_inside = plane(here) >= 0, next_inside = plane(next) >= 0;
+    if (here_inside) kept.push_back(here);
+    if (here_inside && !next_inside) kept.push_back(meet(plane, here, next));
+    if (!here_inside && next_inside) kept.push_back(meet(plane, next, here));
+  }
+  return kept;
+}
+
+int64_t snap_corner(double ndc, float half, float center) {
+  return std::llrint((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0);
+}
+
+// The polygon's corner in the window. A corner that is a vertex of the triangle keeps the bits it has unclipped.
+Corner clip_corner(const Transform& t, const ClipPoint& c, const std::array<const ShadedVertex*, 3>& v, const ShaderFacts& facts, std::size_t provoking) {
+  Corner r;
+  const double inverse = 1.0 / c.p[3];
+  r.x = snap_corner(c.p[0] * inverse, t.half_width, t.center_x);
+  r.y = snap_corner(c.p[1] * inverse, t.half_height, t.center_y);
+  const double z = c.p[2] * inverse * static_cast<double>(t.z_scale) + static_cast<double>(t.z_bias);
+  r.z = static_cast<float>(std::fmin(std::fmax(z, -1e30), 1e30));
+  r.inv_w = static_cast<float>(inverse);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (c.weight[k] == 1.0) r = project(t, *v[k]);
+  }
+  r.varyings.resize(facts.interpolations.size());
+  for (std::size_t i = 0; i < r.varyings.size(); ++i) {
+    std::array<double, 3> weight = c.weight;
+    if (facts.interpolations[i] == Interpolation::linear) {  // linear in the window: weights in proportion to w
+      for (std::size_t k = 0; k < 3; ++k) weight[k] = c.weight[k] * static_cast<double>(v[k]->pos_clip.w) / c.p[3];
+    }
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) sum += weight[k] * static_cast<double>(v[k]->varyings[i]);
+    r.varyings[i] = facts.interpolations[i] == Interpolation::flat ? v[provoking]->varyings[i] : static_cast<float>(sum);
+  }
+  return r;
+}
+
+// ---- a triangle in the window --------------------------------------------------------------------------------------
+
+struct Box {
+  int64_t x0, y0, x1, y1;  // pixels, half open
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+Box intersect(const Box& a, const Box& b) { return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)}; }
+Box box_of(const Rect& r) { return {r.x, r.y, int64_t{r.x} + r.width, int64_t{r.y} + r.height}; }
+
+Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
+  Box b{0, 0, target.width(), target.height()};
+  if (state.viewport) b = intersect(b, box_of(*state.viewport));
+  if (state.scissor) b = intersect(b, box_of(*state.scissor));
+  return b;
+}
+
+// The pixels whose centres lie in the closed bounding box.
+Box covered_box(const WindowTriangle& t) {
+  const auto [xl, xh] = std::minmax({t.corner[0].x, t.corner[1].x, t.corner[2].x});
+  const auto [yl, yh] = std::minmax({t.corner[0].y, t.corner[1].y, t.corner[2].y});
+  const auto first = [](int64_t v) { return static_cast<int64_t>(std::ceil((static_cast<double>(v) - 128.0) / 256.0)); };
+  const auto last = [](int64_t v) { return static_cast<int64_t>(std::floor((static_cast<double>(v) - 128.0) / 256.0)); };
+  return {first(xl), first(yl), last(xh) + 1, last(yh) + 1};
+}
+
+int64_t cross(int64_t ax, int64_t ay, int64_t bx, int64_t by) { return ax * by - ay * bx; }
+
+bool culls_face(CullMode mode, bool front) {
+  return mode == CullMode::front_and_back || (mode == CullMode::front && front) || (mode == CullMode::back && !front);
+}
+
+// Polygon offset, GL 4.6 section 14.6.5. dz1, dz2: depth of corners 1 and 2 less that of corner 0.
+float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTriangle& t, double dz1, double dz2) {
+  double offset = 0.0;
+  const auto dx = [&](std::size_t i) { return static_cast<double>(t.corner[i].x - t.corner[0].x); };
+  const auto dy = [&](std::size_t i) { return static_cast<double>(t.corner[i].y - t.corner[0].y); };
+  const double area = static_cast<double>(t.area);
+  if (o.slope != 0.0f) {
+    const double by_x = std::fabs((dy(2) * dz1 - dy(1) * dz2) / area * 256.0);
+    const double by_y = std::fabs((dx(1) * dz2 - dx(2) * dz1) / area * 256.0);
+    offset = static_cast<double>(o.slope) * std::fmax(by_x, by_y);
+  }
+  double unit = 1.0 / 16777215.0;
+  if (format == DepthFormat::d16) unit = 1.0 / 65535.0;
+  if (format == DepthFormat::d32f || format == DepthFormat::none) {
+    float largest = 0.0f;
+    for (const Corner& c : t.corner) largest = std::fmax(largest, std::fabs(c.z));
+    unit = std::ldexp(1.0, largest > 0.0f ? std::ilogb(largest) - 23 : -149);
+  }
+  offset += static_cast<double>(o.constant) * unit;
+  if (o.clamp > 0.0f) offset = std::fmin(offset, static_cast<double>(o.clamp));
+  if (o.clamp < 0.0f) offset = std::fmax(offset, static_cast<double>(o.clamp));
+  return static_cast<float>(offset);
+}
+
+enum class Fate { drawn, degenerate, wrong_face, no_sample };
+
+// Face, order of corners and depth of a triangle whose corners are given as submitted.
+std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format, const std::array<Corner, 3>& submitted,
+                                                     std::size_t provoking) {
+  WindowTriangle t;
+  t.corner = submitted;
+  t.flat = submitted[provoking].varyings;
+  auto& c = t.corner;
+  t.area = cross(c[1].x - c[0].x, c[1].y - c[0].y, c[2].x - c[0].x, c[2].y - c[0].y);
+  if (t.area == 0) return {Fate::degenerate, t};
+  const bool counter_clockwise = t.area > 0;
+  t.front = counter_clockwise == (state.front == Winding::counter_clockwise);
+  if (culls_face(state.cull, t.front)) return {Fate::wrong_face, t};
+  if (intersect(covered_box(t), allowed).empty()) return {Fate::no_sample, t};
+  if (!counter_clockwise) {
+    std::swap(c[1], c[2]);
+    t.area = -t.area;
+  }
+  // The corner of smallest depth comes first: of equals the first, going counter-clockwise from the first submitted.
+  const auto nearest = std::min_element(c.begin(), c.end(), [](const Corner& a, const Corner& b) { return a.z < b.z; });
+  std::rotate(c.begin(), nearest, c.end());
+  const double dz1 = static_cast<double>(c[1].z) - static_cast<double>(c[0].z);
+  const double dz2 = static_cast<double>(c[2].z) - static_cast<double>(c[0].z);
+  const float offset = polygon_offset(state.offset, format, t, dz1, dz2);
+  t.z0 = c[0].z + offset;
+  t.z_max = std::max({c[0].z, c[1].z, c[2].z}) + offset;
+  t.z_step1 = static_cast<float>(dz1 / static_cast<double>(t.area));
+  t.z_step2 = static_cast<float>(dz2 / static_cast<double>(t.area));
+  return {Fate::drawn, t};
+}
+
+// ---- a pixel of a triangle -----------------------------------------------------------------------------------------
+
+// Is the pixel's centre inside? A centre on an edge belongs to the side where the point lies that is a hair to the right of
+// it and, less than that, above it.
+bool covers(const WindowTriangle& t, int64_t x, int64_t y) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Corner& a = t.corner[i];
+    const Corner& b = t.corner[(i + 1) % 3];
+    const int64_t e = cross(b.x - a.x, b.y - a.y, x - a.x, y - a.y);
+    const int64_t to_right = -(b.y - a.y), upwards = b.x - a.x;  // how e changes
+    const bool inside = e != 0 ? e > 0 : to_right != 0 ? to_right > 0 : upwards > 0;
+    if (!inside) return false;
+  }
+  return true;
+}
+
+// a·b − c·d after Kahan.
+float determinant(float a, float b, float c, float d) {
+  const float product = c * d;
+  const float lost = std::fma(-c, d, product);
+  return std::fma(a, b, -product) + lost;
+}
+
+constexpr int64_t center_of(int pixel) { return int64_t{pixel} * 256 + 128; }
+
+// Extent of a triangle up to which its edge functions are exact whole numbers in the depth sum.
+constexpr int64_t kExactExtent = 63 * 256;
+
+bool is_small(const WindowTriangle& t) {
+  const auto [xl, xh] = std::minmax({t.corner[0].x, t.corner[1].x, t.corner[2].x});
+  const auto [yl, yh] = std::minmax({t.corner[0].y, t.corner[1].y, t.corner[2].y});
+  return xh - xl <= kExactExtent && yh - yl <= kExactExtent;
+}
+
+float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, float e2) {
+  const float low = std::min(state.range_near, state.range_far), high = std::max(state.range_near, state.range_far);
+  return hold(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, hold(t.z_max, low, high));
+}
+
+// The two determinants E1 = d × e2 and E2 = e1 × d in floats, d from corner 0 to the pixel's centre.
+std::pair<float, float> float_determinants(const WindowTriangle& t, int x, int y) {
+  const auto& c = t.corner;
+  const auto f = [](int64_t v) { return static_cast<float>(v); };
+  const float dx = f(center_of(x) - c[0].x), dy = f(center_of(y) - c[0].y);
+  return {determinant(dx, f(c[2].y - c[0].y), dy, f(c[2].x - c[0].x)), determinant(f(c[1].x - c[0].x), dy, f(c[1].y - c[0].y), dx)};
+}
+
+// The window depth that is tested.
+float tested_depth(const WindowTriangle& t, const DepthState& state, int x, int y) {
+  if (is_small(t)) {
+    const auto& c = t.corner;
+    const int64_t dx = center_of(x) - c[0].x, dy = center_of(y) - c[0].y;
+    const int64_t e1 = cross(dx, dy, c[2].x - c[0].x, c[2].y - c[0].y);
+    const int64_t e2 = cross(c[1].x - c[0].x, c[1].y - c[0].y, dx, dy);
+    return depth_sum(t, state, static_cast<float>(e1), static_cast<float>(e2));
+  }
+  const auto [e1, e2] = float_determinants(t, x, y);
+  return depth_sum(t, state, e1, e2);
+}
+
+// ---- blending --------------------------------------------------------------------------------------------------------
+
+float blend_factor(BlendFactor f, const glm::vec4& src, const glm::vec4& dst, int k) {
+  switch (f) {
+    case BlendFactor::zero: return 0.0f;
+    case BlendFactor::one: return 1.0f;
+    case BlendFactor::src_color: return src[k];
+    case BlendFactor::one_minus_src_color: return 1.0f - src[k];
+    case BlendFactor::dst_color: return dst[k];
+    case BlendFactor::one_minus_dst_color: return 1.0f - dst[k];
+    case BlendFactor::src_alpha: return src.w;
+    case BlendFactor::one_minus_src_alpha: return 1.0f - src.w;
+    case BlendFactor::dst_alpha: return dst.w;
+    case BlendFactor::one_minus_dst_alpha: return 1.0f - dst.w;
+  }
+  return 0.0f;
+}
+
+float blend_channel(BlendEquation equation, float s, float s_factor, float d, float d_factor) {
+  const float from_source = s * s_factor, from_destination = d * d_factor;
+  switch (equation) {
+    case BlendEquation::add: return from_source + from_destination;
+    case BlendEquation::subtract: return from_source - from_destination;
+    case BlendEquation::reverse_subtract: return from_destination - from_source;
+    case BlendEquation::min: return s < d ? s : d;
+    case BlendEquation::max: return s > d ? s : d;
+  }
+  return 0.0f;
+}
+
+glm::vec4 blend(const BlendState& b, const glm::vec4& src, const glm::vec4& dst) {
+  glm::vec4 out;
+  for (int k = 0; k < 4; ++k) {
+    const bool alpha = k == 3;
+    const float s = blend_factor(alpha ? b.source_alpha : b.source_color, src, dst, k);
+    const float d = blend_factor(alpha ? b.destination_alpha : b.destination_color, src, dst, k);
+    out[k] = blend_channel(alpha ? b.alpha_equation : b.color_equation, src[k], s, dst[k], d);
+  }
+  return out;
+}
+
+}  // namespace
+
+// ---- interpolation -----------------------------------------------------------------------------------------------------
+
+Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations) {
+  std::array<const Corner*, 3> c{&t.corner[0], &t.corner[1], &t.corner[2]};
+  const auto farthest = std::min_element(c.begin(), c.end(), [](const Corner* a, const Corner* b) { return a->inv_w < b->inv_w; });
+  std::rotate(c.begin(), farthest, c.end());
+  Surface s{};
+  TriangleLanes<float>& l = s.lanes;
+  l.x0 = static_cast<float>(c[0]->x);
+  l.y0 = static_cast<float>(c[0]->y);
+  l.e1x = static_cast<float>(c[1]->x - c[0]->x);
+  l.e1y = static_cast<float>(c[1]->y - c[0]->y);
+  l.e2x = static_cast<float>(c[2]->x - c[0]->x);
+  l.e2y = static_cast<float>(c[2]->y - c[0]->y);
+  l.area = static_cast<float>(t.area);
+  // A power of two takes the largest 1/w to [1, 2) (a denormal one to below 1).
+  const float largest = std::max({c[0]->inv_w, c[1]->inv_w, c[2]->inv_w});
+  const int exponent = std::max(std::ilogb(largest), -127);
+  l.q0 = std::ldexp(c[0]->inv_w, -exponent);
+  l.q1 = std::ldexp(c[1]->inv_w, -exponent);
+  l.q2 = std::ldexp(c[2]->inv_w, -exponent);
+  l.q_unscale = exponent == -127 ? 0.0f : std::ldexp(1.0f, exponent);
+  for (std::size_t i = 0; i < interpolations.size(); ++i) {
+    const bool flat = interpolations[i] == Interpolation::flat;
+    s.value0.push_back(flat ? t.flat[i] : c[0]->varyings[i]);
+    s.delta1.push_back(flat ? 0.0f : c[1]->varyings[i] - c[0]->varyings[i]);
+    s.delta2.push_back(flat ? 0.0f : c[2]->varyings[i] - c[0]->varyings[i]);
+  }
+  return s;
+}
+
+SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, int x, int y) {
+  const TriangleLanes<float>& l = s.lanes;
+  SurfacePoint p{};
+  p.dx = static_cast<float>(center_of(x)) - l.x0;
+  p.dy = static_cast<float>(center_of(y)) - l.y0;
+  const float e1 = determinant(p.dx, l.e2y, p.dy, l.e2x);
+  const float e2 = determinant(l.e1x, p.dy, l.e1y, p.dx);
+  const float denominator = std::fma(e1, l.q1 - l.q0, std::fma(e2, l.q2 - l.q0, l.area * l.q0));
+  const float inverse = 1.0f / denominator;
+  p.weights.p1 = (e1 * l.q1) * inverse;
+  p.weights.p2 = (e2 * l.q2) * inverse;
+  p.weights.b1 = e1 / l.area;
+  p.weights.b2 = e2 / l.area;
+  p.weights.denominator = denominator;
+  p.inv_w = denominator / l.area * l.q_unscale;
+  // Shaders are told the depth by float determinants, also for triangles whose tested depth is by whole numbers.
+  const auto [z1, z2] = float_determinants(t, x, y);
+  p.z = depth_sum(t, state, z1, z2);
+  return p;
+}
+
+float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, std::size_t i) {
+  if (mode == Interpolation::flat) return s.value0[i];
+  const float w1 = mode == Interpolation::linear ? p.weights.b1 : p.weights.p1;
+  const float w2 = mode == Interpolation::linear ? p.weights.b2 : p.weights.p2;
+  return std::fma(w2, s.delta2[i], std::fma(w1, s.delta1[i], s.value0[i]));
+}
+
+// ---- the loops -----------------------------------------------------------------------------------------------------------
+
+std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, const ShaderFacts& facts, const std::array<const ShadedVertex*, 3>& v) {
+  ++counts_.primitives_in;
+  if (!std::all_of(v.begin(), v.end(), [](const ShadedVertex* s) { return is_finite(s->pos_clip); })) {
+    ++counts_.culled_non_finite;
+    return {};
+  }
+  if (all_outside(state.depth, v)) {
+    ++counts_.culled_outside;
+    return {};
+  }
+  const Transform transform = make_transform(state.viewport.value_or(Rect{0, 0, target_.width(), target_.height()}), state.depth);
+  const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
+  std::vector<Corner> corners;
+  if (std::any_of(v.begin(), v.end(), [&](const ShadedVertex* s) { return needs_clip(transform, state.depth, s->pos_clip); })) {
+    Polygon polygon;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec4& p = v[i]->pos_clip;
+      polygon.push_back({{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), static_cast<double>(p.w)},
+                         {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}});
+    }
+    for (const Plane& plane : clip_planes(transform, state.depth)) polygon = cut(plane, polygon);
+    if (polygon.size() < 3) {
+      ++counts_.culled_outside;
+      return {};
+    }
+    ++counts_.clipped;
+    for (const ClipPoint& c : polygon) corners.push_back(clip_corner(transform, c, v, facts, provoking));
+    for (Corner& c : corners) {  // all corners carry the provoking vertex's flat values
+      for (std::size_t i = 0; i < c.varyings.size(); ++i) {
+        if (facts.interpolations[i] == Interpolation::flat) c.varyings[i] = v[provoking]->varyings[i];
+      }
+    }
+  } else {
+    for (const ShadedVertex* s : v) corners.push_back(project(transform, *s));
+  }
+
+  const Box allowed = allowed_pixels(target_, state);
+  std::vector<WindowTriangle> pieces;
+  Fate last = Fate::drawn;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    auto [fate, piece] = make_window_triangle(state, allowed, target_.depth_format(), {corners[0], corners[i - 1], corners[i]}, corners.size() == 3 ? provoking : 0);
+    if (fate == Fate::drawn) pieces.push_back(std::move(piece));
+    last = fate;
+  }
+  counts_.triangles += pieces.size();
+  if (pieces.empty()) {
+    if (last == Fate::degenerate) ++counts_.culled_degenerate;
+    if (last == Fate::wrong_face) ++counts_.culled_face;
+    if (last == Fate::no_sample) ++counts_.culled_no_sample;
+  }
+  return pieces;
+}
+
+void Renderer::rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade) {
+  const Surface surface = make_surface(t, facts.interpolations);
+  const Box box = intersect(covered_box(t), allowed_pixels(target_, state));
+  for (int64_t y = box.y0; y < box.y1; ++y) {
+    for (int64_t x = box.x0; x < box.x1; ++x) {
+      const int px = static_cast<int>(x), py = static_cast<int>(y);
+      if (covers(t, center_of(px), center_of(py))) draw_fragment(state, facts, t, surface, px, py, shade);
+    }
+  }
+}
+
+void Renderer::draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
+                             const FragmentFunction& shade) {
+  double z = target_.depth_value(tested_depth(t, state.depth, x, y));
+  if (!facts.writes_depth && !depth_passes(state, x, y, z)) return;
+  const FragmentResult result = shade(t, surface, x, y);
+  if (!result.keep) return;
+  if (facts.writes_depth) {
+    const float low = std::min(state.depth.range_near, state.depth.range_far), high = std::max(state.depth.range_near, state.depth.range_far);
+    z = target_.depth_value(hold(result.depth, low, high));
+    if (!depth_passes(state, x, y, z)) return;
+  }
+  ++counts_.samples_passed;
+  if (state.depth.test && state.depth.write) target_.set_depth(x, y, z);
+  if (facts.has_fragment) write_color(state, x, y, result.color);
+}
+
+bool Renderer::depth_passes(const DrawState& state, int x, int y, double z) const {
+  if (!state.depth.test || target_.depth_format() == DepthFormat::none) return true;
+  const double stored = target_.depth(x, y);
+  switch (state.depth.compare) {
+    case CompareOp::never: return false;
+    case CompareOp::less: return z < stored;
+    case CompareOp::equal: return z == stored;
+    case CompareOp::less_equal: return z <= stored;
+    case CompareOp::greater: return z > stored;
+    case CompareOp::not_equal: return z != stored;
+    case CompareOp::greater_equal: return z >= stored;
+    case CompareOp::always: return true;
+  }
+  return false;
+}
+
+void Renderer::write_color(const DrawState& state, int x, int y, glm::vec4 color) {
+  if (target_.color_format() == ColorFormat::none) return;
+  if (state.blend) {
+    const bool fixed_point = target_.color_format() == ColorFormat::rgba8 || target_.color_format() == ColorFormat::srgb8a8;
+    for (int k = 0; fixed_point && k < 4; ++k) color[k] = hold(color[k], 0.0f, 1.0f);
+    color = blend(*state.blend, color, target_.color(x, y));
+  }
+  target_.set_color(x, y, color);
+}
+
+}  // namespace halfspace::oracle

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The oracle: the whole pipeline once more, by the plainest loops, for tests to compare the tile path with, byte for
+// byte. It has the full state of a draw and shares with src/raster only the words (draw_state.h, target.h); with
+// src/shading the contract by which a shader is called. One pixel, one triangle, one fragment at a time, in order:
+// no lanes, tiles, bins, stepping, deferral or bounds on depth.
+//
+// Where a result depends on the order of float operations, the oracle follows what is written down in shading/pixel.h
+// (weights and components), raster/visibility.h and raster/stages.h (depth) and raster/clip.h (clipping).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "raster/draw_state.h"
+#include "raster/target.h"
+#include "shading/contract.h"
+
+namespace halfspace::oracle {
+
+/// What was done; the fields of PassStatistics that do not depend on how a pass does its work.
+struct Counts {
+  uint64_t vertices_shaded = 0;
+  uint64_t primitives_in = 0;
+  uint64_t culled_non_finite = 0;
+  uint64_t culled_outside = 0;
+  uint64_t culled_face = 0;
+  uint64_t culled_degenerate = 0;
+  uint64_t culled_no_sample = 0;
+  uint64_t clipped = 0;
+  uint64_t triangles = 0;       ///< triangles of which some sample may be drawn
+  uint64_t samples_passed = 0;
+};
+
+/// Colour and depth images in the targets' formats and layout (top row first), read and written by window coordinates.
+class Framebuffer {
+ public:
+  Framebuffer(int width, int height, ColorFormat color, DepthFormat depth);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  ColorFormat color_format() const { return color_format_; }
+  DepthFormat depth_format() const { return depth_format_; }
+
+  void clear_color(glm::vec4 value);
+  void clear_depth(float value);
+
+  /// The pixel's colour, decoded.
+  glm::vec4 color(int x, int y) const;
+  void set_color(int x, int y, glm::vec4 value);
+  /// The pixel's depth as the format holds it: a code, or for d32f the depth itself.
+  double depth(int x, int y) const;
+  void set_depth(int x, int y, double value);
+  /// What the format holds for a window depth in [0, 1].
+  double depth_value(float z) const;
+
+  std::vector<std::byte> color_bytes, depth_bytes;
+
+ private:
+  std::size_t pixel(int x, int y) const;
+
+  int width_, height_;
+  ColorFormat color_format_;
+  DepthFormat depth_format_;
+};
+
+/// A vertex after the vertex function.
+struct ShadedVertex {
+  glm::vec4 pos_clip{};
+  std::vector<float> varyings;
+};
+
+/// A corner of a triangle in the window.
+struct Corner {
+  int64_t x = 0, y = 0;  ///< 1/256 px
+  float z = 0.0f;        ///< window depth before offset and clamp
+  float inv_w = 0.0f;
+  std::vector<float> varyings;
+};
+
+/// A triangle in the window, counter-clockwise (y up), the corner of smallest depth first.
+struct WindowTriangle {
+  std::array<Corner, 3> corner;
+  std::vector<float> flat;         ///< the provoking vertex's varyings
+  bool front = false;
+  int64_t area = 0;                ///< twice the area, (1/256 px)²
+  float z0 = 0, z_max = 0;         ///< smallest and largest depth, offset included
+  float z_step1 = 0, z_step2 = 0;  ///< depth per unit of E1 and E2
+};
+
+/// What the fragment function answered.
+struct FragmentResult {
+  glm::vec4 color{};
+  bool keep = true;
+  float depth = 0.0f;
+};
+
+/// A shader as the untyped part of the oracle sees it.
+struct ShaderFacts {
+  bool has_fragment = true;
+  bool writes_depth = false;
+  std::span<const Interpolation> interpolations;
+};
+
+/// Everything interpolation needs of a triangle. Vertex 0 is the one of smallest 1/w.
+struct Surface {
+  TriangleLanes<float> lanes;
+  std::vector<float> value0, delta1, delta2;
+};
+
+/// A point of a triangle's surface: where and with which weights.
+struct SurfacePoint {
+  Weights<float> weights;
+  float dx, dy;  ///< from vertex 0, 1/256 px
+  float z;       ///< window depth, as shaders are told
+  float inv_w;
+};
+
+Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations);
+SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, int x, int y);
+float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, std::size_t component);
+
+class Renderer {
+ public:
+  /// Draws into the framebuffer, which must outlive the renderer.
+  explicit Renderer(Framebuffer& target) : target_(target) {}
+
+  /// indices.size() / 3 triangles.
+  template <class S>
+  void draw(const S& shader, const std::vector<typename S::template Attributes<float>>& vertices, const std::vector<uint32_t>& indices,
+            const DrawState& state);
+
+  const Counts& counts() const { return counts_; }
+
+ private:
+  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, int x, int y)>;
+
+  // A submitted triangle's pieces in the window: none if culled, several if clipped.
+  std::vector<WindowTriangle> window_triangles(const DrawState& state, const ShaderFacts& facts, const std::array<const ShadedVertex*, 3>& v);
+  void rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade);
+  void draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
+                     const FragmentFunction& shade);
+  bool depth_passes(const DrawState& state, int x, int y, double z) const;
+  void write_color(const DrawState& state, int x, int y, glm::vec4 color);
+
+  Framebuffer& target_;
+  Counts counts_;
+};
+
+/// Every pixel of `from` sent through the function (as Pass::post does) into a new framebuffer without depth.
+template <class F>
+Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format) {
+  Framebuffer to(from.width(), from.height(), format, DepthFormat::none);
+  for (int y = 0; y < from.height(); ++y) {
+    for (int x = 0; x < from.width(); ++x) to.set_color(x, y, function(from.color(x, y)));
+  }
+  return to;
+}
+
+// ---- the part that calls the shader ----------------------------------------------------------------------------
+
+namespace detail {
+
+template <class T>
+std::vector<float> components_of(const T& t) {
+  const auto a = to_components<float>(t);
+  return {a.begin(), a.end()};
+}
+
+template <class T>
+T struct_of(const std::vector<float>& components) {
+  std::array<float, kComponents<T>> a{};
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = components[i];
+  return from_components<T, float>(a);
+}
+
+template <class S>
+FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, const WindowTriangle& t, const Surface& s, const DepthState& state,
+                           int x, int y) {
+  using V = typename S::template Varyings<float>;
+  constexpr std::size_t n = kComponents<V>;
+  const SurfacePoint p = surface_point(s, t, state, x, y);
+  ComponentLanes<float, n> components{};
+  std::array<float, n> values{};
+  for (std::size_t i = 0; i < n; ++i) {
+    components.value0[i] = s.value0[i];
+    components.delta1[i] = s.delta1[i];
+    components.delta2[i] = s.delta2[i];
+    values[i] = component_at(s, p, kInterpolations<V>[i], i);
+  }
+  Pixel<float> px;
+  px.x = static_cast<float>(x) + 0.5f;
+  px.y = static_cast<float>(y) + 0.5f;
+  px.z = p.z;
+  px.inv_w = p.inv_w;
+  px.front_facing = t.front;
+  px.triangle = &s.lanes;
+  px.component_lanes = &components;
+  px.weights = p.weights;
+  px.dx = p.dx;
+  px.dy = p.dy;
+  px.quad_x = static_cast<float>(x % 2);
+  px.quad_y = static_cast<float>(y % 2);
+  FragmentResult result;
+  if constexpr (HasFragmentFunction<S>) {
+    const auto fragment = call_fragment<S, float>(shader, from_components<V, float>(values), face, px);
+    result.color = fragment.color;
+    if constexpr (kDiscards<S>) result.keep = fragment.keep;
+    if constexpr (kWritesDepth<S>) result.depth = fragment.depth;
+  }
+  return result;
+}
+
+template <class S>
+ShaderFacts facts_of() {
+  ShaderFacts facts;
+  facts.interpolations = kInterpolations<typename S::template Varyings<float>>;
+  facts.has_fragment = HasFragmentFunction<S>;
+  if constexpr (HasFragmentFunction<S>) facts.writes_depth = kWritesDepth<S>;
+  return facts;
+}
+
+}  // namespace detail
+
+template <class S>
+void Renderer::draw(const S& shader, const std::vector<typename S::template Attributes<float>>& vertices, const std::vector<uint32_t>& indices,
+                    const DrawState& state) {
+  using V = typename S::template Varyings<float>;
+  using P = PrimitiveOf<S, float>;
+  const ShaderFacts facts = detail::facts_of<S>();
+  std::vector<ShadedVertex> shaded(vertices.size());
+  std::vector<bool> done(vertices.size());
+  for (const uint32_t i : indices) {
+    if (done[i]) continue;
+    done[i] = true;
+    ++counts_.vertices_shaded;
+    V out{};
+    shaded[i].pos_clip = shader.vertex(vertices[i], out);
+    shaded[i].varyings = detail::components_of(out);
+  }
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const std::array<const ShadedVertex*, 3> v{&shaded[indices[i]], &shaded[indices[i + 1]], &shaded[indices[i + 2]]};
+    P face{};
+    if constexpr (HasPrimitive<S>) {
+      face = shader.primitive(detail::struct_of<V>(v[0]->varyings), detail::struct_of<V>(v[1]->varyings), detail::struct_of<V>(v[2]->varyings));
+    }
+    for (const WindowTriangle& t : window_triangles(state, facts, v)) {
+      rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, int x, int y) {
+        return detail::call_shader(shader, face, triangle, surface, state.depth, x, y);
+      });
+    }
+  }
+}
+
+}  // namespace halfspace::oracle

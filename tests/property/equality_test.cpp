@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Random scenes through the tile path and the oracle, and through the tile path with other threads, tiles, chunks and
+// budgets, deferred and immediate: always the same bytes.
+//
+// HALFSPACE_SEED=n   runs the one scene n of each theme and prints it (choose the theme with --gtest_filter)
+// HALFSPACE_STATES=n runs n scenes of each theme instead of kScenes
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "property/random_scene.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr uint64_t kScenes = 350;
+
+struct Variant {
+  PassOptions options;
+  int threads = 1;
+};
+
+PassOptions random_options(Random& random) {
+  PassOptions o;
+  o.tile_size = random.pick({8, 16, 32, 64});
+  o.chunk_triangles = random.pick({1u, 7u, 4096u});
+  o.defer = random.once_in(2);
+  if (random.once_in(2)) o.bin_budget = random.pick({1u, 1000u, 20000u});
+  return o;
+}
+
+// Other ways to do the same work. Every scene meets the shading at once, a flush in mid-pass and more threads than cores;
+// over the scenes every combination comes.
+std::vector<Variant> variants(uint64_t seed) {
+  Random random(seed ^ 0x5eed);
+  std::vector<Variant> v;
+  v.push_back({.options = {.defer = false}});
+  v.push_back({.options = {.chunk_triangles = 1, .bin_budget = 1}, .threads = 2});
+  v.push_back({.options = random_options(random), .threads = 7});
+  v.push_back({.options = random_options(random)});
+  if (seed % 8 == 0) v.push_back({.options = random_options(random), .threads = 64});
+  return v;
+}
+
+std::string statistics_difference(const PassStatistics& s, const oracle::Counts& c) {
+  std::string out;
+  const auto check = [&out](const char* name, uint64_t pass, uint64_t oracle) {
+    if (pass != oracle) out += std::string(name) + ": " + std::to_string(oracle) + " expected, got " + std::to_string(pass) + "\n";
+  };
+  check("vertices_shaded", s.vertices_shaded, c.vertices_shaded);
+  check("primitives_in", s.primitives_in, c.primitives_in);
+  check("culled_non_finite", s.culled_non_finite, c.culled_non_finite);
+  check("culled_outside", s.culled_outside, c.culled_outside);
+  check("culled_face", s.culled_face, c.culled_face);
+  check("culled_degenerate", s.culled_degenerate, c.culled_degenerate);
+  check("culled_no_sample", s.culled_no_sample, c.culled_no_sample);
+  check("clipped", s.clipped, c.clipped);
+  check("triangles_binned", s.triangles_binned, c.triangles);
+  check("samples_passed", s.samples_passed, c.samples_passed);
+  return out;
+}
+
+// What went wrong with a scene, or nothing.
+std::string check_scene(const Scene& scene, uint64_t seed) {
+  const OracleResult oracle = run_oracle(scene);
+  const PassResult base = run_pass(scene, {}, 1);
+  std::string wrong = difference(scene, oracle.pictures, base.pictures);
+  if (!wrong.empty()) return "tile path against oracle: " + wrong;
+  wrong = statistics_difference(base.statistics, oracle.counts);
+  if (!wrong.empty()) return "statistics against oracle: " + wrong;
+  for (const Variant& v : variants(seed)) {
+    const PassResult other = run_pass(scene, v.options, v.threads);
+    wrong = difference(scene, base.pictures, other.pictures);
+    if (!wrong.empty()) return describe(v.options, v.threads) + ": " + wrong;
+    if (v.threads == 1 || seed % 4 != 0) continue;
+    if (run_pass(scene, v.options, 1).statistics != other.statistics) return describe(v.options, v.threads) + ": statistics differ from one thread's";
+  }
+  return {};
+}
+
+class RandomScenes : public testing::TestWithParam<Theme> {};
+
+TEST_P(RandomScenes, SameBytesByOracleThreadsTilesChunksAndFlushes) {
+  const Theme theme = GetParam();
+  const char* one = std::getenv("HALFSPACE_SEED");
+  const char* many = std::getenv("HALFSPACE_STATES");
+  const uint64_t first = one != nullptr ? std::strtoull(one, nullptr, 10) : 0;
+  const uint64_t count = one != nullptr ? 1 : many != nullptr ? std::strtoull(many, nullptr, 10) : kScenes;
+  uint64_t draws = 0, pixels = 0, passed = 0, triangles = 0;
+  for (uint64_t seed = first; seed < first + count; ++seed) {
+    const Scene scene = random_scene(theme, seed);
+    if (one != nullptr) std::printf("%s", describe(scene).c_str());
+    const std::string wrong = check_scene(scene, seed);
+    ASSERT_EQ(wrong, "") << "seed " << seed << ": HALFSPACE_SEED=" << seed << " test-property --gtest_filter='*RandomScenes*/"
+                         << kThemeNames[static_cast<int>(theme)] << "'\n" << describe(scene);
+    draws += scene.draws.size();
+    pixels += static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
+    const PassStatistics s = run_pass(scene, {}, 1).statistics;
+    passed += s.samples_passed;
+    triangles += s.triangles_binned;
+  }
+  std::printf("%llu scenes, %llu draw states, %llu pixels, %llu triangles, %llu samples passed\n", static_cast<unsigned long long>(count),
+              static_cast<unsigned long long>(draws), static_cast<unsigned long long>(pixels), static_cast<unsigned long long>(triangles),
+              static_cast<unsigned long long>(passed));
+}
+
+INSTANTIATE_TEST_SUITE_P(Themes, RandomScenes, testing::ValuesIn(kThemes),
+                         [](const auto& theme) { return std::string(kThemeNames[static_cast<int>(theme.param)]); });
+
+}  // namespace
+
+}  // namespace halfspace

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "property/random_scene.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace halfspace {
+
+namespace {
+
+// A point in window coordinates (px), depth 0 … 1 between near and far, and w.
+struct WindowPoint {
+  float x, y, z, w;
+};
+
+glm::vec4 to_clip(const Rect& v, ClipDepth clip, const WindowPoint& p) {
+  const float half_width = 0.5f * static_cast<float>(v.width), half_height = 0.5f * static_cast<float>(v.height);
+  const float x = (p.x - (static_cast<float>(v.x) + half_width)) / half_width;
+  const float y = (p.y - (static_cast<float>(v.y) + half_height)) / half_height;
+  const float z = clip == ClipDepth::zero_to_one ? p.z : 2.0f * p.z - 1.0f;
+  return {x * p.w, y * p.w, z * p.w, p.w};
+}
+
+// Places points in a viewport.
+class Placer {
+ public:
+  Placer(const Rect& viewport, ClipDepth clip, Random& random, Geometry& out) : v_(viewport), clip_(clip), random_(random), out_(out) {}
+
+  WindowPoint anywhere(float beyond) {
+    const auto x0 = static_cast<float>(v_.x), y0 = static_cast<float>(v_.y);
+    const auto width = static_cast<float>(v_.width), height = static_cast<float>(v_.height);
+    const float x = random_.real(x0 - beyond * width, x0 + (1.0f + beyond) * width);
+    const float y = random_.real(y0 - beyond * height, y0 + (1.0f + beyond) * height);
+    const float z = random_.real(0.0f, 1.0f);
+    return {x, y, z, depth_w()};
+  }
+  WindowPoint near(const WindowPoint& p, float radius) {
+    const float x = p.x + random_.real(-radius, radius);
+    const float y = p.y + random_.real(-radius, radius);
+    const float z = std::clamp(p.z + random_.real(-0.2f, 0.2f), 0.0f, 1.0f);
+    return {x, y, z, random_.once_in(3) ? p.w : depth_w()};
+  }
+  // Half of all triangles are orthographic, or nearly: equal w and equal z are cases of their own.
+  float depth_w() { return random_.once_in(2) ? 1.0f : random_.real(0.1f, 10.0f); }
+
+  uint32_t add(const WindowPoint& p) { return add(to_clip(v_, clip_, p)); }
+  uint32_t add(const glm::vec4& clip) {
+    out_.positions.push_back(clip);
+    return static_cast<uint32_t>(out_.positions.size() - 1);
+  }
+  void triangle(uint32_t a, uint32_t b, uint32_t c) {
+    if (random_.once_in(2)) std::swap(b, c);
+    out_.indices.insert(out_.indices.end(), {a, b, c});
+  }
+  void triangle(const WindowPoint& a, const WindowPoint& b, const WindowPoint& c) {
+    const uint32_t i = add(a);
+    add(b);
+    triangle(i, i + 1, add(c));
+  }
+  void around(float beyond, float radius) {
+    const WindowPoint p = anywhere(beyond);
+    const WindowPoint a = near(p, radius);
+    const WindowPoint b = near(p, radius);
+    triangle(a, b, near(p, radius));
+  }
+
+  void sliver() {
+    const WindowPoint a = anywhere(0.5f);
+    const WindowPoint b = near(a, random_.pick({30.0f, 200.0f, 3000.0f}));
+    const float t = random_.real(0.0f, 1.0f);
+    const float off = random_.pick({0.004f, 0.05f, 0.5f, 1.0f});
+    const float x = a.x + t * (b.x - a.x) + random_.real(-off, off);
+    const float y = a.y + t * (b.y - a.y) + random_.real(-off, off);
+    triangle(a, b, {x, y, 0.5f * (a.z + b.z), b.w});
+  }
+  void degenerate() {
+    const WindowPoint a = anywhere(0.2f), b = anywhere(0.2f);
+    switch (random_.below(3)) {
+      case 0: triangle(a, b, a); break;
+      case 1: triangle(a, a, a); break;
+      default: triangle(a, b, {0.5f * (a.x + b.x), 0.5f * (a.y + b.y), b.z, 1.0f}); break;
+    }
+  }
+  // Corners on pixel centres, pixel edges or whole sub-pixels: samples lie exactly on edges and corners.
+  void on_the_grid() {
+    const float step = random_.pick({0.5f, 1.0f, 0.25f, 4.0f});
+    const float z = random_.pick({0.25f, 0.5f, 0.75f});
+    const auto point = [&] {
+      const WindowPoint p = anywhere(0.1f);
+      return WindowPoint{std::floor(p.x / step) * step, std::floor(p.y / step) * step, z, 1.0f};
+    };
+    const WindowPoint a = point(), b = point();
+    triangle(a, b, point());
+  }
+  glm::vec4 raw(float low_w, float high_w) {
+    const float x = random_.real(-2.0f, 2.0f);
+    const float y = random_.real(-2.0f, 2.0f);
+    const float z = random_.real(-1.0f, 1.5f);
+    return {x, y, z, random_.real(low_w, high_w)};
+  }
+  void raw_triangle(float low_w, float high_w) {
+    const uint32_t i = add(raw(low_w, high_w));
+    add(raw(low_w, high_w));
+    triangle(i, i + 1, add(raw(low_w, high_w)));
+  }
+  void non_finite() {
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    glm::vec4 bad = raw(0.5f, 1.0f);
+    bad[random_.below(4)] = random_.pick({inf, -inf, std::numeric_limits<float>::quiet_NaN()});
+    const uint32_t i = add(raw(0.5f, 1.0f));
+    add(raw(0.5f, 1.0f));
+    triangle(i, i + 1, add(bad));
+  }
+  void tiny_w() {
+    const uint32_t i = add(raw(0.5f, 1.0f));
+    add(raw(0.5f, 1.0f));
+    glm::vec4 odd = raw(0.0f, 1.0f);
+    odd.w = random_.pick({0.0f, -0.0f, 1e-30f, 1e-20f, 1e-6f, -1e-6f, 1e20f});
+    triangle(i, i + 1, add(odd));
+  }
+  void whole_target() {
+    const float z = random_.real(0.05f, 0.95f);
+    const float zc = clip_ == ClipDepth::zero_to_one ? z : 2.0f * z - 1.0f;
+    const uint32_t i = add(glm::vec4(-1, -1, zc, 1));
+    add(glm::vec4(3, -1, zc, 1));
+    out_.indices.insert(out_.indices.end(), {i, i + 1, add(glm::vec4(-1, 3, zc, 1))});
+  }
+  void fan() {
+    const WindowPoint middle = anywhere(0.0f);
+    const float radius = random_.pick({3.0f, 20.0f, 80.0f, 2000.0f});
+    const uint32_t c = add(middle);
+    const int n = random_.between(3, 9);
+    for (int i = 0; i < n; ++i) add(near(middle, radius));
+    for (int i = 0; i < n; ++i) triangle(c, c + 1 + static_cast<uint32_t>(i), c + 1 + static_cast<uint32_t>((i + 1) % n));
+  }
+  void mesh() {
+    const int n = random_.between(2, 6);
+    const float size = random_.pick({2.0f, 9.0f, 25.0f});
+    const WindowPoint corner = anywhere(0.1f);
+    const auto first = static_cast<uint32_t>(out_.positions.size());
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) {
+        const float x = corner.x + size * static_cast<float>(i) + random_.real(-0.3f, 0.3f);
+        const float y = corner.y + size * static_cast<float>(j) + random_.real(-0.3f, 0.3f);
+        add(WindowPoint{x, y, random_.real(0.3f, 0.7f), corner.w});
+      }
+    }
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const uint32_t a = first + static_cast<uint32_t>(j * (n + 1) + i);
+        const uint32_t b = a + static_cast<uint32_t>(n + 1);
+        triangle(a, a + 1, b);
+        triangle(b, a + 1, b + 1);
+      }
+    }
+  }
+  void crossing_depth() {
+    const auto point = [&] {
+      WindowPoint p = anywhere(0.5f);
+      p.z = random_.real(-0.7f, 1.7f);
+      return p;
+    };
+    const WindowPoint a = point(), b = point();
+    triangle(a, b, point());
+  }
+
+ private:
+  Rect v_;
+  ClipDepth clip_;
+  Random& random_;
+  Geometry& out_;
+};
+
+}  // namespace
+
+void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& random, Geometry& out) {
+  Placer p(viewport, clip, random, out);
+  switch (kind) {
+    case Kind::tiny: for (int i = 0; i < 8; ++i) p.around(0.05f, 1.5f); break;
+    case Kind::small: for (int i = 0; i < 4; ++i) p.around(0.1f, 12.0f); break;
+    case Kind::medium: p.around(0.1f, 60.0f); break;
+    case Kind::huge: p.around(0.5f, 4000.0f); break;
+    case Kind::beyond_guard: p.around(0.5f, 1e5f); break;
+    case Kind::sliver: for (int i = 0; i < 3; ++i) p.sliver(); break;
+    case Kind::degenerate: p.degenerate(); break;
+    case Kind::on_the_grid: for (int i = 0; i < 3; ++i) p.on_the_grid(); break;
+    case Kind::behind_the_eye: p.raw_triangle(-1.0f, 2.0f); break;
+    case Kind::non_finite: p.non_finite(); break;
+    case Kind::whole_target: p.whole_target(); break;
+    case Kind::steep: p.raw_triangle(1e-4f, random.pick({1.0f, 1e4f})); break;
+    case Kind::tiny_w: p.tiny_w(); break;
+    case Kind::fan: p.fan(); break;
+    case Kind::mesh: p.mesh(); break;
+    case Kind::crossing_depth: p.crossing_depth(); break;
+  }
+}
+
+namespace {
+
+constexpr int kCompareOps = 8, kBlendFactors = 10, kBlendEquations = 5;
+
+Rect random_rect(int width, int height, Random& random) {
+  const int x = random.between(-width / 4, width * 3 / 4);
+  const int y = random.between(-height / 4, height * 3 / 4);
+  const int w = random.between(1, width);
+  return {x, y, w, random.between(1, height)};
+}
+
+BlendState random_blend(Random& random) {
+  const auto factor = [&] { return static_cast<BlendFactor>(random.below(kBlendFactors)); };
+  const auto equation = [&] { return static_cast<BlendEquation>(random.below(kBlendEquations)); };
+  BlendState b;
+  if (random.once_in(4)) return b;
+  b.color_equation = equation();
+  b.source_color = factor();
+  b.destination_color = factor();
+  b.alpha_equation = equation();
+  b.source_alpha = factor();
+  b.destination_alpha = factor();
+  return b;
+}
+
+DepthState random_depth(Random& random) {
+  DepthState d;
+  d.test = !random.once_in(6);
+  d.write = !random.once_in(5);
+  d.compare = random.once_in(2) ? random.pick({CompareOp::less, CompareOp::less_equal, CompareOp::greater}) : static_cast<CompareOp>(random.below(kCompareOps));
+  d.clip = random.once_in(2) ? ClipDepth::zero_to_one : ClipDepth::negative_one_to_one;
+  d.clamp = random.once_in(4);
+  if (random.once_in(4)) {
+    d.range_near = random.real(0.0f, 1.0f);
+    d.range_far = random.once_in(8) ? d.range_near : random.real(0.0f, 1.0f);
+  }
+  return d;
+}
+
+DrawState random_state(const Scene& scene, Theme theme, Random& random) {
+  DrawState s;
+  if (random.once_in(4)) s.viewport = random_rect(scene.width, scene.height, random);
+  if (random.once_in(4)) s.scissor = random_rect(scene.width, scene.height, random);
+  if (s.scissor && random.once_in(10)) s.scissor->width = 0;
+  if (random.once_in(3)) s.cull = random.pick({CullMode::front, CullMode::back, CullMode::back, CullMode::front_and_back});
+  if (random.once_in(3)) s.front = Winding::clockwise;
+  if (random.once_in(2)) s.provoking = ProvokingVertex::first;
+  s.depth = random_depth(random);
+  if (random.once_in(4)) {
+    s.offset.slope = random.real(-2.0f, 2.0f);
+    s.offset.constant = random.pick({0.0f, 1.0f, -3.0f, 1000.0f});
+    s.offset.clamp = random.pick({0.0f, 0.0f, 0.01f, -0.01f});
+  }
+  if (theme == Theme::blended ? !random.once_in(4) : random.once_in(8)) s.blend = random_blend(random);
+  return s;
+}
+
+Kind random_kind(Theme theme, Random& random) {
+  if (theme == Theme::clipped && !random.once_in(4)) {
+    return random.pick({Kind::behind_the_eye, Kind::crossing_depth, Kind::beyond_guard, Kind::steep, Kind::tiny_w, Kind::huge, Kind::non_finite});
+  }
+  return static_cast<Kind>(random.below(kKinds));
+}
+
+glm::mat4 random_matrix(Random& random) {
+  glm::mat4 m(1.0f);
+  if (!random.once_in(3)) return m;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) m[column][row] += random.real(-0.05f, 0.05f);
+  }
+  return m;
+}
+
+std::vector<std::byte> random_bytes(std::size_t n, Random& random) {
+  std::vector<std::byte> bytes(n);
+  for (std::byte& b : bytes) b = static_cast<std::byte>(random.bits() & 0xff);
+  return bytes;
+}
+
+// Fills the images that the pass loads. Floats are finite and not too large, depths in [0, 1].
+void fill_images(Scene& s, Random& random) {
+  oracle::Framebuffer f(s.width, s.height, s.color.format, s.depth.format);
+  for (int y = 0; y < s.height; ++y) {
+    for (int x = 0; x < s.width; ++x) {
+      f.set_color(x, y, glm::vec4{random.real(0, 1), random.real(0, 1), random.real(0, 2), random.real(0, 1)});
+      f.set_depth(x, y, f.depth_value(random.real(0, 1)));
+    }
+  }
+  s.color_before = f.color_bytes;
+  s.depth_before = f.depth_bytes;
+}
+
+template <class S>
+SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, const DrawState& state, Random& random) {
+  using A = typename S::template Attributes<float>;
+  std::vector<A> rows;
+  for (const glm::vec4& p : g.positions) {
+    std::array<float, kComponents<A>> row{};
+    for (std::size_t k = 0; k < row.size(); ++k) row[k] = k < 4 ? p[static_cast<int>(k)] : random.real(-0.5f, 1.5f);
+    rows.push_back(from_components<A, float>(row));
+  }
+  const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
+  if (HasFragmentFunction<S> && random.once_in(4)) {  // without an index list: vertices are repeated, and one or two may be left over
+    std::vector<A> repeated;
+    std::vector<uint32_t> sequence;
+    for (const uint32_t i : g.indices) repeated.push_back(rows[i]);
+    for (int i = random.below(3); i > 0 && !rows.empty(); --i) repeated.push_back(rows.front());
+    for (uint32_t i = 0; i < repeated.size(); ++i) sequence.push_back(i);
+    return make_draw(shader, name, std::move(repeated), std::move(sequence), state, vertex_layout, IndexLayout::none);
+  }
+  return make_draw(shader, name, std::move(rows), g.indices, state, vertex_layout, random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
+}
+
+SceneDraw random_draw(Theme theme, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  if (depth_only) return shader_draw(DepthShader{matrix}, "DepthShader", g, state, random);
+  const bool themed = !random.once_in(3);
+  const float value = random.real(0.05f, 0.4f);
+  int which = random.below(10);
+  if (themed && theme == Theme::discarding) which = random.pick({4, 5, 9});
+  if (themed && theme == Theme::depth_writing) which = random.pick({6, 7});
+  if (themed && theme == Theme::faces) which = random.pick({8, 9});
+  switch (which) {
+    case 0: return shader_draw(PixelShader{matrix, glm::vec4{value, 1, 1, 0.75f}}, "PixelShader", g, state, random);
+    case 1: return shader_draw(ColorShader{matrix, random.once_in(8) ? 1e5f : 1.0f}, "ColorShader", g, state, random);
+    case 2: return shader_draw(MixedShader{}, "MixedShader", g, state, random);
+    case 3: return shader_draw(DerivativeShader{}, "DerivativeShader", g, state, random);
+    case 4: return shader_draw(CutoutShader<false>{value}, "CutoutShader", g, state, random);
+    case 5: return shader_draw(CutoutShader<true>{value}, "CutoutShader with visibility", g, state, random);
+    case 6: return shader_draw(BumpShader<false>{value}, "BumpShader", g, state, random);
+    case 7: return shader_draw(BumpShader<true>{value}, "BumpShader with visibility", g, state, random);
+    case 8: return shader_draw(FaceShader{}, "FaceShader", g, state, random);
+    default: return shader_draw(FaceCutoutShader{}, "FaceCutoutShader", g, state, random);
+  }
+}
+
+}  // namespace
+
+Scene random_scene(Theme theme, uint64_t seed) {
+  Random random(seed * 8 + static_cast<uint64_t>(theme));
+  Scene s;
+  s.width = random.between(20, 200);
+  s.height = random.between(20, 130);
+  if (random.once_in(10)) s.width = random.pick({1, 8, 64, 65, 128});
+  if (random.once_in(10)) s.height = random.pick({1, 8, 64, 65, 127});
+  const bool depth_only = random.once_in(15);
+  s.color.format = depth_only ? ColorFormat::none : random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+  s.depth.format = random.pick({DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16, DepthFormat::none});
+  s.color.clear_value = {random.real(0, 1), random.real(0, 1), random.real(-0.5f, 1.5f), random.real(0, 1)};
+  s.depth.clear_value = random.pick({0.0f, 0.5f, 1.0f});
+  if (random.once_in(4)) {
+    fill_images(s, random);
+    s.color.load = s.depth.load = LoadOp::load;
+  }
+  if (!depth_only && random.once_in(4)) {
+    s.post_format = random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+    s.has_color_image = s.color.load == LoadOp::load || random.once_in(2);
+  }
+  s.has_depth_image = s.depth.load == LoadOp::load || !random.once_in(5);
+
+  const int draws = theme == Theme::many_draws ? random.between(8, 30) : random.between(1, 4);
+  Geometry g;
+  glm::mat4 matrix(1.0f);
+  for (int d = 0; d < draws; ++d) {
+    DrawState state = random_state(s, theme, random);
+    if (d == 0 || !random.once_in(3)) {  // else the last draw's geometry once more: equal depths
+      g = {};
+      matrix = random_matrix(random);
+      const Rect viewport = state.viewport.value_or(Rect{0, 0, s.width, s.height});
+      const int kinds = theme == Theme::many_draws ? random.between(0, 2) : random.between(1, 8);
+      for (int k = 0; k < kinds; ++k) add_triangles(random_kind(theme, random), viewport, state.depth.clip, random, g);
+    } else if (random.once_in(2)) {
+      state.depth = s.draws.back().state.depth;
+      state.viewport = s.draws.back().state.viewport;
+      state.offset = {};
+      state.depth.compare = random.pick({CompareOp::equal, CompareOp::equal, CompareOp::not_equal, CompareOp::greater_equal});
+    }
+    s.draws.push_back(random_draw(theme, depth_only, g, state, matrix, random));
+  }
+  return s;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Random scenes: triangles of every kind that is hard to draw, under random states.
+#pragma once
+
+#include "property/random.h"
+#include "property/scene.h"
+
+namespace halfspace {
+
+/// What a scene is mostly made of.
+enum class Theme { opaque, blended, discarding, depth_writing, faces, clipped, many_draws };
+inline constexpr Theme kThemes[] = {Theme::opaque, Theme::blended, Theme::discarding, Theme::depth_writing, Theme::faces, Theme::clipped, Theme::many_draws};
+inline constexpr const char* kThemeNames[] = {"Opaque", "Blended", "Discarding", "DepthWriting", "Faces", "Clipped", "ManyDraws"};
+
+/// The scene of a seed: the same on every machine and compiler.
+Scene random_scene(Theme theme, uint64_t seed);
+
+/// Positions in clip space and triangles over them.
+struct Geometry {
+  std::vector<glm::vec4> positions;
+  std::vector<uint32_t> indices;
+};
+
+/// Kinds of random triangles.
+enum class Kind {
+  tiny, small, medium, huge, beyond_guard, sliver, degenerate, on_the_grid, behind_the_eye, non_finite, whole_target,
+  steep, tiny_w, fan, mesh, crossing_depth
+};
+inline constexpr int kKinds = 16;
+
+/// Adds triangles of a kind, placed in a viewport. hard: also what only clipping can draw.
+void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& random, Geometry& out);
+
+}  // namespace halfspace

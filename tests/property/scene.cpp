@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "property/scene.h"
+
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+namespace halfspace {
+
+namespace {
+
+constexpr const char* kColorNames[] = {"none", "rgba8", "srgb8a8", "rgba16f", "rgba32f"};
+constexpr const char* kDepthNames[] = {"none", "d16", "d24", "d32f"};
+constexpr const char* kCompareNames[] = {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
+
+std::size_t pixels_of(const Scene& s) { return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height); }
+
+std::size_t depth_pixel_bytes(DepthFormat f) { return f == DepthFormat::none ? 0 : f == DepthFormat::d16 ? 2 : 4; }
+
+// A component's value, for messages and to find the worst pixel.
+double value_at(const std::vector<std::byte>& bytes, std::size_t index, std::size_t size, bool is_float) {
+  const std::byte* p = bytes.data() + index * size;
+  if (size == 1) return static_cast<double>(std::to_integer<int>(*p));
+  if (size == 2) {
+    uint16_t v = 0;
+    std::memcpy(&v, p, 2);
+    return v;
+  }
+  if (is_float) {
+    float v = 0;
+    std::memcpy(&v, p, 4);
+    return static_cast<double>(v);
+  }
+  uint32_t v = 0;
+  std::memcpy(&v, p, 4);
+  return v;
+}
+
+// One picture against another: components values of `size` bytes a pixel.
+std::string compare(const char* name, const Scene& scene, const std::vector<std::byte>& expected, const std::vector<std::byte>& actual,
+                    std::size_t components, std::size_t size, bool is_float) {
+  if (expected == actual) return {};
+  if (expected.size() != actual.size()) return std::string(name) + ": sizes differ";
+  std::size_t differing = 0, worst = 0;
+  double worst_by = -1.0;
+  const std::size_t pixel_bytes = components * size;
+  for (std::size_t i = 0; i < pixels_of(scene); ++i) {
+    if (std::memcmp(&expected[i * pixel_bytes], &actual[i * pixel_bytes], pixel_bytes) == 0) continue;
+    ++differing;
+    double by = 0.0;
+    for (std::size_t k = 0; k < components; ++k) {
+      const double d = std::fabs(value_at(expected, i * components + k, size, is_float) - value_at(actual, i * components + k, size, is_float));
+      by = std::fmax(by, std::isnan(d) ? HUGE_VAL : d);
+    }
+    if (by > worst_by) {
+      worst_by = by;
+      worst = i;
+    }
+  }
+  std::ostringstream out;
+  out.precision(9);
+  const auto width = static_cast<std::size_t>(scene.width);
+  out << name << ": " << differing << " of " << pixels_of(scene) << " pixels differ; worst, window (" << worst % width << ", "
+      << static_cast<std::size_t>(scene.height) - 1 - worst / width << "):";
+  for (std::size_t k = 0; k < components; ++k) out << ' ' << value_at(expected, worst * components + k, size, is_float);
+  out << " expected, got";
+  for (std::size_t k = 0; k < components; ++k) out << ' ' << value_at(actual, worst * components + k, size, is_float);
+  return out.str() + "\n";
+}
+
+std::string compare_color(const char* name, const Scene& scene, ColorFormat format, const std::vector<std::byte>& expected, const std::vector<std::byte>& actual) {
+  const auto size = static_cast<std::size_t>(bytes_per_pixel(format)) / 4;
+  return compare(name, scene, expected, actual, 4, size, format == ColorFormat::rgba32f);
+}
+
+}  // namespace
+
+namespace detail {
+
+void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory) {
+  VertexView& view = memory.view;
+  view.vertex_count = count;
+  view.components = components;
+  const auto n = static_cast<std::size_t>(components);
+  // Streams are runs of components: all in one, or cut in two (which need not be where a member ends).
+  const std::size_t first_part = layout == VertexLayout::tight || n < 2 ? n : std::min(n - 1, std::size_t{3});
+  const std::size_t gap = layout == VertexLayout::padded ? 3 : 0;
+  if (layout == VertexLayout::separate) {
+    memory.buffers.resize(2);
+    for (std::size_t v = 0; v < count; ++v) {
+      memory.buffers[0].insert(memory.buffers[0].end(), rows + v * n, rows + v * n + first_part);
+      memory.buffers[1].insert(memory.buffers[1].end(), rows + v * n + first_part, rows + v * n + n);
+    }
+    view.streams[0] = {memory.buffers[0].data(), static_cast<int32_t>(first_part), static_cast<int32_t>(first_part), count};
+    view.streams[1] = {memory.buffers[1].data(), static_cast<int32_t>(n - first_part), static_cast<int32_t>(n - first_part), count};
+    view.stream_count = n > first_part ? 2 : 1;
+    return;
+  }
+  memory.buffers.resize(1);
+  for (std::size_t v = 0; v < count; ++v) {
+    memory.buffers[0].insert(memory.buffers[0].end(), rows + v * n, rows + v * n + n);
+    if (v + 1 < count) memory.buffers[0].insert(memory.buffers[0].end(), gap, 1e30f);
+  }
+  const auto stride = static_cast<int32_t>(n + gap);
+  view.streams[0] = {memory.buffers[0].data(), stride, static_cast<int32_t>(first_part), count};
+  view.stream_count = 1;
+  if (first_part < n) view.streams[static_cast<std::size_t>(view.stream_count++)] = {memory.buffers[0].data() + first_part, stride, static_cast<int32_t>(n - first_part), count};
+}
+
+void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, IndexLayout layout, DrawMemory& memory) {
+  if (layout == IndexLayout::none) return;
+  if (layout == IndexLayout::narrow) {
+    for (const uint32_t i : list) memory.narrow.push_back(static_cast<uint16_t>(i));
+    memory.indices.emplace(std::span<const uint16_t>(memory.narrow), vertex_count);
+  } else {
+    memory.wide = list;
+    memory.indices.emplace(std::span<const uint32_t>(memory.wide), vertex_count);
+  }
+}
+
+}  // namespace detail
+
+PassResult run_pass(const Scene& scene, const PassOptions& options, int threads) {
+  PassResult r;
+  Pictures& p = r.pictures;
+  ColorTarget color = scene.color;
+  DepthTarget depth = scene.depth;
+  if (scene.has_color_image) {
+    p.color = scene.color_before;
+    p.color.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(color.format)));
+    color.data = p.color.data();
+  } else {
+    color.store = StoreOp::dont_care;
+  }
+  if (scene.has_depth_image) {
+    p.depth = scene.depth_before;
+    p.depth.resize(pixels_of(scene) * depth_pixel_bytes(depth.format));
+    depth.data = p.depth.data();
+    depth.store = StoreOp::store;
+  }
+  Pass pass(scene.width, scene.height, color, depth, options);
+  if (scene.post_format != ColorFormat::none) {
+    p.post.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(scene.post_format)));
+    pass.post(Curve{}, {.format = scene.post_format, .data = p.post.data()});
+  }
+  for (const SceneDraw& d : scene.draws) d.submit(pass);
+  r.statistics = pass.run(Workers(threads));
+  return r;
+}
+
+OracleResult run_oracle(const Scene& scene) {
+  oracle::Framebuffer target(scene.width, scene.height, scene.color.format, scene.depth.format);
+  if (!scene.color_before.empty()) target.color_bytes = scene.color_before;
+  if (!scene.depth_before.empty()) target.depth_bytes = scene.depth_before;
+  if (scene.color.load == LoadOp::clear) target.clear_color(scene.color.clear_value);
+  if (scene.depth.load == LoadOp::clear) target.clear_depth(scene.depth.clear_value);
+  oracle::Renderer renderer(target);
+  for (const SceneDraw& d : scene.draws) d.reference(renderer);
+  OracleResult r;
+  r.counts = renderer.counts();
+  if (scene.post_format != ColorFormat::none) r.pictures.post = oracle::post(target, Curve{}, scene.post_format).color_bytes;
+  if (scene.has_color_image) r.pictures.color = target.color_bytes;
+  if (scene.has_depth_image) r.pictures.depth = target.depth_bytes;
+  return r;
+}
+
+std::string difference(const Scene& scene, const Pictures& expected, const Pictures& actual) {
+  return compare_color("colour", scene, scene.color.format, expected.color, actual.color) +
+         compare("depth", scene, expected.depth, actual.depth, 1, depth_pixel_bytes(scene.depth.format), scene.depth.format == DepthFormat::d32f) +
+         compare_color("post", scene, scene.post_format, expected.post, actual.post);
+}
+
+std::string describe(const PassOptions& o, int threads) {
+  std::ostringstream out;
+  out << threads << " threads, tiles of " << o.tile_size << ", chunks of " << o.chunk_triangles << ", " << (o.defer ? "deferred" : "immediate") << ", budget "
+      << o.bin_budget;
+  return out.str();
+}
+
+std::string describe(const Scene& s) {
+  std::ostringstream out;
+  out << s.width << 'x' << s.height << ' ' << kColorNames[static_cast<int>(s.color.format)] << ' ' << kDepthNames[static_cast<int>(s.depth.format)] << '\n';
+  for (const SceneDraw& d : s.draws) {
+    const DepthState& z = d.state.depth;
+    out << "  " << d.shader << ", " << d.triangles << " triangles, cull " << static_cast<int>(d.state.cull) << (d.state.front == Winding::clockwise ? " cw" : " ccw")
+        << ", depth " << (z.test ? kCompareNames[static_cast<int>(z.compare)] : "off") << (z.write ? "" : " (no write)") << (z.clamp ? " clamp" : "")
+        << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far << (d.state.blend ? ", blend" : "");
+    if (d.state.offset.slope != 0 || d.state.offset.constant != 0) out << ", offset";
+    for (const auto& r : {d.state.viewport, d.state.scissor}) {
+      if (r) out << " [" << r->x << ' ' << r->y << ' ' << r->width << 'x' << r->height << ']';
+    }
+    out << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace halfspace

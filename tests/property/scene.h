@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scene of the property tests: a target, its images before the pass, and draws, that can be sent through the tile path
+// with any options, and through the oracle.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "oracle/oracle.h"
+#include "property/test_shaders.h"
+#include "raster/pass.h"
+
+namespace halfspace {
+
+/// A draw of some shader, its type forgotten.
+struct SceneDraw {
+  std::function<void(Pass&)> submit;
+  std::function<void(oracle::Renderer&)> reference;
+  DrawState state;
+  std::string shader;
+  std::size_t triangles = 0;
+};
+
+struct Scene {
+  int width = 1, height = 1;
+  ColorTarget color;   ///< data is filled in by run_pass
+  DepthTarget depth;
+  std::vector<std::byte> color_before, depth_before;  ///< what the images hold before the pass
+  std::vector<SceneDraw> draws;
+  bool has_color_image = true;  ///< else the colour is seen through the post step alone
+  bool has_depth_image = true;
+  ColorFormat post_format = ColorFormat::none;  ///< none: no post step; else Curve into an image of this format
+};
+
+/// What is seen of a scene afterwards.
+struct Pictures {
+  std::vector<std::byte> color, depth, post;
+  friend bool operator==(const Pictures&, const Pictures&) = default;
+};
+
+struct PassResult {
+  Pictures pictures;
+  PassStatistics statistics;
+};
+struct OracleResult {
+  Pictures pictures;
+  oracle::Counts counts;
+};
+
+PassResult run_pass(const Scene& scene, const PassOptions& options, int threads);
+OracleResult run_oracle(const Scene& scene);
+
+/// Empty if a and b are the same, else where they differ most: "colour: 12 of 7000 pixels differ; worst (x, y): … against …".
+std::string difference(const Scene& scene, const Pictures& expected, const Pictures& actual);
+
+std::string describe(const PassOptions& options, int threads);
+std::string describe(const Scene& scene);
+
+/// How a draw's vertices lie in memory.
+enum class VertexLayout { tight, padded, separate };
+enum class IndexLayout { none, narrow, wide };
+
+/// The draw of a shader; `none` needs indices 0, 1, 2, ….
+template <class S>
+SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typename S::template Attributes<float>> vertex_rows,
+                    std::vector<uint32_t> index_list, const DrawState& state, VertexLayout vertex_layout, IndexLayout index_layout);
+
+// ---- the part that knows the shader ------------------------------------------------------------------------------
+
+namespace detail {
+
+/// Keeps a draw's memory.
+struct DrawMemory {
+  std::vector<std::vector<float>> buffers;
+  VertexView view;
+  std::vector<uint16_t> narrow;
+  std::vector<uint32_t> wide;
+  std::optional<Indices> indices;  ///< none: sequential
+};
+
+/// Lays rows of `components` floats out as streams.
+void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory);
+void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, IndexLayout layout, DrawMemory& memory);
+
+}  // namespace detail
+
+template <class S>
+SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typename S::template Attributes<float>> vertex_rows,
+                    std::vector<uint32_t> index_list, const DrawState& state, VertexLayout vertex_layout, IndexLayout index_layout) {
+  using A = typename S::template Attributes<float>;
+  const auto memory = std::make_shared<detail::DrawMemory>();
+  detail::lay_out_vertices(reinterpret_cast<const float*>(vertex_rows.data()), vertex_rows.size(), static_cast<int>(kComponents<A>), vertex_layout, *memory);
+  detail::lay_out_indices(index_list, vertex_rows.size(), index_layout, *memory);
+  SceneDraw d;
+  d.state = state;
+  d.shader = name;
+  d.triangles = index_list.size() / 3;
+  d.submit = [memory, shader, state](Pass& pass) {
+    if constexpr (HasFragmentFunction<S>) {
+      if (memory->indices) {
+        pass.draw(shader, memory->view, *memory->indices, state);
+      } else {
+        pass.draw(shader, memory->view, state);
+      }
+    } else {
+      pass.draw_depth(shader, memory->view, *memory->indices, state);
+    }
+  };
+  d.reference = [rows = std::move(vertex_rows), list = std::move(index_list), shader, state](oracle::Renderer& r) { r.draw(shader, rows, list, state); };
+  return d;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shaders for the property tests: between them they use every part of the contract. Each hands out colours held to a
+// range, so that no picture holds a NaN (whose bits an instruction's operand order decides).
+#pragma once
+
+#include "raster/pass.h"
+
+namespace halfspace {
+
+template <class R>
+vec4<R> held(const vec4<R>& c, float limit) {
+  return {clamp(c.x, R(-limit), R(limit)), clamp(c.y, R(-limit), R(limit)), clamp(c.z, R(-limit), R(limit)), clamp(c.w, R(-limit), R(limit))};
+}
+
+/// No varyings: all that a Pixel says by itself.
+struct PixelShader {
+  glm::mat4 clip_from_model{1.0f};
+  glm::vec4 color{1.0f};
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+  };
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return clip_from_model * in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    const R x = px.x * R(1.0f / 256.0f) + R(color.x);
+    const R y = px.y * R(1.0f / 256.0f) * px.z;
+    return {held(vec4<R>(x, y, px.inv_w * R(0.125f), select(px.front_facing, R(color.w), R(0.25f))), 4.0f)};
+  }
+};
+
+/// One smooth colour.
+struct ColorShader {
+  glm::mat4 clip_from_model{1.0f};
+  float brightness = 1.0f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec3<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color * brightness;
+    return clip_from_model * in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {held(vec4<R>(in.color, in.color.x * R(0.5f) + R(0.25f)), 1e6f)};
+  }
+};
+
+/// Twelve components of all three kinds of interpolation.
+struct MixedShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+    vec3<R> b;
+    vec2<R> c;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> smooth;
+    Flat<vec3<R>> flat;
+    Linear<vec2<R>> linear;
+    R product;
+    vec2<R> uv;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.smooth = in.a;
+    out.flat.value = in.b;
+    out.linear.value = in.c;
+    out.product = in.a.x * in.c.y;
+    out.uv = vec2<R>(in.b.x, in.a.w);
+    return in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec3<R> rgb(in.smooth.x + in.flat.value.x * in.linear.value.x, in.smooth.y * in.flat.value.y + in.product,
+                      in.linear.value.y - in.uv.x * in.flat.value.z);
+    return {held(vec4<R>(rgb, select(px.front_facing, in.smooth.w, in.uv.y)), 8.0f)};
+  }
+};
+
+/// Analytic derivatives, and differences over the quad.
+struct DerivativeShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec2<R> uv;
+    vec3<R> normal;
+  };
+  template <class R>
+  struct Varyings {
+    vec2<R> uv;
+    vec3<R> normal;
+    Linear<R> ramp;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = in.uv;
+    out.normal = in.normal;
+    out.ramp.value = in.uv.x;
+    return in.position;
+  }
+  template <class R>
+  static R height(const Varyings<R>& v) {
+    return v.uv.x * v.normal.y + v.uv.y * v.ramp.value;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec2<R> dx = px.ddx(&Varyings<R>::uv);
+    const vec3<R> dy = px.ddy(&Varyings<R>::normal);
+    const R here = height(px.template at_quad<Varyings<R>>(0, 0));
+    const R right = height(px.template at_quad<Varyings<R>>(1, 0));
+    const R up = height(px.template at_quad<Varyings<R>>(0, 1));
+    return {held(vec4<R>(dx.x * R(16.0f) + in.uv.x, dy.y * R(16.0f) + dx.y, (right - here) * R(8.0f), (up - here) * R(8.0f) + in.normal.z), 8.0f)};
+  }
+};
+
+/// Discards where the product of two varyings is small; with or without a visibility function that says so beforehand.
+template <bool has_visibility>
+struct CutoutShader {
+  float threshold = 0.2f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec2<R> uv;
+    Flat<R> id;
+    Linear<R> fade;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = vec2<R>(in.a.x, in.a.y);
+    out.id.value = in.a.z;
+    out.fade.value = in.a.w;
+    return in.position;
+  }
+  template <class R>
+  MaskOf<R> keeps(const Varyings<R>& in, const Pixel<R>& px) const {
+    return (abs(in.uv.x * in.uv.y) > R(threshold)) & (px.z + in.fade.value * R(0.5f) < R(0.95f));
+  }
+  template <class R>
+  DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {held(vec4<R>(in.uv.x, in.uv.y, in.id.value, in.fade.value), 8.0f), keeps(in, px)};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
+    return {keeps(in, px), px.z};
+  }
+};
+
+/// Writes a depth of its own (now and then out of range), and discards.
+template <bool has_visibility>
+struct BumpShader {
+  float height = 0.1f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec3<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> a;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.a = in.a;
+    return in.position;
+  }
+  template <class R>
+  DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const Visibility<R> v = decide(in, px);
+    return {held(vec4<R>(in.a, v.depth), 8.0f), v.keep, v.depth};
+  }
+  template <class R>
+  Visibility<R> decide(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {in.a.x + in.a.y > R(0.1f), px.z + R(height) * (in.a.z - R(0.5f))};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
+    return decide(in, px);
+  }
+};
+
+/// Primitive stage: the face normal, and a value that tells which vertex was which.
+struct FaceShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec3<R> point;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> point;
+    Flat<R> provoking;
+  };
+  template <class R>
+  struct Primitive {
+    vec3<R> normal;
+    R order;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.point = in.point;
+    out.provoking.value = in.point.x - in.point.z;
+    return in.position;
+  }
+  template <class R>
+  Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const {
+    return {cross(v1.point - v0.point, v2.point - v0.point), v0.point.x + R(2.0f) * v1.point.x + R(4.0f) * v2.point.x};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Primitive<R>& face, const Pixel<R>&) const {
+    return {held(vec4<R>(face.normal.x + in.point.x, face.normal.y, face.normal.z * in.provoking.value, face.order * R(0.125f)), 8.0f)};
+  }
+};
+
+/// Primitive stage and discard with a visibility function.
+struct FaceCutoutShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec2<R> uv;
+  };
+  template <class R>
+  struct Varyings {
+    vec2<R> uv;
+  };
+  template <class R>
+  struct Primitive {
+    R mean;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = in.uv;
+    return in.position;
+  }
+  template <class R>
+  Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const {
+    return {(v0.uv.x + v1.uv.x + v2.uv.x) * R(0.25f) - v1.uv.y};
+  }
+  template <class R>
+  DiscardingFragment<R> fragment(const Varyings<R>& in, const Primitive<R>& face, const Pixel<R>& px) const {
+    return {held(vec4<R>(in.uv, face.mean, px.z), 8.0f), in.uv.x > in.uv.y};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {in.uv.x > in.uv.y, px.z};
+  }
+};
+
+/// Depth alone; its positions are those of ColorShader.
+struct DepthShader {
+  glm::mat4 clip_from_model{1.0f};
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+  };
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return clip_from_model * in.position;
+  }
+};
+
+/// A post step: a tone curve of + − × ÷ alone.
+struct Curve {
+  template <class R>
+  vec4<R> operator()(const vec4<R>& c) const {
+    const auto curve = [](R x) {
+      const R a = abs(x);
+      return a / (a + R(0.5f));
+    };
+    return {curve(c.x), curve(c.y), curve(c.z), c.w};
+  }
+};
+
+}  // namespace halfspace
