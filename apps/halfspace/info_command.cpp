@@ -32,7 +32,7 @@ void print_text() {
 
 void print_json() {
   const std::filesystem::path reader = find_image_reader();
-  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", HALFSPACE_ARCH},       {"lanes", kLanes},
+  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", HALFSPACE_ARCH},    {"lanes", kLanes},
                                  {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_reader", nullptr}};
   if (!reader.empty()) json["image_reader"] = reader.string();
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';

@@ -67,7 +67,8 @@ UsageError unknown_argument(const CLI::App& program) {
   std::vector<std::string> rest = app.remaining();
   if (rest.empty()) rest = program.remaining();
   const std::string word = rest.empty() ? "" : rest.front();
-  if (word.starts_with("-")) return UsageError("unknown option '" + word + "'" + suggestion(word.substr(0, word.find('=')), names_of(app, true)));
+  if (word.starts_with("-"))
+    return UsageError("unknown option '" + word + "'" + suggestion(word.substr(0, word.find('=')), names_of(app, true)));
   if (chosen.empty()) return UsageError("unknown command '" + word + "'" + suggestion(word, names_of(program, false)));
   return UsageError(app.get_name() + ": unexpected argument '" + word + "'" + see_help(program));
 }

@@ -35,7 +35,8 @@ static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts), "
 
 std::string text_report(const RenderReport& r) {
   std::ostringstream text;
-  text << r.scene << ", " << r.width << 'x' << r.height << ", " << r.threads << (r.threads == 1 ? " thread" : " threads") << ": " << r.output << '\n';
+  text << r.scene << ", " << r.width << 'x' << r.height << ", " << r.threads << (r.threads == 1 ? " thread" : " threads") << ": "
+       << r.output << '\n';
   text << std::fixed << std::setprecision(1);
   text << std::left << std::setw(20) << "render_ms" << r.render_ms << '\n' << std::setw(20) << "write_ms" << r.write_ms << '\n';
   for (const Count& c : kCounts) text << std::setw(20) << c.name << r.counts.*c.member << '\n';

@@ -27,10 +27,15 @@ namespace detail {
 template <class V>
 HS_INLINE V load_rows(const PrimitiveBatch& batch, int begin, std::size_t vertex) {
   constexpr std::size_t n = kComponents<V>;
+  constexpr auto lanes = static_cast<std::size_t>(kLanes);
   std::array<Real, n> components{};
-  for (int i = 0; i < kLanes; ++i) {
-    const float* row = batch.rows[std::min(begin + i, batch.count - 1)][vertex];
-    for (std::size_t c = 0; c < n; ++c) set_lane(components[c], i, row[c]);
+  if constexpr (n != 0) {
+    std::array<float, n * lanes> by_lane;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const float* row = batch.rows[std::min(begin + static_cast<int>(i), batch.count - 1)][vertex];
+      for (std::size_t c = 0; c < n; ++c) by_lane[c * lanes + i] = row[c];
+    }
+    components = load<std::array<Real, n>>(by_lane.data());
   }
   return from_components<V, Real>(components);
 }

@@ -95,6 +95,23 @@ Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<cons
 
 namespace {
 
+// The corner from which the fan of a clipped polygon starts. Snapping can bend a nearly straight corner inwards; a fan
+// from elsewhere would then turn a piece over and draw its samples twice. From this corner all pieces turn one way.
+uint32_t fan_apex(const ClipVertex* v, uint32_t count) {
+  for (uint32_t apex = 0; apex < count; ++apex) {
+    const ScreenVertex& a = v[apex].screen;
+    bool left = false, right = false;
+    for (uint32_t i = 2; i < count; ++i) {
+      const ScreenVertex &b = v[(apex + i - 1) % count].screen, &c = v[(apex + i) % count].screen;
+      const int64_t area = int64_t{b.x - a.x} * (c.y - a.y) - int64_t{b.y - a.y} * (c.x - a.x);
+      left |= area > 0;
+      right |= area < 0;
+    }
+    if (!(left && right)) return apex;
+  }
+  return 0;  // the outline crosses itself: a sliver that snapping turned over in part
+}
+
 // Sets up the triangles of one segment.
 class SegmentSetup {
  public:
@@ -178,9 +195,11 @@ class SegmentSetup {
       chunk_.clip_vertices.push_back({screen, first_varying});
     }
     const std::size_t before = chunk_.triangles.size();
+    const auto corners = static_cast<uint32_t>(polygon.count);
+    const uint32_t apex = fan_apex(chunk_.clip_vertices.data() + first, corners);
     Cull why = Cull::none;
-    for (uint32_t i = 2; i < static_cast<uint32_t>(polygon.count); ++i) {
-      const std::array<uint32_t, 3> index{first, first + i - 1, first + i};
+    for (uint32_t i = 2; i < corners; ++i) {
+      const std::array<uint32_t, 3> index{first + apex, first + (apex + i - 1) % corners, first + (apex + i) % corners};
       const ClipVertex* v = chunk_.clip_vertices.data();
       // All corners carry the provoking vertex's flat values.
       why = append({&v[index[0]].screen, &v[index[1]].screen, &v[index[2]].screen}, index, kClipped, 0);

@@ -9,18 +9,15 @@
 #include "scene/image_io.h"
 #include "scene/procedural_earth.h"
 #include "scene/shapes.h"
-#include "shading/blinn_phong.h"
 
 namespace halfspace {
 
 namespace {
 
-constexpr glm::dvec3 kEye{0.0, 0.55, 2.75};
 constexpr double kFovY = 45.0 * std::numbers::pi / 180.0;
 constexpr double kNear = 0.1, kFar = 100.0;
 constexpr glm::vec3 kSun{6.0f, 3.0f, 5.0f};
 constexpr glm::vec4 kSpace{0.002f, 0.0025f, 0.004f, 1.0f};  // linear
-constexpr double kMeridian = 20.0;                          // degrees east, faces the camera
 // Chords of 1/256 turn leave the silhouette 0.04 px off at 1080p.
 constexpr int kLatitudes = 128, kLongitudes = 256;
 
@@ -31,14 +28,15 @@ glm::mat4 facing_meridian(double degrees_east) {
   return {glm::vec4(c, 0, -s, 0), glm::vec4(0, 1, 0, 0), glm::vec4(s, 0, c, 0), glm::vec4(0, 0, 0, 1)};
 }
 
-BlinnPhong earth_shader(const EarthOptions& options, const Texture2D& map) {
+BlinnPhong earth_shader(const EarthOptions& o, const Texture2D& map) {
   BlinnPhong s{};
-  const double aspect = static_cast<double>(options.width) / options.height;
-  s.clip_from_world = glm::mat4(perspective_reversed(kFovY, aspect, kNear, kFar) * look_at(kEye, glm::dvec3(0.0), glm::dvec3(0, 1, 0)));
-  s.world_from_object = facing_meridian(kMeridian);
+  const double aspect = static_cast<double>(o.width) / o.height;
+  const glm::dvec3 up = o.eye.x == 0 && o.eye.z == 0 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+  s.clip_from_world = glm::mat4(perspective_reversed(kFovY, aspect, kNear, kFar) * look_at(o.eye, glm::dvec3(0.0), up));
+  s.world_from_object = facing_meridian(o.meridian);
   s.normal_from_object = glm::mat3(s.world_from_object);  // a rotation is its own inverse transpose
   s.light_ws = kSun;
-  s.eye_ws = glm::vec3(kEye);
+  s.eye_ws = glm::vec3(o.eye);
   s.albedo = &map;
   s.sampler.wrap_t = Wrap::clamp;
   s.ambient = 0.03f;
@@ -50,19 +48,25 @@ BlinnPhong earth_shader(const EarthOptions& options, const Texture2D& map) {
 
 }  // namespace
 
+std::unique_ptr<EarthScene> make_earth(const EarthOptions& options, const Workers& workers) {
+  const Image<glm::u8vec4> map = options.color_map.empty() ? procedural_earth(1024, 512, workers) : read_image(options.color_map);
+  auto scene = std::make_unique<EarthScene>(EarthScene{Texture2D(map, TexelFormat::srgb8a8), uv_sphere(kLatitudes, kLongitudes, 1.0f), {}, {}, kSpace});
+  scene->shader = earth_shader(options, scene->map);
+  scene->state.cull = CullMode::back;
+  scene->state.depth.clip = ClipDepth::zero_to_one;
+  scene->state.depth.compare = CompareOp::greater;
+  return scene;
+}
+
 RenderResult render_earth(const EarthOptions& options, const Workers& workers) {
-  const Texture2D map(options.color_map.empty() ? procedural_earth(1024, 512, workers) : read_image(options.color_map), TexelFormat::srgb8a8);
-  const Mesh sphere = uv_sphere(kLatitudes, kLongitudes, 1.0f);
-  const Indices indices(sphere.indices, sphere.positions.size());
+  const std::unique_ptr<EarthScene> scene = make_earth(options, workers);
+  const Mesh& globe = scene->globe;
+  const Indices indices(globe.indices, globe.positions.size());
   RenderResult result{Image<glm::u8vec4>(options.width, options.height), {}};
   ColorTarget color = srgb8a8_target(result.image);
-  color.clear_value = kSpace;
+  color.clear_value = scene->clear_color;
   Pass pass(options.width, options.height, color, {.format = DepthFormat::d32f, .clear_value = 0.0f});
-  DrawState state;
-  state.cull = CullMode::back;
-  state.depth.clip = ClipDepth::zero_to_one;
-  state.depth.compare = CompareOp::greater;
-  pass.draw(earth_shader(options, map), vertices(stream(sphere.positions), stream(sphere.normals), stream(sphere.uvs)), indices, state);
+  pass.draw(scene->shader, vertices(stream(globe.positions), stream(globe.normals), stream(globe.uvs)), indices, scene->state);
   result.statistics = pass.run(workers);
   return result;
 }

@@ -27,9 +27,21 @@ struct Format {
 };
 using namespace std::string_view_literals;
 constexpr Format kReaderFormats[] = {
-    {"jpeg", "\xff\xd8\xff"sv}, {"tiff", "II*\0"sv}, {"tiff", "MM\0*"sv}, {"tiff", "II+\0"sv}, {"tiff", "MM\0+"sv},
-    {"bmp", "BM"sv},            {"gif", "GIF8"sv},   {"pnm", "P1"sv},     {"pnm", "P2"sv},     {"pnm", "P3"sv},
-    {"pnm", "P4"sv},            {"pnm", "P5"sv},     {"pnm", "P6"sv},     {"psd", "8BPS"sv},   {"dds", "DDS "sv},
+    {"jpeg", "\xff\xd8\xff"sv},
+    {"tiff", "II*\0"sv},
+    {"tiff", "MM\0*"sv},
+    {"tiff", "II+\0"sv},
+    {"tiff", "MM\0+"sv},
+    {"bmp", "BM"sv},
+    {"gif", "GIF8"sv},
+    {"pnm", "P1"sv},
+    {"pnm", "P2"sv},
+    {"pnm", "P3"sv},
+    {"pnm", "P4"sv},
+    {"pnm", "P5"sv},
+    {"pnm", "P6"sv},
+    {"psd", "8BPS"sv},
+    {"dds", "DDS "sv},
 };
 constexpr Format kFloatFormats[] = {
     {"OpenEXR", "\x76\x2f\x31\x01"sv}, {"Radiance HDR", "#?RADIANCE"sv}, {"Radiance HDR", "#?RGBE"sv}, {"PFM", "PF"sv}, {"PFM", "Pf"sv}};

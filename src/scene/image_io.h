@@ -18,7 +18,7 @@ void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& imag
 /// Reads PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS as the codes in the file: grey is repeated, absent
 /// alpha is 255, 16 bits are rounded to 8. No colour conversion, no turning by EXIF; the first picture of several.
 /// The format is told by the content. Throws InputError ("PATH: what is wrong; what would be right") for what is
-/// missing, damaged, too large (2^28 pixels) or holds floating-point numbers. Thread-safe.
+/// missing, damaged, too large (more than 2^28 pixels or 32768 on an edge) or holds floating-point numbers. Thread-safe.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
 
 }  // namespace halfspace

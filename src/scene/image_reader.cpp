@@ -91,7 +91,8 @@ class Reader {
 std::optional<Image<glm::u8vec4>> receive_picture(Reader& reader, const std::filesystem::path& path) {
   ImageReaderHeader header;
   if (!reader.receive(&header, sizeof header)) return std::nullopt;
-  if (header.magic != kImageReaderMagic) fail(path, std::string("cannot be read: ") + kImageReaderName + " is of another version than this program");
+  if (header.magic != kImageReaderMagic)
+    fail(path, std::string("cannot be read: ") + kImageReaderName + " is of another version than this program");
   if (header.width == 0) {
     std::string message(std::min<std::size_t>(header.message_bytes, 1000), '\0');
     if (!reader.receive(message.data(), message.size())) return std::nullopt;
@@ -108,7 +109,8 @@ std::optional<Image<glm::u8vec4>> receive_picture(Reader& reader, const std::fil
 Image<glm::u8vec4> read_by_reader(const std::filesystem::path& path, const char* format, uint64_t file_bytes) {
   const std::filesystem::path program = find_image_reader();
   if (program.empty()) {
-    fail(path, std::string("is ") + format + ", and " + kImageReaderName + " is not installed; expected PNG, or that program (built where OpenImageIO is)");
+    fail(path, std::string("is ") + format + ", and " + kImageReaderName +
+                   " is not installed; expected PNG, or that program (built where OpenImageIO is)");
   }
   Reader reader;
   // "./": a name that begins with a dash stays a name.

@@ -123,7 +123,8 @@ HS_INLINE Vec scaled(const Vec& p, float s, float x, float y, float z) {
 Real moisture_at(const Vec& p, Real height) {
   const Real from_belt = (abs(p.y) - Real(0.42f)) * Real(1.0f / 0.26f);
   const Real dry = max(Real(1.0f) - from_belt * from_belt, Real(0.0f));
-  return Real(0.72f) - Real(0.42f) * dry + Real(0.55f) * cloud(scaled(p, 2.2f, 8.8f, 3.3f, 2.6f), 4, 41) - Real(0.35f) * step(0.15f, 0.55f, height);
+  return Real(0.72f) - Real(0.42f) * dry + Real(0.55f) * cloud(scaled(p, 2.2f, 8.8f, 3.3f, 2.6f), 4, 41) -
+         Real(0.35f) * step(0.15f, 0.55f, height);
 }
 
 // What the sea does not need is left out where a whole packet is sea: its land colour is mixed in with weight 0.
@@ -136,7 +137,8 @@ Terrain terrain_at(const Vec& p) {
   t.height = cloud(q, 8, 1) - Real(kSeaLevel);
   t.mountains = t.moisture = t.detail = Real(0.0f);
   const Real y2 = p.y * p.y;
-  t.temperature = Real(1.02f) - Real(1.08f) * y2 * (Real(0.35f) + Real(0.65f) * y2) + Real(0.10f) * cloud(scaled(p, 3.0f, 7.7f, 1.9f, 4.2f), 3, 61);
+  t.temperature =
+      Real(1.02f) - Real(1.08f) * y2 * (Real(0.35f) + Real(0.65f) * y2) + Real(0.10f) * cloud(scaled(p, 3.0f, 7.7f, 1.9f, 4.2f), 3, 61);
   const bool all_sea = none(t.height > Real(-kCoast));
   if (all_sea && none(t.temperature < Real(0.25f))) return t;
   t.detail = cloud(scaled(p, 21.0f, 1.3f, 5.7f, 3.9f), 4, 71);

@@ -197,7 +197,7 @@ HS_INLINE Pair<IntN<W>> load_pairs(const int32_t* base, IntN<W> i) {
 #ifdef __AVX512F__
   if constexpr (W == 16) {
     const auto four = [&](int k) { return _mm256_inserti128_si256(_mm256_castsi128_si256(two(k)), two(k + 2), 1); };
-    const auto eight = [&](int k) { return _mm512_inserti64x4(_mm512_castsi256_si512(four(k)), four(k + 4), 1); };
+    const auto eight = [&](int k) { return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(four(k)), four(k + 4), 1); };
     const __m512i a = eight(0), b = eight(8);
     const IntN<16> even = iota<IntN<16>>() << 1;
     return {IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)even.v, b)), IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)(even + 1).v, b))};

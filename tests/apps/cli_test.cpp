@@ -77,7 +77,8 @@ class Cli : public testing::Test {
   Outcome finish(pid_t child) const {
     int status = 0;
     ::waitpid(child, &status, 0);
-    Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0, text_of(root / "out"), text_of(root / "err")};
+    Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0, text_of(root / "out"),
+              text_of(root / "err")};
     return o;
   }
 
@@ -114,16 +115,31 @@ const Mistake kMistakes[] = {
     {"TwoScenes", {"render", "earth", "moon"}, 2, "render: unexpected argument 'moon'; see 'halfspace render --help'"},
     {"SizeWithoutX", {"render", "earth", "--size", "640"}, 2, "--size is '640'; expected WxH with 1 to 16384 each, for example 1920x1080"},
     {"SizeZero", {"render", "earth", "--size", "0x480"}, 2, "--size is '0x480'; expected WxH with 1 to 16384 each, for example 1920x1080"},
-    {"SizeTooLarge", {"render", "earth", "--size", "640x16385"}, 2, "--size is '640x16385'; expected WxH with 1 to 16384 each, for example 1920x1080"},
-    {"SizeNegative", {"render", "earth", "--size=-640x480"}, 2, "--size is '-640x480'; expected WxH with 1 to 16384 each, for example 1920x1080"},
-    {"SizeOverflow", {"render", "earth", "--size", "99999999999x1"}, 2, "--size is '99999999999x1'; expected WxH with 1 to 16384 each, for example 1920x1080"},
-    {"SizeTail", {"render", "earth", "--size", "640x480px"}, 2, "--size is '640x480px'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeTooLarge",
+     {"render", "earth", "--size", "640x16385"},
+     2,
+     "--size is '640x16385'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeNegative",
+     {"render", "earth", "--size=-640x480"},
+     2,
+     "--size is '-640x480'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeOverflow",
+     {"render", "earth", "--size", "99999999999x1"},
+     2,
+     "--size is '99999999999x1'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeTail",
+     {"render", "earth", "--size", "640x480px"},
+     2,
+     "--size is '640x480px'; expected WxH with 1 to 16384 each, for example 1920x1080"},
     {"SizeMissing", {"render", "earth", "--size"}, 2, "--size: 1 required WxH missing; see 'halfspace render --help'"},
     {"ThreadsZero", {"render", "earth", "--threads", "0"}, 2, "--threads is '0'; expected 1 to 1024"},
     {"ThreadsNegative", {"render", "earth", "--threads=-2"}, 2, "--threads is '-2'; expected 1 to 1024"},
     {"ThreadsWord", {"render", "earth", "--threads", "two"}, 2, "--threads is 'two'; expected 1 to 1024"},
     {"StatsFormat", {"render", "earth", "--stats=xml"}, 2, "--stats is 'xml'; expected --stats or --stats=json"},
-    {"SetWithoutValue", {"render", "earth", "--set", "earth.color"}, 2, "--set is 'earth.color'; expected KEY=VALUE, for example earth.color=FILE"},
+    {"SetWithoutValue",
+     {"render", "earth", "--set", "earth.color"},
+     2,
+     "--set is 'earth.color'; expected KEY=VALUE, for example earth.color=FILE"},
     {"OutputFormat", {"render", "earth", "-o", "earth.jpg"}, 2, "-o is 'earth.jpg'; expected a name that ends in .png"},
     {"NearScene", {"render", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
     {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected earth"},
@@ -181,7 +197,8 @@ TEST_F(Cli, RenderWritesTheSceneUnderItsName) {
 }
 
 TEST_F(Cli, ThreadsDoNotChangeTheFile) {
-  for (const char* n : {"1", "2", "7"}) EXPECT_EQ(run({"render", "earth", "--size", "200x120", "--threads", n, "-o", std::string(n) + ".png"}).exit_code, 0);
+  for (const char* n : {"1", "2", "7"})
+    EXPECT_EQ(run({"render", "earth", "--size", "200x120", "--threads", n, "-o", std::string(n) + ".png"}).exit_code, 0);
   EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "2.png"));
   EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "7.png"));
 }
@@ -221,7 +238,8 @@ TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
     }
     ASSERT_GE(tail.size(), 3u);
     EXPECT_EQ(tail[tail.size() - 3], "Examples:");
-    for (std::size_t i = tail.size() - 2; i < tail.size(); ++i) EXPECT_TRUE(tail[i].starts_with("  halfspace " + std::string(command))) << tail[i];
+    for (std::size_t i = tail.size() - 2; i < tail.size(); ++i)
+      EXPECT_TRUE(tail[i].starts_with("  halfspace " + std::string(command))) << tail[i];
   }
 }
 

@@ -49,7 +49,12 @@ TEST(TrigDouble, WithinOneUlpOfLongDouble) {
 }
 
 TEST(TrigDouble, TinyAnglesKeepRelativeAccuracy) {
-  for (double t = 1e-3; t > 1e-300; t *= 1e-3) EXPECT_LE(ulps(sincos_turns(t).sin, kTwoPi * static_cast<long double>(t) * (t < 1e-8 ? 1 : std::sin(kTwoPi * static_cast<long double>(t)) / (kTwoPi * static_cast<long double>(t)))), 1.0) << t;
+  for (double t = 1e-3; t > 1e-300; t *= 1e-3)
+    EXPECT_LE(ulps(sincos_turns(t).sin,
+                   kTwoPi * static_cast<long double>(t) *
+                       (t < 1e-8 ? 1 : std::sin(kTwoPi * static_cast<long double>(t)) / (kTwoPi * static_cast<long double>(t)))),
+              1.0)
+        << t;
 }
 
 TEST(TrigDouble, WholeTurnsChangeNothing) {

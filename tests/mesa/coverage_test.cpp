@@ -24,7 +24,7 @@ Figures count_fragments(const ColoredMesh& mesh, const TargetSpec& target) {
   TwinPass pass(target);
   pass.draw(OneColor{glm::vec4(1.0f / 255.0f)}, mesh.positions(), mesh.indices, counting());
   pass.run();
-  const Figures figures = pass.fragment_figures();
+  const Figures figures = pass.fragment_figures(200);
   report(figures);
   return figures;
 }

@@ -2,7 +2,8 @@
 //
 // A pixel in double precision, by the plainest reading of OpenGL: every triangle in turn, no clipping (a point of the
 // plane is judged by the signs of its clip-space weights), the shader run with R = double. It tells whose error a
-// difference is. Vertex functions run in float, as both renderers run them. Opaque draws only.
+// difference is. Vertex functions run in float, as both renderers run them. The target holds 8-bit codes: every fragment
+// is rounded to them, and blending starts from them.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +20,15 @@ enum class Positions { exact, snapped };
 
 /// What a pixel holds so far.
 struct TruthPixel {
-  glm::dvec4 color{0.0};
+  glm::u8vec4 codes{0};
   double depth = 1.0;
 };
 
 bool passes(CompareOp op, double value, double held);
 /// The 8-bit codes of a linear colour.
 glm::u8vec4 truth_codes(const glm::dvec4& color, ColorFormat format);
+/// A fragment's colour onto the codes of a pixel.
+glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& held, const BlendState& blend, ColorFormat format);
 
 /// A triangle in window coordinates, in 1/256 px. Weights may be negative or w below 0: the formulas are projective.
 struct TruthTriangle {
@@ -56,14 +59,20 @@ class TruthDrawOf final : public TruthDraw {
 
  public:
   TruthDrawOf(const S& shader, const VertexView& view, std::vector<uint32_t> indices, const DrawState& state, const TargetSpec& target)
-      : shader_(shader), indices_(std::move(indices)), state_(state), viewport_(state.viewport.value_or(Rect{0, 0, target.width, target.height})) {
+      : shader_(shader), indices_(std::move(indices)), state_(state), format_(target.format),
+        viewport_(state.viewport.value_or(Rect{0, 0, target.width, target.height})) {
     for (std::size_t i = 0; i < view.vertex_count; ++i) shade_vertex(view, i);
+    for (std::size_t i = 0; i + 2 < indices_.size(); i += 3) {
+      const std::array<glm::vec4, 3> p{pos_clip_[indices_[i]], pos_clip_[indices_[i + 1]], pos_clip_[indices_[i + 2]]};
+      exact_.push_back(truth_triangle(p, viewport_, state.depth, Positions::exact));
+      snapped_.push_back(truth_triangle(p, viewport_, state.depth, Positions::snapped));
+    }
   }
 
   void draw(int x, int y, Positions positions, TruthPixel& pixel) const override {
     const auto inside = [x, y](const Rect& r) { return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height; };
     if (!inside(viewport_) || (state_.scissor && !inside(*state_.scissor))) return;
-    for (std::size_t i = 0; i + 2 < indices_.size(); i += 3) draw_triangle({indices_[i], indices_[i + 1], indices_[i + 2]}, x, y, positions, pixel);
+    for (std::size_t i = 0; i < exact_.size(); ++i) draw_triangle(i, x, y, positions, pixel);
   }
 
  private:
@@ -80,19 +89,21 @@ class TruthDrawOf final : public TruthDraw {
     varyings_.push_back(to_components<float>(out));
   }
 
-  void draw_triangle(const std::array<uint32_t, 3>& id, int x, int y, Positions positions, TruthPixel& pixel) const {
-    const TruthTriangle t =
-        truth_triangle({pos_clip_[id[0]], pos_clip_[id[1]], pos_clip_[id[2]]}, viewport_, state_.depth, positions);
+  void draw_triangle(std::size_t triangle, int x, int y, Positions positions, TruthPixel& pixel) const {
+    const TruthTriangle& t = positions == Positions::snapped ? snapped_[triangle] : exact_[triangle];
     if (t.area == 0.0 || truth_culled(t, state_)) return;
     const std::array<double, 3> b = t.weights((x + 0.5) * 256.0, (y + 0.5) * 256.0);
     if (!t.covers(b, positions == Positions::snapped)) return;
+    const DepthState& depth = state_.depth;
     double z = b[0] * t.z[0] + b[1] * t.z[1] + b[2] * t.z[2];
-    const auto [low, high] = std::minmax(static_cast<double>(state_.depth.range_near), static_cast<double>(state_.depth.range_far));
-    if (!state_.depth.clamp && (z < low || z > high)) return;
+    const double low = static_cast<double>(std::min(depth.range_near, depth.range_far));
+    const double high = static_cast<double>(std::max(depth.range_near, depth.range_far));
+    if (!depth.clamp && (z < low || z > high)) return;
     z = std::clamp(z, low, high);
-    if (state_.depth.test && !passes(state_.depth.compare, z, pixel.depth)) return;
-    if (state_.depth.test && state_.depth.write) pixel.depth = z;
-    pixel.color = shade(t, b, id, x, y, z);
+    if (depth.test && !passes(depth.compare, z, pixel.depth)) return;
+    if (depth.test && depth.write) pixel.depth = z;
+    const glm::dvec4 color = shade(t, b, {indices_[3 * triangle], indices_[3 * triangle + 1], indices_[3 * triangle + 2]}, x, y, z);
+    pixel.codes = state_.blend ? truth_blend(color, pixel.codes, *state_.blend, format_) : truth_codes(color, format_);
   }
 
   glm::dvec4 shade(const TruthTriangle& t, const std::array<double, 3>& b, const std::array<uint32_t, 3>& id, int x, int y, double z) const {
@@ -133,9 +144,11 @@ class TruthDrawOf final : public TruthDraw {
   S shader_;
   std::vector<uint32_t> indices_;
   DrawState state_;
+  ColorFormat format_;
   Rect viewport_;
   std::vector<glm::vec4> pos_clip_;
   std::vector<std::array<float, kN>> varyings_;
+  std::vector<TruthTriangle> exact_, snapped_;
 };
 
 }  // namespace halfspace::test

@@ -12,19 +12,25 @@
 
 namespace halfspace::test {
 
+inline constexpr float kDepthTolerance = 1e-6f;
+
 /// The figures of a comparison. A pixel is covered where alpha left its clear value 0.
 struct Figures {
   int64_t covered = 0;           ///< pixels covered in either picture
   int64_t coverage_differs = 0;  ///< … in one only
   int64_t color_differs = 0;     ///< a channel differs by more than one code
   int worst = 0;                 ///< the largest difference of a channel, in codes
-  double worst_depth = 0.0;      ///< the largest difference of window depths, where both are covered and colours agree
+  int64_t depth_differs = 0;     ///< window depths differ by more than kDepthTolerance
 
-  // Of the pixels whose colour differs, judged in double precision (a sample of them, where they are many).
+  // Of the pixels that differ, judged in double precision (a sample of them, where they are many):
   int64_t judged = 0;
   int64_t halfspace_right = 0, mesa_right = 0;              ///< within one code of the truth of snapped vertices
   int64_t halfspace_right_exact = 0, mesa_right_exact = 0;  ///< … of unsnapped vertices
 
+  /// Pixels where Halfspace differs from the truth of snapped vertices, as the judged ones tell (all, if none was judged).
+  double halfspace_wrong(int64_t differing) const {
+    return judged == 0 ? static_cast<double>(differing) : static_cast<double>(differing) * static_cast<double>(judged - halfspace_right) / static_cast<double>(judged);
+  }
   double coverage_share() const { return share(coverage_differs); }
   double color_share() const { return share(color_differs); }
 
@@ -52,16 +58,17 @@ class TwinPass {
   const Picture& halfspace() const { return ours_; }
   const Picture& mesa() const { return mesa_; }
 
-  /// Compares the pictures, and judges up to most_judged differing pixels in double precision (opaque draws only).
+  /// Compares the pictures, and judges up to most_judged differing pixels in double precision.
   Figures figures(int most_judged = 0) const;
   /// For additive draws of 1/255: the number of fragments of every pixel, compared; covered counts fragments.
-  Figures fragment_figures() const;
+  Figures fragment_figures(int most_judged = 0) const;
   /// The truth of one pixel.
   glm::u8vec4 truth(int x, int row, Positions positions) const;
 
  private:
   static Indices indices_of(const std::vector<uint32_t>& list, std::size_t vertex_count) { return Indices(list, vertex_count); }
-  void judge(int x, int row, Figures& f) const;
+  void judge_some(const std::vector<std::pair<int, int>>& pixels, int most, int tolerance, Figures& f) const;
+  void judge(int x, int row, int tolerance, Figures& f) const;
 
   TargetSpec target_;
   std::vector<std::function<void(Pass&)>> our_draws_;

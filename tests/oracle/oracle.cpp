@@ -230,10 +230,12 @@ bool all_outside(const DepthState& d, const std::array<const ShadedVertex*, 3>& 
 
 // ---- clipping ----------------------------------------------------------------------------------------------------
 
-// A corner of the polygon that clipping leaves: a position, and as which mixture of the triangle's vertices.
+// A corner of the polygon that clipping leaves: a position, as which mixture of the triangle's vertices, and which vertex
+// it is, if one.
 struct ClipPoint {
   std::array<double, 4> p;
   std::array<double, 3> weight;
+  int vertex = -1;
 };
 using Polygon = std::vector<ClipPoint>;
 
@@ -258,24 +260,38 @@ std::vector<Plane> clip_planes(const Transform& t, const DepthState& state) {
   return planes;
 }
 
-// Where the edge from an inside to an outside point meets the plane.
-ClipPoint meet(const Plane& plane, const ClipPoint& in, const ClipPoint& out) {
-  const double t = plane(in) / (plane(in) - plane(out));
+// (a·p − b·q) / (a − b) of everything in p and q.
+ClipPoint mix(double a, const ClipPoint& p, double b, const ClipPoint& q) {
   ClipPoint r{};
-  for (std::size_t i = 0; i < 4; ++i) r.p[i] = in.p[i] + t * (out.p[i] - in.p[i]);
-  for (std::size_t i = 0; i < 3; ++i) r.weight[i] = in.weight[i] + t * (out.weight[i] - in.weight[i]);
+  for (std::size_t i = 0; i < 4; ++i) r.p[i] = (a * p.p[i] - b * q.p[i]) / (a - b);
+  for (std::size_t i = 0; i < 3; ++i) r.weight[i] = (a * p.weight[i] - b * q.weight[i]) / (a - b);
+  r.vertex = -1;
   return r;
 }
 
-Polygon cut(const Plane& plane, const Polygon& polygon) {
+// Where the edge from an inside to an outside point meets the plane.
+ClipPoint meet(const Plane& plane, const ClipPoint& in, const ClipPoint& out) { return mix(plane(in), out, plane(out), in); }
+
+// Where it meets the least w: first w = 0, then the little way back.
+ClipPoint meet_least_w(const ClipPoint& in, const ClipPoint& out) {
+  ClipPoint r = mix(in.p[3], out, out.p[3], in);
+  const double back = static_cast<double>(kLeastW) / (in.p[3] - out.p[3]);
+  for (std::size_t i = 0; i < 3; ++i) r.p[i] += back * (in.p[i] - out.p[i]);
+  for (std::size_t i = 0; i < 3; ++i) r.weight[i] += back * (in.weight[i] - out.weight[i]);
+  r.p[3] = static_cast<double>(kLeastW);
+  return r;
+}
+
+Polygon cut(const Plane& plane, bool is_least_w, const Polygon& polygon) {
+  const auto cut_edge = [&](const ClipPoint& in, const ClipPoint& out) { return is_least_w ? meet_least_w(in, out) : meet(plane, in, out); };
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const ClipPoint& here = polygon[i];
     const ClipPoint& next = polygon[(i + 1) % polygon.size()];
     const bool here_inside = plane(here) >= 0, next_inside = plane(next) >= 0;
     if (here_inside) kept.push_back(here);
-    if (here_inside && !next_inside) kept.push_back(meet(plane, here, next));
-    if (!here_inside && next_inside) kept.push_back(meet(plane, next, here));
+    if (here_inside && !next_inside) kept.push_back(cut_edge(here, next));
+    if (!here_inside && next_inside) kept.push_back(cut_edge(next, here));
   }
   return kept;
 }
@@ -293,9 +309,7 @@ Corner clip_corner(const Transform& t, const ClipPoint& c, const std::array<cons
   const double z = c.p[2] * inverse * static_cast<double>(t.z_scale) + static_cast<double>(t.z_bias);
   r.z = static_cast<float>(std::fmin(std::fmax(z, -1e30), 1e30));
   r.inv_w = static_cast<float>(inverse);
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (c.weight[k] == 1.0) r = project(t, *v[k]);
-  }
+  if (c.vertex >= 0) r = project(t, *v[static_cast<std::size_t>(c.vertex)]);
   r.varyings.resize(facts.interpolations.size());
   for (std::size_t i = 0; i < r.varyings.size(); ++i) {
     std::array<double, 3> weight = c.weight;
@@ -579,9 +593,10 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::vec4& p = v[i]->pos_clip;
       polygon.push_back({{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), static_cast<double>(p.w)},
-                         {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}});
+                         {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}, static_cast<int>(i)});
     }
-    for (const Plane& plane : clip_planes(transform, state.depth)) polygon = cut(plane, polygon);
+    const std::vector<Plane> planes = clip_planes(transform, state.depth);
+    for (const Plane& plane : planes) polygon = cut(plane, &plane == planes.data(), polygon);
     if (polygon.size() < 3) {
       ++counts_.culled_outside;
       return {};

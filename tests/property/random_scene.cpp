@@ -268,12 +268,6 @@ glm::mat4 random_matrix(Random& random) {
   return m;
 }
 
-std::vector<std::byte> random_bytes(std::size_t n, Random& random) {
-  std::vector<std::byte> bytes(n);
-  for (std::byte& b : bytes) b = static_cast<std::byte>(random.bits() & 0xff);
-  return bytes;
-}
-
 // Fills the images that the pass loads. Floats are finite and not too large, depths in [0, 1].
 void fill_images(Scene& s, Random& random) {
   oracle::Framebuffer f(s.width, s.height, s.color.format, s.depth.format);

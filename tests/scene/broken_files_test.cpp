@@ -63,7 +63,8 @@ void limit_memory() {
       const Image<glm::u8vec4> image = read_image(path);
       verdict = image.empty() ? "returned an empty image" : "ok";
     } catch (const InputError& e) {
-      verdict = std::string(e.what()).starts_with(path.string() + ": ") ? std::string("error ") + e.what() : "does not begin with the path: " + std::string(e.what());
+      verdict = std::string(e.what()).starts_with(path.string() + ": ") ? std::string("error ") + e.what()
+                                                                        : "does not begin with the path: " + std::string(e.what());
     } catch (const std::exception& e) {
       verdict = std::string("another exception: ") + e.what();
     }
@@ -105,7 +106,8 @@ class BrokenFiles : public testing::TestWithParam<const char*> {};
 
 TEST_P(BrokenFiles, GiveAnImageOrOneLine) {
   const std::filesystem::path folder = std::filesystem::path(kData) / GetParam();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent: the collection of broken files is not part of the repository";
+  if (!std::filesystem::exists(folder))
+    GTEST_SKIP() << folder << " is absent: the collection of broken files is not part of the repository";
   const std::vector<std::filesystem::path> files = files_in(folder);
   const Outcome outcome = read_in_child(files);
   const std::string last = outcome.lines.empty() ? "(none)" : outcome.lines.back();
@@ -122,9 +124,9 @@ TEST_P(BrokenFiles, GiveAnImageOrOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Folders, BrokenFiles,
-                         testing::Values("broken/oiio_images", "broken/openexr_damaged", "broken/imagetestsuite_gif", "broken/imagetestsuite_jpg",
-                                         "broken/imagetestsuite_png", "broken/imagetestsuite_tif", "broken/pngsuite_corrupt", "broken/assimp_obj_odd",
-                                         "broken/gltf_validator", "pngsuite"),
+                         testing::Values("broken/oiio_images", "broken/openexr_damaged", "broken/imagetestsuite_gif",
+                                         "broken/imagetestsuite_jpg", "broken/imagetestsuite_png", "broken/imagetestsuite_tif",
+                                         "broken/pngsuite_corrupt", "broken/assimp_obj_odd", "broken/gltf_validator", "pngsuite"),
                          [](const testing::TestParamInfo<const char*>& folder) {
                            std::string name = folder.param;
                            std::ranges::replace(name, '/', '_');

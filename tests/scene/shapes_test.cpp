@@ -104,7 +104,8 @@ TEST_P(UvSphere, IsTheFormula) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, UvSphere, testing::Values(std::pair(2, 3), std::pair(3, 4), std::pair(16, 32), std::pair(37, 53), std::pair(180, 360)),
+INSTANTIATE_TEST_SUITE_P(Sizes, UvSphere,
+                         testing::Values(std::pair(2, 3), std::pair(3, 4), std::pair(16, 32), std::pair(37, 53), std::pair(180, 360)),
                          [](const auto& size) { return std::to_string(size.param.first) + "x" + std::to_string(size.param.second); });
 
 TEST(UvSphereSeam, BothSidesHaveTheSamePositionBits) {

@@ -45,7 +45,8 @@ struct Picture {
 
 // OpenImageIO's messages may have several lines.
 std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   if (text.size() > 200) text.resize(200);
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
   return text.empty() ? "the decoder gives no reason" : text;
@@ -59,7 +60,7 @@ void check_spec(const OIIO::ImageSpec& spec, const Request& request) {
   const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels";
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1) throw Failure{"has " + size + "; expected a flat picture of at least 1x1"};
   const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-  if (pixels > request.most_pixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 2^17 on an edge"};
+  if (pixels > request.most_pixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 on an edge"};
   if (pixels > (1u << 20) && pixels / kMostPixelsPerByte > request.file_bytes) {
     throw Failure{"claims " + size + " but has only " + std::to_string(request.file_bytes) + " bytes; expected a whole image file"};
   }
@@ -81,7 +82,8 @@ std::vector<uint8_t> to_rgba(const std::vector<uint8_t>& pixels, const OIIO::Ima
   const std::size_t count = pixels.size() / channels;
   std::vector<uint8_t> rgba(4 * count);
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t c = 0; c < 4; ++c) rgba[4 * i + c] = from[c] < 0 ? uint8_t{255} : pixels[i * channels + static_cast<std::size_t>(from[c])];
+    for (std::size_t c = 0; c < 4; ++c)
+      rgba[4 * i + c] = from[c] < 0 ? uint8_t{255} : pixels[i * channels + static_cast<std::size_t>(from[c])];
   }
   return rgba;
 }
@@ -101,7 +103,8 @@ Picture read_picture(const Request& request) {
   return {spec.width, spec.height, to_rgba(pixels, spec)};
 }
 
-// A decoder that loops ends after a minute, one that wants all memory is refused it; none leaves a core file; the program that asked takes this one with it.
+// A decoder that loops ends after a minute, one that wants all memory is refused it; none leaves a core file; the program that asked takes
+// this one with it.
 void limit_this_process() {
   const rlimit cpu = {kCpuSeconds, kCpuSeconds};
   ::setrlimit(RLIMIT_CPU, &cpu);
