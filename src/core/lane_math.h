@@ -119,7 +119,8 @@ HS_INLINE R copy_sign_bits(R magnitude, IntOf<R> sign) {
 /// Below −150 it gives 0, from 128 on infinity.
 template <Number R>
 HS_INLINE R exp2(R x) {
-  if constexpr (std::is_same_v<R, double>) return std::exp2(x);
+  if constexpr (std::is_same_v<R, double>)
+    return std::exp2(x);
   else {
     const R held = clamp(x, -160.0f, 160.0f);
     const R n = round_even(held);
@@ -131,7 +132,8 @@ HS_INLINE R exp2(R x) {
 /// e^x. Error at most 1.02 ulp. Below −104 it gives 0, above 88.8 infinity.
 template <Number R>
 HS_INLINE R exp(R x) {
-  if constexpr (std::is_same_v<R, double>) return std::exp(x);
+  if constexpr (std::is_same_v<R, double>)
+    return std::exp(x);
   else {
     static constexpr float kC[] = {0.49999994f, 0.166665211f, 0.041668389f, 0.00836871099f, 0.00138146093f};
     const R held = clamp(x, -110.0f, 110.0f);
@@ -146,10 +148,11 @@ HS_INLINE R exp(R x) {
 /// gives NaN.
 template <Number R>
 HS_INLINE R log2(R x) {
-  if constexpr (std::is_same_v<R, double>) return std::log2(x);
+  if constexpr (std::is_same_v<R, double>)
+    return std::log2(x);
   else {
-    static constexpr float kC[] = {-0.721347332f, 0.480898231f, -0.360696584f, 0.288567483f, -0.239618421f,
-                                   0.204600647f,  -0.191055983f, 0.186170802f, -0.109957926f};
+    static constexpr float kC[] = {-0.721347332f, 0.480898231f,  -0.360696584f, 0.288567483f, -0.239618421f,
+                                   0.204600647f,  -0.191055983f, 0.186170802f,  -0.109957926f};
     const detail::MantissaExponent<R> me = detail::split(x);
     const R f = me.m - R(1.0f);
     const R tail = f * fma(f, detail::polynomial(f, kC), R(1.92596303e-08f));  // the low part of 1/ln 2
@@ -160,10 +163,11 @@ HS_INLINE R log2(R x) {
 /// The natural logarithm. Error at most 0.89 ulp. Zero, infinity and x < 0 as log2.
 template <Number R>
 HS_INLINE R log(R x) {
-  if constexpr (std::is_same_v<R, double>) return std::log(x);
+  if constexpr (std::is_same_v<R, double>)
+    return std::log(x);
   else {
-    static constexpr float kC[] = {-0.499999881f, 0.333333254f, -0.250015825f, 0.200019732f, -0.166090831f,
-                                   0.141818359f,  -0.132429913f, 0.129043773f, -0.0762170255f};
+    static constexpr float kC[] = {-0.499999881f, 0.333333254f,  -0.250015825f, 0.200019732f,  -0.166090831f,
+                                   0.141818359f,  -0.132429913f, 0.129043773f,  -0.0762170255f};
     const detail::MantissaExponent<R> me = detail::split(x);
     const R f = me.m - R(1.0f);
     const R e = to_real<R>(me.e);
@@ -207,7 +211,8 @@ struct SinCos {
 /// has nothing to do with x. ±infinity gives NaN. sin is odd (sin(−0) = −0), cos even, bit by bit.
 template <Number R>
 HS_INLINE SinCos<R> sin_cos(R x) {
-  if constexpr (std::is_same_v<R, double>) return {std::sin(x), std::cos(x)};
+  if constexpr (std::is_same_v<R, double>)
+    return {std::sin(x), std::cos(x)};
   else {
     static constexpr float kSin[] = {-0.166666552f, 0.00833215564f, -0.00019514632f};
     static constexpr float kCos[] = {0.0416666456f, -0.00138873095f, 2.44324128e-05f};
@@ -241,10 +246,12 @@ HS_INLINE R cos(R x) {
 /// IEEE 754: atan2(±0, +0) = ±0, atan2(±0, −0) = ±π, atan2(±inf, inf) = ±π/4. The sign is y's.
 template <Number R>
 HS_INLINE R atan2(R y, std::type_identity_t<R> x) {
-  if constexpr (std::is_same_v<R, double>) return std::atan2(y, x);
+  if constexpr (std::is_same_v<R, double>)
+    return std::atan2(y, x);
   else {
-    static constexpr float kC[] = {-0.333332986f, 0.199985474f,  -0.142642379f, 0.10952165f,    -0.0840339512f,
-                                   0.0579567254f, -0.0311770439f, 0.0109142046f, -0.00179352728f};  // the last moved by 1e-8, so that atan(1) is π/4
+    static constexpr float kC[] = {
+        -0.333332986f, 0.199985474f,   -0.142642379f, 0.10952165f,    -0.0840339512f,
+        0.0579567254f, -0.0311770439f, 0.0109142046f, -0.00179352728f};  // the last moved by 1e-8, so that atan(1) is π/4
     const R ax = abs(x), ay = abs(y);
     const MaskOf<R> steep = ay > ax;
     const MaskOf<R> left = as_int(x) < 0;  // −0 is left of the y axis
@@ -280,7 +287,8 @@ HS_INLINE R asin_tail(R z) {
 /// The arc sine, in [−π/2, π/2]. Error at most 2.37 ulp; |x| > 1 gives NaN. From 1/2 on, asin(x) = π/2 − 2·asin(sqrt((1 − x)/2)).
 template <Number R>
 HS_INLINE R asin(R x) {
-  if constexpr (std::is_same_v<R, double>) return std::asin(x);
+  if constexpr (std::is_same_v<R, double>)
+    return std::asin(x);
   else {
     const R a = abs(x);
     const MaskOf<R> outer = a > R(0.5f);
@@ -294,7 +302,8 @@ HS_INLINE R asin(R x) {
 /// The arc cosine, in [0, π]. Error at most 1.13 ulp; |x| > 1 gives NaN.
 template <Number R>
 HS_INLINE R acos(R x) {
-  if constexpr (std::is_same_v<R, double>) return std::acos(x);
+  if constexpr (std::is_same_v<R, double>)
+    return std::acos(x);
   else {
     const R a = abs(x);
     const MaskOf<R> outer = a > R(0.5f);

@@ -28,22 +28,24 @@ namespace halfspace {
 namespace detail {
 
 // The compiler's vector types, one explicit row a width: g++ 12 drops a vector_size that depends on a template.
+// may_alias as in the compiler's own __m128: else g++ 12 takes one lane of as_real(i), read by a variable index, for an
+// access to float memory, and reorders it against the writes of i's ints (tests/core/lanes_test.cpp met it at -O2).
 template <int W>
 struct Vectors;
 template <>
 struct Vectors<4> {
-  using F = float __attribute__((vector_size(16)));
-  using I = int32_t __attribute__((vector_size(16)));
+  using F = float __attribute__((vector_size(16), may_alias));
+  using I = int32_t __attribute__((vector_size(16), may_alias));
 };
 template <>
 struct Vectors<8> {
-  using F = float __attribute__((vector_size(32)));
-  using I = int32_t __attribute__((vector_size(32)));
+  using F = float __attribute__((vector_size(32), may_alias));
+  using I = int32_t __attribute__((vector_size(32), may_alias));
 };
 template <>
 struct Vectors<16> {
-  using F = float __attribute__((vector_size(64)));
-  using I = int32_t __attribute__((vector_size(64)));
+  using F = float __attribute__((vector_size(64), may_alias));
+  using I = int32_t __attribute__((vector_size(64), may_alias));
 };
 
 #ifdef __AVX512F__

@@ -59,7 +59,8 @@ HS_INLINE R srgb_to_linear(IntOf<R> code) {
 /// first rounded to float.)
 template <Number R>
 HS_INLINE IntOf<R> linear_to_srgb(R x) {
-  if constexpr (std::is_same_v<R, double>) return linear_to_srgb(static_cast<float>(x));
+  if constexpr (std::is_same_v<R, double>)
+    return linear_to_srgb(static_cast<float>(x));
   else {
     const IntOf<R> i = as_int(clamp(x, 0x1p-13f, 0x1.fffffep-1f)) - IntOf<R>(detail::kSrgbFirstBits);
     return (gather(detail::kSrgbEncode.data(), i >> 16) + (i & 0xffff)) >> 16;
@@ -69,7 +70,8 @@ HS_INLINE IntOf<R> linear_to_srgb(R x) {
 /// code/255 to the nearest float, for code (whole or between two codes) in [0, 255]: never decreasing, 255 gives 1.
 template <Number R>
 HS_INLINE R unorm8_to_linear(R code) {
-  if constexpr (std::is_same_v<R, double>) return code / 255.0;
+  if constexpr (std::is_same_v<R, double>)
+    return code / 255.0;
   else {
     constexpr float kHigh = 1.0f / 255.0f;
     constexpr float kLow = static_cast<float>(1.0 / 255.0 - static_cast<double>(kHigh));
@@ -81,7 +83,8 @@ HS_INLINE R unorm8_to_linear(R code) {
 /// between two codes.)
 template <Number R>
 HS_INLINE IntOf<R> linear_to_unorm8(R x) {
-  if constexpr (std::is_same_v<R, double>) return round_to_int(clamp(x, 0.0, 1.0) * 255.0);
+  if constexpr (std::is_same_v<R, double>)
+    return round_to_int(clamp(x, 0.0, 1.0) * 255.0);
   else {
     // Beside 2^23 the last bit of a float weighs 1: the sum of the exact product rounds to a whole code, once.
     return as_int(fma(clamp(x, 0.0f, 1.0f), R(255.0f), R(0x1p23f))) & 0xff;

@@ -74,14 +74,14 @@ struct BlendState {
 
 /// Everything that a draw sets besides its shader and vertices.
 struct DrawState {
-  std::optional<Rect> viewport;  ///< default: the whole target
-  std::optional<Rect> scissor;   ///< default: no scissor test
+  std::optional<Rect> viewport{};  ///< default: the whole target
+  std::optional<Rect> scissor{};   ///< default: no scissor test
   CullMode cull = CullMode::none;
   Winding front = Winding::counter_clockwise;
   ProvokingVertex provoking = ProvokingVertex::last;
-  DepthState depth;
-  DepthOffset offset;
-  std::optional<BlendState> blend;  ///< default: replace
+  DepthState depth{};
+  DepthOffset offset{};
+  std::optional<BlendState> blend{};  ///< default: replace
 };
 
 }  // namespace halfspace

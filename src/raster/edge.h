@@ -26,8 +26,9 @@ inline Edge edge_of(const Triangle& t, std::size_t i) {
 }
 
 /// The fill rule: a sample exactly on an edge belongs to the triangle if the edge is a left edge (the inside lies to
-/// its right, towards +x) or a horizontal edge with the inside above it in window coordinates (y up). tests/mesa shows
-/// that Mesa draws by the same rule into a framebuffer object.
+/// its right, towards +x) or a horizontal edge with the inside above it in window coordinates (y up). Our images hold
+/// the top row first, so it is the displayed lower edge that owns its samples, not the upper one as in D3D's top-left
+/// rule. tests/mesa shows that Mesa draws by the same rule into a framebuffer object.
 inline bool owns_its_samples(const Edge& e) { return e.ey < 0 || (e.ey == 0 && e.ex > 0); }
 
 /// Inside is E − bias ≥ 0.

@@ -74,7 +74,8 @@ void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> sh
   d.depth_low = std::min(state.depth.range_near, state.depth.range_far);
   d.depth_high = std::max(state.depth.range_near, state.depth.range_far);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
-  d.deferred = !state.blend && (options_.defer || kernels.fragment == nullptr) && (!decides_visibility || kernels.visibility != nullptr);
+  const bool defers = options_.defer && !state.blend && (!decides_visibility || kernels.visibility != nullptr);
+  d.deferred = defers || kernels.fragment == nullptr;  // without colour there is nothing to blend or to shade at once
   frame_.draws.push_back(std::move(d));
 }
 

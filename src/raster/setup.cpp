@@ -95,21 +95,36 @@ Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<cons
 
 namespace {
 
-// The corner from which the fan of a clipped polygon starts. Snapping can bend a nearly straight corner inwards; a fan
-// from elsewhere would then turn a piece over and draw its samples twice. From this corner all pieces turn one way.
-uint32_t fan_apex(const ClipVertex* v, uint32_t count) {
+// Twice the area of three corners: > 0 where they turn left.
+int64_t turn(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
+  return int64_t{b.x - a.x} * (c.y - a.y) - int64_t{b.y - a.y} * (c.x - a.x);
+}
+
+// How a clipped polygon becomes a fan of triangles.
+//
+// Snapping can bend a nearly straight corner inwards; a fan from elsewhere would turn a piece over and draw its samples
+// twice. From `apex` all pieces turn one way. Where the outline of a sliver crosses itself there is no such corner; then
+// pieces that turn against the whole are left out, and their samples remain drawn by the others.
+struct Fan {
+  uint32_t apex = 0;
+  bool turns_left = false;
+};
+
+Fan fan_of(const ClipVertex* v, uint32_t count) {
+  Fan fan;
   for (uint32_t apex = 0; apex < count; ++apex) {
-    const ScreenVertex& a = v[apex].screen;
     bool left = false, right = false;
+    int64_t area = 0;
     for (uint32_t i = 2; i < count; ++i) {
-      const ScreenVertex &b = v[(apex + i - 1) % count].screen, &c = v[(apex + i) % count].screen;
-      const int64_t area = int64_t{b.x - a.x} * (c.y - a.y) - int64_t{b.y - a.y} * (c.x - a.x);
-      left |= area > 0;
-      right |= area < 0;
+      const int64_t piece = turn(v[apex].screen, v[(apex + i - 1) % count].screen, v[(apex + i) % count].screen);
+      left |= piece > 0;
+      right |= piece < 0;
+      area += piece;
     }
-    if (!(left && right)) return apex;
+    fan = {apex, area > 0};
+    if (!(left && right)) return fan;
   }
-  return 0;  // the outline crosses itself: a sliver that snapping turned over in part
+  return fan;
 }
 
 // Sets up the triangles of one segment.
@@ -196,11 +211,13 @@ class SegmentSetup {
     }
     const std::size_t before = chunk_.triangles.size();
     const auto corners = static_cast<uint32_t>(polygon.count);
-    const uint32_t apex = fan_apex(chunk_.clip_vertices.data() + first, corners);
+    const Fan fan = fan_of(chunk_.clip_vertices.data() + first, corners);
     Cull why = Cull::none;
     for (uint32_t i = 2; i < corners; ++i) {
-      const std::array<uint32_t, 3> index{first + apex, first + (apex + i - 1) % corners, first + (apex + i) % corners};
+      const std::array<uint32_t, 3> index{first + fan.apex, first + (fan.apex + i - 1) % corners, first + (fan.apex + i) % corners};
       const ClipVertex* v = chunk_.clip_vertices.data();
+      const int64_t area = turn(v[index[0]].screen, v[index[1]].screen, v[index[2]].screen);
+      if (area != 0 && (area > 0) != fan.turns_left) continue;
       // All corners carry the provoking vertex's flat values.
       why = append({&v[index[0]].screen, &v[index[1]].screen, &v[index[2]].screen}, index, kClipped, 0);
     }

@@ -235,7 +235,6 @@ HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityPacket& pa
   merge_triangle<F, true>(*packet.frame, packet.id, Mask(true), triangles);
   Pixel<Real> px;
   const V in = begin_packet<S>(packet.x, packet.y, triangles, px);
-  px.z = load<Real>(packet.depth);
   const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
   store(packet.depth, v.depth);
   *packet.lanes &= bits(v.keep);

@@ -144,7 +144,6 @@ struct Context {
 // The shader's say on a packet: narrows mask, replaces z.
 void ask_shader(const Context& c, int packet, Real& z, Mask& mask) {
   alignas(64) std::array<float, kLanes> depth;
-  store(depth.data(), z);
   uint32_t lanes = bits(mask);
   c.draw.kernels.visibility(c.draw.shader.get(),
                             {&c.frame, c.id, c.tile.x0 + packet_x(packet), c.tile.y0 + packet_y(packet), depth.data(), &lanes});

@@ -44,7 +44,7 @@ struct VisibilityPacket {
   const Frame* frame;
   TriangleId id;
   int x, y;             ///< window coordinates of the packet's lowest corner
-  float* depth;         ///< in and out: W depths; the triangle's, then the shader's
+  float* depth;         ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
   uint32_t* lanes;      ///< in and out: bits of the covered lanes, then of those kept
 };
 

@@ -5,6 +5,7 @@
 // correctly rounded operations are used, so the map has the same bits at every lane width.
 #include "scene/procedural_earth.h"
 
+#include <type_traits>
 #include <vector>
 
 #include "core/check.h"
@@ -19,16 +20,22 @@ using Vec = vec3<Real>;
 
 // ---- noise -----------------------------------------------------------------------------------------------------
 
-// Lanes wrap round; for a plain int that must be said.
-HS_INLINE int32_t wrapping_mul(int32_t a, int32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b)); }
-template <int W>
-HS_INLINE IntN<W> wrapping_mul(IntN<W> a, int32_t b) {
-  return a * IntN<W>(b);
+// Lanes wrap round; for a plain int (lanes = 1) that must be said.
+template <class I>
+HS_INLINE I wrapping_mul(I a, int32_t b) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b));
+  } else {
+    return a * I(b);
+  }
 }
-HS_INLINE int32_t wrapping_add(int32_t a, int32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) + static_cast<uint32_t>(b)); }
-template <int W>
-HS_INLINE IntN<W> wrapping_add(IntN<W> a, int32_t b) {
-  return a + IntN<W>(b);
+template <class I>
+HS_INLINE I wrapping_add(I a, int32_t b) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return static_cast<int32_t>(static_cast<uint32_t>(a) + static_cast<uint32_t>(b));
+  } else {
+    return a + I(b);
+  }
 }
 
 // The top bits of the result depend on all bits of h.
@@ -105,7 +112,6 @@ HS_INLINE Real step(float lo, float hi, Real x) {
 // ---- the planet ------------------------------------------------------------------------------------------------
 
 constexpr float kSeaLevel = 0.12f;  // of the continents' noise
-constexpr float kCoast = 0.003f;    // half the height over which sea turns into land
 
 struct Terrain {
   Real height;       // above the sea, about −1 to 1
@@ -128,7 +134,7 @@ Real moisture_at(const Vec& p, Real height) {
 }
 
 // What the sea does not need is left out where a whole packet is sea: its land colour is mixed in with weight 0.
-Terrain terrain_at(const Vec& p) {
+Terrain terrain_at(const Vec& p, float coast) {
   // Coasts are bent by a second noise, so that continents do not look like blots.
   const Vec bend(cloud(scaled(p, 1.9f, 3.1f, 8.2f, 1.7f), 2, 101), cloud(scaled(p, 1.9f, 11.4f, 2.9f, 6.3f), 2, 202),
                  cloud(scaled(p, 1.9f, 5.6f, 13.8f, 9.1f), 2, 303));
@@ -139,7 +145,7 @@ Terrain terrain_at(const Vec& p) {
   const Real y2 = p.y * p.y;
   t.temperature =
       Real(1.02f) - Real(1.08f) * y2 * (Real(0.35f) + Real(0.65f) * y2) + Real(0.10f) * cloud(scaled(p, 3.0f, 7.7f, 1.9f, 4.2f), 3, 61);
-  const bool all_sea = none(t.height > Real(-kCoast));
+  const bool all_sea = none(t.height > Real(-coast));
   if (all_sea && none(t.temperature < Real(0.25f))) return t;
   t.detail = cloud(scaled(p, 21.0f, 1.3f, 5.7f, 3.9f), 4, 71);
   if (all_sea) return t;
@@ -206,12 +212,14 @@ Longitudes longitudes_of(int width) {
 
 void fill_row(std::span<glm::u8vec4> out, const Longitudes& longitudes, const SinCosDouble& latitude) {
   const int width = static_cast<int>(out.size());
+  // Half the height over which sea turns into land: about that of one pixel, so that coasts are not jagged.
+  const float coast = 6.0f / static_cast<float>(width);
   const Real y(static_cast<float>(latitude.cos));
   const Real ring(static_cast<float>(latitude.sin));
   for (int x = 0; x < width; x += kLanes) {
     const Vec p(ring * load<Real>(longitudes.cos.data() + x), y, ring * load<Real>(longitudes.minus_sin.data() + x));
-    const Terrain t = terrain_at(p);
-    const Real land = step(-kCoast, kCoast, t.height);
+    const Terrain t = terrain_at(p, coast);
+    const Real land = step(-coast, coast, t.height);
     const Vec sea_rgb = sea_color(t);
     const Vec land_rgb = land_color(t);
     Int code[3];

@@ -156,9 +156,9 @@ inline constexpr bool kIsDiscarding<DiscardingFragment<R>> = true;
 template <class R>
 inline constexpr bool kIsDiscarding<DepthFragment<R>> = true;
 template <class F>
-inline constexpr bool kWritesDepth = false;
+inline constexpr bool kHasDepth = false;
 template <class R>
-inline constexpr bool kWritesDepth<DepthFragment<R>> = true;
+inline constexpr bool kHasDepth<DepthFragment<R>> = true;
 }  // namespace detail
 
 /// The shader's per-triangle value, or an empty struct.
@@ -174,6 +174,6 @@ template <class S>
 inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;
 /// Does the shader replace the triangle's depth?
 template <class S>
-inline constexpr bool kWritesDepth = detail::kWritesDepth<FragmentOf<S>>;
+inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>>;
 
 }  // namespace halfspace

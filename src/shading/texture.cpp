@@ -78,7 +78,8 @@ std::vector<Image<glm::u8vec4>> mip_chain(const Image<glm::u8vec4>& base, TexelF
   });
   while (true) {
     Image<glm::u8vec4>& level = levels.emplace_back(averaged.width(), averaged.height());
-    std::transform(averaged.texels().begin(), averaged.texels().end(), level.data(), [format](const glm::vec4& v) { return to_texel(v, format); });
+    std::transform(averaged.texels().begin(), averaged.texels().end(), level.data(),
+                   [format](const glm::vec4& v) { return to_texel(v, format); });
     if (averaged.width() == 1 && averaged.height() == 1) break;
     averaged = next_level(averaged.width(), averaged.height(), [&](int r, glm::vec4*) { return averaged.row(r).data(); });
   }
@@ -95,7 +96,8 @@ Texture2D::Texture2D(const Image<glm::u8vec4>& base, TexelFormat format) : forma
 Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format) : format_(format) {
   HS_CHECK_OP(levels.size(), >=, 1u);
   std::size_t size = 0;
-  for (const Image<glm::u8vec4>& level : levels) size += static_cast<std::size_t>(level.width() + 1) * static_cast<std::size_t>(level.height());
+  for (const Image<glm::u8vec4>& level : levels)
+    size += static_cast<std::size_t>(level.width() + 1) * static_cast<std::size_t>(level.height());
   texels_.reserve(size);
   for (const Image<glm::u8vec4>& level : levels) add_level(level);
 }

@@ -6,9 +6,10 @@
 // OpenGL 4.6, section 8.14 (scale factor, minification, magnification) and 8.15; row 0 of the image is t = 0.
 //
 // Filtering works on whole codes 0 … 255 (rgba8, and alpha) or on decoded linear values (the colour of srgb8a8). The
-// fraction of a texel is rounded to 1/32768, finer than a float coordinate itself resolves from 512 texels on. With that
-// the bilinear value of rgba8 is the exact one rounded once, and for every format: a constant texture gives exactly its
-// constant, a fraction of zero exactly the texel, and no result leaves the interval of the texels it mixes.
+// fraction of a texel is rounded to 1/32768, which is what a float position itself resolves from texel 256 on. With that
+// the bilinear code of rgba8 is the exact one rounded once (and then divided by 255), and for every format: a constant
+// texture gives exactly its constant, a fraction of zero exactly the texel, and no result leaves the interval of the
+// texels it mixes.
 // R = double filters in double with unrounded fractions (over the same decoded texels): the accuracy reference.
 #pragma once
 
@@ -200,14 +201,16 @@ HS_INLINE Pair<IntN<W>> load_pairs(const int32_t* base, IntN<W> i) {
     const auto eight = [&](int k) { return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(four(k)), four(k + 4), 1); };
     const __m512i a = eight(0), b = eight(8);
     const IntN<16> even = iota<IntN<16>>() << 1;
-    return {IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)even.v, b)), IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)(even + 1).v, b))};
+    return {IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)even.v, b)),
+            IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)(even + 1).v, b))};
   }
 #endif
 #ifdef __AVX__
   if constexpr (W == 8) {  // a holds the pairs of lanes 0 1 4 5, b those of 2 3 6 7: the shuffle works within 128 bits
     const auto four = [&](int k) { return _mm256_castsi256_ps(_mm256_insertf128_si256(_mm256_castsi128_si256(two(k)), two(k + 4), 1)); };
     const __m256 a = four(0), b = four(2);
-    return {IntN<W>((V)_mm256_castps_si256(_mm256_shuffle_ps(a, b, 0b10001000))), IntN<W>((V)_mm256_castps_si256(_mm256_shuffle_ps(a, b, 0b11011101)))};
+    return {IntN<W>((V)_mm256_castps_si256(_mm256_shuffle_ps(a, b, 0b10001000))),
+            IntN<W>((V)_mm256_castps_si256(_mm256_shuffle_ps(a, b, 0b11011101)))};
   }
 #endif
   if constexpr (W == 4) {

@@ -38,7 +38,8 @@ TEST(Half, EveryCodeMeansWhatTheFormatSays) {
   for (int h = 0; h < 65536; ++h) {
     const float x = half_to_float(static_cast<uint16_t>(h));
     if (is_nan(h)) {
-      EXPECT_EQ(as_int(x), static_cast<int32_t>((static_cast<uint32_t>(h & 0x8000) << 16) | 0x7fc00000u | (static_cast<uint32_t>(h & 0x3ff) << 13)));
+      EXPECT_EQ(as_int(x),
+                static_cast<int32_t>((static_cast<uint32_t>(h & 0x8000) << 16) | 0x7fc00000u | (static_cast<uint32_t>(h & 0x3ff) << 13)));
     } else {
       EXPECT_EQ(static_cast<double>(x), meaning(h)) << h;
       EXPECT_EQ(std::signbit(x), (h & 0x8000) != 0) << h;

@@ -111,7 +111,8 @@ Worst sweep_pow(float y_limit, int count) {
     const float x = static_cast<float>(std::exp2(spread * unit(random)));
     if (x == 1.0f || x == 0.0f || x == kInf) continue;
     const double log_x = std::log2(static_cast<double>(x));
-    const float y = static_cast<float>(std::clamp(150.0 * unit(random) / log_x, -static_cast<double>(y_limit), static_cast<double>(y_limit)));
+    const float y =
+        static_cast<float>(std::clamp(150.0 * unit(random) / log_x, -static_cast<double>(y_limit), static_cast<double>(y_limit)));
     worst.add(ulps(pow(x, y), std::pow(static_cast<double>(x), static_cast<double>(y))), x, y);
   }
   return worst;
@@ -196,8 +197,10 @@ TEST(LaneMath, ArcSineAndCosineAreWithinTwoAndAHalfUlp) {
 }
 
 void expect_value(const char* what, float got, float want) {
-  if (std::isnan(want)) EXPECT_TRUE(std::isnan(got)) << what << " is " << got;
-  else EXPECT_EQ(as_int(got), as_int(want)) << what << " is " << got;
+  if (std::isnan(want))
+    EXPECT_TRUE(std::isnan(got)) << what << " is " << got;
+  else
+    EXPECT_EQ(as_int(got), as_int(want)) << what << " is " << got;
 }
 #define EXPECT_VALUE(expression, want) expect_value(#expression, expression, want)
 
@@ -278,12 +281,18 @@ void expect_monotone(const char* what, F f, float lo, float hi) {
 
 TEST(LaneMath, NeverStepsDownWhereItShouldRise) {
   // Every float of one octave or more; the reduction repeats itself in the others.
-  expect_monotone("exp2", [](float x) { return exp2(x); }, 1.0f, 2.0f);
-  expect_monotone("exp", [](float x) { return exp(x); }, 1.0f, 2.0f);
-  expect_monotone("log2", [](float x) { return log2(x); }, 0.7f, 3.0f);
-  expect_monotone("log", [](float x) { return log(x); }, 0.7f, 3.0f);
-  expect_monotone("square root by pow", [](float x) { return pow(x, 0.5f); }, 1.0f, 4.0f);
-  expect_monotone("gamma by pow", [](float x) { return pow(x, 2.4f); }, 0.25f, 1.0f);
+  expect_monotone(
+      "exp2", [](float x) { return exp2(x); }, 1.0f, 2.0f);
+  expect_monotone(
+      "exp", [](float x) { return exp(x); }, 1.0f, 2.0f);
+  expect_monotone(
+      "log2", [](float x) { return log2(x); }, 0.7f, 3.0f);
+  expect_monotone(
+      "log", [](float x) { return log(x); }, 0.7f, 3.0f);
+  expect_monotone(
+      "square root by pow", [](float x) { return pow(x, 0.5f); }, 1.0f, 4.0f);
+  expect_monotone(
+      "gamma by pow", [](float x) { return pow(x, 2.4f); }, 0.25f, 1.0f);
 }
 
 /// f at width W against f at width 1, over floats of all bit patterns (NaN may differ in its bits).
@@ -342,7 +351,8 @@ TEST(LaneMath, BitsAreTheCommittedOnes) {
   for (uint32_t pattern = 0, n = 0; n < 1u << 17; ++n, pattern += 32749) {
     const float x = as_real(static_cast<int32_t>(pattern));
     const float y = static_cast<float>(static_cast<int32_t>(n) - (1 << 16)) * 0x1p-9f;
-    for (const float v : {exp2(y), exp(y), log2(x), log(x), pow(abs(x), y), sin(x), cos(x), sin(y), cos(y), atan2(x, y), asin(x), acos(x)}) add(v);
+    for (const float v : {exp2(y), exp(y), log2(x), log(x), pow(abs(x), y), sin(x), cos(x), sin(y), cos(y), atan2(x, y), asin(x), acos(x)})
+      add(v);
   }
   EXPECT_EQ(hash, 9039259078911432705u);
 }

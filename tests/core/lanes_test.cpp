@@ -23,7 +23,9 @@ constexpr int32_t kIntMin = std::numeric_limits<int32_t>::min(), kIntMax = std::
 
 const std::vector<float>& reals() {
   static const std::vector<float> values = [] {
-    std::vector<float> v = {0.0f, 0.5f, 1.0f, 1.5f, 2.5f, 3.5f, 0x1p-149f, 0x1p-126f, 0x1.fffffcp-127f, 0.49999997f, 8388607.5f, 8388609.0f, 2147483520.0f, 2147483648.0f, 4294967296.0f, kMax, kInf, kNaN};
+    std::vector<float> v = {
+        0.0f,        0.5f,       1.0f,       1.5f,          2.5f,          3.5f,          0x1p-149f, 0x1p-126f, 0x1.fffffcp-127f,
+        0.49999997f, 8388607.5f, 8388609.0f, 2147483520.0f, 2147483648.0f, 4294967296.0f, kMax,      kInf,      kNaN};
     for (std::size_t i = 0, n = v.size(); i < n; ++i) v.push_back(-v[i]);
     std::mt19937 random(1);
     for (int i = 0; i < 60; ++i) v.push_back(as_real(static_cast<int32_t>(random())));
@@ -67,7 +69,8 @@ void expect_lanes_agree(const char* what, const std::vector<T>& v, F f) {
       const auto got = f(a, b, c);
       for (int k = 0; k < W; ++k) {
         const auto want = f(lane(a, k), lane(b, k), lane(c, k));
-        ASSERT_TRUE(same(lane(got, k), want)) << what << " at width " << W << ": " << lane(a, k) << ", " << lane(b, k) << ", " << lane(c, k) << " gives " << lane(got, k) << ", not " << want;
+        ASSERT_TRUE(same(lane(got, k), want)) << what << " at width " << W << ": " << lane(a, k) << ", " << lane(b, k) << ", " << lane(c, k)
+                                              << " gives " << lane(got, k) << ", not " << want;
       }
     }
   }
@@ -110,8 +113,10 @@ TEST(Lanes, IntegerArithmeticWraps) {
   // The scalar side goes through unsigned, where wrapping is defined.
   const auto scalar = [](auto op) {
     return [op](auto a, auto b, auto) {
-      if constexpr (std::is_same_v<decltype(a), int32_t>) return static_cast<int32_t>(op(static_cast<uint32_t>(a), static_cast<uint32_t>(b)));
-      else return op(a, b);
+      if constexpr (std::is_same_v<decltype(a), int32_t>)
+        return static_cast<int32_t>(op(static_cast<uint32_t>(a), static_cast<uint32_t>(b)));
+      else
+        return op(a, b);
     };
   };
   check_int("+", scalar([](auto a, auto b) { return a + b; }));
@@ -157,9 +162,15 @@ TEST(Lanes, ConversionsAgreeOnTiesNaNAndWhatDoesNotFit) {
   check_real("round_to_int", [](auto, auto b, auto) { return round_to_int(b); });
   check_int("as_real", [](auto, auto b, auto) { return as_real(b); });
   check_real("as_int", [](auto, auto b, auto) { return as_int(b); });
-  expect_lanes_agree<4>("to_real", ints(), [](auto, auto b, auto) { return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<4>>>(b); });
-  expect_lanes_agree<8>("to_real", ints(), [](auto, auto b, auto) { return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<8>>>(b); });
-  expect_lanes_agree<16>("to_real", ints(), [](auto, auto b, auto) { return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<16>>>(b); });
+  expect_lanes_agree<4>("to_real", ints(), [](auto, auto b, auto) {
+    return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<4>>>(b);
+  });
+  expect_lanes_agree<8>("to_real", ints(), [](auto, auto b, auto) {
+    return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<8>>>(b);
+  });
+  expect_lanes_agree<16>("to_real", ints(), [](auto, auto b, auto) {
+    return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<16>>>(b);
+  });
   for (const float x : {kNaN, kInf, -kInf, 2147483648.0f, -2147483904.0f, 1e30f}) {
     EXPECT_EQ(truncate_to_int(x), kIntMin) << x;
     EXPECT_EQ(round_to_int(x), kIntMin) << x;

@@ -75,7 +75,7 @@ TEST(Srgb, EveryFloatEncodesToTheNearestCode) {
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(code, 255);
-  for (int32_t i = 0; i < 0x38000000; i += 1009) ASSERT_EQ(linear_to_srgb(as_real(i)), 0);  // the rest: 0 to the eye of the clamp
+  for (int32_t i = 0; i < 0x38000000; i += 1009) ASSERT_EQ(linear_to_srgb(as_real(i)), 0);  // and below
 }
 
 TEST(Srgb, EveryHalfEncodesToTheRoundedCurve) {

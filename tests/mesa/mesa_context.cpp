@@ -18,7 +18,7 @@ void set_environment() {
   set("LIBGL_ALWAYS_SOFTWARE", "1");
   set("GALLIUM_DRIVER", "llvmpipe");
   // no_aos_sampling: filter textures in float, not in 8-bit integers; no_quad_lod: a level of detail for each pixel.
-  set("GALLIVM_PERF", getenv("HSP") ? getenv("HSP") : "no_aos_sampling,no_quad_lod");
+  set("GALLIVM_PERF", "no_aos_sampling,no_quad_lod");
   // The key of Mesa's shader cache does not know GALLIVM_PERF: a cached shader might be one compiled without it.
   set("MESA_SHADER_CACHE_DISABLE", "true");
   // llvmpipe's extra threads gain nothing here: tests run one beside the other.

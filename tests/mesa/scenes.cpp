@@ -44,18 +44,18 @@ std::array<glm::vec2, 3> random_corners(const Soup& soup, Random& random, const 
 ColoredMesh make_soup(const Soup& soup, int width, int height) {
   Random random(soup.seed);
   ColoredMesh mesh;
+  const float margin = soup.inside ? soup.size : 0.0f;
   for (int i = 0; i < soup.triangles; ++i) {
-    const glm::vec2 center(random.uniform(0, static_cast<float>(width)), random.uniform(0, static_cast<float>(height)));
+    const glm::vec2 center(random.uniform(margin, static_cast<float>(width) - margin), random.uniform(margin, static_cast<float>(height) - margin));
     for (const glm::vec2& corner : random_corners(soup, random, center)) {
-      const glm::vec2 ndc = ndc_from_px(corner, width, height);
       float w = random.uniform(1.0f, soup.w_ratio);
+      if (soup.grid > 0.0f) w = std::exp2(std::floor(std::log2(w)));
       float z = random.uniform(-0.99f, 0.99f) * w;
       if (soup.crosses_near) {  // some z below −w, some w below 0
         w = random.uniform(-0.5f, 2.0f);
         z = random.uniform(-1.5f, 1.0f) * std::fabs(w);
       }
-      const float scale = soup.crosses_near ? std::fabs(w) : w;
-      mesh.pos_clip.emplace_back(ndc.x * scale, ndc.y * scale, z, w);
+      mesh.pos_clip.emplace_back(ndc_from_px(corner, width, height) * std::fabs(w), z, w);
       mesh.colors.push_back(random_color(random));
       mesh.indices.push_back(static_cast<uint32_t>(mesh.indices.size()));
     }
@@ -63,7 +63,7 @@ ColoredMesh make_soup(const Soup& soup, int width, int height) {
   return mesh;
 }
 
-ColoredMesh make_sheet(int columns, int rows, float jitter, uint32_t seed) {
+ColoredMesh make_sheet(int columns, int rows, float jitter, uint32_t seed, float opacity) {
   Random random(seed);
   ColoredMesh mesh;
   for (int j = 0; j <= rows; ++j) {
@@ -72,6 +72,7 @@ ColoredMesh make_sheet(int columns, int rows, float jitter, uint32_t seed) {
       const glm::vec2 ndc(-1.2f + 2.4f * x / static_cast<float>(columns), -1.2f + 2.4f * y / static_cast<float>(rows));
       mesh.pos_clip.emplace_back(ndc, random.uniform(-0.9f, 0.9f), 1.0f);
       mesh.colors.push_back(random_color(random));
+      mesh.colors.back().w = opacity;
     }
   }
   const auto at = [columns](int i, int j) { return static_cast<uint32_t>(j * (columns + 1) + i); };

@@ -22,21 +22,23 @@ struct ColoredMesh {
   VertexView positions_and_colors() const { return vertices(stream(pos_clip), stream(colors)); }
 };
 
-/// What a random triangle looks like. Lengths in pixels.
+/// What random triangles look like. Lengths in pixels.
 struct Soup {
   int triangles = 0;
   float size = 0.0f;          ///< vertices lie within this distance of the centre
   float thickness = 0.0f;     ///< > 0: slivers of about this width
   float w_ratio = 1.0f;       ///< w of the vertices is spread over [1, w_ratio]
   bool crosses_near = false;  ///< some vertices lie behind the near plane or the eye
-  float grid = 0.0f;          ///< > 0: positions are multiples of this
+  float grid = 0.0f;          ///< > 0: window positions are multiples of this, and w a power of two. In a window of
+                              ///< 2^m × 2^n px no rounding is then left to differ in up to the 1/256 px grid.
+  bool inside = false;        ///< no triangle reaches beyond the window
   uint32_t seed = 1;
 };
 ColoredMesh make_soup(const Soup& soup, int width, int height);
 
 /// A sheet of quads, each corner shared by six triangles and moved at random by up to `jitter` cells. It covers the
-/// window and more.
-ColoredMesh make_sheet(int columns, int rows, float jitter, uint32_t seed);
+/// window and more. opacity is every corner's alpha.
+ColoredMesh make_sheet(int columns, int rows, float jitter, uint32_t seed, float opacity = 1.0f);
 
 /// Right triangles of area 1 px², side by side (the workload tiny_1m at another size).
 ColoredMesh make_tiny(int width, int height);

@@ -47,8 +47,8 @@ bool truth_culled(const TruthTriangle& t, const DrawState& state);
 class TruthDraw {
  public:
   virtual ~TruthDraw() = default;
-  /// Draws into one pixel; its centre is (x + 1/2, y + 1/2), y up.
-  virtual void draw(int x, int y, Positions positions, TruthPixel& pixel) const = 0;
+  /// Draws into one pixel: its centre, in window coordinates (y up).
+  virtual void draw(const glm::dvec2& center, Positions positions, TruthPixel& pixel) const = 0;
 };
 
 template <Shader S>
@@ -69,10 +69,12 @@ class TruthDrawOf final : public TruthDraw {
     }
   }
 
-  void draw(int x, int y, Positions positions, TruthPixel& pixel) const override {
-    const auto inside = [x, y](const Rect& r) { return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height; };
+  void draw(const glm::dvec2& center, Positions positions, TruthPixel& pixel) const override {
+    const auto inside = [&center](const Rect& r) {
+      return center.x >= r.x && center.x < r.x + r.width && center.y >= r.y && center.y < r.y + r.height;
+    };
     if (!inside(viewport_) || (state_.scissor && !inside(*state_.scissor))) return;
-    for (std::size_t i = 0; i < exact_.size(); ++i) draw_triangle(i, x, y, positions, pixel);
+    for (std::size_t i = 0; i < exact_.size(); ++i) draw_triangle(i, center, positions, pixel);
   }
 
  private:
@@ -89,10 +91,10 @@ class TruthDrawOf final : public TruthDraw {
     varyings_.push_back(to_components<float>(out));
   }
 
-  void draw_triangle(std::size_t triangle, int x, int y, Positions positions, TruthPixel& pixel) const {
+  void draw_triangle(std::size_t triangle, const glm::dvec2& center, Positions positions, TruthPixel& pixel) const {
     const TruthTriangle& t = positions == Positions::snapped ? snapped_[triangle] : exact_[triangle];
     if (t.area == 0.0 || truth_culled(t, state_)) return;
-    const std::array<double, 3> b = t.weights((x + 0.5) * 256.0, (y + 0.5) * 256.0);
+    const std::array<double, 3> b = t.weights(center.x * 256.0, center.y * 256.0);
     if (!t.covers(b, positions == Positions::snapped)) return;
     const DepthState& depth = state_.depth;
     double z = b[0] * t.z[0] + b[1] * t.z[1] + b[2] * t.z[2];
@@ -102,11 +104,11 @@ class TruthDrawOf final : public TruthDraw {
     z = std::clamp(z, low, high);
     if (depth.test && !passes(depth.compare, z, pixel.depth)) return;
     if (depth.test && depth.write) pixel.depth = z;
-    const glm::dvec4 color = shade(t, b, {indices_[3 * triangle], indices_[3 * triangle + 1], indices_[3 * triangle + 2]}, x, y, z);
+    const glm::dvec4 color = shade(t, b, {indices_[3 * triangle], indices_[3 * triangle + 1], indices_[3 * triangle + 2]}, center, z);
     pixel.codes = state_.blend ? truth_blend(color, pixel.codes, *state_.blend, format_) : truth_codes(color, format_);
   }
 
-  glm::dvec4 shade(const TruthTriangle& t, const std::array<double, 3>& b, const std::array<uint32_t, 3>& id, int x, int y, double z) const {
+  glm::dvec4 shade(const TruthTriangle& t, const std::array<double, 3>& b, const std::array<uint32_t, 3>& id, const glm::dvec2& center, double z) const {
     const double q = b[0] * t.q[0] + b[1] * t.q[1] + b[2] * t.q[2];
     const std::size_t provoking = id[state_.provoking == ProvokingVertex::last ? 2 : 0];
     std::array<double, kN> varyings;
@@ -127,8 +129,8 @@ class TruthDrawOf final : public TruthDraw {
     TriangleLanes<double> triangle{t.x[0], t.y[0], t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0],
                                    t.area, t.q[0], t.q[1],          t.q[2],          1.0};
     Pixel<double> px{};
-    px.x = x + 0.5;
-    px.y = y + 0.5;
+    px.x = center.x;
+    px.y = center.y;
     px.z = z;
     px.inv_w = q;
     px.triangle = &triangle;
@@ -136,8 +138,8 @@ class TruthDrawOf final : public TruthDraw {
     px.dx = px.x * 256.0 - t.x[0];
     px.dy = px.y * 256.0 - t.y[0];
     px.weights = weights_at(triangle, px.dx, px.dy);
-    px.quad_x = x & 1;
-    px.quad_y = y & 1;
+    px.quad_x = std::fmod(std::floor(center.x), 2.0);
+    px.quad_y = std::fmod(std::floor(center.y), 2.0);
     return shader_.fragment(from_components<VD, double>(varyings), px).color;
   }
 

@@ -20,7 +20,8 @@ HS_INLINE vec2<R> blinn_phong(const vec3<R>& p, const vec3<R>& n, const glm::vec
   return vec2<R>(R(0.08f) + R(0.8f) * max(dot(N, L), R(0.0f)), R(0.4f) * pow(max(dot(N, H), R(0.0f)), R(48.0f)));
 }
 
-/// Comes before every GLSL source. transform() is our mat4 × vec4: it adds in the same order, which `precise` keeps.
+/// Comes before every GLSL source. transform() is our mat4 × vec4: it adds in the same order, which `precise` keeps;
+/// level_of_detail() is Halfspace's of that name (shading/texture.h), from the differences that GLSL offers.
 inline constexpr const char* kSharedGlsl = R"(#version 450 core
     vec4 transform(mat4 m, vec4 p) {
       precise vec4 r = (m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3] * p.w);
@@ -32,6 +33,11 @@ inline constexpr const char* kSharedGlsl = R"(#version 450 core
       vec3 L = normalize(light - p);
       vec3 H = normalize(L + normalize(eye - p));
       return vec2(0.08 + 0.8 * max(dot(N, L), 0.0), 0.4 * pow(max(dot(N, H), 0.0), 48.0));
+    }
+
+    float level_of_detail(vec2 size, vec2 duv_dx, vec2 duv_dy) {
+      vec2 dx = duv_dx * size, dy = duv_dy * size;
+      return 0.5 * log2(max(dot(dx, dx), dot(dy, dy)));
     })";
 
 // ---- a colour at each vertex, interpolated in the three ways --------------------------------------------------------
@@ -198,7 +204,7 @@ struct PhongPerPixel : Lit {
     })";
 };
 
-/// The same with a texture in place of the base colour.
+/// The same with a texture in place of the base colour, at the level of detail of OpenGL 4.6, section 8.14.1.
 struct TexturedPhong : Lit {
   const Texture2D* albedo = nullptr;
   Sampler sampler;
@@ -238,7 +244,7 @@ struct TexturedPhong : Lit {
     out vec4 fragment;
     void main() {
       vec2 lit = blinn_phong(position, normal, eye, light);
-      vec2 size = vec2(textureSize(albedo, 0)); vec2 ddx = dFdx(uv) * size, ddy = dFdy(uv) * size; vec4 texel = vec4(abs(textureQueryLod(albedo, uv).y - 0.5 * log2(max(dot(ddx, ddx), dot(ddy, ddy))))*10.0);lit=vec2(1.0,0.0);
+      vec4 texel = textureLod(albedo, uv, level_of_detail(textureSize(albedo, 0), dFdx(uv), dFdy(uv)));
       fragment = vec4(texel.rgb * lit.x + vec3(lit.y), 1.0);
     })";
 
@@ -246,6 +252,21 @@ struct TexturedPhong : Lit {
     Lit::uniforms(set);
     set("albedo", *albedo, sampler);
   }
+};
+
+/// The same shader; in GLSL the level of detail is left to Mesa.
+struct ImplicitlyTexturedPhong : TexturedPhong {
+  static constexpr const char* kFragmentGlsl = R"(
+    in vec3 position, normal;
+    in vec2 uv;
+    uniform sampler2D albedo;
+    uniform vec3 eye, light;
+    out vec4 fragment;
+    void main() {
+      vec2 lit = blinn_phong(position, normal, eye, light);
+      vec4 texel = texture(albedo, uv);
+      fragment = vec4(texel.rgb * lit.x + vec3(lit.y), 1.0);
+    })";
 };
 
 struct Gouraud : Lit {

@@ -351,6 +351,31 @@ Box covered_box(const WindowTriangle& t) {
 
 int64_t cross(int64_t ax, int64_t ay, int64_t bx, int64_t by) { return ax * by - ay * bx; }
 
+int64_t turn(const Corner& a, const Corner& b, const Corner& c) { return cross(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y); }
+
+// The fan of a clipped polygon: from the first corner from which all pieces turn one way (none: from the last corner, without
+// the pieces that turn against the whole).
+std::vector<std::array<Corner, 3>> fan(const std::vector<Corner>& polygon) {
+  std::vector<std::array<Corner, 3>> pieces;
+  for (std::size_t apex = 0; apex < polygon.size(); ++apex) {
+    std::vector<Corner> from(polygon);
+    std::rotate(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(apex), from.end());
+    pieces.clear();
+    int64_t area = 0;
+    for (std::size_t i = 2; i < from.size(); ++i) {
+      pieces.push_back({from[0], from[i - 1], from[i]});
+      area += turn(from[0], from[i - 1], from[i]);
+    }
+    const auto against = [area](const std::array<Corner, 3>& p) {
+      const int64_t own = turn(p[0], p[1], p[2]);
+      return own != 0 && (own > 0) != (area > 0);
+    };
+    if (std::none_of(pieces.begin(), pieces.end(), against)) break;
+    if (apex + 1 == polygon.size()) std::erase_if(pieces, against);
+  }
+  return pieces;
+}
+
 bool culls_face(CullMode mode, bool front) {
   return mode == CullMode::front_and_back || (mode == CullMode::front && front) || (mode == CullMode::back && !front);
 }
@@ -588,6 +613,7 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
   const Transform transform = make_transform(state.viewport.value_or(Rect{0, 0, target_.width(), target_.height()}), state.depth);
   const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   std::vector<Corner> corners;
+  bool corners_are_cut = false;
   if (std::any_of(v.begin(), v.end(), [&](const ShadedVertex* s) { return needs_clip(transform, state.depth, s->pos_clip); })) {
     Polygon polygon;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -602,6 +628,7 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
       return {};
     }
     ++counts_.clipped;
+    corners_are_cut = true;
     for (const ClipPoint& c : polygon) corners.push_back(clip_corner(transform, c, v, facts, provoking));
     for (Corner& c : corners) {  // all corners carry the provoking vertex's flat values
       for (std::size_t i = 0; i < c.varyings.size(); ++i) {
@@ -613,10 +640,11 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
   }
 
   const Box allowed = allowed_pixels(target_, state);
+  const bool clipped = corners.size() != 3 || corners_are_cut;
   std::vector<WindowTriangle> pieces;
   Fate last = Fate::drawn;
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    auto [fate, piece] = make_window_triangle(state, allowed, target_.depth_format(), {corners[0], corners[i - 1], corners[i]}, corners.size() == 3 ? provoking : 0);
+  for (const std::array<Corner, 3>& c : clipped ? fan(corners) : std::vector<std::array<Corner, 3>>{{corners[0], corners[1], corners[2]}}) {
+    auto [fate, piece] = make_window_triangle(state, allowed, target_.depth_format(), c, clipped ? 0 : provoking);
     if (fate == Fate::drawn) pieces.push_back(std::move(piece));
     last = fate;
   }

@@ -4,6 +4,7 @@
 // budgets, deferred and immediate: always the same bytes.
 //
 // HALFSPACE_SEED=n   runs the one scene n of each theme and prints it (choose the theme with --gtest_filter)
+// HALFSPACE_DRAW=k   with it: only draw k of the scene
 // HALFSPACE_STATES=n runs n scenes of each theme instead of kScenes
 #include <gtest/gtest.h>
 
@@ -91,7 +92,10 @@ TEST_P(RandomScenes, SameBytesByOracleThreadsTilesChunksAndFlushes) {
   const uint64_t count = one != nullptr ? 1 : many != nullptr ? std::strtoull(many, nullptr, 10) : kScenes;
   uint64_t draws = 0, pixels = 0, passed = 0, triangles = 0;
   for (uint64_t seed = first; seed < first + count; ++seed) {
-    const Scene scene = random_scene(theme, seed);
+    Scene scene = random_scene(theme, seed);
+    if (const char* draw = std::getenv("HALFSPACE_DRAW"); draw != nullptr && one != nullptr) {
+      scene.draws = {scene.draws.at(std::strtoull(draw, nullptr, 10))};
+    }
     if (one != nullptr) std::printf("%s", describe(scene).c_str());
     const std::string wrong = check_scene(scene, seed);
     ASSERT_EQ(wrong, "") << "seed " << seed << ": HALFSPACE_SEED=" << seed << " test-property --gtest_filter='*RandomScenes*/"

@@ -44,7 +44,9 @@ vec4<R> at(const Texture2D& texture, const Sampler& sampler, R s, R t, R lod = R
 /// The linear value that a texel stands for.
 glm::dvec4 value(const Texture2D& texture, int level, int x, int row) {
   const glm::u8vec4 t = texture.texel(level, x, row);
-  const auto channel = [&](uint8_t code) { return texture.format() == TexelFormat::srgb8a8 ? static_cast<double>(kSrgbToLinear[code]) : code / 255.0; };
+  const auto channel = [&](uint8_t code) {
+    return texture.format() == TexelFormat::srgb8a8 ? static_cast<double>(kSrgbToLinear[code]) : code / 255.0;
+  };
   return {channel(t.x), channel(t.y), channel(t.z), t.w / 255.0};
 }
 
@@ -57,7 +59,8 @@ int wrapped_index(int64_t i, int size, Wrap wrap) {
 glm::dvec4 reference_level(const Texture2D& texture, const Sampler& sampler, double s, double t, int level, Filter filter) {
   const int w = texture.width(level), h = texture.height(level);
   const auto texel = [&](double x, double y) {
-    return value(texture, level, wrapped_index(static_cast<int64_t>(x), w, sampler.wrap_s), wrapped_index(static_cast<int64_t>(y), h, sampler.wrap_t));
+    return value(texture, level, wrapped_index(static_cast<int64_t>(x), w, sampler.wrap_s),
+                 wrapped_index(static_cast<int64_t>(y), h, sampler.wrap_t));
   };
   if (filter == Filter::nearest) return texel(std::floor(s * w), std::floor(t * h));
   const double u = s * w - 0.5, v = t * h - 0.5, x = std::floor(u), y = std::floor(v);
@@ -70,7 +73,8 @@ glm::dvec4 reference(const Texture2D& texture, const Sampler& sampler, double s,
   const double held = std::min(lod, texture.levels() - 1.0), level = std::floor(held);
   const int below = static_cast<int>(level), above = std::min(below + 1, texture.levels() - 1);
   const double f = held - level;
-  return (1 - f) * reference_level(texture, sampler, s, t, below, Filter::bilinear) + f * reference_level(texture, sampler, s, t, above, Filter::bilinear);
+  return (1 - f) * reference_level(texture, sampler, s, t, below, Filter::bilinear) +
+         f * reference_level(texture, sampler, s, t, above, Filter::bilinear);
 }
 
 // ---- construction and levels ----------------------------------------------------------------------------------------
@@ -178,7 +182,8 @@ TEST(Texture, TexelCentreGivesTheTexel) {
       for (const Sampler& sampler : {kBilinear, kBilinearClamp, kNearest, kNearestClamp, Sampler()}) {
         for (int y = 0; y < size.y; ++y) {
           for (int x = 0; x < size.x; ++x) {
-            const float s = (static_cast<float>(x) + 0.5f) / static_cast<float>(size.x), t = (static_cast<float>(y) + 0.5f) / static_cast<float>(size.y);
+            const float s = (static_cast<float>(x) + 0.5f) / static_cast<float>(size.x),
+                        t = (static_cast<float>(y) + 0.5f) / static_cast<float>(size.y);
             ASSERT_EQ(at(texture, sampler, s, t), glm::vec4(value(texture, 0, x, y))) << x << ' ' << y;
           }
         }
@@ -287,7 +292,8 @@ TEST(Texture, NearestPicksGlsTexel) {
     const double s = i / 1024.0, t = -i / 512.0 + 0.001;
     const float sf = static_cast<float>(s), tf = static_cast<float>(t);
     for (const Sampler& sampler : {kNearest, kNearestClamp}) {
-      EXPECT_EQ(at(texture, sampler, sf, tf), glm::vec4(reference(texture, sampler, static_cast<double>(sf), static_cast<double>(tf), 0.0))) << s << ' ' << t;
+      EXPECT_EQ(at(texture, sampler, sf, tf), glm::vec4(reference(texture, sampler, static_cast<double>(sf), static_cast<double>(tf), 0.0)))
+          << s << ' ' << t;
     }
   }
 }
@@ -349,13 +355,16 @@ TEST(Texture, SampleChoosesTheLevelOfItsDerivatives) {
 
 TEST(Texture, WildCoordinatesAndDerivativesAreDefined) {
   const Texture2D texture(noise(7, 9, 13), TexelFormat::rgba8);
-  const float wild[] = {0.0f, -0.0f, 0.5f, 1.0f, -1.0f, 0x1p-149f, -0x1p-149f, -0x1p-30f, 8388609.0f, -8388609.5f, 3e9f, -3e9f, 1e20f, 3e38f, -3e38f, kInf, -kInf, kNaN, -kNaN};
-  for (const Sampler& sampler : {Sampler(), kBilinear, kBilinearClamp, kNearest, kNearestClamp, Sampler{Filter::nearest, Filter::trilinear, Wrap::clamp, Wrap::repeat}}) {
+  const float wild[] = {0.0f, -0.0f, 0.5f,  1.0f,  -1.0f,  0x1p-149f, -0x1p-149f, -0x1p-30f, 8388609.0f, -8388609.5f,
+                        3e9f, -3e9f, 1e20f, 3e38f, -3e38f, kInf,      -kInf,      kNaN,      -kNaN};
+  for (const Sampler& sampler : {Sampler(), kBilinear, kBilinearClamp, kNearest, kNearestClamp,
+                                 Sampler{Filter::nearest, Filter::trilinear, Wrap::clamp, Wrap::repeat}}) {
     for (const float s : wild) {
       for (const float t : wild) {
         for (const float d : wild) {
           const vec4<float> c = texture.sample(sampler, vec2<float>(s, t), vec2<float>(d, 0.0f), vec2<float>(s, d));
-          const vec4<double> cd = texture.sample(sampler, vec2<double>(vec2<float>(s, t)), vec2<double>(vec2<float>(d, 0.0f)), vec2<double>(vec2<float>(s, d)));
+          const vec4<double> cd =
+              texture.sample(sampler, vec2<double>(vec2<float>(s, t)), vec2<double>(vec2<float>(d, 0.0f)), vec2<double>(vec2<float>(s, d)));
           for (int k = 0; k < 4; ++k) {
             ASSERT_TRUE(c[k] >= 0.0f && c[k] <= 1.0f) << s << ' ' << t << ' ' << d;
             ASSERT_TRUE(cd[k] >= 0.0 && cd[k] <= 1.0 + 1e-15) << s << ' ' << t << ' ' << d;
@@ -375,7 +384,8 @@ TEST(Texture, RepeatHasPeriodOneAndClampAnEnd) {
   const Texture2D texture(noise(8, 8, 14), TexelFormat::srgb8a8);
   for (int i = 0; i < 4096; ++i) {
     const float s = static_cast<float>(i) / 4096.0f;  // exact, as is every sum below
-    for (const float whole : {-5.0f, -1.0f, 1.0f, 100.0f}) EXPECT_EQ(at(texture, kBilinear, s + whole, 0.3f), at(texture, kBilinear, s, 0.3f));
+    for (const float whole : {-5.0f, -1.0f, 1.0f, 100.0f})
+      EXPECT_EQ(at(texture, kBilinear, s + whole, 0.3f), at(texture, kBilinear, s, 0.3f));
     EXPECT_EQ(at(texture, kBilinearClamp, 1.0f + s, 0.3f), at(texture, kBilinearClamp, 1.0f, 0.3f));
     EXPECT_EQ(at(texture, kBilinearClamp, -s, 0.3f), at(texture, kBilinearClamp, 0.0f, 0.3f));
   }
@@ -411,7 +421,8 @@ void expect_lanes_agree(const Texture2D& texture, const Sampler& sampler, bool s
 TEST(Texture, LanesHoldTheBitsOfFloat) {
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
     const Texture2D texture(noise(37, 64, 16), format);
-    for (const Sampler& sampler : {Sampler(), kBilinearClamp, kNearest, Sampler{Filter::nearest, Filter::trilinear, Wrap::clamp, Wrap::repeat}}) {
+    for (const Sampler& sampler :
+         {Sampler(), kBilinearClamp, kNearest, Sampler{Filter::nearest, Filter::trilinear, Wrap::clamp, Wrap::repeat}}) {
       for (const bool same_level : {true, false}) {
         expect_lanes_agree<4>(texture, sampler, same_level);
         expect_lanes_agree<8>(texture, sampler, same_level);

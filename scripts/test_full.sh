@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# The long tests: both compilers, all presets, lane widths and instruction sets, the mutation run, the cost figures.
+# Run before an issue is resolved; the last run stands in docs/testing.md.
+#
+#   scripts/test_full.sh [STEP...]     default: all steps; "scripts/test_full.sh list" names them
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/install_deps.sh --tests
+command -v clang++ > /dev/null || { echo "test_full.sh: clang++ is missing; install clang" >&2; exit 1; }
+
+jobs=$(nproc)
+# build_and_test NAME CMAKE_ARGUMENTS...
+build_and_test() {
+  local dir=build/full/$1
+  shift
+  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF "$@" > /dev/null
+  cmake --build "$dir" -- -j "$jobs" > "$dir/build.log" 2>&1 || { grep -E 'error|FAILED' "$dir/build.log" | head -20; return 1; }
+  ctest --test-dir "$dir" -j "$jobs" --output-on-failure > "$dir/ctest.log" 2>&1 || { tail -40 "$dir/ctest.log"; return 1; }
+  grep -E 'tests passed|Total Test time' "$dir/ctest.log"
+}
+sanitized() { build_and_test "$1" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON "${@:2}"; }
+
+declare -A steps
+names=()
+step() { names+=("$1"); steps[$1]=$2; }
+step gcc-native        "build_and_test gcc-native -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release"
+step clang-native      "build_and_test clang-native -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release"
+step gcc-v3            "build_and_test gcc-v3 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3"
+step clang-v3          "build_and_test clang-v3 -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3"
+step gcc-lanes1        "build_and_test gcc-lanes1 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=1"
+step gcc-lanes4        "build_and_test gcc-lanes4 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=4"
+step gcc-lanes8        "build_and_test gcc-lanes8 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=8"
+step gcc-O1            "build_and_test gcc-O1 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1"
+step dev               "sanitized dev -DCMAKE_CXX_COMPILER=g++"
+step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=g++ -DHALFSPACE_SANITIZE=address,undefined"
+step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=g++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
+step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
+step mutate            "scripts/mutate.sh"
+
+if [ "${1:-}" = list ]; then
+  printf '%s\n' "${names[@]}"
+  exit 0
+fi
+[ $# -gt 0 ] || set -- "${names[@]}"
+failed=()
+for name in "$@"; do
+  if [ -z "${steps[$name]:-}" ]; then
+    echo "test_full.sh: no step '$name'; expected one of: ${names[*]}" >&2
+    exit 2
+  fi
+  echo "== $name"
+  begin=$SECONDS
+  eval "${steps[$name]}" || failed+=("$name")
+  echo "   $((SECONDS - begin)) s"
+done
+if [ ${#failed[@]} -gt 0 ]; then
+  echo "failed: ${failed[*]}"
+  exit 1
+fi
+echo "all $# steps passed"
