@@ -124,10 +124,10 @@ PassStatistics Pass::run(const Workers& workers) {
   bool first_round = true;
   std::size_t next = 0;
   do {
-    // Waves of chunks until the budget or the ids are used up, or all is set up.
+    // Waves of chunks (at least one) until the budget or the ids are used up, or all is set up.
     std::size_t bytes = 0;
     frame_.chunks.clear();
-    while (next < work.size() && bytes < options_.bin_budget && frame_.chunks.size() + kWave <= kMaxChunks) {
+    while (next < work.size() && (frame_.chunks.empty() || bytes < options_.bin_budget) && frame_.chunks.size() + kWave <= kMaxChunks) {
       const std::size_t begin = frame_.chunks.size();
       const std::size_t count = std::min(kWave, work.size() - next);
       frame_.chunks.resize(begin + count);

@@ -111,7 +111,7 @@ template <class V, bool first, std::size_t N, std::size_t P>
 HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketTriangles<N, P>& out) {
   const TriangleSource source = find_triangle(frame, id);
   const TriangleScalars<N> s = triangle_scalars<V>(source);
-  const auto put = [m](Real& to, float value) {
+  const auto put = [=](Real& to, float value) {
     if constexpr (first) {
       to = Real(value);
     } else {

@@ -78,7 +78,7 @@ void store_depth_codes(const DepthTarget& target, int width, int height, const T
 
 // Sets all pixels to the first.
 void repeat_first_pixel(ColorBuffer& color) {
-  const auto repeat = [&color]<class T>(T* values, int count) { std::fill_n(values, count, *values); };
+  const auto repeat = []<class T>(T* values, int count) { std::fill_n(values, count, *values); };
   switch (color.format) {
     case ColorFormat::rgba32f:
       for (int k = 0; k < 4; ++k) repeat(planes<float>(color) + k * kMaxTilePixels, kMaxTilePixels);

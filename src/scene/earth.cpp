@@ -46,11 +46,23 @@ BlinnPhong earth_shader(const EarthOptions& o, const Texture2D& map) {
   return s;
 }
 
+// The built-in map, no finer than the view needs: a texel at the globe's middle is at most two pixels wide.
+int map_width(const EarthOptions& o) {
+  const double half_angle = sincos_radians(0.5 * kFovY).sin / sincos_radians(0.5 * kFovY).cos;
+  const double diameter_px = o.height / (glm::length(o.eye) * half_angle);
+  int width = 256;
+  while (width < 4096 && 2 * width < std::numbers::pi * diameter_px) width *= 2;
+  return width;
+}
+
+Image<glm::u8vec4> color_map(const EarthOptions& o, const Workers& workers) {
+  return o.color_map.empty() ? procedural_earth(map_width(o), map_width(o) / 2, workers) : read_image(o.color_map);
+}
+
 }  // namespace
 
 std::unique_ptr<EarthScene> make_earth(const EarthOptions& options, const Workers& workers) {
-  const Image<glm::u8vec4> map = options.color_map.empty() ? procedural_earth(1024, 512, workers) : read_image(options.color_map);
-  auto scene = std::make_unique<EarthScene>(EarthScene{Texture2D(map, TexelFormat::srgb8a8), uv_sphere(kLatitudes, kLongitudes, 1.0f), {}, {}, kSpace});
+  auto scene = std::make_unique<EarthScene>(EarthScene{Texture2D(color_map(options, workers), TexelFormat::srgb8a8), uv_sphere(kLatitudes, kLongitudes, 1.0f), {}, {}, kSpace});
   scene->shader = earth_shader(options, scene->map);
   scene->state.cull = CullMode::back;
   scene->state.depth.clip = ClipDepth::zero_to_one;

@@ -15,7 +15,9 @@ DrawState counting() {
   DrawState state;
   state.depth.test = false;
   state.depth.write = false;
-  state.blend = BlendState{.source_color = BlendFactor::one, .destination_color = BlendFactor::one, .source_alpha = BlendFactor::one,
+  state.blend = BlendState{.source_color = BlendFactor::one,
+                           .destination_color = BlendFactor::one,
+                           .source_alpha = BlendFactor::one,
                            .destination_alpha = BlendFactor::one};
   return state;
 }
@@ -39,7 +41,8 @@ struct SoupCase {
 // Why coverage may differ. It matters where a pixel hangs on the last 1/256 px: on thin triangles, and on edges through
 // pixel centres. Halfspace rounds the exact quotient x/w to the grid and does not clip at the window's edges.
 constexpr const char* kRounding = "rounds window coordinates to float before it snaps them to 1/256 px";
-constexpr const char* kClipping = "clips triangles at the window's edges to new vertices, which are snapped too, and rounds before it snaps";
+constexpr const char* kClipping =
+    "clips triangles at the window's edges to new vertices, which are snapped too, and rounds before it snaps";
 
 }  // namespace
 
@@ -54,15 +57,16 @@ TEST_P(CoverageOnGrid, IsTheSame) {
 }
 
 constexpr float kGrid = 1.0f / 256.0f;
-INSTANTIATE_TEST_SUITE_P(Soup, CoverageOnGrid,
-                         testing::Values(SoupCase{"tiny", {.triangles = 200000, .size = 2, .grid = kGrid, .inside = true}},                         //
-                                         SoupCase{"small", {.triangles = 20000, .size = 12, .grid = kGrid, .inside = true}},                        //
-                                         SoupCase{"large", {.triangles = 200, .size = 120, .grid = kGrid, .inside = true}},                         //
-                                         SoupCase{"slivers", {.triangles = 5000, .size = 120, .thickness = 0.7f, .grid = kGrid, .inside = true}},   //
-                                         SoupCase{"in_perspective", {.triangles = 2000, .size = 60, .w_ratio = 100, .grid = kGrid, .inside = true}},
-                                         SoupCase{"on_half_pixels", {.triangles = 5000, .size = 20, .grid = 0.5f, .inside = true}},                 //
-                                         SoupCase{"on_quarter_pixels", {.triangles = 50000, .size = 3, .grid = 0.25f, .inside = true}}),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(
+    Soup, CoverageOnGrid,
+    testing::Values(SoupCase{"tiny", {.triangles = 200000, .size = 2, .grid = kGrid, .inside = true}},                        //
+                    SoupCase{"small", {.triangles = 20000, .size = 12, .grid = kGrid, .inside = true}},                       //
+                    SoupCase{"large", {.triangles = 200, .size = 120, .grid = kGrid, .inside = true}},                        //
+                    SoupCase{"slivers", {.triangles = 5000, .size = 120, .thickness = 0.7f, .grid = kGrid, .inside = true}},  //
+                    SoupCase{"in_perspective", {.triangles = 2000, .size = 60, .w_ratio = 100, .grid = kGrid, .inside = true}},
+                    SoupCase{"on_half_pixels", {.triangles = 5000, .size = 20, .grid = 0.5f, .inside = true}},  //
+                    SoupCase{"on_quarter_pixels", {.triangles = 50000, .size = 3, .grid = 0.25f, .inside = true}}),
+    case_name);
 
 // Positions as they come.
 class CoverageOf : public MesaFixture<testing::TestWithParam<SoupCase>> {};
@@ -73,18 +77,19 @@ TEST_P(CoverageOf, DiffersOnAtMostOneFragmentInTenThousand) {
   expect_verdict(figures, GetParam().what_mesa_does);
 }
 
-INSTANTIATE_TEST_SUITE_P(Soup, CoverageOf,
-                         testing::Values(SoupCase{"tiny", {.triangles = 100000, .size = 2}, kRounding},                          //
-                                         SoupCase{"small", {.triangles = 20000, .size = 12}},                                    //
-                                         SoupCase{"large", {.triangles = 200, .size = 400}},                                     //
-                                         SoupCase{"beyond_the_window", {.triangles = 100, .size = 3000}},                        //
-                                         SoupCase{"beyond_the_guard_band", {.triangles = 100, .size = 40000}},                   //
-                                         SoupCase{"slivers", {.triangles = 5000, .size = 300, .thickness = 0.7f}, kClipping},    //
-                                         SoupCase{"slivers_inside", {.triangles = 5000, .size = 150, .thickness = 0.7f, .inside = true}, kRounding},
-                                         SoupCase{"in_perspective", {.triangles = 2000, .size = 60, .w_ratio = 100}},            //
-                                         SoupCase{"on_half_pixels", {.triangles = 5000, .size = 20, .grid = 0.5f}, kClipping},   //
-                                         SoupCase{"crossing_near", {.triangles = 300, .size = 150, .crosses_near = true}}),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(
+    Soup, CoverageOf,
+    testing::Values(SoupCase{"tiny", {.triangles = 100000, .size = 2}, kRounding},                        //
+                    SoupCase{"small", {.triangles = 20000, .size = 12}},                                  //
+                    SoupCase{"large", {.triangles = 200, .size = 400}},                                   //
+                    SoupCase{"beyond_the_window", {.triangles = 100, .size = 3000}},                      //
+                    SoupCase{"beyond_the_guard_band", {.triangles = 100, .size = 40000}},                 //
+                    SoupCase{"slivers", {.triangles = 5000, .size = 300, .thickness = 0.7f}, kClipping},  //
+                    SoupCase{"slivers_inside", {.triangles = 5000, .size = 150, .thickness = 0.7f, .inside = true}, kRounding},
+                    SoupCase{"in_perspective", {.triangles = 2000, .size = 60, .w_ratio = 100}},           //
+                    SoupCase{"on_half_pixels", {.triangles = 5000, .size = 20, .grid = 0.5f}, kClipping},  //
+                    SoupCase{"crossing_near", {.triangles = 300, .size = 150, .crosses_near = true}}),
+    case_name);
 
 using Coverage = MesaTest;
 

@@ -25,7 +25,8 @@ std::string coverage(const Picture& p) {
 TwinPass draw_polygon(const std::vector<glm::vec2>& corners_px) {
   ColoredMesh mesh;
   for (std::size_t i = 2; i < corners_px.size(); ++i)
-    add_triangle(mesh, kSize, kSize, {glm::vec3(corners_px[0], 0), glm::vec3(corners_px[i - 1], 0), glm::vec3(corners_px[i], 0)}, glm::vec4(1.0f));
+    add_triangle(mesh, kSize, kSize, {glm::vec3(corners_px[0], 0), glm::vec3(corners_px[i - 1], 0), glm::vec3(corners_px[i], 0)},
+                 glm::vec4(1.0f));
   TwinPass pass({.width = kSize, .height = kSize});
   pass.draw(OneColor{}, mesh.positions(), mesh.indices);
   pass.run();

@@ -54,8 +54,9 @@ std::unique_ptr<MesaContext> MesaContext::create(std::string& why_not) {
   EGLint configs = 0;
   eglChooseConfig(mesa->display_, want_config, &config, 1, &configs);
   if (configs == 0) return absent("Mesa offers no OpenGL configuration");
-  const EGLint want_context[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  const EGLint want_context[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   mesa->context_ = eglCreateContext(mesa->display_, config, EGL_NO_CONTEXT, want_context);
   if (mesa->context_ == EGL_NO_CONTEXT || !eglMakeCurrent(mesa->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, mesa->context_))
     return absent("Mesa makes no OpenGL 4.5 core context");

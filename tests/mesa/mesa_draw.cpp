@@ -68,8 +68,11 @@ GLenum gl(CompareOp op) {
   return k[static_cast<std::size_t>(op)];
 }
 GLenum gl(BlendFactor f) {
-  constexpr std::array<GLenum, 10> k{GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR,
-                                     GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA};
+  constexpr std::array<GLenum, 10> k{GL_ZERO,      GL_ONE,
+                                     GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR,
+                                     GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR,
+                                     GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA,
+                                     GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA};
   return k[static_cast<std::size_t>(f)];
 }
 GLenum gl(BlendEquation e) {
@@ -92,8 +95,7 @@ void set_state(const DrawState& s, const TargetSpec& target) {
   enable(GL_SCISSOR_TEST, s.scissor.has_value());
   if (s.scissor) glScissor(s.scissor->x, s.scissor->y, s.scissor->width, s.scissor->height);
   enable(GL_CULL_FACE, s.cull != CullMode::none);
-  if (s.cull != CullMode::none)
-    glCullFace(s.cull == CullMode::front ? GL_FRONT : s.cull == CullMode::back ? GL_BACK : GL_FRONT_AND_BACK);
+  if (s.cull != CullMode::none) glCullFace(s.cull == CullMode::front ? GL_FRONT : s.cull == CullMode::back ? GL_BACK : GL_FRONT_AND_BACK);
   glFrontFace(s.front == Winding::counter_clockwise ? GL_CCW : GL_CW);
   glProvokingVertex(s.provoking == ProvokingVertex::last ? GL_LAST_VERTEX_CONVENTION : GL_FIRST_VERTEX_CONVENTION);
   set_depth_state(s.depth);
@@ -136,7 +138,8 @@ void run(const MesaDraw& draw, const TargetSpec& target) {
   }
   const Buffer indices;
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.id);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(draw.indices.size() * sizeof(uint32_t)), draw.indices.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(draw.indices.size() * sizeof(uint32_t)), draw.indices.data(),
+               GL_STATIC_DRAW);
   set_state(draw.state, target);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(draw.indices.size()), GL_UNSIGNED_INT, nullptr);
 }
@@ -183,7 +186,9 @@ void UniformSetter::operator()(const char* name, const Texture2D& texture, const
   const auto set = [](GLenum what, GLenum value) { glTexParameteri(GL_TEXTURE_2D, what, static_cast<GLint>(value)); };
   const auto wrap = [](Wrap w) -> GLenum { return w == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE; };
   set(GL_TEXTURE_MAG_FILTER, sampler.mag == Filter::nearest ? GL_NEAREST : GL_LINEAR);
-  set(GL_TEXTURE_MIN_FILTER, sampler.min == Filter::nearest ? GL_NEAREST : sampler.min == Filter::bilinear ? GL_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
+  set(GL_TEXTURE_MIN_FILTER, sampler.min == Filter::nearest    ? GL_NEAREST
+                             : sampler.min == Filter::bilinear ? GL_LINEAR
+                                                               : GL_LINEAR_MIPMAP_LINEAR);
   set(GL_TEXTURE_WRAP_S, wrap(sampler.wrap_s));
   set(GL_TEXTURE_WRAP_T, wrap(sampler.wrap_t));
 }

@@ -26,17 +26,19 @@ glm::vec2 ndc_from_px(const glm::vec2& p, int width, int height) {
   return {2.0f * p.x / static_cast<float>(width) - 1.0f, 2.0f * p.y / static_cast<float>(height) - 1.0f};
 }
 
+// Braces, not parentheses, where two numbers are drawn: only they fix the order of evaluation.
 std::array<glm::vec2, 3> random_corners(const Soup& soup, Random& random, const glm::vec2& center) {
-  std::array<glm::vec2, 3> p;
+  std::array<glm::vec2, 3> corners;
   const float angle = random.uniform(0, 6.2831853f);
-  const glm::vec2 along(std::cos(angle), std::sin(angle));
-  for (glm::vec2& corner : p) {
-    corner = soup.thickness > 0.0f ? along * random.uniform(-soup.size, soup.size) + glm::vec2(-along.y, along.x) * random.uniform(-soup.thickness, soup.thickness)
-                                   : glm::vec2(random.uniform(-soup.size, soup.size), random.uniform(-soup.size, soup.size));
-    corner += center;
-    if (soup.grid > 0.0f) corner = glm::floor(corner / soup.grid) * soup.grid;
+  const glm::mat2 turn(std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle));
+  for (glm::vec2& p : corners) {
+    const float across = soup.thickness > 0.0f ? soup.thickness : soup.size;
+    p = glm::vec2{random.uniform(-soup.size, soup.size), random.uniform(-across, across)};
+    if (soup.thickness > 0.0f) p = turn * p;
+    p += center;
+    if (soup.grid > 0.0f) p = glm::floor(p / soup.grid) * soup.grid;
   }
-  return p;
+  return corners;
 }
 
 }  // namespace
@@ -46,7 +48,8 @@ ColoredMesh make_soup(const Soup& soup, int width, int height) {
   ColoredMesh mesh;
   const float margin = soup.inside ? soup.size : 0.0f;
   for (int i = 0; i < soup.triangles; ++i) {
-    const glm::vec2 center(random.uniform(margin, static_cast<float>(width) - margin), random.uniform(margin, static_cast<float>(height) - margin));
+    const glm::vec2 center{random.uniform(margin, static_cast<float>(width) - margin),
+                           random.uniform(margin, static_cast<float>(height) - margin)};
     for (const glm::vec2& corner : random_corners(soup, random, center)) {
       float w = random.uniform(1.0f, soup.w_ratio);
       if (soup.grid > 0.0f) w = std::exp2(std::floor(std::log2(w)));
@@ -78,7 +81,8 @@ ColoredMesh make_sheet(int columns, int rows, float jitter, uint32_t seed, float
   const auto at = [columns](int i, int j) { return static_cast<uint32_t>(j * (columns + 1) + i); };
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i)
-      for (const uint32_t k : {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)}) mesh.indices.push_back(k);
+      for (const uint32_t k : {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
+        mesh.indices.push_back(k);
   return mesh;
 }
 
@@ -108,7 +112,8 @@ ColoredMesh make_tiny(int width, int height) {
 }
 
 VertexView Sphere::view() const {
-  return halfspace::vertices(stream(vertices, &SphereVertex::position), stream(vertices, &SphereVertex::normal), stream(vertices, &SphereVertex::uv));
+  return halfspace::vertices(stream(vertices, &SphereVertex::position), stream(vertices, &SphereVertex::normal),
+                             stream(vertices, &SphereVertex::uv));
 }
 
 Sphere make_sphere(int rows, int columns) {

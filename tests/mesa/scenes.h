@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes for the comparison: deterministic, the same on every machine.
+// Meshes for the comparison: the same on every machine, but for the last bit of libm's sin and cos.
 #pragma once
 
 #include <random>

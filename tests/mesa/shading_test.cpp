@@ -30,7 +30,8 @@ struct SoupCase {
 // Halfspace interpolates between the snapped vertices, Mesa between those before snapping: GL allows both. A colour that
 // changes by 1 within a pixel differs by up to 1/256 for it, and thin triangles are covered a little differently.
 constexpr const char* kUnsnapped = "interpolates between unsnapped vertices, and clips at the window's edges to new ones";
-constexpr const char* kClippedLinear = "loses noperspective varyings of triangles in perspective that it clips at the window's edges (22.3: even a constant becomes 0)";
+constexpr const char* kClippedLinear =
+    "loses noperspective varyings of triangles in perspective that it clips at the window's edges (22.3: even a constant becomes 0)";
 constexpr const char* kFastLog2 = "chooses the level of detail by an approximate log2, off by up to 0.04 levels";
 
 }  // namespace
@@ -63,13 +64,14 @@ TEST_P(ColorsOnGrid, FlatFromTheLastVertex) { draw(FlatColor{}); }
 TEST_P(ColorsOnGrid, FlatFromTheFirstVertex) { draw(FlatColor{}, kFirstVertex); }
 
 constexpr float kGrid = 1.0f / 256.0f;
-INSTANTIATE_TEST_SUITE_P(Soup, ColorsOnGrid,
-                         testing::Values(SoupCase{"tiny", {.triangles = 50000, .size = 2, .grid = kGrid, .inside = true}},      //
-                                         SoupCase{"small", {.triangles = 10000, .size = 12, .grid = kGrid, .inside = true}},     //
-                                         SoupCase{"large", {.triangles = 100, .size = 120, .grid = kGrid, .inside = true}},      //
-                                         SoupCase{"slivers", {.triangles = 2000, .size = 120, .thickness = 0.7f, .grid = kGrid, .inside = true}},
-                                         SoupCase{"in_perspective", {.triangles = 500, .size = 100, .w_ratio = 100, .grid = kGrid, .inside = true}}),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(
+    Soup, ColorsOnGrid,
+    testing::Values(SoupCase{"tiny", {.triangles = 50000, .size = 2, .grid = kGrid, .inside = true}},    //
+                    SoupCase{"small", {.triangles = 10000, .size = 12, .grid = kGrid, .inside = true}},  //
+                    SoupCase{"large", {.triangles = 100, .size = 120, .grid = kGrid, .inside = true}},   //
+                    SoupCase{"slivers", {.triangles = 2000, .size = 120, .thickness = 0.7f, .grid = kGrid, .inside = true}},
+                    SoupCase{"in_perspective", {.triangles = 500, .size = 100, .w_ratio = 100, .grid = kGrid, .inside = true}}),
+    case_name);
 
 // Positions as they come, beyond the window and through the near plane too.
 class ColorsOf : public SoupTest {
@@ -87,11 +89,11 @@ TEST_P(ColorsOf, FlatFromTheLastVertex) { draw(FlatColor{}); }
 TEST_P(ColorsOf, FlatFromTheFirstVertex) { draw(FlatColor{}, kFirstVertex); }
 
 INSTANTIATE_TEST_SUITE_P(Soup, ColorsOf,
-                         testing::Values(SoupCase{"tiny", {.triangles = 50000, .size = 2}, kUnsnapped},                            //
-                                         SoupCase{"small", {.triangles = 10000, .size = 12}},                                       //
-                                         SoupCase{"large", {.triangles = 100, .size = 400}},                                        //
-                                         SoupCase{"slivers", {.triangles = 2000, .size = 300, .thickness = 0.7f}, kUnsnapped},      //
-                                         SoupCase{"in_perspective", {.triangles = 500, .size = 100, .w_ratio = 100}},               //
+                         testing::Values(SoupCase{"tiny", {.triangles = 50000, .size = 2}, kUnsnapped},                         //
+                                         SoupCase{"small", {.triangles = 10000, .size = 12}},                                   //
+                                         SoupCase{"large", {.triangles = 100, .size = 400}},                                    //
+                                         SoupCase{"slivers", {.triangles = 2000, .size = 300, .thickness = 0.7f}, kUnsnapped},  //
+                                         SoupCase{"in_perspective", {.triangles = 500, .size = 100, .w_ratio = 100}},           //
                                          SoupCase{"crossing_near", {.triangles = 60, .size = 150, .crosses_near = true}}),
                          case_name);
 

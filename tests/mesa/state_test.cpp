@@ -39,12 +39,9 @@ DrawState with_window(std::optional<Rect> viewport, std::optional<Rect> scissor)
 }
 
 std::vector<StateCase> cull_cases() {
-  return {{"cull_none_ccw", with_cull(CullMode::none)},
-          {"cull_none_cw", with_cull(CullMode::none, Winding::clockwise)},
-          {"cull_front_ccw", with_cull(CullMode::front)},
-          {"cull_front_cw", with_cull(CullMode::front, Winding::clockwise)},
-          {"cull_back_ccw", with_cull(CullMode::back)},
-          {"cull_back_cw", with_cull(CullMode::back, Winding::clockwise)}};
+  return {{"cull_none_ccw", with_cull(CullMode::none)},   {"cull_none_cw", with_cull(CullMode::none, Winding::clockwise)},
+          {"cull_front_ccw", with_cull(CullMode::front)}, {"cull_front_cw", with_cull(CullMode::front, Winding::clockwise)},
+          {"cull_back_ccw", with_cull(CullMode::back)},   {"cull_back_cw", with_cull(CullMode::back, Winding::clockwise)}};
 }
 
 // `never` and `equal` have tests of their own. From a depth of 0.5 every operator passes some fragments and fails some.

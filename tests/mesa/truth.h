@@ -59,7 +59,10 @@ class TruthDrawOf final : public TruthDraw {
 
  public:
   TruthDrawOf(const S& shader, const VertexView& view, std::vector<uint32_t> indices, const DrawState& state, const TargetSpec& target)
-      : shader_(shader), indices_(std::move(indices)), state_(state), format_(target.format),
+      : shader_(shader),
+        indices_(std::move(indices)),
+        state_(state),
+        format_(target.format),
         viewport_(state.viewport.value_or(Rect{0, 0, target.width, target.height})) {
     for (std::size_t i = 0; i < view.vertex_count; ++i) shade_vertex(view, i);
     for (std::size_t i = 0; i + 2 < indices_.size(); i += 3) {
@@ -84,7 +87,8 @@ class TruthDrawOf final : public TruthDraw {
     std::size_t c = 0;
     for (int s = 0; s < view.stream_count; ++s) {
       const VertexStream& stream = view.streams[static_cast<std::size_t>(s)];
-      for (int k = 0; k < stream.components; ++k) row[c++] = stream.data[i * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)];
+      for (int k = 0; k < stream.components; ++k)
+        row[c++] = stream.data[i * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)];
     }
     V out{};
     pos_clip_.push_back(shader_.vertex(from_components<A, float>(row), out));
@@ -108,7 +112,8 @@ class TruthDrawOf final : public TruthDraw {
     pixel.codes = state_.blend ? truth_blend(color, pixel.codes, *state_.blend, format_) : truth_codes(color, format_);
   }
 
-  glm::dvec4 shade(const TruthTriangle& t, const std::array<double, 3>& b, const std::array<uint32_t, 3>& id, const glm::dvec2& center, double z) const {
+  glm::dvec4 shade(const TruthTriangle& t, const std::array<double, 3>& b, const std::array<uint32_t, 3>& id, const glm::dvec2& center,
+                   double z) const {
     const double q = b[0] * t.q[0] + b[1] * t.q[1] + b[2] * t.q[2];
     const std::size_t provoking = id[state_.provoking == ProvokingVertex::last ? 2 : 0];
     std::array<double, kN> varyings;
@@ -126,8 +131,8 @@ class TruthDrawOf final : public TruthDraw {
       lanes.delta1[c] = v[1] - v[0];
       lanes.delta2[c] = v[2] - v[0];
     }
-    TriangleLanes<double> triangle{t.x[0], t.y[0], t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0],
-                                   t.area, t.q[0], t.q[1],          t.q[2],          1.0};
+    TriangleLanes<double> triangle{
+        t.x[0], t.y[0], t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0], t.area, t.q[0], t.q[1], t.q[2], 1.0};
     Pixel<double> px{};
     px.x = center.x;
     px.y = center.y;

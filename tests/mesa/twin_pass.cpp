@@ -52,8 +52,10 @@ Figures TwinPass::figures(int most_judged) const {
       f.coverage_differs += (a.w == 0) != (b.w == 0);
       const bool depth_differs = std::fabs(ours_.depth.at(x, row) - mesa_.depth.at(x, row)) > kDepthTolerance;
       f.depth_differs += depth_differs;
-      if (d > 1) differing.emplace_back(x, row);
-      else if (depth_differs) depths.emplace_back(x, row);
+      if (d > 1)
+        differing.emplace_back(x, row);
+      else if (depth_differs)
+        depths.emplace_back(x, row);
     }
   }
   f.color_differs = static_cast<int64_t>(differing.size());
@@ -125,15 +127,17 @@ void TwinPass::judge_depths(const std::vector<std::pair<int, int>>& pixels, int 
 
 void report(const Figures& f) {
   const auto n = [](int64_t v) { return static_cast<long long>(v); };
-  std::printf("  covered %lld  coverage differs %lld (%.4f%%)  colour differs %lld (%.4f%%)  worst %d/255  depth differs %lld\n", n(f.covered),
-              n(f.coverage_differs), 100.0 * f.coverage_share(), n(f.color_differs), 100.0 * f.color_share(), f.worst, n(f.depth_differs));
+  std::printf("  covered %lld  coverage differs %lld (%.4f%%)  colour differs %lld (%.4f%%)  worst %d/255  depth differs %lld\n",
+              n(f.covered), n(f.coverage_differs), 100.0 * f.coverage_share(), n(f.color_differs), 100.0 * f.color_share(), f.worst,
+              n(f.depth_differs));
   if (f.halfspace_depth_error + f.mesa_depth_error > 0.0)
     std::printf("  largest depth error where depths differ: Halfspace %.2g, Mesa %.2g\n", f.halfspace_depth_error, f.mesa_depth_error);
   if (f.halfspace_right_beside != 0)
     std::printf("  Halfspace right for a point within 1/256 px of the pixel's centre: %lld more\n", n(f.halfspace_right_beside));
   if (f.judged != 0)
-    std::printf("  of %lld judged in double: Halfspace right %lld, Mesa %lld of vertices on the 1/256 px grid; %lld and %lld of unsnapped ones\n", n(f.judged),
-                n(f.halfspace_right), n(f.mesa_right), n(f.halfspace_right_exact), n(f.mesa_right_exact));
+    std::printf(
+        "  of %lld judged in double: Halfspace right %lld, Mesa %lld of vertices on the 1/256 px grid; %lld and %lld of unsnapped ones\n",
+        n(f.judged), n(f.halfspace_right), n(f.mesa_right), n(f.halfspace_right_exact), n(f.mesa_right_exact));
   testing::Test::RecordProperty("covered", std::to_string(f.covered));
   testing::Test::RecordProperty("coverage_differs", std::to_string(f.coverage_differs));
   testing::Test::RecordProperty("color_differs", std::to_string(f.color_differs));

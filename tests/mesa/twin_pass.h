@@ -31,7 +31,9 @@ struct Figures {
   double halfspace_depth_error = 0.0, mesa_depth_error = 0.0;
 
   /// The share of the judged pixels where Halfspace errs (all, if none was judged).
-  double halfspace_wrong() const { return judged == 0 ? 1.0 : 1.0 - static_cast<double>(halfspace_right + halfspace_right_beside) / static_cast<double>(judged); }
+  double halfspace_wrong() const {
+    return judged == 0 ? 1.0 : 1.0 - static_cast<double>(halfspace_right + halfspace_right_beside) / static_cast<double>(judged);
+  }
   double coverage_share() const { return share(coverage_differs); }
   double color_share() const { return share(color_differs); }
 
@@ -46,11 +48,10 @@ class TwinPass {
   /// Adds a draw to both. Vertices, indices and textures must outlive run().
   template <Shader S>
   void draw(const S& shader, const VertexView& vertices, const std::vector<uint32_t>& indices, const DrawState& state = {}) {
-    our_draws_.push_back([=, this](Pass& pass) {
-      lists_.push_back(std::make_unique<Indices>(indices_of(indices, vertices.vertex_count)));
-      pass.draw(shader, vertices, *lists_.back(), state);
-    });
-    mesa_draws_.push_back({kSharedGlsl, S::kVertexGlsl, S::kFragmentGlsl, [shader](const UniformSetter& set) { shader.uniforms(set); }, vertices, indices, state});
+    const auto list = std::make_shared<const Indices>(indices, vertices.vertex_count);
+    our_draws_.push_back([=](Pass& pass) { pass.draw(shader, vertices, *list, state); });
+    mesa_draws_.push_back({kSharedGlsl, S::kVertexGlsl, S::kFragmentGlsl, [shader](const UniformSetter& set) { shader.uniforms(set); },
+                           vertices, indices, state});
     truths_.push_back(std::make_unique<TruthDrawOf<S>>(shader, vertices, indices, state, target_));
   }
 
@@ -59,7 +60,8 @@ class TwinPass {
   const Picture& halfspace() const { return ours_; }
   const Picture& mesa() const { return mesa_; }
 
-  /// Compares the pictures, and judges up to most_judged differing pixels in double precision.
+  /// Compares the pictures, and judges up to most_judged differing pixels in double precision. With the environment
+  /// variable HALFSPACE_MESA_PIXELS set, the judged pixels are printed.
   Figures figures(int most_judged = 0) const;
   /// For additive draws of 1/255: the number of fragments of every pixel, compared; covered counts fragments.
   Figures fragment_figures(int most_judged = 0) const;
@@ -67,7 +69,6 @@ class TwinPass {
   TruthPixel truth(int x, int row, Positions positions, const glm::dvec2& beside = glm::dvec2(0.0)) const;
 
  private:
-  static Indices indices_of(const std::vector<uint32_t>& list, std::size_t vertex_count) { return Indices(list, vertex_count); }
   void judge_some(const std::vector<std::pair<int, int>>& pixels, int most, int tolerance, Figures& f) const;
   void judge(int x, int row, int tolerance, Figures& f) const;
   bool is_right_beside(int x, int row, int tolerance) const;
@@ -77,7 +78,6 @@ class TwinPass {
   std::vector<std::function<void(Pass&)>> our_draws_;
   std::vector<MesaDraw> mesa_draws_;
   std::vector<std::unique_ptr<TruthDraw>> truths_;
-  std::vector<std::unique_ptr<Indices>> lists_;
   Picture ours_, mesa_;
 };
 

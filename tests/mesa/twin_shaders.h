@@ -44,10 +44,18 @@ inline constexpr const char* kSharedGlsl = R"(#version 450 core
 
 /// Perspective-correct colours. Positions are in clip space.
 struct SmoothColor {
-  template <class R> struct Attributes { vec4<R> pos_clip; vec4<R> color; };
-  template <class R> struct Varyings { vec4<R> color; };
+  template <class R>
+  struct Attributes {
+    vec4<R> pos_clip;
+    vec4<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> color;
+  };
 
-  template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.color = in.color;
     return in.pos_clip;
   }
@@ -60,7 +68,8 @@ struct SmoothColor {
       gl_Position = pos_clip;
     })";
 
-  template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {in.color};
   }
   static constexpr const char* kFragmentGlsl = R"(
@@ -68,15 +77,24 @@ struct SmoothColor {
     out vec4 fragment;
     void main() { fragment = color; })";
 
-  template <class Set> void uniforms(const Set&) const {}
+  template <class Set>
+  void uniforms(const Set&) const {}
 };
 
 /// The provoking vertex's colour.
 struct FlatColor {
-  template <class R> struct Attributes { vec4<R> pos_clip; vec4<R> color; };
-  template <class R> struct Varyings { Flat<vec4<R>> color; };
+  template <class R>
+  struct Attributes {
+    vec4<R> pos_clip;
+    vec4<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    Flat<vec4<R>> color;
+  };
 
-  template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.color.value = in.color;
     return in.pos_clip;
   }
@@ -89,7 +107,8 @@ struct FlatColor {
       gl_Position = pos_clip;
     })";
 
-  template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {in.color.value};
   }
   static constexpr const char* kFragmentGlsl = R"(
@@ -97,15 +116,24 @@ struct FlatColor {
     out vec4 fragment;
     void main() { fragment = color; })";
 
-  template <class Set> void uniforms(const Set&) const {}
+  template <class Set>
+  void uniforms(const Set&) const {}
 };
 
 /// Colours that vary linearly in the window, whatever the perspective.
 struct LinearColor {
-  template <class R> struct Attributes { vec4<R> pos_clip; vec4<R> color; };
-  template <class R> struct Varyings { Linear<vec4<R>> color; };
+  template <class R>
+  struct Attributes {
+    vec4<R> pos_clip;
+    vec4<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    Linear<vec4<R>> color;
+  };
 
-  template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.color.value = in.color;
     return in.pos_clip;
   }
@@ -118,7 +146,8 @@ struct LinearColor {
       gl_Position = pos_clip;
     })";
 
-  template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {in.color.value};
   }
   static constexpr const char* kFragmentGlsl = R"(
@@ -126,24 +155,31 @@ struct LinearColor {
     out vec4 fragment;
     void main() { fragment = color; })";
 
-  template <class Set> void uniforms(const Set&) const {}
+  template <class Set>
+  void uniforms(const Set&) const {}
 };
 
 /// One colour for all pixels.
 struct OneColor {
   glm::vec4 color{1.0f};
 
-  template <class R> struct Attributes { vec4<R> pos_clip; };
-  template <class R> struct Varyings {};
+  template <class R>
+  struct Attributes {
+    vec4<R> pos_clip;
+  };
+  template <class R>
+  struct Varyings {};
 
-  template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return in.pos_clip;
   }
   static constexpr const char* kVertexGlsl = R"(
     layout(location = 0) in vec4 pos_clip;
     void main() { gl_Position = pos_clip; })";
 
-  template <class R> Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
     return {vec4<R>(R(color.x), R(color.y), R(color.z), R(color.w))};
   }
   static constexpr const char* kFragmentGlsl = R"(
@@ -151,7 +187,10 @@ struct OneColor {
     out vec4 fragment;
     void main() { fragment = color; })";
 
-  template <class Set> void uniforms(const Set& set) const { set("color", color); }
+  template <class Set>
+  void uniforms(const Set& set) const {
+    set("color", color);
+  }
 };
 
 // ---- Blinn and Phong's light on a sphere: per pixel, per vertex, per triangle ---------------------------------------
@@ -162,8 +201,13 @@ struct Lit {
   glm::vec3 eye{0.0f}, light{0.0f};
   glm::vec3 base{1.0f};
 
-  template <class R> struct Attributes { vec3<R> position, normal; vec2<R> uv; };
-  template <class Set> void uniforms(const Set& set) const {
+  template <class R>
+  struct Attributes {
+    vec3<R> position, normal;
+    vec2<R> uv;
+  };
+  template <class Set>
+  void uniforms(const Set& set) const {
     set("clip_from_world", clip_from_world);
     set("eye", eye);
     set("light", light);
@@ -172,9 +216,13 @@ struct Lit {
 };
 
 struct PhongPerPixel : Lit {
-  template <class R> struct Varyings { vec3<R> position, normal; };
+  template <class R>
+  struct Varyings {
+    vec3<R> position, normal;
+  };
 
-  template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.position = in.position;
     out.normal = in.normal;
     return clip_from_world * vec4<R>(in.position, R(1.0f));
@@ -190,7 +238,8 @@ struct PhongPerPixel : Lit {
       gl_Position = transform(clip_from_world, vec4(in_position, 1.0));
     })";
 
-  template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     const vec2<R> lit = blinn_phong(in.position, in.normal, eye, light);
     return {vec4<R>(base * lit.x + vec3<R>(lit.y), R(1.0f))};
   }
@@ -209,9 +258,14 @@ struct TexturedPhong : Lit {
   const Texture2D* albedo = nullptr;
   Sampler sampler;
 
-  template <class R> struct Varyings { vec3<R> position, normal; vec2<R> uv; };
+  template <class R>
+  struct Varyings {
+    vec3<R> position, normal;
+    vec2<R> uv;
+  };
 
-  template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.position = in.position;
     out.normal = in.normal;
     out.uv = in.uv;
@@ -231,7 +285,8 @@ struct TexturedPhong : Lit {
       gl_Position = transform(clip_from_world, vec4(in_position, 1.0));
     })";
 
-  template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec2<R> lit = blinn_phong(in.position, in.normal, eye, light);
     const vec4<R> texel = albedo->sample(sampler, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv));
     return {vec4<R>(vec3<R>(texel) * lit.x + vec3<R>(lit.y), R(1.0f))};
@@ -248,7 +303,8 @@ struct TexturedPhong : Lit {
       fragment = vec4(texel.rgb * lit.x + vec3(lit.y), 1.0);
     })";
 
-  template <class Set> void uniforms(const Set& set) const {
+  template <class Set>
+  void uniforms(const Set& set) const {
     Lit::uniforms(set);
     set("albedo", *albedo, sampler);
   }
@@ -270,9 +326,13 @@ struct ImplicitlyTexturedPhong : TexturedPhong {
 };
 
 struct Gouraud : Lit {
-  template <class R> struct Varyings { vec2<R> lit; };
+  template <class R>
+  struct Varyings {
+    vec2<R> lit;
+  };
 
-  template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.lit = blinn_phong(in.position, in.normal, eye, light);
     return clip_from_world * vec4<R>(in.position, R(1.0f));
   }
@@ -287,7 +347,8 @@ struct Gouraud : Lit {
       gl_Position = transform(clip_from_world, vec4(in_position, 1.0));
     })";
 
-  template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {vec4<R>(base * in.lit.x + vec3<R>(in.lit.y), R(1.0f))};
   }
   static constexpr const char* kFragmentGlsl = R"(
@@ -298,9 +359,13 @@ struct Gouraud : Lit {
 };
 
 struct FlatLit : Lit {
-  template <class R> struct Varyings { Flat<vec2<R>> lit; };
+  template <class R>
+  struct Varyings {
+    Flat<vec2<R>> lit;
+  };
 
-  template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.lit.value = blinn_phong(in.position, in.normal, eye, light);
     return clip_from_world * vec4<R>(in.position, R(1.0f));
   }
@@ -315,7 +380,8 @@ struct FlatLit : Lit {
       gl_Position = transform(clip_from_world, vec4(in_position, 1.0));
     })";
 
-  template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {vec4<R>(base * in.lit.value.x + vec3<R>(in.lit.value.y), R(1.0f))};
   }
   static constexpr const char* kFragmentGlsl = R"(

@@ -220,11 +220,13 @@ BlendState random_blend(Random& random) {
   return b;
 }
 
-DepthState random_depth(Random& random) {
+// Mostly a test that something can pass against the cleared depth.
+DepthState random_depth(float clear_value, Random& random) {
   DepthState d;
-  d.test = !random.once_in(6);
+  d.test = !random.once_in(8);
   d.write = !random.once_in(5);
-  d.compare = random.once_in(2) ? random.pick({CompareOp::less, CompareOp::less_equal, CompareOp::greater}) : static_cast<CompareOp>(random.below(kCompareOps));
+  d.compare = clear_value < 0.5f ? random.pick({CompareOp::greater, CompareOp::greater_equal}) : random.pick({CompareOp::less, CompareOp::less_equal});
+  if (random.once_in(3)) d.compare = static_cast<CompareOp>(random.below(kCompareOps));
   d.clip = random.once_in(2) ? ClipDepth::zero_to_one : ClipDepth::negative_one_to_one;
   d.clamp = random.once_in(4);
   if (random.once_in(4)) {
@@ -239,10 +241,10 @@ DrawState random_state(const Scene& scene, Theme theme, Random& random) {
   if (random.once_in(4)) s.viewport = random_rect(scene.width, scene.height, random);
   if (random.once_in(4)) s.scissor = random_rect(scene.width, scene.height, random);
   if (s.scissor && random.once_in(10)) s.scissor->width = 0;
-  if (random.once_in(3)) s.cull = random.pick({CullMode::front, CullMode::back, CullMode::back, CullMode::front_and_back});
+  if (random.once_in(3)) s.cull = random.pick({CullMode::front, CullMode::front, CullMode::back, CullMode::back, CullMode::front_and_back});
   if (random.once_in(3)) s.front = Winding::clockwise;
   if (random.once_in(2)) s.provoking = ProvokingVertex::first;
-  s.depth = random_depth(random);
+  s.depth = random_depth(scene.depth.clear_value, random);
   if (random.once_in(4)) {
     s.offset.slope = random.real(-2.0f, 2.0f);
     s.offset.constant = random.pick({0.0f, 1.0f, -3.0f, 1000.0f});
@@ -256,6 +258,7 @@ Kind random_kind(Theme theme, Random& random) {
   if (theme == Theme::clipped && !random.once_in(4)) {
     return random.pick({Kind::behind_the_eye, Kind::crossing_depth, Kind::beyond_guard, Kind::steep, Kind::tiny_w, Kind::huge, Kind::non_finite});
   }
+  if (random.once_in(2)) return random.pick({Kind::whole_target, Kind::medium, Kind::medium, Kind::mesh, Kind::fan, Kind::huge});  // what fills pixels
   return static_cast<Kind>(random.below(kKinds));
 }
 
@@ -337,7 +340,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
   s.color.format = depth_only ? ColorFormat::none : random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
   s.depth.format = random.pick({DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16, DepthFormat::none});
   s.color.clear_value = {random.real(0, 1), random.real(0, 1), random.real(-0.5f, 1.5f), random.real(0, 1)};
-  s.depth.clear_value = random.pick({0.0f, 0.5f, 1.0f});
+  s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});
   if (random.once_in(4)) {
     fill_images(s, random);
     s.color.load = s.depth.load = LoadOp::load;
@@ -357,7 +360,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
       g = {};
       matrix = random_matrix(random);
       const Rect viewport = state.viewport.value_or(Rect{0, 0, s.width, s.height});
-      const int kinds = theme == Theme::many_draws ? random.between(0, 2) : random.between(1, 8);
+      const int kinds = theme == Theme::many_draws ? random.between(0, 3) : random.between(2, 10);
       for (int k = 0; k < kinds; ++k) add_triangles(random_kind(theme, random), viewport, state.depth.clip, random, g);
     } else if (random.once_in(2)) {
       state.depth = s.draws.back().state.depth;
