@@ -60,7 +60,7 @@ template <class R>
 HS_INLINE MantissaExponent<R> split(R x) {
   const IntOf<R> root_half = 0x3f3504f3;  // the bits of sqrt(1/2)
   const MaskOf<R> subnormal = x < R(0x1p-126f);
-  const IntOf<R> i = as_int(select(subnormal, x * R(0x1p23f), x)) - root_half;
+  const IntOf<R> i = (as_int(select(subnormal, x * R(0x1p23f), x)) & 0x7fffffff) - root_half;  // no sign: no overflow for x < 0
   return {as_real((i & 0x7fffff) + root_half), (i >> 23) - select(subnormal, IntOf<R>(23), IntOf<R>(0))};
 }
 

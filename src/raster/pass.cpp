@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/float_mode.h"
 #include "raster/bin.h"
 #include "raster/clip.h"
 #include "raster/setup.h"
@@ -52,6 +53,7 @@ Pass::Pass(int width, int height, const ColorTarget& color, const DepthTarget& d
 
 void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> shader, const VertexView& vertices,
                     std::shared_ptr<const Indices> indices, const DrawState& state) {
+  const FloatMode mode;  // the viewport transform is computed here, not in a task
   HS_CHECK_OP(std::size_t{indices->end_vertex()}, <=, vertices.vertex_count);
   HS_CHECK(kernels.fragment != nullptr || color_.format == ColorFormat::none);
   HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);

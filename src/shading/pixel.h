@@ -6,12 +6,14 @@
 // weights, component values there, their exact derivatives, and values at other pixels of the 2x2 quad.
 //
 // Let d = p − v0, e1 = v1 − v0, e2 = v2 − v0 in units of 1/256 px (whole numbers, exact in a float), and
-//   E1 = d × e2,  E2 = e1 × d,  A = e1 × e2        so that E1/A and E2/A are the barycentric weights of v1 and v2.
-// With q = 1/w the perspective weights (OpenGL 4.6, section 14.6.1, equation 14.9) are
-//   p1 = E1·q1 / D,  p2 = E2·q2 / D,  D = A·q0 + E1·(q1 − q0) + E2·(q2 − q0),
-// where v0 is the vertex with the smallest q: every term of D is then non-negative inside the triangle, nothing cancels,
-// and a = a0 + p1·(a1 − a0) + p2·(a2 − a0) errs by a few units in the last place of the largest |a| at any triangle
-// shape. The 2x2 determinants come from difference_of_products.
+//   E0 = (e1 − d) × (e2 − d),  E1 = d × e2,  E2 = e1 × d,  A = e1 × e2 = E0 + E1 + E2,
+// so that E0/A, E1/A and E2/A are the barycentric weights. With q = 1/w the perspective weights (OpenGL 4.6, section
+// 14.6.1, equation 14.9) are
+//   pi = Ei·qi / D,  D = E0·q0 + E1·q1 + E2·q2.
+// Inside of the triangle every term of D is non-negative, and the 2x2 determinants come from difference_of_products, so
+// nothing cancels at any shape of triangle and any ratio of w. A value is a = a0 + p1·(a1 − a0) + p2·(a2 − a0), which
+// keeps constants exact but counts an error of the weights up to twice: `normalized` takes out of the weights what
+// division and sum have put in. Then a errs by less than 3e-7 of the largest |ai|.
 #pragma once
 
 #include <array>
@@ -39,13 +41,29 @@ struct Weights {
   R denominator;  ///< D above: 1/w at the point is D / A, rescaled
 };
 
+/// n1 and n2 over the sum of all three. The quotients are rounded, and so is the sum; what they lack of adding up to 1
+/// is then shared out. 1 − larger is exact where it matters: from 1/2 on.
+template <class R>
+struct Normalized {
+  R p1, p2, sum;
+};
+template <class R>
+HS_INLINE Normalized<R> normalized(R n0, R n1, R n2) {
+  const R sum = n0 + (n1 + n2);
+  const R inverse = R(1) / sum;
+  const R p1 = n1 * inverse, p2 = n2 * inverse;
+  const R rest = fma(-n0, inverse, (R(1) - max(p1, p2)) - min(p1, p2));
+  return {fma(p1, rest, p1), fma(p2, rest, p2), sum};
+}
+
 template <class R>
 HS_INLINE Weights<R> weights_at(const TriangleLanes<R>& t, R dx, R dy) {
+  const R e0 = difference_of_products(t.e1x - dx, t.e2y - dy, t.e1y - dy, t.e2x - dx);
   const R e1 = difference_of_products(dx, t.e2y, dy, t.e2x);
   const R e2 = difference_of_products(t.e1x, dy, t.e1y, dx);
-  const R d = fma(e1, t.q1 - t.q0, fma(e2, t.q2 - t.q0, t.area * t.q0));
-  const R inverse = R(1) / d;
-  return {(e1 * t.q1) * inverse, (e2 * t.q2) * inverse, e1 / t.area, e2 / t.area, d};
+  const Normalized<R> p = normalized(e0 * t.q0, e1 * t.q1, e2 * t.q2);
+  const Normalized<R> b = normalized(e0, e1, e2);
+  return {p.p1, p.p2, b.p1, b.p2, p.sum};
 }
 
 /// One component at a point with weights w: value0 at v0, and its differences to v1 and v2.
@@ -86,12 +104,12 @@ struct Pixel {
   /// d/dx of a varying, per pixel: px.ddx(&Varyings<R>::uv). Exact by the triangle's plane, with no helper lanes.
   template <class V, class F>
   HS_INLINE F ddx(F V::*member) const {
-    return derivative(member, R(256) * triangle->e2y, R(-256) * triangle->e1y);
+    return derivative(member, dy, triangle->e1y, triangle->e2y, R(256));
   }
   /// d/dy of a varying, per pixel (y up).
   template <class V, class F>
   HS_INLINE F ddy(F V::*member) const {
-    return derivative(member, R(-256) * triangle->e2x, R(256) * triangle->e1x);
+    return derivative(member, dx, triangle->e1x, triangle->e2x, R(-256));
   }
 
   /// The varyings V at pixel (i, j) of the 2x2 quad that holds this pixel (i, j in {0, 1}; quads start at even window
@@ -117,15 +135,19 @@ struct Pixel {
     return *static_cast<const ComponentLanes<R, kComponents<V>>*>(component_lanes);
   }
 
-  // dE1 and dE2: the step of E1 and E2 from this pixel to the next.
+  // Along x, dp1 = q1·(E1'·D − E1·D') / D². The terms with q1 drop out; E1 and E2 vanish together at v0, so
+  // E1'·E2 − E1·E2' is A·(y − y0), and likewise with v2 for E0. With r = y − y0, r1 and r2 the edges' y,
+  //   dp1 = q1·A·(q2·r − q0·(r − r2)) / D²,  dp2 = q2·A·(q0·(r − r1) − q1·r) / D²,
+  // and along y the same of x with the other sign. Nothing is lost where w differs much from vertex to vertex.
   template <class V, class F>
-  HS_INLINE F derivative(F V::*member, R dE1, R dE2) const {
+  HS_INLINE F derivative(F V::*member, R r, R r1, R r2, R sub_pixels) const {
     using Field = detail::FieldTraits<F>;
     static_assert(Field::interpolation == Interpolation::smooth, "only smooth varyings have derivatives");
+    const TriangleLanes<R>& t = *triangle;
     const R inverse = R(1) / weights.denominator;
-    const R dD = dE1 * (triangle->q1 - triangle->q0) + dE2 * (triangle->q2 - triangle->q0);
-    const R dp1 = (dE1 * triangle->q1 - weights.p1 * dD) * inverse;
-    const R dp2 = (dE2 * triangle->q2 - weights.p2 * dD) * inverse;
+    const R scale = sub_pixels * t.area * inverse * inverse;
+    const R dp1 = t.q1 * scale * difference_of_products(t.q2, r, t.q0, r - r2);
+    const R dp2 = t.q2 * scale * difference_of_products(t.q0, r - r1, t.q1, r);
     const std::size_t first = first_component(member);
     const auto& c = components<V>();
     std::array<R, Field::components> out;

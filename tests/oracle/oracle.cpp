@@ -570,21 +570,34 @@ Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> int
   return s;
 }
 
+namespace {
+
+// The sum of three numbers, and the second's and third's shares in it; by how much the rounded shares miss a whole 1 is
+// shared out again.
+std::array<float, 3> share(const std::array<float, 3>& n) {
+  const float sum = n[0] + (n[1] + n[2]);
+  const float inverse = 1.0f / sum;
+  const float second = n[1] * inverse, third = n[2] * inverse;
+  const bool second_is_larger = second > third;
+  const float larger = second_is_larger ? second : third, smaller = second_is_larger ? third : second;
+  const float missing = std::fma(-n[0], inverse, (1.0f - larger) - smaller);
+  return {sum, std::fma(second, missing, second), std::fma(third, missing, third)};
+}
+
+}  // namespace
+
 SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, int x, int y) {
   const TriangleLanes<float>& l = s.lanes;
   SurfacePoint p{};
   p.dx = static_cast<float>(center_of(x)) - l.x0;
   p.dy = static_cast<float>(center_of(y)) - l.y0;
+  const float e0 = determinant(l.e1x - p.dx, l.e2y - p.dy, l.e1y - p.dy, l.e2x - p.dx);
   const float e1 = determinant(p.dx, l.e2y, p.dy, l.e2x);
   const float e2 = determinant(l.e1x, p.dy, l.e1y, p.dx);
-  const float denominator = std::fma(e1, l.q1 - l.q0, std::fma(e2, l.q2 - l.q0, l.area * l.q0));
-  const float inverse = 1.0f / denominator;
-  p.weights.p1 = (e1 * l.q1) * inverse;
-  p.weights.p2 = (e2 * l.q2) * inverse;
-  p.weights.b1 = e1 / l.area;
-  p.weights.b2 = e2 / l.area;
-  p.weights.denominator = denominator;
-  p.inv_w = denominator / l.area * l.q_unscale;
+  const std::array<float, 3> linear = share({e0, e1, e2});
+  const std::array<float, 3> perspective = share({e0 * l.q0, e1 * l.q1, e2 * l.q2});
+  p.weights = {perspective[1], perspective[2], linear[1], linear[2], perspective[0]};
+  p.inv_w = p.weights.denominator / l.area * l.q_unscale;
   // Shaders are told the depth by float determinants, also for triangles whose tested depth is by whole numbers.
   const auto [z1, z2] = float_determinants(t, x, y);
   p.z = depth_sum(t, state, z1, z2);
