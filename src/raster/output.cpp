@@ -31,6 +31,14 @@ Int load_halves(const uint16_t* p) {
   for (int i = 0; i < kLanes; ++i) set_lane(r, i, p[i]);
   return r;
 }
+template <class I>
+Real decode_halves(I h) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return half_to_float(static_cast<uint16_t>(h));
+  } else {
+    return half_to_float(h);
+  }
+}
 void store_halves(uint16_t* p, Int h, uint32_t lanes) {
   for (int i = 0; i < kLanes; ++i) {
     if (lanes >> i & 1) p[i] = static_cast<uint16_t>(lane(h, i));
@@ -94,7 +102,7 @@ PacketColor read_color(const ColorBuffer& buffer, int packet) {
     Real& out = c[static_cast<std::size_t>(k)];
     switch (buffer.format) {
       case ColorFormat::rgba32f: out = load<Real>(plane<float>(buffer, k) + first); break;
-      case ColorFormat::rgba16f: out = Real(half_to_float(load_halves(plane<uint16_t>(buffer, k) + first))); break;
+      case ColorFormat::rgba16f: out = decode_halves(load_halves(plane<uint16_t>(buffer, k) + first)); break;
       default: out = decode8(buffer.format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3); break;
     }
   }

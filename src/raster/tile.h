@@ -82,11 +82,16 @@ struct Tile {
   std::array<uint8_t, kBlocks> block_writes;
 };
 
-/// A depth in [0, 1] as the format's value (see Tile::depth): unorm codes rounded to the nearest.
+/// A depth in [0, 1] as the format's value (see Tile::depth): unorm codes rounded to the nearest, once. Beside 2^23 the
+/// last bit of a float weighs 1, so that the fma's own rounding gives whole numbers; from there on the product's does.
 template <Number R>
 HS_INLINE R depth_value(DepthFormat format, R z) {
-  if (format == DepthFormat::d24) return round_even(z * R(16777215.0f));
-  if (format == DepthFormat::d16) return round_even(z * R(65535.0f));
+  const R beside(0x1p23f);
+  if (format == DepthFormat::d24) {
+    const R code = z * R(16777215.0f);
+    return select(code < beside, fma(z, R(16777215.0f), beside) - beside, code);
+  }
+  if (format == DepthFormat::d16) return fma(z, R(65535.0f), beside) - beside;
   return z;
 }
 

@@ -161,6 +161,7 @@ TEST_P(OffsetOf, DrawsTheSamePictureAndDepth) {
   const Figures figures = pass.figures(0);
   report(figures);
   expect_agreement(figures);
+  EXPECT_LE(figures.depth_differs, figures.covered / 100);  // Mesa errs by a few 1e-6 on steep triangles
 }
 
 INSTANTIATE_TEST_SUITE_P(Heap, OffsetOf,
