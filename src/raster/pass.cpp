@@ -187,8 +187,9 @@ void Pass::run_tile(int index, bool first, bool last, PassStatistics& statistics
   if (depth.data == nullptr && !depth_spill_.empty()) depth.data = const_cast<std::byte*>(depth_spill_.data());
   if (!first) color.load = depth.load = LoadOp::load;
   if (!last) color.store = depth.store = StoreOp::store;
-  const bool changes = drawn || color.load == LoadOp::clear || depth.load == LoadOp::clear || (last && post_kernel_ != nullptr);
-  if (!changes) return;
+  const auto clears = [](const auto& target) { return target.load == LoadOp::clear && target.format != decltype(target.format)::none; };
+  const bool changes_color = drawn || clears(color), changes_depth = drawn || clears(depth);
+  if (!changes_color && !changes_depth && !(last && post_kernel_ != nullptr)) return;
 
   Tile tile;
   tile.size = frame_.tile_size;
@@ -199,8 +200,9 @@ void Pass::run_tile(int index, bool first, bool last, PassStatistics& statistics
   load_color(color, frame_.width, frame_.height, tile);
   load_depth(depth, frame_.width, frame_.height, tile);
   if (drawn) draw_tile(tile, tile_x, tile_y, statistics);
-  store_color(color, frame_.width, frame_.height, tile, tile.color);
-  store_depth(depth, frame_.width, frame_.height, tile);
+  // What was neither cleared nor drawn stays as it is in its image; under LoadOp::dont_care the tile does not know it.
+  if (changes_color) store_color(color, frame_.width, frame_.height, tile, tile.color);
+  if (changes_depth) store_depth(depth, frame_.width, frame_.height, tile);
   if (!last || post_kernel_ == nullptr) return;
   ColorBuffer finished;
   finished.format = post_target_.format;

@@ -94,7 +94,11 @@ void repeat_first_pixel(ColorBuffer& color) {
 
 void load_color(const ColorTarget& target, int width, int height, Tile& tile) {
   tile.color.format = target.format;
-  if (target.format == ColorFormat::none || target.load == LoadOp::dont_care) return;
+  if (target.format == ColorFormat::none) return;
+  if (target.load == LoadOp::dont_care) {  // zeros, so that even pixels that nothing draws are the same in every run
+    std::fill_n(tile.color.bytes.data(), kMaxTilePixels * bytes_per_pixel(target.format), std::byte{0});
+    return;
+  }
   if (target.load == LoadOp::clear) {
     const PacketColor c{Real(target.clear_value.x), Real(target.clear_value.y), Real(target.clear_value.z), Real(target.clear_value.w)};
     write_color(tile.color, 0, Mask(true), c, nullptr);

@@ -137,8 +137,8 @@ void Framebuffer::set_depth(int x, int y, double value) {
 
 double Framebuffer::depth_value(float z) const {
   switch (depth_format_) {
-    case DepthFormat::d16: return std::nearbyint(static_cast<double>(z * 65535.0f));
-    case DepthFormat::d24: return std::nearbyint(static_cast<double>(z * 16777215.0f));
+    case DepthFormat::d16: return std::nearbyint(static_cast<double>(z) * 65535.0);  // the products are exact
+    case DepthFormat::d24: return std::nearbyint(static_cast<double>(z) * 16777215.0);
     default: return static_cast<double>(z);
   }
 }
