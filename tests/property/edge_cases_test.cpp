@@ -205,7 +205,7 @@ TEST(EdgeCases, APassRunsAgainAfterItsRun) {
 
 TEST(EdgeCases, NoBudgetAtAllStillFlushesAndEnds) {
   Scene s = scene_of(70, 50);
-  for (const uint64_t seed : {14, 15, 16}) add_random(s, seed);
+  for (const int seed : {14, 15, 16}) add_random(s, static_cast<uint64_t>(seed));
   const PassResult whole = run_pass(s, {}, 1);
   const PassResult flushed = run_pass(s, {.chunk_triangles = 1, .bin_budget = 0}, 1);
   EXPECT_EQ(difference(s, whole.pictures, flushed.pictures), "");
