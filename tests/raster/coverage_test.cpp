@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage is exact: what a pass covers equals, sample for sample, edge
-// functions evaluated in 128-bit whole numbers for every pixel. No tolerance:
-// positions are multiples of 1/256 px that the vertex stage hands on unrounded.
+// Coverage is exact: what a pass covers equals, sample for sample, edge functions evaluated in 128-bit whole numbers
+// for every pixel. No tolerance: positions are multiples of 1/256 px that the vertex stage hands on unrounded.
 //
-// Each triangle has a random weight of its own in each channel. In the blended
-// (immediate) draw a pixel must hold the sum of the weights of the triangles
-// that cover it, so that no two errors cancel; in the replacing (deferred) draw
-// that of the last one. All sums stay below 2^24, where floats add whole
-// numbers exactly.
+// Each triangle has a random weight of its own in each channel. In the blended (immediate) draw a pixel must hold the
+// sum of the weights of the triangles that cover it, so that no two errors cancel; in the replacing (deferred) draw
+// that of the last one. All sums stay below 2^24, where floats add whole numbers exactly.
 #include "raster_test.h"
 
 #include <algorithm>
@@ -18,23 +15,20 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// Calls covered(x, y) for every pixel of [x0, x1) × [y0, y1) whose centre
-/// triangle t owns; returns the pixels looked at. Orientation does not matter.
+/// Calls covered(x, y) for every pixel of [x0, x1) × [y0, y1) whose centre triangle t owns; returns the pixels looked
+/// at. Orientation does not matter.
 ///
-/// A centre on an edge is decided as if all centres lay a little further right
-/// and, by far less, further up: then none is on an edge, and of two triangles
-/// that share an edge exactly one gets it. (That is the rule of raster/edge.h,
-/// told in another way.)
+/// A centre on an edge is decided as if all centres lay a little further right and, by far less, further up: then none
+/// is on an edge, and of two triangles that share an edge exactly one gets it. (That is the rule of raster/edge.h, told
+/// in another way.)
 template <class F>
-int64_t brute_force(const PointTriangle &t, int x0, int y0, int x1, int y1,
-                    F covered) {
+int64_t brute_force(const PointTriangle& t, int x0, int y0, int x1, int y1, F covered) {
   PointTriangle v = t;
-  const auto cross = [](const Point &a, const Point &b, Wide x, Wide y) {
+  const auto cross = [](const Point& a, const Point& b, Wide x, Wide y) {
     return (Wide{b.x} - a.x) * (y - a.y) - (Wide{b.y} - a.y) * (x - a.x);
   };
   const Wide area = cross(v[0], v[1], v[2].x, v[2].y);
-  if (area < 0)
-    std::swap(v[1], v[2]);
+  if (area < 0) std::swap(v[1], v[2]);
   for (int y = y0; y < y1 && area != 0; ++y) {
     std::array<Wide, 3> e, step;
     std::array<bool, 3> owns;
@@ -42,8 +36,7 @@ int64_t brute_force(const PointTriangle &t, int x0, int y0, int x1, int y1,
       const Point &a = v[i], &b = v[(i + 1) % 3];
       e[i] = cross(a, b, Wide{x0} * 256 + 128, Wide{y} * 256 + 128);
       step[i] = (Wide{a.y} - b.y) * 256;
-      // The change of the edge function for the little step right; if that is
-      // 0, for the step up.
+      // The change of the edge function for the little step right; if that is 0, for the step up.
       owns[i] = step[i] != 0 ? step[i] > 0 : b.x > a.x;
     }
     for (int x = x0; x < x1; ++x) {
@@ -52,8 +45,7 @@ int64_t brute_force(const PointTriangle &t, int x0, int y0, int x1, int y1,
         inside = inside && (e[i] > 0 || (e[i] == 0 && owns[i]));
         e[i] += step[i];
       }
-      if (inside)
-        covered(x, y);
+      if (inside) covered(x, y);
     }
   }
   return int64_t{x1 - x0} * (y1 - y0);
@@ -61,31 +53,26 @@ int64_t brute_force(const PointTriangle &t, int x0, int y0, int x1, int y1,
 
 // A batch of triangles drawn into one image, and compared with brute force.
 class Comparison {
-public:
-  Comparison(int width, int height, uint64_t seed)
-      : width_(width), height_(height), random_(seed) {}
+ public:
+  Comparison(int width, int height, uint64_t seed) : width_(width), height_(height), random_(seed) {}
 
-  Random &random() { return random_; }
+  Random& random() { return random_; }
   int64_t samples() const { return samples_; }
   int64_t covered() const { return covered_; }
   int64_t differences() const { return differences_; }
 
-  // in_box: look only at the pixels round each triangle (for tiny ones; nothing
-  // outside of its box can be inside of it).
-  void compare(const std::vector<PointTriangle> &triangles,
-               bool in_box = false) {
+  // in_box: look only at the pixels round each triangle (for tiny ones; nothing outside of its box can be inside of
+  // it).
+  void compare(const std::vector<PointTriangle>& triangles, bool in_box = false) {
     ASSERT_LE(triangles.size() * kMaxWeight, std::size_t{1} << 24);
     std::vector<glm::vec4> weights;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-      weights.emplace_back(random_.integer(1, kMaxWeight),
-                           random_.integer(1, kMaxWeight),
-                           random_.integer(1, kMaxWeight), 1);
+      weights.emplace_back(random_.integer(1, kMaxWeight), random_.integer(1, kMaxWeight), random_.integer(1, kMaxWeight), 1);
     }
     Image<glm::vec4> sum(width_, height_), last(width_, height_);
     int64_t covered_here = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-      const auto [x0, y0, x1, y1] =
-          in_box ? box(triangles[i]) : std::array{0, 0, width_, height_};
+      const auto [x0, y0, x1, y1] = in_box ? box(triangles[i]) : std::array{0, 0, width_, height_};
       samples_ += brute_force(triangles[i], x0, y0, x1, y1, [&](int x, int y) {
         sum.at(x, height_ - 1 - y) += weights[i];
         last.at(x, height_ - 1 - y) = weights[i];
@@ -94,18 +81,15 @@ public:
     }
     covered_ += covered_here;
 
-    // Tiles of every size, one after the other: the edge functions start anew
-    // in each tile.
+    // Tiles of every size, one after the other: the edge functions start anew in each tile.
     const PassOptions options{.tile_size = 8 << (batch_ % 4)};
     ++batch_;
     Image<glm::vec4> drawn(width_, height_);
-    const PassStatistics blended =
-        draw_colors(drawn, triangles, weights, true, options);
+    const PassStatistics blended = draw_colors(drawn, triangles, weights, true, options);
     count_differences(drawn, sum, "blended");
     EXPECT_EQ(blended.samples_tested, static_cast<uint64_t>(covered_here));
     EXPECT_EQ(blended.fragments_shaded, static_cast<uint64_t>(covered_here));
-    const PassStatistics deferred =
-        draw_colors(drawn, triangles, weights, false, options);
+    const PassStatistics deferred = draw_colors(drawn, triangles, weights, false, options);
     count_differences(drawn, last, "deferred");
     EXPECT_EQ(deferred.samples_tested, static_cast<uint64_t>(covered_here));
   }
@@ -113,36 +97,28 @@ public:
   void report() const {
     ::testing::Test::RecordProperty("samples", std::to_string(samples_));
     ::testing::Test::RecordProperty("covered", std::to_string(covered_));
-    ::testing::Test::RecordProperty("differences",
-                                    std::to_string(differences_));
-    std::printf("%lld samples, %lld covered, %lld differences\n",
-                static_cast<long long>(samples_),
-                static_cast<long long>(covered_),
+    ::testing::Test::RecordProperty("differences", std::to_string(differences_));
+    std::printf("%lld samples, %lld covered, %lld differences\n", static_cast<long long>(samples_), static_cast<long long>(covered_),
                 static_cast<long long>(differences_));
   }
 
-private:
+ private:
   static constexpr int kMaxWeight = 1023;
 
-  std::array<int, 4> box(const PointTriangle &t) const {
+  std::array<int, 4> box(const PointTriangle& t) const {
     const auto [x_low, x_high] = std::minmax({t[0].x, t[1].x, t[2].x});
     const auto [y_low, y_high] = std::minmax({t[0].y, t[1].y, t[2].y});
-    const int x0 = std::clamp((x_low >> 8) - 1, 0, width_),
-              y0 = std::clamp((y_low >> 8) - 1, 0, height_);
-    return {x0, y0, std::clamp((x_high >> 8) + 2, x0, width_),
-            std::clamp((y_high >> 8) + 2, y0, height_)};
+    const int x0 = std::clamp((x_low >> 8) - 1, 0, width_), y0 = std::clamp((y_low >> 8) - 1, 0, height_);
+    return {x0, y0, std::clamp((x_high >> 8) + 2, x0, width_), std::clamp((y_high >> 8) + 2, y0, height_)};
   }
 
-  void count_differences(const Image<glm::vec4> &drawn,
-                         const Image<glm::vec4> &want, const char *path) {
+  void count_differences(const Image<glm::vec4>& drawn, const Image<glm::vec4>& want, const char* path) {
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
-        if (pixel(drawn, x, y) == pixel(want, x, y))
-          continue;
+        if (pixel(drawn, x, y) == pixel(want, x, y)) continue;
         if (differences_++ < 10) {
-          ADD_FAILURE() << path << ": pixel " << x << ", " << y
-                        << " has weight " << pixel(drawn, x, y).x
-                        << " instead of " << pixel(want, x, y).x;
+          ADD_FAILURE() << path << ": pixel " << x << ", " << y << " has weight " << pixel(drawn, x, y).x << " instead of "
+                        << pixel(want, x, y).x;
         }
       }
     }
@@ -154,24 +130,19 @@ private:
   int64_t samples_ = 0, covered_ = 0, differences_ = 0;
 };
 
-Point random_point(Random &r, int width, int height, int margin) {
-  return {r.integer(-margin * 256, (width + margin) * 256),
-          r.integer(-margin * 256, (height + margin) * 256)};
+Point random_point(Random& r, int width, int height, int margin) {
+  return {r.integer(-margin * 256, (width + margin) * 256), r.integer(-margin * 256, (height + margin) * 256)};
 }
 
-// Whole numbers or halves, so that vertices and many edges pass through pixel
-// centres exactly.
-Point on_centers(const Point &p) {
-  return {(p.x & ~255) + 128, (p.y & ~255) + 128};
-}
+// Whole numbers or halves, so that vertices and many edges pass through pixel centres exactly.
+Point on_centers(const Point& p) { return {(p.x & ~255) + 128, (p.y & ~255) + 128}; }
 
 TEST(Coverage, RandomTriangles) {
   Comparison c(256, 256, 1);
   for (int batch = 0; batch < effort(100); ++batch) {
     std::vector<PointTriangle> triangles(16);
-    for (PointTriangle &t : triangles) {
-      for (Point &p : t)
-        p = random_point(c.random(), 256, 256, 64);
+    for (PointTriangle& t : triangles) {
+      for (Point& p : t) p = random_point(c.random(), 256, 256, 64);
     }
     c.compare(triangles);
   }
@@ -182,18 +153,13 @@ TEST(Coverage, VerticesOnPixelCenters) {
   Comparison c(256, 256, 2);
   for (int batch = 0; batch < effort(100); ++batch) {
     std::vector<PointTriangle> triangles(16);
-    for (PointTriangle &t : triangles) {
-      for (Point &p : t)
-        p = on_centers(random_point(c.random(), 256, 256, 16));
+    for (PointTriangle& t : triangles) {
+      for (Point& p : t) p = on_centers(random_point(c.random(), 256, 256, 16));
       // Horizontal, vertical and 45° edges through centres.
       const int kind = c.random().integer(0, 3);
-      if (kind == 1)
-        t[1].y = t[0].y;
-      if (kind == 2)
-        t[1].x = t[0].x;
-      if (kind == 3)
-        t[1] = {t[0].x + 256 * 40,
-                t[0].y + (c.random().coin() ? 256 * 40 : -256 * 40)};
+      if (kind == 1) t[1].y = t[0].y;
+      if (kind == 2) t[1].x = t[0].x;
+      if (kind == 3) t[1] = {t[0].x + 256 * 40, t[0].y + (c.random().coin() ? 256 * 40 : -256 * 40)};
     }
     c.compare(triangles);
   }
@@ -204,21 +170,16 @@ TEST(Coverage, Slivers) {
   Comparison c(256, 256, 3);
   for (int batch = 0; batch < effort(100); ++batch) {
     std::vector<PointTriangle> triangles(16);
-    for (PointTriangle &t : triangles) {
+    for (PointTriangle& t : triangles) {
       t[0] = random_point(c.random(), 256, 256, 64);
       t[1] = random_point(c.random(), 256, 256, 64);
-      // Near a point of the line through the two, at most one pixel off it,
-      // mostly a few sub-pixels.
+      // Near a point of the line through the two, at most one pixel off it, mostly a few sub-pixels.
       const double s = c.random().real(-0.5, 1.5);
       const int reach = 1 << c.random().integer(0, 8);
-      t[2] = {static_cast<int32_t>(t[0].x + s * (t[1].x - t[0].x)) +
-                  c.random().integer(-reach, reach),
-              static_cast<int32_t>(t[0].y + s * (t[1].y - t[0].y)) +
-                  c.random().integer(-reach, reach)};
-      if (c.random().integer(0, 3) ==
-          0) { // the third vertex next to the first: a needle
-        t[2] = {t[0].x + c.random().integer(-2, 2),
-                t[0].y + c.random().integer(-2, 2)};
+      t[2] = {static_cast<int32_t>(t[0].x + s * (t[1].x - t[0].x)) + c.random().integer(-reach, reach),
+              static_cast<int32_t>(t[0].y + s * (t[1].y - t[0].y)) + c.random().integer(-reach, reach)};
+      if (c.random().integer(0, 3) == 0) {  // the third vertex next to the first: a needle
+        t[2] = {t[0].x + c.random().integer(-2, 2), t[0].y + c.random().integer(-2, 2)};
       }
     }
     c.compare(triangles);
@@ -231,20 +192,15 @@ TEST(Coverage, TinyTriangles) {
   Comparison c(128, 128, 4);
   for (int batch = 0; batch < effort(64); ++batch) {
     std::vector<PointTriangle> triangles(8192);
-    for (PointTriangle &t : triangles) {
-      const int size = 1 << c.random().integer(0, 10); // from 1/256 px to 4 px
+    for (PointTriangle& t : triangles) {
+      const int size = 1 << c.random().integer(0, 10);  // from 1/256 px to 4 px
       Point at = random_point(c.random(), 128, 128, 1);
-      if (c.random().coin())
-        at = on_centers(at); // such that even the smallest often touch a centre
+      if (c.random().coin()) at = on_centers(at);  // such that even the smallest often touch a centre
       t[0] = at;
-      for (std::size_t i = 1; i < 3; ++i)
-        t[i] = {at.x + c.random().integer(-size, size),
-                at.y + c.random().integer(-size, size)};
+      for (std::size_t i = 1; i < 3; ++i) t[i] = {at.x + c.random().integer(-size, size), at.y + c.random().integer(-size, size)};
       if (c.random().coin()) {
-        const Point shift{c.random().integer(-size, size),
-                          c.random().integer(-size, size)};
-        for (Point &p : t)
-          p = {p.x + shift.x, p.y + shift.y};
+        const Point shift{c.random().integer(-size, size), c.random().integer(-size, size)};
+        for (Point& p : t) p = {p.x + shift.x, p.y + shift.y};
       }
     }
     c.compare(triangles, true);
@@ -253,21 +209,18 @@ TEST(Coverage, TinyTriangles) {
   c.report();
 }
 
-// Sizes round the limit where setup turns from whole 32-bit edge functions to
-// shifted ones (63 px), and tiles' sizes.
+// Sizes round the limit where setup turns from whole 32-bit edge functions to shifted ones (63 px), and tiles' sizes.
 TEST(Coverage, TrianglesOfAboutATile) {
   Comparison c(256, 256, 5);
   for (int batch = 0; batch < effort(40); ++batch) {
     std::vector<PointTriangle> triangles(16);
-    for (PointTriangle &t : triangles) {
+    for (PointTriangle& t : triangles) {
       const Point at = random_point(c.random(), 256, 256, 40);
-      const int size =
-          (c.random().coin() ? 63 : 64) * 256 + c.random().integer(-2, 2);
+      const int size = (c.random().coin() ? 63 : 64) * 256 + c.random().integer(-2, 2);
       t[0] = at;
       t[1] = {at.x + size, at.y + c.random().integer(0, size)};
       t[2] = {at.x + c.random().integer(0, size), at.y + size};
-      if (c.random().coin())
-        std::swap(t[1], t[2]);
+      if (c.random().coin()) std::swap(t[1], t[2]);
     }
     c.compare(triangles);
   }
@@ -279,30 +232,21 @@ TEST(Coverage, HugeTriangles) {
   Comparison c(256, 256, 6);
   for (int batch = 0; batch < effort(100); ++batch) {
     std::vector<PointTriangle> triangles(16);
-    for (PointTriangle &t : triangles) {
-      for (Point &p : t)
-        p = {c.random().integer(-kLimit, kLimit),
-             c.random().integer(-kLimit, kLimit)};
+    for (PointTriangle& t : triangles) {
+      for (Point& p : t) p = {c.random().integer(-kLimit, kLimit), c.random().integer(-kLimit, kLimit)};
       const int kind = c.random().integer(0, 3);
-      if (kind == 1)
-        t[0] =
-            random_point(c.random(), 256, 256, 0); // one vertex in the picture
-      if (kind == 2)
-        t[0] = on_centers(random_point(c.random(), 256, 256, 0));
-      if (kind ==
-          3) { // an edge that passes through many centres, both ends far away
+      if (kind == 1) t[0] = random_point(c.random(), 256, 256, 0);  // one vertex in the picture
+      if (kind == 2) t[0] = on_centers(random_point(c.random(), 256, 256, 0));
+      if (kind == 3) {  // an edge that passes through many centres, both ends far away
         const Point center = on_centers(random_point(c.random(), 256, 256, 0));
-        const Point step{c.random().integer(-5, 5) * 256,
-                         c.random().integer(-5, 5) * 256};
+        const Point step{c.random().integer(-5, 5) * 256, c.random().integer(-5, 5) * 256};
         t[0] = {center.x + step.x * 3000, center.y + step.y * 3000};
         t[1] = {center.x - step.x * 3000, center.y - step.y * 3000};
       }
     }
-    // The corners of the guard band themselves: the largest edge functions
-    // there are.
+    // The corners of the guard band themselves: the largest edge functions there are.
     triangles[0] = {{{-kLimit, -kLimit}, {kLimit, -kLimit}, {kLimit, kLimit}}};
-    triangles[1] = {
-        {{-kLimit, kLimit}, {kLimit, -kLimit}, {-kLimit + batch, -kLimit}}};
+    triangles[1] = {{{-kLimit, kLimit}, {kLimit, -kLimit}, {-kLimit + batch, -kLimit}}};
     c.compare(triangles);
   }
   c.report();
@@ -314,14 +258,10 @@ TEST(Coverage, WideTarget) {
   Comparison c(kWidth, kHeight, 7);
   for (int batch = 0; batch < effort(8); ++batch) {
     std::vector<PointTriangle> triangles(24);
-    for (PointTriangle &t : triangles) {
-      for (Point &p : t)
-        p = {c.random().integer(-256, kWidth * 256),
-             c.random().integer(-256 * 8, (kHeight + 8) * 256)};
-      if (c.random().coin())
-        t[0] = on_centers(t[0]);
-      if (c.random().coin())
-        t[1] = on_centers(t[1]);
+    for (PointTriangle& t : triangles) {
+      for (Point& p : t) p = {c.random().integer(-256, kWidth * 256), c.random().integer(-256 * 8, (kHeight + 8) * 256)};
+      if (c.random().coin()) t[0] = on_centers(t[0]);
+      if (c.random().coin()) t[1] = on_centers(t[1]);
     }
     c.compare(triangles);
   }
@@ -332,19 +272,14 @@ TEST(Coverage, DegenerateTrianglesDrawNothing) {
   Random r(8);
   std::vector<PointTriangle> triangles;
   for (int i = 0; i < 3000; ++i) {
-    const Point a = on_centers(random_point(r, 256, 256, 8)),
-                b = random_point(r, 256, 256, 8);
+    const Point a = on_centers(random_point(r, 256, 256, 8)), b = random_point(r, 256, 256, 8);
     const Point step{r.integer(-300, 300), r.integer(-300, 300)};
     triangles.push_back({a, a, b});
     triangles.push_back({a, b, b});
     triangles.push_back({b, a, b});
     triangles.push_back({a, a, a});
-    const int k1 = r.integer(-50, 50),
-              k2 = r.integer(
-                  -50, 50); // three points of one line through a pixel centre
-    triangles.push_back({a,
-                         {a.x + k1 * step.x, a.y + k1 * step.y},
-                         {a.x + k2 * step.x, a.y + k2 * step.y}});
+    const int k1 = r.integer(-50, 50), k2 = r.integer(-50, 50);  // three points of one line through a pixel centre
+    triangles.push_back({a, {a.x + k1 * step.x, a.y + k1 * step.y}, {a.x + k2 * step.x, a.y + k2 * step.y}});
   }
   const std::vector<glm::vec4> colors(triangles.size(), glm::vec4(1.0f));
   for (const bool add_up : {true, false}) {
@@ -352,26 +287,21 @@ TEST(Coverage, DegenerateTrianglesDrawNothing) {
     const PassStatistics s = draw_colors(drawn, triangles, colors, add_up);
     EXPECT_EQ(s.culled_degenerate + s.culled_outside, triangles.size());
     EXPECT_EQ(s.triangles_binned, 0u);
-    for (const glm::vec4 &p : drawn.texels())
-      ASSERT_EQ(p, glm::vec4(0.0f));
+    for (const glm::vec4& p : drawn.texels()) ASSERT_EQ(p, glm::vec4(0.0f));
   }
 }
 
-// A fill rule shown by hand: the square from centre to centre owns its left and
-// bottom samples (y up), not the others.
+// A fill rule shown by hand: the square from centre to centre owns its left and bottom samples (y up), not the others.
 TEST(Coverage, SquareOwnsLeftAndBottomEdges) {
-  const Point a{128, 128}, b{128 + 2 * 256, 128},
-      c{128 + 2 * 256, 128 + 2 * 256}, d{128, 128 + 2 * 256};
+  const Point a{128, 128}, b{128 + 2 * 256, 128}, c{128 + 2 * 256, 128 + 2 * 256}, d{128, 128 + 2 * 256};
   const std::vector<PointTriangle> triangles{{a, b, c}, {a, c, d}};
   const std::vector<glm::vec4> colors(2, glm::vec4(1.0f));
   Image<glm::vec4> drawn(4, 4);
   draw_colors(drawn, triangles, colors, true);
   for (int y = 0; y < 4; ++y) {
-    for (int x = 0; x < 4; ++x)
-      EXPECT_EQ(pixel(drawn, x, y).x, x < 2 && y < 2 ? 1.0f : 0.0f)
-          << x << ", " << y;
+    for (int x = 0; x < 4; ++x) EXPECT_EQ(pixel(drawn, x, y).x, x < 2 && y < 2 ? 1.0f : 0.0f) << x << ", " << y;
   }
 }
 
-} // namespace
-} // namespace halfspace::raster_test
+}  // namespace
+}  // namespace halfspace::raster_test

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth: accuracy of reversed Z down to the smallest values, order, tests and
-// writes, ranges, clamp, offset, formats, and invariance (the same positions
-// give the same depth bits whatever the shader).
+// Depth: accuracy of reversed Z down to the smallest values, order, tests and writes, ranges, clamp, offset, formats,
+// and invariance (the same positions give the same depth bits whatever the shader).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,9 +28,7 @@ DrawState always() {
 }
 
 // A triangle list into a depth image of its own.
-Image<float> draw_depth(int width, int height,
-                        const std::vector<glm::vec4> &positions,
-                        const DrawState &state, float clear) {
+Image<float> draw_depth(int width, int height, const std::vector<glm::vec4>& positions, const DrawState& state, float clear) {
   Image<float> depth(width, height);
   DepthTarget target = d32f_target(depth);
   target.clear_value = clear;
@@ -41,14 +38,11 @@ Image<float> draw_depth(int width, int height,
   return depth;
 }
 
-// ---- accuracy
-// --------------------------------------------------------------------------------------------------
+// ---- accuracy --------------------------------------------------------------------------------------------------
 
-// Depth of one triangle against the plane through its vertices' float depths at
-// the snapped positions. Relative to the value itself, which for reversed Z
-// spans many powers of two over one triangle.
-Exact worst_relative_error(Random &r, double size, double z_low, double z_high,
-                           int triangles, int64_t &samples) {
+// Depth of one triangle against the plane through its vertices' float depths at the snapped positions. Relative to the
+// value itself, which for reversed Z spans many powers of two over one triangle.
+Exact worst_relative_error(Random& r, double size, double z_low, double z_high, int triangles, int64_t& samples) {
   constexpr int kSize = 64;
   Exact worst = 0;
   for (int i = 0; i < triangles; ++i) {
@@ -56,56 +50,37 @@ Exact worst_relative_error(Random &r, double size, double z_low, double z_high,
     const double turn = r.real(0.0, 6.28);
     std::array<std::array<double, 2>, 3> at;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double angle = turn + 2.0944 * static_cast<double>(k) +
-                           r.real(-0.6, 0.6),
-                   reach = size * r.real(0.2, 1.0);
+      const double angle = turn + 2.0944 * static_cast<double>(k) + r.real(-0.6, 0.6), reach = size * r.real(0.2, 1.0);
       at[k] = {reach * std::cos(angle), reach * std::sin(angle)};
     }
     double a = r.real(0.0, 1.0), b = r.real(0.0, 1.0);
-    if (a + b > 1)
-      a = 1 - a, b = 1 - b;
+    if (a + b > 1) a = 1 - a, b = 1 - b;
     const int small = r.integer(0, 2);
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<double, 2> q;
       for (std::size_t n = 0; n < 2; ++n) {
-        q[n] = std::clamp(32 + at[k][n] -
-                              (at[0][n] + a * (at[1][n] - at[0][n]) +
-                               b * (at[2][n] - at[0][n])),
-                          -16000.0, 16000.0);
+        q[n] = std::clamp(32 + at[k][n] - (at[0][n] + a * (at[1][n] - at[0][n]) + b * (at[2][n] - at[0][n])), -16000.0, 16000.0);
       }
-      const double z =
-          static_cast<int>(k) == small ? z_low : r.magnitude(z_low, z_high);
-      p.push_back({static_cast<float>(q[0] / 32 - 1),
-                   static_cast<float>(q[1] / 32 - 1), static_cast<float>(z),
-                   1.0f});
+      const double z = static_cast<int>(k) == small ? z_low : r.magnitude(z_low, z_high);
+      p.push_back({static_cast<float>(q[0] / 32 - 1), static_cast<float>(q[1] / 32 - 1), static_cast<float>(z), 1.0f});
     }
-    const ShadedVertices v = shade(ConstantShader{}, vertices(stream(p)),
-                                   {0, 0, kSize, kSize}, reversed_z());
-    const auto x = [&](std::size_t k) {
-      return static_cast<Exact>(v.screen[k].x);
-    };
-    const auto y = [&](std::size_t k) {
-      return static_cast<Exact>(v.screen[k].y);
-    };
-    const Exact area =
-        (x(1) - x(0)) * (y(2) - y(0)) - (y(1) - y(0)) * (x(2) - x(0));
-    if (area == 0)
-      continue;
+    const ShadedVertices v = shade(ConstantShader{}, vertices(stream(p)), {0, 0, kSize, kSize}, reversed_z());
+    const auto x = [&](std::size_t k) { return static_cast<Exact>(v.screen[k].x); };
+    const auto y = [&](std::size_t k) { return static_cast<Exact>(v.screen[k].y); };
+    const Exact area = (x(1) - x(0)) * (y(2) - y(0)) - (y(1) - y(0)) * (x(2) - x(0));
+    if (area == 0) continue;
     const Image<float> depth = draw_depth(kSize, kSize, p, reversed_z(), 0.0f);
     for (int py = 0; py < kSize; ++py) {
       for (int px = 0; px < kSize; ++px) {
         const float got = pixel(depth, px, py);
-        if (got == 0.0f)
-          continue;
+        if (got == 0.0f) continue;
         const Exact sx = px * 256 + 128, sy = py * 256 + 128;
         Exact want = 0;
         for (std::size_t k = 0; k < 3; ++k) {
           const std::size_t s = (k + 1) % 3, t = (k + 2) % 3;
-          want += ((x(t) - x(s)) * (sy - y(s)) - (y(t) - y(s)) * (sx - x(s))) /
-                  area * static_cast<Exact>(v.screen[k].z);
+          want += ((x(t) - x(s)) * (sy - y(s)) - (y(t) - y(s)) * (sx - x(s))) / area * static_cast<Exact>(v.screen[k].z);
         }
-        worst =
-            std::max(worst, std::fabs(static_cast<Exact>(got) - want) / want);
+        worst = std::max(worst, std::fabs(static_cast<Exact>(got) - want) / want);
         ++samples;
       }
     }
@@ -114,34 +89,28 @@ Exact worst_relative_error(Random &r, double size, double z_low, double z_high,
 }
 
 TEST(Depth, ReversedZKeepsItsRelativeAccuracy) {
-  // Depth is a sum of three non-negative terms, each of three roundings or so;
-  // 1e-6 is 16 of 2^-24. (Coefficients are depth over area, up to 2^47, and
-  // become denormal where depths of huge triangles fall below 1e-24.)
+  // Depth is a sum of three non-negative terms, each of three roundings or so; 1e-6 is 16 of 2^-24. (Coefficients are
+  // depth over area, up to 2^47, and become denormal where depths of huge triangles fall below 1e-24.)
   Random r(1);
   for (const double size : {4.0, 20.0, 60.0, 64.0, 200.0, 2000.0, 15000.0}) {
     for (const double low : {1e-2, 1e-6, 1e-12, 1e-20}) {
       int64_t samples = 0;
-      const Exact worst =
-          worst_relative_error(r, size, low, std::min(1.0, low * 1e6),
-                               effort(size < 64 ? 200 : 100), samples);
-      std::printf("%7.0f px, z from %.0e: largest relative error %.3g over "
-                  "%lld samples\n",
-                  size, low, static_cast<double>(worst),
-                  static_cast<long long>(samples));
-      ::testing::Test::RecordProperty(
-          "size_" + std::to_string(static_cast<int>(size)),
-          std::to_string(static_cast<double>(worst) * 1e9) + "e-9");
+      const Exact worst = worst_relative_error(r, size, low, std::min(1.0, low * 1e6), effort(size < 64 ? 200 : 100), samples);
+      std::printf(
+          "%7.0f px, z from %.0e: largest relative error %.3g over "
+          "%lld samples\n",
+          size, low, static_cast<double>(worst), static_cast<long long>(samples));
+      ::testing::Test::RecordProperty("size_" + std::to_string(static_cast<int>(size)),
+                                      std::to_string(static_cast<double>(worst) * 1e9) + "e-9");
       EXPECT_GT(samples, 0);
       EXPECT_LE(worst, 1e-6L) << size << " px, z from " << low;
     }
   }
 }
 
-// Pairs of parallel quads a small relative distance apart, drawn through a
-// perspective (vertex transform, divide, interpolation included): which is
-// nearer? Share of pixels where the depth values are ordered wrongly or tie.
-double wrong_orders(Random &r, bool reversed, double far_over_near, double gap,
-                    int pairs) {
+// Pairs of parallel quads a small relative distance apart, drawn through a perspective (vertex transform, divide,
+// interpolation included): which is nearer? Share of pixels where the depth values are ordered wrongly or tie.
+double wrong_orders(Random& r, bool reversed, double far_over_near, double gap, int pairs) {
   constexpr int kSize = 16;
   int64_t wrong = 0, all = 0;
   const double near = 0.1, far = near * far_over_near;
@@ -149,19 +118,15 @@ double wrong_orders(Random &r, bool reversed, double far_over_near, double gap,
     const double distance = r.magnitude(near * 1.1, far / 1.1 / (1 + gap));
     std::array<Image<float>, 2> depth;
     for (const int which : {0, 1}) {
-      const auto z_eye =
-          static_cast<float>(-distance * (which == 1 ? 1 + gap : 1.0));
+      const auto z_eye = static_cast<float>(-distance * (which == 1 ? 1 + gap : 1.0));
       // Float matrices and positions, as a scene has them.
       const auto n = static_cast<float>(near), f = static_cast<float>(far);
-      const float a = reversed ? n / (f - n) : -f / (f - n),
-                  b = reversed ? n * f / (f - n) : -n * f / (f - n);
+      const float a = reversed ? n / (f - n) : -f / (f - n), b = reversed ? n * f / (f - n) : -n * f / (f - n);
       std::vector<glm::vec4> p;
-      for (const auto &[x, y] :
-           {std::array{-1.f, -1.f}, {3.f, -1.f}, {-1.f, 3.f}})
+      for (const auto& [x, y] : {std::array{-1.f, -1.f}, {3.f, -1.f}, {-1.f, 3.f}})
         p.push_back({-x * z_eye, -y * z_eye, a * z_eye + b, -z_eye});
       DrawState state = reversed ? reversed_z() : always();
-      depth[static_cast<std::size_t>(which)] =
-          draw_depth(kSize, kSize, p, state, reversed ? 0.0f : 1.0f);
+      depth[static_cast<std::size_t>(which)] = draw_depth(kSize, kSize, p, state, reversed ? 0.0f : 1.0f);
     }
     for (std::size_t k = 0; k < depth[0].texels().size(); ++k) {
       const float nearer = depth[0].texels()[k], farther = depth[1].texels()[k];
@@ -176,39 +141,30 @@ TEST(Depth, ReversedZOrdersWhatStandardZConfuses) {
   Random r(2);
   for (const double ratio : {1e2, 1e4, 1e6}) {
     for (const double gap : {1e-3, 1e-4, 1e-5}) {
-      const double standard = wrong_orders(r, false, ratio, gap, effort(300)),
-                   reversed = wrong_orders(r, true, ratio, gap, effort(300));
-      std::printf("far/near %.0e, gap %.0e: wrong orders standard %.2f%%, "
-                  "reversed %.2f%%\n",
-                  ratio, gap, 100 * standard, 100 * reversed);
-      // 1e-5 is 84 times the 2^-23 of a float's step: transform, divide and
-      // interpolation together take less than that.
+      const double standard = wrong_orders(r, false, ratio, gap, effort(300)), reversed = wrong_orders(r, true, ratio, gap, effort(300));
+      std::printf(
+          "far/near %.0e, gap %.0e: wrong orders standard %.2f%%, "
+          "reversed %.2f%%\n",
+          ratio, gap, 100 * standard, 100 * reversed);
+      // 1e-5 is 84 times the 2^-23 of a float's step: transform, divide and interpolation together take less than that.
       EXPECT_EQ(reversed, 0.0) << ratio << ' ' << gap;
-      const bool telling =
-          ratio == 1e6 && gap == 1e-4; // a survey measured 39% here for
-                                       // standard Z: the test can tell
+      const bool telling = ratio == 1e6 && gap == 1e-4;  // a survey measured 39% here for standard Z: the test can tell
       EXPECT_GT(standard, telling ? 0.2 : -1.0);
     }
   }
 }
 
-// ---- tests and writes
-// ------------------------------------------------------------------------------------------
+// ---- tests and writes ------------------------------------------------------------------------------------------
 
-std::vector<glm::vec4> full_screen(float z) {
-  return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}};
-}
+std::vector<glm::vec4> full_screen(float z) { return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}}; }
 
-bool is_everywhere(const Image<float> &depth, float z) {
-  return std::all_of(depth.texels().begin(), depth.texels().end(),
-                     [z](float got) { return got == z; });
+bool is_everywhere(const Image<float>& depth, float z) {
+  return std::all_of(depth.texels().begin(), depth.texels().end(), [z](float got) { return got == z; });
 }
 
 TEST(Depth, CompareOps) {
-  const std::array<CompareOp, 8> ops{
-      CompareOp::never,         CompareOp::less,    CompareOp::equal,
-      CompareOp::less_equal,    CompareOp::greater, CompareOp::not_equal,
-      CompareOp::greater_equal, CompareOp::always};
+  const std::array<CompareOp, 8> ops{CompareOp::never,   CompareOp::less,      CompareOp::equal,         CompareOp::less_equal,
+                                     CompareOp::greater, CompareOp::not_equal, CompareOp::greater_equal, CompareOp::always};
   //                                 new < stored, new == stored, new > stored
   const std::array<std::array<bool, 3>, 8> passes{{{false, false, false},
                                                    {true, false, false},
@@ -218,24 +174,19 @@ TEST(Depth, CompareOps) {
                                                    {true, false, true},
                                                    {false, true, true},
                                                    {true, true, true}}};
-  for (const DepthFormat format :
-       {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
+  for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
     for (std::size_t op = 0; op < 8; ++op) {
       for (const bool blended : {false, true}) {
         for (std::size_t relation = 0; relation < 3; ++relation) {
           Image<glm::vec4> image(16, 16);
-          Pass pass(16, 16, rgba32f_target(image),
-                    {.format = format, .clear_value = 0.5f});
+          Pass pass(16, 16, rgba32f_target(image), {.format = format, .clear_value = 0.5f});
           DrawState state = always();
           state.depth.compare = ops[op];
-          if (blended)
-            state.blend = kAdd;
-          const auto positions =
-              full_screen(0.25f + 0.25f * static_cast<float>(relation));
+          if (blended) state.blend = kAdd;
+          const auto positions = full_screen(0.25f + 0.25f * static_cast<float>(relation));
           pass.draw(ConstantShader{}, vertices(stream(positions)), state);
           const PassStatistics s = pass.run(one_worker());
-          EXPECT_EQ(pixel(image, 7, 9).x, passes[op][relation] ? 1.0f : 0.0f)
-              << "op " << op << " relation " << relation;
+          EXPECT_EQ(pixel(image, 7, 9).x, passes[op][relation] ? 1.0f : 0.0f) << "op " << op << " relation " << relation;
           EXPECT_EQ(s.samples_passed, passes[op][relation] ? 256u : 0u);
         }
       }
@@ -243,8 +194,7 @@ TEST(Depth, CompareOps) {
   }
 }
 
-// Random layers against a loop that tests each pixel by the definition: the
-// blocks' bounds must never drop what passes.
+// Random layers against a loop that tests each pixel by the definition: the blocks' bounds must never drop what passes.
 TEST(Depth, RandomLayersEqualThePlainLoop) {
   Random r(3);
   for (int round = 0; round < effort(200); ++round) {
@@ -257,12 +207,10 @@ TEST(Depth, RandomLayersEqualThePlainLoop) {
     std::fill_n(want_depth.data(), kSize * kSize, clear);
     DepthTarget depth_target = d32f_target(depth);
     depth_target.clear_value = clear;
-    std::vector<std::vector<glm::vec4>>
-        keep; // of the draws, until the pass has run
+    std::vector<std::vector<glm::vec4>> keep;  // of the draws, until the pass has run
     std::vector<DrawState> states;
     for (int layer = 0; layer < 40; ++layer) {
-      const int x0 = r.integer(-10, kSize), y0 = r.integer(-10, kSize),
-                w = r.integer(1, kSize), h = r.integer(1, kSize);
+      const int x0 = r.integer(-10, kSize), y0 = r.integer(-10, kSize), w = r.integer(1, kSize), h = r.integer(1, kSize);
       const float z = static_cast<float>(r.integer(0, 16)) / 16.0f;
       DrawState state = always();
       state.depth.compare = layer % 2 ? op : next_op;
@@ -270,59 +218,52 @@ TEST(Depth, RandomLayersEqualThePlainLoop) {
       state.depth.test = r.integer(0, 7) != 0;
       if (r.integer(0, 3) == 0)
         state.blend =
-            BlendState{BlendEquation::add, BlendFactor::one, BlendFactor::zero,
-                       BlendEquation::add, BlendFactor::one, BlendFactor::zero};
+            BlendState{BlendEquation::add, BlendFactor::one, BlendFactor::zero, BlendEquation::add, BlendFactor::one, BlendFactor::zero};
       const auto at = [&](int x, int y) {
-        return glm::vec4(static_cast<float>(2 * x) / kSize - 1,
-                         static_cast<float>(2 * y) / kSize - 1, z, 1);
+        return glm::vec4(static_cast<float>(2 * x) / kSize - 1, static_cast<float>(2 * y) / kSize - 1, z, 1);
       };
-      keep.push_back({at(x0, y0), at(x0 + w, y0), at(x0, y0 + h),
-                      at(x0 + w, y0), at(x0 + w, y0 + h), at(x0, y0 + h)});
+      keep.push_back({at(x0, y0), at(x0 + w, y0), at(x0, y0 + h), at(x0 + w, y0), at(x0 + w, y0 + h), at(x0, y0 + h)});
       states.push_back(state);
       for (int y = std::max(0, y0); y < std::min(kSize, y0 + h); ++y) {
         for (int x = std::max(0, x0); x < std::min(kSize, x0 + w); ++x) {
-          float &stored = want_depth.at(x, kSize - 1 - y);
+          float& stored = want_depth.at(x, kSize - 1 - y);
           bool pass = true;
           if (state.depth.test) {
             switch (state.depth.compare) {
-            case CompareOp::never:
-              pass = false;
-              break;
-            case CompareOp::less:
-              pass = z < stored;
-              break;
-            case CompareOp::equal:
-              pass = z == stored;
-              break;
-            case CompareOp::less_equal:
-              pass = z <= stored;
-              break;
-            case CompareOp::greater:
-              pass = z > stored;
-              break;
-            case CompareOp::not_equal:
-              pass = z != stored;
-              break;
-            case CompareOp::greater_equal:
-              pass = z >= stored;
-              break;
-            case CompareOp::always:
-              break;
+              case CompareOp::never:
+                pass = false;
+                break;
+              case CompareOp::less:
+                pass = z < stored;
+                break;
+              case CompareOp::equal:
+                pass = z == stored;
+                break;
+              case CompareOp::less_equal:
+                pass = z <= stored;
+                break;
+              case CompareOp::greater:
+                pass = z > stored;
+                break;
+              case CompareOp::not_equal:
+                pass = z != stored;
+                break;
+              case CompareOp::greater_equal:
+                pass = z >= stored;
+                break;
+              case CompareOp::always:
+                break;
             }
           }
-          if (!pass)
-            continue;
+          if (!pass) continue;
           want.at(x, kSize - 1 - y) = glm::vec4(static_cast<float>(layer + 1));
-          if (state.depth.test && state.depth.write)
-            stored = z;
+          if (state.depth.test && state.depth.write) stored = z;
         }
       }
     }
-    Pass pass(kSize, kSize, rgba32f_target(image), depth_target,
-              {.tile_size = 8 << (round % 4)});
+    Pass pass(kSize, kSize, rgba32f_target(image), depth_target, {.tile_size = 8 << (round % 4)});
     for (std::size_t i = 0; i < keep.size(); ++i) {
-      pass.draw(ConstantShader{glm::vec4(static_cast<float>(i + 1))},
-                vertices(stream(keep[i])), states[i]);
+      pass.draw(ConstantShader{glm::vec4(static_cast<float>(i + 1))}, vertices(stream(keep[i])), states[i]);
     }
     pass.run(one_worker());
     ASSERT_EQ(image, want) << round;
@@ -334,94 +275,76 @@ TEST(Depth, WriteOffLeavesDepthAlone) {
   const auto positions = full_screen(0.25f);
   for (const bool blended : {false, true}) {
     DrawState state = always();
-    if (blended)
-      state.blend = kAdd;
+    if (blended) state.blend = kAdd;
     state.depth.write = false;
-    EXPECT_TRUE(
-        is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.75f));
+    EXPECT_TRUE(is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.75f));
     state.depth.write = true;
-    EXPECT_TRUE(
-        is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.25f));
-    state.depth.test =
-        false; // as in GL, without the test nothing is written either
-    EXPECT_TRUE(
-        is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.75f));
+    EXPECT_TRUE(is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.25f));
+    state.depth.test = false;  // as in GL, without the test nothing is written either
+    EXPECT_TRUE(is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.75f));
   }
 }
 
-// ---- range and clamp
-// -------------------------------------------------------------------------------------------
+// ---- range and clamp -------------------------------------------------------------------------------------------
 
 TEST(Depth, RangeMapsNearAndFar) {
   struct Case {
     ClipDepth clip;
     float z, range_near, range_far, want;
   };
-  for (const Case &c :
-       {Case{ClipDepth::negative_one_to_one, -1, 0, 1, 0},
-        {ClipDepth::negative_one_to_one, 1, 0, 1, 1},
-        {ClipDepth::negative_one_to_one, 0, 0, 1, 0.5f},
-        {ClipDepth::zero_to_one, 0, 0, 1, 0},
-        {ClipDepth::zero_to_one, 1, 0, 1, 1},
-        {ClipDepth::negative_one_to_one, -1, 0.25f, 0.75f, 0.25f},
-        {ClipDepth::negative_one_to_one, 1, 0.25f, 0.75f, 0.75f},
-        {ClipDepth::zero_to_one, 0.5f, 0.25f, 0.75f, 0.5f},
-        {ClipDepth::zero_to_one, 0, 0.25f, 0.75f, 0.25f},
-        // reversed: near to 1
-        {ClipDepth::negative_one_to_one, -1, 1, 0, 1},
-        {ClipDepth::negative_one_to_one, 0.5f, 1, 0, 0.25f},
-        {ClipDepth::zero_to_one, 0.25f, 1, 0, 0.75f},
-        {ClipDepth::zero_to_one, 1, 1, 0, 0},
-        {ClipDepth::zero_to_one, 0.3f, 0.5f, 0.5f, 0.5f}}) {
+  for (const Case& c : {Case{ClipDepth::negative_one_to_one, -1, 0, 1, 0},
+                        {ClipDepth::negative_one_to_one, 1, 0, 1, 1},
+                        {ClipDepth::negative_one_to_one, 0, 0, 1, 0.5f},
+                        {ClipDepth::zero_to_one, 0, 0, 1, 0},
+                        {ClipDepth::zero_to_one, 1, 0, 1, 1},
+                        {ClipDepth::negative_one_to_one, -1, 0.25f, 0.75f, 0.25f},
+                        {ClipDepth::negative_one_to_one, 1, 0.25f, 0.75f, 0.75f},
+                        {ClipDepth::zero_to_one, 0.5f, 0.25f, 0.75f, 0.5f},
+                        {ClipDepth::zero_to_one, 0, 0.25f, 0.75f, 0.25f},
+                        // reversed: near to 1
+                        {ClipDepth::negative_one_to_one, -1, 1, 0, 1},
+                        {ClipDepth::negative_one_to_one, 0.5f, 1, 0, 0.25f},
+                        {ClipDepth::zero_to_one, 0.25f, 1, 0, 0.75f},
+                        {ClipDepth::zero_to_one, 1, 1, 0, 0},
+                        {ClipDepth::zero_to_one, 0.3f, 0.5f, 0.5f, 0.5f}}) {
     DrawState state = always();
     state.depth.clip = c.clip;
     state.depth.range_near = c.range_near;
     state.depth.range_far = c.range_far;
     const auto positions = full_screen(c.z);
-    EXPECT_TRUE(is_everywhere(draw_depth(8, 8, positions, state, 0.9f), c.want))
-        << c.z << ' ' << c.range_near << ' ' << c.range_far;
+    EXPECT_TRUE(is_everywhere(draw_depth(8, 8, positions, state, 0.9f), c.want)) << c.z << ' ' << c.range_near << ' ' << c.range_far;
   }
 }
 
 TEST(Depth, ClampHoldsToTheRange) {
-  // A ramp from z = −1 to z = 2 across 32 px: cut off at near and far, or held
-  // to the range.
+  // A ramp from z = −1 to z = 2 across 32 px: cut off at near and far, or held to the range.
   constexpr int kSize = 32;
-  const std::vector<glm::vec4> positions{{-1, -1, -1, 1}, {1, -1, 2, 1},
-                                         {-1, 1, -1, 1},  {1, -1, 2, 1},
-                                         {1, 1, 2, 1},    {-1, 1, -1, 1}};
+  const std::vector<glm::vec4> positions{{-1, -1, -1, 1}, {1, -1, 2, 1}, {-1, 1, -1, 1}, {1, -1, 2, 1}, {1, 1, 2, 1}, {-1, 1, -1, 1}};
   for (const bool reversed_range : {false, true}) {
     DrawState state = always();
     state.depth.range_near = reversed_range ? 0.75f : 0.25f;
     state.depth.range_far = reversed_range ? 0.25f : 0.75f;
     state.depth.clamp = true;
-    const Image<float> clamped =
-        draw_depth(kSize, kSize, positions, state, 0.0f);
+    const Image<float> clamped = draw_depth(kSize, kSize, positions, state, 0.0f);
     state.depth.clamp = false;
     const Image<float> cut = draw_depth(kSize, kSize, positions, state, 0.0f);
     for (int x = 0; x < kSize; ++x) {
       const float z = -1 + 3 * (static_cast<float>(x) + 0.5f) / kSize;
       const bool inside = z >= 0 && z <= 1;
       const float held = std::clamp(z, 0.0f, 1.0f);
-      const float want =
-          reversed_range ? 0.75f - 0.5f * held : 0.25f + 0.5f * held;
+      const float want = reversed_range ? 0.75f - 0.5f * held : 0.25f + 0.5f * held;
       EXPECT_NEAR(pixel(clamped, x, 13), want, 1e-6f);
-      // The cut triangles' corners are snapped: half a sub-pixel of the slope,
-      // 3/32 · 0.5 a pixel.
-      EXPECT_NEAR(pixel(cut, x, 13), inside ? want : 0.0f,
-                  0.5f * 3 / 32 / 512 + 1e-6f);
-      if (inside)
-        continue;
-      EXPECT_EQ(pixel(clamped, x, 13), want); // exactly the end of the range
+      // The cut triangles' corners are snapped: half a sub-pixel of the slope, 3/32 · 0.5 a pixel.
+      EXPECT_NEAR(pixel(cut, x, 13), inside ? want : 0.0f, 0.5f * 3 / 32 / 512 + 1e-6f);
+      if (inside) continue;
+      EXPECT_EQ(pixel(clamped, x, 13), want);  // exactly the end of the range
     }
   }
 }
 
-// ---- offset
-// ----------------------------------------------------------------------------------------------------
+// ---- offset ----------------------------------------------------------------------------------------------------
 
-float offset_depth(DepthFormat format, const std::vector<glm::vec4> &positions,
-                   const DepthOffset &offset, int x, int y) {
+float offset_depth(DepthFormat format, const std::vector<glm::vec4>& positions, const DepthOffset& offset, int x, int y) {
   DrawState state = always();
   state.offset = offset;
   constexpr int kSize = 64;
@@ -443,85 +366,58 @@ float offset_depth(DepthFormat format, const std::vector<glm::vec4> &positions,
 }
 
 TEST(DepthOffset, ConstantCountsSmallestSteps) {
-  // At z = 0.25 the smallest step of a float is 2^-25 (0.25 = 2^-2; 2^(−2−23));
-  // positive moves z up.
+  // At z = 0.25 the smallest step of a float is 2^-25 (0.25 = 2^-2; 2^(−2−23)); positive moves z up.
   const auto p = full_screen(0.25f);
   for (const float n : {1.0f, 4.0f, 100.0f, -3.0f}) {
-    EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = n}, 10, 10),
-              0.25f + n * 0x1p-25f);
-    EXPECT_EQ(offset_depth(DepthFormat::d16, p, {.constant = n}, 10, 10),
-              std::nearbyint(65535 * 0.25) + static_cast<double>(n));
+    EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = n}, 10, 10), 0.25f + n * 0x1p-25f);
+    EXPECT_EQ(offset_depth(DepthFormat::d16, p, {.constant = n}, 10, 10), std::nearbyint(65535 * 0.25) + static_cast<double>(n));
     // 0.25·(2^24 − 1) = 4194303.75, to the nearest.
-    EXPECT_EQ(offset_depth(DepthFormat::d24, p, {.constant = n}, 10, 10),
-              4194304 + static_cast<double>(n));
+    EXPECT_EQ(offset_depth(DepthFormat::d24, p, {.constant = n}, 10, 10), 4194304 + static_cast<double>(n));
   }
 }
 
 TEST(DepthOffset, FloatStepFollowsTheLargestDepthOfTheTriangle) {
-  // Largest |z| is 0.75: exponent −1, step 2^-24, for all of the triangle. At
-  // the vertex with z = 0.25 a float resolves it.
-  const std::vector<glm::vec4> p{
-      {-1, -1, 0.25f, 1}, {3, -1, 0.75f, 1}, {-1, 3, 0.25f, 1}};
+  // Largest |z| is 0.75: exponent −1, step 2^-24, for all of the triangle. At the vertex with z = 0.25 a float resolves
+  // it.
+  const std::vector<glm::vec4> p{{-1, -1, 0.25f, 1}, {3, -1, 0.75f, 1}, {-1, 3, 0.25f, 1}};
   const float without = offset_depth(DepthFormat::d32f, p, {}, 3, 3);
-  EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = 2.0f}, 3, 3),
-            without + 2 * 0x1p-24f);
+  EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = 2.0f}, 3, 3), without + 2 * 0x1p-24f);
 }
 
 TEST(DepthOffset, SlopeIsTheSteeperOfBothDirections) {
   // z grows by 1/256 a pixel in x and falls by 1/512 in y: m = 1/256.
-  const auto plane = [](float x, float y) {
-    return 0.5f + (x - 32) / 256 - (y - 32) / 512;
-  };
-  const auto vertex = [&](float x, float y) {
-    return glm::vec4(x / 32 - 1, y / 32 - 1, plane(x, y), 1);
-  };
+  const auto plane = [](float x, float y) { return 0.5f + (x - 32) / 256 - (y - 32) / 512; };
+  const auto vertex = [&](float x, float y) { return glm::vec4(x / 32 - 1, y / 32 - 1, plane(x, y), 1); };
   const std::vector<glm::vec4> p{vertex(0, 0), vertex(64, 0), vertex(0, 64)};
-  const std::vector<glm::vec4> q{
-      vertex(0, 0), vertex(0, 64),
-      vertex(64, 0)}; // the other way round: the same
-  for (const auto &t : {p, q}) {
+  const std::vector<glm::vec4> q{vertex(0, 0), vertex(0, 64), vertex(64, 0)};  // the other way round: the same
+  for (const auto& t : {p, q}) {
     const float z = plane(10.5f, 10.5f);
     // The sum of plane and offset rounds a few times by 2^-25.
-    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = 2.0f}, 10, 10),
-                z + 2.0f / 256, 2e-7f);
-    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = -3.0f}, 10, 10),
-                z - 3.0f / 256, 2e-7f);
-    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t,
-                             {.slope = 2.0f, .clamp = 0.001f}, 10, 10),
-                z + 0.001f, 2e-7f);
-    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t,
-                             {.slope = -2.0f, .clamp = -0.001f}, 10, 10),
-                z - 0.001f, 2e-7f);
-    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t,
-                             {.slope = -2.0f, .clamp = 0.001f}, 10, 10),
-                z - 2.0f / 256, 2e-7f); // an upper bound only
-    EXPECT_NEAR(offset_depth(DepthFormat::d16, t,
-                             {.slope = 1.0f, .constant = 5.0f}, 10, 10),
+    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = 2.0f}, 10, 10), z + 2.0f / 256, 2e-7f);
+    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = -3.0f}, 10, 10), z - 3.0f / 256, 2e-7f);
+    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = 2.0f, .clamp = 0.001f}, 10, 10), z + 0.001f, 2e-7f);
+    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = -2.0f, .clamp = -0.001f}, 10, 10), z - 0.001f, 2e-7f);
+    EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = -2.0f, .clamp = 0.001f}, 10, 10), z - 2.0f / 256,
+                2e-7f);  // an upper bound only
+    EXPECT_NEAR(offset_depth(DepthFormat::d16, t, {.slope = 1.0f, .constant = 5.0f}, 10, 10),
                 (static_cast<double>(z) + 1.0 / 256) * 65535 + 5, 0.51);
-    EXPECT_NEAR(offset_depth(DepthFormat::d24, t,
-                             {.slope = 1.0f, .constant = 5.0f}, 10, 10),
+    EXPECT_NEAR(offset_depth(DepthFormat::d24, t, {.slope = 1.0f, .constant = 5.0f}, 10, 10),
                 (static_cast<double>(z) + 1.0 / 256) * 16777215 + 5, 4);
   }
 }
 
 TEST(DepthOffset, ResultStaysInTheRange) {
   const auto p = full_screen(0.999f);
-  EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = 1e9f}, 10, 10),
-            1.0f);
-  EXPECT_EQ(offset_depth(DepthFormat::d32f, full_screen(0.001f),
-                         {.constant = -1e9f}, 10, 10),
-            0.0f);
+  EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = 1e9f}, 10, 10), 1.0f);
+  EXPECT_EQ(offset_depth(DepthFormat::d32f, full_screen(0.001f), {.constant = -1e9f}, 10, 10), 0.0f);
 }
 
 TEST(DepthOffset, SignByConvention) {
-  // Two coplanar quads: the decal wins with a negative offset under LESS, with
-  // a positive one under reversed Z.
+  // Two coplanar quads: the decal wins with a negative offset under LESS, with a positive one under reversed Z.
   for (const bool reversed : {false, true}) {
     for (const float sign : {-1.0f, 1.0f}) {
       Image<glm::vec4> image(8, 8);
-      Pass pass(
-          8, 8, rgba32f_target(image),
-          {.format = DepthFormat::d32f, .clear_value = reversed ? 0.0f : 1.0f});
+      Pass pass(8, 8, rgba32f_target(image), {.format = DepthFormat::d32f, .clear_value = reversed ? 0.0f : 1.0f});
       DrawState state = always();
       state.depth.compare = reversed ? CompareOp::greater : CompareOp::less;
       const auto p = full_screen(0.3f);
@@ -534,12 +430,10 @@ TEST(DepthOffset, SignByConvention) {
   }
 }
 
-// ---- formats
-// ---------------------------------------------------------------------------------------------------
+// ---- formats ---------------------------------------------------------------------------------------------------
 
-// Codes are the nearest whole numbers to z·(2^n − 1), ties to even (GL 4.6,
-// section 2.3.5.2 leaves the tie open), from the float depth. Every value is
-// tried through a pass whose triangle has that depth everywhere.
+// Codes are the nearest whole numbers to z·(2^n − 1), ties to even (GL 4.6, section 2.3.5.2 leaves the tie open), from
+// the float depth. Every value is tried through a pass whose triangle has that depth everywhere.
 TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
   Random r(4);
   constexpr int kSide = 64;
@@ -548,34 +442,25 @@ TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
     std::vector<float> z(kSide * kSide);
     std::vector<glm::vec4> positions;
     for (int i = 0; i < kSide * kSide; ++i) {
-      float &value = z[static_cast<std::size_t>(i)];
+      float& value = z[static_cast<std::size_t>(i)];
       const int kind = r.integer(0, 3);
       const bool wide = batch % 2 == 0;
       const double codes = wide ? 16777215.0 : 65535.0;
-      value = kind == 0
-                  ? r.real(0.0f, 1.0f)
-                  : static_cast<float>(
-                        (r.integer(0, static_cast<int>(codes) - 1) + 0.5) /
-                        codes); // beside a tie
-      if (kind == 2)
-        value = static_cast<float>((r.integer(0, 1 << r.integer(1, 16)) + 0.5) /
-                                   codes);
-      if (kind == 3)
-        value = static_cast<float>(r.real(0.0, codes) / codes);
+      value =
+          kind == 0 ? r.real(0.0f, 1.0f) : static_cast<float>((r.integer(0, static_cast<int>(codes) - 1) + 0.5) / codes);  // beside a tie
+      if (kind == 2) value = static_cast<float>((r.integer(0, 1 << r.integer(1, 16)) + 0.5) / codes);
+      if (kind == 3) value = static_cast<float>(r.real(0.0, codes) / codes);
       value = std::min(value, 1.0f);
       const int x = i % kSide, y = i / kSide;
       const auto at = [&](int dx, int dy) {
-        return glm::vec4(static_cast<float>(x + dx) / 32 - 1,
-                         static_cast<float>(y + dy) / 32 - 1, value, 1);
+        return glm::vec4(static_cast<float>(x + dx) / 32 - 1, static_cast<float>(y + dy) / 32 - 1, value, 1);
       };
-      positions.insert(positions.end(), {at(0, 0), at(1, 0), at(0, 1), at(1, 0),
-                                         at(1, 1), at(0, 1)});
+      positions.insert(positions.end(), {at(0, 0), at(1, 0), at(0, 1), at(1, 0), at(1, 1), at(0, 1)});
     }
     Image<uint32_t> d24(kSide, kSide);
     Image<uint16_t> d16(kSide, kSide);
     Image<float> d32f(kSide, kSide);
-    for (const DepthTarget &target :
-         {d24_target(d24), d16_target(d16), d32f_target(d32f)}) {
+    for (const DepthTarget& target : {d24_target(d24), d16_target(d16), d32f_target(d32f)}) {
       Pass pass(kSide, kSide, {}, target);
       pass.draw(ConstantShader{}, vertices(stream(positions)), always());
       pass.run(one_worker());
@@ -585,12 +470,8 @@ TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
       const int x = i % kSide, y = i / kSide;
       ASSERT_EQ(pixel(d32f, x, y), value);
       // 24 + 24 bits: exact in double.
-      ASSERT_EQ(pixel(d24, x, y), static_cast<uint32_t>(std::nearbyint(
-                                      static_cast<double>(value) * 16777215.0)))
-          << value;
-      ASSERT_EQ(pixel(d16, x, y), static_cast<uint16_t>(std::nearbyint(
-                                      static_cast<double>(value) * 65535.0)))
-          << value;
+      ASSERT_EQ(pixel(d24, x, y), static_cast<uint32_t>(std::nearbyint(static_cast<double>(value) * 16777215.0))) << value;
+      ASSERT_EQ(pixel(d16, x, y), static_cast<uint16_t>(std::nearbyint(static_cast<double>(value) * 65535.0))) << value;
     }
   }
 }
@@ -611,8 +492,7 @@ TEST(DepthFormats, LoadedDepthIsWhatWasStored) {
   const std::vector<glm::vec4> nothing_passes = full_screen(0.5f);
   DrawState state = always();
   state.depth.compare = CompareOp::never;
-  for (DepthTarget target :
-       {d16_target(d16), d24_target(d24), d32f_target(d32f)}) {
+  for (DepthTarget target : {d16_target(d16), d24_target(d24), d32f_target(d32f)}) {
     target.load = LoadOp::load;
     Pass pass(70, 50, {}, target);
     pass.draw(ConstantShader{}, vertices(stream(nothing_passes)), state);
@@ -623,41 +503,45 @@ TEST(DepthFormats, LoadedDepthIsWhatWasStored) {
   EXPECT_EQ(d32f, d32f_before);
 }
 
-// ---- invariance
-// ------------------------------------------------------------------------------------------------
+// ---- invariance ------------------------------------------------------------------------------------------------
 
 struct DepthOnly {
   glm::mat4 clip_from_model{1.0f};
-  template <class R> struct Attributes { vec4<R> position; };
-  template <class R> struct Varyings {};
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &) const {
+  struct Attributes {
+    vec4<R> position;
+  };
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return clip_from_model * in.position;
   }
 };
 
-// The same position expression, everything else different: attributes,
-// varyings, what the fragment does.
+// The same position expression, everything else different: attributes, varyings, what the fragment does.
 struct Full {
   glm::mat4 clip_from_model{1.0f};
-  template <class R> struct Attributes {
+  template <class R>
+  struct Attributes {
     vec4<R> position;
     vec4<R> color;
   };
-  template <class R> struct Varyings {
+  template <class R>
+  struct Varyings {
     vec4<R> color;
     vec2<R> extra;
     Linear<R> more;
   };
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &out) const {
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.color = in.color;
     out.extra = vec2<R>(in.position.x * in.position.y, in.color.x);
     out.more.value = in.position.z;
     return clip_from_model * in.position;
   }
   template <class R>
-  Fragment<R> fragment(const Varyings<R> &in, const Pixel<R> &px) const {
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     return {in.color + vec4<R>(in.extra.x, in.extra.y, in.more.value, px.z)};
   }
 };
@@ -672,33 +556,25 @@ TEST(DepthInvariance, PrePassThenEqualLosesNothing) {
     std::vector<glm::vec4> positions, colors;
     std::vector<uint32_t> indices;
     for (int k = 0; k < 120; ++k) {
-      positions.push_back({r.real(-3.0f, 3.0f), r.real(-3.0f, 3.0f),
-                           r.real(-6.0f, 1.0f), 1.0f});
-      colors.push_back(
-          {r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 1.0f});
+      positions.push_back({r.real(-3.0f, 3.0f), r.real(-3.0f, 3.0f), r.real(-6.0f, 1.0f), 1.0f});
+      colors.push_back({r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 1.0f});
     }
-    for (int k = 0; k < 300; ++k)
-      indices.push_back(static_cast<uint32_t>(r.integer(0, 119)));
+    for (int k = 0; k < 300; ++k) indices.push_back(static_cast<uint32_t>(r.integer(0, 119)));
     const Indices list(indices, positions.size());
-    // Reversed Z, infinitely far, near 0.3: many triangles cross the near plane
-    // and w = 0.
+    // Reversed Z, infinitely far, near 0.3: many triangles cross the near plane and w = 0.
     glm::mat4 m(0.0f);
     m[0][0] = r.real(0.5f, 3.0f);
     m[1][1] = r.real(0.5f, 3.0f);
     m[2][3] = -1.0f;
     m[3][2] = 0.3f;
     DrawState state = reversed_z();
-    if (i % 4 == 0)
-      state.offset = {.slope = 1.5f, .constant = 3.0f};
-    if (i % 5 == 0)
-      state.depth.clamp = true;
+    if (i % 4 == 0) state.offset = {.slope = 1.5f, .constant = 3.0f};
+    if (i % 5 == 0) state.depth.clamp = true;
 
     Image<float> d32f(kWidth, kHeight);
     Image<uint32_t> d24(kWidth, kHeight);
     Image<uint16_t> d16(kWidth, kHeight);
-    DepthTarget depth = format == DepthFormat::d32f  ? d32f_target(d32f)
-                        : format == DepthFormat::d24 ? d24_target(d24)
-                                                     : d16_target(d16);
+    DepthTarget depth = format == DepthFormat::d32f ? d32f_target(d32f) : format == DepthFormat::d24 ? d24_target(d24) : d16_target(d16);
     depth.clear_value = 0.0f;
     Pass first(kWidth, kHeight, {}, depth, {.tile_size = 8 << (i % 4)});
     first.draw_depth(DepthOnly{m}, vertices(stream(positions)), list, state);
@@ -710,30 +586,26 @@ TEST(DepthInvariance, PrePassThenEqualLosesNothing) {
     color_target.clear_value = glm::vec4(-1000.0f);
     depth.load = LoadOp::load;
     state.depth.compare = CompareOp::equal;
-    Pass second(kWidth, kHeight, color_target, depth,
-                {.tile_size = 64, .defer = i % 2 == 0});
-    second.draw(Full{m}, vertices(stream(positions), stream(colors)), list,
-                state);
+    Pass second(kWidth, kHeight, color_target, depth, {.tile_size = 64, .defer = i % 2 == 0});
+    second.draw(Full{m}, vertices(stream(positions), stream(colors)), list, state);
     second.run(one_worker());
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const bool before = format == DepthFormat::d32f  ? pixel(d32f, x, y) > 0
                             : format == DepthFormat::d24 ? pixel(d24, x, y) > 0
                                                          : pixel(d16, x, y) > 0;
-        if (!before)
-          continue;
+        if (!before) continue;
         ++covered;
         lost += pixel(color, x, y) == glm::vec4(-1000.0f);
       }
     }
   }
-  std::printf("%lld covered pixels, %lld lost, %llu triangles clipped\n",
-              static_cast<long long>(covered), static_cast<long long>(lost),
+  std::printf("%lld covered pixels, %lld lost, %llu triangles clipped\n", static_cast<long long>(covered), static_cast<long long>(lost),
               static_cast<unsigned long long>(clipped));
   EXPECT_EQ(lost, 0);
   EXPECT_GT(covered, effort(150) * 3000);
   EXPECT_GT(clipped, static_cast<uint64_t>(effort(150) * 10));
 }
 
-} // namespace
-} // namespace halfspace::raster_test
+}  // namespace
+}  // namespace halfspace::raster_test

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the raster tests share: random numbers that every machine draws alike,
-// meshes given in 1/256 px whose positions survive the vertex stage exactly,
-// shaders that carry one flat colour, and draws into a float image.
+// What the raster tests share: random numbers that every machine draws alike, meshes given in 1/256 px whose positions
+// survive the vertex stage exactly, shaders that carry one flat colour, and draws into a float image.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,20 +18,17 @@ namespace halfspace::raster_test {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #elif defined(__has_feature)
-inline constexpr bool kSanitized =
-    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+inline constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
 #else
 inline constexpr bool kSanitized = false;
 #endif
 
-/// Repetitions of a random test: fewer where a sanitizer makes each many times
-/// slower.
+/// Repetitions of a random test: fewer where a sanitizer makes each many times slower.
 constexpr int effort(int n) { return kSanitized ? (n + 15) / 16 : n; }
 
-/// splitmix64 (Steele, Lea and Flood, 2014): the standard library's
-/// distributions differ between implementations.
+/// splitmix64 (Steele, Lea and Flood, 2014): the standard library's distributions differ between implementations.
 class Random {
-public:
+ public:
   explicit Random(uint64_t seed) : state_(seed) {}
 
   uint64_t bits() {
@@ -43,60 +39,51 @@ public:
   }
   /// A whole number in [low, high].
   int integer(int low, int high) {
-    return static_cast<int>(
-        low + static_cast<int64_t>(
-                  bits() % static_cast<uint64_t>(int64_t{high} - low + 1)));
+    return static_cast<int>(low + static_cast<int64_t>(bits() % static_cast<uint64_t>(int64_t{high} - low + 1)));
   }
   /// In [low, high).
-  double real(double low, double high) {
-    return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
-  }
-  float real(float low, float high) {
-    return static_cast<float>(
-        real(static_cast<double>(low), static_cast<double>(high)));
-  }
+  double real(double low, double high) { return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53; }
+  float real(float low, float high) { return static_cast<float>(real(static_cast<double>(low), static_cast<double>(high))); }
   /// Log-uniform in [low, high).
-  double magnitude(double low, double high) {
-    return low * std::pow(high / low, real(0.0, 1.0));
-  }
+  double magnitude(double low, double high) { return low * std::pow(high / low, real(0.0, 1.0)); }
   bool coin() { return (bits() & 1) != 0; }
 
-private:
+ private:
   uint64_t state_;
 };
 
 /// A window position in 1/256 px.
 struct Point {
   int32_t x, y;
-  friend bool operator==(const Point &, const Point &) = default;
+  friend bool operator==(const Point&, const Point&) = default;
 };
 using PointTriangle = std::array<Point, 3>;
 
-/// The clip position (w = 1) that lands on p in a viewport of width × height px
-/// at the origin. Exact: both sizes must be powers of two, so that nothing but
-/// a power of two is divided by, and |p| ≤ 2^23.
-inline glm::vec4 clip_position(const Point &p, int width, int height,
-                               float z = 0.0f) {
-  return {
-      static_cast<float>(p.x - 128 * width) / static_cast<float>(128 * width),
-      static_cast<float>(p.y - 128 * height) / static_cast<float>(128 * height),
-      z, 1.0f};
+/// The clip position (w = 1) that lands on p in a viewport of width × height px at the origin. Exact: both sizes must
+/// be powers of two, so that nothing but a power of two is divided by, and |p| ≤ 2^23.
+inline glm::vec4 clip_position(const Point& p, int width, int height, float z = 0.0f) {
+  return {static_cast<float>(p.x - 128 * width) / static_cast<float>(128 * width),
+          static_cast<float>(p.y - 128 * height) / static_cast<float>(128 * height), z, 1.0f};
 }
 
 /// Clip positions as given, one flat colour a triangle.
 struct FlatColorShader {
-  template <class R> struct Attributes {
+  template <class R>
+  struct Attributes {
     vec4<R> position;
     vec4<R> color;
   };
-  template <class R> struct Varyings { Flat<vec4<R>> color; };
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &out) const {
+  struct Varyings {
+    Flat<vec4<R>> color;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.color.value = in.color;
     return in.position;
   }
   template <class R>
-  Fragment<R> fragment(const Varyings<R> &in, const Pixel<R> &) const {
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {in.color.value};
   }
 };
@@ -104,70 +91,64 @@ struct FlatColorShader {
 /// Clip positions as given, the same colour everywhere, no varyings.
 struct ConstantShader {
   glm::vec4 color{1.0f};
-  template <class R> struct Attributes { vec4<R> position; };
-  template <class R> struct Varyings {};
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &) const {
+  struct Attributes {
+    vec4<R> position;
+  };
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return in.position;
   }
   template <class R>
-  Fragment<R> fragment(const Varyings<R> &, const Pixel<R> &) const {
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
     return {vec4<R>(R(color.x), R(color.y), R(color.z), R(color.w))};
   }
 };
 
-inline constexpr BlendState kAdd{BlendEquation::add, BlendFactor::one,
-                                 BlendFactor::one,   BlendEquation::add,
-                                 BlendFactor::one,   BlendFactor::one};
+inline constexpr BlendState kAdd{BlendEquation::add, BlendFactor::one, BlendFactor::one,
+                                 BlendEquation::add, BlendFactor::one, BlendFactor::one};
 
-/// One thread: results do not depend on their number (tests/property shows it),
-/// and the proofs stay simple.
-inline const Workers &one_worker() {
+/// One thread: results do not depend on their number (tests/property shows it), and the proofs stay simple.
+inline const Workers& one_worker() {
   static const Workers workers(1);
   return workers;
 }
 
-/// The pixel at window coordinates (x, y), whose origin is the lower left;
-/// images hold the top row first.
-template <class T> const T &pixel(const Image<T> &image, int x, int y) {
+/// The pixel at window coordinates (x, y), whose origin is the lower left; images hold the top row first.
+template <class T>
+const T& pixel(const Image<T>& image, int x, int y) {
   return image.at(x, image.height() - 1 - y);
 }
 
-/// Draws triangles with one colour each, added up (blend) or the last one
-/// winning (deferred).
-inline PassStatistics draw_colors(Image<glm::vec4> &image,
-                                  std::span<const PointTriangle> triangles,
-                                  std::span<const glm::vec4> colors,
-                                  bool add_up,
-                                  const PassOptions &options = {}) {
+/// Draws triangles with one colour each, added up (blend) or the last one winning (deferred).
+inline PassStatistics draw_colors(Image<glm::vec4>& image, std::span<const PointTriangle> triangles, std::span<const glm::vec4> colors,
+                                  bool add_up, const PassOptions& options = {}) {
   std::vector<glm::vec4> positions, vertex_colors;
   positions.reserve(triangles.size() * 3);
   vertex_colors.reserve(triangles.size() * 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (const Point &p : triangles[i]) {
+    for (const Point& p : triangles[i]) {
       positions.push_back(clip_position(p, image.width(), image.height()));
       vertex_colors.push_back(colors[i]);
     }
   }
   Pass pass(image.width(), image.height(), rgba32f_target(image), {}, options);
   DrawState state;
-  if (add_up)
-    state.blend = kAdd;
-  pass.draw(FlatColorShader{},
-            vertices(stream(positions), stream(vertex_colors)), state);
+  if (add_up) state.blend = kAdd;
+  pass.draw(FlatColorShader{}, vertices(stream(positions), stream(vertex_colors)), state);
   return pass.run(one_worker());
 }
 
 /// The vertex stage alone, on every vertex of the view.
 template <class S>
-ShadedVertices shade(const S &shader, const VertexView &view,
-                     const Rect &viewport, const DrawState &state = {}) {
+ShadedVertices shade(const S& shader, const VertexView& view, const Rect& viewport, const DrawState& state = {}) {
   Draw draw;
   draw.kernels = detail::kernels_of<S>();
   draw.shader = std::make_shared<const S>(shader);
   draw.vertices = view;
-  draw.indices =
-      std::make_shared<const Indices>(Indices::sequential(view.vertex_count));
+  draw.indices = std::make_shared<const Indices>(Indices::sequential(view.vertex_count));
   draw.state = state;
   draw.viewport = make_viewport(viewport, state.depth);
   ShadedVertices out;
@@ -177,11 +158,8 @@ ShadedVertices shade(const S &shader, const VertexView &view,
 }
 
 /// Draws a mesh of clip positions; every covered sample adds 1 to its pixel.
-inline PassStatistics count_coverage(Image<glm::vec4> &image,
-                                     const std::vector<glm::vec4> &positions,
-                                     const std::vector<uint32_t> &indices,
-                                     DrawState state = {},
-                                     const PassOptions &options = {}) {
+inline PassStatistics count_coverage(Image<glm::vec4>& image, const std::vector<glm::vec4>& positions, const std::vector<uint32_t>& indices,
+                                     DrawState state = {}, const PassOptions& options = {}) {
   const Indices list(indices, positions.size());
   Pass pass(image.width(), image.height(), rgba32f_target(image), {}, options);
   state.blend = kAdd;
@@ -189,4 +167,4 @@ inline PassStatistics count_coverage(Image<glm::vec4> &image,
   return pass.run(one_worker());
 }
 
-} // namespace halfspace::raster_test
+}  // namespace halfspace::raster_test

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of a draw and of a pass, by hand-made cases: culling, viewport and
-// scissor, provoking vertex, load and store, post step, statistics, vertex
-// views and indices, and the checks that stop a caller's bug.
+// The state of a draw and of a pass, by hand-made cases: culling, viewport and scissor, provoking vertex, load and
+// store, post step, statistics, vertex views and indices, and the checks that stop a caller's bug.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,140 +11,140 @@
 namespace halfspace::raster_test {
 namespace {
 
-// ---- shaders
-// ---------------------------------------------------------------------------------------------------
+// ---- shaders ---------------------------------------------------------------------------------------------------
 
 // Shows which face it sees: (1, 0) front, (0, 1) back.
 struct FacingShader {
-  template <class R> using Attributes = ConstantShader::Attributes<R>;
-  template <class R> struct Varyings {};
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &) const {
+  using Attributes = ConstantShader::Attributes<R>;
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return in.position;
   }
   template <class R>
-  Fragment<R> fragment(const Varyings<R> &, const Pixel<R> &px) const {
-    return {vec4<R>(select(px.front_facing, R(1), R(0)),
-                    select(px.front_facing, R(0), R(1)), R(0), R(1))};
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    return {vec4<R>(select(px.front_facing, R(1), R(0)), select(px.front_facing, R(0), R(1)), R(0), R(1))};
   }
 };
 
 // Three vertices' values in the order of submission, by the primitive stage.
 struct OrderShader {
-  template <class R> struct Attributes {
+  template <class R>
+  struct Attributes {
     vec4<R> position;
     R value;
   };
-  template <class R> struct Varyings { R value; };
-  template <class R> struct Primitive { vec3<R> values; };
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &out) const {
+  struct Varyings {
+    R value;
+  };
+  template <class R>
+  struct Primitive {
+    vec3<R> values;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.value = in.value;
     return in.position;
   }
   template <class R>
-  Primitive<R> primitive(const Varyings<R> &v0, const Varyings<R> &v1,
-                         const Varyings<R> &v2) const {
+  Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const {
     return {vec3<R>(v0.value, v1.value, v2.value)};
   }
   template <class R>
-  Fragment<R> fragment(const Varyings<R> &, const Primitive<R> &face,
-                       const Pixel<R> &) const {
+  Fragment<R> fragment(const Varyings<R>&, const Primitive<R>& face, const Pixel<R>&) const {
     return {vec4<R>(face.values, R(1))};
   }
 };
 
 // Keeps the left half of the window.
-template <bool has_visibility> struct HalfShader;
-template <> struct HalfShader<false> {
+template <bool has_visibility>
+struct HalfShader;
+template <>
+struct HalfShader<false> {
   float edge = 32;
-  template <class R> using Attributes = ConstantShader::Attributes<R>;
-  template <class R> struct Varyings {};
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &) const {
+  using Attributes = ConstantShader::Attributes<R>;
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return in.position;
   }
   template <class R>
-  DiscardingFragment<R> fragment(const Varyings<R> &,
-                                 const Pixel<R> &px) const {
+  DiscardingFragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
     return {vec4<R>(R(1)), px.x < R(edge)};
   }
 };
-template <> struct HalfShader<true> : HalfShader<false> {
+template <>
+struct HalfShader<true> : HalfShader<false> {
   template <class R>
-  Visibility<R> visibility(const Varyings<R> &, const Pixel<R> &px) const {
+  Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const {
     return {px.x < R(edge), px.z};
   }
 };
 
 // Writes a depth of its own: x/64.
-template <bool has_visibility> struct DepthShader;
-template <> struct DepthShader<false> {
+template <bool has_visibility>
+struct DepthShader;
+template <>
+struct DepthShader<false> {
   glm::vec4 color{1.0f};
   float scale = 1.0f / 64, bias = 0;
-  template <class R> using Attributes = ConstantShader::Attributes<R>;
-  template <class R> struct Varyings {};
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &) const {
+  using Attributes = ConstantShader::Attributes<R>;
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return in.position;
   }
   template <class R>
-  DepthFragment<R> fragment(const Varyings<R> &, const Pixel<R> &px) const {
-    return {vec4<R>(R(color.x), R(color.y), R(color.z), R(color.w)),
-            MaskOf<R>(true), px.x * R(scale) + R(bias)};
+  DepthFragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    return {vec4<R>(R(color.x), R(color.y), R(color.z), R(color.w)), MaskOf<R>(true), px.x * R(scale) + R(bias)};
   }
 };
-template <> struct DepthShader<true> : DepthShader<false> {
+template <>
+struct DepthShader<true> : DepthShader<false> {
   template <class R>
-  Visibility<R> visibility(const Varyings<R> &, const Pixel<R> &px) const {
+  Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const {
     return {MaskOf<R>(true), px.x * R(scale) + R(bias)};
   }
 };
 
-const std::vector<glm::vec4> kFullScreen{
-    {-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
-std::vector<glm::vec4> full_screen(float z) {
-  return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}};
-}
+const std::vector<glm::vec4> kFullScreen{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+std::vector<glm::vec4> full_screen(float z) { return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}}; }
 
 template <class S>
-PassStatistics draw(Image<glm::vec4> &image, const S &shader,
-                    const std::vector<glm::vec4> &positions,
-                    const DrawState &state = {},
-                    const PassOptions &options = {}) {
+PassStatistics draw(Image<glm::vec4>& image, const S& shader, const std::vector<glm::vec4>& positions, const DrawState& state = {},
+                    const PassOptions& options = {}) {
   Pass pass(image.width(), image.height(), rgba32f_target(image), {}, options);
   pass.draw(shader, vertices(stream(positions)), state);
   return pass.run(one_worker());
 }
 
-int64_t drawn_pixels(const Image<glm::vec4> &image) {
-  return std::count_if(image.texels().begin(), image.texels().end(),
-                       [](const glm::vec4 &p) { return p != glm::vec4(0.0f); });
+int64_t drawn_pixels(const Image<glm::vec4>& image) {
+  return std::count_if(image.texels().begin(), image.texels().end(), [](const glm::vec4& p) { return p != glm::vec4(0.0f); });
 }
 
-bool is_everywhere(const Image<glm::vec4> &image, const glm::vec4 &want) {
-  return std::all_of(image.texels().begin(), image.texels().end(),
-                     [&](const glm::vec4 &p) { return p == want; });
+bool is_everywhere(const Image<glm::vec4>& image, const glm::vec4& want) {
+  return std::all_of(image.texels().begin(), image.texels().end(), [&](const glm::vec4& p) { return p == want; });
 }
 
-// ---- culling
-// ---------------------------------------------------------------------------------------------------
+// ---- culling ---------------------------------------------------------------------------------------------------
 
 TEST(Culling, ModesAndWindings) {
   for (const Winding front : {Winding::counter_clockwise, Winding::clockwise}) {
-    for (const bool turns_left : {true, false}) { // in the window, y up
-      for (const CullMode mode : {CullMode::none, CullMode::front,
-                                  CullMode::back, CullMode::front_and_back}) {
+    for (const bool turns_left : {true, false}) {  // in the window, y up
+      for (const CullMode mode : {CullMode::none, CullMode::front, CullMode::back, CullMode::front_and_back}) {
         for (const bool clipped : {false, true}) {
-          std::vector<glm::vec4> p{
-              {-1, -1, clipped ? -2.0f : 0.0f, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}};
-          if (!turns_left)
-            std::swap(p[1], p[2]);
-          const bool is_front =
-              turns_left == (front == Winding::counter_clockwise);
-          const bool is_culled = mode == CullMode::front_and_back ||
-                                 (mode == CullMode::front && is_front) ||
-                                 (mode == CullMode::back && !is_front);
+          std::vector<glm::vec4> p{{-1, -1, clipped ? -2.0f : 0.0f, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}};
+          if (!turns_left) std::swap(p[1], p[2]);
+          const bool is_front = turns_left == (front == Winding::counter_clockwise);
+          const bool is_culled =
+              mode == CullMode::front_and_back || (mode == CullMode::front && is_front) || (mode == CullMode::back && !is_front);
           DrawState state;
           state.front = front;
           state.cull = mode;
@@ -153,22 +152,17 @@ TEST(Culling, ModesAndWindings) {
           const PassStatistics s = draw(image, FacingShader{}, p, state);
           EXPECT_EQ(s.culled_face, is_culled ? 1u : 0u);
           EXPECT_EQ(s.clipped, clipped ? 1u : 0u);
-          const glm::vec4 want = is_culled  ? glm::vec4(0)
-                                 : is_front ? glm::vec4(1, 0, 0, 1)
-                                            : glm::vec4(0, 1, 0, 1);
-          EXPECT_EQ(pixel(image, 17, 14), want)
-              << static_cast<int>(mode) << turns_left << is_front;
+          const glm::vec4 want = is_culled ? glm::vec4(0) : is_front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);
+          EXPECT_EQ(pixel(image, 17, 14), want) << static_cast<int>(mode) << turns_left << is_front;
         }
       }
     }
   }
 }
 
-// ---- viewport and scissor
-// --------------------------------------------------------------------------------------
+// ---- viewport and scissor --------------------------------------------------------------------------------------
 
-void expect_drawn_rect(const Image<glm::vec4> &image, int x0, int y0, int x1,
-                       int y1) {
+void expect_drawn_rect(const Image<glm::vec4>& image, int x0, int y0, int x1, int y1) {
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       const bool want = x >= x0 && x < x1 && y >= y0 && y < y1;
@@ -186,39 +180,24 @@ TEST(Viewport, DefaultIsTheWholeTarget) {
 TEST(Viewport, LowerLeftIsTheOriginAndTheTopRowComesFirst) {
   // The lower left quarter: x and y from −1 to 0.
   Image<glm::vec4> image(8, 8);
-  draw(image, ConstantShader{},
-       {{-1, -1, 0, 1},
-        {0, -1, 0, 1},
-        {-1, 0, 0, 1},
-        {0, -1, 0, 1},
-        {0, 0, 0, 1},
-        {-1, 0, 0, 1}});
+  draw(image, ConstantShader{}, {{-1, -1, 0, 1}, {0, -1, 0, 1}, {-1, 0, 0, 1}, {0, -1, 0, 1}, {0, 0, 0, 1}, {-1, 0, 0, 1}});
   EXPECT_EQ(image.at(0, 7),
-            glm::vec4(1)); // the last row in memory is the bottom
+            glm::vec4(1));  // the last row in memory is the bottom
   EXPECT_EQ(image.at(3, 4), glm::vec4(1));
   EXPECT_EQ(image.at(0, 0), glm::vec4(0));
   EXPECT_EQ(image.at(4, 7), glm::vec4(0));
 }
 
 TEST(Viewport, PlacesAndConfines) {
-  for (const Rect &v : {Rect{10, 20, 30, 7},
-                        {0, 0, 1, 1},
-                        {69, 39, 1, 1},
-                        {-20, -5, 50, 30},
-                        {60, 30, 50, 50},
-                        {-100, -100, 1000, 1000},
-                        {64, 0, 6, 40}}) {
+  for (const Rect& v :
+       {Rect{10, 20, 30, 7}, {0, 0, 1, 1}, {69, 39, 1, 1}, {-20, -5, 50, 30}, {60, 30, 50, 50}, {-100, -100, 1000, 1000}, {64, 0, 6, 40}}) {
     for (const int tile_size : {8, 64}) {
       Image<glm::vec4> image(70, 40);
       DrawState state;
       state.viewport = v;
       // Far beyond the viewport's edges: it confines as a scissor does.
-      draw(image, ConstantShader{},
-           {{-5, -5, 0, 1}, {15, -5, 0, 1}, {-5, 15, 0, 1}}, state,
-           {.tile_size = tile_size});
-      expect_drawn_rect(image, std::max(0, v.x), std::max(0, v.y),
-                        std::min(70, v.x + v.width),
-                        std::min(40, v.y + v.height));
+      draw(image, ConstantShader{}, {{-5, -5, 0, 1}, {15, -5, 0, 1}, {-5, 15, 0, 1}}, state, {.tile_size = tile_size});
+      expect_drawn_rect(image, std::max(0, v.x), std::max(0, v.y), std::min(70, v.x + v.width), std::min(40, v.y + v.height));
     }
   }
 }
@@ -237,36 +216,21 @@ TEST(Viewport, TransformsPositions) {
   Image<glm::vec4> image(64, 32);
   DrawState state;
   state.viewport = Rect{16, 8, 32, 16};
-  draw(image, ConstantShader{},
-       {{-1, 0, 0, 1},
-        {0, 0, 0, 1},
-        {-1, 1, 0, 1},
-        {0, 0, 0, 1},
-        {0, 1, 0, 1},
-        {-1, 1, 0, 1}},
-       state);
+  draw(image, ConstantShader{}, {{-1, 0, 0, 1}, {0, 0, 0, 1}, {-1, 1, 0, 1}, {0, 0, 0, 1}, {0, 1, 0, 1}, {-1, 1, 0, 1}}, state);
   expect_drawn_rect(image, 16, 16, 32, 24);
 }
 
 TEST(Scissor, CutsToPixels) {
-  for (const Rect &r : {Rect{3, 4, 5, 6},
-                        {0, 0, 70, 40},
-                        {-10, -10, 20, 20},
-                        {65, 35, 100, 100},
-                        {5, 5, 0, 10},
-                        {5, 5, 10, 0},
-                        {-50, 0, 50, 40}}) {
+  for (const Rect& r :
+       {Rect{3, 4, 5, 6}, {0, 0, 70, 40}, {-10, -10, 20, 20}, {65, 35, 100, 100}, {5, 5, 0, 10}, {5, 5, 10, 0}, {-50, 0, 50, 40}}) {
     for (const bool blended : {false, true}) {
       Image<glm::vec4> image(70, 40);
       DrawState state;
       state.scissor = r;
-      if (blended)
-        state.blend = kAdd;
+      if (blended) state.blend = kAdd;
       draw(image, ConstantShader{}, kFullScreen, state);
-      const int x1 = std::min(70, r.x + r.width),
-                y1 = std::min(40, r.y + r.height);
-      expect_drawn_rect(image, std::max(0, r.x), std::max(0, r.y),
-                        r.height > 0 ? x1 : 0, r.width > 0 ? y1 : 0);
+      const int x1 = std::min(70, r.x + r.width), y1 = std::min(40, r.y + r.height);
+      expect_drawn_rect(image, std::max(0, r.x), std::max(0, r.y), r.height > 0 ? x1 : 0, r.width > 0 ? y1 : 0);
     }
   }
 }
@@ -280,19 +244,15 @@ TEST(Scissor, MeetsTheViewport) {
   expect_drawn_rect(image, 20, 10, 40, 25);
 }
 
-// ---- provoking vertex and primitive order
-// ----------------------------------------------------------------------
+// ---- provoking vertex and primitive order ----------------------------------------------------------------------
 
 TEST(ProvokingVertex, FirstAndLastHoweverTheTriangleIsTurned) {
-  // Depths all different, so that setup starts each rotation at another vertex;
-  // clipped by near when asked.
+  // Depths all different, so that setup starts each rotation at another vertex; clipped by near when asked.
   for (const bool clipped : {false, true}) {
-    const std::array<glm::vec4, 3> corners{
-        glm::vec4(-1, -1, 0.3f, 1), glm::vec4(1, -1, clipped ? -3.0f : 0.1f, 1),
-        glm::vec4(0, 1, 0.2f, 1)};
+    const std::array<glm::vec4, 3> corners{glm::vec4(-1, -1, 0.3f, 1), glm::vec4(1, -1, clipped ? -3.0f : 0.1f, 1),
+                                           glm::vec4(0, 1, 0.2f, 1)};
     for (const bool first : {false, true}) {
-      for (const Winding front :
-           {Winding::counter_clockwise, Winding::clockwise}) {
+      for (const Winding front : {Winding::counter_clockwise, Winding::clockwise}) {
         std::array<std::size_t, 3> order{0, 1, 2};
         do {
           std::vector<glm::vec4> positions, colors;
@@ -303,31 +263,25 @@ TEST(ProvokingVertex, FirstAndLastHoweverTheTriangleIsTurned) {
             values.push_back(static_cast<float>(i + 1));
           }
           DrawState state;
-          state.provoking =
-              first ? ProvokingVertex::first : ProvokingVertex::last;
+          state.provoking = first ? ProvokingVertex::first : ProvokingVertex::last;
           state.front = front;
           Image<glm::vec4> image(16, 16);
           Pass pass(16, 16, rgba32f_target(image), {});
-          pass.draw(FlatColorShader{},
-                    vertices(stream(positions), stream(colors)), state);
+          pass.draw(FlatColorShader{}, vertices(stream(positions), stream(colors)), state);
           EXPECT_EQ(pass.run(one_worker()).clipped, clipped ? 1u : 0u);
-          EXPECT_EQ(pixel(image, 6, 5).x,
-                    static_cast<float>(order[first ? 0 : 2] + 1));
+          EXPECT_EQ(pixel(image, 6, 5).x, static_cast<float>(order[first ? 0 : 2] + 1));
 
           Pass again(16, 16, rgba32f_target(image), {});
-          again.draw(OrderShader{}, vertices(stream(positions), stream(values)),
-                     state);
+          again.draw(OrderShader{}, vertices(stream(positions), stream(values)), state);
           again.run(one_worker());
-          EXPECT_EQ(pixel(image, 6, 5),
-                    glm::vec4(values[0], values[1], values[2], 1));
+          EXPECT_EQ(pixel(image, 6, 5), glm::vec4(values[0], values[1], values[2], 1));
         } while (std::next_permutation(order.begin(), order.end()));
       }
     }
   }
 }
 
-// ---- load, store, post
-// -----------------------------------------------------------------------------------------
+// ---- load, store, post -----------------------------------------------------------------------------------------
 
 TEST(LoadStore, ClearFillsEverything) {
   Image<glm::vec4> image(70, 40);
@@ -342,11 +296,8 @@ template <class T, class F>
 void load_keeps_what_is_not_drawn(F make_target, uint64_t seed) {
   Random r(seed);
   Image<T> image(70, 40);
-  std::span<std::byte> bytes(reinterpret_cast<std::byte *>(image.data()),
-                             image.texels().size() * sizeof(T));
-  for (std::byte &b : bytes)
-    b = static_cast<std::byte>(
-        r.integer(0, 0x7b)); // all bits of all formats, but no NaN or Inf
+  std::span<std::byte> bytes(reinterpret_cast<std::byte*>(image.data()), image.texels().size() * sizeof(T));
+  for (std::byte& b : bytes) b = static_cast<std::byte>(r.integer(0, 0x7b));  // all bits of all formats, but no NaN or Inf
   const Image<T> before = image;
   ColorTarget target = make_target(image);
   target.load = LoadOp::load;
@@ -362,10 +313,7 @@ void load_keeps_what_is_not_drawn(F make_target, uint64_t seed) {
       if (inside) {
         changed += pixel(image, x, y) != pixel(before, x, y);
       } else {
-        ASSERT_EQ(
-            std::memcmp(&pixel(image, x, y), &pixel(before, x, y), sizeof(T)),
-            0)
-            << x << ", " << y;
+        ASSERT_EQ(std::memcmp(&pixel(image, x, y), &pixel(before, x, y), sizeof(T)), 0) << x << ", " << y;
       }
     }
   }
@@ -373,14 +321,10 @@ void load_keeps_what_is_not_drawn(F make_target, uint64_t seed) {
 }
 
 TEST(LoadStore, LoadKeepsWhatIsNotDrawn) {
-  load_keeps_what_is_not_drawn<glm::vec4>(
-      [](auto &i) { return rgba32f_target(i); }, 1);
-  load_keeps_what_is_not_drawn<U16Vec4>(
-      [](auto &i) { return rgba16f_target(i); }, 2);
-  load_keeps_what_is_not_drawn<glm::u8vec4>(
-      [](auto &i) { return rgba8_target(i); }, 3);
-  load_keeps_what_is_not_drawn<glm::u8vec4>(
-      [](auto &i) { return srgb8a8_target(i); }, 4);
+  load_keeps_what_is_not_drawn<glm::vec4>([](auto& i) { return rgba32f_target(i); }, 1);
+  load_keeps_what_is_not_drawn<U16Vec4>([](auto& i) { return rgba16f_target(i); }, 2);
+  load_keeps_what_is_not_drawn<glm::u8vec4>([](auto& i) { return rgba8_target(i); }, 3);
+  load_keeps_what_is_not_drawn<glm::u8vec4>([](auto& i) { return srgb8a8_target(i); }, 4);
 }
 
 TEST(LoadStore, LoadedColorIsBlendedWith) {
@@ -410,8 +354,7 @@ TEST(LoadStore, StoreDontCareWritesNothing) {
   pass.draw(ConstantShader{}, vertices(stream(kFullScreen)));
   EXPECT_EQ(pass.run(one_worker()).fragments_shaded, 70u * 40u);
   EXPECT_TRUE(is_everywhere(image, before));
-  for (const float z : depth.texels())
-    ASSERT_EQ(z, 0.125f);
+  for (const float z : depth.texels()) ASSERT_EQ(z, 0.125f);
 }
 
 TEST(LoadStore, LoadDontCareLeavesTilesAloneThatNothingTouches) {
@@ -421,18 +364,16 @@ TEST(LoadStore, LoadDontCareLeavesTilesAloneThatNothingTouches) {
   target.load = LoadOp::dont_care;
   Pass pass(128, 64, target, {});
   DrawState state;
-  state.viewport = Rect{0, 0, 64, 64}; // the left tile, all of it
+  state.viewport = Rect{0, 0, 64, 64};  // the left tile, all of it
   pass.draw(ConstantShader{}, vertices(stream(kFullScreen)), state);
   EXPECT_EQ(pass.run(one_worker()).tiles_touched, 1u);
   for (int y = 0; y < 64; ++y) {
-    for (int x = 0; x < 128; ++x)
-      ASSERT_EQ(pixel(image, x, y), glm::vec4(x < 64 ? 1.0f : 7.0f));
+    for (int x = 0; x < 128; ++x) ASSERT_EQ(pixel(image, x, y), glm::vec4(x < 64 ? 1.0f : 7.0f));
   }
   // The same beside a depth that is cleared everywhere.
   Image<float> depth(128, 64);
   Pass again(128, 64, target, d32f_target(depth));
-  again.draw(ConstantShader{glm::vec4(3)}, vertices(stream(kFullScreen)),
-             state);
+  again.draw(ConstantShader{glm::vec4(3)}, vertices(stream(kFullScreen)), state);
   again.run(one_worker());
   EXPECT_EQ(pixel(image, 10, 10), glm::vec4(3));
   EXPECT_EQ(pixel(image, 100, 10), glm::vec4(7));
@@ -455,15 +396,11 @@ TEST(LoadStore, APassIsEmptyAfterItsRun) {
 TEST(LoadStore, TargetsWithoutImages) {
   // Colour and depth live in the tiles alone; only the post target is written.
   Image<glm::u8vec4> out(70, 40);
-  Pass pass(70, 40,
-            {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care},
-            {.format = DepthFormat::d32f});
+  Pass pass(70, 40, {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f});
   pass.draw(ConstantShader{glm::vec4(0.5f)}, vertices(stream(kFullScreen)));
-  pass.post([]<class R>(const vec4<R> &c) { return c * R(2); },
-            rgba8_target(out));
+  pass.post([]<class R>(const vec4<R>& c) { return c * R(2); }, rgba8_target(out));
   pass.run(one_worker());
-  for (const glm::u8vec4 &p : out.texels())
-    ASSERT_EQ(p, glm::u8vec4(255));
+  for (const glm::u8vec4& p : out.texels()) ASSERT_EQ(p, glm::u8vec4(255));
 }
 
 TEST(Post, RunsOnEveryPixelOnce) {
@@ -473,28 +410,19 @@ TEST(Post, RunsOnEveryPixelOnce) {
   Pass pass(70, 40, target, {}, {.tile_size = 32});
   DrawState state;
   state.scissor = Rect{0, 0, 35, 40};
-  pass.draw(ConstantShader{glm::vec4(5, 6, 7, 8)},
-            vertices(stream(kFullScreen)), state);
-  pass.post(
-      []<class R>(const vec4<R> &c) {
-        return vec4<R>(c.y, c.x, c.w, c.z + R(1));
-      },
-      rgba32f_target(out));
+  pass.draw(ConstantShader{glm::vec4(5, 6, 7, 8)}, vertices(stream(kFullScreen)), state);
+  pass.post([]<class R>(const vec4<R>& c) { return vec4<R>(c.y, c.x, c.w, c.z + R(1)); }, rgba32f_target(out));
   pass.run(one_worker());
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 70; ++x) {
-      ASSERT_EQ(pixel(image, x, y),
-                x < 35 ? glm::vec4(5, 6, 7, 8)
-                       : glm::vec4(1, 2, 3,
-                                   4)); // the colour itself is stored as it was
-      ASSERT_EQ(pixel(out, x, y),
-                x < 35 ? glm::vec4(6, 5, 8, 8) : glm::vec4(2, 1, 4, 4));
+      ASSERT_EQ(pixel(image, x, y), x < 35 ? glm::vec4(5, 6, 7, 8) : glm::vec4(1, 2, 3,
+                                                                               4));  // the colour itself is stored as it was
+      ASSERT_EQ(pixel(out, x, y), x < 35 ? glm::vec4(6, 5, 8, 8) : glm::vec4(2, 1, 4, 4));
     }
   }
 }
 
-// ---- statistics
-// ------------------------------------------------------------------------------------------------
+// ---- statistics ------------------------------------------------------------------------------------------------
 
 TEST(Statistics, OneTriangleOverFourTiles) {
   Image<glm::vec4> image(128, 128);
@@ -512,57 +440,35 @@ TEST(Statistics, OneTriangleOverFourTiles) {
 }
 
 TEST(Statistics, EachReasonForCulling) {
-  const auto count = [](const std::vector<glm::vec4> &p,
-                        CullMode cull = CullMode::none) {
+  const auto count = [](const std::vector<glm::vec4>& p, CullMode cull = CullMode::none) {
     Image<glm::vec4> image(64, 64);
     DrawState state;
     state.cull = cull;
     return draw(image, ConstantShader{}, p, state);
   };
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(
-      count({{nan, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}).culled_non_finite,
-      1u);
-  // beyond the right side; beyond far; behind the eye; cut by near and guard
-  // planes until nothing is left
-  EXPECT_EQ(count({{2, 0, 0, 1}, {3, 0, 0, 1}, {2, 1, 0, 1}}).culled_outside,
-            1u);
-  EXPECT_EQ(count({{0, 0, 2, 1}, {1, 0, 2, 1}, {0, 1, 2, 1}}).culled_outside,
-            1u);
-  EXPECT_EQ(count({{0, 0, 0, -1}, {1, 0, 0, -1}, {0, 1, 0, -1}}).culled_outside,
-            1u);
-  EXPECT_EQ(count({{-1, 0, -3, 1}, {2000, 0, 0, -1}, {-2000, 1, 0, -1}})
-                .culled_outside,
-            1u);
-  EXPECT_EQ(count({{-1, -1, 0, 1}, {0, 1, 0, 1}, {1, -1, 0, 1}}, CullMode::back)
-                .culled_face,
-            1u);
-  EXPECT_EQ(
-      count({{-1, -1, 0, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}}).culled_degenerate,
-      1u);
+  EXPECT_EQ(count({{nan, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}).culled_non_finite, 1u);
+  // beyond the right side; beyond far; behind the eye; cut by near and guard planes until nothing is left
+  EXPECT_EQ(count({{2, 0, 0, 1}, {3, 0, 0, 1}, {2, 1, 0, 1}}).culled_outside, 1u);
+  EXPECT_EQ(count({{0, 0, 2, 1}, {1, 0, 2, 1}, {0, 1, 2, 1}}).culled_outside, 1u);
+  EXPECT_EQ(count({{0, 0, 0, -1}, {1, 0, 0, -1}, {0, 1, 0, -1}}).culled_outside, 1u);
+  EXPECT_EQ(count({{-1, 0, -3, 1}, {2000, 0, 0, -1}, {-2000, 1, 0, -1}}).culled_outside, 1u);
+  EXPECT_EQ(count({{-1, -1, 0, 1}, {0, 1, 0, 1}, {1, -1, 0, 1}}, CullMode::back).culled_face, 1u);
+  EXPECT_EQ(count({{-1, -1, 0, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}}).culled_degenerate, 1u);
   // a triangle of half a pixel between the centres
-  EXPECT_EQ(count({{1.0f / 32, 0, 0, 1},
-                   {1.4f / 32, 0, 0, 1},
-                   {1.2f / 32, 0.4f / 32, 0, 1}})
-                .culled_no_sample,
-            1u);
-  for (const auto &s : {count({{2, 0, 0, 1}, {3, 0, 0, 1}, {2, 1, 0, 1}}),
-                        count({{-1, -1, 0, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}})}) {
+  EXPECT_EQ(count({{1.0f / 32, 0, 0, 1}, {1.4f / 32, 0, 0, 1}, {1.2f / 32, 0.4f / 32, 0, 1}}).culled_no_sample, 1u);
+  for (const auto& s : {count({{2, 0, 0, 1}, {3, 0, 0, 1}, {2, 1, 0, 1}}), count({{-1, -1, 0, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}})}) {
     EXPECT_EQ(s.primitives_in, 1u);
-    EXPECT_EQ(s.triangles_binned + s.bin_entries + s.samples_tested +
-                  s.fragments_shaded + s.tiles_touched + s.clipped,
-              0u);
+    EXPECT_EQ(s.triangles_binned + s.bin_entries + s.samples_tested + s.fragments_shaded + s.tiles_touched + s.clipped, 0u);
   }
   // clipped by near into a quad: one clipped, two binned
-  const PassStatistics quad =
-      count({{-1, -1, -3, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}});
+  const PassStatistics quad = count({{-1, -1, -3, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}});
   EXPECT_EQ(quad.clipped, 1u);
   EXPECT_EQ(quad.triangles_binned, 2u);
   EXPECT_EQ(quad.bin_entries, 2u);
   EXPECT_EQ(quad.tiles_touched, 1u);
   // clipped, then culled by its face: counted once
-  const PassStatistics both =
-      count({{-1, -1, -3, 1}, {0, 1, 0, 1}, {1, -1, 0, 1}}, CullMode::back);
+  const PassStatistics both = count({{-1, -1, -3, 1}, {0, 1, 0, 1}, {1, -1, 0, 1}}, CullMode::back);
   EXPECT_EQ(both.clipped, 1u);
   EXPECT_EQ(both.culled_face, 1u);
   EXPECT_EQ(both.triangles_binned, 0u);
@@ -572,11 +478,9 @@ TEST(Statistics, DeferredShadesOnlyWhatIsSeen) {
   // Far before near, then the other way round; 64 × 64 samples a layer.
   for (const bool near_first : {false, true}) {
     for (const bool defer : {true, false}) {
-      const auto first = full_screen(near_first ? -0.5f : 0.5f),
-                 second = full_screen(near_first ? 0.5f : -0.5f);
+      const auto first = full_screen(near_first ? -0.5f : 0.5f), second = full_screen(near_first ? 0.5f : -0.5f);
       Image<glm::vec4> image(64, 64);
-      Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f},
-                {.defer = defer});
+      Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = defer});
       pass.draw(ConstantShader{glm::vec4(1)}, vertices(stream(first)));
       pass.draw(ConstantShader{glm::vec4(2)}, vertices(stream(second)));
       const PassStatistics s = pass.run(one_worker());
@@ -591,12 +495,10 @@ TEST(Statistics, DeferredShadesOnlyWhatIsSeen) {
 }
 
 TEST(Statistics, BlocksBehindAreNotTested) {
-  // Eight layers, each nearer, after which a block's bounds are made exact;
-  // then eight behind them, rejected whole.
+  // Eight layers, each nearer, after which a block's bounds are made exact; then eight behind them, rejected whole.
   std::vector<glm::vec4> positions;
   for (int layer = 0; layer < 16; ++layer) {
-    const auto p =
-        full_screen(layer < 8 ? 0.5f - 0.1f * static_cast<float>(layer) : 0.6f);
+    const auto p = full_screen(layer < 8 ? 0.5f - 0.1f * static_cast<float>(layer) : 0.6f);
     positions.insert(positions.end(), p.begin(), p.end());
   }
   Image<glm::vec4> image(64, 64);
@@ -612,26 +514,22 @@ TEST(Statistics, FlushesAreCountedAndChangeNothing) {
   Random r(1);
   std::vector<glm::vec4> positions, colors;
   for (int i = 0; i < 3 * 200; ++i) {
-    positions.push_back(
-        {r.real(-1.5f, 1.5f), r.real(-1.5f, 1.5f), r.real(-1.0f, 1.0f), 1});
+    positions.push_back({r.real(-1.5f, 1.5f), r.real(-1.5f, 1.5f), r.real(-1.0f, 1.0f), 1});
     colors.push_back({r.real(0.0f, 1.0f), 0, 0, 1});
   }
   PassStatistics statistics[2];
-  Image<glm::vec4> images[2]{Image<glm::vec4>(100, 80),
-                             Image<glm::vec4>(100, 80)};
+  Image<glm::vec4> images[2]{Image<glm::vec4>(100, 80), Image<glm::vec4>(100, 80)};
   Image<float> depths[2]{Image<float>(100, 80), Image<float>(100, 80)};
   for (const int small_budget : {0, 1}) {
     PassOptions options{.chunk_triangles = 2};
-    if (small_budget)
-      options.bin_budget = 1;
-    Pass pass(100, 80, rgba32f_target(images[small_budget]),
-              d32f_target(depths[small_budget]), options);
+    if (small_budget) options.bin_budget = 1;
+    Pass pass(100, 80, rgba32f_target(images[small_budget]), d32f_target(depths[small_budget]), options);
     pass.draw(FlatColorShader{}, vertices(stream(positions), stream(colors)));
     statistics[small_budget] = pass.run(one_worker());
   }
   EXPECT_EQ(statistics[0].flushes, 0u);
   EXPECT_EQ(statistics[1].flushes,
-            3u); // 100 chunks in waves of 32: four rounds
+            3u);  // 100 chunks in waves of 32: four rounds
   EXPECT_EQ(images[0], images[1]);
   EXPECT_EQ(depths[0], depths[1]);
   EXPECT_EQ(statistics[0].primitives_in, statistics[1].primitives_in);
@@ -640,27 +538,23 @@ TEST(Statistics, FlushesAreCountedAndChangeNothing) {
 
   // Targets without images live on in memory of the pass from flush to flush.
   Image<glm::vec4> posted(100, 80);
-  Pass pass(
-      100, 80, {.format = ColorFormat::rgba32f, .store = StoreOp::dont_care},
-      {.format = DepthFormat::d32f}, {.chunk_triangles = 2, .bin_budget = 1});
+  Pass pass(100, 80, {.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f},
+            {.chunk_triangles = 2, .bin_budget = 1});
   pass.draw(FlatColorShader{}, vertices(stream(positions), stream(colors)));
-  pass.post([]<class R>(const vec4<R> &c) { return c; },
-            rgba32f_target(posted));
+  pass.post([]<class R>(const vec4<R>& c) { return c; }, rgba32f_target(posted));
   EXPECT_EQ(pass.run(one_worker()).flushes, 3u);
   EXPECT_EQ(posted, images[0]);
 }
 
-// ---- shaders that decide visibility
-// ----------------------------------------------------------------------------
+// ---- shaders that decide visibility ----------------------------------------------------------------------------
 
 TEST(Discard, DropsColorAndDepth) {
-  const auto run = [](const auto &shader, bool blended) {
+  const auto run = [](const auto& shader, bool blended) {
     Image<glm::vec4> image(64, 64);
     Image<float> depth(64, 64);
     Pass pass(64, 64, rgba32f_target(image), d32f_target(depth));
     DrawState state;
-    if (blended)
-      state.blend = kAdd;
+    if (blended) state.blend = kAdd;
     pass.draw(shader, vertices(stream(kFullScreen)), state);
     const PassStatistics s = pass.run(one_worker());
     for (int y = 0; y < 64; ++y) {
@@ -678,31 +572,27 @@ TEST(Discard, DropsColorAndDepth) {
 }
 
 TEST(ShaderDepth, ReplacesTheTrianglesDepth) {
-  const auto run = [](const auto &shader, bool blended) {
+  const auto run = [](const auto& shader, bool blended) {
     Image<glm::vec4> image(64, 64);
     Image<float> depth(64, 64);
     Pass pass(64, 64, rgba32f_target(image), d32f_target(depth));
     DrawState state;
-    state.depth.range_far =
-        0.875f; // what the shader writes is held to the range
-    if (blended)
-      state.blend = kAdd;
+    state.depth.range_far = 0.875f;  // what the shader writes is held to the range
+    if (blended) state.blend = kAdd;
     auto second = shader;
     second.color = glm::vec4(2);
     second.scale = -second.scale;
     second.bias = 1;
     pass.draw(shader, vertices(stream(kFullScreen)), state);
     pass.draw(second, vertices(stream(kFullScreen)),
-              state); // 1 − x/64: nearer from the middle on
+              state);  // 1 − x/64: nearer from the middle on
     pass.run(one_worker());
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 64; ++x) {
         const float a = std::min((static_cast<float>(x) + 0.5f) / 64, 0.875f),
-                    b = std::min(1 - (static_cast<float>(x) + 0.5f) / 64,
-                                 0.875f);
+                    b = std::min(1 - (static_cast<float>(x) + 0.5f) / 64, 0.875f);
         ASSERT_EQ(pixel(depth, x, y), std::min(a, b)) << x;
-        ASSERT_EQ(pixel(image, x, y).x, b < a ? (blended ? 3.0f : 2.0f) : 1.0f)
-            << x;
+        ASSERT_EQ(pixel(image, x, y).x, b < a ? (blended ? 3.0f : 2.0f) : 1.0f) << x;
       }
     }
   };
@@ -712,8 +602,7 @@ TEST(ShaderDepth, ReplacesTheTrianglesDepth) {
   }
 }
 
-// ---- vertices and indices
-// --------------------------------------------------------------------------------------
+// ---- vertices and indices --------------------------------------------------------------------------------------
 
 struct Vertex {
   glm::vec4 color;
@@ -726,10 +615,8 @@ TEST(VertexView, InterleavedEqualsSeparate) {
   std::vector<Vertex> interleaved;
   std::vector<glm::vec4> positions, colors;
   for (int i = 0; i < 300; ++i) {
-    positions.push_back(
-        {r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), 1});
-    colors.push_back(
-        {r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 1});
+    positions.push_back({r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), 1});
+    colors.push_back({r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 1});
     interleaved.push_back({colors.back(), {9, 9}, positions.back()});
   }
   Image<glm::vec4> a(50, 50), b(50, 50);
@@ -737,9 +624,7 @@ TEST(VertexView, InterleavedEqualsSeparate) {
   pass_a.draw(FlatColorShader{}, vertices(stream(positions), stream(colors)));
   pass_a.run(one_worker());
   Pass pass_b(50, 50, rgba32f_target(b), {.format = DepthFormat::d32f});
-  pass_b.draw(FlatColorShader{},
-              vertices(stream(interleaved, &Vertex::position),
-                       stream(interleaved, &Vertex::color)));
+  pass_b.draw(FlatColorShader{}, vertices(stream(interleaved, &Vertex::position), stream(interleaved, &Vertex::color)));
   pass_b.run(one_worker());
   EXPECT_EQ(a, b);
   EXPECT_GT(drawn_pixels(a), 1000);
@@ -748,14 +633,11 @@ TEST(VertexView, InterleavedEqualsSeparate) {
 TEST(Indices, AllKindsDrawTheSame) {
   Random r(3);
   std::vector<glm::vec4> positions, unrolled;
-  for (int i = 0; i < 1000; ++i)
-    positions.push_back(
-        {r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), 1});
+  for (int i = 0; i < 1000; ++i) positions.push_back({r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), 1});
   std::vector<uint16_t> narrow;
   std::vector<uint32_t> wide;
   for (int i = 0; i < 100; ++i) {
-    const int k = r.integer(300, 399) * (i == 0 ? 1 : 2) % 700 +
-                  100; // with gaps: many vertices unused
+    const int k = r.integer(300, 399) * (i == 0 ? 1 : 2) % 700 + 100;  // with gaps: many vertices unused
     narrow.push_back(static_cast<uint16_t>(k));
     wide.push_back(static_cast<uint32_t>(k));
     unrolled.push_back(positions[static_cast<std::size_t>(k)]);
@@ -765,21 +647,15 @@ TEST(Indices, AllKindsDrawTheSame) {
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   DrawState state;
   state.blend = kAdd;
-  Image<glm::vec4> image[3]{Image<glm::vec4>(40, 40), Image<glm::vec4>(40, 40),
-                            Image<glm::vec4>(40, 40)};
-  const Indices by_narrow(narrow, positions.size()),
-      by_wide(wide, positions.size());
+  Image<glm::vec4> image[3]{Image<glm::vec4>(40, 40), Image<glm::vec4>(40, 40), Image<glm::vec4>(40, 40)};
+  const Indices by_narrow(narrow, positions.size()), by_wide(wide, positions.size());
   for (int i = 0; i < 3; ++i) {
     Pass pass(40, 40, rgba32f_target(image[i]), {});
-    if (i == 0)
-      pass.draw(ConstantShader{}, vertices(stream(positions)), by_narrow,
-                state);
-    if (i == 1)
-      pass.draw(ConstantShader{}, vertices(stream(positions)), by_wide, state);
-    if (i == 2)
-      pass.draw(ConstantShader{}, vertices(stream(unrolled)), state);
+    if (i == 0) pass.draw(ConstantShader{}, vertices(stream(positions)), by_narrow, state);
+    if (i == 1) pass.draw(ConstantShader{}, vertices(stream(positions)), by_wide, state);
+    if (i == 2) pass.draw(ConstantShader{}, vertices(stream(unrolled)), state);
     const PassStatistics s = pass.run(one_worker());
-    EXPECT_EQ(s.primitives_in, 33u); // 100 indices: the last one is left over
+    EXPECT_EQ(s.primitives_in, 33u);  // 100 indices: the last one is left over
     EXPECT_EQ(s.vertices_shaded, i == 2 ? 100u : distinct.size());
   }
   EXPECT_EQ(image[0], image[1]);
@@ -807,29 +683,24 @@ TEST(Indices, KnowTheirRange) {
   EXPECT_EQ(i.first_vertex(), 3u);
   EXPECT_EQ(i.end_vertex(), 10u);
   EXPECT_EQ(i.used_count(), 3u);
-  EXPECT_EQ(std::vector<uint32_t>(i.used().begin(), i.used().end()),
-            (std::vector<uint32_t>{3, 7, 9}));
+  EXPECT_EQ(std::vector<uint32_t>(i.used().begin(), i.used().end()), (std::vector<uint32_t>{3, 7, 9}));
   const std::vector<uint32_t> dense{5, 4, 6, 5};
   EXPECT_TRUE(Indices(dense, 7).used().empty());
   EXPECT_EQ(Indices(dense, 7).used_count(), 3u);
 }
 
-// ---- the caller's bugs
-// -----------------------------------------------------------------------------------------
+// ---- the caller's bugs -----------------------------------------------------------------------------------------
 
 TEST(StateDeathTest, VerticesAndIndices) {
   const std::vector<glm::vec4> four(4), five(5);
   const std::vector<uint32_t> list{0, 1, 4};
-  EXPECT_DEATH(vertices(stream(four), stream(five)),
-               "s.count == v.vertex_count \\(5 against 4\\)");
+  EXPECT_DEATH(vertices(stream(four), stream(five)), "s.count == v.vertex_count \\(5 against 4\\)");
   EXPECT_DEATH(Indices(list, 4), "\\*high < vertex_count \\(4 against 4\\)");
   const std::vector<uint16_t> narrow{0, 1, 9};
   EXPECT_DEATH(Indices(narrow, 9), "check failed");
   EXPECT_DEATH(Indices::sequential(std::size_t{1} << 32), "check failed");
-  // Longer than 32-bit gather indices reach: a view is all that is asked,
-  // nothing is read.
-  const VertexStream huge{four[0].x == 0 ? &four[0].x : nullptr, 4, 4,
-                          std::size_t{1} << 29};
+  // Longer than 32-bit gather indices reach: a view is all that is asked, nothing is read.
+  const VertexStream huge{four[0].x == 0 ? &four[0].x : nullptr, 4, 4, std::size_t{1} << 29};
   EXPECT_DEATH(vertices(huge), "check failed");
 }
 
@@ -837,27 +708,14 @@ TEST(StateDeathTest, Passes) {
   Image<glm::vec4> image(16, 16);
   EXPECT_DEATH(Pass(0, 16, rgba32f_target(image), {}), "check failed");
   EXPECT_DEATH(Pass(16, 16385, rgba32f_target(image), {}), "check failed");
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.tile_size = 24}),
-               "check failed");
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 0}),
-               "check failed");
-  EXPECT_DEATH(
-      Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 4097}),
-      "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.tile_size = 24}), "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 0}), "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 4097}), "check failed");
   EXPECT_DEATH(Pass(16, 16, {.format = ColorFormat::rgba8}, {}),
-               "check failed"); // would be stored, but where?
-  EXPECT_DEATH(Pass(16, 16,
-                    {.format = ColorFormat::rgba8,
-                     .load = LoadOp::load,
-                     .store = StoreOp::dont_care},
-                    {}),
-               "check failed");
-  EXPECT_DEATH(
-      Pass(16, 16, {}, {.format = DepthFormat::d32f, .load = LoadOp::load}),
-      "check failed");
-  EXPECT_DEATH(
-      Pass(16, 16, {}, {.format = DepthFormat::d32f, .store = StoreOp::store}),
-      "check failed");
+               "check failed");  // would be stored, but where?
+  EXPECT_DEATH(Pass(16, 16, {.format = ColorFormat::rgba8, .load = LoadOp::load, .store = StoreOp::dont_care}, {}), "check failed");
+  EXPECT_DEATH(Pass(16, 16, {}, {.format = DepthFormat::d32f, .load = LoadOp::load}), "check failed");
+  EXPECT_DEATH(Pass(16, 16, {}, {.format = DepthFormat::d32f, .store = StoreOp::store}), "check failed");
 }
 
 TEST(StateDeathTest, Draws) {
@@ -865,49 +723,31 @@ TEST(StateDeathTest, Draws) {
   const std::vector<glm::vec4> p(3), q(6);
   const std::vector<uint32_t> list{0, 1, 5};
   const Indices of_six(list, 6);
-  const auto draw_with = [&](const std::function<void(DrawState &)> &change) {
+  const auto draw_with = [&](const std::function<void(DrawState&)>& change) {
     Pass pass(16, 16, rgba32f_target(image), {});
     DrawState state;
     change(state);
     pass.draw(ConstantShader{}, vertices(stream(p)), state);
   };
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {})
-                   .draw(ConstantShader{}, vertices(stream(p)), of_six),
-               "check failed");
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {})
-                   .draw(FlatColorShader{}, vertices(stream(p))),
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(ConstantShader{}, vertices(stream(p)), of_six), "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(FlatColorShader{}, vertices(stream(p))),
                "vertices.components == .* \\(4 against 8\\)");
-  EXPECT_DEATH(draw_with([](DrawState &s) {
-                 s.viewport = Rect{0, 0, 0, 16};
-               }),
-               "check failed");
-  EXPECT_DEATH(draw_with([](DrawState &s) {
-                 s.viewport = Rect{0, 0, 16385, 16};
-               }),
-               "check failed");
-  EXPECT_DEATH(draw_with([](DrawState &s) {
-                 s.viewport = Rect{20000, 0, 16, 16};
-               }),
-               "check failed");
-  EXPECT_DEATH(draw_with([](DrawState &s) {
-                 s.scissor = Rect{0, 0, -1, 16};
-               }),
-               "check failed");
-  EXPECT_DEATH(draw_with([](DrawState &s) { s.depth.range_near = -0.1f; }),
-               "check failed");
-  EXPECT_DEATH(draw_with([](DrawState &s) { s.depth.range_far = 1.1f; }),
-               "check failed");
-  EXPECT_DEATH(draw_with([](DrawState &s) {
-                 s.depth.range_far = std::numeric_limits<float>::quiet_NaN();
-               }),
-               "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 0, 16}; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 16385, 16}; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{20000, 0, 16, 16}; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.scissor = Rect{0, 0, -1, 16}; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.depth.range_near = -0.1f; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.depth.range_far = 1.1f; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.depth.range_far = std::numeric_limits<float>::quiet_NaN(); }), "check failed");
 }
 
 struct DepthOnly {
-  template <class R> using Attributes = ConstantShader::Attributes<R>;
-  template <class R> struct Varyings {};
   template <class R>
-  vec4<R> vertex(const Attributes<R> &in, Varyings<R> &) const {
+  using Attributes = ConstantShader::Attributes<R>;
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return in.position;
   }
 };
@@ -916,11 +756,8 @@ TEST(StateDeathTest, DepthAloneIntoColor) {
   Image<glm::vec4> image(16, 16);
   const std::vector<uint32_t> list{0, 1, 2};
   const Indices indices(list, 3);
-  EXPECT_DEATH(
-      Pass(16, 16, rgba32f_target(image), {})
-          .draw_depth(DepthOnly{}, vertices(stream(kFullScreen)), indices),
-      "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw_depth(DepthOnly{}, vertices(stream(kFullScreen)), indices), "check failed");
 }
 
-} // namespace
-} // namespace halfspace::raster_test
+}  // namespace
+}  // namespace halfspace::raster_test

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes with shared vertices draw every sample of their inside exactly once:
-// additive count 1, no holes, no double hits. Inside is decided by an
-// independent crossing count on the mesh's outline in whole numbers, so also
-// the samples on the outline have one right answer and there is no tolerance.
+// Meshes with shared vertices draw every sample of their inside exactly once: additive count 1, no holes, no double
+// hits. Inside is decided by an independent crossing count on the mesh's outline in whole numbers, so also the samples
+// on the outline have one right answer and there is no tolerance.
 #include <algorithm>
 #include <cmath>
 
@@ -15,40 +14,29 @@ namespace {
 struct FixedMesh {
   std::vector<Point> points;
   std::vector<uint32_t> indices;
-  std::vector<Point> outline; // closed, without self-intersections; empty: the
-                              // mesh covers the whole target
+  std::vector<Point> outline;  // closed, without self-intersections; empty: the mesh covers the whole target
 };
 
-int64_t cross(const Point &a, const Point &b, const Point &c) {
-  return (int64_t{b.x} - a.x) * (int64_t{c.y} - a.y) -
-         (int64_t{b.y} - a.y) * (int64_t{c.x} - a.x);
+int64_t cross(const Point& a, const Point& b, const Point& c) {
+  return (int64_t{b.x} - a.x) * (int64_t{c.y} - a.y) - (int64_t{b.y} - a.y) * (int64_t{c.x} - a.x);
 }
 
-/// Which centres of a row of pixels, moved by an infinitesimal step to the
-/// right and a far smaller one up, are inside? Counts the outline's crossings
-/// of the ray from each centre to the right: an edge spans the ray's height if
-/// one end is above the centre and the other is not (the step up decides ends
-/// at its height); it is crossed if it passes strictly right of the centre (the
-/// step right decides edges through the centre).
-std::vector<bool> inside_outline(const std::vector<Point> &outline, int y,
-                                 int width) {
+/// Which centres of a row of pixels, moved by an infinitesimal step to the right and a far smaller one up, are inside?
+/// Counts the outline's crossings of the ray from each centre to the right: an edge spans the ray's height if one end
+/// is above the centre and the other is not (the step up decides ends at its height); it is crossed if it passes
+/// strictly right of the centre (the step right decides edges through the centre).
+std::vector<bool> inside_outline(const std::vector<Point>& outline, int y, int width) {
   std::vector<bool> toggles(static_cast<std::size_t>(width) + 1);
   const int64_t sy = int64_t{y} * 256 + 128;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     Point a = outline[i], b = outline[(i + 1) % outline.size()];
-    if ((a.y > sy) == (b.y > sy))
-      continue;
-    if (a.y > b.y)
-      std::swap(a, b);
-    // Centres x with (256·x + 128 − a.x)·(b.y − a.y) < (b.x − a.x)·(sy − a.y):
-    // all below some x.
+    if ((a.y > sy) == (b.y > sy)) continue;
+    if (a.y > b.y) std::swap(a, b);
+    // Centres x with (256·x + 128 − a.x)·(b.y − a.y) < (b.x − a.x)·(sy − a.y): all below some x.
     const int64_t dy = int64_t{b.y} - a.y, divisor = 256 * dy;
-    const int64_t bound =
-        (int64_t{b.x} - a.x) * (sy - a.y) + (int64_t{a.x} - 128) * dy;
-    const int64_t below =
-        bound / divisor + (bound % divisor > 0 ? 1 : 0); // rounded up
-    const auto end =
-        static_cast<std::size_t>(std::clamp<int64_t>(below, 0, width));
+    const int64_t bound = (int64_t{b.x} - a.x) * (sy - a.y) + (int64_t{a.x} - 128) * dy;
+    const int64_t below = bound / divisor + (bound % divisor > 0 ? 1 : 0);  // rounded up
+    const auto end = static_cast<std::size_t>(std::clamp<int64_t>(below, 0, width));
     toggles[end] = !toggles[end];
   }
   std::vector<bool> inside(static_cast<std::size_t>(width));
@@ -61,97 +49,73 @@ std::vector<bool> inside_outline(const std::vector<Point> &outline, int y,
 }
 
 class WatertightCheck {
-public:
-  void check(const FixedMesh &mesh, int width, int height, int batch = 0) {
+ public:
+  void check(const FixedMesh& mesh, int width, int height, int batch = 0) {
     std::vector<glm::vec4> positions;
-    for (const Point &p : mesh.points)
-      positions.push_back(clip_position(p, width, height));
+    for (const Point& p : mesh.points) positions.push_back(clip_position(p, width, height));
     Image<glm::vec4> image(width, height);
-    count_coverage(image, positions, mesh.indices, {},
-                   {.tile_size = 8 << (batch % 4)});
+    count_coverage(image, positions, mesh.indices, {}, {.tile_size = 8 << (batch % 4)});
     for (int y = 0; y < height; ++y) {
-      const std::vector<bool> inside_row =
-          inside_outline(mesh.outline, y, width);
+      const std::vector<bool> inside_row = inside_outline(mesh.outline, y, width);
       for (int x = 0; x < width; ++x) {
-        const bool want =
-            mesh.outline.empty() || inside_row[static_cast<std::size_t>(x)];
+        const bool want = mesh.outline.empty() || inside_row[static_cast<std::size_t>(x)];
         const float count = pixel(image, x, y).x;
         ++samples_;
         inside_ += want;
-        if (count == (want ? 1.0f : 0.0f))
-          continue;
+        if (count == (want ? 1.0f : 0.0f)) continue;
         ++(count < 1.0f ? holes_ : doubles_);
-        if (holes_ + doubles_ < 10)
-          ADD_FAILURE() << "pixel " << x << ", " << y << " drawn " << count
-                        << " times instead of " << want;
+        if (holes_ + doubles_ < 10) ADD_FAILURE() << "pixel " << x << ", " << y << " drawn " << count << " times instead of " << want;
       }
     }
   }
 
   int64_t inside() const { return inside_; }
   void report() const {
-    std::printf("%lld samples, %lld inside, %lld holes, %lld double hits\n",
-                static_cast<long long>(samples_),
-                static_cast<long long>(inside_), static_cast<long long>(holes_),
-                static_cast<long long>(doubles_));
+    std::printf("%lld samples, %lld inside, %lld holes, %lld double hits\n", static_cast<long long>(samples_),
+                static_cast<long long>(inside_), static_cast<long long>(holes_), static_cast<long long>(doubles_));
     ::testing::Test::RecordProperty("inside", std::to_string(inside_));
     ::testing::Test::RecordProperty("holes", std::to_string(holes_));
     ::testing::Test::RecordProperty("double_hits", std::to_string(doubles_));
   }
 
-private:
+ private:
   int64_t samples_ = 0, inside_ = 0, holes_ = 0, doubles_ = 0;
 };
 
-/// A fan round the centre; ring in counter-clockwise order with gaps below
-/// 180°. Triangles' windings at random: neither the fill rule nor anything else
-/// may depend on which way round a triangle was submitted.
-FixedMesh make_fan(Random &r, const Point &center,
-                   const std::vector<Point> &ring) {
+/// A fan round the centre; ring in counter-clockwise order with gaps below 180°. Triangles' windings at random: neither
+/// the fill rule nor anything else may depend on which way round a triangle was submitted.
+FixedMesh make_fan(Random& r, const Point& center, const std::vector<Point>& ring) {
   FixedMesh m{{center}, {}, ring};
   m.points.insert(m.points.end(), ring.begin(), ring.end());
   const auto n = static_cast<uint32_t>(ring.size());
   for (uint32_t i = 0; i < n; ++i) {
     std::array<uint32_t, 3> t{0, 1 + i, 1 + (i + 1) % n};
     std::rotate(t.begin(), t.begin() + r.integer(0, 2), t.end());
-    if (r.coin())
-      std::swap(t[0], t[1]);
+    if (r.coin()) std::swap(t[0], t[1]);
     m.indices.insert(m.indices.end(), t.begin(), t.end());
   }
   return m;
 }
 
-/// Keeps of candidates, sorted by angle round the centre, what makes a proper
-/// fan; empty if that is none.
-std::vector<Point> make_ring(const Point &center,
-                             std::vector<Point> candidates) {
-  const auto half = [&](const Point &p) {
-    return p.y > center.y || (p.y == center.y && p.x > center.x) ? 0 : 1;
-  };
-  std::erase_if(candidates, [&](const Point &p) { return p == center; });
+/// Keeps of candidates, sorted by angle round the centre, what makes a proper fan; empty if that is none.
+std::vector<Point> make_ring(const Point& center, std::vector<Point> candidates) {
+  const auto half = [&](const Point& p) { return p.y > center.y || (p.y == center.y && p.x > center.x) ? 0 : 1; };
+  std::erase_if(candidates, [&](const Point& p) { return p == center; });
   std::sort(candidates.begin(), candidates.end(),
-            [&](const Point &a, const Point &b) {
-              return half(a) != half(b) ? half(a) < half(b)
-                                        : cross(center, a, b) > 0;
-            });
+            [&](const Point& a, const Point& b) { return half(a) != half(b) ? half(a) < half(b) : cross(center, a, b) > 0; });
   std::vector<Point> ring;
-  for (const Point &p : candidates) {
-    if (ring.empty() || half(ring.back()) != half(p) ||
-        cross(center, ring.back(), p) > 0)
-      ring.push_back(p);
+  for (const Point& p : candidates) {
+    if (ring.empty() || half(ring.back()) != half(p) || cross(center, ring.back(), p) > 0) ring.push_back(p);
   }
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (cross(center, ring[i], ring[(i + 1) % ring.size()]) <= 0)
-      return {};
+    if (cross(center, ring[i], ring[(i + 1) % ring.size()]) <= 0) return {};
   }
   return ring;
 }
 
 Point on_center(int x, int y) { return {x * 256 + 128, y * 256 + 128}; }
-Point snap_to(const Point &p, int grid) { // grid 1: anywhere; 128: pixel
-                                          // centres and corners; 256: centres
-  return grid == 256 ? Point{(p.x & ~255) + 128, (p.y & ~255) + 128}
-                     : Point{p.x - p.x % grid, p.y - p.y % grid};
+Point snap_to(const Point& p, int grid) {  // grid 1: anywhere; 128: pixel centres and corners; 256: centres
+  return grid == 256 ? Point{(p.x & ~255) + 128, (p.y & ~255) + 128} : Point{p.x - p.x % grid, p.y - p.y % grid};
 }
 
 TEST(Watertight, RandomFans) {
@@ -160,26 +124,20 @@ TEST(Watertight, RandomFans) {
   for (int i = 0; i < effort(1500); ++i) {
     const int grid = i % 3 == 0 ? 1 : i % 3 == 1 ? 128 : 256;
     const auto anywhere = [&](int reach) {
-      return snap_to({r.integer(-reach * 256, (128 + reach) * 256),
-                      r.integer(-reach * 256, (128 + reach) * 256)},
-                     grid);
+      return snap_to({r.integer(-reach * 256, (128 + reach) * 256), r.integer(-reach * 256, (128 + reach) * 256)}, grid);
     };
     const Point center = anywhere(0);
     std::vector<Point> candidates(static_cast<std::size_t>(r.integer(3, 40)));
-    for (Point &p : candidates)
-      p = anywhere(r.coin() ? 10 : 1 << r.integer(3, 13));
+    for (Point& p : candidates) p = anywhere(r.coin() ? 10 : 1 << r.integer(3, 13));
     const std::vector<Point> ring = make_ring(center, candidates);
-    if (!ring.empty())
-      check.check(make_fan(r, center, ring), 128, 128, i);
+    if (!ring.empty()) check.check(make_fan(r, center, ring), 128, 128, i);
   }
   check.report();
   EXPECT_GT(check.inside(), effort(1500) * 1000);
 }
 
-/// Zigzag between an upper and a lower row of vertices, left to right: a
-/// triangle strip.
-FixedMesh make_strip(Random &r, const std::vector<Point> &lower,
-                     const std::vector<Point> &upper) {
+/// Zigzag between an upper and a lower row of vertices, left to right: a triangle strip.
+FixedMesh make_strip(Random& r, const std::vector<Point>& lower, const std::vector<Point>& upper) {
   FixedMesh m;
   for (std::size_t i = 0; i < lower.size(); ++i) {
     m.points.push_back(lower[i]);
@@ -191,9 +149,7 @@ FixedMesh make_strip(Random &r, const std::vector<Point> &lower,
     } else {
       m.indices.insert(m.indices.end(), {i, i + 1, i + 2});
     }
-    if (r.coin())
-      std::swap(m.indices[m.indices.size() - 1],
-                m.indices[m.indices.size() - 2]);
+    if (r.coin()) std::swap(m.indices[m.indices.size() - 1], m.indices[m.indices.size() - 2]);
   }
   m.outline = lower;
   m.outline.insert(m.outline.end(), upper.rbegin(), upper.rend());
@@ -206,17 +162,12 @@ TEST(Watertight, RandomStrips) {
   for (int i = 0; i < effort(1000); ++i) {
     const int grid = i % 3 == 0 ? 1 : i % 3 == 1 ? 128 : 256;
     std::vector<Point> lower, upper;
-    // Columns strictly from left to right, so that no triangle folds over;
-    // steps from a sub-pixel to 40 px.
+    // Columns strictly from left to right, so that no triangle folds over; steps from a sub-pixel to 40 px.
     for (int x = r.integer(-20 * 256, 0); x < 150 * 256;
-         x +=
-         grid * r.integer(1, 1 << r.integer(
-                                 0, 13 - std::bit_width(
-                                             static_cast<unsigned>(grid))))) {
+         x += grid * r.integer(1, 1 << r.integer(0, 13 - std::bit_width(static_cast<unsigned>(grid))))) {
       lower.push_back(snap_to({x, r.integer(-10 * 256, 60 * 256)}, grid));
       upper.push_back(snap_to({x, r.integer(61 * 256, 140 * 256)}, grid));
-      if (lower.size() > 2000)
-        break;
+      if (lower.size() > 2000) break;
     }
     check.check(make_strip(r, lower, upper), 128, 128, i);
   }
@@ -228,25 +179,21 @@ TEST(Watertight, JitteredGridsCoverEverything) {
   Random r(3);
   WatertightCheck check;
   for (int i = 0; i < effort(300); ++i) {
-    const int cell = 256 * (1 << r.integer(0, 5)) /
-                     (i % 5 == 0 ? 8 : 1); // from 1/8 px to 32 px
-    const int size = cell < 256 ? 16 : cell < 1024 ? 64 : 128; // of the target
+    const int cell = 256 * (1 << r.integer(0, 5)) / (i % 5 == 0 ? 8 : 1);  // from 1/8 px to 32 px
+    const int size = cell < 256 ? 16 : cell < 1024 ? 64 : 128;             // of the target
     const int n = size * 256 / cell + 3;
     FixedMesh m;
     for (int y = 0; y < n; ++y) {
       for (int x = 0; x < n; ++x) {
-        // Less than a quarter of a cell: triangles of a cell keep their
-        // orientation whichever way it is split.
+        // Less than a quarter of a cell: triangles of a cell keep their orientation whichever way it is split.
         const int jitter = i % 4 == 0 ? 0 : cell / 4 - 1;
-        m.points.push_back(
-            {(x - 1) * cell + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0),
-             (y - 1) * cell + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0)});
+        m.points.push_back({(x - 1) * cell + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0),
+                            (y - 1) * cell + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0)});
       }
     }
     for (int y = 0; y + 1 < n; ++y) {
       for (int x = 0; x + 1 < n; ++x) {
-        const auto a = static_cast<uint32_t>(y * n + x), b = a + 1,
-                   c = a + static_cast<uint32_t>(n), d = c + 1;
+        const auto a = static_cast<uint32_t>(y * n + x), b = a + 1, c = a + static_cast<uint32_t>(n), d = c + 1;
         if (r.coin()) {
           m.indices.insert(m.indices.end(), {a, b, c, b, d, c});
         } else {
@@ -259,13 +206,10 @@ TEST(Watertight, JitteredGridsCoverEverything) {
   check.report();
 }
 
-// ---- shared edges and vertices exactly on samples (in the manner of
-// facebookresearch/DRTK, issue 9) -------------
+// ---- shared edges and vertices exactly on samples (in the manner of facebookresearch/DRTK, issue 9) ------------
 
-// A fan whose spokes all lead through pixel centres: from a centre by multiples
-// of small whole steps. Far ends make the barycentrics of the samples on a
-// spoke quotients of large products, which float arithmetic rounds to either
-// side.
+// A fan whose spokes all lead through pixel centres: from a centre by multiples of small whole steps. Far ends make the
+// barycentrics of the samples on a spoke quotients of large products, which float arithmetic rounds to either side.
 TEST(Watertight, SpokesThroughPixelCenters) {
   Random r(4);
   WatertightCheck check;
@@ -273,46 +217,33 @@ TEST(Watertight, SpokesThroughPixelCenters) {
     const Point center = on_center(r.integer(0, 127), r.integer(0, 127));
     std::vector<Point> candidates;
     for (int k = r.integer(3, 24); k > 0; --k) {
-      const int dx = r.integer(-7, 7), dy = r.integer(-7, 7),
-                times = 1 << r.integer(0, 11);
-      candidates.push_back(
-          {center.x + dx * times * 256, center.y + dy * times * 256});
+      const int dx = r.integer(-7, 7), dy = r.integer(-7, 7), times = 1 << r.integer(0, 11);
+      candidates.push_back({center.x + dx * times * 256, center.y + dy * times * 256});
     }
     const std::vector<Point> ring = make_ring(center, candidates);
-    if (!ring.empty())
-      check.check(make_fan(r, center, ring), 128, 128, i);
+    if (!ring.empty()) check.check(make_fan(r, center, ring), 128, 128, i);
   }
   check.report();
   EXPECT_GT(check.inside(), effort(1500) * 1000);
 }
 
-// The same with the middle vertex off the centres and far outside of the
-// target, so that edges pass through samples whose distances from both ends are
-// unlike.
+// The same with the middle vertex off the centres and far outside of the target, so that edges pass through samples
+// whose distances from both ends are unlike.
 TEST(Watertight, EdgesThroughPixelCentersFromAfar) {
   Random r(5);
   WatertightCheck check;
   for (int i = 0; i < effort(600); ++i) {
-    // Quads over the target's width and height, split along diagonals through
-    // centre q with odd steps.
+    // Quads over the target's width and height, split along diagonals through centre q with odd steps.
     const Point q = on_center(r.integer(32, 96), r.integer(32, 96));
-    const int dx = 2 * r.integer(0, 400) + 1, dy = 2 * r.integer(0, 400) + 1,
-              sign = r.coin() ? 1 : -1;
+    const int dx = 2 * r.integer(0, 400) + 1, dy = 2 * r.integer(0, 400) + 1, sign = r.coin() ? 1 : -1;
     const int far = 40 * 256 / std::max(1, std::min(dx, dy) / 256 + 1);
-    const int m = r.integer(1, far) + 64 * 256 / std::max(dx, dy),
-              n = r.integer(1, far) + 64 * 256 / std::max(dx, dy);
-    const Point a{q.x - m * dx, q.y - sign * m * dy},
-        b{q.x + n * dx, q.y + sign * n * dy};
+    const int m = r.integer(1, far) + 64 * 256 / std::max(dx, dy), n = r.integer(1, far) + 64 * 256 / std::max(dx, dy);
+    const Point a{q.x - m * dx, q.y - sign * m * dy}, b{q.x + n * dx, q.y + sign * n * dy};
     constexpr int kMost = 16384 * 256;
-    const auto reachable = [](const Point &p) {
-      return std::abs(p.x) < kMost && std::abs(p.y) < kMost;
-    };
-    if (!reachable(a) || !reachable(b))
-      continue;
-    const Point c{r.integer(-kMost, kMost), r.integer(-kMost, kMost)},
-        d{r.integer(-kMost, kMost), r.integer(-kMost, kMost)};
-    if ((cross(a, b, c) > 0) == (cross(a, b, d) > 0))
-      continue;
+    const auto reachable = [](const Point& p) { return std::abs(p.x) < kMost && std::abs(p.y) < kMost; };
+    if (!reachable(a) || !reachable(b)) continue;
+    const Point c{r.integer(-kMost, kMost), r.integer(-kMost, kMost)}, d{r.integer(-kMost, kMost), r.integer(-kMost, kMost)};
+    if ((cross(a, b, c) > 0) == (cross(a, b, d) > 0)) continue;
     FixedMesh mesh{{a, b, c, d}, {0, 1, 2, 1, 0, 3}, {a, c, b, d}};
     check.check(mesh, 128, 128, i);
   }
@@ -320,27 +251,23 @@ TEST(Watertight, EdgesThroughPixelCentersFromAfar) {
   EXPECT_GT(check.inside(), 10000);
 }
 
-// Horizontal, vertical and diagonal edges through centres, at the far end of
-// the largest target: 8191.5 and its like have no bits left for a float
-// barycentric's rounding.
+// Horizontal, vertical and diagonal edges through centres, at the far end of the largest target: 8191.5 and its like
+// have no bits left for a float barycentric's rounding.
 TEST(Watertight, AxisAlignedAndDiagonalEdgesAtLargeCoordinates) {
   Random r(6);
   WatertightCheck check;
   constexpr int kWidth = 16384, kHeight = 16;
   for (int i = 0; i < effort(24); ++i) {
     FixedMesh m;
-    // Rows at centres' heights, columns at centres, each cell split by a 45°
-    // diagonal through centres.
+    // Rows at centres' heights, columns at centres, each cell split by a 45° diagonal through centres.
     const int step = 4 << (i % 3);
     const int columns = kWidth / step + 2, rows = kHeight / step + 3;
     for (int y = 0; y < rows; ++y) {
-      for (int x = 0; x < columns; ++x)
-        m.points.push_back(on_center((x - 1) * step, (y - 1) * step));
+      for (int x = 0; x < columns; ++x) m.points.push_back(on_center((x - 1) * step, (y - 1) * step));
     }
     for (int y = 0; y + 1 < rows; ++y) {
       for (int x = 0; x + 1 < columns; ++x) {
-        const auto a = static_cast<uint32_t>(y * columns + x), b = a + 1,
-                   c = a + static_cast<uint32_t>(columns), d = c + 1;
+        const auto a = static_cast<uint32_t>(y * columns + x), b = a + 1, c = a + static_cast<uint32_t>(columns), d = c + 1;
         if (r.coin()) {
           m.indices.insert(m.indices.end(), {a, b, c, b, d, c});
         } else {
@@ -348,44 +275,37 @@ TEST(Watertight, AxisAlignedAndDiagonalEdgesAtLargeCoordinates) {
         }
       }
     }
-    m.outline = {m.points[0], m.points[static_cast<std::size_t>(columns - 1)],
-                 m.points.back(),
+    m.outline = {m.points[0], m.points[static_cast<std::size_t>(columns - 1)], m.points.back(),
                  m.points[m.points.size() - static_cast<std::size_t>(columns)]};
     check.check(m, kWidth, kHeight, i);
   }
   check.report();
 }
 
-// ---- through perspective and across clip planes
-// ----------------------------------------------------------------
+// ---- through perspective and across clip planes ----------------------------------------------------------------
 
-// A closed surface round the eye covers every pixel of every picture exactly
-// once, however its triangles cross near guard planes and w = 0.
+// A closed surface round the eye covers every pixel of every picture exactly once, however its triangles cross near
+// guard planes and w = 0.
 struct Surface {
   std::vector<glm::dvec3> points;
   std::vector<uint32_t> indices;
 };
 
 Surface octahedron() {
-  return {
-      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-      {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}};
+  return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+          {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}};
 }
 
-Surface tetrahedron() {
-  return {{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}},
-          {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}};
-}
+Surface tetrahedron() { return {{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}}; }
 
 // Every triangle into four; shared edges share their middles.
-Surface subdivide(const Surface &s) {
+Surface subdivide(const Surface& s) {
   Surface out{s.points, {}};
   std::vector<std::pair<uint64_t, uint32_t>> middles;
   const auto middle = [&](uint32_t a, uint32_t b) {
     const uint64_t key = uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-    for (const auto &[k, i] : middles) {
-      if (k == key)
-        return i;
+    for (const auto& [k, i] : middles) {
+      if (k == key) return i;
     }
     middles.emplace_back(key, static_cast<uint32_t>(out.points.size()));
     out.points.push_back(glm::normalize(s.points[a] + s.points[b]));
@@ -394,17 +314,14 @@ Surface subdivide(const Surface &s) {
   for (std::size_t i = 0; i < s.indices.size(); i += 3) {
     const uint32_t a = s.indices[i], b = s.indices[i + 1], c = s.indices[i + 2];
     const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    out.indices.insert(out.indices.end(),
-                       {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
+    out.indices.insert(out.indices.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
   }
   return out;
 }
 
-glm::dmat3 random_rotation(Random &r) {
-  const glm::dvec3 a = glm::normalize(
-      glm::dvec3(r.real(-1.0, 1.0), r.real(-1.0, 1.0), r.real(-1.0, 1.0)));
-  const glm::dvec3 b = glm::normalize(glm::cross(
-      a, glm::dvec3(r.real(-1.0, 1.0), r.real(-1.0, 1.0), r.real(-1.0, 1.0))));
+glm::dmat3 random_rotation(Random& r) {
+  const glm::dvec3 a = glm::normalize(glm::dvec3(r.real(-1.0, 1.0), r.real(-1.0, 1.0), r.real(-1.0, 1.0)));
+  const glm::dvec3 b = glm::normalize(glm::cross(a, glm::dvec3(r.real(-1.0, 1.0), r.real(-1.0, 1.0), r.real(-1.0, 1.0))));
   return {a, b, glm::cross(a, b)};
 }
 
@@ -413,26 +330,21 @@ struct Projection {
   ClipDepth depth;
   double far = 1e5;
 
-  glm::vec4
-  operator()(const glm::dvec3 &p) const { // p in eye space, looking along −z
+  glm::vec4 operator()(const glm::dvec3& p) const {  // p in eye space, looking along −z
     const double w = -p.z;
-    double z = near; // reversed, infinitely far: z/w = near/w
-    if (depth == ClipDepth::negative_one_to_one)
-      z = (w * (far + near) - 2 * far * near) / (far - near);
-    return {static_cast<float>(p.x * scale_x),
-            static_cast<float>(p.y * scale_y), static_cast<float>(z),
-            static_cast<float>(w)};
+    double z = near;  // reversed, infinitely far: z/w = near/w
+    if (depth == ClipDepth::negative_one_to_one) z = (w * (far + near) - 2 * far * near) / (far - near);
+    return {static_cast<float>(p.x * scale_x), static_cast<float>(p.y * scale_y), static_cast<float>(z), static_cast<float>(w)};
   }
 };
 
-Projection random_projection(Random &r, double near) {
-  const double half_angle = r.real(0.01, 1.4); // up to 160°
+Projection random_projection(Random& r, double near) {
+  const double half_angle = r.real(0.01, 1.4);  // up to 160°
   const double s = 1 / std::tan(half_angle);
-  return {s, s * r.real(0.5, 2.0), near,
-          r.coin() ? ClipDepth::zero_to_one : ClipDepth::negative_one_to_one};
+  return {s, s * r.real(0.5, 2.0), near, r.coin() ? ClipDepth::zero_to_one : ClipDepth::negative_one_to_one};
 }
 
-DrawState state_of(const Projection &p) {
+DrawState state_of(const Projection& p) {
   DrawState state;
   state.depth.clip = p.depth;
   return state;
@@ -443,19 +355,13 @@ struct Counts {
   uint64_t clipped = 0;
   void add(float count, float want, int x, int y, int i, bool complain = true) {
     ++samples;
-    if (count == want)
-      return;
+    if (count == want) return;
     ++(count < want ? holes : doubles);
-    if (complain && holes + doubles < 10)
-      ADD_FAILURE() << "mesh " << i << ", pixel " << x << ", " << y << " drawn "
-                    << count << " times";
+    if (complain && holes + doubles < 10) ADD_FAILURE() << "mesh " << i << ", pixel " << x << ", " << y << " drawn " << count << " times";
   }
   void report() const {
-    std::printf(
-        "%lld samples, %lld holes, %lld double hits, %llu triangles clipped\n",
-        static_cast<long long>(samples), static_cast<long long>(holes),
-        static_cast<long long>(doubles),
-        static_cast<unsigned long long>(clipped));
+    std::printf("%lld samples, %lld holes, %lld double hits, %llu triangles clipped\n", static_cast<long long>(samples),
+                static_cast<long long>(holes), static_cast<long long>(doubles), static_cast<unsigned long long>(clipped));
     ::testing::Test::RecordProperty("samples", std::to_string(samples));
     ::testing::Test::RecordProperty("holes", std::to_string(holes));
     ::testing::Test::RecordProperty("double_hits", std::to_string(doubles));
@@ -465,89 +371,66 @@ struct Counts {
 TEST(WatertightClipped, ClosedSurfacesRoundTheEye) {
   Random r(7);
   Counts counts;
-  const std::array<Surface, 4> surfaces{tetrahedron(), octahedron(),
-                                        subdivide(octahedron()),
-                                        subdivide(subdivide(octahedron()))};
+  const std::array<Surface, 4> surfaces{tetrahedron(), octahedron(), subdivide(octahedron()), subdivide(subdivide(octahedron()))};
   for (int i = 0; i < effort(3000); ++i) {
-    const Surface &surface = surfaces[static_cast<std::size_t>(i % 4)];
-    // The eye somewhere well inside of a convex body: near = 0.001 lies inside
-    // of it too.
+    const Surface& surface = surfaces[static_cast<std::size_t>(i % 4)];
+    // The eye somewhere well inside of a convex body: near = 0.001 lies inside of it too.
     const glm::dmat3 turn = random_rotation(r);
-    const glm::dvec3 eye(r.real(-0.15, 0.15), r.real(-0.15, 0.15),
-                         r.real(-0.15, 0.15));
+    const glm::dvec3 eye(r.real(-0.15, 0.15), r.real(-0.15, 0.15), r.real(-0.15, 0.15));
     const double size = r.magnitude(1.0, 1000.0);
     const Projection project = random_projection(r, 0.001);
     std::vector<glm::vec4> positions;
-    for (const glm::dvec3 &p : surface.points)
-      positions.push_back(project(turn * ((p - eye) * size)));
+    for (const glm::dvec3& p : surface.points) positions.push_back(project(turn * ((p - eye) * size)));
     Image<glm::vec4> image(128, 128);
-    counts.clipped +=
-        count_coverage(image, positions, surface.indices, state_of(project))
-            .clipped;
+    counts.clipped += count_coverage(image, positions, surface.indices, state_of(project)).clipped;
     for (int y = 0; y < 128; ++y) {
-      for (int x = 0; x < 128; ++x)
-        counts.add(pixel(image, x, y).x, 1.0f, x, y, i);
+      for (int x = 0; x < 128; ++x) counts.add(pixel(image, x, y).x, 1.0f, x, y, i);
     }
   }
   counts.report();
   EXPECT_GT(counts.clipped, static_cast<uint64_t>(effort(3000)));
 }
 
-// A plane that passes near the eye, as a fan with its middle in view and its
-// rim far behind and beside: cut by the near plane in view, by w = 0 and by the
-// guard planes. It covers what the plane covers: every sample whose ray meets
-// it between near and far, decided at 4 points 1/256 px from the sample; where
-// these disagree the sample may be either.
+// A plane that passes near the eye, as a fan with its middle in view and its rim far behind and beside: cut by the near
+// plane in view, by w = 0 and by the guard planes. It covers what the plane covers: every sample whose ray meets it
+// between near and far, decided at 4 points 1/256 px from the sample; where these disagree the sample may be either.
 class PlaneFan {
-public:
-  PlaneFan(Random &r, const Projection &projection, int spokes)
-      : project_(projection) {
+ public:
+  PlaneFan(Random& r, const Projection& projection, int spokes) : project_(projection) {
     const glm::dmat3 turn = random_rotation(r);
-    const glm::dvec3 middle(r.real(-0.5, 0.5) / project_.scale_x,
-                            r.real(-0.5, 0.5) / project_.scale_y, -1.0);
-    // Half of the fans have their middle in view, the others beyond near or
-    // behind the eye, so that near cuts narrow wedges.
-    const double depth =
-        (r.coin() ? r.magnitude(2.0, 200.0) : r.real(-5.0, 1.0)) *
-        project_.near;
+    const glm::dvec3 middle(r.real(-0.5, 0.5) / project_.scale_x, r.real(-0.5, 0.5) / project_.scale_y, -1.0);
+    // Half of the fans have their middle in view, the others beyond near or behind the eye, so that near cuts narrow
+    // wedges.
+    const double depth = (r.coin() ? r.magnitude(2.0, 200.0) : r.real(-5.0, 1.0)) * project_.near;
     normal_ = turn[2];
     offset_ = glm::dot(normal_, middle * depth);
     points_.push_back(middle * depth);
     const int n = spokes;
     const double start = r.real(0.0, 6.0);
     for (int i = 0; i < n; ++i) {
-      // A rim so far away that its outline, foreshortened, is beyond far, or
-      // the plane's horizon itself.
-      const double angle =
-          start + (i + r.real(0.0, 0.8)) * 2 * 3.14159265358979 / n;
-      points_.push_back(middle * depth +
-                        r.magnitude(1e7, 1e9) * (std::cos(angle) * turn[0] +
-                                                 std::sin(angle) * turn[1]));
+      // A rim so far away that its outline, foreshortened, is beyond far, or the plane's horizon itself.
+      const double angle = start + (i + r.real(0.0, 0.8)) * 2 * 3.14159265358979 / n;
+      points_.push_back(middle * depth + r.magnitude(1e7, 1e9) * (std::cos(angle) * turn[0] + std::sin(angle) * turn[1]));
     }
     for (uint32_t i = 0; i < static_cast<uint32_t>(n); ++i)
-      indices_.insert(indices_.end(),
-                      {0, 1 + i, 1 + (i + 1) % static_cast<uint32_t>(n)});
+      indices_.insert(indices_.end(), {0, 1 + i, 1 + (i + 1) % static_cast<uint32_t>(n)});
   }
 
   std::vector<glm::vec4> positions() const {
     std::vector<glm::vec4> p;
-    for (const glm::dvec3 &q : points_)
-      p.push_back(project_(q));
+    for (const glm::dvec3& q : points_) p.push_back(project_(q));
     return p;
   }
-  const std::vector<uint32_t> &indices() const { return indices_; }
+  const std::vector<uint32_t>& indices() const { return indices_; }
 
-  // Distance along the view direction at window position (x, y) of a size ×
-  // size target is between near and far?
+  // Distance along the view direction at window position (x, y) of a size × size target is between near and far?
   bool covers(double x, double y, double size) const {
-    const glm::dvec3 ray((2 * x / size - 1) / project_.scale_x,
-                         (2 * y / size - 1) / project_.scale_y, -1.0);
-    const double w =
-        offset_ / glm::dot(normal_, ray); // the ray has w = 1 at its end
+    const glm::dvec3 ray((2 * x / size - 1) / project_.scale_x, (2 * y / size - 1) / project_.scale_y, -1.0);
+    const double w = offset_ / glm::dot(normal_, ray);  // the ray has w = 1 at its end
     return w >= project_.near && w <= project_.far;
   }
 
-private:
+ private:
   Projection project_;
   glm::dvec3 normal_;
   double offset_;
@@ -560,31 +443,23 @@ struct FanResult {
   int64_t inside = 0, undecided = 0, cut_in_view = 0;
 };
 
-FanResult draw_fans(uint64_t seed, int fans, double most_spokes,
-                    bool complain) {
+FanResult draw_fans(uint64_t seed, int fans, double most_spokes, bool complain) {
   Random r(seed);
   FanResult result;
   constexpr int kSize = 128;
   for (int i = 0; i < fans; ++i) {
     Projection projection = random_projection(r, 0.1);
-    projection.depth =
-        ClipDepth::negative_one_to_one; // its far plane hides the rim
+    projection.depth = ClipDepth::negative_one_to_one;  // its far plane hides the rim
     projection.far = 1e4;
-    const PlaneFan fan(r, projection,
-                       static_cast<int>(r.magnitude(
-                           4.0, most_spokes))); // from 4 on no gap reaches 180°
+    const PlaneFan fan(r, projection, static_cast<int>(r.magnitude(4.0, most_spokes)));  // from 4 on no gap reaches 180°
     Image<glm::vec4> image(kSize, kSize);
-    result.counts.clipped += count_coverage(image, fan.positions(),
-                                            fan.indices(), state_of(projection))
-                                 .clipped;
+    result.counts.clipped += count_coverage(image, fan.positions(), fan.indices(), state_of(projection)).clipped;
     bool any_inside = false, any_outside = false;
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         constexpr double d = 1.0 / 256;
         const double cx = x + 0.5, cy = y + 0.5;
-        const int votes = fan.covers(cx - d, cy - d, kSize) +
-                          fan.covers(cx + d, cy - d, kSize) +
-                          fan.covers(cx - d, cy + d, kSize) +
+        const int votes = fan.covers(cx - d, cy - d, kSize) + fan.covers(cx + d, cy - d, kSize) + fan.covers(cx - d, cy + d, kSize) +
                           fan.covers(cx + d, cy + d, kSize);
         const float count = pixel(image, x, y).x;
         if (votes % 4 != 0) {
@@ -600,11 +475,10 @@ FanResult draw_fans(uint64_t seed, int fans, double most_spokes,
     result.cut_in_view += any_inside && any_outside;
   }
   result.counts.report();
-  std::printf("%lld inside, %lld within 1/256 px of near or far, %lld of %d "
-              "fans cut in view\n",
-              static_cast<long long>(result.inside),
-              static_cast<long long>(result.undecided),
-              static_cast<long long>(result.cut_in_view), fans);
+  std::printf(
+      "%lld inside, %lld within 1/256 px of near or far, %lld of %d "
+      "fans cut in view\n",
+      static_cast<long long>(result.inside), static_cast<long long>(result.undecided), static_cast<long long>(result.cut_in_view), fans);
   return result;
 }
 
@@ -616,9 +490,8 @@ TEST(WatertightClipped, FansAcrossNearAndGuardPlanes) {
   EXPECT_LT(f.undecided, f.inside / 100);
 }
 
-// Up to thousands of spokes: wedges narrower than 1/256 px, which snapping can
-// turn over, as it can any sliver. There two neighbours overlap by less than a
-// sub-pixel, and a sample in the overlap is drawn more than once; that is what
+// Up to thousands of spokes: wedges narrower than 1/256 px, which snapping can turn over, as it can any sliver. There
+// two neighbours overlap by less than a sub-pixel, and a sample in the overlap is drawn more than once; that is what
 // snapped positions mean, in D3D too. It is rare, and there are never holes.
 TEST(WatertightClipped, FansOfSlivers) {
   const FanResult f = draw_fans(9, effort(1200), 3000, false);
@@ -626,5 +499,5 @@ TEST(WatertightClipped, FansOfSlivers) {
   EXPECT_LE(f.counts.doubles, f.counts.samples / 1000000 + 2);
 }
 
-} // namespace
-} // namespace halfspace::raster_test
+}  // namespace
+}  // namespace halfspace::raster_test
