@@ -84,10 +84,11 @@ class Placer {
   // Corners on pixel centres, pixel edges or whole sub-pixels: samples lie exactly on edges and corners.
   void on_the_grid() {
     const float step = random_.pick({0.5f, 1.0f, 0.25f, 4.0f});
+    const bool sloped = random_.once_in(2);  // depth at a corner must be the corner's, not a little more
     const float z = random_.pick({0.25f, 0.5f, 0.75f});
     const auto point = [&] {
       const WindowPoint p = anywhere(0.1f);
-      return WindowPoint{std::floor(p.x / step) * step, std::floor(p.y / step) * step, z, 1.0f};
+      return WindowPoint{std::floor(p.x / step) * step, std::floor(p.y / step) * step, sloped ? p.z : z, 1.0f};
     };
     const WindowPoint a = point(), b = point();
     triangle(a, b, point());
@@ -154,6 +155,16 @@ class Placer {
       }
     }
   }
+  // Just small enough for edge functions in 32 bits, or just not.
+  void about_63_px() {
+    const WindowPoint a = anywhere(0.0f);
+    const float extent = 63.0f + random_.pick({-1.0f, -1.0f / 256.0f, 0.0f, 1.0f / 256.0f});
+    const float x = std::floor(a.x * 256.0f) / 256.0f, y = std::floor(a.y * 256.0f) / 256.0f;
+    const float z = random_.real(0.0f, 1.0f);
+    const WindowPoint b{x + extent, y + extent * random_.pick({1.0f, 0.9f, -1.0f}), z, 1.0f};
+    const float along = random_.real(0.0f, 1.0f);
+    triangle({x, y, a.z, 1.0f}, b, {x + along * extent, y, random_.real(0.0f, 1.0f), 1.0f});
+  }
   void crossing_depth() {
     const auto point = [&] {
       WindowPoint p = anywhere(0.5f);
@@ -192,6 +203,7 @@ void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& rand
     case Kind::fan: p.fan(); break;
     case Kind::mesh: p.mesh(); break;
     case Kind::crossing_depth: p.crossing_depth(); break;
+    case Kind::about_63_px: p.about_63_px(); break;
   }
 }
 

@@ -25,11 +25,11 @@ struct Geometry {
 /// Kinds of random triangles.
 enum class Kind {
   tiny, small, medium, huge, beyond_guard, sliver, degenerate, on_the_grid, behind_the_eye, non_finite, whole_target,
-  steep, tiny_w, fan, mesh, crossing_depth
+  steep, tiny_w, fan, mesh, crossing_depth, about_63_px
 };
-inline constexpr int kKinds = 16;
+inline constexpr int kKinds = 17;
 
-/// Adds triangles of a kind, placed in a viewport. hard: also what only clipping can draw.
+/// Adds triangles of a kind, placed in a viewport.
 void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& random, Geometry& out);
 
 }  // namespace halfspace
