@@ -34,7 +34,7 @@ fault "depth written although the test has write off" src/raster/visibility.cpp 
 fault "depth offset: slope ignores y" src/raster/setup.cpp 'std::max(std::fabs(dz_dx), std::fabs(dz_dy))' 'std::fabs(dz_dx)'
 fault "perspective divide left out" src/shading/pixel.h 'return fma(w.p2, delta2, fma(w.p1, delta1, value0));' 'return fma(w.b2, delta2, fma(w.b1, delta1, value0));'
 fault "interpolation: products rounded separately" src/core/lanes.h 'return fma(a, b, -cd) + error;' 'return (void)error, a * b - cd;'
-fault "derivatives: x and y swapped" src/shading/pixel.h 'return derivative(member, R(256) * triangle->e2y, R(-256) * triangle->e1y);' 'return derivative(member, R(-256) * triangle->e2x, R(256) * triangle->e1x);'
+fault "derivatives: x and y swapped" src/shading/pixel.h 'return derivative(member, dy, triangle->e1y, triangle->e2y, R(256));' 'return derivative(member, dx, triangle->e1x, triangle->e2x, R(-256));'
 fault "cull: winding turned round" src/raster/draw_state.h 'front_facing ? CullMode::front : CullMode::back' 'front_facing ? CullMode::back : CullMode::front'
 fault "provoking vertex: always the last" src/raster/setup.cpp 'draw_.state.provoking == ProvokingVertex::first ? 0 : 2' 'draw_.state.provoking == ProvokingVertex::first ? 2 : 2'
 fault "bins: last column of a triangle's box left out" src/raster/bin.cpp 'const int x0 = b.x0 / size, x1 = (b.x1 - 1) / size;' 'const int x0 = b.x0 / size, x1 = std::max(b.x0 / size, (b.x1 - 2) / size);'
