@@ -21,7 +21,7 @@ fault "snapping to 1/128 px" src/raster/vertex_stage.cpp 'return round_to_int(wh
 fault "pixel centres half a pixel off" src/raster/visibility.cpp 'constexpr int half = kSubPixels / 2;' 'constexpr int half = 0;'
 fault "clip: near plane left out" src/raster/clip.cpp 'case 1: return depth.clip == ClipDepth::negative_one_to_one ? p.z + p.w : p.z;' 'case 1: return 1.0;'
 fault "clip: far plane before w is made positive" src/raster/clip.cpp 'const bool near_or_far = plane == 1 || plane == 2;' 'const bool near_or_far = plane == 0 || plane == 2;'
-fault "clip: place of a new corner rounded to float" src/raster/clip.cpp 'const double t = d_in / (d_in - d_out);' 'const double t = static_cast<double>(static_cast<float>(d_in / (d_in - d_out)));'
+fault "clip: place of a new corner rounded to float" src/raster/clip.cpp 'const double length = d_in - d_out;' 'const double length = static_cast<double>(static_cast<float>(d_in - d_out));'
 fault "clip: guard band not applied" src/raster/vertex_stage.cpp 'bit(!inside_guard, kOutGuard)' 'bit(!inside_guard & Mask(false), kOutGuard)'
 fault "clip: flat varyings interpolated" src/raster/clip.cpp 'kernels.interpolations[i] == Interpolation::flat' 'kernels.interpolations[i] == Interpolation::flat && false'
 fault "non-finite vertices drawn" src/raster/setup.cpp 'if (any & kOutNonFinite) {' 'if (false) {'

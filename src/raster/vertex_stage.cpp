@@ -34,8 +34,8 @@ HS_INLINE Int outcode(const Viewport& v, const DepthState& depth, Real x, Real y
   const Real z_low = depth.clip == ClipDepth::negative_one_to_one ? -w : zero;
   // fma: the sign of x − guard·w must be the exact one, which the clip stage sees too. Were a vertex inside here and
   // outside there, one of two neighbours would be cut at it and the other not.
-  const Mask inside_guard = (fma(w, Real(-v.guard_left), x) >= zero) & (fma(w, Real(-v.guard_right), x) <= zero) &
-                            (fma(w, Real(-v.guard_bottom), y) >= zero) & (fma(w, Real(-v.guard_top), y) <= zero) & (w >= Real(kMinW));
+  const Mask inside_guard = (fma(w, Real(-v.guard_left), x) >= zero) && (fma(w, Real(-v.guard_right), x) <= zero) &&
+                            (fma(w, Real(-v.guard_bottom), y) >= zero) && (fma(w, Real(-v.guard_top), y) <= zero) && (w >= Real(kMinW));
   Int code = bit(x < -w, kOutLeft) | bit(x > w, kOutRight) | bit(y < -w, kOutBottom) | bit(y > w, kOutTop);
   if (!depth.clamp) code = code | bit(z < z_low, kOutNear) | bit(z > w, kOutFar);
   return code | bit(!inside_guard, kOutGuard) | bit(!finite, kOutNonFinite);

@@ -215,7 +215,9 @@ bool beyond_far(const glm::vec4& p) { return p.z > p.w; }
 
 bool needs_clip(const Transform& t, const DepthState& d, const glm::vec4& p) {
   if (!d.clamp && (beyond_near(d, p) || beyond_far(p))) return true;
-  const bool inside_guard = p.x >= p.w * t.left && p.x <= p.w * t.right && p.y >= p.w * t.bottom && p.y <= p.w * t.top;
+  const auto times_w = [&](float bound) { return static_cast<double>(bound) * static_cast<double>(p.w); };  // exact
+  const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+  const bool inside_guard = x >= times_w(t.left) && x <= times_w(t.right) && y >= times_w(t.bottom) && y <= times_w(t.top);
   return !inside_guard || p.w < kLeastW;
 }
 

@@ -88,7 +88,7 @@ class Placer {
     const float z = random_.pick({0.25f, 0.5f, 0.75f});
     const auto point = [&] {
       const WindowPoint p = anywhere(0.1f);
-      return WindowPoint{std::floor(p.x / step) * step, std::floor(p.y / step) * step, sloped ? p.z : z, 1.0f};
+      return WindowPoint{std::floor(p.x / step) * step, std::floor(p.y / step) * step, !sloped ? z : random_.once_in(3) ? 0.0f : p.z, 1.0f};
     };
     const WindowPoint a = point(), b = point();
     triangle(a, b, point());
