@@ -60,18 +60,18 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work"
 mkdir -p "$work/build"
-tests=(raster property shading core)
-build() { cmake --build "$work/build" --target "${tests[@]/#/test-}" > "$work/build.log" 2>&1; }
-run_tests() {
+tests=(raster property shading core)  # in this order: most faults fall in the first
+# Builds and runs the test programs, one after the other, up to the first that fails.
+check() {
   for t in "${tests[@]}"; do
+    cmake --build "$work/build" --target "test-$t" > "$work/build.log" 2>&1 || return 1
     (cd "$work" && timeout 600 "build/bin/test-$t" --gtest_fail_fast --gtest_brief=1) > "$work/test.log" 2>&1 || return 1
   done
 }
 
 echo "building the tree without faults"
 cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_BENCHMARKS=OFF > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
-build || { tail -30 "$work/build.log"; exit 1; }
-run_tests || { echo "the tests fail without any fault:"; tail -30 "$work/test.log"; exit 1; }
+check || { echo "the tests fail without any fault:"; tail -30 "$work/build.log" "$work/test.log"; exit 1; }
 
 caught=0 missed=0
 for i in "${!names[@]}"; do
@@ -86,7 +86,7 @@ for i in "${!names[@]}"; do
     exit 1
   fi
   printf '%s' "$once" > "$file"
-  if build && run_tests; then
+  if check; then
     missed=$((missed + 1))
     echo "MISSED $((i + 1)) ${names[$i]}"
   else

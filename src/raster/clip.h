@@ -35,7 +35,8 @@ struct ClipPolygon {
 /// pos_clip finite. The polygon keeps the triangle's orientation.
 ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip);
 
-/// The corner in window coordinates, snapped.
+/// The corner in window coordinates, snapped. Like a vertex's, its depth (and its varyings) stay those of the place before
+/// snapping, at most 1/512 px away in x and in y.
 ScreenVertex project_corner(const Viewport& viewport, const glm::dvec4& pos_clip);
 
 /// Corner c's varyings: smooth and linear ones interpolated, flat ones the provoking vertex's. rows are the varyings

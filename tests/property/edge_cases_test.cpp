@@ -32,7 +32,7 @@ void add_draw(Scene& scene, const Rows& rows, const std::vector<uint32_t>& indic
 void add_random(Scene& scene, uint64_t seed, const DrawState& state = {}) {
   Random random(seed);
   Geometry g;
-  const Rect viewport = state.viewport.value_or(Rect{0, 0, scene.width, scene.height});
+  const Rect viewport = viewport_of(scene, state);
   for (const Kind kind : {Kind::whole_target, Kind::tiny, Kind::small, Kind::huge, Kind::sliver, Kind::behind_the_eye, Kind::mesh}) {
     add_triangles(kind, viewport, state.depth.clip, random, g);
   }

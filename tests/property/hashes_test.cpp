@@ -47,7 +47,7 @@ void add(Scene& scene, const S& shader, const DrawState& state, uint64_t seed, s
   using A = typename S::template Attributes<float>;
   Random random(seed);
   Geometry g;
-  const Rect viewport = state.viewport.value_or(Rect{0, 0, scene.width, scene.height});
+  const Rect viewport = viewport_of(scene, state);
   for (const Kind kind : kinds) add_triangles(kind, viewport, state.depth.clip, random, g);
   std::vector<A> rows;
   for (const glm::vec4& p : g.positions) {

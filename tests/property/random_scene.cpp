@@ -371,7 +371,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
     if (d == 0 || !random.once_in(3)) {  // else the last draw's geometry once more: equal depths
       g = {};
       matrix = random_matrix(random);
-      const Rect viewport = state.viewport.value_or(Rect{0, 0, s.width, s.height});
+      const Rect viewport = viewport_of(s, state);
       const int kinds = theme == Theme::many_draws ? random.between(0, 3) : random.between(2, 10);
       for (int k = 0; k < kinds; ++k) add_triangles(random_kind(theme, random), viewport, state.depth.clip, random, g);
     } else if (random.once_in(2)) {

@@ -120,6 +120,10 @@ void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count
 
 }  // namespace detail
 
+Rect viewport_of(const Scene& scene, const DrawState& state) {
+  return state.viewport.value_or(Rect{0, 0, scene.width, scene.height});
+}
+
 PassResult run_pass(const Scene& scene, const PassOptions& options, int threads) {
   PassResult r;
   Pictures& p = r.pictures;

@@ -51,6 +51,9 @@ struct OracleResult {
   oracle::Counts counts;
 };
 
+/// The state's viewport, or the whole target.
+Rect viewport_of(const Scene& scene, const DrawState& state);
+
 PassResult run_pass(const Scene& scene, const PassOptions& options, int threads);
 OracleResult run_oracle(const Scene& scene);
 

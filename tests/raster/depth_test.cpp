@@ -137,6 +137,51 @@ double wrong_orders(Random& r, bool reversed, double far_over_near, double gap, 
   return static_cast<double>(wrong) / static_cast<double>(all);
 }
 
+// Corners that the clipper makes are snapped like vertices, and like them keep the depth of the place they had before: each
+// stands at most half a grid step, 1/512 px, from the true plane's point, in x and in y. Depth is affine in the window, so
+// at a sample inside the error is at most that of the corners: (|dz/dx| + |dz/dy|) / 512; and float roundings.
+TEST(Depth, ClippedTrianglesStayWithinHalfAGridStepOfTheirPlane) {
+  constexpr int kSize = 64;
+  Random r(11);
+  int64_t samples = 0, clipped = 0;
+  Exact worst = 0;
+  for (int i = 0; i < effort(2000); ++i) {
+    std::vector<glm::vec4> p;
+    for (int k = 0; k < 3; ++k) {
+      const double w = r.magnitude(0.5, 8.0);
+      const double z = w * r.real(-0.5, 1.5);
+      p.push_back({static_cast<float>(w * r.real(-1.2, 1.2)), static_cast<float>(w * r.real(-1.2, 1.2)), static_cast<float>(z), static_cast<float>(w)});
+    }
+    std::array<Exact, 3> x, y, z;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = (static_cast<Exact>(p[k].x) / static_cast<Exact>(p[k].w) + 1) * kSize / 2;
+      y[k] = (static_cast<Exact>(p[k].y) / static_cast<Exact>(p[k].w) + 1) * kSize / 2;
+      z[k] = static_cast<Exact>(p[k].z) / static_cast<Exact>(p[k].w);
+    }
+    const Exact area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
+    if (std::fabs(area) < 1e-3L) continue;
+    const Exact dz_dx = ((z[1] - z[0]) * (y[2] - y[0]) - (z[2] - z[0]) * (y[1] - y[0])) / area;
+    const Exact dz_dy = ((z[2] - z[0]) * (x[1] - x[0]) - (z[1] - z[0]) * (x[2] - x[0])) / area;
+    const Image<float> depth = draw_depth(kSize, kSize, p, always(), 2.0f);  // cleared to 1
+    clipped += std::any_of(z.begin(), z.end(), [](Exact v) { return v < 0 || v > 1; }) ? 1 : 0;
+    for (int py = 0; py < kSize; ++py) {
+      for (int px = 0; px < kSize; ++px) {
+        const float got = pixel(depth, px, py);
+        if (got == 1.0f) continue;
+        const Exact want = z[0] + dz_dx * (px + 0.5L - x[0]) + dz_dy * (py + 0.5L - y[0]);
+        const Exact bound = (std::fabs(dz_dx) + std::fabs(dz_dy)) / 512 + 4e-7L;
+        const Exact error = std::fabs(static_cast<Exact>(got) - std::clamp<Exact>(want, 0, 1));
+        EXPECT_LE(error, bound) << i << " at " << px << ", " << py;
+        worst = std::max(worst, error / bound);
+        ++samples;
+      }
+    }
+  }
+  EXPECT_GT(clipped, effort(2000) / 2);
+  EXPECT_GT(samples, effort(2000) * 20);
+  EXPECT_GT(worst, 0.3L);  // the bound is no wider than it must be
+}
+
 TEST(Depth, ReversedZOrdersWhatStandardZConfuses) {
   Random r(2);
   for (const double ratio : {1e2, 1e4, 1e6}) {
