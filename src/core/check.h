@@ -43,8 +43,7 @@ template <class A, class B>
 }  // namespace halfspace
 
 // These are macros because only a macro knows the text and the place of its caller.
-#define HS_CHECK_OP(a, op, b) \
-  (((a)op(b)) ? (void)0 : ::halfspace::detail::check_op_failed(__FILE__, __LINE__, #a " " #op " " #b, (a), (b)))
+#define HS_CHECK_OP(a, op, b) (((a)op(b)) ? (void)0 : ::halfspace::detail::check_op_failed(__FILE__, __LINE__, #a " " #op " " #b, (a), (b)))
 #define HS_CHECK(condition) ((condition) ? (void)0 : ::halfspace::detail::check_failed(__FILE__, __LINE__, #condition, "", ""))
 #ifdef HALFSPACE_ASSERTS
 #define HS_DCHECK(condition) HS_CHECK(condition)

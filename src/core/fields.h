@@ -43,7 +43,8 @@ inline constexpr std::size_t kMostFields = 12;
 template <class T>
 constexpr std::size_t field_count() {
   static_assert(std::is_aggregate_v<T>, "attributes and varyings are plain structs without constructors");
-  static_assert(!detail::has_fields<T>(std::make_index_sequence<kMostFields + 1>{}), "a struct of attributes or varyings has at most 12 members");
+  static_assert(!detail::has_fields<T>(std::make_index_sequence<kMostFields + 1>{}),
+                "a struct of attributes or varyings has at most 12 members");
   return detail::count_fields<T, kMostFields>();
 }
 

@@ -266,7 +266,8 @@ HS_INLINE int32_t gather(const int32_t* base, int32_t i) { return base[i]; }
 template <int W>
 HS_INLINE RealN<W> gather(const float* base, IntN<W> i) {
 #ifdef __AVX512F__
-  if constexpr (W == 16) return RealN<W>((typename RealN<W>::V)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), detail::kAll16, (__m512i)i.v, base, 4));
+  if constexpr (W == 16)
+    return RealN<W>((typename RealN<W>::V)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), detail::kAll16, (__m512i)i.v, base, 4));
 #endif
 #ifdef __AVX2__
   if constexpr (W == 8) return RealN<W>((typename RealN<W>::V)_mm256_i32gather_ps(base, (__m256i)i.v, 4));
@@ -279,7 +280,8 @@ HS_INLINE RealN<W> gather(const float* base, IntN<W> i) {
 template <int W>
 HS_INLINE IntN<W> gather(const int32_t* base, IntN<W> i) {
 #ifdef __AVX512F__
-  if constexpr (W == 16) return IntN<W>((typename IntN<W>::V)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), detail::kAll16, (__m512i)i.v, base, 4));
+  if constexpr (W == 16)
+    return IntN<W>((typename IntN<W>::V)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), detail::kAll16, (__m512i)i.v, base, 4));
 #endif
 #ifdef __AVX2__
   if constexpr (W == 8) return IntN<W>((typename IntN<W>::V)_mm256_i32gather_epi32(base, (__m256i)i.v, 4));
@@ -454,7 +456,8 @@ template <int W>
 HS_INLINE RealN<W> floor(RealN<W> a) {
   using V [[maybe_unused]] = typename RealN<W>::V;
 #ifdef __AVX512F__
-  if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_roundscale_ps(detail::kAll16, (__m512)a.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+  if constexpr (W == 16)
+    return RealN<W>((V)_mm512_maskz_roundscale_ps(detail::kAll16, (__m512)a.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
 #endif
 #ifdef __AVX__
   if constexpr (W == 8) return RealN<W>((V)_mm256_floor_ps((__m256)a.v));
@@ -474,7 +477,8 @@ template <int W>
 HS_INLINE RealN<W> round_even(RealN<W> a) {
   using V [[maybe_unused]] = typename RealN<W>::V;
 #ifdef __AVX512F__
-  if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_roundscale_ps(detail::kAll16, (__m512)a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+  if constexpr (W == 16)
+    return RealN<W>((V)_mm512_maskz_roundscale_ps(detail::kAll16, (__m512)a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
 #endif
 #ifdef __AVX__
   if constexpr (W == 8) return RealN<W>((V)_mm256_round_ps((__m256)a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));

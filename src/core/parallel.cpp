@@ -50,8 +50,7 @@ void Workers::for_each(int count, const std::function<void(int)>& task) const {
 namespace halfspace {
 
 struct Workers::Impl {
-  explicit Impl(int threads)
-      : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
+  explicit Impl(int threads) : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
   tbb::global_control control;  // more threads than cores only where this allows it
   tbb::task_arena arena;
 };

@@ -58,14 +58,10 @@ inline SinCosDouble sincos_turns(double turns) {
   const SinCosDouble r = detail::sincos_small(hi, lo);
   // + 0.0 turns a negative zero into zero.
   switch (static_cast<long long>(quarters) & 3) {
-    case 0:
-      return {r.sin + 0.0, r.cos + 0.0};
-    case 1:
-      return {r.cos + 0.0, -r.sin + 0.0};
-    case 2:
-      return {-r.sin + 0.0, -r.cos + 0.0};
-    default:
-      return {-r.cos + 0.0, r.sin + 0.0};
+    case 0: return {r.sin + 0.0, r.cos + 0.0};
+    case 1: return {r.cos + 0.0, -r.sin + 0.0};
+    case 2: return {-r.sin + 0.0, -r.cos + 0.0};
+    default: return {-r.cos + 0.0, r.sin + 0.0};
   }
 }
 

@@ -43,8 +43,8 @@ struct DepthState {
   bool write = true;
   CompareOp compare = CompareOp::less;
   ClipDepth clip = ClipDepth::negative_one_to_one;
-  bool clamp = false;        ///< GL_DEPTH_CLAMP: no clipping at near and far, depth held to the range instead
-  float range_near = 0.0f;   ///< glDepthRange, both in [0, 1]
+  bool clamp = false;       ///< GL_DEPTH_CLAMP: no clipping at near and far, depth held to the range instead
+  float range_near = 0.0f;  ///< glDepthRange, both in [0, 1]
   float range_far = 1.0f;
 };
 
@@ -59,8 +59,16 @@ struct DepthOffset {
 };
 
 enum class BlendFactor : uint8_t {
-  zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color,
-  src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha
+  zero,
+  one,
+  src_color,
+  one_minus_src_color,
+  dst_color,
+  one_minus_dst_color,
+  src_alpha,
+  one_minus_src_alpha,
+  dst_alpha,
+  one_minus_dst_alpha
 };
 enum class BlendEquation : uint8_t { add, subtract, reverse_subtract, min, max };
 

@@ -46,7 +46,8 @@ Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t i
   std::size_t c = 0;
   for (int s = 0; s < view.stream_count; ++s) {
     const VertexStream& stream = view.streams[static_cast<std::size_t>(s)];
-    for (int k = 0; k < stream.components; ++k) in[c++] = static_cast<R>(stream.data[index * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)]);
+    for (int k = 0; k < stream.components; ++k)
+      in[c++] = static_cast<R>(stream.data[index * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)]);
   }
   Vertex<R, V> v{};
   v.pos_clip = shader.vertex(from_components<A, R>(in), v.varyings);
@@ -105,7 +106,8 @@ void for_each_covered(std::array<std::array<int64_t, 2>, 3> p, const Rect& bound
   };
   const auto [x_low, x_high] = std::minmax({p[0][0], p[1][0], p[2][0]});
   const auto [y_low, y_high] = std::minmax({p[0][1], p[1][1], p[2][1]});
-  const int64_t x1 = std::min<int64_t>(bounds.x + bounds.width - 1, x_high >> 8), y1 = std::min<int64_t>(bounds.y + bounds.height - 1, y_high >> 8);
+  const int64_t x1 = std::min<int64_t>(bounds.x + bounds.width - 1, x_high >> 8),
+                y1 = std::min<int64_t>(bounds.y + bounds.height - 1, y_high >> 8);
   for (int64_t y = std::max<int64_t>(bounds.y, y_low >> 8); y <= y1; ++y) {
     for (int64_t x = std::max<int64_t>(bounds.x, x_low >> 8); x <= x1; ++x) {
       const int64_t sx = x * 256 + 128, sy = y * 256 + 128;
@@ -125,12 +127,14 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
   std::array<std::size_t, 3> o{0, 1, 2};  // counter-clockwise, the smallest 1/w first
   if (area < 0) std::swap(o[1], o[2]);
   while (p[o[0]].inv_w > std::min(p[o[1]].inv_w, p[o[2]].inv_w)) std::rotate(o.begin(), o.begin() + 1, o.end());
-  const ScreenPoint<R> &a = p[o[0]], &b = p[o[1]], &c = p[o[2]];
+  const ScreenPoint<R>&a = p[o[0]], &b = p[o[1]], &c = p[o[2]];
   const auto real = [](int64_t i) { return static_cast<R>(i); };
-  const TriangleLanes<R> t{real(a.x), real(a.y), real(b.x - a.x), real(b.y - a.y), real(c.x - a.x), real(c.y - a.y), real(std::abs(area)),
-                           a.inv_w,   b.inv_w,   c.inv_w,         R(1)};
+  const TriangleLanes<R> t{
+      real(a.x), real(a.y), real(b.x - a.x), real(b.y - a.y), real(c.x - a.x), real(c.y - a.y), real(std::abs(area)), a.inv_w, b.inv_w,
+      c.inv_w,   R(1)};
   ComponentLanes<R, kComponents<V>> lanes;
-  const auto v0 = to_components<R>(in[o[0]]->varyings), v1 = to_components<R>(in[o[1]]->varyings), v2 = to_components<R>(in[o[2]]->varyings);
+  const auto v0 = to_components<R>(in[o[0]]->varyings), v1 = to_components<R>(in[o[1]]->varyings),
+             v2 = to_components<R>(in[o[2]]->varyings);
   for (std::size_t i = 0; i < kComponents<V>; ++i) {
     const bool flat = kInterpolations<V>[i] == Interpolation::flat;
     lanes.value0[i] = flat ? to_components<R>(provoking)[i] : v0[i];
@@ -151,9 +155,11 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
     px.z = std::clamp(a.z + px.weights.b1 * (b.z - a.z) + px.weights.b2 * (c.z - a.z), R(0), R(1));
     px.inv_w = px.weights.denominator / t.area;
     px.front_facing = front;
-    const auto fragment = call_fragment<S, R>(shader, interpolate_all<V>(px.weights, lanes, std::make_index_sequence<kComponents<V>>()), face, px);
+    const auto fragment =
+        call_fragment<S, R>(shader, interpolate_all<V>(px.weights, lanes, std::make_index_sequence<kComponents<V>>()), face, px);
     R z = px.z;
-    if constexpr (kDiscards<S>) if (!fragment.keep) return;
+    if constexpr (kDiscards<S>)
+      if (!fragment.keep) return;
     if constexpr (kWritesDepth<S>) z = fragment.depth;
     const int row = target.depth.height() - 1 - y;
     if (state.depth.test && !compare(state.depth.compare, z, target.depth.at(x, row))) return;

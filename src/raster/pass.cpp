@@ -20,8 +20,9 @@ constexpr std::size_t kWave = 32;
 static_assert(std::size_t{4096} * kMaxPieces <= kMaxTrianglesPerChunk, "a chunk's triangles are counted in 16 bits");
 
 std::size_t bytes_of(const Chunk& c) {
-  return c.triangles.capacity() * sizeof(Triangle) + c.bin_triangles.capacity() * sizeof(uint16_t) + c.bin_start.capacity() * sizeof(uint32_t) +
-         c.clip_vertices.capacity() * sizeof(ClipVertex) + (c.clip_varyings.capacity() + c.primitives.capacity()) * sizeof(float);
+  return c.triangles.capacity() * sizeof(Triangle) + c.bin_triangles.capacity() * sizeof(uint16_t) +
+         c.bin_start.capacity() * sizeof(uint32_t) + c.clip_vertices.capacity() * sizeof(ClipVertex) +
+         (c.clip_varyings.capacity() + c.primitives.capacity()) * sizeof(float);
 }
 
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
@@ -177,8 +178,8 @@ void Pass::run_tiles(const Workers& workers, bool first, bool last, PassStatisti
 
 void Pass::run_tile(int index, bool first, bool last, PassStatistics& statistics) const {
   const int tile_x = index % frame_.tiles_x, tile_y = index / frame_.tiles_x;
-  const bool drawn = std::any_of(frame_.chunks.begin(), frame_.chunks.end(),
-                                 [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
+  const bool drawn =
+      std::any_of(frame_.chunks.begin(), frame_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
   if (drawn) ++statistics.tiles_touched;
   // Between flushes a target lives in its image, or in the spill where it has none.
   ColorTarget color = color_;

@@ -13,18 +13,18 @@
 
 #include "core/parallel.h"
 #include "raster/output.h"
-#include "raster/shade.h"
 #include "raster/primitive_stage.h"
+#include "raster/shade.h"
 #include "raster/vertex_stage.h"
 
 namespace halfspace {
 
 /// How a pass does its work. None of these changes a pixel.
 struct PassOptions {
-  int tile_size = kMaxTileSize;              ///< 8, 16, 32 or 64 px
-  uint32_t chunk_triangles = 4096;           ///< submitted triangles per setup task, 1 … 4096
+  int tile_size = kMaxTileSize;                     ///< 8, 16, 32 or 64 px
+  uint32_t chunk_triangles = 4096;                  ///< submitted triangles per setup task, 1 … 4096
   std::size_t bin_budget = std::size_t{256} << 20;  ///< bytes of set-up triangles and bins before the tiles are flushed
-  bool defer = true;                         ///< false: shade every fragment at once, in order
+  bool defer = true;                                ///< false: shade every fragment at once, in order
 };
 
 /// A functor for the end of the pass: template <class R> vec4<R> operator()(vec4<R> color) const, from the pass's colour
@@ -75,7 +75,8 @@ class Pass {
   /// The same without an index list: vertices 0, 1, 2, …
   template <class S>
   void draw(const S& shader, const VertexView& vertices, const DrawState& state = {}) {
-    if constexpr (require_shader<S>()) add(shader, vertices, std::make_shared<const Indices>(Indices::sequential(vertices.vertex_count)), state);
+    if constexpr (require_shader<S>())
+      add(shader, vertices, std::make_shared<const Indices>(Indices::sequential(vertices.vertex_count)), state);
   }
   /// Draws depth alone; the pass must have no colour target.
   template <DepthOnlyShader S>

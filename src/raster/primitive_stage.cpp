@@ -60,7 +60,8 @@ void run_primitive_stage(const Frame& frame, Chunk& chunk) {
     for (uint32_t i = segment.first_triangle; i < end; ++i) rows.push_back(segment_rows.rows(i));
     segment.first_primitive = static_cast<uint32_t>(chunk.primitives.size());
     chunk.primitives.resize(chunk.primitives.size() + rows.size() * static_cast<std::size_t>(draw.kernels.primitive_count));
-    draw.kernels.primitive(draw.shader.get(), {rows.data(), static_cast<int>(rows.size()), chunk.primitives.data() + segment.first_primitive});
+    draw.kernels.primitive(draw.shader.get(),
+                           {rows.data(), static_cast<int>(rows.size()), chunk.primitives.data() + segment.first_primitive});
   }
 }
 

@@ -54,8 +54,8 @@ PixelBounds pixel_bounds(const Triangle& t, const PixelBounds& b) {
           std::min(b.x1, ((x_high - half) >> kSubPixelBits) + 1), std::min(b.y1, ((y_high - half) >> kSubPixelBits) + 1)};
 }
 
-Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<const ScreenVertex*, 3>& v, const std::array<uint32_t, 3>& index,
-                     uint32_t provoking, Triangle& out) {
+Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<const ScreenVertex*, 3>& v,
+                     const std::array<uint32_t, 3>& index, uint32_t provoking, Triangle& out) {
   const int64_t e1x = v[1]->x - v[0]->x, e1y = v[1]->y - v[0]->y;
   const int64_t e2x = v[2]->x - v[0]->x, e2y = v[2]->y - v[0]->y;
   const int64_t area = e1x * e2y - e1y * e2x;

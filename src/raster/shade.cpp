@@ -101,7 +101,8 @@ void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics) 
   tile.id.fill(kNoTriangle);
 }
 
-void shade_immediate(const Frame& frame, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile, PassStatistics& statistics) {
+void shade_immediate(const Frame& frame, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
+                     PassStatistics& statistics) {
   const Draw& draw = draw_of(frame, id);
   const DepthState& state = draw.state.depth;
   FragmentOutput out;

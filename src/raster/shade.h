@@ -26,11 +26,11 @@ struct FragmentOutput {
 
 struct FragmentBatch {
   const Frame* frame;
-  int tile_x0, tile_y0;         ///< window coordinates of the tile
-  const TriangleId* ids;        ///< the tile's triangle of each pixel, or null: uniform_id everywhere
+  int tile_x0, tile_y0;   ///< window coordinates of the tile
+  const TriangleId* ids;  ///< the tile's triangle of each pixel, or null: uniform_id everywhere
   TriangleId uniform_id;
   const PacketMask* packets;
-  int count;                    ///< ≤ kFragmentBatch
+  int count;  ///< ≤ kFragmentBatch
   FragmentOutput* out;
 };
 
@@ -39,8 +39,8 @@ struct TriangleSource {
   const Triangle* triangle;
   std::array<const ScreenVertex*, 3> vertex;
   std::array<const float*, 3> varyings;
-  const float* flat_varyings;   ///< the provoking vertex's row
-  const float* primitive;       ///< the primitive stage's row, or null
+  const float* flat_varyings;  ///< the provoking vertex's row
+  const float* primitive;      ///< the primitive stage's row, or null
 };
 TriangleSource find_triangle(const Frame& frame, TriangleId id);
 
@@ -48,7 +48,8 @@ TriangleSource find_triangle(const Frame& frame, TriangleId id);
 void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
 
 /// Shades one triangle's packets now: late depth test where needed, blending, colour write.
-void shade_immediate(const Frame& frame, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile, PassStatistics& statistics);
+void shade_immediate(const Frame& frame, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
+                     PassStatistics& statistics);
 
 namespace detail {
 
@@ -101,7 +102,7 @@ struct PacketTriangles {
   ComponentLanes<Real, N> components;
   std::array<Real, P> primitive;
   Mask front;
-  Real z0, z_edge1, z_edge2, z_low, z_high;       // as DepthPlane of the visibility stage
+  Real z0, z_edge1, z_edge2, z_low, z_high;  // as DepthPlane of the visibility stage
   Real zx0, zy0, z_e1x, z_e1y, z_e2x, z_e2y;
 };
 

@@ -51,8 +51,8 @@ inline constexpr Outcode kOutView = 63;        ///< the six planes of the view v
 struct ShadedVertices {
   uint32_t first = 0;
   uint32_t count = 0;
-  int varying_count = 0;                    ///< floats per vertex in varyings
-  std::unique_ptr<ScreenVertex[]> screen;   ///< uninitialized where no index refers to it
+  int varying_count = 0;                   ///< floats per vertex in varyings
+  std::unique_ptr<ScreenVertex[]> screen;  ///< uninitialized where no index refers to it
   std::unique_ptr<Outcode[]> outcodes;
   std::unique_ptr<float[]> varyings;
 };
@@ -61,9 +61,9 @@ struct ShadedVertices {
 
 /// Clip space → window: x_px = x/w · half_width + center_x, and so on.
 struct Viewport {
-  float half_width, half_height;  ///< px
-  float center_x, center_y;       ///< px
-  float depth_scale, depth_bias;  ///< window depth = z/w · scale + bias
+  float half_width, half_height;                           ///< px
+  float center_x, center_y;                                ///< px
+  float depth_scale, depth_bias;                           ///< window depth = z/w · scale + bias
   float guard_left, guard_right, guard_bottom, guard_top;  ///< x ≥ guard_left·w, x ≤ guard_right·w, …
 };
 
@@ -75,11 +75,11 @@ struct PixelBounds {
 
 // ---- clip and setup → bin, visibility, shade -------------------------------------------------------------------
 
-inline constexpr uint32_t kFrontFacing = 1;    ///< the triangle faces front
-inline constexpr uint32_t kClipped = 2;        ///< vertex[] index the chunk's clip vertices
-inline constexpr uint32_t kSmall = 4;          ///< every edge function fits in int32 without a shift
-inline constexpr uint32_t kProvokingShift = 3; ///< two bits: which of vertex[] is the provoking vertex
-inline constexpr uint32_t kSegmentShift = 8;   ///< the rest: which segment of the chunk
+inline constexpr uint32_t kFrontFacing = 1;     ///< the triangle faces front
+inline constexpr uint32_t kClipped = 2;         ///< vertex[] index the chunk's clip vertices
+inline constexpr uint32_t kSmall = 4;           ///< every edge function fits in int32 without a shift
+inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: which of vertex[] is the provoking vertex
+inline constexpr uint32_t kSegmentShift = 8;    ///< the rest: which segment of the chunk
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
 struct Triangle {
@@ -103,16 +103,16 @@ struct ClipVertex {
 
 /// Where a clipped triangle came from, for the primitive stage: the vertices of the triangle that was submitted.
 struct ClipSource {
-  uint32_t triangle;              ///< index into Chunk::triangles of the first piece
+  uint32_t triangle;  ///< index into Chunk::triangles of the first piece
   std::array<uint32_t, 3> vertex;
 };
 
 /// A run of consecutive triangles of one draw.
 struct Segment {
   uint32_t draw;
-  uint32_t first, count;          ///< triangles of the draw's index list
-  uint32_t first_triangle = 0;    ///< written by setup: where its triangles start in Chunk::triangles
-  uint32_t first_primitive = 0;   ///< written by the primitive stage: where its values start in Chunk::primitives
+  uint32_t first, count;         ///< triangles of the draw's index list
+  uint32_t first_triangle = 0;   ///< written by setup: where its triangles start in Chunk::triangles
+  uint32_t first_primitive = 0;  ///< written by the primitive stage: where its values start in Chunk::primitives
 };
 
 /// Up to some thousand submitted triangles, through clip, setup and bin: written by one task, then only read.
@@ -122,11 +122,11 @@ struct Chunk {
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
   std::vector<ClipSource> clip_sources;
-  std::vector<float> primitives;       ///< primitive stage's floats, one row a triangle
+  std::vector<float> primitives;  ///< primitive stage's floats, one row a triangle
 
   // Bins: triangle indices by tile, each list in submission order.
   int tile_x0 = 0, tile_y0 = 0, tile_x1 = 0, tile_y1 = 0;  ///< the tiles that have a list, half open
-  std::vector<uint32_t> bin_start;     ///< (tiles + 1) offsets into bin_triangles
+  std::vector<uint32_t> bin_start;                         ///< (tiles + 1) offsets into bin_triangles
   std::vector<uint16_t> bin_triangles;
 
   PassStatistics statistics;
@@ -149,12 +149,12 @@ struct VisibilityPacket;
 /// The thin functions that call one shader; everything else in the pipeline is shared by all shaders.
 struct ShaderKernels {
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
-  void (*position)(const void* shader, const VertexBatch&) = nullptr;          ///< as vertex, without varyings
-  void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;      ///< null: no primitive stage
-  void (*visibility)(const void* shader, const VisibilityPacket&) = nullptr;   ///< null: the triangle decides
+  void (*position)(const void* shader, const VertexBatch&) = nullptr;         ///< as vertex, without varyings
+  void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;     ///< null: no primitive stage
+  void (*visibility)(const void* shader, const VisibilityPacket&) = nullptr;  ///< null: the triangle decides
   void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
-  int varying_count = 0;     ///< floats per vertex
-  int primitive_count = 0;   ///< floats per triangle
+  int varying_count = 0;                          ///< floats per vertex
+  int primitive_count = 0;                        ///< floats per triangle
   const Interpolation* interpolations = nullptr;  ///< varying_count entries
   bool discards = false;
   bool writes_depth = false;
@@ -169,10 +169,10 @@ struct Draw {
   DrawState state;
 
   Viewport viewport{};
-  PixelBounds bounds{};        ///< viewport ∩ scissor ∩ target
-  float depth_low = 0.0f;      ///< depth range in order
+  PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
+  float depth_low = 0.0f;  ///< depth range in order
   float depth_high = 1.0f;
-  bool deferred = false;       ///< shaded after visibility, once per visible pixel; else at once, in order
+  bool deferred = false;  ///< shaded after visibility, once per visible pixel; else at once, in order
 
   uint32_t triangle_count() const { return static_cast<uint32_t>(indices->size() / 3); }
 };
@@ -182,7 +182,7 @@ struct Frame {
   std::vector<Draw> draws;
   std::vector<ShadedVertices> shaded;  ///< one a draw
   std::vector<Chunk> chunks;
-  int width = 0, height = 0;           ///< target, px
+  int width = 0, height = 0;  ///< target, px
   int tile_size = 64;
   int tiles_x = 0, tiles_y = 0;
   DepthFormat depth_format = DepthFormat::none;

@@ -65,8 +65,8 @@ struct ColorBuffer {
 
 /// One task's workspace. About 100 KB: it lives on the stack of the task that owns the tile.
 struct Tile {
-  int x0 = 0, y0 = 0;           ///< window coordinates of its lower left pixel
-  int width = 0, height = 0;    ///< pixels inside the target
+  int x0 = 0, y0 = 0;         ///< window coordinates of its lower left pixel
+  int width = 0, height = 0;  ///< pixels inside the target
   int size = kMaxTileSize;
   DepthFormat depth_format = DepthFormat::none;
 

@@ -20,7 +20,7 @@ HS_INLINE Int snap(Real x, Real w, Real inv_w, float half, float center) {
   const Real scaled_low = fma(quotient, half_sub, -scaled);
   const Real sum = scaled + center_sub;
   const Real back = sum - scaled;
-  const Real sum_low = (scaled - (sum - back)) + (center_sub - back);  // Knuth's two-sum
+  const Real sum_low = (scaled - (sum - back)) + (center_sub - back);        // Knuth's two-sum
   const Real whole = clamp(round_even(sum), Real(-0x1p24f), Real(0x1p24f));  // only matters beyond the guard band
   const Real rest = clamp((sum - whole) + (sum_low + fma(quotient_low, half_sub, scaled_low)), Real(-2.0f), Real(2.0f));
   return round_to_int(whole) + round_to_int(rest);

@@ -18,9 +18,9 @@ struct VertexBatch {
   const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
   uint32_t first;
   int count;
-  uint32_t slot_base;   ///< varyings of vertex i go to row i − slot_base
-  float* varyings;      ///< null for the position kernel
-  float* clip;          ///< out: x, y, z, w of clip space as four rows of kVertexBatch
+  uint32_t slot_base;  ///< varyings of vertex i go to row i − slot_base
+  float* varyings;     ///< null for the position kernel
+  float* clip;         ///< out: x, y, z, w of clip space as four rows of kVertexBatch
 };
 
 /// The transform of a draw's clip space to the window. viewport in pixels; depth range as in DepthState.
@@ -56,13 +56,13 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
   for (int begin = 0; begin < batch.count; begin += kLanes) {
     const int count = std::min(kLanes, batch.count - begin);
     const Int lane_index = min(iota<Int>(), Int(count - 1)) + begin;
-    const Int ids = batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index)
-                              : lane_index + static_cast<int32_t>(batch.first);
+    const Int ids =
+        batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index) : lane_index + static_cast<int32_t>(batch.first);
     Varyings out;
     const vec4<Real> clip = s.vertex(load_attributes<Attributes>(*batch.vertices, ids), out);
     for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
     if constexpr (with_varyings && n != 0) {
-      std::array<float, n * static_cast<std::size_t>(kLanes)> rows;
+      std::array<float, n* static_cast<std::size_t>(kLanes)> rows;
       store(rows.data(), to_components<Real>(out));
       for (int i = 0; i < count; ++i) {
         float* row = batch.varyings + static_cast<std::size_t>(static_cast<uint32_t>(lane(ids, i)) - batch.slot_base) * n;

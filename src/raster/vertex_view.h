@@ -85,9 +85,7 @@ class Indices {
   Indices(const std::vector<uint32_t>& list, std::size_t vertex_count) : Indices(std::span<const uint32_t>(list), vertex_count) {}
 
   std::size_t size() const { return size_; }
-  uint32_t operator[](std::size_t i) const {
-    return wide_ ? wide_[i] : narrow_ ? narrow_[i] : static_cast<uint32_t>(i);
-  }
+  uint32_t operator[](std::size_t i) const { return wide_ ? wide_[i] : narrow_ ? narrow_[i] : static_cast<uint32_t>(i); }
   /// The smallest and one past the largest index used.
   uint32_t first_vertex() const { return first_; }
   uint32_t end_vertex() const { return end_; }

@@ -258,8 +258,19 @@ void rasterize(const Frame& frame, uint32_t chunk, uint32_t index, VisibilityMod
   const bool cut = allowed.x0 > tile.x0 || allowed.y0 > tile.y0 || allowed.x1 < tile.x0 + tile.size || allowed.y1 < tile.y0 + tile.size;
   const TileRect rect{b.x0 - tile.x0, b.y0 - tile.y0, b.x1 - tile.x0, b.y1 - tile.y0};
   const bool tests = tests_depth(draw.state.depth, tile);
-  const Context c{frame, draw, t, triangle_id(chunk, index), mode, tile, list, statistics, tests, tests && draw.state.depth.write,
-                  mode == VisibilityMode::deferred && draw.kernels.visibility != nullptr, 0.0f, 1.0f};
+  const Context c{frame,
+                  draw,
+                  t,
+                  triangle_id(chunk, index),
+                  mode,
+                  tile,
+                  list,
+                  statistics,
+                  tests,
+                  tests && draw.state.depth.write,
+                  mode == VisibilityMode::deferred && draw.kernels.visibility != nullptr,
+                  0.0f,
+                  1.0f};
   if (t.is(kSmall)) {
     visit_triangle<true>(c, edges, rect, cut);
   } else {

@@ -21,17 +21,18 @@ struct CoverageList {
 
 /// What a triangle's samples do to the tile before they are shaded.
 enum class VisibilityMode : uint8_t {
-  deferred,    ///< test, write depth and triangle id
-  early,       ///< test, write depth, list what passed
-  test_only,   ///< test, list what passed: depth is written after the shader has spoken
-  cover_only   ///< list what is covered: the shader replaces the depth, and the test comes after it
+  deferred,   ///< test, write depth and triangle id
+  early,      ///< test, write depth, list what passed
+  test_only,  ///< test, list what passed: depth is written after the shader has spoken
+  cover_only  ///< list what is covered: the shader replaces the depth, and the test comes after it
 };
 
 /// May a depth test come before the fragment function (OpenGL 4.6, section 15.2.4 allows it where no one can tell)?
 VisibilityMode visibility_mode(const Draw& draw);
 
 /// Rasterizes triangle `index` of chunk `chunk` in the tile. list is needed but for VisibilityMode::deferred.
-void rasterize(const Frame& frame, uint32_t chunk, uint32_t index, VisibilityMode mode, Tile& tile, CoverageList* list, PassStatistics& statistics);
+void rasterize(const Frame& frame, uint32_t chunk, uint32_t index, VisibilityMode mode, Tile& tile, CoverageList* list,
+               PassStatistics& statistics);
 
 /// The depth test of a packet: which lanes of mask pass, with z as Tile::depth holds it.
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask);
@@ -43,9 +44,9 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
 struct VisibilityPacket {
   const Frame* frame;
   TriangleId id;
-  int x, y;             ///< window coordinates of the packet's lowest corner
-  float* depth;         ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
-  uint32_t* lanes;      ///< in and out: bits of the covered lanes, then of those kept
+  int x, y;         ///< window coordinates of the packet's lowest corner
+  float* depth;     ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
+  uint32_t* lanes;  ///< in and out: bits of the covered lanes, then of those kept
 };
 
 }  // namespace halfspace

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "raster/pass.h"
 #include "core/trig_double.h"
+#include "raster/pass.h"
 #include "scene/camera.h"
 #include "scene/image_io.h"
 #include "scene/procedural_earth.h"
@@ -62,7 +62,8 @@ Image<glm::u8vec4> color_map(const EarthOptions& o, const Workers& workers) {
 }  // namespace
 
 std::unique_ptr<EarthScene> make_earth(const EarthOptions& options, const Workers& workers) {
-  auto scene = std::make_unique<EarthScene>(EarthScene{Texture2D(color_map(options, workers), TexelFormat::srgb8a8), uv_sphere(kLatitudes, kLongitudes, 1.0f), {}, {}, kSpace});
+  auto scene = std::make_unique<EarthScene>(
+      EarthScene{Texture2D(color_map(options, workers), TexelFormat::srgb8a8), uv_sphere(kLatitudes, kLongitudes, 1.0f), {}, {}, kSpace});
   scene->shader = earth_shader(options, scene->map);
   scene->state.cull = CullMode::back;
   scene->state.depth.clip = ClipDepth::zero_to_one;

@@ -17,11 +17,11 @@
 namespace halfspace {
 
 struct EarthOptions {
-  int width = 1920;                 ///< px
-  int height = 1080;                ///< px
+  int width = 1920;                   ///< px
+  int height = 1080;                  ///< px
   std::filesystem::path color_map{};  ///< equirectangular, 8-bit sRGB codes; empty: procedural_earth
-  glm::dvec3 eye{0.0, 0.55, 2.75};  ///< world units; the globe has radius 1 and sits at the origin
-  double meridian = 20.0;           ///< degrees east that face +z
+  glm::dvec3 eye{0.0, 0.55, 2.75};    ///< world units; the globe has radius 1 and sits at the origin
+  double meridian = 20.0;             ///< degrees east that face +z
 };
 
 /// All that a draw of the globe needs. The shader points to map: keep them together.

@@ -85,7 +85,8 @@ template <class R, class T>
 HS_INLINE std::array<R, kComponents<T>> to_components(const T& t) {
   std::array<R, kComponents<T>> a;
   if constexpr (kComponents<T> != 0) {
-    static_assert(sizeof(T) == sizeof(a), "the members of attributes and varyings are R, vec2<R>, vec3<R>, vec4<R>, Flat or Linear of these");
+    static_assert(sizeof(T) == sizeof(a),
+                  "the members of attributes and varyings are R, vec2<R>, vec3<R>, vec4<R>, Flat or Linear of these");
     std::memcpy(&a, &t, sizeof a);
   }
   return a;

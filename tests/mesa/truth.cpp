@@ -5,22 +5,14 @@ namespace halfspace::test {
 
 bool passes(CompareOp op, double value, double held) {
   switch (op) {
-    case CompareOp::never:
-      return false;
-    case CompareOp::less:
-      return value < held;
-    case CompareOp::equal:
-      return value == held;
-    case CompareOp::less_equal:
-      return value <= held;
-    case CompareOp::greater:
-      return value > held;
-    case CompareOp::not_equal:
-      return value != held;
-    case CompareOp::greater_equal:
-      return value >= held;
-    default:
-      return true;
+    case CompareOp::never: return false;
+    case CompareOp::less: return value < held;
+    case CompareOp::equal: return value == held;
+    case CompareOp::less_equal: return value <= held;
+    case CompareOp::greater: return value > held;
+    case CompareOp::not_equal: return value != held;
+    case CompareOp::greater_equal: return value >= held;
+    default: return true;
   }
 }
 
@@ -38,41 +30,26 @@ namespace {
 
 double factor(BlendFactor f, const glm::dvec4& src, const glm::dvec4& dst, int k) {
   switch (f) {
-    case BlendFactor::zero:
-      return 0.0;
-    case BlendFactor::one:
-      return 1.0;
-    case BlendFactor::src_color:
-      return src[k];
-    case BlendFactor::one_minus_src_color:
-      return 1.0 - src[k];
-    case BlendFactor::dst_color:
-      return dst[k];
-    case BlendFactor::one_minus_dst_color:
-      return 1.0 - dst[k];
-    case BlendFactor::src_alpha:
-      return src.w;
-    case BlendFactor::one_minus_src_alpha:
-      return 1.0 - src.w;
-    case BlendFactor::dst_alpha:
-      return dst.w;
-    default:
-      return 1.0 - dst.w;
+    case BlendFactor::zero: return 0.0;
+    case BlendFactor::one: return 1.0;
+    case BlendFactor::src_color: return src[k];
+    case BlendFactor::one_minus_src_color: return 1.0 - src[k];
+    case BlendFactor::dst_color: return dst[k];
+    case BlendFactor::one_minus_dst_color: return 1.0 - dst[k];
+    case BlendFactor::src_alpha: return src.w;
+    case BlendFactor::one_minus_src_alpha: return 1.0 - src.w;
+    case BlendFactor::dst_alpha: return dst.w;
+    default: return 1.0 - dst.w;
   }
 }
 
 double equation(BlendEquation e, double s, double s_factor, double d, double d_factor) {
   switch (e) {
-    case BlendEquation::add:
-      return s * s_factor + d * d_factor;
-    case BlendEquation::subtract:
-      return s * s_factor - d * d_factor;
-    case BlendEquation::reverse_subtract:
-      return d * d_factor - s * s_factor;
-    case BlendEquation::min:
-      return std::min(s, d);
-    default:
-      return std::max(s, d);
+    case BlendEquation::add: return s * s_factor + d * d_factor;
+    case BlendEquation::subtract: return s * s_factor - d * d_factor;
+    case BlendEquation::reverse_subtract: return d * d_factor - s * s_factor;
+    case BlendEquation::min: return std::min(s, d);
+    default: return std::max(s, d);
   }
 }
 

@@ -28,10 +28,9 @@ uint8_t encode_unorm8(float x) {
 float decode_half(uint16_t h) {
   const int exponent = h >> 10 & 31;
   const int mantissa = h & 1023;
-  if (exponent == 31 && mantissa != 0) return std::bit_cast<float>((h & 0x8000u) << 16 | 0x7fc00000u | static_cast<uint32_t>(mantissa) << 13);
-  const double size = exponent == 31  ? HUGE_VAL
-                      : exponent == 0 ? std::ldexp(mantissa, -24)
-                                      : std::ldexp(1024 + mantissa, exponent - 25);
+  if (exponent == 31 && mantissa != 0)
+    return std::bit_cast<float>((h & 0x8000u) << 16 | 0x7fc00000u | static_cast<uint32_t>(mantissa) << 13);
+  const double size = exponent == 31 ? HUGE_VAL : exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
   return static_cast<float>((h & 0x8000) != 0 ? -size : size);
 }
 
@@ -42,7 +41,8 @@ uint16_t encode_half(float x) {
   const double size = std::fmin(std::fabs(static_cast<double>(x)), 65504.0);
   if (size < 0x1p-14) return static_cast<uint16_t>(sign | static_cast<uint32_t>(std::nearbyint(size * 0x1p24)));
   const int exponent = std::ilogb(size);
-  const auto mantissa = static_cast<uint32_t>(std::nearbyint(std::ldexp(size, 10 - exponent)));  // 1024 … 2048: 2048 carries into the exponent
+  const auto mantissa =
+      static_cast<uint32_t>(std::nearbyint(std::ldexp(size, 10 - exponent)));  // 1024 … 2048: 2048 carries into the exponent
   return static_cast<uint16_t>(sign | ((static_cast<uint32_t>(exponent + 14) << 10) + mantissa));
 }
 
@@ -147,7 +147,7 @@ double Framebuffer::depth_value(float z) const {
 
 namespace {
 
-constexpr float kGuard = 16384.0f;   // px
+constexpr float kGuard = 16384.0f;  // px
 constexpr float kLeastW = 0x1p-96f;
 
 // Clip space → window, for one viewport and depth range.
@@ -180,8 +180,9 @@ Transform make_transform(const Rect& r, const DepthState& d) {
 // x/w·half + center in 1/256 px, to the nearest whole number. Within 2^-20 of a tie the pipeline may go either way; there
 // its arithmetic is followed: quotient and remainder, product and its error, sum and its error.
 int64_t snap(float x, float w, float half, float center) {
-  const long double exact = (static_cast<long double>(x) / static_cast<long double>(w) * static_cast<long double>(half) +
-                             static_cast<long double>(center)) * 256.0L;
+  const long double exact =
+      (static_cast<long double>(x) / static_cast<long double>(w) * static_cast<long double>(half) + static_cast<long double>(center)) *
+      256.0L;
   const long double nearest = std::nearbyint(exact);
   if (0.5L - std::fabs(exact - nearest) > 0x1p-20L) return static_cast<int64_t>(nearest);
   const float h = half * 256.0f, c = center * 256.0f, inverse = 1.0f / w;
@@ -285,7 +286,9 @@ ClipPoint meet_least_w(const ClipPoint& in, const ClipPoint& out) {
 }
 
 Polygon cut(const Plane& plane, bool is_least_w, const Polygon& polygon) {
-  const auto cut_edge = [&](const ClipPoint& in, const ClipPoint& out) { return is_least_w ? meet_least_w(in, out) : meet(plane, in, out); };
+  const auto cut_edge = [&](const ClipPoint& in, const ClipPoint& out) {
+    return is_least_w ? meet_least_w(in, out) : meet(plane, in, out);
+  };
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const ClipPoint& here = polygon[i];
@@ -303,7 +306,8 @@ int64_t snap_corner(double ndc, float half, float center) {
 }
 
 // The polygon's corner in the window. A corner that is a vertex of the triangle keeps the bits it has unclipped.
-Corner clip_corner(const Transform& t, const ClipPoint& c, const std::array<const ShadedVertex*, 3>& v, const ShaderFacts& facts, std::size_t provoking) {
+Corner clip_corner(const Transform& t, const ClipPoint& c, const std::array<const ShadedVertex*, 3>& v, const ShaderFacts& facts,
+                   std::size_t provoking) {
   Corner r;
   const double inverse = 1.0 / c.p[3];
   r.x = snap_corner(c.p[0] * inverse, t.half_width, t.center_x);
@@ -332,7 +336,9 @@ struct Box {
   bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-Box intersect(const Box& a, const Box& b) { return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)}; }
+Box intersect(const Box& a, const Box& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 Box box_of(const Rect& r) { return {r.x, r.y, int64_t{r.x} + r.width, int64_t{r.y} + r.height}; }
 
 Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
@@ -409,8 +415,8 @@ float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTrian
 enum class Fate { drawn, degenerate, wrong_face, no_sample };
 
 // Face, order of corners and depth of a triangle whose corners are given as submitted.
-std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format, const std::array<Corner, 3>& submitted,
-                                                     std::size_t provoking) {
+std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format,
+                                                     const std::array<Corner, 3>& submitted, std::size_t provoking) {
   WindowTriangle t;
   t.corner = submitted;
   t.flat = submitted[provoking].varyings;
@@ -615,7 +621,8 @@ float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, 
 
 // ---- the loops -----------------------------------------------------------------------------------------------------------
 
-std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, const ShaderFacts& facts, const std::array<const ShadedVertex*, 3>& v) {
+std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, const ShaderFacts& facts,
+                                                       const std::array<const ShadedVertex*, 3>& v) {
   ++counts_.primitives_in;
   if (!std::all_of(v.begin(), v.end(), [](const ShadedVertex* s) { return is_finite(s->pos_clip); })) {
     ++counts_.culled_non_finite;
@@ -634,7 +641,8 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::vec4& p = v[i]->pos_clip;
       polygon.push_back({{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), static_cast<double>(p.w)},
-                         {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}, static_cast<int>(i)});
+                         {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0},
+                         static_cast<int>(i)});
     }
     const std::vector<Plane> planes = clip_planes(transform, state.depth);
     for (const Plane& plane : planes) polygon = cut(plane, &plane == planes.data(), polygon);
@@ -683,14 +691,15 @@ void Renderer::rasterize(const DrawState& state, const ShaderFacts& facts, const
   }
 }
 
-void Renderer::draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
-                             const FragmentFunction& shade) {
+void Renderer::draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x,
+                             int y, const FragmentFunction& shade) {
   double z = target_.depth_value(tested_depth(t, state.depth, x, y));
   if (!facts.writes_depth && !depth_passes(state, x, y, z)) return;
   const FragmentResult result = shade(t, surface, x, y);
   if (!result.keep) return;
   if (facts.writes_depth) {
-    const float low = std::min(state.depth.range_near, state.depth.range_far), high = std::max(state.depth.range_near, state.depth.range_far);
+    const float low = std::min(state.depth.range_near, state.depth.range_far),
+                high = std::max(state.depth.range_near, state.depth.range_far);
     z = target_.depth_value(hold(result.depth, low, high));
     if (!depth_passes(state, x, y, z)) return;
   }

@@ -31,7 +31,7 @@ struct Counts {
   uint64_t culled_degenerate = 0;
   uint64_t culled_no_sample = 0;
   uint64_t clipped = 0;
-  uint64_t triangles = 0;       ///< triangles of which some sample may be drawn
+  uint64_t triangles = 0;  ///< triangles of which some sample may be drawn
   uint64_t samples_passed = 0;
 };
 
@@ -84,7 +84,7 @@ struct Corner {
 /// A triangle in the window, counter-clockwise (y up), the corner of smallest depth first.
 struct WindowTriangle {
   std::array<Corner, 3> corner;
-  std::vector<float> flat;         ///< the provoking vertex's varyings
+  std::vector<float> flat;  ///< the provoking vertex's varyings
   bool front = false;
   int64_t area = 0;                ///< twice the area, (1/256 px)²
   float z0 = 0, z_max = 0;         ///< smallest and largest depth, offset included
@@ -139,7 +139,8 @@ class Renderer {
   using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, int x, int y)>;
 
   // A submitted triangle's pieces in the window: none if culled, several if clipped.
-  std::vector<WindowTriangle> window_triangles(const DrawState& state, const ShaderFacts& facts, const std::array<const ShadedVertex*, 3>& v);
+  std::vector<WindowTriangle> window_triangles(const DrawState& state, const ShaderFacts& facts,
+                                               const std::array<const ShadedVertex*, 3>& v);
   void rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade);
   void draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
                      const FragmentFunction& shade);
@@ -178,8 +179,8 @@ T struct_of(const std::vector<float>& components) {
 }
 
 template <class S>
-FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, const WindowTriangle& t, const Surface& s, const DepthState& state,
-                           int x, int y) {
+FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, const WindowTriangle& t, const Surface& s,
+                           const DepthState& state, int x, int y) {
   using V = typename S::template Varyings<float>;
   constexpr std::size_t n = kComponents<V>;
   const SurfacePoint p = surface_point(s, t, state, x, y);
@@ -226,8 +227,8 @@ ShaderFacts facts_of() {
 }  // namespace detail
 
 template <class S>
-void Renderer::draw(const S& shader, const std::vector<typename S::template Attributes<float>>& vertices, const std::vector<uint32_t>& indices,
-                    const DrawState& state) {
+void Renderer::draw(const S& shader, const std::vector<typename S::template Attributes<float>>& vertices,
+                    const std::vector<uint32_t>& indices, const DrawState& state) {
   using V = typename S::template Varyings<float>;
   using P = PrimitiveOf<S, float>;
   const ShaderFacts facts = detail::facts_of<S>();
@@ -245,7 +246,8 @@ void Renderer::draw(const S& shader, const std::vector<typename S::template Attr
     const std::array<const ShadedVertex*, 3> v{&shaded[indices[i]], &shaded[indices[i + 1]], &shaded[indices[i + 2]]};
     P face{};
     if constexpr (HasPrimitive<S>) {
-      face = shader.primitive(detail::struct_of<V>(v[0]->varyings), detail::struct_of<V>(v[1]->varyings), detail::struct_of<V>(v[2]->varyings));
+      face = shader.primitive(detail::struct_of<V>(v[0]->varyings), detail::struct_of<V>(v[1]->varyings),
+                              detail::struct_of<V>(v[2]->varyings));
     }
     for (const WindowTriangle& t : window_triangles(state, facts, v)) {
       rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, int x, int y) {

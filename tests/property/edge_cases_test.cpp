@@ -61,8 +61,8 @@ TEST(EdgeCases, TargetsOfOnePixelToTheLargest) {
 }
 
 TEST(EdgeCases, ViewportsBeyondTheTarget) {
-  for (const Rect& viewport : {Rect{-16384, -16384, 16384, 16384}, Rect{-8000, -9000, 16384, 16384}, Rect{16384, 16384, 16384, 16384}, Rect{40, 30, 1, 1},
-                               Rect{-7, -9, 200, 3}, Rect{69, 49, 300, 300}, Rect{-100, 20, 101, 5}}) {
+  for (const Rect& viewport : {Rect{-16384, -16384, 16384, 16384}, Rect{-8000, -9000, 16384, 16384}, Rect{16384, 16384, 16384, 16384},
+                               Rect{40, 30, 1, 1}, Rect{-7, -9, 200, 3}, Rect{69, 49, 300, 300}, Rect{-100, 20, 101, 5}}) {
     Scene s = scene_of(70, 50);
     add_random(s, 7, {.viewport = viewport});
     expect_as_oracle(s);
@@ -70,8 +70,8 @@ TEST(EdgeCases, ViewportsBeyondTheTarget) {
 }
 
 TEST(EdgeCases, ScissorsEmptyPartialAndOutside) {
-  for (const Rect& scissor : {Rect{0, 0, 0, 0}, Rect{10, 10, 0, 20}, Rect{10, 10, 20, 0}, Rect{-30, -30, 10, 10}, Rect{70, 50, 5, 5}, Rect{-5, -5, 20, 17},
-                              Rect{17, 33, 1, 1}, Rect{-16384, -16384, 16384, 16384}, Rect{7, 9, 41, 33}}) {
+  for (const Rect& scissor : {Rect{0, 0, 0, 0}, Rect{10, 10, 0, 20}, Rect{10, 10, 20, 0}, Rect{-30, -30, 10, 10}, Rect{70, 50, 5, 5},
+                              Rect{-5, -5, 20, 17}, Rect{17, 33, 1, 1}, Rect{-16384, -16384, 16384, 16384}, Rect{7, 9, 41, 33}}) {
     Scene s = scene_of(70, 50);
     add_random(s, 8, {.scissor = scissor});
     expect_as_oracle(s);
@@ -84,7 +84,8 @@ TEST(EdgeCases, NothingToDraw) {
     s.color.clear_value = glm::vec4(0.25f, 0.5f, 0.75f, 1.0f);
     const Rows rows(count, {glm::vec4(0, 0, 0, 1), glm::vec3(1)});
     add_draw(s, rows, std::vector<uint32_t>(count, 0));
-    s.draws.push_back(make_draw(ColorShader{}, "sequential", rows, std::vector<uint32_t>(count, 0), {}, VertexLayout::tight, IndexLayout::none));
+    s.draws.push_back(
+        make_draw(ColorShader{}, "sequential", rows, std::vector<uint32_t>(count, 0), {}, VertexLayout::tight, IndexLayout::none));
     expect_as_oracle(s);
   }
   expect_as_oracle(scene_of(33, 17));  // a pass without draws clears
@@ -116,7 +117,8 @@ TEST(EdgeCases, VerticesThatManyTrianglesShare) {
   Random random(5);
   Rows rows;
   for (int i = 0; i < 12; ++i) {
-    rows.push_back({glm::vec4{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1), random.real(0.5f, 2)}, glm::vec3{random.real(0, 1), random.real(0, 1), 1}});
+    rows.push_back({glm::vec4{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1), random.real(0.5f, 2)},
+                    glm::vec3{random.real(0, 1), random.real(0, 1), 1}});
   }
   std::vector<uint32_t> indices;
   for (int i = 0; i < 3000; ++i) indices.push_back(static_cast<uint32_t>(random.below(12)));
@@ -141,7 +143,8 @@ TEST(EdgeCases, ReversedDepth) {
   for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
     Scene s = scene_of(120, 80, ColorFormat::rgba32f, format);
     s.depth.clear_value = 0.0f;
-    add_random(s, 12, {.depth = {.compare = CompareOp::greater, .clip = ClipDepth::zero_to_one}, .offset = {.slope = 1.5f, .constant = 2.0f}});
+    add_random(s, 12,
+               {.depth = {.compare = CompareOp::greater, .clip = ClipDepth::zero_to_one}, .offset = {.slope = 1.5f, .constant = 2.0f}});
     expect_as_oracle(s);
   }
 }
@@ -249,7 +252,8 @@ TEST(EdgeCases, TheCallersFloatModeMakesNoDifference) {
   Scene s = scene_of(90, 70, ColorFormat::rgba32f, DepthFormat::d32f);
   add_random(s, 31, {.depth = {.range_near = 0.1f, .range_far = 0.7f}, .offset = {.slope = 1.0f, .constant = 3.0f}});
   const PassResult expected = run_pass(s, {}, 2);
-  for (const unsigned mode : {0x1f80u | 0x8040u, 0x1f80u | 0x2000u, 0x1f80u | 0x4000u, 0x1f80u | 0x6000u}) {  // no denormals; down; up; to zero
+  for (const unsigned mode :
+       {0x1f80u | 0x8040u, 0x1f80u | 0x2000u, 0x1f80u | 0x4000u, 0x1f80u | 0x6000u}) {  // no denormals; down; up; to zero
     const unsigned before = _mm_getcsr();
     _mm_setcsr(mode);
     const PassResult actual = run_pass(s, {}, 2);

@@ -77,7 +77,8 @@ std::string check_scene(const Scene& scene, uint64_t seed) {
     wrong = difference(scene, base.pictures, other.pictures);
     if (!wrong.empty()) return describe(v.options, v.threads) + ": " + wrong;
     if (v.threads == 1 || seed % 4 != 0) continue;
-    if (run_pass(scene, v.options, 1).statistics != other.statistics) return describe(v.options, v.threads) + ": statistics differ from one thread's";
+    if (run_pass(scene, v.options, 1).statistics != other.statistics)
+      return describe(v.options, v.threads) + ": statistics differ from one thread's";
   }
   return {};
 }
@@ -99,7 +100,8 @@ TEST_P(RandomScenes, SameBytesByOracleThreadsTilesChunksAndFlushes) {
     if (one != nullptr) std::printf("%s", describe(scene).c_str());
     const std::string wrong = check_scene(scene, seed);
     ASSERT_EQ(wrong, "") << "seed " << seed << ": HALFSPACE_SEED=" << seed << " test-property --gtest_filter='*RandomScenes*/"
-                         << kThemeNames[static_cast<int>(theme)] << "'\n" << describe(scene);
+                         << kThemeNames[static_cast<int>(theme)] << "'\n"
+                         << describe(scene);
     draws += scene.draws.size();
     pixels += static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
     const PassStatistics s = run_pass(scene, {}, 1).statistics;

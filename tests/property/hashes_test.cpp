@@ -59,11 +59,14 @@ void add(Scene& scene, const S& shader, const DrawState& state, uint64_t seed, s
 }
 
 constexpr std::initializer_list<Kind> kEasy{Kind::whole_target, Kind::tiny, Kind::small, Kind::medium, Kind::medium, Kind::mesh, Kind::fan};
-constexpr std::initializer_list<Kind> kHard{Kind::whole_target, Kind::huge, Kind::beyond_guard, Kind::sliver, Kind::behind_the_eye, Kind::steep, Kind::crossing_depth, Kind::fan};
+constexpr std::initializer_list<Kind> kHard{Kind::whole_target,   Kind::huge,  Kind::beyond_guard,   Kind::sliver,
+                                            Kind::behind_the_eye, Kind::steep, Kind::crossing_depth, Kind::fan};
 
 void add_formats(std::vector<NamedScene>& out) {
-  const std::pair<ColorFormat, const char*> colors[] = {
-      {ColorFormat::rgba8, "rgba8"}, {ColorFormat::srgb8a8, "srgb8a8"}, {ColorFormat::rgba16f, "rgba16f"}, {ColorFormat::rgba32f, "rgba32f"}};
+  const std::pair<ColorFormat, const char*> colors[] = {{ColorFormat::rgba8, "rgba8"},
+                                                        {ColorFormat::srgb8a8, "srgb8a8"},
+                                                        {ColorFormat::rgba16f, "rgba16f"},
+                                                        {ColorFormat::rgba32f, "rgba32f"}};
   const std::pair<DepthFormat, const char*> depths[] = {{DepthFormat::d16, "d16"}, {DepthFormat::d24, "d24"}, {DepthFormat::d32f, "d32f"}};
   for (const auto& [color, color_name] : colors) {
     for (const auto& [depth, depth_name] : depths) {
@@ -133,7 +136,8 @@ void add_states(std::vector<NamedScene>& out) {
   scene("blend-equations", ColorFormat::rgba8, DepthFormat::none, [](Scene& s) {
     for (int e = 0; e < 5; ++e) {
       DrawState state;
-      state.blend = BlendState{static_cast<BlendEquation>(e), BlendFactor::one, BlendFactor::one, static_cast<BlendEquation>(4 - e), BlendFactor::one, BlendFactor::one};
+      state.blend = BlendState{static_cast<BlendEquation>(e),     BlendFactor::one, BlendFactor::one,
+                               static_cast<BlendEquation>(4 - e), BlendFactor::one, BlendFactor::one};
       add(s, ColorShader{}, state, static_cast<uint64_t>(30 + e), {Kind::medium, Kind::huge, Kind::medium});
     }
   });

@@ -187,14 +187,22 @@ class Placer {
 void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& random, Geometry& out) {
   Placer p(viewport, clip, random, out);
   switch (kind) {
-    case Kind::tiny: for (int i = 0; i < 8; ++i) p.around(0.05f, 1.5f); break;
-    case Kind::small: for (int i = 0; i < 4; ++i) p.around(0.1f, 12.0f); break;
+    case Kind::tiny:
+      for (int i = 0; i < 8; ++i) p.around(0.05f, 1.5f);
+      break;
+    case Kind::small:
+      for (int i = 0; i < 4; ++i) p.around(0.1f, 12.0f);
+      break;
     case Kind::medium: p.around(0.1f, 60.0f); break;
     case Kind::huge: p.around(0.5f, 4000.0f); break;
     case Kind::beyond_guard: p.around(0.5f, 1e5f); break;
-    case Kind::sliver: for (int i = 0; i < 3; ++i) p.sliver(); break;
+    case Kind::sliver:
+      for (int i = 0; i < 3; ++i) p.sliver();
+      break;
     case Kind::degenerate: p.degenerate(); break;
-    case Kind::on_the_grid: for (int i = 0; i < 3; ++i) p.on_the_grid(); break;
+    case Kind::on_the_grid:
+      for (int i = 0; i < 3; ++i) p.on_the_grid();
+      break;
     case Kind::behind_the_eye: p.raw_triangle(-1.0f, 2.0f); break;
     case Kind::non_finite: p.non_finite(); break;
     case Kind::whole_target: p.whole_target(); break;
@@ -237,7 +245,8 @@ DepthState random_depth(float clear_value, Random& random) {
   DepthState d;
   d.test = !random.once_in(8);
   d.write = !random.once_in(5);
-  d.compare = clear_value < 0.5f ? random.pick({CompareOp::greater, CompareOp::greater_equal}) : random.pick({CompareOp::less, CompareOp::less_equal});
+  d.compare = clear_value < 0.5f ? random.pick({CompareOp::greater, CompareOp::greater_equal})
+                                 : random.pick({CompareOp::less, CompareOp::less_equal});
   if (random.once_in(3)) d.compare = static_cast<CompareOp>(random.below(kCompareOps));
   d.clip = random.once_in(2) ? ClipDepth::zero_to_one : ClipDepth::negative_one_to_one;
   d.clamp = random.once_in(4);
@@ -268,9 +277,11 @@ DrawState random_state(const Scene& scene, Theme theme, Random& random) {
 
 Kind random_kind(Theme theme, Random& random) {
   if (theme == Theme::clipped && !random.once_in(4)) {
-    return random.pick({Kind::behind_the_eye, Kind::crossing_depth, Kind::beyond_guard, Kind::steep, Kind::tiny_w, Kind::huge, Kind::non_finite});
+    return random.pick(
+        {Kind::behind_the_eye, Kind::crossing_depth, Kind::beyond_guard, Kind::steep, Kind::tiny_w, Kind::huge, Kind::non_finite});
   }
-  if (random.once_in(2)) return random.pick({Kind::whole_target, Kind::medium, Kind::medium, Kind::mesh, Kind::fan, Kind::huge});  // what fills pixels
+  if (random.once_in(2))
+    return random.pick({Kind::whole_target, Kind::medium, Kind::medium, Kind::mesh, Kind::fan, Kind::huge});  // what fills pixels
   return static_cast<Kind>(random.below(kKinds));
 }
 
@@ -314,7 +325,8 @@ SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, cons
     for (uint32_t i = 0; i < repeated.size(); ++i) sequence.push_back(i);
     return make_draw(shader, name, std::move(repeated), std::move(sequence), state, vertex_layout, IndexLayout::none);
   }
-  return make_draw(shader, name, std::move(rows), g.indices, state, vertex_layout, random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
+  return make_draw(shader, name, std::move(rows), g.indices, state, vertex_layout,
+                   random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
 }
 
 SceneDraw random_draw(Theme theme, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
@@ -349,7 +361,8 @@ Scene random_scene(Theme theme, uint64_t seed) {
   if (random.once_in(10)) s.width = random.pick({1, 8, 64, 65, 128});
   if (random.once_in(10)) s.height = random.pick({1, 8, 64, 65, 127});
   const bool depth_only = random.once_in(15);
-  s.color.format = depth_only ? ColorFormat::none : random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+  s.color.format =
+      depth_only ? ColorFormat::none : random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
   s.depth.format = random.pick({DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16, DepthFormat::none});
   s.color.clear_value = {random.real(0, 1), random.real(0, 1), random.real(-0.5f, 1.5f), random.real(0, 1)};
   s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});

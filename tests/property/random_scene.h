@@ -10,7 +10,8 @@ namespace halfspace {
 
 /// What a scene is mostly made of.
 enum class Theme { opaque, blended, discarding, depth_writing, faces, clipped, many_draws };
-inline constexpr Theme kThemes[] = {Theme::opaque, Theme::blended, Theme::discarding, Theme::depth_writing, Theme::faces, Theme::clipped, Theme::many_draws};
+inline constexpr Theme kThemes[] = {Theme::opaque, Theme::blended, Theme::discarding, Theme::depth_writing,
+                                    Theme::faces,  Theme::clipped, Theme::many_draws};
 inline constexpr const char* kThemeNames[] = {"Opaque", "Blended", "Discarding", "DepthWriting", "Faces", "Clipped", "ManyDraws"};
 
 /// The scene of a seed: the same on every machine and compiler.
@@ -24,8 +25,23 @@ struct Geometry {
 
 /// Kinds of random triangles.
 enum class Kind {
-  tiny, small, medium, huge, beyond_guard, sliver, degenerate, on_the_grid, behind_the_eye, non_finite, whole_target,
-  steep, tiny_w, fan, mesh, crossing_depth, about_63_px
+  tiny,
+  small,
+  medium,
+  huge,
+  beyond_guard,
+  sliver,
+  degenerate,
+  on_the_grid,
+  behind_the_eye,
+  non_finite,
+  whole_target,
+  steep,
+  tiny_w,
+  fan,
+  mesh,
+  crossing_depth,
+  about_63_px
 };
 inline constexpr int kKinds = 17;
 

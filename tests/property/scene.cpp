@@ -49,7 +49,8 @@ std::string compare(const char* name, const Scene& scene, const std::vector<std:
     ++differing;
     double by = 0.0;
     for (std::size_t k = 0; k < components; ++k) {
-      const double d = std::fabs(value_at(expected, i * components + k, size, is_float) - value_at(actual, i * components + k, size, is_float));
+      const double d =
+          std::fabs(value_at(expected, i * components + k, size, is_float) - value_at(actual, i * components + k, size, is_float));
       by = std::fmax(by, std::isnan(d) ? HUGE_VAL : d);
     }
     if (by > worst_by) {
@@ -68,7 +69,8 @@ std::string compare(const char* name, const Scene& scene, const std::vector<std:
   return out.str() + "\n";
 }
 
-std::string compare_color(const char* name, const Scene& scene, ColorFormat format, const std::vector<std::byte>& expected, const std::vector<std::byte>& actual) {
+std::string compare_color(const char* name, const Scene& scene, ColorFormat format, const std::vector<std::byte>& expected,
+                          const std::vector<std::byte>& actual) {
   const auto size = static_cast<std::size_t>(bytes_per_pixel(format)) / 4;
   return compare(name, scene, expected, actual, 4, size, format == ColorFormat::rgba32f);
 }
@@ -104,7 +106,9 @@ void lay_out_vertices(const float* rows, std::size_t count, int components, Vert
   const auto stride = static_cast<int32_t>(n + gap);
   view.streams[0] = {memory.buffers[0].data(), stride, static_cast<int32_t>(first_part), count};
   view.stream_count = 1;
-  if (first_part < n) view.streams[static_cast<std::size_t>(view.stream_count++)] = {memory.buffers[0].data() + first_part, stride, static_cast<int32_t>(n - first_part), count};
+  if (first_part < n)
+    view.streams[static_cast<std::size_t>(view.stream_count++)] = {memory.buffers[0].data() + first_part, stride,
+                                                                   static_cast<int32_t>(n - first_part), count};
 }
 
 void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, IndexLayout layout, DrawMemory& memory) {
@@ -120,9 +124,7 @@ void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count
 
 }  // namespace detail
 
-Rect viewport_of(const Scene& scene, const DrawState& state) {
-  return state.viewport.value_or(Rect{0, 0, scene.width, scene.height});
-}
+Rect viewport_of(const Scene& scene, const DrawState& state) { return state.viewport.value_or(Rect{0, 0, scene.width, scene.height}); }
 
 PassResult run_pass(const Scene& scene, const PassOptions& options, int threads) {
   PassResult r;
@@ -170,25 +172,29 @@ OracleResult run_oracle(const Scene& scene) {
 
 std::string difference(const Scene& scene, const Pictures& expected, const Pictures& actual) {
   return compare_color("colour", scene, scene.color.format, expected.color, actual.color) +
-         compare("depth", scene, expected.depth, actual.depth, 1, depth_pixel_bytes(scene.depth.format), scene.depth.format == DepthFormat::d32f) +
+         compare("depth", scene, expected.depth, actual.depth, 1, depth_pixel_bytes(scene.depth.format),
+                 scene.depth.format == DepthFormat::d32f) +
          compare_color("post", scene, scene.post_format, expected.post, actual.post);
 }
 
 std::string describe(const PassOptions& o, int threads) {
   std::ostringstream out;
-  out << threads << " threads, tiles of " << o.tile_size << ", chunks of " << o.chunk_triangles << ", " << (o.defer ? "deferred" : "immediate") << ", budget "
-      << o.bin_budget;
+  out << threads << " threads, tiles of " << o.tile_size << ", chunks of " << o.chunk_triangles << ", "
+      << (o.defer ? "deferred" : "immediate") << ", budget " << o.bin_budget;
   return out.str();
 }
 
 std::string describe(const Scene& s) {
   std::ostringstream out;
-  out << s.width << 'x' << s.height << ' ' << kColorNames[static_cast<int>(s.color.format)] << ' ' << kDepthNames[static_cast<int>(s.depth.format)] << '\n';
+  out << s.width << 'x' << s.height << ' ' << kColorNames[static_cast<int>(s.color.format)] << ' '
+      << kDepthNames[static_cast<int>(s.depth.format)] << '\n';
   for (const SceneDraw& d : s.draws) {
     const DepthState& z = d.state.depth;
-    out << "  " << d.shader << ", " << d.triangles << " triangles, cull " << static_cast<int>(d.state.cull) << (d.state.front == Winding::clockwise ? " cw" : " ccw")
-        << ", depth " << (z.test ? kCompareNames[static_cast<int>(z.compare)] : "off") << (z.write ? "" : " (no write)") << (z.clamp ? " clamp" : "")
-        << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far << (d.state.blend ? ", blend" : "");
+    out << "  " << d.shader << ", " << d.triangles << " triangles, cull " << static_cast<int>(d.state.cull)
+        << (d.state.front == Winding::clockwise ? " cw" : " ccw") << ", depth "
+        << (z.test ? kCompareNames[static_cast<int>(z.compare)] : "off") << (z.write ? "" : " (no write)") << (z.clamp ? " clamp" : "")
+        << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far
+        << (d.state.blend ? ", blend" : "");
     if (d.state.offset.slope != 0 || d.state.offset.constant != 0) out << ", offset";
     for (const auto& r : {d.state.viewport, d.state.scissor}) {
       if (r) out << " [" << r->x << ' ' << r->y << ' ' << r->width << 'x' << r->height << ']';

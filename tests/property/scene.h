@@ -27,7 +27,7 @@ struct SceneDraw {
 
 struct Scene {
   int width = 1, height = 1;
-  ColorTarget color;   ///< data is filled in by run_pass
+  ColorTarget color;  ///< data is filled in by run_pass
   DepthTarget depth;
   std::vector<std::byte> color_before, depth_before;  ///< what the images hold before the pass
   std::vector<SceneDraw> draws;
@@ -96,7 +96,8 @@ SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typena
                     std::vector<uint32_t> index_list, const DrawState& state, VertexLayout vertex_layout, IndexLayout index_layout) {
   using A = typename S::template Attributes<float>;
   const auto memory = std::make_shared<detail::DrawMemory>();
-  detail::lay_out_vertices(reinterpret_cast<const float*>(vertex_rows.data()), vertex_rows.size(), static_cast<int>(kComponents<A>), vertex_layout, *memory);
+  detail::lay_out_vertices(reinterpret_cast<const float*>(vertex_rows.data()), vertex_rows.size(), static_cast<int>(kComponents<A>),
+                           vertex_layout, *memory);
   detail::lay_out_indices(index_list, vertex_rows.size(), index_layout, *memory);
   SceneDraw d;
   d.state = state;
@@ -113,7 +114,9 @@ SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typena
       pass.draw_depth(shader, memory->view, *memory->indices, state);
     }
   };
-  d.reference = [rows = std::move(vertex_rows), list = std::move(index_list), shader, state](oracle::Renderer& r) { r.draw(shader, rows, list, state); };
+  d.reference = [rows = std::move(vertex_rows), list = std::move(index_list), shader, state](oracle::Renderer& r) {
+    r.draw(shader, rows, list, state);
+  };
   return d;
 }
 

@@ -10,7 +10,8 @@ namespace halfspace {
 
 template <class R>
 vec4<R> held(const vec4<R>& c, float limit) {
-  return {clamp(c.x, R(-limit), R(limit)), clamp(c.y, R(-limit), R(limit)), clamp(c.z, R(-limit), R(limit)), clamp(c.w, R(-limit), R(limit))};
+  return {clamp(c.x, R(-limit), R(limit)), clamp(c.y, R(-limit), R(limit)), clamp(c.z, R(-limit), R(limit)),
+          clamp(c.w, R(-limit), R(limit))};
 }
 
 /// No varyings: all that a Pixel says by itself.
@@ -125,7 +126,8 @@ struct DerivativeShader {
     const R here = height(px.template at_quad<Varyings<R>>(0, 0));
     const R right = height(px.template at_quad<Varyings<R>>(1, 0));
     const R up = height(px.template at_quad<Varyings<R>>(0, 1));
-    return {held(vec4<R>(dx.x * R(16.0f) + in.uv.x, dy.y * R(16.0f) + dx.y, (right - here) * R(8.0f), (up - here) * R(8.0f) + in.normal.z), 8.0f)};
+    return {held(vec4<R>(dx.x * R(16.0f) + in.uv.x, dy.y * R(16.0f) + dx.y, (right - here) * R(8.0f), (up - here) * R(8.0f) + in.normal.z),
+                 8.0f)};
   }
 };
 

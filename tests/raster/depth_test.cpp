@@ -150,7 +150,8 @@ TEST(Depth, ClippedTrianglesStayWithinHalfAGridStepOfTheirPlane) {
     for (int k = 0; k < 3; ++k) {
       const double w = r.magnitude(0.5, 8.0);
       const double z = w * r.real(-0.5, 1.5);
-      p.push_back({static_cast<float>(w * r.real(-1.2, 1.2)), static_cast<float>(w * r.real(-1.2, 1.2)), static_cast<float>(z), static_cast<float>(w)});
+      p.push_back({static_cast<float>(w * r.real(-1.2, 1.2)), static_cast<float>(w * r.real(-1.2, 1.2)), static_cast<float>(z),
+                   static_cast<float>(w)});
     }
     std::array<Exact, 3> x, y, z;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -275,29 +276,14 @@ TEST(Depth, RandomLayersEqualThePlainLoop) {
           bool pass = true;
           if (state.depth.test) {
             switch (state.depth.compare) {
-              case CompareOp::never:
-                pass = false;
-                break;
-              case CompareOp::less:
-                pass = z < stored;
-                break;
-              case CompareOp::equal:
-                pass = z == stored;
-                break;
-              case CompareOp::less_equal:
-                pass = z <= stored;
-                break;
-              case CompareOp::greater:
-                pass = z > stored;
-                break;
-              case CompareOp::not_equal:
-                pass = z != stored;
-                break;
-              case CompareOp::greater_equal:
-                pass = z >= stored;
-                break;
-              case CompareOp::always:
-                break;
+              case CompareOp::never: pass = false; break;
+              case CompareOp::less: pass = z < stored; break;
+              case CompareOp::equal: pass = z == stored; break;
+              case CompareOp::less_equal: pass = z <= stored; break;
+              case CompareOp::greater: pass = z > stored; break;
+              case CompareOp::not_equal: pass = z != stored; break;
+              case CompareOp::greater_equal: pass = z >= stored; break;
+              case CompareOp::always: break;
             }
           }
           if (!pass) continue;

@@ -184,16 +184,11 @@ enum class Values { unit, symmetric, offset };
 
 const char* name_of(Shape s) {
   switch (s) {
-    case Shape::small:
-      return "4 px";
-    case Shape::medium:
-      return "100 px";
-    case Shape::large:
-      return "1000 px";
-    case Shape::huge:
-      return "16k px";
-    default:
-      return "1000x1 sliver";
+    case Shape::small: return "4 px";
+    case Shape::medium: return "100 px";
+    case Shape::large: return "1000 px";
+    case Shape::huge: return "16k px";
+    default: return "1000x1 sliver";
   }
 }
 const char* name_of(Values v) { return v == Values::unit ? "[0,1]" : v == Values::symmetric ? "[-1,1]" : "offset"; }
