@@ -6,7 +6,8 @@
 #   scripts/mutate.sh list   their names
 #
 # Ends in "N caught, M missed"; exit 1 if any was missed. A fault is a text in one file and what it becomes; the text
-# must stand in the file exactly once. It counts as caught if the tests no longer build or one of them fails.
+# must stand in the file exactly once. It counts as caught if a test fails; a fault that does not build proves nothing and
+# counts as missed (warnings are no errors here).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -64,13 +65,13 @@ tests=(raster property shading core)  # in this order: most faults fall in the f
 # Builds and runs the test programs, one after the other, up to the first that fails.
 check() {
   for t in "${tests[@]}"; do
-    cmake --build "$work/build" --target "test-$t" > "$work/build.log" 2>&1 || return 1
+    cmake --build "$work/build" --target "test-$t" > "$work/build.log" 2>&1 || return 2
     (cd "$work" && timeout 600 "build/bin/test-$t" --gtest_fail_fast --gtest_brief=1) > "$work/test.log" 2>&1 || return 1
   done
 }
 
 echo "building the tree without faults"
-cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_BENCHMARKS=OFF > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
+cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_WERROR=OFF > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
 check || { echo "the tests fail without any fault:"; tail -30 "$work/build.log" "$work/test.log"; exit 1; }
 
 caught=0 missed=0
@@ -86,12 +87,14 @@ for i in "${!names[@]}"; do
     exit 1
   fi
   printf '%s' "$once" > "$file"
-  if check; then
-    missed=$((missed + 1))
-    echo "MISSED $((i + 1)) ${names[$i]}"
-  else
+  status=0
+  check || status=$?
+  if [ "$status" -eq 1 ]; then
     caught=$((caught + 1))
-    echo "caught $((i + 1)) ${names[$i]} ($(grep -m1 -oE '\[  FAILED  \] [A-Za-z0-9_/.]+' "$work/test.log" | cut -c14- || echo 'does not build'))"
+    echo "caught $((i + 1)) ${names[$i]} ($(grep -m1 -oE '\[  FAILED  \] [A-Za-z0-9_/.]+' "$work/test.log" | cut -c14- || tail -1 "$work/test.log"))"
+  else
+    missed=$((missed + 1))
+    echo "MISSED $((i + 1)) ${names[$i]}$([ "$status" -eq 0 ] || echo ' (does not build)')"
   fi
   printf '%s' "$text" > "$file"
   : > "$work/test.log"
