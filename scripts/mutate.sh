@@ -44,7 +44,7 @@ fault "blending before the pixels that wait are shaded" src/raster/pass.cpp 'if 
       waiting = false;' 'waiting = waiting;'
 fault "flush forgets the depth" src/raster/pass.cpp 'if (!first) color.load = depth.load = LoadOp::load;' 'if (!first) color.load = LoadOp::load;'
 fault "rows stored bottom up" src/raster/tile.cpp 'target_height - 1 - (tile.y0 + y)' 'tile.y0 + y'
-fault "texture: one level too coarse" src/shading/texture.h 'return R(0.5f) * log2(' 'return R(1.0f) + R(0.5f) * log2('
+fault "texture: one level too coarse" src/shading/footprint.h 'return R(0.5f) * log2(' 'return R(1.0f) + R(0.5f) * log2('
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done
