@@ -21,7 +21,8 @@
 namespace halfspace {
 
 /// GL's λ (8.14.1, without bias): log2 of the longer of the two lengths that a pixel step to the right or up covers, in
-/// texels of a level 0 of width × height. Zero derivatives give −inf.
+/// texels of a level 0 of width × height. Zero derivatives give −inf. A step to the right with a NaN in it is passed over, one
+/// up gives NaN.
 template <Number R>
 HS_INLINE R level_of_detail(int width, int height, const vec2<R>& duv_dx, const vec2<R>& duv_dy) {
   const R w(static_cast<float>(width)), h(static_cast<float>(height));

@@ -87,8 +87,8 @@ class Texture2D {
   /// The filtered linear colour at uv, for a pixel whose steps to the right and up change uv by duv_dx and duv_dy.
   ///
   /// Any bits are allowed. A NaN coordinate reads as 0, or the border; an infinite one as the edge (clamp), the border, or
-  /// 0 (repeat, mirrored); NaN derivatives mean level 0 and one probe. Coordinates so large that a float has no fraction
-  /// left read as 0 under repeat.
+  /// 0 (repeat, mirrored). A level of detail of NaN is level 0, and NaN derivatives mean one probe. Coordinates so large that
+  /// a float has no fraction left read as 0 under repeat.
   template <Number R>
   vec4<R> sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
