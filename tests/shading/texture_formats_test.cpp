@@ -332,10 +332,13 @@ struct Point {
 std::vector<Point> points(int count, unsigned seed) {
   std::mt19937 random(seed);
   const auto unit = [&] { return static_cast<float>(static_cast<int32_t>(random() % 65536) - 32768) * 0x1p-15f; };  // [−1, 1)
-  const auto size = [&] { return static_cast<float>(1 + random() % 1000) / static_cast<float>(1u << (4 + random() % 12)); };
+  const auto derivative = [&] {
+    const float direction = unit(), size = static_cast<float>(1 + random() % 1000);
+    return direction * size * std::ldexp(1.0f, -static_cast<int>(4 + random() % 12));
+  };
   std::vector<Point> all;
   for (int i = 0; i < count; ++i) {
-    all.push_back({2 * unit(), 2 * unit(), unit() * size(), unit() * size(), unit() * size(), unit() * size()});
+    all.push_back({2 * unit(), 2 * unit(), derivative(), derivative(), derivative(), derivative()});
     if (i % 50 == 49) all.back().dsdx = as_real(static_cast<int32_t>(random()));
   }
   return all;
