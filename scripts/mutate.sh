@@ -45,7 +45,12 @@ fault "blending before the pixels that wait are shaded" src/raster/pass.cpp 'if 
       waiting = false;' 'waiting = waiting;'
 fault "flush forgets the depth" src/raster/pass.cpp 'if (!first) color.load = depth.load = LoadOp::load;' 'if (!first) color.load = LoadOp::load;'
 fault "rows stored bottom up" src/raster/tile.cpp 'target_height - 1 - (tile.y0 + y)' 'tile.y0 + y'
-fault "texture: one level too coarse" src/shading/texture.h 'return R(0.5f) * log2(' 'return R(1.0f) + R(0.5f) * log2('
+fault "texture: one level too coarse" src/shading/footprint.h 'return R(0.5f) * log2(' 'return R(1.0f) + R(0.5f) * log2('
+fault "anisotropy: level of the longer axis" src/shading/footprint.h 'half * log2(size2)' 'half * log2(major2)'
+fault "anisotropy: probes along the shorter axis" src/shading/footprint.h 'select(flat, d + root, b), y = select(flat, b, root - d)' 'select(flat, -b, d - root), y = select(flat, d + root, b)'
+fault "mirrored wrap: nearest takes the wrong side of an edge" src/shading/texture_lookup.cpp 'select(coordinate < R(0.0f), !back, back)' 'back'
+fault "border shows through as the edge" src/shading/texture_lookup.cpp 'select(inside, texels.to_linear(v), border)' 'texels.to_linear(v)'
+fault "r16: halves of a word swapped" src/shading/texels.h 'select((i & 1) != 0, two >> 16, two) & 0xffff' 'select((i & 1) == 0, two >> 16, two) & 0xffff'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// 8-bit codes ↔ linear values: the sRGB curve (IEC 61966-2-1) and plain unsigned normalized numbers, both correctly
-// rounded, both the same bits at every width. No powers are computed here: decoding reads a table of 256 floats,
-// encoding a table of thresholds, and the compiler makes both tables with + − × ÷ alone (srgb.cpp).
+// 8-bit codes ↔ linear values: the sRGB curve (IEC 61966-2-1) and plain unsigned normalized numbers (decoded from 16 bits
+// too), both correctly rounded, both the same bits at every width. No powers are computed here: decoding reads a table of
+// 256 floats, encoding a table of thresholds, and the compiler makes both tables with + − × ÷ alone (srgb.cpp).
 //
 //   decode(v) = v/12.92 for v <= 0.04045, else ((v + 0.055)/1.055)^2.4        encode is its inverse
 #pragma once
@@ -75,6 +75,18 @@ HS_INLINE R unorm8_to_linear(R code) {
   else {
     constexpr float kHigh = 1.0f / 255.0f;
     constexpr float kLow = static_cast<float>(1.0 / 255.0 - static_cast<double>(kHigh));
+    return fma(code, R(kHigh), code * R(kLow));
+  }
+}
+
+/// code/65535 to the nearest float, for code (whole or between two codes) in [0, 65535]: never decreasing, 65535 gives 1.
+template <Number R>
+HS_INLINE R unorm16_to_linear(R code) {
+  if constexpr (std::is_same_v<R, double>)
+    return code / 65535.0;
+  else {
+    constexpr float kHigh = 1.0f / 65535.0f;
+    constexpr float kLow = static_cast<float>(1.0 / 65535.0 - static_cast<double>(kHigh));
     return fma(code, R(kHigh), code * R(kLow));
   }
 }

@@ -4,7 +4,10 @@
 #include "shading/texture.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cstring>
+
+#include "core/half.h"
+#include "shading/texels.h"
 
 namespace halfspace {
 
@@ -12,49 +15,103 @@ namespace {
 
 constexpr int half_size(int size) { return std::max(1, size / 2); }
 
-/// Which texels of a side one texel of the next level averages, and with which weights (they add up to 1).
-struct Taps {
-  int first;
-  int count;
-  float weight[3];
-};
+// ---- texels as they are averaged: in which numbers, from texels, and back -----------------------------------------------
 
-Taps taps_of(int size, int i) {
-  if (size == 1) return {0, 1, {1.0f}};
-  if (size % 2 == 0) return {2 * i, 2, {0.5f, 0.5f}};
-  const float n = static_cast<float>(size / 2), whole = static_cast<float>(size), at = static_cast<float>(i);
-  return {2 * i, 3, {(n - at) / whole, n / whole, (at + 1.0f) / whole}};
+/// Number: of weights. Sum: of a texel's channels in the units that are averaged: whole codes, and linear values for the
+/// colour of srgb8a8 and for floats. A constant stays itself: for codes the sums err by far less than half a code, for
+/// floats by far less than half of a float's last bit.
+template <class Texel>
+struct Averaging;
+template <>
+struct Averaging<uint8_t> {
+  using Number = float;
+  using Sum = float;
+};
+template <>
+struct Averaging<uint16_t> {
+  using Number = double;
+  using Sum = double;
+};
+template <>
+struct Averaging<glm::u8vec4> {
+  using Number = float;
+  using Sum = glm::vec4;
+};
+template <>
+struct Averaging<glm::vec4> {
+  using Number = double;
+  using Sum = glm::dvec4;
+};
+template <class Texel>
+using SumOf = typename Averaging<Texel>::Sum;
+
+uint64_t half_bits(const glm::vec4& v) {
+  const auto half = [](float x) { return static_cast<uint64_t>(float_to_finite_half(x)); };
+  return half(v.x) | half(v.y) << 16 | half(v.z) << 32 | half(v.w) << 48;
+}
+/// A linear colour as the format holds it.
+glm::vec4 stored(const glm::vec4& v, TexelFormat format) {
+  const glm::vec4 held = detail::held_texel(v);
+  if (format == TexelFormat::rgba32f) return held;
+  const uint64_t bits = half_bits(held);
+  const auto channel = [bits](int i) { return half_to_float(static_cast<uint16_t>(bits >> (16 * i) & 0xffff)); };
+  return {channel(0), channel(1), channel(2), channel(3)};
 }
 
-// Texels in the units that are averaged: whole codes, and linear values for the colour of srgb8a8.
+float to_averaged(uint8_t t, TexelFormat) { return t; }
+double to_averaged(uint16_t t, TexelFormat) { return t; }
 glm::vec4 to_averaged(glm::u8vec4 t, TexelFormat format) {
   if (format == TexelFormat::rgba8) return glm::vec4(t);
   return {kSrgbToLinear[t.x], kSrgbToLinear[t.y], kSrgbToLinear[t.z], static_cast<float>(t.w)};
 }
+glm::dvec4 to_averaged(const glm::vec4& t, TexelFormat format) { return glm::dvec4(stored(t, format)); }
 
+uint8_t to_texel(float v, TexelFormat) { return static_cast<uint8_t>(round_to_int(v)); }
+uint16_t to_texel(double v, TexelFormat) { return static_cast<uint16_t>(round_to_int(v)); }
 glm::u8vec4 to_texel(const glm::vec4& v, TexelFormat format) {
   if (format == TexelFormat::rgba8) return glm::u8vec4(round_to_int(v.x), round_to_int(v.y), round_to_int(v.z), round_to_int(v.w));
   return glm::u8vec4(linear_to_srgb(v.x), linear_to_srgb(v.y), linear_to_srgb(v.z), round_to_int(v.w));
 }
+glm::vec4 to_texel(const glm::dvec4& v, TexelFormat format) { return stored(glm::vec4(v), format); }
+
+// ---- the next level ---------------------------------------------------------------------------------------------------
+
+/// Which texels of a side one texel of the next level averages, and with which weights (they add up to 1).
+template <class Number>
+struct Taps {
+  int first;
+  int count;
+  Number weight[3];
+};
+
+template <class Number>
+Taps<Number> taps_of(int size, int i) {
+  if (size == 1) return {0, 1, {1}};
+  if (size % 2 == 0) return {2 * i, 2, {Number(0.5f), Number(0.5f)}};
+  const auto n = static_cast<Number>(size / 2), whole = static_cast<Number>(size), at = static_cast<Number>(i);
+  return {2 * i, 3, {(n - at) / whole, n / whole, (at + 1) / whole}};
+}
 
 /// The next level of a picture of the given size; row(r, buffer) gives its row r, perhaps by filling the buffer.
-template <class RowOf>
-Image<glm::vec4> next_level(int width, int height, const RowOf& row_of) {
-  Image<glm::vec4> to(half_size(width), half_size(height));
-  std::vector<Taps> columns;
-  for (int x = 0; x < to.width(); ++x) columns.push_back(taps_of(width, x));
-  std::vector<glm::vec4> buffer(static_cast<std::size_t>(width)), sum(buffer.size());
+template <class Texel, class RowOf>
+Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of) {
+  using Number = typename Averaging<Texel>::Number;
+  using Sum = SumOf<Texel>;
+  Image<Sum> to(half_size(width), half_size(height));
+  std::vector<Taps<Number>> columns;
+  for (int x = 0; x < to.width(); ++x) columns.push_back(taps_of<Number>(width, x));
+  std::vector<Sum> buffer(static_cast<std::size_t>(width)), sum(buffer.size());
   for (int y = 0; y < to.height(); ++y) {
-    const Taps rows = taps_of(height, y);
+    const Taps<Number> rows = taps_of<Number>(height, y);
     for (int j = 0; j < rows.count; ++j) {
-      const glm::vec4* row = row_of(rows.first + j, buffer.data());
-      const float weight = rows.weight[j];
+      const Sum* row = row_of(rows.first + j, buffer.data());
+      const Number weight = rows.weight[j];
       for (std::size_t x = 0; x < sum.size(); ++x) sum[x] = j == 0 ? weight * row[x] : sum[x] + weight * row[x];
     }
-    glm::vec4* out = to.row(y).data();
-    for (const Taps& taps : columns) {
-      const glm::vec4* from = sum.data() + taps.first;
-      glm::vec4 v = taps.weight[0] * from[0];
+    Sum* out = to.row(y).data();
+    for (const Taps<Number>& taps : columns) {
+      const Sum* from = sum.data() + taps.first;
+      Sum v = taps.weight[0] * from[0];
       for (int i = 1; i < taps.count; ++i) v += taps.weight[i] * from[i];
       *out++ = v;
     }
@@ -62,38 +119,81 @@ Image<glm::vec4> next_level(int width, int height, const RowOf& row_of) {
   return to;
 }
 
+// ---- texels in 32-bit words, as texels.h reads them -------------------------------------------------------------------
+
+/// How many words so many texels fill.
+std::size_t words_of(std::size_t texels, TexelFormat format) {
+  switch (format) {
+    case TexelFormat::r8: return (texels + 3) / 4;
+    case TexelFormat::r16: return (texels + 1) / 2;
+    case TexelFormat::rgba16f: return texels * 2;
+    case TexelFormat::rgba32f: return texels * 4;
+    default: return texels;
+  }
+}
+
 int32_t packed(glm::u8vec4 t) {
   const uint32_t bits = t.x | static_cast<uint32_t>(t.y) << 8 | static_cast<uint32_t>(t.z) << 16 | static_cast<uint32_t>(t.w) << 24;
   return static_cast<int32_t>(bits);
 }
 
+// Texel i into words that are still 0.
+void put(int32_t* words, std::size_t i, uint8_t t, TexelFormat) {
+  words[i / 4] |= static_cast<int32_t>(static_cast<uint32_t>(t) << (i % 4 * 8));
+}
+void put(int32_t* words, std::size_t i, uint16_t t, TexelFormat) {
+  words[i / 2] |= static_cast<int32_t>(static_cast<uint32_t>(t) << (i % 2 * 16));
+}
+void put(int32_t* words, std::size_t i, glm::u8vec4 t, TexelFormat) { words[i] = packed(t); }
+void put(int32_t* words, std::size_t i, const glm::vec4& t, TexelFormat format) {
+  const glm::vec4 v = stored(t, format);
+  if (format == TexelFormat::rgba32f)
+    std::memcpy(words + i * 4, &v.x, 16);
+  else {
+    const uint64_t bits = half_bits(v);
+    std::memcpy(words + i * 2, &bits, 8);
+  }
+}
+
 }  // namespace
 
-std::vector<Image<glm::u8vec4>> mip_chain(const Image<glm::u8vec4>& base, TexelFormat format) {
-  std::vector<Image<glm::u8vec4>> levels;
+template <class Texel>
+std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format) {
+  using Sum = SumOf<Texel>;
+  std::vector<Image<Texel>> levels;
   if (base.width() <= 1 && base.height() <= 1) return levels;
-  Image<glm::vec4> averaged = next_level(base.width(), base.height(), [&](int r, glm::vec4* buffer) {
-    std::transform(base.row(r).begin(), base.row(r).end(), buffer, [format](glm::u8vec4 t) { return to_averaged(t, format); });
-    return static_cast<const glm::vec4*>(buffer);
+  Image<Sum> averaged = next_level<Texel>(base.width(), base.height(), [&](int r, Sum* buffer) {
+    std::transform(base.row(r).begin(), base.row(r).end(), buffer, [format](const Texel& t) { return to_averaged(t, format); });
+    return static_cast<const Sum*>(buffer);
   });
   while (true) {
-    Image<glm::u8vec4>& level = levels.emplace_back(averaged.width(), averaged.height());
+    Image<Texel>& level = levels.emplace_back(averaged.width(), averaged.height());
     std::transform(averaged.texels().begin(), averaged.texels().end(), level.data(),
-                   [format](const glm::vec4& v) { return to_texel(v, format); });
+                   [format](const Sum& v) { return to_texel(v, format); });
     if (averaged.width() == 1 && averaged.height() == 1) break;
-    averaged = next_level(averaged.width(), averaged.height(), [&](int r, glm::vec4*) { return averaged.row(r).data(); });
+    averaged = next_level<Texel>(averaged.width(), averaged.height(), [&](int r, Sum*) { return averaged.row(r).data(); });
   }
   return levels;
 }
 
+template std::vector<Image<uint8_t>> mip_chain(const Image<uint8_t>&, TexelFormat);
+template std::vector<Image<uint16_t>> mip_chain(const Image<uint16_t>&, TexelFormat);
+template std::vector<Image<glm::u8vec4>> mip_chain(const Image<glm::u8vec4>&, TexelFormat);
+template std::vector<Image<glm::vec4>> mip_chain(const Image<glm::vec4>&, TexelFormat);
+
 Texture2D::Texture2D(const Image<glm::u8vec4>& base, TexelFormat format) : format_(format) {
-  add_level(base);  // checks the size
-  const auto size = static_cast<std::size_t>(base.width() + 1) * static_cast<std::size_t>(base.height());
-  texels_.reserve(size + size / 2);
-  for (const Image<glm::u8vec4>& level : mip_chain(base, format)) add_level(level);
+  HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
+  add_chain(base);
+}
+Texture2D::Texture2D(const Image<uint8_t>& base) : format_(TexelFormat::r8) { add_chain(base); }
+Texture2D::Texture2D(const Image<uint16_t>& base) : format_(TexelFormat::r16) { add_chain(base); }
+Texture2D::Texture2D(const Image<glm::vec4>& base, TexelFormat format) : format_(format) {
+  HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f);
+  add_chain(base);
 }
 
 Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format) : format_(format) {
+  HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
   HS_CHECK_OP(levels.size(), >=, 1u);
   std::size_t size = 0;
   for (const Image<glm::u8vec4>& level : levels)
@@ -102,31 +202,51 @@ Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat for
   for (const Image<glm::u8vec4>& level : levels) add_level(level);
 }
 
-void Texture2D::add_level(const Image<glm::u8vec4>& image) {
+template <class Texel>
+void Texture2D::add_chain(const Image<Texel>& base) {
+  const auto size = static_cast<std::size_t>(base.width() + 1) * static_cast<std::size_t>(base.height());
+  texels_.reserve(words_of(size + size / 2, format_));
+  add_level(base);  // checks the size
+  for (const Image<Texel>& level : mip_chain(base, format_)) add_level(level);
+}
+
+template <class Texel>
+void Texture2D::add_level(const Image<Texel>& image) {
+  std::size_t begin = 0;
   if (levels_ == 0) {
     HS_CHECK_OP(std::min(image.width(), image.height()), >=, 1);
     HS_CHECK_OP(std::max(image.width(), image.height()), <=, kMaxSize);
   } else {
-    HS_CHECK_OP(std::max(width(levels_ - 1), height(levels_ - 1)), >, 1);
-    HS_CHECK_OP(image.width(), ==, half_size(width(levels_ - 1)));
-    HS_CHECK_OP(image.height(), ==, half_size(height(levels_ - 1)));
+    const int last = levels_ - 1;
+    HS_CHECK_OP(std::max(width(last), height(last)), >, 1);
+    HS_CHECK_OP(image.width(), ==, half_size(width(last)));
+    HS_CHECK_OP(image.height(), ==, half_size(height(last)));
+    begin = index_of(last, width(last) - 1, height(last) - 1) + 2;
   }
+  const std::size_t end = begin + static_cast<std::size_t>(image.width() + 1) * static_cast<std::size_t>(image.height());
+  HS_CHECK_OP(words_of(end, format_), <, std::size_t{1} << 31);  // 32-bit indices reach no farther
+  texels_.resize(words_of(end, format_));
   const auto l = static_cast<std::size_t>(levels_++);
   width_[l] = image.width();
   height_[l] = image.height();
-  offset_[l] = static_cast<int32_t>(texels_.size());
+  offset_[l] = static_cast<int32_t>(begin);
   for (int y = 0; y < image.height(); ++y) {
-    const auto row = image.row(y);
-    std::transform(row.begin(), row.end(), std::back_inserter(texels_), packed);
-    texels_.push_back(packed(row[0]));
+    for (const Texel& t : image.row(y)) put(texels_.data(), begin++, t, format_);
+    put(texels_.data(), begin++, image.at(0, y), format_);
   }
 }
 
-glm::u8vec4 Texture2D::texel(int level, int x, int row) const {
-  HS_CHECK_OP(level, <, levels_);
+/// In texels, from the first of level 0.
+std::size_t Texture2D::index_of(int level, int x, int row) const {
+  HS_CHECK(level >= 0 && level < levels_);
   HS_CHECK(x >= 0 && x < width(level) && row >= 0 && row < height(level));
   const auto l = static_cast<std::size_t>(level);
-  const auto t = static_cast<uint32_t>(texels_[static_cast<std::size_t>(offset_[l] + row * (width_[l] + 1) + x)]);
+  return static_cast<std::size_t>(offset_[l] + row * (width_[l] + 1) + x);
+}
+
+glm::u8vec4 Texture2D::texel(int level, int x, int row) const {
+  HS_CHECK(format_ == TexelFormat::rgba8 || format_ == TexelFormat::srgb8a8);
+  const auto t = static_cast<uint32_t>(texels_[index_of(level, x, row)]);
   return {t & 255, (t >> 8) & 255, (t >> 16) & 255, t >> 24};
 }
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A two-dimensional texture: 8-bit texels, mip levels, and the look-up that turns texture coordinates into a colour.
+// A two-dimensional texture: texels, mip levels, and the look-up that turns texture coordinates into a colour.
 //
 // In: coordinates (s, t) and their screen derivatives, or a level of detail. Out: linear RGBA. The rules are those of
-// OpenGL 4.6, section 8.14 (scale factor, minification, magnification) and 8.15; row 0 of the image is t = 0.
+// OpenGL 4.6, section 8.14 (scale factor, wrapping, minification, magnification) and 8.15, and of
+// EXT_texture_filter_anisotropic; row 0 of the image is t = 0.
 //
-// Filtering works on whole codes 0 … 255 (rgba8, and alpha) or on decoded linear values (the colour of srgb8a8). The
-// fraction of a texel is rounded to 1/32768, which is what a float position itself resolves from texel 256 on. With that
-// the bilinear code of rgba8 is the exact one rounded once (and then divided by 255), and for every format: a constant
-// texture gives exactly its constant, a fraction of zero exactly the texel, and no result leaves the interval of the
-// texels it mixes.
+// Filtering works on whole codes (rgba8, r8, r16, and alpha of srgb8a8) or on linear values (the colour of srgb8a8, the
+// float formats, and every format beside a border). The fraction of a texel is rounded to 1/32768, which is what a float
+// position itself resolves from texel 256 on. With that the bilinear code of rgba8 is the exact one rounded once (and then
+// divided by 255), and for every format: a constant texture gives exactly its constant, a fraction of zero exactly the
+// texel, and no result leaves the interval of the texels it mixes.
+//
+// Common look-ups (8-bit RGBA, repeat or clamp, isotropic) are inlined into shaders from here; all others are one call away,
+// in texture_lookup.cpp.
 // R = double filters in double with unrounded fractions (over the same decoded texels): the accuracy reference.
 #pragma once
 
@@ -18,22 +22,30 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/lane_math.h"
 #include "core/lanes.h"
 #include "core/srgb.h"
 #include "core/vec.h"
+#include "shading/footprint.h"
 
 namespace halfspace {
 
+/// What a texel holds. Formats of one channel read as (r, 0, 0, 1).
 enum class TexelFormat : uint8_t {
-  rgba8,   ///< value = code/255
-  srgb8a8  ///< red, green and blue sRGB-coded; alpha linear, code/255
+  rgba8,    ///< value = code/255
+  srgb8a8,  ///< red, green and blue sRGB-coded; alpha linear, code/255
+  r8,       ///< value = code/255
+  r16,      ///< value = code/65535
+  rgba16f,  ///< linear halfs, finite: beyond ±65504 become ±65504, NaN becomes 0
+  rgba32f   ///< linear floats within ±kMaxTexel, which hold what is beyond; NaN becomes 0
 };
+
+/// The largest rgba32f texel: half of the largest float, so that the difference of two texels is a float.
+inline constexpr float kMaxTexel = 0x1.fffffep126f;
 
 /// GL's NEAREST and LINEAR (both of level 0) and LINEAR_MIPMAP_LINEAR. As a magnification filter trilinear means bilinear.
 enum class Filter : uint8_t { nearest, bilinear, trilinear };
-/// GL's REPEAT and CLAMP_TO_EDGE.
-enum class Wrap : uint8_t { repeat, clamp };
+/// GL's REPEAT, MIRRORED_REPEAT, CLAMP_TO_EDGE and CLAMP_TO_BORDER.
+enum class Wrap : uint8_t { repeat, mirrored, clamp, border };
 
 /// How a texture is read: uniform state, kept apart from the texture as in GL's sampler objects.
 struct Sampler {
@@ -41,25 +53,24 @@ struct Sampler {
   Filter min = Filter::trilinear;  ///< where it is smaller
   Wrap wrap_s = Wrap::repeat;
   Wrap wrap_t = Wrap::repeat;
+  /// At most so many probes along a long footprint (footprint.h): 1 (isotropic) … 16. Ignored by sample_level.
+  int anisotropy = 1;
+  /// Linear; what lies outside of the image where an axis wraps by border. Used as the texture's format could hold it: of
+  /// the coded formats held to [0, 1], of those of one channel the red alone.
+  glm::vec4 border_color{0.0f};
 };
-
-/// GL's λ (8.14.1, without bias): log2 of the longer of the two lengths that a pixel step to the right or up covers, in
-/// texels of a level 0 of width × height. Zero derivatives give −inf.
-template <Number R>
-HS_INLINE R level_of_detail(int width, int height, const vec2<R>& duv_dx, const vec2<R>& duv_dy) {
-  const R w(static_cast<float>(width)), h(static_cast<float>(height));
-  const R ux = duv_dx.x * w, vx = duv_dx.y * h;
-  const R uy = duv_dy.x * w, vy = duv_dy.y * h;
-  return R(0.5f) * log2(max(fma(ux, ux, vx * vx), fma(uy, uy, vy * vy)));
-}
 
 /// An immutable texture. It owns its texels; any number of threads may read it at once.
 class Texture2D {
  public:
-  static constexpr int kMaxSize = 32768;  ///< per side: all levels together stay below 2^31 texels
+  static constexpr int kMaxSize = 32768;  ///< per side; all levels together stay below 8 GiB
 
-  /// Level 0 from an image of 1 … kMaxSize texels a side, and all levels below it down to 1 × 1 by mip_chain.
+  /// Level 0 from an image of 1 … kMaxSize texels a side, and all levels below it down to 1 × 1 by mip_chain. rgba8 or
+  /// srgb8a8.
   Texture2D(const Image<glm::u8vec4>& base, TexelFormat format);
+  explicit Texture2D(const Image<uint8_t>& base);               ///< r8
+  explicit Texture2D(const Image<uint16_t>& base);              ///< r16
+  Texture2D(const Image<glm::vec4>& base, TexelFormat format);  ///< rgba16f or rgba32f; base is linear
   /// Given levels: level 0 as above, then each half of the one before, rounded down, but at least 1. At least one level;
   /// a shorter chain than down to 1 × 1 is allowed, and then ends the choice of levels.
   Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format);
@@ -68,13 +79,16 @@ class Texture2D {
   int height(int level = 0) const { return height_[static_cast<std::size_t>(level)]; }
   int levels() const { return levels_; }
   TexelFormat format() const { return format_; }
-  /// The codes of one texel; level, x and row must exist.
+  /// The codes of one texel of rgba8 or srgb8a8; level, x and row must exist.
   glm::u8vec4 texel(int level, int x, int row) const;
+  /// The linear colour that a texel of any format stands for; level, x and row must exist.
+  glm::vec4 value(int level, int x, int row) const;
 
   /// The filtered linear colour at uv, for a pixel whose steps to the right and up change uv by duv_dx and duv_dy.
   ///
-  /// Any bits are allowed: a NaN or infinite coordinate reads as 0 or the edge (clamp; infinite) or as 0 (repeat); NaN
-  /// derivatives mean level 0. Coordinates so large that a float has no fraction left read as 0 under repeat.
+  /// Any bits are allowed. A NaN coordinate reads as 0, or the border; an infinite one as the edge (clamp), the border, or
+  /// 0 (repeat, mirrored). A level of detail of NaN is level 0, and NaN derivatives mean one probe. Coordinates so large that
+  /// a float has no fraction left read as 0 under repeat.
   template <Number R>
   vec4<R> sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
@@ -85,6 +99,13 @@ class Texture2D {
  private:
   static constexpr std::size_t kMaxLevels = 16;
 
+  // Which levels a look-up reads: level index, and where between, at weight fraction, the one below it.
+  template <class R>
+  struct LevelChoice {
+    IntOf<R> index;
+    R fraction;  // 0 … 1 − 2^-14
+    MaskOf<R> between, nearest;
+  };
   // What one look-up in one level needs.
   template <class R>
   struct Level {
@@ -97,7 +118,36 @@ class Texture2D {
     R fraction;
   };
 
-  void add_level(const Image<glm::u8vec4>& image);
+  template <class Texel>
+  void add_chain(const Image<Texel>& base);
+  template <class Texel>
+  void add_level(const Image<Texel>& image);
+  std::size_t index_of(int level, int x, int row) const;
+
+  /// Whether the inlined look-up serves, apart from anisotropy.
+  bool is_common(const Sampler& sampler) const {
+    const auto common = [](Wrap w) { return w == Wrap::repeat || w == Wrap::clamp; };
+    return format_ <= TexelFormat::srgb8a8 && common(sampler.wrap_s) && common(sampler.wrap_t);
+  }
+  // sample and sample_level for every format and sampler. In texture_lookup.cpp, for all Numbers.
+  template <class R>
+  vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
+  template <class R>
+  vec4<R> sample_level_any(const Sampler& sampler, const vec2<R>& uv, const R& lod) const;
+  // A look-up of any format, written for the texels of one (texels.h), or for common samplers.
+  template <class R, class Texels>
+  struct AnyLookup;
+  template <class R>
+  struct CommonLookup;
+  template <class R, class Function>
+  vec4<R> with_texels(const Function& function) const;
+  template <class R, class Function>
+  vec4<R> with_lookup(const Sampler& sampler, const Function& function) const;
+
+  template <class R>
+  vec4<R> sample_level_common(const Sampler& sampler, const vec2<R>& uv, R lod) const;
+  template <class R>
+  LevelChoice<R> choose_level(const Sampler& sampler, R lod) const;
   template <class R>
   Level<R> level(IntOf<R> index) const;
   template <class R>
@@ -105,17 +155,17 @@ class Texture2D {
   template <class R>
   static Axis<R> axis(R coordinate, IntOf<R> size, MaskOf<R> nearest);
   template <class R>
-  vec4<R> decoded(IntOf<R> texel) const;
-  template <class R>
   vec4<R> filter_row(IntOf<R> index, R fraction) const;
+  template <class R>
+  vec4<R> trilinear(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
   template <class R>
   vec4<R> filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const;
 
   TexelFormat format_;
   int levels_ = 0;
   std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{};  // offset: index of a level's first texel
-  // All levels; red in the low byte. After each row its first texel stands once more, so that one 64-bit load brings a
-  // texel and its right neighbour, across the seam too.
+  // All levels, texel after texel as texels.h reads them; red in the low byte. After each row its first texel stands once
+  // more, so that one 64-bit load brings an RGBA8 texel and its right neighbour, across the seam too.
   std::vector<int32_t> texels_;
 };
 
@@ -123,9 +173,11 @@ class Texture2D {
 ///
 /// A side of even size is halved by averaging pairs; one of odd size 2n + 1 becomes n, texel i being the area average of
 /// [i, i + 1]·(2n + 1)/n, that is of three texels with the weights n − i, n, i + 1 over 2n + 1: centred, and every texel
-/// counts the same. srgb8a8 is averaged in linear light. The chain is computed in float from level to level and only
-/// the results are rounded to codes. Channels are averaged one by one (alpha does not weight colour), as GL's do.
-std::vector<Image<glm::u8vec4>> mip_chain(const Image<glm::u8vec4>& base, TexelFormat format);
+/// counts the same. srgb8a8 is averaged in linear light. The chain is computed in float (8-bit codes) or double (all else)
+/// from level to level, and only the results are rounded to texels. Channels are averaged one by one (alpha does not
+/// weight colour), as GL's do. Texel is u8vec4 (rgba8, srgb8a8), uint8_t (r8), uint16_t (r16) or vec4 (rgba16f, rgba32f).
+template <class Texel>
+std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format);
 
 // ---- the look-up, inlined into shaders --------------------------------------------------------------------------
 
@@ -165,21 +217,31 @@ HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, IntOf<R> size, MaskOf
   return {truncate_to_int(i), fraction};
 }
 
-/// Texels as the numbers that are filtered: codes, and linear values where the format decodes.
-template <class R>
-HS_INLINE vec4<R> Texture2D::decoded(IntOf<R> texel) const {
-  const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255, a = (texel >> 24) & 255;
-  if (format_ == TexelFormat::srgb8a8) return {srgb_to_linear<R>(r), srgb_to_linear<R>(g), srgb_to_linear<R>(b), to_real<R>(a)};
-  return {to_real<R>(r), to_real<R>(g), to_real<R>(b), to_real<R>(a)};
-}
-
 namespace detail {
 
-/// a + f·(b − a), channel by channel. It stays between a and b: where b − a is not exact, b is more than twice a (or
-/// less than half), and f <= 1 − 2^-15 keeps the result farther from b than the rounding of b − a could push it.
+/// Packed 8-bit RGBA as the numbers that are filtered: codes, and linear values where the format decodes.
+template <class R>
+HS_INLINE vec4<R> decode_rgba8(IntOf<R> texel, TexelFormat format) {
+  const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255, a = (texel >> 24) & 255;
+  if (format == TexelFormat::srgb8a8) return {srgb_to_linear<R>(r), srgb_to_linear<R>(g), srgb_to_linear<R>(b), to_real<R>(a)};
+  return {to_real<R>(r), to_real<R>(g), to_real<R>(b), to_real<R>(a)};
+}
+/// Filtered numbers as linear values.
+template <class R>
+HS_INLINE vec4<R> rgba8_to_linear(const vec4<R>& c, TexelFormat format) {
+  if (format == TexelFormat::srgb8a8) return {c.x, c.y, c.z, unorm8_to_linear(c.w)};
+  return {unorm8_to_linear(c.x), unorm8_to_linear(c.y), unorm8_to_linear(c.z), unorm8_to_linear(c.w)};
+}
+
+/// a + f·(b − a) for 0 <= f <= 1 − 2^-15. It stays between a and b: the rounding of b − a lengthens it by at most 2^-24 of
+/// itself, f shortens it by more, so before the last rounding, which is monotone, the result is between them.
+template <class R>
+HS_INLINE R lerp(R a, R b, R f) {
+  return fma(f, b - a, a);
+}
 template <class R>
 HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
-  return {fma(f, b.x - a.x, a.x), fma(f, b.y - a.y, a.y), fma(f, b.z - a.z, a.z), fma(f, b.w - a.w, a.w)};
+  return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f), lerp(a.w, b.w, f)};
 }
 
 template <class I>
@@ -231,7 +293,7 @@ HS_INLINE Pair<IntN<W>> load_pairs(const int32_t* base, IntN<W> i) {
 template <class R>
 HS_INLINE vec4<R> Texture2D::filter_row(IntOf<R> index, R fraction) const {
   const auto texels = detail::load_pairs(texels_.data(), index);
-  return detail::lerp(decoded<R>(texels.first), decoded<R>(texels.second), fraction);
+  return detail::lerp(detail::decode_rgba8<R>(texels.first, format_), detail::decode_rgba8<R>(texels.second, format_), fraction);
 }
 
 /// One level, bilinear or (where nearest) one texel, in filtering units. st in [0, 1].
@@ -246,17 +308,15 @@ HS_INLINE vec4<R> Texture2D::filter(const Sampler& sampler, const vec2<R>& st, I
   x.i = select(x.i < 0, sampler.wrap_s == Wrap::repeat ? last_x : IntOf<R>(0), x.i);
   const bool seam = sampler.wrap_t == Wrap::repeat;
   const IntOf<R> row0 = l.offset + select(y.i < 0, seam ? last_y : IntOf<R>(0), y.i) * pitch;
-  if (all(nearest)) return decoded<R>(gather(texels_.data(), row0 + x.i));
+  if (all(nearest)) return detail::decode_rgba8<R>(gather(texels_.data(), row0 + x.i), format_);
   const IntOf<R> row1 = l.offset + select(y.i < last_y, y.i + 1, seam ? IntOf<R>(0) : last_y) * pitch;
   return detail::lerp(filter_row<R>(row0 + x.i, x.fraction), filter_row<R>(row1 + x.i, x.fraction), y.fraction);
 }
 
-template <Number R>
-vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const {
+template <class R>
+HS_INLINE Texture2D::LevelChoice<R> Texture2D::choose_level(const Sampler& sampler, R lod) const {
   const MaskOf<R> minified = lod > R(0.0f);
   const MaskOf<R> nearest = select(minified, MaskOf<R>(sampler.min == Filter::nearest), MaskOf<R>(sampler.mag == Filter::nearest));
-  const vec2<R> st(wrapped(uv.x, sampler.wrap_s), wrapped(uv.y, sampler.wrap_t));
-
   const float last = sampler.min == Filter::trilinear ? static_cast<float>(levels_ - 1) : 0.0f;
   const R held = clamp(lod, R(0.0f), R(last));
   // A fraction below 2^-14 is not worth a second level (it would shift a value by less than contrast/16384): a quad drawn
@@ -264,23 +324,36 @@ vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::
   constexpr float kSnap = std::is_same_v<R, double> ? 0.0f : 0x1p-14f;
   const R whole = floor(held + R(kSnap));
   const R fraction = held - whole;
-  const MaskOf<R> between = fraction > R(kSnap);
-  const IntOf<R> index = truncate_to_int(whole);
+  return {truncate_to_int(whole), fraction, fraction > R(kSnap), nearest};
+}
 
-  vec4<R> c = filter<R>(sampler, st, index, nearest);
-  if (any(between)) {
-    const vec4<R> smaller = filter<R>(sampler, st, min(index + 1, IntOf<R>(levels_ - 1)), nearest);
-    c = select(between, detail::lerp(c, smaller, fraction), c);
-  }
-  if (format_ == TexelFormat::srgb8a8) return {c.x, c.y, c.z, unorm8_to_linear(c.w)};
-  return {unorm8_to_linear(c.x), unorm8_to_linear(c.y), unorm8_to_linear(c.z), unorm8_to_linear(c.w)};
+/// Mixed of one level or two, in filtering units.
+template <class R>
+HS_INLINE vec4<R> Texture2D::trilinear(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const {
+  const vec2<R> st(wrapped(uv.x, sampler.wrap_s), wrapped(uv.y, sampler.wrap_t));
+  const vec4<R> c = filter<R>(sampler, st, levels.index, levels.nearest);
+  if (!any(levels.between)) return c;
+  const vec4<R> smaller = filter<R>(sampler, st, min(levels.index + 1, IntOf<R>(levels_ - 1)), levels.nearest);
+  return select(levels.between, detail::lerp(c, smaller, levels.fraction), c);
+}
+
+template <class R>
+HS_INLINE vec4<R> Texture2D::sample_level_common(const Sampler& sampler, const vec2<R>& uv, R lod) const {
+  return detail::rgba8_to_linear(trilinear<R>(sampler, uv, choose_level(sampler, lod)), format_);
+}
+
+template <Number R>
+vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const {
+  if (!is_common(sampler)) return sample_level_any<R>(sampler, uv, lod);
+  return sample_level_common<R>(sampler, uv, lod);
 }
 
 template <Number R>
 vec4<R> Texture2D::sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  if (!is_common(sampler) || sampler.anisotropy > 1) return sample_any<R>(sampler, uv, duv_dx, duv_dy);
   const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
-  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return sample_level(sampler, uv, R(0.0f));
-  return sample_level(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
+  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return sample_level_common<R>(sampler, uv, R(0.0f));
+  return sample_level_common<R>(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
 }
 
 }  // namespace halfspace

@@ -100,6 +100,16 @@ TEST(Srgb, UnormIsTheNearestCodeForEveryFloat) {
   for (int c = 0; c < 256; ++c) EXPECT_EQ(unorm8_to_linear(static_cast<float>(c)), static_cast<float>(c) / 255.0f);
 }
 
+TEST(Srgb, SixteenBitsDecodeToTheNearestFloats) {
+  for (int c = 0; c < 65536; ++c) ASSERT_EQ(unorm16_to_linear(static_cast<float>(c)), static_cast<float>(c) / 65535.0f);
+  float last = 0.0f;
+  for (float x = 0.0f; x <= 65535.0f; x += 0x1p-5f) {  // between codes too
+    ASSERT_GE(unorm16_to_linear(x), last);
+    last = unorm16_to_linear(x);
+  }
+  EXPECT_EQ(last, 1.0f);
+}
+
 TEST(Srgb, WhatIsOutsideGoesToTheEnds) {
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   for (const float x : {-1.0f, -inf, nan, -nan, 0.0f, -0.0f, 0x1p-149f}) {

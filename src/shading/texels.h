@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the texels of each format lie in a texture's 32-bit words, and how they are read: one struct a format, with
+//
+//   Value               what is filtered: R (one channel) or vec4<R>
+//   operator()(i)       texel i in the numbers that are filtered: whole codes or linear values
+//   to_linear(value)    such a number, filtered or not, as a linear value
+//
+// rgba8, srgb8a8: a word each, red in the low byte. r8, r16: four or two in a word, the first lowest. rgba16f: two words, red
+// in the low half of the first. rgba32f: four words.
+#pragma once
+
+#include "core/half.h"
+#include "shading/texture.h"
+
+namespace halfspace::detail {
+
+template <class R>
+struct Rgba8Texels {
+  using Value = vec4<R>;
+  const int32_t* words;
+  TexelFormat format;  // rgba8 or srgb8a8
+
+  HS_INLINE Value operator()(IntOf<R> i) const { return decode_rgba8<R>(gather(words, i), format); }
+  HS_INLINE Value to_linear(const Value& v) const { return rgba8_to_linear(v, format); }
+};
+
+template <class R>
+struct R8Texels {
+  using Value = R;
+  const int32_t* words;
+
+  HS_INLINE Value operator()(IntOf<R> i) const {
+    const IntOf<R> four = gather(words, i >> 2);
+    const IntOf<R> two = select((i & 2) != 0, four >> 16, four);
+    return to_real<R>(select((i & 1) != 0, two >> 8, two) & 0xff);
+  }
+  HS_INLINE Value to_linear(Value v) const { return unorm8_to_linear(v); }
+};
+
+template <class R>
+struct R16Texels {
+  using Value = R;
+  const int32_t* words;
+
+  HS_INLINE Value operator()(IntOf<R> i) const {
+    const IntOf<R> two = gather(words, i >> 1);
+    return to_real<R>(select((i & 1) != 0, two >> 16, two) & 0xffff);
+  }
+  HS_INLINE Value to_linear(Value v) const { return unorm16_to_linear(v); }
+};
+
+/// The half in the low 16 bits.
+template <class R>
+HS_INLINE R low_half(IntOf<R> word) {
+  if constexpr (kWidthOf<R> == 1)
+    return R(half_to_float(static_cast<uint16_t>(word & 0xffff)));
+  else
+    return half_to_float(word);
+}
+
+template <class R>
+struct Rgba16fTexels {
+  using Value = vec4<R>;
+  const int32_t* words;
+
+  HS_INLINE Value operator()(IntOf<R> i) const {
+    const IntOf<R> rg = gather(words, i << 1), ba = gather(words, (i << 1) + 1);
+    return {low_half<R>(rg), low_half<R>(rg >> 16), low_half<R>(ba), low_half<R>(ba >> 16)};
+  }
+  HS_INLINE Value to_linear(const Value& v) const { return v; }
+};
+
+template <class R>
+struct Rgba32fTexels {
+  using Value = vec4<R>;
+  const int32_t* words;
+
+  HS_INLINE Value operator()(IntOf<R> i) const {
+    const auto channel = [&](int k) { return R(as_real(gather(words, (i << 2) + k))); };
+    return {channel(0), channel(1), channel(2), channel(3)};
+  }
+  HS_INLINE Value to_linear(const Value& v) const { return v; }
+};
+
+// ---- linear values of all pixels, and filtered ones, by number of channels --------------------------------------------
+
+template <class Value>
+HS_INLINE Value uniform_value(const glm::vec4& v) {
+  if constexpr (Number<Value>) {
+    return Value(v.x);
+  } else {
+    using R = typename Value::value_type;
+    return {R(v.x), R(v.y), R(v.z), R(v.w)};
+  }
+}
+
+template <Number R>
+HS_INLINE vec4<R> to_rgba(R red) {
+  return {red, R(0.0f), R(0.0f), R(1.0f)};
+}
+template <class R>
+HS_INLINE vec4<R> to_rgba(const vec4<R>& v) {
+  return v;
+}
+
+/// Linear values as they may stand in an rgba32f texel.
+inline glm::vec4 held_texel(const glm::vec4& v) {
+  const auto held = [](float x) { return x == x ? clamp(x, -kMaxTexel, kMaxTexel) : 0.0f; };
+  return {held(v.x), held(v.y), held(v.z), held(v.w)};
+}
+
+}  // namespace halfspace::detail

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Texture2D's look-up for every format, wrap and anisotropy. What is common runs inlined (texture.h) and only with anisotropy
+// here. Lanes do not touch each other: a lane's probes, levels and texels are its own, and where lanes wait for
+// others their results are kept.
+#include "shading/texels.h"
+#include "shading/texture.h"
+
+namespace halfspace {
+
+namespace {
+
+/// A coordinate as its wrap needs it: [0, 1], but [−1, 2] beside a border.
+template <class R>
+struct Wrapped {
+  R at;
+  MaskOf<R> mirrored;  // runs against the image
+};
+
+/// The two texels of one axis that a look-up mixes.
+template <class R>
+struct Taps {
+  IntOf<R> first, second;  // valid indices
+  R fraction;              // the weight of the second
+  MaskOf<R> first_inside, second_inside;
+};
+
+/// Coordinates of period 2, there and back: the distance from the nearest even number, exact for every float. At the ends
+/// texel −1 is texel 0 and texel n is texel n − 1, as with clamp. NaN and infinities become 0.
+template <class R>
+HS_INLINE Wrapped<R> wrapped_mirrored(R coordinate) {
+  const R a = abs(coordinate);
+  const R m = a - R(2.0f) * floor(a * R(0.5f));
+  const MaskOf<R> back = m > R(1.0f);
+  return {clamp(min(m, R(2.0f) - m), 0.0f, 1.0f), select(coordinate < R(0.0f), !back, back)};
+}
+
+/// GL's border values (8.14.2): held to what the format's texels can be.
+glm::vec4 held_border(const glm::vec4& color, TexelFormat format) {
+  const glm::vec4 v = detail::held_texel(color);
+  if (format == TexelFormat::rgba32f) return v;
+  const float most = format == TexelFormat::rgba16f ? kMaxHalf : 1.0f, least = format == TexelFormat::rgba16f ? -kMaxHalf : 0.0f;
+  return {clamp(v.x, least, most), clamp(v.y, least, most), clamp(v.z, least, most), clamp(v.w, least, most)};
+}
+
+}  // namespace
+
+/// Reads any wrap and filter. Beside a border it filters linear values, for the border's is one.
+template <class R, class Texels>
+struct Texture2D::AnyLookup {
+  using Value = typename Texels::Value;
+
+  const Texture2D& texture;
+  const Sampler& sampler;
+  Texels texels;
+  bool has_border = sampler.wrap_s == Wrap::border || sampler.wrap_t == Wrap::border;
+  Value border = detail::uniform_value<Value>(held_border(sampler.border_color, texture.format_));
+
+  HS_INLINE static Wrapped<R> wrap(R coordinate, Wrap wrap) {
+    if (wrap == Wrap::mirrored) return wrapped_mirrored(coordinate);
+    if (wrap == Wrap::border) return {clamp(coordinate, -1.0f, 2.0f), MaskOf<R>(false)};
+    return {wrapped(coordinate, wrap), MaskOf<R>(false)};
+  }
+
+  HS_INLINE static Taps<R> taps(const Wrapped<R>& coordinate, IntOf<R> size, Wrap wrap, MaskOf<R> nearest) {
+    Axis<R> axis = Texture2D::axis<R>(coordinate.at, size, MaskOf<R>(false));
+    const IntOf<R> last = size - 1;
+    if (any(nearest)) {
+      const R position = coordinate.at * to_real<R>(size);
+      R i = floor(position);
+      i = select(coordinate.mirrored && i == position, i - R(1.0f), i);  // between two texels: the one farther from 0, unmirrored
+      const IntOf<R> texel = truncate_to_int(i);
+      axis.i = select(nearest, wrap == Wrap::border ? texel : min(texel, last), axis.i);
+      axis.fraction = select(nearest, R(0.0f), axis.fraction);
+    }
+    const IntOf<R> next = axis.i + 1;
+    const MaskOf<R> first_inside = axis.i >= 0 && axis.i <= last, second_inside = next >= 0 && next <= last;
+    if (wrap == Wrap::repeat) return {select(first_inside, axis.i, last), select(second_inside, next, 0), axis.fraction, true, true};
+    const auto held = [&](IntOf<R> i) { return min(max(i, IntOf<R>(0)), last); };
+    const MaskOf<R> no_border(wrap != Wrap::border);
+    return {held(axis.i), held(next), axis.fraction, first_inside || no_border, second_inside || no_border};
+  }
+
+  HS_INLINE Value texel(IntOf<R> index, MaskOf<R> inside) const {
+    const Value v = texels(index);
+    return has_border ? select(inside, texels.to_linear(v), border) : v;
+  }
+
+  /// One level, bilinear or one texel.
+  HS_INLINE Value filter(const Wrapped<R>& s, const Wrapped<R>& t, IntOf<R> level_index, MaskOf<R> nearest) const {
+    const Level<R> l = texture.level<R>(level_index);
+    const Taps<R> x = taps(s, l.width, sampler.wrap_s, nearest), y = taps(t, l.height, sampler.wrap_t, nearest);
+    const IntOf<R> pitch = l.width + 1;
+    const IntOf<R> row0 = l.offset + y.first * pitch, row1 = l.offset + y.second * pitch;
+    const Value first = texel(row0 + x.first, x.first_inside && y.first_inside);
+    if (all(nearest)) return first;
+    const Value upper = detail::lerp(first, texel(row0 + x.second, x.second_inside && y.first_inside), x.fraction);
+    const Value lower = detail::lerp(texel(row1 + x.first, x.first_inside && y.second_inside),
+                                     texel(row1 + x.second, x.second_inside && y.second_inside), x.fraction);
+    return detail::lerp(upper, lower, y.fraction);
+  }
+
+  HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const {
+    const Wrapped<R> s = wrap(uv.x, sampler.wrap_s), t = wrap(uv.y, sampler.wrap_t);
+    const Value c = filter(s, t, levels.index, levels.nearest);
+    if (!any(levels.between)) return c;
+    const Value smaller = filter(s, t, min(levels.index + 1, IntOf<R>(texture.levels_ - 1)), levels.nearest);
+    return select(levels.between, detail::lerp(c, smaller, levels.fraction), c);
+  }
+
+  HS_INLINE vec4<R> finish(const Value& v) const { return detail::to_rgba(has_border ? v : texels.to_linear(v)); }
+};
+
+/// The look-up of texture.h with its parts apart.
+template <class R>
+struct Texture2D::CommonLookup {
+  using Value = vec4<R>;
+
+  const Texture2D& texture;
+  const Sampler& sampler;
+
+  HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const { return texture.trilinear<R>(sampler, uv, levels); }
+  HS_INLINE vec4<R> finish(const Value& v) const { return detail::rgba8_to_linear(v, texture.format_); }
+};
+
+/// function(how to read this texture's format).
+template <class R, class Function>
+HS_INLINE vec4<R> Texture2D::with_texels(const Function& function) const {
+  switch (format_) {
+    case TexelFormat::r8: return function(detail::R8Texels<R>{texels_.data()});
+    case TexelFormat::r16: return function(detail::R16Texels<R>{texels_.data()});
+    case TexelFormat::rgba16f: return function(detail::Rgba16fTexels<R>{texels_.data()});
+    case TexelFormat::rgba32f: return function(detail::Rgba32fTexels<R>{texels_.data()});
+    default: return function(detail::Rgba8Texels<R>{texels_.data(), format_});
+  }
+}
+
+/// function(a look-up that serves this texture and sampler).
+template <class R, class Function>
+HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function& function) const {
+  if (is_common(sampler)) return function(CommonLookup<R>{*this, sampler});
+  return with_texels<R>([&](const auto& texels) {
+    return function(AnyLookup<R, std::remove_cvref_t<decltype(texels)>>{*this, sampler, texels});
+  });
+}
+
+template <class R>
+vec4<R> Texture2D::sample_level_any(const Sampler& sampler, const vec2<R>& uv, const R& lod) const {
+  const LevelChoice<R> levels = choose_level(sampler, lod);
+  return with_lookup<R>(sampler, [&](const auto& lookup) { return lookup.finish(lookup(uv, levels)); });
+}
+
+template <class R>
+vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  if (sampler.anisotropy <= 1) return sample_level_any<R>(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
+
+  HS_DCHECK(sampler.anisotropy <= 16);
+  const Footprint<R> area = footprint(width(), height(), duv_dx, duv_dy, sampler.anisotropy);
+  const LevelChoice<R> levels = choose_level(sampler, area.lod);
+  const R step = R(1.0f) / max(to_real<R>(area.probes) - R(1.0f), R(1.0f));
+  return with_lookup<R>(sampler, [&](const auto& lookup) {
+    const auto probe = [&](int i) {
+      const R along = fma(R(static_cast<float>(i)), step, R(-0.5f));
+      return lookup(vec2<R>(fma(area.span.x, along, uv.x), fma(area.span.y, along, uv.y)), levels);
+    };
+    // The mean, kept from probe to probe: by lerp it stays within the probes' range, and exactly at their common value.
+    auto mean = probe(0);
+    for (int i = 1;; ++i) {
+      const MaskOf<R> more = area.probes > i;
+      if (!any(more)) return lookup.finish(mean);
+      mean = select(more, detail::lerp(mean, probe(i), R(1.0f / static_cast<float>(i + 1))), mean);
+    }
+  });
+}
+
+glm::vec4 Texture2D::value(int level, int x, int row) const {
+  const auto i = static_cast<int32_t>(index_of(level, x, row));
+  return with_texels<float>([i](const auto& texels) { return detail::to_rgba(texels.to_linear(texels(i))); });
+}
+
+template vec4<float> Texture2D::sample_any(const Sampler&, const vec2<float>&, const vec2<float>&, const vec2<float>&) const;
+template vec4<double> Texture2D::sample_any(const Sampler&, const vec2<double>&, const vec2<double>&, const vec2<double>&) const;
+template vec4<RealN<4>> Texture2D::sample_any(const Sampler&, const vec2<RealN<4>>&, const vec2<RealN<4>>&, const vec2<RealN<4>>&) const;
+template vec4<RealN<8>> Texture2D::sample_any(const Sampler&, const vec2<RealN<8>>&, const vec2<RealN<8>>&, const vec2<RealN<8>>&) const;
+template vec4<RealN<16>> Texture2D::sample_any(const Sampler&, const vec2<RealN<16>>&, const vec2<RealN<16>>&,
+                                               const vec2<RealN<16>>&) const;
+template vec4<float> Texture2D::sample_level_any(const Sampler&, const vec2<float>&, const float&) const;
+template vec4<double> Texture2D::sample_level_any(const Sampler&, const vec2<double>&, const double&) const;
+template vec4<RealN<4>> Texture2D::sample_level_any(const Sampler&, const vec2<RealN<4>>&, const RealN<4>&) const;
+template vec4<RealN<8>> Texture2D::sample_level_any(const Sampler&, const vec2<RealN<8>>&, const RealN<8>&) const;
+template vec4<RealN<16>> Texture2D::sample_level_any(const Sampler&, const vec2<RealN<16>>&, const RealN<16>&) const;
+
+}  // namespace halfspace
