@@ -22,7 +22,7 @@ class HeightField {
   /// `map` has any unit, width ≥ 2 and height ≥ 1; an odd width is resampled to one texel less, as half a turn must be
   /// whole texels. `smoothing` ≥ 0 is the standard deviation of a Gaussian in texels of the equator, the same length
   /// along u and v on the sphere: a row at v is smoothed along u by smoothing / sin πv texels, so that the many texels
-  /// round a pole are not noise. About 1.5 removes the terraces of 8-bit maps.
+  /// round a pole are not noise: about 1 for a sharp map. The terraces of 8-bit maps need 2 to 3.
   HeightField(const Image<float>& map, double smoothing, const Workers& workers);
 
   int width() const { return texels_.width(); }
