@@ -2,36 +2,19 @@
 #include "scene/shapes.h"
 
 #include "core/check.h"
-#include "core/trig_double.h"
 
 namespace halfspace {
 
 namespace {
 
-// A point of the unit sphere at latitude v, longitude u, with its texture coordinates and the direction of east.
-void add_sphere_vertex(Mesh& mesh, double radius, const SinCosDouble& v_angle, const SinCosDouble& u_angle, glm::dvec2 uv) {
-  // + 0.0: no negative zeros, so that equal points have equal bits.
-  const glm::dvec3 n(v_angle.sin * u_angle.cos + 0.0, v_angle.cos + 0.0, -v_angle.sin * u_angle.sin + 0.0);
-  mesh.positions.emplace_back(radius * n);
-  mesh.normals.emplace_back(n);
-  mesh.tangents.emplace_back(static_cast<float>(-u_angle.sin + 0.0), 0.0f, static_cast<float>(-u_angle.cos + 0.0), 1.0f);
-  mesh.uvs.emplace_back(uv);
-}
-
-// Row i of the sphere's vertices: one per sector at a pole, one more than sectors elsewhere.
-void add_sphere_row(Mesh& mesh, int i, int latitudes, int longitudes, double radius) {
-  const double v = static_cast<double>(i) / latitudes;
-  const SinCosDouble v_angle = sincos_turns(0.5 * v);
-  if (i == 0 || i == latitudes) {
-    for (int j = 0; j < longitudes; ++j) {
-      const double u = (j + 0.5) / longitudes;
-      add_sphere_vertex(mesh, radius, v_angle, sincos_turns(u), {u, v});
-    }
-    return;
-  }
-  for (int j = 0; j <= longitudes; ++j) {
-    const double u = static_cast<double>(j) / longitudes;
-    add_sphere_vertex(mesh, radius, v_angle, sincos_turns(u), {u, v});
+void add_sphere_row(Mesh& mesh, const SphereRow& row, double radius) {
+  const SinCosDouble pi_v = sincos_turns(0.5 * row.v);
+  for (int j = 0; j < row.count; ++j) {
+    const SphereFrame frame = sphere_frame(sincos_turns(row.u(j)), pi_v);
+    mesh.positions.emplace_back(radius * frame.normal);
+    mesh.normals.emplace_back(frame.normal);
+    mesh.tangents.emplace_back(glm::vec3(frame.east), 1.0f);
+    mesh.uvs.emplace_back(row.u(j), row.v);
   }
 }
 
@@ -55,19 +38,29 @@ void add_face(Mesh& mesh, float h, const glm::vec3& center, const glm::vec3& rig
 
 }  // namespace
 
+// One vertex per sector at a pole, one more than sectors elsewhere.
+SphereRow uv_sphere_row(int i, int latitudes, int longitudes) {
+  const bool is_pole = i == 0 || i == latitudes;
+  const int first = i == 0 ? 0 : longitudes + (i - 1) * (longitudes + 1);
+  return {first, is_pole ? longitudes : longitudes + 1, longitudes, static_cast<double>(i) / latitudes, is_pole};
+}
+
+// + 0.0: no negative zeros, so that equal points have equal bits.
+SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v) {
+  return {glm::dvec3(-two_pi_u.sin + 0.0, 0.0, -two_pi_u.cos + 0.0),
+          glm::dvec3(-pi_v.cos * two_pi_u.cos + 0.0, pi_v.sin, pi_v.cos * two_pi_u.sin + 0.0),
+          glm::dvec3(pi_v.sin * two_pi_u.cos + 0.0, pi_v.cos + 0.0, -pi_v.sin * two_pi_u.sin + 0.0)};
+}
+
 Mesh uv_sphere(int latitudes, int longitudes, float radius) {
   HS_CHECK_OP(latitudes, >=, 2);
   HS_CHECK_OP(longitudes, >=, 3);
   HS_CHECK_OP(radius, >, 0.0f);
   Mesh mesh;
-  std::vector<int> row_start;
-  for (int i = 0; i <= latitudes; ++i) {
-    row_start.push_back(static_cast<int>(mesh.positions.size()));
-    add_sphere_row(mesh, i, latitudes, longitudes, static_cast<double>(radius));
-  }
+  for (int i = 0; i <= latitudes; ++i) add_sphere_row(mesh, uv_sphere_row(i, latitudes, longitudes), static_cast<double>(radius));
   for (int i = 0; i < latitudes; ++i) {
-    const int north = row_start[static_cast<std::size_t>(i)];
-    const int south = row_start[static_cast<std::size_t>(i) + 1];
+    const int north = uv_sphere_row(i, latitudes, longitudes).first;
+    const int south = uv_sphere_row(i + 1, latitudes, longitudes).first;
     for (int j = 0; j < longitudes; ++j) {
       // Seen from outside: north-west north+j, north-east north+j+1, and the same in the south. At a pole there is
       // only vertex j.

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/height_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/check.h"
+#include "core/lane_math.h"
+#include "core/trig_double.h"
+
+namespace halfspace {
+
+namespace {
+
+// ---- filters ---------------------------------------------------------------------------------------------------
+
+// Weights for the offsets first, first + 1, …; their sum is 1.
+struct Kernel {
+  int first = 0;
+  std::vector<double> weights;
+};
+
+void normalize(std::vector<double>& weights) {
+  double sum = 0;
+  for (const double w : weights) sum += w;
+  for (double& w : weights) w /= sum;
+}
+
+// A Gaussian up to 3.5 standard deviations (what is cut off weighs 5e-4); sigma in texels.
+Kernel gaussian(double sigma) {
+  if (sigma <= 0) return {0, {1.0}};
+  const int reach = static_cast<int>(std::ceil(3.5 * sigma));
+  Kernel k{-reach, {}};
+  for (int i = -reach; i <= reach; ++i) {
+    const double x = i / sigma;
+    k.weights.push_back(static_cast<double>(halfspace::exp(static_cast<float>(-0.5 * x * x))));
+  }
+  normalize(k.weights);
+  return k;
+}
+
+// The same filter on a ring of `period` texels: what reaches further round is added where it lands.
+Kernel on_ring(const Kernel& k, int period) {
+  const int count = static_cast<int>(k.weights.size());
+  if (count <= period) return k;
+  Kernel ring{0, std::vector<double>(static_cast<std::size_t>(period))};
+  for (int i = 0; i < count; ++i) {
+    const int offset = (k.first + i) % period;
+    ring.weights[static_cast<std::size_t>(offset < 0 ? offset + period : offset)] += k.weights[static_cast<std::size_t>(i)];
+  }
+  return ring;
+}
+
+int wrapped(int x, int width) {
+  const int r = x % width;
+  return r < 0 ? r + width : r;
+}
+
+// A row beyond a pole is one before it, seen half a turn further on.
+struct FoldedRow {
+  int row;
+  int shift;  // to be added to the column
+};
+
+FoldedRow fold(int row, int width, int height) {
+  const int r = wrapped(row, 2 * height);
+  return r < height ? FoldedRow{r, 0} : FoldedRow{2 * height - 1 - r, width / 2};
+}
+
+// Smooths one row along u, in place.
+void smooth_row(std::span<float> row, const Kernel& kernel) {
+  const int width = static_cast<int>(row.size());
+  const Kernel k = on_ring(kernel, width);
+  const int count = static_cast<int>(k.weights.size());
+  std::vector<double> ring(static_cast<std::size_t>(width + count));
+  for (int x = 0; x < width + count; ++x) {
+    ring[static_cast<std::size_t>(x)] = static_cast<double>(row[static_cast<std::size_t>(wrapped(x + k.first, width))]);
+  }
+  std::vector<double> sum(static_cast<std::size_t>(width));
+  for (std::size_t i = 0; i < k.weights.size(); ++i) {
+    for (std::size_t x = 0; x < sum.size(); ++x) sum[x] += k.weights[i] * ring[x + i];
+  }
+  for (std::size_t x = 0; x < sum.size(); ++x) row[x] = static_cast<float>(sum[x]);
+}
+
+// Smooths along v, over the poles.
+Image<float> smooth_columns(const Image<float>& map, const Kernel& k, const Workers& workers) {
+  const int width = map.width(), height = map.height();
+  Image<float> out(width, height);
+  workers.for_each(height, [&](int row) {
+    std::vector<double> sum(static_cast<std::size_t>(width));
+    for (std::size_t i = 0; i < k.weights.size(); ++i) {
+      const FoldedRow from = fold(row + k.first + static_cast<int>(i), width, height);
+      for (int x = 0; x < width; ++x) {
+        const int column = x + from.shift < width ? x + from.shift : x + from.shift - width;
+        sum[static_cast<std::size_t>(x)] += k.weights[i] * static_cast<double>(map.at(column, from.row));
+      }
+    }
+    for (int x = 0; x < width; ++x) out.at(x, row) = static_cast<float>(sum[static_cast<std::size_t>(x)]);
+  });
+  return out;
+}
+
+double sin_of_row(int row, int height) { return sincos_turns(0.5 * (row + 0.5) / height).sin; }
+
+// Beyond a width the Gaussian on a ring is the mean: the slowest wave is left with exp(−2π²) of its height.
+Kernel capped_gaussian(double sigma, int width) { return gaussian(std::min(sigma, static_cast<double>(width))); }
+
+// ---- resampling ------------------------------------------------------------------------------------------------
+
+// What part of each of `from` texels, in order from `first`, lies in texel `i` of `to` ≤ from; the sum is 1.
+Kernel overlap(int i, int from, int to) {
+  // In units of 1/(from·to) of the map all edges are whole numbers.
+  const int64_t begin = static_cast<int64_t>(i) * from, end = begin + from;
+  Kernel k{static_cast<int>(begin / to), {}};
+  for (int64_t texel = begin / to; texel * to < end; ++texel) {
+    k.weights.push_back(static_cast<double>(std::min(end, (texel + 1) * to) - std::max(begin, texel * to)));
+  }
+  normalize(k.weights);
+  return k;
+}
+
+// The average by area over a coarser grid.
+Image<float> averaged(const Image<float>& map, int width, int height, const Workers& workers) {
+  Image<float> out(width, height);
+  std::vector<Kernel> columns;
+  for (int x = 0; x < width; ++x) columns.push_back(overlap(x, map.width(), width));
+  workers.for_each(height, [&](int y) {
+    const Kernel rows = overlap(y, map.height(), height);
+    for (int x = 0; x < width; ++x) {
+      const Kernel& k = columns[static_cast<std::size_t>(x)];
+      double sum = 0;
+      for (std::size_t j = 0; j < rows.weights.size(); ++j) {
+        double row = 0;
+        for (std::size_t i = 0; i < k.weights.size(); ++i) {
+          row += k.weights[i] * static_cast<double>(map.at(k.first + static_cast<int>(i), rows.first + static_cast<int>(j)));
+        }
+        sum += rows.weights[j] * row;
+      }
+      out.at(x, y) = static_cast<float>(sum);
+    }
+  });
+  return out;
+}
+
+// ---- the spline ------------------------------------------------------------------------------------------------
+
+// The uniform cubic B-spline's four weights at 0 ≤ t < 1 between the middle two control points, and their derivatives
+// by t (Farin, Curves and Surfaces for CAGD, chapter 8).
+struct SplineWeights {
+  double value[4], slope[4];
+};
+
+SplineWeights spline_weights(double t) {
+  const double s = 1.0 - t;
+  return {{s * s * s / 6.0, (t * t * (3.0 * t - 6.0) + 4.0) / 6.0, (s * s * (3.0 * s - 6.0) + 4.0) / 6.0, t * t * t / 6.0},
+          {-0.5 * s * s, t * (1.5 * t - 2.0), -s * (1.5 * s - 2.0), 0.5 * t * t}};
+}
+
+}  // namespace
+
+HeightField::HeightField(const Image<float>& map, double smoothing, const Workers& workers) {
+  HS_CHECK_OP(map.width(), >=, 2);
+  HS_CHECK_OP(map.height(), >=, 1);
+  HS_CHECK_OP(smoothing, >=, 0.0);
+  base_ = map.at(0, 0);
+  texels_ = map;
+  for (int row = 0; row < map.height(); ++row) {
+    for (float& t : texels_.row(row)) t -= base_;
+  }
+  const int even_width = map.width() / 2 * 2;
+  if (even_width != map.width()) texels_ = averaged(texels_, even_width, map.height(), workers);
+  if (smoothing == 0) return;
+  texels_ = smooth_columns(texels_, gaussian(smoothing), workers);
+  workers.for_each(height(),
+                   [&](int row) { smooth_row(texels_.row(row), capped_gaussian(smoothing / sin_of_row(row, height()), width())); });
+}
+
+HeightSample HeightField::at(double u, double v) const {
+  const double x = (u - std::floor(u)) * width() - 0.5;
+  const double y = v * height() - 0.5;
+  const double left = std::floor(x), top = std::floor(y);
+  const SplineWeights along_u = spline_weights(x - left), along_v = spline_weights(y - top);
+  int columns[4];
+  for (int i = 0; i < 4; ++i) columns[i] = wrapped(static_cast<int>(left) - 1 + i, width());
+  HeightSample sum{};
+  for (int j = 0; j < 4; ++j) {
+    const FoldedRow from = fold(static_cast<int>(top) - 1 + j, width(), height());
+    const std::span<const float> row = texels_.row(from.row);
+    double value = 0, slope = 0;
+    for (int i = 0; i < 4; ++i) {
+      const int column = columns[i] + from.shift;
+      const double texel = static_cast<double>(row[static_cast<std::size_t>(column < width() ? column : column - width())]);
+      value += along_u.value[i] * texel;
+      slope += along_u.slope[i] * texel;
+    }
+    sum.value += along_v.value[j] * value;
+    sum.du += along_v.value[j] * slope;
+    sum.dv += along_v.slope[j] * value;
+  }
+  return {static_cast<double>(base_) + sum.value, width() * sum.du, height() * sum.dv};
+}
+
+HeightField HeightField::filtered(int max_width, const Workers& workers) const {
+  HS_CHECK_OP(max_width, >=, 2);
+  if (width() <= max_width) return *this;
+  const int to_width = max_width / 2 * 2;
+  const int64_t rounded = (static_cast<int64_t>(height()) * to_width * 2 + width()) / (2 * static_cast<int64_t>(width()));
+  HeightField coarse;
+  coarse.base_ = base_;
+  coarse.texels_ = averaged(texels_, to_width, std::max(static_cast<int>(rounded), 1), workers);
+  workers.for_each(coarse.height(), [&](int row) {
+    const SinCosDouble angle = sincos_turns(0.5 * (row + 0.5) / coarse.height());
+    smooth_row(coarse.texels_.row(row), capped_gaussian(0.5 * std::fabs(angle.cos) / angle.sin, to_width));
+  });
+  return coarse;
+}
+
+}  // namespace halfspace
