@@ -9,7 +9,7 @@
 #include "core/lanes.h"
 #include "core/parallel.h"
 #include "halfspace/commands.h"
-#include "scene/image_reader.h"
+#include "scene/image_tool.h"
 
 namespace halfspace {
 
@@ -23,18 +23,18 @@ constexpr const char* kCompiler =
 #endif
 
 void print_text() {
-  const std::filesystem::path reader = find_image_reader();
+  const std::filesystem::path tool = find_image_tool();
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
             << "build         " << build_description() << ", " << kCompiler << '\n'
             << "cores         " << Workers::cores() << '\n'
-            << "image reader  " << (reader.empty() ? "absent: maps can be read from PNG only" : reader.string()) << '\n';
+            << "image tool    " << (tool.empty() ? "absent: pictures can be read and written as PNG only" : tool.string()) << '\n';
 }
 
 void print_json() {
-  const std::filesystem::path reader = find_image_reader();
+  const std::filesystem::path tool = find_image_tool();
   nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", HALFSPACE_ARCH},    {"lanes", kLanes},
-                                 {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_reader", nullptr}};
-  if (!reader.empty()) json["image_reader"] = reader.string();
+                                 {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_tool", nullptr}};
+  if (!tool.empty()) json["image_tool"] = tool.string();
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 

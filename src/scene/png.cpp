@@ -44,14 +44,6 @@ std::vector<std::byte> rgb_bytes(std::span<const glm::u8vec4> texels) {
   return bytes;
 }
 
-Image<glm::u8vec4> round_to_8_bits(const std::vector<glm::u16vec4>& wide, int width, int height) {
-  Image<glm::u8vec4> image(width, height);
-  for (std::size_t i = 0; i < wide.size(); ++i) {
-    for (int c = 0; c < 4; ++c) image.data()[i][c] = static_cast<uint8_t>((wide[i][c] * 255u + 32767u) / 65535u);
-  }
-  return image;
-}
-
 // Deflate shrinks at most 1032 times: a file that claims more than that is a bomb or is cut.
 void check_claimed_size(const spng_ihdr& header, std::size_t file_bytes, const std::string& name) {
   check_image_size(header.width, header.height, name);
@@ -62,6 +54,13 @@ void check_claimed_size(const spng_ihdr& header, std::size_t file_bytes, const s
     throw InputError(name + ": claims " + std::to_string(header.width) + "x" + std::to_string(header.height) + " pixels but has only " +
                      std::to_string(file_bytes) + " bytes; expected a whole PNG file");
   }
+}
+
+template <class Texel>
+Image<Texel> decode_texels(spng_ctx* context, const spng_ihdr& header, spng_format format, const std::string& name) {
+  Image<Texel> image(static_cast<int>(header.width), static_cast<int>(header.height));
+  check_decoding(spng_decode_image(context, image.data(), image.texels().size_bytes(), format, SPNG_DECODE_TRNS), name);
+  return image;
 }
 
 }  // namespace
@@ -101,7 +100,7 @@ bool is_png(std::span<const std::byte> bytes) {
   return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
 }
 
-Image<glm::u8vec4> decode_png(std::span<const std::byte> bytes, const std::string& name) {
+ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name) {
   const Context context = new_context(0);
   check_decoding(spng_set_image_limits(context.get(), kMostImageEdge, kMostImageEdge), name);
   check_decoding(spng_set_chunk_limits(context.get(), std::size_t{1} << 26, std::size_t{1} << 26), name);
@@ -109,18 +108,8 @@ Image<glm::u8vec4> decode_png(std::span<const std::byte> bytes, const std::strin
   spng_ihdr header = {};
   check_decoding(spng_get_ihdr(context.get(), &header), name);
   check_claimed_size(header, bytes.size(), name);
-  const int width = static_cast<int>(header.width);
-  const int height = static_cast<int>(header.height);
-  if (header.bit_depth == 16) {
-    std::vector<glm::u16vec4> wide(std::size_t{header.width} * header.height);
-    const std::size_t size = wide.size() * sizeof(glm::u16vec4);
-    check_decoding(spng_decode_image(context.get(), wide.data(), size, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS), name);
-    return round_to_8_bits(wide, width, height);
-  }
-  Image<glm::u8vec4> image(width, height);
-  const std::size_t size = image.texels().size_bytes();
-  check_decoding(spng_decode_image(context.get(), image.data(), size, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS), name);
-  return image;
+  if (header.bit_depth == 16) return decode_texels<glm::u16vec4>(context.get(), header, SPNG_FMT_RGBA16, name);
+  return decode_texels<glm::u8vec4>(context.get(), header, SPNG_FMT_RGBA8, name);
 }
 
 }  // namespace halfspace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "scene/picture_samples.h"
 
 namespace halfspace {
 
@@ -20,8 +21,9 @@ std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image);
 /// Do the bytes begin with PNG's signature?
 bool is_png(std::span<const std::byte> bytes);
 
-/// Decodes any PNG to four 8-bit channels: grey is repeated, absent alpha is 255, 16 bits are rounded to 8. `name`
-/// stands before the message of the InputError that is thrown for damaged or oversized files.
-Image<glm::u8vec4> decode_png(std::span<const std::byte> bytes, const std::string& name);
+/// Decodes any PNG to four channels: grey is repeated, absent alpha is opaque; 8-bit codes of a file of up to 8 bits,
+/// 16-bit codes of one of 16. `name` stands before the message of the InputError that is thrown for damaged or oversized
+/// files.
+ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace halfspace

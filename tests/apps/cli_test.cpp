@@ -222,7 +222,7 @@ TEST_F(Cli, StatisticsAsTextAndJson) {
 TEST_F(Cli, Info) {
   EXPECT_TRUE(run({"info"}).out.starts_with("halfspace "));
   const auto parsed = nlohmann::json::parse(run({"info", "--json"}).out);
-  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_reader"}) EXPECT_TRUE(parsed.contains(key)) << key;
+  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool"}) EXPECT_TRUE(parsed.contains(key)) << key;
 }
 
 TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {

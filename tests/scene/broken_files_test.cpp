@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Damaged and hostile image files: whatever a file holds, read_image returns an image or throws InputError of one
+// Damaged and hostile image files: whatever a file holds, each reader returns an image or throws InputError of one
 // line. Every folder is read by a child process with little memory and little time, so that a crash or a hang is told
 // by name and ends nothing else.
 #include <gtest/gtest.h>
@@ -50,25 +50,37 @@ void limit_memory() {
 #endif
 }
 
-// A line to the parent at the start of every file and one at its end: "ok", or the error.
+struct Reader {
+  const char* name;
+  bool (*gives_pixels)(const std::filesystem::path&);
+};
+constexpr Reader kReaders[] = {
+    {"read_image", [](const std::filesystem::path& path) { return !read_image(path).empty(); }},
+    {"read_gray", [](const std::filesystem::path& path) { return !read_gray(path).empty(); }},
+    {"read_linear", [](const std::filesystem::path& path) { return !read_linear(path).empty(); }},
+};
+
+std::string verdict_on(const std::filesystem::path& path, const Reader& reader) {
+  try {
+    return reader.gives_pixels(path) ? "ok" : "returned an empty image";
+  } catch (const InputError& e) {
+    return (std::string(e.what()).starts_with(path.string() + ": ") ? "error " : "does not begin with the path: ") + std::string(e.what());
+  } catch (const std::exception& e) {
+    return std::string("another exception: ") + e.what();
+  }
+}
+
+// A line to the parent at the start of every file and reader, and one at its end: "ok", or the error.
 [[noreturn]] void read_all(const std::vector<std::filesystem::path>& files, int to_parent) {
   std::FILE* out = ::fdopen(to_parent, "w");
   limit_memory();
   for (const std::filesystem::path& path : files) {
-    std::fprintf(out, "%s\n", path.c_str());
-    std::fflush(out);
-    ::alarm(kSecondsPerFile);
-    std::string verdict;
-    try {
-      const Image<glm::u8vec4> image = read_image(path);
-      verdict = image.empty() ? "returned an empty image" : "ok";
-    } catch (const InputError& e) {
-      verdict = std::string(e.what()).starts_with(path.string() + ": ") ? std::string("error ") + e.what()
-                                                                        : "does not begin with the path: " + std::string(e.what());
-    } catch (const std::exception& e) {
-      verdict = std::string("another exception: ") + e.what();
+    for (const Reader& reader : kReaders) {
+      std::fprintf(out, "%s by %s\n", path.c_str(), reader.name);
+      std::fflush(out);
+      ::alarm(kSecondsPerFile);
+      std::fprintf(out, "%s\n", verdict_on(path, reader).c_str());
     }
-    std::fprintf(out, "%s\n", verdict.c_str());
   }
   std::fflush(out);
   ::_exit(0);
@@ -113,14 +125,15 @@ TEST_P(BrokenFiles, GiveAnImageOrOneLine) {
   const std::string last = outcome.lines.empty() ? "(none)" : outcome.lines.back();
   ASSERT_TRUE(WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == 0)
       << "the reader died of signal " << WTERMSIG(outcome.status) << " (14: over " << kSecondsPerFile << " s) at " << last;
-  ASSERT_EQ(outcome.lines.size(), 2 * files.size()) << "a message has more than one line";
-  int images = 0;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string& verdict = outcome.lines[2 * i + 1];
-    EXPECT_TRUE(verdict == "ok" || verdict.starts_with("error ")) << files[i] << ": " << verdict;
+  const std::size_t count = files.size() * std::size(kReaders);
+  ASSERT_EQ(outcome.lines.size(), 2 * count) << "a message has more than one line";
+  std::size_t images = 0;
+  for (std::size_t i = 0; i < 2 * count; i += 2) {
+    const std::string& verdict = outcome.lines[i + 1];
+    EXPECT_TRUE(verdict == "ok" || verdict.starts_with("error ")) << outcome.lines[i] << ": " << verdict;
     images += verdict == "ok" ? 1 : 0;
   }
-  std::printf("%zu files: %d images, %zu refused\n", files.size(), images, files.size() - static_cast<std::size_t>(images));
+  std::printf("%zu files, %zu readers: %zu images, %zu refused\n", files.size(), std::size(kReaders), images, count - images);
 }
 
 INSTANTIATE_TEST_SUITE_P(Folders, BrokenFiles,

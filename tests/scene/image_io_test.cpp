@@ -15,7 +15,9 @@
 #include <string>
 
 #include "core/check.h"
-#include "scene/image_reader.h"
+#include "scene/image_files.h"
+#include "scene/image_fixture.h"
+#include "scene/image_tool.h"
 #include "scene/output_file.h"
 #include "scene/png.h"
 
@@ -23,55 +25,7 @@ namespace halfspace {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A directory of its own, gone when the test ends.
-class ImageIo : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "halfspace-test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    directory = name;
-  }
-  void TearDown() override { fs::remove_all(directory); }
-
-  std::size_t file_count() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(directory), fs::directory_iterator()));
-  }
-  fs::path put(const std::string& name, std::string_view bytes) const {
-    std::ofstream(directory / name, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    return directory / name;
-  }
-
-  fs::path directory;
-};
-
-// Every code occurs in every channel; alpha is 255 throughout if opaque.
-Image<glm::u8vec4> test_picture(bool opaque) {
-  Image<glm::u8vec4> image(67, 41);
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) image.at(x, y) = glm::u8vec4(x * 7 + y, y * 5 + 3 * x, x * y, opaque ? 255 : x + y * 3);
-  }
-  return image;
-}
-
-template <class F>
-std::string input_error(F&& f) {
-  try {
-    f();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "(no error)";
-}
-template <class F>
-std::string output_error(F&& f) {
-  try {
-    f();
-  } catch (const OutputError& e) {
-    return e.what();
-  }
-  return "(no error)";
-}
+using ImageIo = ImageFixture;
 
 // The colour type in a PNG's header: 2 RGB, 6 RGBA.
 int color_type(const std::vector<std::byte>& png) { return static_cast<int>(png.at(25)); }
@@ -101,7 +55,7 @@ TEST_F(ImageIo, PngKeepsTransparentColors) {
   // Straight alpha: a colour survives an alpha of 0.
   Image<glm::u8vec4> image(1, 1);
   image.at(0, 0) = glm::u8vec4(10, 20, 30, 0);
-  EXPECT_TRUE(decode_png(encode_png(image), "x") == image);
+  EXPECT_TRUE(decode_png(encode_png(image), "x") == ColorPicture(image));
 }
 
 TEST_F(ImageIo, TopRowComesFirst) {
@@ -192,7 +146,7 @@ TEST_F(ImageIo, DamagedPngNeverCrashes) {
   EXPECT_THROW(decode_png(std::span(whole).first(whole.size() / 2), "cut"), InputError);
   for (std::size_t n = 0; n < whole.size(); n += 7) {
     try {
-      EXPECT_TRUE(decode_png(std::span(whole).first(n), "cut") == test_picture(false)) << n;
+      EXPECT_TRUE(decode_png(std::span(whole).first(n), "cut") == ColorPicture(test_picture(false))) << n;
     } catch (const InputError&) {
     }
   }
@@ -200,30 +154,22 @@ TEST_F(ImageIo, DamagedPngNeverCrashes) {
     std::vector<std::byte> changed = whole;
     changed[i] ^= std::byte{0x41};
     try {
-      EXPECT_EQ(decode_png(changed, "changed").width(), 67) << i;
+      EXPECT_EQ(std::get<Image<glm::u8vec4>>(decode_png(changed, "changed")).width(), 67) << i;
     } catch (const InputError&) {
     }
   }
 }
 
-// A header with a right checksum that claims 30000x2000 pixels, and no pixels.
+// A whole header that claims 30000x2000 pixels of RGBA, and no pixels.
 TEST_F(ImageIo, PngThatClaimsMoreThanItHoldsIsRefused) {
-  const unsigned char bytes[] = {0x89, 'P', 'N', 'G',  '\r', '\n', 0x1a, '\n', 0,    0, 0, 13, 'I', 'H', 'D',
-                                 'R',  0,   0,   0x75, 0x30, 0,    0,    0x07, 0xd0, 8, 6, 0,  0,   0};
-  std::string png(reinterpret_cast<const char*>(bytes), sizeof bytes);
-  uint32_t crc = ~0u;
-  for (std::size_t i = 12; i < png.size(); ++i) {
-    crc ^= static_cast<unsigned char>(png[i]);
-    for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1u ? 0xedb88320u : 0u);
-  }
-  for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(~crc >> shift & 0xff);
-  const fs::path path = put("bomb.png", png);
+  const std::string header = big_endian(30000, 4) + big_endian(2000, 4) + std::string{8, 6, 0, 0, 0};
+  const fs::path path = put("bomb.png", "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header));
   EXPECT_EQ(input_error([&] { read_image(path); }),
             path.string() + ": claims 30000x2000 pixels but has only 33 bytes; expected a whole PNG file");
 }
 
 TEST_F(ImageIo, ReadsOtherFormats) {
-  if (find_image_reader().empty()) GTEST_SKIP() << "halfspace-read-image is not built here (OpenImageIO is absent)";
+  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
   // A binary PPM of 2x1 and an uncompressed TGA of 1x1 with alpha, as their formats spell them.
   const Image<glm::u8vec4> ppm = read_image(put("a.ppm", "P6 2 1 255\n\x01\x02\x03\xff\xfe\xfd"));
   ASSERT_EQ(ppm.width(), 2);
@@ -236,7 +182,7 @@ TEST_F(ImageIo, ReadsOtherFormats) {
 }
 
 TEST_F(ImageIo, DamagedFilesOfOtherFormatsAreRefusedInOneLine) {
-  if (find_image_reader().empty()) GTEST_SKIP() << "halfspace-read-image is not built here (OpenImageIO is absent)";
+  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
   for (const char* name : {"a.jpg", "b.jpg"}) {
     const std::string what = input_error([&] { read_image(put(name, "\xff\xd8\xff\xe0 nothing more")); });
     EXPECT_TRUE(what.starts_with((directory / name).string() + ": cannot be read as jpeg (")) << what;

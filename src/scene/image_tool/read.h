@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace halfspace {
+
+struct ReadRequest {
+  std::string path, format;
+  /// The first channel alone, instead of RGBA.
+  bool gray = false;
+  uint64_t file_bytes = 0, most_pixels = 0;
+};
+
+/// Decodes the file and writes the answer (see protocol.h) to standard output.
+void read_and_answer(const ReadRequest& request);
+
+}  // namespace halfspace

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Small image files as their formats spell them, for what this project does not write.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace halfspace {
+
+/// The number's bytes, the highest first.
+inline std::string big_endian(uint32_t number, int bytes) {
+  std::string text;
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) text += static_cast<char>(number >> shift & 0xff);
+  return text;
+}
+
+/// The memory of the numbers (this machine's order: the lowest byte first).
+template <class T>
+std::string memory_of(const std::vector<T>& numbers) {
+  std::string bytes(numbers.size() * sizeof(T), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return bytes;
+}
+
+/// PNG's checksum (CRC-32).
+inline uint32_t png_checksum(std::string_view bytes) {
+  uint32_t crc = ~0u;
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1u ? 0xedb88320u : 0u);
+  }
+  return ~crc;
+}
+
+inline std::string png_chunk(const std::string& type, const std::string& data) {
+  return big_endian(static_cast<uint32_t>(data.size()), 4) + type + data + big_endian(png_checksum(type + data), 4);
+}
+
+/// The bytes as a zlib stream of one stored block (at most 65535 bytes).
+inline std::string stored_zlib(const std::string& data) {
+  uint32_t a = 1, b = 0;  // Adler-32
+  for (const char c : data) {
+    a = (a + static_cast<unsigned char>(c)) % 65521;
+    b = (b + a) % 65521;
+  }
+  const uint32_t size = static_cast<uint32_t>(data.size());
+  const std::string low_first = {static_cast<char>(size & 0xff), static_cast<char>(size >> 8)};
+  const std::string inverted = {static_cast<char>(~low_first[0]), static_cast<char>(~low_first[1])};
+  return "\x78\x01\x01" + low_first + inverted + data + big_endian(b << 16 | a, 4);
+}
+
+/// A PNG of one row of 16-bit codes; color_type 0 is grey, 2 RGB, 4 grey and alpha, 6 RGBA.
+inline std::string png16_row(const std::vector<uint16_t>& codes, int width, int color_type) {
+  std::string row(1, '\0');  // filter: none
+  for (const uint16_t c : codes) row += big_endian(c, 2);
+  const std::string header =
+      big_endian(static_cast<uint32_t>(width), 4) + big_endian(1, 4) + std::string{16, static_cast<char>(color_type), 0, 0, 0};
+  return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", stored_zlib(row)) + png_chunk("IEND", "");
+}
+
+/// TIFF's SampleFormat.
+enum class TiffSamples : uint16_t { code = 1, whole = 2, number = 3 };
+
+/// An uncompressed grey TIFF of one row; T is the sample's type.
+template <class T>
+std::string gray_tiff_row(const std::vector<T>& samples, TiffSamples kind) {
+  static_assert(std::endian::native == std::endian::little);
+  const uint32_t width = static_cast<uint32_t>(samples.size());
+  constexpr uint32_t kFirst = 8;  // where the samples begin
+  const uint32_t bytes = width * sizeof(T);
+  const uint32_t directory = kFirst + (bytes + 1) / 2 * 2;
+  const std::pair<uint16_t, uint32_t> entries[] = {{256, width},
+                                                   {257, 1},
+                                                   {258, 8 * sizeof(T)},
+                                                   {259, 1},
+                                                   {262, 1},
+                                                   {273, kFirst},
+                                                   {277, 1},
+                                                   {278, 1},
+                                                   {279, bytes},
+                                                   {339, static_cast<uint32_t>(kind)}};
+  std::string file = "II*" + std::string(1, '\0') + memory_of<uint32_t>({directory}) + memory_of(samples);
+  file.resize(directory);
+  file += memory_of<uint16_t>({static_cast<uint16_t>(std::size(entries))});
+  for (const auto& [tag, value] : entries) file += memory_of<uint16_t>({tag, 4}) + memory_of<uint32_t>({1, value});
+  return file + memory_of<uint32_t>({0});
+}
+
+/// A colour PFM; rows from the bottom one up.
+inline std::string pfm(int width, int height, const std::vector<float>& numbers) {
+  return "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n" + memory_of(numbers);
+}
+
+}  // namespace halfspace
