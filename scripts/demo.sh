@@ -16,7 +16,7 @@ if ! { cmake --preset release -B "$build" -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPAC
 fi
 
 mkdir -p out
-for scene in earth; do
+for scene in $("$build/bin/halfspace" list --names); do
   "$build/bin/halfspace" render "$scene" -o "out/$scene.png"
   echo "$PWD/out/$scene.png"
 done

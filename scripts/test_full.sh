@@ -18,6 +18,7 @@ build_and_test() {
   ctest --test-dir "$dir" -j "$jobs" --output-on-failure > "$dir/ctest.log" 2>&1 || { tail -40 "$dir/ctest.log"; return 1; }
   grep -E 'tests passed|Total Test time' "$dir/ctest.log"
 }
+# Sanitizers by clang, which builds them in a fraction of the time.
 sanitized() { build_and_test "$1" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON "${@:2}"; }
 
 declare -A steps
@@ -32,8 +33,8 @@ step gcc-lanes4        "build_and_test gcc-lanes4 -DCMAKE_CXX_COMPILER=g++ -DCMA
 step gcc-lanes8        "build_and_test gcc-lanes8 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=8"
 step gcc-O1            "build_and_test gcc-O1 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1"
 step dev               "sanitized dev -DCMAKE_CXX_COMPILER=g++"
-step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=g++ -DHALFSPACE_SANITIZE=address,undefined"
-step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=g++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
+step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=address,undefined"
+step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
 step mutate            "scripts/mutate.sh"
 

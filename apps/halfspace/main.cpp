@@ -82,8 +82,18 @@ std::string one_line(std::string text) {
   return text;
 }
 
-int report(ExitCode code, const char* what) {
-  std::fprintf(stderr, "halfspace: %s\n", what);
+// One line, whatever stood in a file or an argument.
+int report(ExitCode code, std::string_view what) {
+  std::string line = "halfspace: ";
+  for (const char c : what) {
+    if (static_cast<unsigned char>(c) < 32 || c == 127) {
+      constexpr const char* digits = "0123456789abcdef";
+      line += {'\\', 'x', digits[static_cast<unsigned char>(c) >> 4], digits[c & 15]};
+    } else {
+      line += c;
+    }
+  }
+  std::fputs((line + "\n").c_str(), stderr);
   return code;
 }
 
@@ -103,9 +113,11 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   program.formatter(std::make_shared<HelpFormatter>());
   program.get_formatter()->column_width(28);
   add_render_command(program);
+  add_list_command(program);
   add_info_command(program);
+  add_completion_command(program);
   program.footer("halfspace COMMAND --help tells more of a command.");
-  if (argc < 2) throw UsageError("no command; expected one of render, info (see 'halfspace --help')");
+  if (argc < 2) throw UsageError("no command; expected one of render, list, info, completion (see 'halfspace --help')");
   program.parse(argc, argv);
 }
 
@@ -117,7 +129,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ExtrasError&) {
     return report(kUsage, unknown_argument(program).what());
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() != 0) return report(kUsage, (one_line(e.what()) + see_help(program)).c_str());
+    if (e.get_exit_code() != 0) return report(kUsage, one_line(e.what()) + see_help(program));
     program.exit(e, std::cout, std::cerr);  // --help
   } catch (const UsageError& e) {
     return report(kUsage, e.what());
@@ -127,6 +139,8 @@ int run(int argc, char** argv) {
     return report(kCannotWrite, e.what());
   } catch (const std::bad_alloc&) {
     return report(kBadInput, "not enough memory; expected a smaller --size or map");
+  } catch (const std::exception& e) {
+    return report(kBadInput, std::string("the system refused: ") + e.what());
   }
   std::cout.flush();
   if (!std::cout) return report(kCannotWrite, "standard output: cannot write");

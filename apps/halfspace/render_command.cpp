@@ -1,141 +1,214 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace render SCENE`: checks all arguments, renders, writes the picture.
-#include <array>
-#include <charconv>
+// `halfspace render SCENE`: checks all arguments, renders a picture or a range of frames, writes them.
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "core/check.h"
 #include "core/parallel.h"
+#include "halfspace/arguments.h"
 #include "halfspace/commands.h"
+#include "halfspace/frames.h"
 #include "halfspace/statistics.h"
-#include "scene/earth.h"
 #include "scene/image_io.h"
 #include "scene/nearest_name.h"
 #include "scene/output_file.h"
+#include "scene/prepared_scene.h"
+#include "scene/scene_file.h"
 
 namespace halfspace {
 
 namespace {
-
-constexpr std::array<std::string_view, 1> kScenes = {"earth"};
-constexpr std::array<std::string_view, 1> kEarthKeys = {"earth.color"};
-constexpr int kMostEdge = 16384;
-constexpr int kMostThreads = 1024;
 
 struct RenderArguments {
   std::string scene;
   std::string out;  // empty: SCENE.png
   std::string size = "1920x1080";
   std::vector<std::string> set;
+  std::string camera;   // empty: the scene's
+  std::string time;     // empty: 0
+  std::string frames;   // empty: one picture
+  std::string fps;      // empty: 30
   std::string threads;  // empty: one a core
   std::string statistics;
+  bool resume = false;
+  bool print = false;
 };
 
-struct Size {
-  int width, height;
+// Arguments understood.
+struct RenderJob {
+  SceneFile scene;
+  std::filesystem::path out;
+  ImageFile format;
+  PictureSize size;
+  double time, fps;
+  std::optional<FrameRange> frames;
+  int threads;
+  bool resume;
 };
-
-// A whole decimal number; something negative where it is none.
-int parse_number(std::string_view text) {
-  int n = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-  return error == std::errc() && end == text.data() + text.size() ? n : -1;
-}
-
-Size parse_size(std::string_view text) {
-  const std::size_t x = text.find('x');
-  if (x != std::string_view::npos && x > 0 && x + 1 < text.size()) {
-    const Size size{parse_number(text.substr(0, x)), parse_number(text.substr(x + 1))};
-    if (std::min(size.width, size.height) >= 1 && std::max(size.width, size.height) <= kMostEdge) return size;
-  }
-  throw UsageError("--size is '" + std::string(text) + "'; expected WxH with 1 to 16384 each, for example 1920x1080");
-}
 
 std::filesystem::path output_path(const RenderArguments& args) {
-  const std::filesystem::path path = args.out.empty() ? args.scene + ".png" : args.out;
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  if (!args.out.empty()) return args.out;
+  return std::filesystem::path(args.scene).stem().string() + ".png";
+}
+
+ImageFile output_format(const std::filesystem::path& path) {
+  if (const std::optional<ImageFile> format = image_file_of(path)) return *format;
   std::error_code error;
   const bool special = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
-  if (extension != ".png" && !special) throw UsageError("-o is '" + path.string() + "'; expected a name that ends in .png");
-  return path;
+  if (special && !path.has_extension()) return ImageFile::png;  // /dev/stdout
+  throw UsageError("-o is '" + path.string() + "'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr");
 }
 
-void apply_setting(EarthOptions& options, std::string_view setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string_view::npos || equals == 0) {
-    throw UsageError("--set is '" + std::string(setting) + "'; expected KEY=VALUE, for example earth.color=FILE");
+void set_camera(SceneFile& scene, const std::string& name) {
+  if (name.empty()) return;
+  std::vector<std::string_view> names;
+  for (const auto& [camera, description] : scene.description().cameras) names.push_back(camera);
+  if (std::ranges::find(names, name) == names.end()) throw InputError("--camera: no camera '" + name + "'" + suggestion(name, names));
+  scene.set("camera=" + name);
+}
+
+SceneFile open_scene(const RenderArguments& args) {
+  SceneFile scene = SceneFile::open(args.scene);
+  for (const std::string& setting : args.set) {
+    if (setting.find('=') == std::string::npos || setting.starts_with('=')) {
+      throw UsageError("--set is '" + setting + "'; expected KEY=VALUE, for example camera=main");
+    }
   }
-  const std::string_view key = setting.substr(0, equals);
-  const std::string_view value = setting.substr(equals + 1);
-  if (key != kEarthKeys[0]) throw InputError("--set: unknown key '" + std::string(key) + "'" + suggestion(key, kEarthKeys));
-  if (value.empty()) throw InputError("--set: earth.color is empty; expected the name of an image file");
-  options.color_map = value;
+  scene.set(args.set);
+  set_camera(scene, args.camera);
+  return scene;
 }
 
-int parse_threads(std::string_view text) {
-  if (text.empty()) return Workers::cores();
-  const int threads = parse_number(text);
-  if (threads >= 1 && threads <= kMostThreads) return threads;
-  throw UsageError("--threads is '" + std::string(text) + "'; expected 1 to " + std::to_string(kMostThreads));
-}
-
-void check_statistics(const std::string& format) {
-  if (format == "" || format == "text" || format == "json") return;
-  throw UsageError("--stats is '" + format + "'; expected --stats or --stats=json");
+RenderJob understand(const RenderArguments& args) {
+  const PictureSize size = parse_size(args.size);
+  const int threads = parse_threads(args.threads);
+  if (args.statistics != "" && args.statistics != "text" && args.statistics != "json") {
+    throw UsageError("--stats is '" + args.statistics + "'; expected --stats or --stats=json");
+  }
+  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
+  const double fps = args.fps.empty() ? 30.0 : parse_real("--fps", args.fps, 1e-3, 1e6, "frames per second, for example 30");
+  std::optional<FrameRange> frames;
+  if (!args.frames.empty()) frames = parse_frames(args.frames);
+  if (!frames && (args.resume || !args.fps.empty())) {
+    throw UsageError(std::string(args.resume ? "--resume" : "--fps") + " is for several frames; expected --frames FIRST..LAST too");
+  }
+  const std::filesystem::path out = output_path(args);
+  if (frames && !out.has_extension())
+    throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr");
+  const ImageFile format = output_format(out);
+  return {open_scene(args), out, format, size, time, fps, frames, threads, args.resume};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void render(const RenderArguments& args) {
-  const Size size = parse_size(args.size);
-  const int threads = parse_threads(args.threads);
-  check_statistics(args.statistics);
-  if (args.scene != kScenes[0]) throw InputError("unknown scene '" + args.scene + "'" + suggestion(args.scene, kScenes));
-  EarthOptions options;
-  options.width = size.width;
-  options.height = size.height;
-  for (const std::string& setting : args.set) apply_setting(options, setting);
-  const std::filesystem::path out = output_path(args);
-  check_writable(out);
+void write_picture(const std::filesystem::path& path, const Image<glm::vec4>& picture) { write_image(path, picture); }
+void write_picture(const std::filesystem::path& path, const Image<glm::u8vec4>& picture) {
+  path.has_extension() ? write_image(path, picture) : write_png(path, picture);  // /dev/stdout
+}
 
-  const Workers workers(threads);
+// Renders one picture into a file and adds to the report.
+template <class Pixel>
+void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
+                    RenderReport& report) {
   const auto start = std::chrono::steady_clock::now();
-  const RenderResult result = render_earth(options, workers);
+  Image<Pixel> picture(job.size.width, job.size.height);
+  report.counts += render(assets.prepare(job.scene.at(seconds), job.size.width, job.size.height), picture, workers);
   const double render_ms = milliseconds_since(start);
-  write_png(out, result.image);
+  write_picture(path, picture);
+  report.render_ms += render_ms;
+  report.write_ms += milliseconds_since(start) - render_ms;
+}
+
+void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
+                    RenderReport& report) {
+  if (is_linear(job.format)) {
+    render_picture<glm::vec4>(job, seconds, path, assets, workers, report);
+  } else {
+    render_picture<glm::u8vec4>(job, seconds, path, assets, workers, report);
+  }
+}
+
+// A file of an earlier run counts where it holds a whole picture of the right size.
+bool is_whole(const std::filesystem::path& path, const RenderJob& job) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return false;
+  try {
+    const auto fits = [&](const auto& picture) { return picture.width() == job.size.width && picture.height() == job.size.height; };
+    return is_linear(job.format) ? fits(read_linear(path)) : fits(read_image(path));
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+RenderReport run(const RenderJob& job) {
+  const Workers workers(job.threads);
+  SceneAssets assets(workers);
+  RenderReport report;
+  if (!job.frames) {
+    check_writable(job.out);
+    render_picture(job, job.time, job.out, assets, workers, report);
+    return report;
+  }
+  check_writable(frame_path(job.out, job.frames->first, *job.frames));
+  Progress progress(job.frames->count());
+  for (int frame = job.frames->first; frame <= job.frames->last; ++frame) {
+    const std::filesystem::path path = frame_path(job.out, frame, *job.frames);
+    const bool skip = job.resume && is_whole(path, job);
+    if (!skip) render_picture(job, job.time + frame / job.fps, path, assets, workers, report);
+    progress.advance(skip);
+  }
+  return report;
+}
+
+void render_command(const RenderArguments& args) {
+  const RenderJob job = understand(args);
+  if (args.print) {
+    std::cout << job.scene.print();
+    return;
+  }
+  RenderReport report = run(job);
   if (args.statistics.empty()) return;
-  const double write_ms = milliseconds_since(start) - render_ms;
-  const RenderReport report{args.scene, out.string(), size.width, size.height, threads, render_ms, write_ms, result.statistics};
+  report.scene = args.scene;
+  report.output = job.out.string();
+  report.width = job.size.width;
+  report.height = job.size.height;
+  report.threads = job.threads;
   std::cout << (args.statistics == "json" ? json_report(report) : text_report(report));
 }
 
 }  // namespace
 
 void add_render_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("render", "Render a scene to a picture");
+  CLI::App* command = program.add_subcommand("render", "Render a scene to a picture, or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
-  command->add_option("SCENE", args->scene, "The scene's name: earth")->required()->type_name("");
-  command->add_option("-o,--output", args->out, "The picture (default SCENE.png)")->type_name("OUT.png");
+  command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->required()->type_name("");
+  command->add_option("-o,--output", args->out, ".png .jpg .tif, or linear .exr .hdr")->type_name("OUT");
   command->add_option("--size", args->size, "Pixels (default 1920x1080)")->type_name("WxH");
-  command->add_option("--set", args->set, "Set a key: earth.color (the map, a file)")
+  command->add_option("--set", args->set, "Set a key ('halfspace list SCENE' tells all)")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
+  command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
+  command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");
+  command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
+  command->add_flag("--resume", args->resume, "Leave out frames that are there, whole");
   command->add_option("--threads", args->threads, "Threads (default: one a core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts, as text or JSON")->option_text("[=json]");
+  command->add_flag("--print", args->print, "Print the scene with all settings instead");
   command->footer(
       "Examples:\n"
       "  halfspace render earth -o earth.png --size 1280x720\n"
-      "  halfspace render earth --set earth.color=earthmap.jpg --stats");
-  command->callback([args] { render(*args); });
+      "  halfspace render moon --set moon.color=lroc.png --frames 0..47 -o out/moon.png");
+  command->callback([args] { render_command(*args); });
 }
 
 }  // namespace halfspace

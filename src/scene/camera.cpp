@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,9 +14,10 @@ namespace halfspace {
 namespace {
 
 glm::dvec3 unit(const glm::dvec3& v) {
-  const double length = std::sqrt(glm::dot(v, v));
+  const glm::dvec3 u = unit_or_zero(v);
+  const double length = glm::dot(u, u);
   HS_CHECK_OP(length, >, 0.0);
-  return v / length;
+  return u;
 }
 
 // A projection whose clip w is −z: x and y scaled so that the angle fovy fills [−w, w], depth row z·a + b.
@@ -45,6 +47,15 @@ glm::dmat4 orthographic(double height, double aspect, double a, double b) {
 }
 
 }  // namespace
+
+glm::dvec3 unit_or_zero(const glm::dvec3& v) {
+  const double largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  if (!(largest > 0.0)) return glm::dvec3(0.0);
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const glm::dvec3 scaled(std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent));
+  return scaled / std::sqrt(glm::dot(scaled, scaled));
+}
 
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
   const glm::dvec3 back = unit(eye - target);

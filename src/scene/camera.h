@@ -10,6 +10,9 @@
 
 namespace halfspace {
 
+/// v over its length, whatever its size (no square overflows or underflows); the zero vector stays zero.
+glm::dvec3 unit_or_zero(const glm::dvec3& v);
+
 /// World space to view space. eye and target must differ, and up must not be parallel to their difference.
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up);
 

@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "core/hash.h"
 #include "core/trig_double.h"
 
 namespace halfspace::procedural {
@@ -10,14 +11,6 @@ namespace halfspace::procedural {
 namespace {
 
 // Lanes wrap round; for a plain int (lanes = 1) that must be said.
-template <class I>
-HS_INLINE I wrapping_mul(I a, int32_t b) {
-  if constexpr (std::is_same_v<I, int32_t>) {
-    return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b));
-  } else {
-    return a * I(b);
-  }
-}
 template <class I>
 HS_INLINE I wrapping_add(I a, int32_t b) {
   if constexpr (std::is_same_v<I, int32_t>) {

@@ -106,9 +106,9 @@ struct Mistake {
 void PrintTo(const Mistake& m, std::ostream* os) { *os << m.name; }
 
 const Mistake kMistakes[] = {
-    {"NoCommand", {}, 2, "no command; expected one of render, info (see 'halfspace --help')"},
+    {"NoCommand", {}, 2, "no command; expected one of render, list, info, completion (see 'halfspace --help')"},
     {"WrongCommand", {"rendr", "earth"}, 2, "unknown command 'rendr'; did you mean 'render'?"},
-    {"FarCommand", {"paint"}, 2, "unknown command 'paint'; expected one of render, info"},
+    {"FarCommand", {"paint"}, 2, "unknown command 'paint'; expected one of render, list, info, completion"},
     {"WrongOption", {"render", "earth", "--siez", "3x3"}, 2, "unknown option '--siez'; did you mean '--size'?"},
     {"OptionOfNoCommand", {"--jsn"}, 2, "unknown option '--jsn'; expected one of --help, --version"},
     {"NoScene", {"render"}, 2, "SCENE is required; see 'halfspace render --help'"},
@@ -139,15 +139,58 @@ const Mistake kMistakes[] = {
     {"SetWithoutValue",
      {"render", "earth", "--set", "earth.color"},
      2,
-     "--set is 'earth.color'; expected KEY=VALUE, for example earth.color=FILE"},
-    {"OutputFormat", {"render", "earth", "-o", "earth.jpg"}, 2, "-o is 'earth.jpg'; expected a name that ends in .png"},
+     "--set is 'earth.color'; expected KEY=VALUE, for example camera=main"},
+    {"OutputFormat",
+     {"render", "earth", "-o", "earth.gif"},
+     2,
+     "-o is 'earth.gif'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr"},
     {"NearScene", {"render", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
-    {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected earth"},
-    {"NearKey", {"render", "earth", "--set", "earth.colour=a.png"}, 3, "--set: unknown key 'earth.colour'; did you mean 'earth.color'?"},
-    {"FarKey", {"render", "earth", "--set", "x=1"}, 3, "--set: unknown key 'x'; expected earth.color"},
-    {"EmptyValue", {"render", "earth", "--set", "earth.color="}, 3, "--set: earth.color is empty; expected the name of an image file"},
-    {"NoMap", {"render", "earth", "--set", "earth.color=none.jpg"}, 3, "none.jpg: no such file; expected an image"},
-    {"MapIsADirectory", {"render", "earth", "--set", "earth.color=."}, 3, ".: is a directory; expected an image file"},
+    {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected one of earth, moon, moon-normals, moon-tessellation"},
+    {"NoSceneFile", {"render", "my.json"}, 3, "my.json: no such scene file"},
+    {"NearKey", {"render", "earth", "--set", "earth.colour=a.png"}, 3, "--set: earth.colour: unknown key 'colour'; did you mean 'color'?"},
+    {"NearThing",
+     {"render", "earth", "--set", "erath.color=a.png"},
+     3,
+     "--set: erath.color: no 'erath' in this scene; did you mean 'earth'?"},
+    {"WrongType",
+     {"render", "earth", "--set", "earth.radius=big"},
+     3,
+     "--set: earth.radius: expected a number from 1e-06 to 1e+06 (units), got 'big'"},
+    {"WrongRange",
+     {"render", "earth", "--set", "earth.latitudes=1"},
+     3,
+     "--set: earth.latitudes: expected a whole number from 2 to 8192, got 1.0"},
+    {"WrongChoice",
+     {"render", "earth", "--set", "earth.shape=ball"},
+     3,
+     "--set: earth.shape: \"ball\" is no choice; expected one of uv_sphere, plane, cube"},
+    {"EmptyValue",
+     {"render", "earth", "--set", "earth.color="},
+     3,
+     "--set: earth.color: expected a colour (#rrggbb, r,g,b or a number), the name of a texture or that of an image file, got \"\""},
+    {"NoCamera", {"render", "earth", "--camera", "nroth"}, 3, "--camera: no camera 'nroth'; did you mean 'north'?"},
+    {"TimeWord", {"render", "earth", "--time", "noon"}, 2, "--time is 'noon'; expected seconds, for example 2.5"},
+    {"FramesBackwards", {"render", "earth", "--frames", "5..2"}, 2, "--frames is '5..2'; expected FIRST..LAST, for example 0..47"},
+    {"FramesWord", {"render", "earth", "--frames", "all"}, 2, "--frames is 'all'; expected FIRST..LAST, for example 0..47"},
+    {"FpsZero", {"render", "earth", "--frames", "0..1", "--fps", "0"}, 2, "--fps is '0'; expected frames per second, for example 30"},
+    {"FpsAlone", {"render", "earth", "--fps", "24"}, 2, "--fps is for several frames; expected --frames FIRST..LAST too"},
+    {"ResumeAlone", {"render", "earth", "--resume"}, 2, "--resume is for several frames; expected --frames FIRST..LAST too"},
+    {"FramesIntoADevice",
+     {"render", "earth", "--frames", "0..1", "-o", "/dev/null"},
+     2,
+     "-o is '/dev/null'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr"},
+    {"ControlCharacters",
+     {"render", "a\nb\x1b"},
+     3,
+     "unknown scene 'a\\x0ab\\x1b'; expected one of earth, moon, moon-normals, moon-tessellation"},
+    {"PrintChecksToo",
+     {"render", "earth", "--print", "--size", "bogus"},
+     2,
+     "--size is 'bogus'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"ListUnknown", {"list", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
+    {"Shell", {"completion", "tcsh"}, 2, "completion: no shell 'tcsh'; expected bash, zsh or fish"},
+    {"NoMap", {"render", "earth", "--set", "earth.color=none.jpg"}, 3, "{here}/none.jpg: no such file; expected an image"},
+    {"MapIsADirectory", {"render", "earth", "--set", "earth.color=."}, 3, "{here}/: is a directory; expected an image file"},
     {"MapIsADevice", {"render", "earth", "--set", "earth.color=/dev/zero"}, 3, "/dev/zero: is no regular file; expected an image file"},
     {"NoDirectory", {"render", "earth", "-o", "none/earth.png"}, 4, "none/earth.png: cannot write (there is no directory none)"},
     {"OutputIsADirectory", {"render", "earth", "-o", ".."}, 4, "..: is a directory; expected a file name"},
@@ -159,7 +202,9 @@ class CliMistake : public Cli, public testing::WithParamInterface<Mistake> {};
 TEST_P(CliMistake, IsToldInOneLine) {
   const Outcome o = run(GetParam().arguments);
   EXPECT_EQ(o.exit_code, GetParam().exit_code);
-  EXPECT_EQ(o.err, std::string("halfspace: ") + GetParam().line + "\n");
+  std::string line = GetParam().line;  // {here}: paths in --set are made absolute
+  if (const std::size_t at = line.find("{here}"); at != std::string::npos) line.replace(at, 6, directory.string());
+  EXPECT_EQ(o.err, "halfspace: " + line + "\n");
   EXPECT_EQ(o.out, "");
   EXPECT_TRUE(files().empty()) << files().front() << " was left behind";
 }
@@ -170,7 +215,8 @@ TEST_F(Cli, AFileThatIsNoImageIsBadInput) {
   std::ofstream(directory / "map.png") << "no picture";
   const Outcome o = run({"render", "earth", "--set", "earth.color=map.png"});
   EXPECT_EQ(o.exit_code, 3);
-  EXPECT_TRUE(o.err.starts_with("halfspace: map.png: is no image that can be read; expected PNG, ")) << o.err;
+  EXPECT_TRUE(o.err.starts_with("halfspace: " + (directory / "map.png").string() + ": is no image that can be read; expected PNG, "))
+      << o.err;
   EXPECT_EQ(lines_of(o.err), 1);
 }
 
@@ -226,7 +272,7 @@ TEST_F(Cli, Info) {
 }
 
 TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
-  for (const char* command : {"render", "info"}) {
+  for (const char* command : {"render", "list", "info", "completion"}) {
     const Outcome o = run({command, "--help"});
     EXPECT_EQ(o.exit_code, 0);
     EXPECT_LE(lines_of(o.out), 24);
@@ -240,6 +286,111 @@ TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
     EXPECT_EQ(tail[tail.size() - 3], "Examples:");
     for (std::size_t i = tail.size() - 2; i < tail.size(); ++i)
       EXPECT_TRUE(tail[i].starts_with("  halfspace " + std::string(command))) << tail[i];
+  }
+}
+
+// ---- scenes, frames, formats -----------------------------------------------------------------------------------
+
+TEST_F(Cli, PrintIsASceneThatRendersTheSamePicture) {
+  const Outcome printed = run({"render", "moon", "--set", "moon.latitudes=40", "--camera", "terminator", "--print"});
+  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  EXPECT_TRUE(files().empty()) << "--print renders nothing";
+  std::ofstream(directory / "my.json") << printed.out;
+  const std::vector<std::string> size{"--size", "96x54"};
+  EXPECT_EQ(run({"render", "my.json", "--size", "96x54"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "moon", "--set", "moon.latitudes=40", "--camera", "terminator", "--size", "96x54"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory / "my.png"), text_of(directory / "moon.png"));
+  EXPECT_NE(text_of(directory / "my.png"), "");
+}
+
+TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
+  fs::create_directory(directory / "gone");
+  const std::string command = "cd " + (directory / "gone").string() + " && rmdir ../gone && " HALFSPACE_PROGRAM " list > " +
+                              (root / "out").string() + " 2>&1; " HALFSPACE_PROGRAM " render earth --size 8x8 -o " +
+                              (directory / "e.png").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
+  EXPECT_EQ(lines_of(text_of(root / "out")), 4);
+}
+
+TEST_F(Cli, ASceneFileTellsItsErrors) {
+  std::ofstream(directory / "my.json") << "{\"version\": 1, \"objects\": {\"a\": {\"raduis\": 2}}}";
+  const Outcome o = run({"render", "my.json"});
+  EXPECT_EQ(o.exit_code, 3);
+  EXPECT_EQ(o.err, "halfspace: my.json: objects.a.raduis: unknown key; did you mean 'radius'?\n");
+}
+
+TEST_F(Cli, ListTellsScenesAndKeys) {
+  const Outcome scenes = run({"list"});
+  EXPECT_EQ(lines_of(scenes.out), 4);
+  EXPECT_NE(scenes.out.find("\nmoon "), std::string::npos);
+  const Outcome keys = run({"list", "moon"});
+  EXPECT_NE(keys.out.find("height_scale"), std::string::npos);
+  const Outcome names = run({"list", "moon", "--names"});
+  EXPECT_NE(names.out.find("\nmoon.height_scale\n"), std::string::npos);
+  EXPECT_TRUE(nlohmann::json::accept(run({"list", "--schema"}).out));
+}
+
+TEST_F(Cli, CompletionScriptsAreRight) {
+  for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
+  EXPECT_EQ(run({"completion", "words"}).out, "render\nlist\ninfo\ncompletion\n");
+  std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
+halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
+compopt() { :; }
+try() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _halfspace; echo "${COMPREPLY[*]}"; }
+try halfspace re
+try halfspace render ear
+try halfspace render moon --set moon.lat
+try halfspace render moon --res
+)";
+  const std::string command = "bash " + (directory / "try.sh").string() + " > " + (root / "out").string() + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(text_of(root / "out"), "render\nearth\nmoon.latitudes=\n--resume\n");
+}
+
+TEST_F(Cli, FramesAreNumberedAndResumed) {
+  const std::vector<std::string> command{"render", "moon", "--size", "48x27", "--frames", "8..11", "--fps", "12", "-o", "m.png"};
+  EXPECT_EQ(run(command).exit_code, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"m_0008.png", "m_0009.png", "m_0010.png", "m_0011.png"}));
+  // A frame is the picture at its time.
+  EXPECT_EQ(run({"render", "moon", "--size", "48x27", "--time", "0.75", "-o", "one.png"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory / "one.png"), text_of(directory / "m_0009.png"));
+  const std::string whole = text_of(directory / "m_0010.png");
+  fs::remove(directory / "m_0009.png");
+  std::ofstream(directory / "m_0010.png") << whole.substr(0, whole.size() / 2);
+  const auto before = fs::last_write_time(directory / "m_0008.png");
+  std::vector<std::string> resume = command;
+  resume.push_back("--resume");
+  const Outcome o = run(resume);
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(o.err, "") << "no progress in a pipe";
+  EXPECT_EQ(text_of(directory / "m_0009.png"), text_of(directory / "one.png"));
+  EXPECT_EQ(text_of(directory / "m_0010.png"), whole) << "half a file is rendered again";
+  EXPECT_EQ(fs::last_write_time(directory / "m_0008.png"), before) << "a whole one is left";
+}
+
+TEST_F(Cli, AnAnimationHasTheSamePixelsForAnyThreads) {
+  for (const char* threads : {"1", "2"}) {
+    const std::string out = std::string("t") + threads + ".png";
+    EXPECT_EQ(run({"render", "moon", "--size", "64x36", "--frames", "0..47", "--threads", threads, "-o", out}).exit_code, 0);
+  }
+  std::string first;
+  for (int i = 0; i < 48; ++i) {
+    const std::string number = std::string(i < 10 ? "000" : "00") + std::to_string(i) + ".png";
+    const std::string one = text_of(directory / ("t1_" + number));
+    EXPECT_NE(one, "");
+    EXPECT_EQ(one, text_of(directory / ("t2_" + number))) << i;
+    if (i == 0) first = one;
+    EXPECT_EQ(one == first, i == 0) << "Moon and light turn";
+  }
+}
+
+TEST_F(Cli, WritesEveryFormat) {
+  for (const char* name : {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"}) {
+    const Outcome o = run({"render", "earth", "--size", "64x36", "-o", name});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    // Read back as a map of the scene itself.
+    const Outcome again = run({"render", "moon", "--size", "32x18", "-o", "again.png", "--set", std::string("moon.height=") + name});
+    EXPECT_EQ(again.exit_code, 0) << name << ": " << again.err;
   }
 }
 

@@ -184,7 +184,10 @@ void UniformSetter::operator()(const char* name, const Texture2D& texture, const
     glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, texture.width(level), texture.height(level), GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
   }
   const auto set = [](GLenum what, GLenum value) { glTexParameteri(GL_TEXTURE_2D, what, static_cast<GLint>(value)); };
-  const auto wrap = [](Wrap w) -> GLenum { return w == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE; };
+  const auto wrap = [](Wrap w) -> GLenum {
+    constexpr std::array<GLenum, 4> names{GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_BORDER};
+    return names[static_cast<std::size_t>(w)];
+  };
   set(GL_TEXTURE_MAG_FILTER, sampler.mag == Filter::nearest ? GL_NEAREST : GL_LINEAR);
   set(GL_TEXTURE_MIN_FILTER, sampler.min == Filter::nearest    ? GL_NEAREST
                              : sampler.min == Filter::bilinear ? GL_LINEAR

@@ -164,7 +164,7 @@ TEST(Watertight, RandomStrips) {
     std::vector<Point> lower, upper;
     // Columns strictly from left to right, so that no triangle folds over; steps from a sub-pixel to 40 px.
     for (int x = r.integer(-20 * 256, 0); x < 150 * 256;
-         x += grid * r.integer(1, 1 << r.integer(0, 13 - std::bit_width(static_cast<unsigned>(grid))))) {
+         x += grid * r.integer(1, 1 << r.integer(0, 13 - static_cast<int>(std::bit_width(static_cast<unsigned>(grid)))))) {
       lower.push_back(snap_to({x, r.integer(-10 * 256, 60 * 256)}, grid));
       upper.push_back(snap_to({x, r.integer(61 * 256, 140 * 256)}, grid));
       if (lower.size() > 2000) break;

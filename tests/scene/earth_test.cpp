@@ -1,69 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/earth.h"
-
+//
+// The shipped scene "earth": held against one ray per pixel, and against double precision.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/srgb.h"
-#include "raster/naive.h"
-#include "raster/pass.h"
-#include "scene/camera.h"
+#include "naive_picture.h"
+#include "scene/scene_file.h"
 
 namespace halfspace {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The globe's pixels by the naive pipeline in R, as linear colour.
-template <class R>
-NaiveTarget<R> naive_earth(const EarthOptions& options, const Workers& workers) {
-  const auto scene = make_earth(options, workers);
-  const Mesh& globe = scene->globe;
-  NaiveTarget<R> target(options.width, options.height, vec4<R>(scene->clear_color), R(0));
-  draw_naive(target, scene->shader, vertices(stream(globe.positions), stream(globe.normals), stream(globe.uvs)),
-             Indices(globe.indices, globe.positions.size()), scene->state);
-  return target;
-}
-
-int largest_difference(glm::u8vec4 a, glm::u8vec4 b) {
-  int d = 0;
-  for (int k = 0; k < 4; ++k) d = std::max(d, std::abs(int{a[k]} - int{b[k]}));
-  return d;
-}
-
-template <class R>
-glm::u8vec4 encode(const vec4<R>& c) {
-  glm::u8vec4 out;
-  for (int k = 0; k < 3; ++k) out[k] = static_cast<uint8_t>(linear_to_srgb(static_cast<float>(c[k])));
-  out[3] = static_cast<uint8_t>(linear_to_unorm8(static_cast<float>(c[3])));
-  return out;
-}
-
-// Share of pixels further apart than one code.
-template <class R>
-double share_beyond_one_code(const Image<glm::u8vec4>& image, const Image<vec4<R>>& truth) {
-  int beyond = 0;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) beyond += largest_difference(image.at(x, y), encode<R>(truth.at(x, y))) > 1;
-  }
-  return beyond / static_cast<double>(image.width() * image.height());
+// The Earth seen from a place, with that meridian at +z.
+SceneDescription earth_from(const glm::dvec3& eye, double meridian) {
+  SceneDescription scene = SceneFile::open("earth").description();
+  scene.cameras.front().second.position = eye;
+  if (eye.x == 0 && eye.z == 0) scene.cameras.front().second.up = {0, 0, -1};
+  scene.objects.front().second.placement.rotation.y = 90.0 - meridian;
+  return scene;
 }
 
 TEST(Earth, NaiveFloatHasTheSamePixels) {
-  const Workers workers(2);
-  const EarthOptions options{.width = 320, .height = 200};
-  const Image<glm::u8vec4> image = render_earth(options, workers).image;
+  const SceneDescription scene = SceneFile::open("earth").description();
   // Lesson 0 divides 1/w and snaps by plainer formulas: a vertex may fall on the neighbouring 1/256 px.
-  EXPECT_LE(share_beyond_one_code<float>(image, naive_earth<float>(options, workers).color), 1e-3);
+  EXPECT_LE(share_beyond_one_code<float>(scene, 320, 200), 1e-3);
 }
 
 TEST(Earth, IsWithinOneCodeOfDoublePrecision) {
-  const Workers workers(2);
-  const EarthOptions options{.width = 480, .height = 300};
-  const Image<glm::u8vec4> image = render_earth(options, workers).image;
-  const double share = share_beyond_one_code<double>(image, naive_earth<double>(options, workers).color);
+  const double share = share_beyond_one_code<double>(SceneFile::open("earth").description(), 480, 300);
   RecordProperty("share_beyond_one_code", std::to_string(share));
   // 99.9% of pixels: the rest lie on silhouettes, where a position rounds to another 1/256 px.
   EXPECT_LE(share, 1e-3);
@@ -74,38 +41,37 @@ TEST(Earth, IsWithinOneCodeOfDoublePrecision) {
 class EarthAgainstRays : public testing::TestWithParam<std::pair<glm::dvec3, double>> {};
 
 TEST_P(EarthAgainstRays, ShowsTheMapWhereItBelongs) {
+  constexpr int kSize = 300;
   const Workers workers(2);
-  EarthOptions options{.width = 300, .height = 300};
-  std::tie(options.eye, options.meridian) = GetParam();
-  const auto scene = make_earth(options, workers);
-  scene->shader.ambient = 1;
-  scene->shader.diffuse = scene->shader.specular = 0;
+  const auto [eye_ws, meridian] = GetParam();
+  SceneDescription scene = earth_from(eye_ws, meridian);
+  scene.head.ambient.linear = glm::dvec3(1.0);
+  scene.lights.clear();
   // Level 0 without mips, so that the value depends on the coordinates alone.
-  scene->shader.sampler = {.mag = Filter::bilinear, .min = Filter::bilinear, .wrap_s = Wrap::repeat, .wrap_t = Wrap::clamp};
-  const Mesh& globe = scene->globe;
-  Image<glm::vec4> image(options.width, options.height);
-  Pass pass(options.width, options.height, rgba32f_target(image), {.format = DepthFormat::d32f, .clear_value = 0.0f});
-  const Indices indices(globe.indices, globe.positions.size());
-  pass.draw(scene->shader, vertices(stream(globe.positions), stream(globe.normals), stream(globe.uvs)), indices, scene->state);
-  pass.run(workers);
+  scene.textures.front().second.filter = Filter::bilinear;
+  SceneAssets assets(workers);
+  const PreparedScene prepared = assets.prepare(scene, kSize, kSize);
+  ASSERT_EQ(prepared.draws.size(), 1u);
+  const auto& shader = std::get<BlinnPhong>(prepared.draws.front().shader);
+  Image<glm::vec4> image(kSize, kSize);
+  render(prepared, image, workers);
 
-  const glm::dmat4 world_from_clip = glm::inverse(glm::dmat4(scene->shader.clip_from_world));
-  const glm::dmat4 object_from_world = glm::inverse(glm::dmat4(scene->shader.world_from_object));
+  const glm::dmat4 object_from_clip = glm::inverse(glm::dmat4(shader.clip_from_object));
+  const glm::dvec3 eye(glm::inverse(glm::dmat4(shader.world_from_object))[3]);  // the eye is the origin there
   double worst = 0, sum = 0;
   int count = 0;
-  for (int y = 0; y < options.height; ++y) {
-    for (int x = 0; x < options.width; ++x) {
-      const glm::dvec4 ndc((x + 0.5) / options.width * 2 - 1, (y + 0.5) / options.height * 2 - 1, 0.5, 1);
-      glm::dvec4 p = world_from_clip * ndc;
-      const glm::dvec3 eye = glm::dvec3(object_from_world * glm::dvec4(options.eye, 1));
-      const glm::dvec3 ray = glm::normalize(glm::dvec3(object_from_world * (p / p.w)) - eye);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const glm::dvec4 ndc((x + 0.5) / kSize * 2 - 1, (y + 0.5) / kSize * 2 - 1, 0.5, 1);
+      const glm::dvec4 p = object_from_clip * ndc;
+      const glm::dvec3 ray = glm::normalize(glm::dvec3(p / p.w) - eye);
       const double b = glm::dot(eye, ray), disc = b * b - (glm::dot(eye, eye) - 1);
       if (disc < 0.04) continue;  // the limb: a chord's 1e-4 of height moves the hit point by up to 1e-4/sqrt(disc)
       const glm::dvec3 hit = eye + ray * (-b - std::sqrt(disc));
       const double u = std::atan2(-hit.z, hit.x) / (2 * kPi), v = std::acos(std::clamp(hit.y, -1.0, 1.0)) / kPi;
       if (hit.x * hit.x + hit.z * hit.z < 0.0009) continue;  // the fan of triangles round the pole: 1.4 bands of 1/128
-      const vec4<double> texel = scene->map.sample_level(scene->shader.sampler, vec2<double>(u < 0 ? u + 1 : u, v), 0.0);
-      const glm::vec4 shown = image.at(x, options.height - 1 - y);
+      const vec4<double> texel = shader.map->sample_level(shader.sampler, vec2<double>(u < 0 ? u + 1 : u, v), 0.0);
+      const glm::vec4 shown = image.at(x, kSize - 1 - y);
       for (int k = 0; k < 3; ++k) {
         const double d = std::abs(texel[k] - static_cast<double>(shown[k]));
         worst = std::max(worst, d);
@@ -130,10 +96,9 @@ INSTANTIATE_TEST_SUITE_P(Views, EarthAgainstRays,
 TEST(Earth, SeamColumnLooksLikeItsNeighbours) {
   // Seen from above 180°, the seam runs down the middle of the picture. A level chosen from u jumping between 0 and 1
   // would show as a line of the smallest mip level, the map's mean colour.
-  const Workers workers(2);
-  const EarthOptions options{.width = 301, .height = 301, .eye = glm::dvec3(0, 0, 2.8), .meridian = 180.0};
-  const Image<vec4<double>> truth = naive_earth<double>(options, workers).color;
-  const Image<glm::u8vec4> image = render_earth(options, workers).image;
+  const SceneDescription scene = earth_from({0, 0, 2.8}, 180.0);
+  const Image<vec4<double>> truth = naive_picture<double>(scene, 301, 301);
+  const Image<glm::u8vec4> image = picture_of(scene, 301, 301);
   int worst = 0;
   for (int y = 60; y < 240; ++y) {
     for (int x = 148; x < 153; ++x) worst = std::max(worst, largest_difference(image.at(x, y), encode<double>(truth.at(x, y))));

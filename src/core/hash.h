@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A hash of small whole numbers for procedural patterns: the same for int32_t and lanes of any width.
+#pragma once
+
+#include <type_traits>
+
+#include "core/lanes.h"
+
+namespace halfspace {
+
+/// a·b modulo 2^32.
+template <class I>
+HS_INLINE I wrapping_mul(I a, int32_t b) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b));
+  } else {
+    return a * I(b);
+  }
+}
+
+/// x with its bits well mixed: every bit of the result depends on every bit of x. Multipliers after C. Wellons' search for
+/// low-bias 32-bit hashes (lowbias32).
+template <class I>
+HS_INLINE I mix_bits(I x) {
+  const auto shifted = [](I v, int n) { return (v >> n) & I(static_cast<int32_t>(0xffffffffu >> n)); };  // without the sign
+  x = wrapping_mul(x ^ shifted(x, 16), 0x7feb352d);
+  x = wrapping_mul(x ^ shifted(x, 15), static_cast<int32_t>(0x846ca68bu));
+  return x ^ shifted(x, 16);
+}
+
+/// The hash's top 24 bits as a number in [0, 1).
+template <class R>
+HS_INLINE R unit_fraction(IntOf<R> hash) {
+  return to_real<R>((hash >> 8) & 0xffffff) * R(0x1p-24f);
+}
+
+}  // namespace halfspace

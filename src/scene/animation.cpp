@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/animation.h"
+
+#include <cmath>
+
+#include "core/check.h"
+#include "core/trig_double.h"
+#include "scene/scene_paths.h"
+
+namespace halfspace {
+
+namespace {
+
+bool is_vector(const Key& key) { return key.type == KeyType::vector || key.type == KeyType::color; }
+
+Numbers orbit_at(const AnimationDescription& a, double seconds) {
+  const double turns = seconds / a.period + a.phase;
+  const auto [sine, cosine] = sincos_turns(turns - std::floor(turns));
+  const glm::dvec3 p = a.center + a.a * cosine + a.b * sine;
+  return {p.x, p.y, p.z};
+}
+
+Numbers keyframes_at(const AnimationDescription& a, double seconds) {
+  const double first = a.keys.front().first, last = a.keys.back().first;
+  if (a.loop && last > first && seconds > last) {
+    const double turns = (seconds - first) / (last - first);
+    seconds = first + (turns - std::floor(turns)) * (last - first);
+  }
+  if (seconds <= first) return a.keys.front().second;
+  if (seconds >= last) return a.keys.back().second;
+  std::size_t i = 1;
+  while (a.keys[i].first <= seconds) ++i;
+  const auto& [t0, v0] = a.keys[i - 1];
+  const auto& [t1, v1] = a.keys[i];
+  double x = (seconds - t0) / (t1 - t0);
+  if (a.easing == Easing::smooth) x = x * x * (3.0 - 2.0 * x);
+  if (a.easing == Easing::step) x = 0.0;
+  Numbers value(v0.size());
+  for (std::size_t k = 0; k < value.size(); ++k) value[k] = v0[k] + x * (v1[k] - v0[k]);
+  return value;
+}
+
+Numbers rate_at(const AnimationDescription& a, const Json& start, double seconds) {
+  Numbers value = start.is_array() ? start.get<Numbers>() : Numbers{start.get<double>()};
+  for (std::size_t k = 0; k < value.size(); ++k) value[k] += a.rate[k] * seconds;
+  return value;
+}
+
+}  // namespace
+
+void check_animation(SceneDescription& scene, const AnimationDescription& a, const std::string& path, const std::string& source) {
+  if (a.target.empty()) throw InputError(source + ": " + path + ".target: missing; expected the path of a number or a vector");
+  const FoundKey found = find_key(scene, a.target, source + ": " + path + ".target");
+  const Key& key = *found.field.key;
+  for (const char* fixed : {"materials", "animations", "animation"}) {
+    if (found.words[0] != fixed) continue;
+    throw InputError(source + ": " + path + ".target: " + a.target +
+                     " cannot change in time; expected a key of an object, a light, a camera or the background");
+  }
+  if (key.type != KeyType::number && !is_vector(key)) {
+    throw InputError(source + ": " + path + ".target: " + a.target + " is no number and no vector; expected the path of one");
+  }
+  const std::size_t size = is_vector(key) ? 3 : 1;
+  const auto check_size = [&](const char* name, std::size_t got) {
+    if (got != size) {
+      throw InputError(source + ": " + path + "." + name + ": expected " + (size == 3 ? "[x, y, z]" : "one number") + ", as " + a.target +
+                       " has");
+    }
+  };
+  if (a.type == AnimationType::rate) check_size("rate", a.rate.size());
+  if (a.type == AnimationType::orbit) check_size("type", 3);
+  if (a.type == AnimationType::keyframes && a.keys.empty())
+    throw InputError(source + ": " + path + ".keys: is empty; expected rows [seconds, value]");
+  if (a.type == AnimationType::keyframes) check_size("keys", a.keys.front().second.size());
+}
+
+void animate(SceneDescription& scene, const AnimationDescription& a, const std::string& path, const std::string& source, double seconds) {
+  const Field field = find_key(scene, a.target, source + ": " + path + ".target").field;
+  Numbers value;
+  switch (a.type) {
+    case AnimationType::rate: value = rate_at(a, value_of(field), seconds); break;
+    case AnimationType::orbit: value = orbit_at(a, seconds); break;
+    case AnimationType::keyframes: value = keyframes_at(a, seconds); break;
+  }
+  read_value(field, value.size() == 1 ? Json(value[0]) : Json(value), a.target, {source + ": " + path, {}, {}});
+}
+
+}  // namespace halfspace

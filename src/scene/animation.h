@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "scene/description.h"
+
+namespace halfspace {
+
+/// Does the animation's target exist, and fit? Throws InputError.
+void check_animation(SceneDescription& scene, const AnimationDescription& animation, const std::string& path, const std::string& source);
+
+/// Sets the animation's target to its value at a time in seconds. Throws InputError where that leaves the key's range.
+///   rate      value + rate · t
+///   orbit     center + a·cos φ + b·sin φ, φ = 2π(t / period + phase)
+///   keyframes between the rows before and after t: linear, smooth (3x² − 2x³) or the row before (step); before the first
+///             row its value, after the last again from the first (loop) or the last value
+void animate(SceneDescription& scene, const AnimationDescription& animation, const std::string& path, const std::string& source,
+             double seconds);
+
+}  // namespace halfspace

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tables of all keys. A scene file, --set, `halfspace list` and the JSON Schema know no others.
+#include "scene/description.h"
+
+namespace halfspace {
+
+template <>
+struct ChoiceNames<Projection> {
+  static constexpr std::array<std::string_view, 2> names{"perspective", "orthographic"};
+};
+template <>
+struct ChoiceNames<LightType> {
+  static constexpr std::array<std::string_view, 2> names{"directional", "point"};
+};
+template <>
+struct ChoiceNames<TextureSource> {
+  static constexpr std::array<std::string_view, 4> names{"file", "earth_color", "moon_color", "moon_height"};
+};
+template <>
+struct ChoiceNames<Filter> {
+  static constexpr std::array<std::string_view, 3> names{"nearest", "bilinear", "trilinear"};
+};
+template <>
+struct ChoiceNames<Wrap> {
+  static constexpr std::array<std::string_view, 4> names{"repeat", "mirrored", "clamp", "border"};
+};
+template <>
+struct ChoiceNames<Shape> {
+  static constexpr std::array<std::string_view, 3> names{"uv_sphere", "plane", "cube"};
+};
+template <>
+struct ChoiceNames<NormalSource> {
+  static constexpr std::array<std::string_view, 3> names{"pixel", "vertex", "undisplaced"};
+};
+template <>
+struct ChoiceNames<BackgroundType> {
+  static constexpr std::array<std::string_view, 2> names{"color", "stars"};
+};
+template <>
+struct ChoiceNames<AnimationType> {
+  static constexpr std::array<std::string_view, 3> names{"rate", "orbit", "keyframes"};
+};
+template <>
+struct ChoiceNames<Easing> {
+  static constexpr std::array<std::string_view, 3> names{"linear", "smooth", "step"};
+};
+
+namespace {
+
+constexpr double kTiny = 1e-6;
+
+}  // namespace
+
+Section section_of(SceneHead& s) {
+  static const std::vector<Key> keys{
+      key<&SceneHead::title>("title", "What the scene shows, in one line"),
+      key<&SceneHead::camera>("camera", "Name of the camera to render by; empty: the first"),
+      key<&SceneHead::ambient>("ambient", "Light that comes from everywhere, linear", {.low = 0, .high = kMost}),
+  };
+  return {{keys, &s}};
+}
+
+Section section_of(CameraDescription& c) {
+  using T = CameraDescription;
+  static const std::vector<Key> keys{
+      key<&T::type>("type", "Projection"),
+      key<&T::position>("position", "Where the eye is", {.unit = "units"}),
+      key<&T::target>("target", "The point in the picture's middle", {.unit = "units"}),
+      key<&T::up>("up", "Direction that points upwards in the picture"),
+      key<&T::fov>("fov", "Vertical angle of view", {.unit = "degrees", .low = 0.01, .high = 179, .only = "perspective"}),
+      key<&T::height>("height", "What the picture's height spans", {.unit = "units", .low = kTiny, .high = kMost, .only = "orthographic"}),
+      key<&T::near>("near", "Nearest distance that is drawn", {.unit = "units", .low = kTiny, .high = kMost}),
+      key<&T::far>("far", "Farthest distance that is drawn", {.unit = "units", .low = kTiny, .high = kMost}),
+  };
+  return {{keys, &c}};
+}
+
+Section section_of(LightDescription& l) {
+  using T = LightDescription;
+  static const std::vector<Key> keys{
+      key<&T::type>("type", "Kind of light"),
+      key<&T::direction>("direction", "Where the light comes from, any length", {.only = "directional"}),
+      key<&T::position>("position", "Where the light is", {.unit = "units", .only = "point"}),
+      key<&T::color>("color", "Colour, linear", {.low = 0}),
+      key<&T::intensity>("intensity", "Factor of the colour", {.low = 0}),
+      key<&T::attenuation>("attenuation", "Terms c, l, q of 1 / (c + l d + q d^2) at distance d", {.low = 0, .only = "point"}),
+  };
+  return {{keys, &l}};
+}
+
+Section section_of(TextureDescription& t) {
+  using T = TextureDescription;
+  static const std::vector<Key> keys{
+      key<&T::source>("source", "A file, or the generator that makes the map"),
+      key<&T::file>("file", "Image file", {.only = "file"}),
+      key<&T::width>("width", "Width of the generated map, an even number; 0: what the view needs",
+                     {.unit = "texels", .low = 0, .high = 16384, .only = "earth_color moon_color moon_height"}),
+      key<&T::filter>("filter", "How texels are mixed"),
+      key<&T::wrap_s>("wrap_s", "What lies beyond the left and right edge"),
+      key<&T::wrap_t>("wrap_t", "What lies beyond the upper and lower edge"),
+      key<&T::anisotropy>("anisotropy", "Most samples along a stretched footprint", {.low = 1, .high = 16}),
+  };
+  return {{keys, &t}};
+}
+
+Section section_of(SurfaceDescription& s) {
+  using T = SurfaceDescription;
+  static const std::vector<Key> keys{
+      key<&T::color>("color", "Colour of the surface, or its map", {.low = 0}),
+      key<&T::ambient>("ambient", "Factor of the scene's ambient light", {.low = 0}),
+      key<&T::diffuse>("diffuse", "Factor of the light that is sent back every way", {.low = 0}),
+      key<&T::specular>("specular", "Factor of the highlight", {.low = 0}),
+      key<&T::shininess>("shininess", "Exponent of the highlight: larger is smaller and sharper", {.low = 0, .high = 1e5}),
+  };
+  return {{keys, &s}};
+}
+
+Section section_of(Placement& p) {
+  static const std::vector<Key> keys{
+      key<&Placement::position>("position", "Where the object's origin is", {.unit = "units"}),
+      key<&Placement::rotation>("rotation", "Turns about x, y and z; z first, then x, then y", {.unit = "degrees"}),
+      key<&Placement::scale>("scale", "Factor along x, y and z; not 0"),
+  };
+  return {{keys, &p}};
+}
+
+Section section_of(ObjectDescription& o) {
+  using T = ObjectDescription;
+  static const std::vector<Key> keys{
+      key<&T::shape>("shape", "Generator of the mesh"),
+      key<&T::radius>("radius", "Radius", {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere"}),
+      key<&T::latitudes>("latitudes", "Bands from pole to pole", {.low = 2, .high = 8192, .only = "uv_sphere"}),
+      key<&T::longitudes>("longitudes", "Sectors round the axis", {.low = 3, .high = 16384, .only = "uv_sphere"}),
+      key<&T::size>("size", "Length of an edge", {.unit = "units", .low = kTiny, .high = 1e6, .only = "plane cube"}),
+      key<&T::visible>("visible", "Whether the object is drawn"),
+      key<&T::height>("height", "Map of heights that displaces the surface; a colour: none", {.low = 0, .only = "uv_sphere"}),
+      key<&T::height_scale>("height_scale", "Height between the map's 0 and 1",
+                            {.unit = "units", .low = -1e6, .high = 1e6, .only = "uv_sphere"}),
+      key<&T::height_zero>("height_zero", "The map's value that displaces nothing", {.low = 0, .high = 1, .only = "uv_sphere"}),
+      key<&T::height_smoothing>("height_smoothing", "Radius over which heights are averaged",
+                                {.unit = "texels", .low = 0, .high = 64, .only = "uv_sphere"}),
+      key<&T::normals>("normals", "Normals of a displaced surface: by pixel, by vertex, or as before", {.only = "uv_sphere"}),
+      key<&T::material>("material", "Name of a material; keys of the object's own override it"),
+  };
+  Section section{{keys, &o}};
+  for (const Section& part : {section_of(o.surface), section_of(o.placement)}) section.insert(section.end(), part.begin(), part.end());
+  return section;
+}
+
+Section section_of(BackgroundDescription& b) {
+  using T = BackgroundDescription;
+  static const std::vector<Key> keys{
+      key<&T::type>("type", "Kind of background"),
+      key<&T::color>("color", "Colour, or that between the stars", {.low = 0}),
+      key<&T::brightness>("brightness", "Of the brightest star, linear", {.low = 0, .only = "stars"}),
+      key<&T::density>("density", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "stars"}),
+  };
+  return {{keys, &b}};
+}
+
+Section section_of(AnimationDescription& a) {
+  using T = AnimationDescription;
+  static const std::vector<Key> keys{
+      key<&T::type>("type", "Kind of motion"),
+      key<&T::target>("target", "Dotted path of the number or vector that changes"),
+      key<&T::rate>("rate", "Change per second", {.only = "rate"}),
+      key<&T::center>("center", "Middle of the ellipse", {.unit = "units", .only = "orbit"}),
+      key<&T::a>("a", "Half axis of the ellipse, reached at phase 0", {.unit = "units", .only = "orbit"}),
+      key<&T::b>("b", "Half axis of the ellipse, reached a quarter later", {.unit = "units", .only = "orbit"}),
+      key<&T::period>("period", "Time of one turn", {.unit = "s", .low = kTiny, .only = "orbit"}),
+      key<&T::phase>("phase", "Where the turn begins", {.unit = "turns", .only = "orbit"}),
+      key<&T::keys>("keys", "Rows of seconds and value", {.only = "keyframes"}),
+      key<&T::easing>("easing", "How it goes from row to row", {.only = "keyframes"}),
+      key<&T::loop>("loop", "Begin again after the last row", {.only = "keyframes"}),
+  };
+  return {{keys, &a}};
+}
+
+Section section_of(Playback& p) {
+  static const std::vector<Key> keys{
+      key<&Playback::speed>("speed", "Factor of the time; 0 stands still"),
+  };
+  return {{keys, &p}};
+}
+
+}  // namespace halfspace

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scene as its file describes it: plain values with their defaults. The tables in description.cpp name each of them
+// as a key. What they mean for drawing is told in scene/prepared_scene.h.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/keys.h"
+#include "shading/texture.h"
+
+namespace halfspace {
+
+/// Named things, in the order of the file.
+template <class T>
+using Named = std::vector<std::pair<std::string, T>>;
+
+enum class Projection : uint8_t { perspective, orthographic };
+
+struct CameraDescription {
+  Projection type = Projection::perspective;
+  glm::dvec3 position{0, 0, 5};  ///< world
+  glm::dvec3 target{0, 0, 0};    ///< world
+  glm::dvec3 up{0, 1, 0};
+  double fov = 45.0;    ///< degrees, vertical
+  double height = 2.0;  ///< units
+  double near = 0.1, far = 1000.0;
+};
+
+enum class LightType : uint8_t { directional, point };
+
+struct LightDescription {
+  LightType type = LightType::directional;
+  glm::dvec3 direction{0, 0, 1};  ///< towards the light, any length
+  glm::dvec3 position{0, 0, 5};
+  Color color{glm::dvec3(1.0)};
+  double intensity = 1.0;
+  glm::dvec3 attenuation{1, 0, 0};
+};
+
+enum class TextureSource : uint8_t { file, earth_color, moon_color, moon_height };
+
+struct TextureDescription {
+  TextureSource source = TextureSource::file;
+  FilePath file;
+  int width = 0;  ///< of a generated map, even; 0: as fine as the view needs
+  Filter filter = Filter::trilinear;
+  Wrap wrap_s = Wrap::repeat;
+  Wrap wrap_t = Wrap::repeat;
+  int anisotropy = 8;
+};
+
+struct SurfaceDescription {
+  MapValue color = Color{glm::dvec3(1.0)};
+  Color ambient{glm::dvec3(1.0)};
+  Color diffuse{glm::dvec3(1.0)};
+  Color specular{glm::dvec3(0.0)};
+  double shininess = 32.0;
+};
+
+enum class Shape : uint8_t { uv_sphere, plane, cube };
+enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
+
+struct Placement {
+  glm::dvec3 position{0.0};
+  glm::dvec3 rotation{0.0};  ///< degrees about x, y, z; applied in the order z, x, y
+  glm::dvec3 scale{1.0};
+};
+
+struct ObjectDescription {
+  Shape shape = Shape::uv_sphere;
+  double radius = 1.0;
+  int latitudes = 64, longitudes = 128;
+  double size = 2.0;
+  bool visible = true;
+
+  MapValue height = Color{glm::dvec3(0.0)};  ///< a constant means none
+  double height_scale = 0.02;                ///< units between the map's 0 and 1
+  double height_zero = 0.5;                  ///< the map's value that leaves the surface where it is
+  double height_smoothing = 1.0;             ///< texels
+  NormalSource normals = NormalSource::pixel;
+
+  std::string material;  ///< empty: none
+  SurfaceDescription surface;
+  Placement placement;
+  std::vector<Placement> instances;  ///< copies, relative to placement; empty: one, at placement
+};
+
+enum class BackgroundType : uint8_t { color, stars };
+
+struct BackgroundDescription {
+  BackgroundType type = BackgroundType::color;
+  Color color{glm::dvec3(0.0)};
+  double brightness = 1.0;
+  double density = 0.3;
+};
+
+enum class AnimationType : uint8_t { rate, orbit, keyframes };
+enum class Easing : uint8_t { linear, smooth, step };
+
+/// What changes one key in time; it begins with the scene's own value of the key at 0 s.
+struct AnimationDescription {
+  AnimationType type = AnimationType::rate;
+  std::string target;      ///< dotted path of a number or a vector
+  Numbers rate{0.0};       ///< per second
+  glm::dvec3 center{0.0};  ///< orbit: center + a·cos φ + b·sin φ, φ = 2π(t / period + phase)
+  glm::dvec3 a{1, 0, 0};
+  glm::dvec3 b{0, 0, -1};
+  double period = 10.0;  ///< seconds
+  double phase = 0.0;    ///< turns
+  Keyframes keys;
+  Easing easing = Easing::linear;
+  bool loop = true;
+};
+
+struct Playback {
+  double speed = 1.0;
+};
+
+/// The keys at the top of a scene file.
+struct SceneHead {
+  std::string title;
+  std::string camera;  ///< empty: the first
+  Color ambient{glm::dvec3(0.0)};
+};
+
+struct SceneDescription {
+  SceneHead head;
+  Named<CameraDescription> cameras;
+  Named<LightDescription> lights;
+  Named<TextureDescription> textures;
+  Named<SurfaceDescription> materials;
+  Named<ObjectDescription> objects;
+  Named<AnimationDescription> animations;
+  BackgroundDescription background;
+  Playback animation;
+};
+
+// ---- sections --------------------------------------------------------------------------------------------------
+
+Section section_of(SceneHead&);
+Section section_of(CameraDescription&);
+Section section_of(LightDescription&);
+Section section_of(TextureDescription&);
+Section section_of(SurfaceDescription&);
+Section section_of(ObjectDescription&);
+Section section_of(Placement&);
+Section section_of(BackgroundDescription&);
+Section section_of(AnimationDescription&);
+Section section_of(Playback&);
+
+/// Calls visit(name, help, named) for each collection of named things.
+template <class Scene, class F>
+void for_each_collection(Scene& scene, F&& visit) {
+  visit("cameras", "A point of view", scene.cameras);
+  visit("lights", "A source of light", scene.lights);
+  visit("textures", "An image, or a generated one, and how it is read", scene.textures);
+  visit("materials", "What a surface looks like, for objects that share it", scene.materials);
+  visit("objects", "A shape, its surface and its place", scene.objects);
+  visit("animations", "How a key changes in time", scene.animations);
+}
+
+/// Calls visit(name, help, struct) for each section that there is once.
+template <class Scene, class F>
+void for_each_single(Scene& scene, F&& visit) {
+  visit("background", "What is seen where nothing is", scene.background);
+  visit("animation", "All animations together", scene.animation);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From description to draws. In: a scene's description and the size of the picture. Out: shaders with their uniforms,
+// vertex views and draw states, in drawing order, for a pass or for the naive pipeline.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/image.h"
+#include "core/parallel.h"
+#include "raster/pass.h"
+#include "scene/description.h"
+#include "shading/blinn_phong.h"
+#include "shading/displaced_sphere.h"
+#include "shading/star_sky.h"
+
+namespace halfspace {
+
+/// One draw. std::visit on the shader gives its type back.
+struct PreparedDraw {
+  std::variant<BlinnPhong, DisplacedSphere, StarSky> shader;
+  VertexView vertices;
+  std::shared_ptr<const Indices> indices;
+  DrawState state;  ///< reversed Z: clear depth to 0
+};
+
+/// All that a picture needs. Movable; keeps alive what its draws point to.
+struct PreparedScene {
+  std::vector<PreparedDraw> draws;
+  glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
+  std::vector<std::shared_ptr<const void>> assets;
+};
+
+/// Makes textures, meshes and maps as descriptions ask for them, and keeps them for the next frame as long as it wants
+/// the same.
+class SceneAssets {
+ public:
+  explicit SceneAssets(const Workers& workers) : workers_(workers) {}
+
+  /// width, height: of the picture, px. Throws InputError where a file cannot be used.
+  PreparedScene prepare(const SceneDescription& scene, int width, int height);
+
+ private:
+  friend class ScenePreparation;
+  struct Entry {
+    std::shared_ptr<const void> asset;
+    bool wanted;  // by the frame being prepared
+  };
+  const Workers& workers_;
+  std::map<std::string, Entry> entries_;  ///< by what they are made from
+};
+
+/// Draws the scene into 8-bit sRGB codes.
+PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
+/// Draws the scene as linear numbers, alpha 1.
+PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers);
+
+}  // namespace halfspace

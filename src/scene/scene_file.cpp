@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include "core/check.h"
+#include "scene/animation.h"
+#include "scene/nearest_name.h"
+#include "scene/scene_check.h"
+#include "scene/scene_paths.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+constexpr std::size_t kMostNames = 4096;  // in one object, or places in one list
+constexpr int kMostLevels = 32;
+
+[[noreturn]] void fail(const std::string& source, const std::string& what) { throw InputError(source + ": " + what); }
+
+// ---- text → JSON -----------------------------------------------------------------------------------------------
+
+// "3:14" of a byte in the text.
+std::string place_of(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
+  const auto line = std::ranges::count(before, '\n') + 1;
+  const std::size_t start = before.rfind('\n');
+  const std::size_t column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
+  return std::to_string(line) + ":" + std::to_string(column);
+}
+
+// The library's message without its own numbers and place, on one line.
+std::string reason_of(const std::exception& e) {
+  std::string what = e.what();
+  if (const std::size_t colon = what.find(": "); what.starts_with("[json") && colon != std::string::npos) what = what.substr(colon + 2);
+  if (what.starts_with("syntax error")) what = what.substr(0, what.find("; last read"));
+  for (char& c : what) {
+    if (static_cast<unsigned char>(c) < 32) c = ' ';
+  }
+  return what;
+}
+
+// Refuses a name that stands twice in one object, of which JSON libraries keep one in silence, and nesting that no scene has
+// and that could exhaust the stack.
+class OnceOnly {
+ public:
+  explicit OnceOnly(const std::string& source) : source_(source) {}
+  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth > kMostLevels) fail(source_, "is nested deeper than " + std::to_string(kMostLevels) + " levels");
+    if (event == Json::parse_event_t::object_start) names_.emplace_back();
+    if (event == Json::parse_event_t::object_end) names_.pop_back();
+    if (event == Json::parse_event_t::key && !names_.back().insert(parsed.get<std::string>()).second) {
+      fail(source_, "'" + parsed.get<std::string>() + "' stands twice in one object; expected each name once");
+    }
+    if (!names_.empty() && names_.back().size() > kMostNames)
+      fail(source_, "an object has more than " + std::to_string(kMostNames) + " names");
+    return true;
+  }
+
+ private:
+  const std::string& source_;
+  std::vector<std::set<std::string>> names_;
+};
+
+Json parse_json(std::string_view text, const std::string& source) {
+  try {
+    return Json::parse(text.begin(), text.end(), OnceOnly(source), true, true);
+  } catch (const Json::parse_error& e) {
+    fail(source + ":" + place_of(text, e.byte), "no JSON: " + reason_of(e));
+  } catch (const Json::exception& e) {
+    fail(source, reason_of(e));
+  }
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) fail(path.string(), "no such scene file");
+  if (!std::filesystem::is_regular_file(path, error)) fail(path.string(), "is no regular file; expected a scene file");
+  if (std::filesystem::file_size(path, error) > kMostBytes) fail(path.string(), "has more than 4 MiB; expected a scene file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(path.string(), std::string("cannot be read (") + std::strerror(errno) + ")");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// ---- JSON → description ----------------------------------------------------------------------------------------
+
+// A name can stand in a dotted path and says nothing else there.
+bool is_name(std::string_view s) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+  return !s.empty() && s[0] >= 'a' && s[0] <= 'z' && std::ranges::all_of(s, letter);
+}
+
+class Reader {
+ public:
+  Reader(const Json& json, const ReadContext& context) : json_(json), context_(context) {}
+
+  SceneDescription read() {
+    if (!json_.is_object()) fail(context_.source, "expected an object { … }");
+    check_version();
+    std::vector<std::string_view> sections = top_words(scene_);
+    top_words_ = sections;
+    std::erase_if(sections, [&](std::string_view name) { return find_field(section_of(scene_.head), name).key != nullptr; });
+    read_section(section_of(scene_.head), json_, "", context_, sections);
+    for_each_single(scene_, [&](const char* name, const char*, auto& value) {
+      if (json_.contains(name)) read_section(section_of(value), json_[name], name, context_);
+    });
+    const Json textures = collection("textures");
+    for (const auto& [name, texture] : textures.items()) texture_names_.push_back(name);
+    context_.textures = texture_names_;
+    for_each_collection(scene_, [&](const char* name, const char*, auto& list) { read_collection(name, list); });
+    if (scene_.cameras.empty()) scene_.cameras.emplace_back("main", CameraDescription{});
+    check_scene(scene_, context_.source);
+    return std::move(scene_);
+  }
+
+ private:
+  void check_version() const {
+    if (!json_.contains("version")) fail(context_.source, "version: missing; expected \"version\": " + std::to_string(SceneFile::kVersion));
+    if (json_["version"] != SceneFile::kVersion) fail(context_.source, "version: expected " + std::to_string(SceneFile::kVersion));
+  }
+
+  Json collection(const char* name) const {
+    if (!json_.contains(name)) return Json::object();
+    if (!json_[name].is_object()) fail(context_.source, std::string(name) + ": expected an object of names, { \"name\": { … }, … }");
+    return json_[name];
+  }
+
+  template <class T>
+  void read_collection(const char* collection_name, Named<T>& list) {
+    const Json json = collection(collection_name);
+    for (const auto& [name, value] : json.items()) {
+      const std::string path = std::string(collection_name) + "." + name;
+      if (std::ranges::find(top_words_, name) != top_words_.end())
+        fail(context_.source, path + ": is a word of the file itself; expected another name");
+      if (!is_name(name)) fail(context_.source, path + ": a name begins with a letter a to z and goes on with letters, digits and _");
+      T thing;
+      if constexpr (std::is_same_v<T, ObjectDescription>) {
+        read_object(thing, value, path);
+      } else {
+        read_section(section_of(thing), value, path, context_);
+      }
+      list.emplace_back(name, std::move(thing));
+    }
+  }
+
+  // The material first, then what the object says of itself.
+  void read_object(ObjectDescription& object, const Json& json, const std::string& path) {
+    if (json.is_object() && json.contains("material") && json["material"].is_string() && json["material"] != "") {
+      const auto& name = json["material"].get_ref<const std::string&>();
+      SurfaceDescription* material = find_named(scene_.materials, name);
+      if (material == nullptr) {
+        fail(context_.source, path + ".material: no material '" + name + "'" + suggestion(name, names_of(scene_.materials)));
+      }
+      object.surface = *material;
+    }
+    read_section(section_of(object), json, path, context_, std::span(&kInstances, 1));
+    if (!json.contains(kInstances)) return;
+    const Json& list = json[kInstances];
+    if (!list.is_array() || list.size() > kMostNames)
+      fail(context_.source, path + ".instances: expected a list of at most " + std::to_string(kMostNames) + " objects");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      Placement p;
+      read_section(section_of(p), list[i], path + ".instances." + std::to_string(i), context_);
+      object.instances.push_back(p);
+    }
+  }
+
+  const Json& json_;
+  ReadContext context_;
+  SceneDescription scene_;
+  std::vector<std::string> texture_names_;
+  std::vector<std::string_view> top_words_;
+};
+
+SceneDescription read_scene(const Json& json, const std::string& source, const std::filesystem::path& directory) {
+  return Reader(json, {source, directory, {}}).read();
+}
+
+// The whole scene as JSON, every key told.
+Json json_of(SceneDescription scene) {
+  Json json = {{"version", SceneFile::kVersion}};
+  json.update(json_of(section_of(scene.head)));
+  for_each_collection(scene, [&](const char* name, const char*, auto& list) {
+    if (list.empty()) return;
+    Json& collection = json[name] = Json::object();
+    for (auto& [thing, value] : list) {
+      collection[thing] = json_of(section_of(value));
+      if constexpr (std::is_same_v<std::decay_t<decltype(value)>, ObjectDescription>) {
+        for (Placement& p : value.instances) collection[thing][kInstances].push_back(json_of(section_of(p)));
+      }
+    }
+  });
+  for_each_single(scene, [&](const char* name, const char*, auto& value) { json[name] = json_of(section_of(value)); });
+  return json;
+}
+
+// Empty where it is gone: then relative paths are refused.
+std::filesystem::path working_directory() {
+  std::error_code error;
+  return std::filesystem::current_path(error);
+}
+
+Json& at_words(Json& json, std::span<const std::string> words) {
+  Json* place = &json;
+  for (const std::string& word : words) place = place->is_array() ? &(*place)[std::stoul(word)] : &(*place)[word];
+  return *place;
+}
+
+void drop_foreign_keys(const Section& fields, Json& section) {
+  Json kept = Json::object();
+  for (const auto& [name, value] : section.items()) {
+    if (name == kInstances || find_field(fields, name).key != nullptr) kept[name] = value;
+  }
+  section = kept;
+}
+
+}  // namespace
+
+SceneFile SceneFile::parse(std::string_view text, const std::string& source, const std::filesystem::path& directory) {
+  SceneFile file;
+  file.source_ = source;
+  file.directory_ = directory;
+  file.json_ = parse_json(text, source);
+  file.description_ = read_scene(file.json_, source, directory);
+  return file;
+}
+
+SceneFile SceneFile::open(const std::string& name_or_file) {
+  std::vector<std::string_view> names;
+  for (const ShippedScene& scene : shipped_scenes()) {
+    if (scene.name == name_or_file) return parse(scene.text, "scene " + name_or_file, {});
+    names.push_back(scene.name);
+  }
+  const std::filesystem::path path = name_or_file;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !name_or_file.ends_with(".json")) {
+    throw InputError("unknown scene '" + name_or_file + "'" + suggestion(name_or_file, names));
+  }
+  const std::filesystem::path directory = path.is_absolute() ? path.parent_path() : working_directory() / path.parent_path();
+  return parse(read_text(path), name_or_file, directory);
+}
+
+void SceneFile::set(std::span<const std::string> settings) {
+  SceneFile next = *this;
+  for (const std::string& setting : settings) {
+    const std::string source = "--set";
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) fail(source, "'" + setting + "' is no KEY=VALUE; expected, for example, camera=main");
+    const std::string path = setting.substr(0, equals);
+    const FoundKey found = find_key(next.description_, path, source);
+    std::vector<std::string> textures;
+    for (const auto& [name, texture] : next.description_.textures) textures.push_back(name);
+    const ReadContext context{source, working_directory(), textures};
+    // Read to check it, and written to have absolute paths.
+    read_value(found.field, parse_text(*found.field.key, std::string_view(setting).substr(equals + 1), path, context), path, context);
+    Json& section = at_words(next.json_, std::span(found.words).first(found.words.size() - 1));
+    section[found.words.back()] = value_of(found.field);
+    // Another kind of thing has other keys: what the new one lacks goes.
+    const Section fields = section_at(next.description_, std::span(found.words).first(found.words.size() - 1));
+    if (found.field.key == &fields.front().keys.front() && found.field.key->type == KeyType::choice) drop_foreign_keys(fields, section);
+  }
+  next.description_ = read_scene(next.json_, source_, directory_);
+  *this = std::move(next);
+}
+
+SceneDescription SceneFile::at(double seconds) const {
+  SceneDescription scene = description_;
+  for (const auto& [name, animation] : description_.animations) {
+    animate(scene, animation, "animations." + name, source_, seconds * description_.animation.speed);
+  }
+  check_scene(scene, source_ + " at " + std::to_string(seconds) + " s");
+  return scene;
+}
+
+std::string SceneFile::print() const { return json_of(description_).dump(2) + "\n"; }
+
+}  // namespace halfspace

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_paths.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/check.h"
+#include "scene/nearest_name.h"
+
+namespace halfspace {
+
+namespace {
+
+std::vector<std::string> split(std::string_view path) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    words.emplace_back(path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+std::string joined(std::span<const std::string> words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ".") + word;
+  return text;
+}
+
+bool contains(const std::vector<std::string_view>& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+
+// Puts the collection before a path that leaves it out.
+void complete(std::vector<std::string>& words, SceneDescription& scene, const std::string& where) {
+  std::vector<std::string_view> names = top_words(scene);
+  if (contains(names, words[0])) return;
+  std::vector<std::string> homes;
+  for_each_collection(scene, [&](const char* name, const char*, auto& list) {
+    if (find_named(list, words[0]) != nullptr) homes.emplace_back(name);
+    const std::vector<std::string_view> things = names_of(list);
+    names.insert(names.end(), things.begin(), things.end());
+  });
+  if (homes.empty()) throw InputError(where + "no '" + words[0] + "' in this scene" + suggestion(words[0], names));
+  if (homes.size() > 1) {
+    throw InputError(where + "'" + words[0] + "' is in " + homes[0] + " and in " + homes[1] + "; expected that word before it");
+  }
+  words.insert(words.begin(), homes[0]);
+}
+
+// What may follow words[0] where words[1] does not.
+std::vector<std::string_view> things_in(SceneDescription& scene, std::string_view collection) {
+  std::vector<std::string_view> names;
+  for_each_collection(scene, [&](const char* name, const char*, auto& list) {
+    if (name == collection) names = names_of(list);
+  });
+  return names;
+}
+
+template <class T>
+Json defaults_of() {
+  T fresh;
+  Json json = Json::object();
+  for (const Fields& part : section_of(fresh)) {
+    for (const Key& key : part.keys) json[key.name] = value_of({&key, key.member(part.data)});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::string_view> top_words(SceneDescription& scene) {
+  std::vector<std::string_view> words{"version", "$schema"};
+  for (const Field& f : fields_of(section_of(scene.head))) words.emplace_back(f.key->name);
+  for_each_single(scene, [&](const char* name, const char*, auto&) { words.emplace_back(name); });
+  for_each_collection(scene, [&](const char* name, const char*, auto&) { words.emplace_back(name); });
+  return words;
+}
+
+Section section_at(SceneDescription& scene, std::span<const std::string> words) {
+  if (words.empty()) return section_of(scene.head);
+  Section section;
+  for_each_single(scene, [&](const char* name, const char*, auto& value) {
+    if (words.size() == 1 && words[0] == name) section = section_of(value);
+  });
+  for_each_collection(scene, [&](const char* name, const char*, auto& list) {
+    if (words.size() < 2 || words[0] != name) return;
+    auto* thing = find_named(list, words[1]);
+    if (thing == nullptr) return;
+    if (words.size() == 2) section = section_of(*thing);
+    if constexpr (std::is_same_v<std::decay_t<decltype(*thing)>, ObjectDescription>) {
+      if (words.size() != 4 || words[2] != kInstances) return;
+      std::size_t i = 0;
+      const auto [end, error] = std::from_chars(words[3].data(), words[3].data() + words[3].size(), i);
+      const bool is_number = error == std::errc() && end == words[3].data() + words[3].size();
+      if (is_number && i < thing->instances.size()) section = section_of(thing->instances[i]);
+    }
+  });
+  return section;
+}
+
+std::vector<NamedSection> sections_of(SceneDescription& scene) {
+  std::vector<NamedSection> sections{{"", "The scene", section_of(scene.head), defaults_of<SceneHead>()}};
+  for_each_collection(scene, [&](const char* name, const char* help, auto& list) {
+    using T = typename std::decay_t<decltype(list)>::value_type::second_type;
+    for (auto& [thing, value] : list) {
+      const std::string path = std::string(name) + "." + thing;
+      sections.push_back({path, help, section_of(value), defaults_of<T>()});
+      if constexpr (std::is_same_v<T, ObjectDescription>) {
+        for (std::size_t i = 0; i < value.instances.size(); ++i) {
+          sections.push_back({path + "." + std::string(kInstances) + "." + std::to_string(i), "A copy of the object, placed relative to it",
+                              section_of(value.instances[i]), defaults_of<Placement>()});
+        }
+      }
+    }
+  });
+  for_each_single(scene, [&](const char* name, const char* help, auto& value) {
+    sections.push_back({name, help, section_of(value), defaults_of<std::decay_t<decltype(value)>>()});
+  });
+  return sections;
+}
+
+FoundKey find_key(SceneDescription& scene, std::string_view path, const std::string& source) {
+  const std::string where = source + ": " + std::string(path) + ": ";
+  std::vector<std::string> words = split(path);
+  if (words.size() > 1 || !contains(top_words(scene), words[0])) complete(words, scene, where);
+  if (!section_at(scene, words).empty()) throw InputError(where + "is a section; expected " + joined(words) + ".KEY");
+  const Section section = section_at(scene, std::span(words).first(words.size() - 1));
+  if (section.empty()) {
+    const std::vector<std::string_view> things = things_in(scene, words[0]);
+    if (words.size() > 2 && contains(things, words[1]))
+      throw InputError(where + "no such key; expected " + words[0] + "." + words[1] + ".KEY");
+    const std::string_view thing = words.size() > 1 ? std::string_view(words[1]) : std::string_view(words[0]);
+    throw InputError(where + "no '" + std::string(thing) + "' in " + words[0] + suggestion(thing, things));
+  }
+  const Field field = find_field(section, words.back());
+  if (field.key != nullptr) return {field, words};
+  std::vector<std::string_view> names;
+  for (const Field& f : fields_of(section)) names.emplace_back(f.key->name);
+  throw InputError(where + "unknown key '" + words.back() + "'" + suggestion(words.back(), names));
+}
+
+}  // namespace halfspace

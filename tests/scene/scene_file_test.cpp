@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "core/check.h"
+#include "scene/scene_paths.h"
+
+namespace halfspace {
+namespace {
+
+namespace fs = std::filesystem;
+
+SceneFile scene_of(std::string_view text) { return SceneFile::parse(text, "test.json", "/somewhere"); }
+
+template <class F>
+std::string error_of(F&& f) {
+  try {
+    f();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+// ---- every key of every scene ----------------------------------------------------------------------------------
+
+class EveryScene : public testing::TestWithParam<std::string> {};
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const ShippedScene& scene : shipped_scenes()) names.emplace_back(scene.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, EveryScene, testing::ValuesIn(scene_names()), [](const auto& p) {
+  std::string name = p.param;
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+TEST_P(EveryScene, PrintsWhatReadsBackTheSame) {
+  const std::string printed = SceneFile::open(GetParam()).print();
+  EXPECT_EQ(scene_of(printed).print(), printed);
+  EXPECT_NE(SceneFile::open(GetParam()).description().head.title, "");
+}
+
+// Another value of the key's type, in its range.
+std::string another_value(const Field& field) {
+  const Key& key = *field.key;
+  const Json now = value_of(field);
+  const auto number = [&](double x) {
+    const double low = key.limits.low, high = key.limits.high;
+    const double up = key.type == KeyType::integer ? x + 1 : x + 0.125 * std::max(1.0, std::abs(x));
+    const double step = key.name == std::string("width") ? 2 : 1;  // widths are even
+    return number_text(up + step - 1 <= high ? up + step - 1 : std::max(low, x - step));
+  };
+  const auto vector = [&](const Json& v) {
+    return number(v[0].get<double>()) + "," + number(v[1].get<double>()) + "," + number(v[2].get<double>());
+  };
+  switch (key.type) {
+    case KeyType::boolean: return now.get<bool>() ? "false" : "true";
+    case KeyType::integer:
+    case KeyType::number: return number(now.get<double>());
+    case KeyType::vector:
+    case KeyType::color: return vector(now);
+    case KeyType::choice: return std::string(now == key.choices.back() ? key.choices.front() : key.choices.back());
+    case KeyType::file: return "other.png";
+    case KeyType::map: return "#804020";
+    case KeyType::numbers: return now.is_array() ? vector(now) : number(now.get<double>());
+    case KeyType::keyframes: return "[[0, 1], [1, 2]]";
+    case KeyType::text: return "";
+  }
+  return "";
+}
+
+TEST_P(EveryScene, EveryKeyCanBeSetPrintedAndReadBack) {
+  SceneDescription description = SceneFile::open(GetParam()).description();
+  int keys = 0;
+  for (const NamedSection& s : sections_of(description)) {
+    for (const Field& field : fields_of(s.section)) {
+      const std::string name = field.key->name;
+      const std::string path = s.path.empty() ? name : s.path + "." + name;
+      if (name == "target" && s.path.starts_with("animations.")) continue;                               // names another key: see Animation
+      if (field.key == &s.section.front().keys.front() && field.key->type == KeyType::choice) continue;  // see KindsHaveTheirOwnKeys
+      SceneFile scene = SceneFile::open(GetParam());
+      const std::string value = name == "title" ? "Another" : another_value(field);
+      ASSERT_EQ(error_of([&] { scene.set(path + "=" + value); }), "no error") << path << "=" << value;
+      SceneDescription set = scene.description();
+      const Json want = value_of(find_key(set, path, "").field);
+      if (name != "camera" && name != "material") {
+        EXPECT_NE(want, value_of(field)) << path << "=" << value;
+      }
+      const SceneFile again = scene_of(scene.print());
+      SceneDescription read = again.description();
+      EXPECT_EQ(value_of(find_key(read, path, "").field), want) << path;
+      EXPECT_EQ(again.print(), scene.print()) << path;
+      ++keys;
+    }
+  }
+  EXPECT_GT(keys, 30);
+}
+
+// ---- reading ---------------------------------------------------------------------------------------------------
+
+TEST(SceneFile, CommentsAndDefaults) {
+  const SceneFile scene = scene_of("// a comment\n{ \"version\": 1, /* another */ \"objects\": { \"ball\": { \"radius\": 2 } } }");
+  const SceneDescription& d = scene.description();
+  ASSERT_EQ(d.objects.size(), 1u);
+  EXPECT_EQ(d.objects[0].second.radius, 2.0);
+  EXPECT_EQ(d.objects[0].second.latitudes, ObjectDescription{}.latitudes);
+  ASSERT_EQ(d.cameras.size(), 1u) << "a scene without a camera gets one";
+}
+
+TEST(SceneFile, ColoursInThreeWays) {
+  const auto ambient = [](const char* value) {
+    return scene_of(std::string("{\"version\": 1, \"ambient\": ") + value + "}").description().head.ambient.linear;
+  };
+  EXPECT_EQ(ambient("0.25"), glm::dvec3(0.25));
+  EXPECT_EQ(ambient("[0.1, 0.2, 0.3]"), glm::dvec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(ambient("\"#ffffff\""), glm::dvec3(1.0));
+  // IEC 61966-2-1: ((128/255 + 0.055) / 1.055)^2.4, rounded to float.
+  EXPECT_NEAR(ambient("\"#000080\"").z, 0.21586050, 1e-7);
+}
+
+TEST(SceneFile, PathsAreRelativeToTheFileAndInSetToTheWorkingDirectory) {
+  SceneFile scene = scene_of(R"({"version": 1, "objects": {"ball": {"color": "maps/a.png"}}})");
+  EXPECT_EQ(std::get<FilePath>(scene.description().objects[0].second.surface.color).path, "/somewhere/maps/a.png");
+  scene.set("ball.color=maps/b.png");
+  EXPECT_EQ(std::get<FilePath>(scene.description().objects[0].second.surface.color).path, fs::current_path() / "maps/b.png");
+}
+
+TEST(SceneFile, MapsAreColoursTexturesOrFiles) {
+  const SceneFile scene = scene_of(R"({"version": 1, "textures": {"stone": {"file": "s.png"}}, "objects": {
+    "a": {"color": "#000000"}, "b": {"color": "stone"}, "c": {"color": "stone.png"}}})");
+  const auto& o = scene.description().objects;
+  EXPECT_TRUE(std::holds_alternative<Color>(o[0].second.surface.color));
+  EXPECT_EQ(std::get<TextureName>(o[1].second.surface.color).name, "stone");
+  EXPECT_EQ(std::get<FilePath>(o[2].second.surface.color).path, "/somewhere/stone.png");
+}
+
+TEST(SceneFile, ObjectsOverrideTheirMaterial) {
+  const SceneFile scene = scene_of(R"({"version": 1, "materials": {"m": {"shininess": 7, "diffuse": 0.5}},
+    "objects": {"a": {"material": "m", "shininess": 9}}})");
+  EXPECT_EQ(scene.description().objects[0].second.surface.shininess, 9.0);
+  EXPECT_EQ(scene.description().objects[0].second.surface.diffuse.linear, glm::dvec3(0.5));
+}
+
+TEST(SceneFile, KindsHaveTheirOwnKeys) {
+  SceneFile scene = scene_of(R"({"version": 1, "objects": {"floor": {"shape": "plane", "size": 4}}})");
+  EXPECT_EQ(scene.print().find("latitudes"), std::string::npos);
+  EXPECT_EQ(error_of([&] { scene.set("floor.latitudes=8"); }).substr(0, 57), "--set: floor.latitudes: unknown key 'latitudes'; expected");
+}
+
+TEST(SceneFile, AnotherKindDropsTheKeysItHasNot) {
+  SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {"latitudes": 8, "specular": 0.5, "instances": [{}]}}})");
+  scene.set("a.shape=cube");
+  scene.set("a.size=3");
+  EXPECT_EQ(scene.description().objects[0].second.size, 3.0);
+  EXPECT_EQ(scene.description().objects[0].second.surface.specular.linear, glm::dvec3(0.5)) << "what both have stays";
+  EXPECT_EQ(scene.description().objects[0].second.instances.size(), 1u);
+  scene.set("a.shape=uv_sphere");
+  EXPECT_EQ(scene.description().objects[0].second.latitudes, ObjectDescription{}.latitudes);
+}
+
+TEST(SceneFile, InstancesAreSetByNumber) {
+  SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {"instances": [{"position": [1, 2, 3]}, {}]}}})");
+  scene.set("a.instances.1.scale=2,2,2");
+  EXPECT_EQ(scene.description().objects[0].second.instances[1].scale, glm::dvec3(2.0));
+  EXPECT_EQ(scene.description().objects[0].second.instances[0].position, glm::dvec3(1, 2, 3));
+}
+
+// ---- errors: file, path, what is wrong, what would be right ----------------------------------------------------
+
+struct Wrong {
+  const char* name;
+  const char* text;
+  const char* line;
+};
+void PrintTo(const Wrong& w, std::ostream* os) { *os << w.name; }
+
+const Wrong kWrong[] = {
+    {"Empty", "", "test.json:1:1: no JSON: syntax error while parsing value - unexpected end of input; expected '[', '{', or a literal"},
+    {"Comma", "{\n \"version\": 1,\n}",
+     "test.json:3:1: no JSON: syntax error while parsing object key - unexpected '}'; expected string literal"},
+    {"Array", "[1]", "test.json: expected an object { … }"},
+    {"NoVersion", "{}", "test.json: version: missing; expected \"version\": 1"},
+    {"OtherVersion", "{\"version\": 2}", "test.json: version: expected 1"},
+    {"TwiceTheSame", R"({"version": 1, "version": 1})", "test.json: 'version' stands twice in one object; expected each name once"},
+    {"Section", R"({"version": 1, "lihgts": {}})", "test.json: lihgts: unknown key; did you mean 'lights'?"},
+    {"Key", R"({"version": 1, "objects": {"a": {"raduis": 1}}})", "test.json: objects.a.raduis: unknown key; did you mean 'radius'?"},
+    {"Type", R"({"version": 1, "objects": {"a": {"radius": "big"}}})",
+     "test.json: objects.a.radius: expected a number from 1e-06 to 1e+06 (units), got \"big\""},
+    {"Range", R"({"version": 1, "objects": {"a": {"latitudes": 1}}})",
+     "test.json: objects.a.latitudes: expected a whole number from 2 to 8192, got 1"},
+    {"Fraction", R"({"version": 1, "objects": {"a": {"latitudes": 8.5}}})",
+     "test.json: objects.a.latitudes: expected a whole number from 2 to 8192, got 8.5"},
+    {"Vector", R"({"version": 1, "objects": {"a": {"position": [1, 2]}}})",
+     "test.json: objects.a.position: expected three numbers [x, y, z] (units), got [1,2]"},
+    {"Choice", R"({"version": 1, "objects": {"a": {"shape": "uv_spere"}}})",
+     "test.json: objects.a.shape: \"uv_spere\" is no choice; did you mean 'uv_sphere'?"},
+    {"Colour", R"({"version": 1, "ambient": "#12345"})",
+     "test.json: ambient: expected a colour: \"#rrggbb\", [r, g, b] or one number of at least 0, got \"#12345\""},
+    {"Boolean", R"({"version": 1, "objects": {"a": {"visible": 1}}})", "test.json: objects.a.visible: expected true or false, got 1"},
+    {"Name", R"({"version": 1, "objects": {"A b": {}}})",
+     "test.json: objects.A b: a name begins with a letter a to z and goes on with letters, digits and _"},
+    {"NoObject", R"({"version": 1, "objects": {"a": 3}})", "test.json: objects.a: expected an object { … }, got 3"},
+    {"NoCollection", R"({"version": 1, "objects": []})", "test.json: objects: expected an object of names, { \"name\": { … }, … }"},
+    {"Material", R"({"version": 1, "materials": {"stone": {}}, "objects": {"a": {"material": "stoen"}}})",
+     "test.json: objects.a.material: no material 'stoen'; did you mean 'stone'?"},
+    {"Camera", R"({"version": 1, "camera": "frnot", "cameras": {"front": {}}})",
+     "test.json: camera: no camera 'frnot'; did you mean 'front'?"},
+    {"NearAndFar", R"({"version": 1, "cameras": {"c": {"near": 2, "far": 1}}})", "test.json: cameras.c.far: expected more than near"},
+    {"Up", R"({"version": 1, "cameras": {"c": {"up": [0, 0, 3]}}})",
+     "test.json: cameras.c.up: the camera's position, target and up lie on one line; expected them to differ"},
+    {"Direction", R"({"version": 1, "lights": {"l": {"direction": [0, 0, 0]}}})",
+     "test.json: lights.l.direction: is zero; expected a direction"},
+    {"Attenuation", R"({"version": 1, "lights": {"l": {"type": "point", "attenuation": [0, 0, 0]}}})",
+     "test.json: lights.l.attenuation: is zero; expected one term of at least 1e-06"},
+    {"Word", R"({"version": 1, "objects": {"camera": {}}})",
+     "test.json: objects.camera: is a word of the file itself; expected another name"},
+    {"Texture", R"({"version": 1, "textures": {"ground": {}}, "objects": {"a": {"color": "gruond"}}})",
+     "test.json: objects.a.color: no texture and no file 'gruond'; did you mean 'ground'?"},
+    {"OddWidth", R"({"version": 1, "textures": {"t": {"source": "moon_color", "width": 7}}})",
+     "test.json: textures.t.width: expected 0 or an even number, got 7"},
+    {"Vertices", R"({"version": 1, "objects": {"a": {"latitudes": 8192, "longitudes": 16384}}})",
+     "test.json: objects.a.longitudes: more than 2^23 vertices; expected fewer latitudes or longitudes"},
+    {"TargetThatStands", R"({"version": 1, "materials": {"m": {}}, "animations": {"t": {"target": "m.shininess"}}})",
+     "test.json: animations.t.target: m.shininess cannot change in time; expected a key of an object, a light, a camera or the background"},
+    {"NoKeyframes", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "keyframes", "target": "a.radius"}}})",
+     "test.json: animations.t.keys: is empty; expected rows [seconds, value]"},
+    {"Scale", R"({"version": 1, "objects": {"a": {"scale": [1, 0, 1]}}})",
+     "test.json: objects.a.scale: has a zero; expected at least 1e-06 either way"},
+    {"Target", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.radios"}}})",
+     "test.json: animations.t.target: a.radios: unknown key 'radios'; did you mean 'radius'?"},
+    {"TargetType", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.visible"}}})",
+     "test.json: animations.t.target: a.visible is no number and no vector; expected the path of one"},
+    {"RateSize", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.position", "rate": 1}}})",
+     "test.json: animations.t.rate: expected [x, y, z], as a.position has"},
+    {"Keyframes", R"({"version": 1, "animations": {"t": {"type": "keyframes", "keys": [[1, 0], [0, 1]]}}})",
+     "test.json: animations.t.keys: expected rows [seconds, value], later and later, values all numbers or all [x, y, z], got "
+     "[[1,0],[0,1]]"},
+};
+
+class SceneFileError : public testing::TestWithParam<Wrong> {};
+
+TEST_P(SceneFileError, IsOneClearLine) {
+  EXPECT_EQ(error_of([&] { scene_of(GetParam().text); }), GetParam().line);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, SceneFileError, testing::ValuesIn(kWrong), [](const auto& p) { return p.param.name; });
+
+TEST(SceneFile, SettingsAreJudgedTogether) {
+  SceneFile scene = SceneFile::open("earth");
+  EXPECT_EQ(error_of([&] { scene.set("equator.near=200"); }), "scene earth: cameras.equator.far: expected more than near");
+  const std::vector<std::string> both{"equator.near=200", "equator.far=300"};
+  scene.set(both);
+  EXPECT_EQ(scene.description().cameras[0].second.far, 300.0);
+  const std::vector<std::string> kind{"turn.type=keyframes", "turn.keys=[[0, [0, 0, 0]], [1, [0, 90, 0]]]"};
+  scene.set(kind);
+  EXPECT_EQ(scene.at(0.5).objects[0].second.placement.rotation.y, 45.0);
+  const std::vector<std::string> target{"turn.type=rate", "turn.target=equator.fov", "turn.rate=5"};
+  scene.set(target);
+  EXPECT_EQ(scene.at(1).cameras[0].second.fov, 50.0);
+  const std::string before = scene.print();
+  EXPECT_NE(error_of([&] { scene.set(std::vector<std::string>{"earth.radius=2", "earth.radius=x"}); }), "no error");
+  EXPECT_EQ(scene.print(), before) << "an error changes nothing";
+}
+
+TEST(SceneFile, HostileTextIsRefused) {
+  SceneFile scene = SceneFile::open("earth");
+  for (const std::string& bad : {std::string("\xff"), std::string("a\nb"), std::string("a\0b", 3), std::string("\x1b[31m")}) {
+    EXPECT_EQ(error_of([&] { scene.set("title=" + bad); }), "--set: title: has a control character or is no UTF-8; expected plain text");
+    EXPECT_EQ(error_of([&] { scene.set("earth.color=" + bad); }),
+              "--set: earth.color: has a control character or is no UTF-8; expected plain text");
+  }
+  EXPECT_NO_THROW(scene.set("title=Lüneburg – 月"));
+  EXPECT_NE(scene.print().find("月"), std::string::npos);
+}
+
+TEST(SceneFile, ManyNamesAreRefusedAtOnce) {
+  std::string text = "{\"version\": 1";
+  for (int i = 0; i < 100000; ++i) text += ", \"a" + std::to_string(i) + "\": 0";
+  EXPECT_EQ(error_of([&] { scene_of(text + "}"); }), "test.json: an object has more than 4096 names");
+}
+
+TEST(SceneFile, TinyDirectionsAreDirections) {
+  SceneFile scene = SceneFile::open("moon");
+  scene.set("whole.up=0,1e-300,0");
+  scene.set("sun.direction=1e-300,0,1e-300");
+  EXPECT_EQ(scene.description().cameras[0].second.up.y, 1e-300);
+}
+
+TEST(SceneFile, DeepNestingIsRefused) {
+  EXPECT_EQ(error_of([] { scene_of("{\"version\": " + std::string(100000, '[')); }), "test.json: is nested deeper than 32 levels");
+}
+
+TEST(SceneFile, NamesInTwoCollectionsMustBeToldApart) {
+  SceneFile scene = scene_of(R"({"version": 1, "lights": {"sun": {}}, "objects": {"sun": {}}})");
+  EXPECT_EQ(error_of([&] { scene.set("sun.intensity=2"); }),
+            "--set: sun.intensity: 'sun' is in lights and in objects; expected that word before it");
+  scene.set("lights.sun.intensity=2");
+  EXPECT_EQ(scene.description().lights[0].second.intensity, 2.0);
+}
+
+TEST(SceneFile, PathsOfSectionsAreToldFromKeys) {
+  SceneFile scene = SceneFile::open("earth");
+  EXPECT_EQ(error_of([&] { scene.set("earth=1"); }), "--set: earth: is a section; expected objects.earth.KEY");
+  EXPECT_EQ(error_of([&] { scene.set("background=1"); }), "--set: background: is a section; expected background.KEY");
+  EXPECT_EQ(error_of([&] { scene.set("earth.instances.0.position=1,1,1"); }),
+            "--set: earth.instances.0.position: no such key; expected objects.earth.KEY");
+  EXPECT_EQ(error_of([&] { scene.set("objects.erth.radius=1"); }),
+            "--set: objects.erth.radius: no 'erth' in objects; did you mean 'earth'?");
+}
+
+TEST(SceneFile, UnknownScenesSuggestTheNearest) {
+  EXPECT_EQ(error_of([] { SceneFile::open("mooon"); }), "unknown scene 'mooon'; did you mean 'moon'?");
+  EXPECT_EQ(error_of([] { SceneFile::open("none.json"); }), "none.json: no such scene file");
+}
+
+// ---- time ------------------------------------------------------------------------------------------------------
+
+TEST(Animation, RateOrbitAndKeyframes) {
+  const SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {"rotation": [0, 10, 0]}, "b": {}, "c": {"radius": 1}},
+    "animations": {
+      "turn": {"type": "rate", "target": "a.rotation", "rate": [0, 5, 0]},
+      "orbit": {"type": "orbit", "target": "b.position", "center": [1, 0, 0], "a": [2, 0, 0], "b": [0, 0, -3], "period": 8},
+      "grow": {"type": "keyframes", "target": "c.radius", "keys": [[1, 1], [3, 2]], "easing": "smooth", "loop": false}}})");
+  EXPECT_EQ(scene.at(0).objects[0].second.placement.rotation, glm::dvec3(0, 10, 0));
+  EXPECT_EQ(scene.at(4).objects[0].second.placement.rotation, glm::dvec3(0, 30, 0));
+  EXPECT_EQ(scene.at(0).objects[1].second.placement.position, glm::dvec3(3, 0, 0));
+  EXPECT_EQ(scene.at(2).objects[1].second.placement.position, glm::dvec3(1, 0, -3)) << "quarter turns are exact";
+  EXPECT_EQ(scene.at(0).objects[2].second.radius, 1.0);
+  EXPECT_EQ(scene.at(1.5).objects[2].second.radius, 1.0 + 0.25 * 0.25 * 2.5) << "3x^2 - 2x^3 at 1/4";
+  EXPECT_EQ(scene.at(2).objects[2].second.radius, 1.5);
+  EXPECT_EQ(scene.at(9).objects[2].second.radius, 2.0);
+}
+
+TEST(Animation, KeyframesLoopAndStep) {
+  const SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {}, "b": {}}, "animations": {
+      "l": {"type": "keyframes", "target": "a.radius", "keys": [[0, 1], [2, 3]], "easing": "linear"},
+      "s": {"type": "keyframes", "target": "b.radius", "keys": [[0, 1], [1, 2], [2, 3]], "easing": "step"}}})");
+  EXPECT_EQ(scene.at(5).objects[0].second.radius, 2.0) << "5 s of a loop of 2 s is its second 1";
+  EXPECT_EQ(scene.at(0.99).objects[1].second.radius, 1.0);
+  EXPECT_EQ(scene.at(1).objects[1].second.radius, 2.0);
+}
+
+TEST(Animation, SpeedScalesTime) {
+  SceneFile scene = SceneFile::open("moon");
+  const glm::dvec3 then = scene.at(3).objects[0].second.placement.rotation;
+  scene.set("animation.speed=0.5");
+  EXPECT_EQ(scene.at(6).objects[0].second.placement.rotation, then);
+}
+
+TEST(Animation, LeavingTheRangeIsTold) {
+  const SceneFile scene =
+      scene_of(R"({"version": 1, "objects": {"a": {"radius": 1}}, "animations": {"t": {"target": "a.radius", "rate": -1}}})");
+  EXPECT_EQ(error_of([&] { scene.at(2); }), "test.json: animations.t: a.radius: expected a number from 1e-06 to 1e+06 (units), got -1.0");
+}
+
+// ---- schema ----------------------------------------------------------------------------------------------------
+
+TEST(Schema, InDocsIsTheProgramsOwn) {
+  std::ifstream file("docs/scene.schema.json");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_TRUE(text == scene_schema()) << "renew it: halfspace list --schema > docs/scene.schema.json";
+}
+
+// An independent validator (Python's jsonschema) accepts what the program accepts, and refuses what it refuses.
+TEST(Schema, JudgesAsTheProgramDoes) {
+  if (std::system("python3 -c 'import jsonschema' 2> /dev/null") != 0) GTEST_SKIP() << "python3-jsonschema is absent";
+  std::string name = (fs::temp_directory_path() / "halfspace-schema-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(name.data()), nullptr);
+  const fs::path directory = name;
+  std::ofstream(directory / "check.py") << R"(
+import json, sys
+from jsonschema import Draft202012Validator as V
+d = sys.argv[1]
+schema = json.load(open(d + '/schema.json'))
+V.check_schema(schema)
+ok = [json.load(open(d + '/' + n)) for n in sys.argv[2].split()]
+bad = [json.load(open(d + '/' + n)) for n in sys.argv[3].split()]
+sys.exit(0 if all(V(schema).is_valid(s) for s in ok) and not any(V(schema).is_valid(s) for s in bad) else 1)
+)";
+  std::ofstream(directory / "schema.json") << scene_schema();
+  std::string right, wrong;
+  for (const ShippedScene& scene : shipped_scenes()) {
+    std::ofstream(directory / scene.name) << SceneFile::open(std::string(scene.name)).print();
+    right += std::string(scene.name) + " ";
+  }
+  for (const Wrong& w : kWrong) {
+    for (const char* kind :
+         {"NoVersion", "OtherVersion", "Section", "Key", "Type", "Range", "Fraction", "Vector", "Choice", "Boolean", "Name", "NoObject"}) {
+      if (std::string(w.name) != kind) continue;
+      std::ofstream(directory / w.name) << w.text;
+      wrong += std::string(w.name) + " ";
+    }
+  }
+  const std::string command =
+      "python3 " + (directory / "check.py").string() + " " + directory.string() + " '" + right + "' '" + wrong + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  fs::remove_all(directory);
+}
+
+}  // namespace
+}  // namespace halfspace
