@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader that lacks the primitive function that goes with its Primitive struct: must not compile, and the message must name:
-// primitive(const Varyings.
+// A shader without the primitive function of its Primitive struct: must not compile, and
+// the message must name: primitive(const Varyings.
 #include "raster/pass.h"
 
 using namespace halfspace;
