@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader that lacks a vertex function that returns a clip-space vec4: must not compile, and the message must name: vertex(const
-// Attributes.
+// A shader whose vertex function does not return a clip-space vec4: must not compile, and
+// the message must name: vertex(const Attributes.
 #include "raster/pass.h"
 
 using namespace halfspace;
