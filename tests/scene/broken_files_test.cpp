@@ -31,7 +31,7 @@ namespace {
 
 constexpr const char* kData = "../shared/data";
 constexpr unsigned kSecondsPerFile = 20;
-constexpr rlim_t kAddressSpace = rlim_t{2} << 30;
+[[maybe_unused]] constexpr rlim_t kAddressSpace = rlim_t{2} << 30;
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
