@@ -68,7 +68,9 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
     }
   };
   if (a.type == AnimationType::rate) check_size("rate", a.rate.size());
-  if (a.type == AnimationType::orbit) check_size("type", 3);
+  if (a.type == AnimationType::orbit && size != 3) {
+    throw InputError(source + ": " + path + ".target: " + a.target + " is a number, and an orbit moves a vector; expected the path of one");
+  }
   if (a.type == AnimationType::keyframes && a.keys.empty())
     throw InputError(source + ": " + path + ".keys: is empty; expected rows [seconds, value]");
   if (a.type == AnimationType::keyframes) check_size("keys", a.keys.front().second.size());

@@ -50,11 +50,6 @@ enum class KeyType : uint8_t { boolean, integer, number, vector, color, choice, 
 template <class E>
 struct ChoiceNames;
 
-template <class E>
-constexpr std::string_view choice_name(E e) {
-  return ChoiceNames<E>::names[static_cast<std::size_t>(e)];
-}
-
 // ---- keys ------------------------------------------------------------------------------------------------------
 
 /// The largest number that any key takes.

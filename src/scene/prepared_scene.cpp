@@ -269,11 +269,9 @@ class ScenePreparation {
     });
   }
 
-  void set_surface(LitSurface& s, const ObjectDescription& o, glm::dmat4 world, const std::string& path) {
-    s.clip_from_object = glm::mat4(view_.clip_from_world * world);
-    world[3] -= glm::dvec4(view_.eye_ws, 0.0);
-    s.world_from_object = glm::mat4(world);
-    s.normal_from_object = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world))));
+  // What all copies of an object share.
+  LitSurface surface_of(const ObjectDescription& o, const std::string& path) {
+    LitSurface s;
     s.to_eye_ws = glm::vec3(view_.to_eye_ws);
     s.lights = *lights_;
     s.two_sided = o.shape == Shape::plane;
@@ -286,6 +284,14 @@ class ScenePreparation {
       s.map = color_texture(use, path).get();
       s.sampler = make_sampler(use.texture);
     }
+    return s;
+  }
+
+  void place(LitSurface& s, glm::dmat4 world) const {
+    s.clip_from_object = glm::mat4(view_.clip_from_world * world);
+    world[3] -= glm::dvec4(view_.eye_ws, 0.0);
+    s.world_from_object = glm::mat4(world);
+    s.normal_from_object = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world))));
   }
 
   static DrawState state_of(const ObjectDescription& o, const glm::dmat4& world) {
@@ -320,18 +326,16 @@ class ScenePreparation {
     const std::shared_ptr<const MeshAsset> asset = mesh_of(o, relief);
     const Mesh& mesh = asset->mesh;
     const std::shared_ptr<const Indices> indices(asset, &asset->indices);
+    LitSurface surface = surface_of(o, path);
     for (const glm::dmat4& world : places_of(o)) {
+      place(surface, world);
       if (relief.slopes != nullptr) {
-        DisplacedSphere shader;
-        set_surface(shader, o, world, path);
-        shader.slopes = relief.slopes.get();
-        shader.slope_sampler = relief.sampler;
-        out_.draws.push_back({std::move(shader), vertices(stream(mesh.positions), stream(mesh.uvs)), indices, state_of(o, world)});
+        const DisplacedSphere shader{surface, relief.slopes.get(), relief.sampler};
+        out_.draws.push_back({shader, vertices(stream(mesh.positions), stream(mesh.uvs)), indices, state_of(o, world)});
       } else {
-        BlinnPhong shader;
-        set_surface(shader, o, world, path);
+        const BlinnPhong shader{surface};
         out_.draws.push_back(
-            {std::move(shader), vertices(stream(mesh.positions), stream(mesh.normals), stream(mesh.uvs)), indices, state_of(o, world)});
+            {shader, vertices(stream(mesh.positions), stream(mesh.normals), stream(mesh.uvs)), indices, state_of(o, world)});
       }
     }
   }

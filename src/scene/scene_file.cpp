@@ -109,8 +109,7 @@ class Reader {
     for_each_single(scene_, [&](const char* name, const char*, auto& value) {
       if (json_.contains(name)) read_section(section_of(value), json_[name], name, context_);
     });
-    const Json textures = collection("textures");
-    for (const auto& [name, texture] : textures.items()) texture_names_.push_back(name);
+    for (const auto& [name, texture] : collection("textures").items()) texture_names_.push_back(name);
     context_.textures = texture_names_;
     for_each_collection(scene_, [&](const char* name, const char*, auto& list) { read_collection(name, list); });
     if (scene_.cameras.empty()) scene_.cameras.emplace_back("main", CameraDescription{});
@@ -124,16 +123,16 @@ class Reader {
     if (json_["version"] != SceneFile::kVersion) fail(context_.source, "version: expected " + std::to_string(SceneFile::kVersion));
   }
 
-  Json collection(const char* name) const {
-    if (!json_.contains(name)) return Json::object();
+  const Json& collection(const char* name) const {
+    static const Json none = Json::object();
+    if (!json_.contains(name)) return none;
     if (!json_[name].is_object()) fail(context_.source, std::string(name) + ": expected an object of names, { \"name\": { … }, … }");
     return json_[name];
   }
 
   template <class T>
   void read_collection(const char* collection_name, Named<T>& list) {
-    const Json json = collection(collection_name);
-    for (const auto& [name, value] : json.items()) {
+    for (const auto& [name, value] : collection(collection_name).items()) {
       const std::string path = std::string(collection_name) + "." + name;
       if (std::ranges::find(top_words_, name) != top_words_.end())
         fail(context_.source, path + ": is a word of the file itself; expected another name");

@@ -20,7 +20,7 @@ struct StarSky {
   glm::vec3 up_ws{0, 1, 0};        ///< unit vector times the tangent of half the vertical field of view
   glm::vec3 color{0.0f};           ///< linear, between the stars
   float brightness = 1.0f;         ///< linear, of the brightest star
-  float density = 0.35f;           ///< share of cells that hold a star, 0 to 1
+  float density = 0.3f;            ///< share of cells that hold a star, 0 to 1
   float pixel = 1e-3f;             ///< radians that a pixel spans in the picture's middle
 
   template <class R>

@@ -230,6 +230,8 @@ const Wrong kWrong[] = {
      "test.json: objects.a.longitudes: more than 2^23 vertices; expected fewer latitudes or longitudes"},
     {"TargetThatStands", R"({"version": 1, "materials": {"m": {}}, "animations": {"t": {"target": "m.shininess"}}})",
      "test.json: animations.t.target: m.shininess cannot change in time; expected a key of an object, a light, a camera or the background"},
+    {"OrbitOfANumber", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "orbit", "target": "a.radius"}}})",
+     "test.json: animations.t.target: a.radius is a number, and an orbit moves a vector; expected the path of one"},
     {"NoKeyframes", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "keyframes", "target": "a.radius"}}})",
      "test.json: animations.t.keys: is empty; expected rows [seconds, value]"},
     {"Scale", R"({"version": 1, "objects": {"a": {"scale": [1, 0, 1]}}})",
