@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_objects.cpp, prepare_background.cpp.
+// Included by these alone.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/height_field.h"
+#include "scene/mesh.h"
+#include "scene/prepared_scene.h"
+#include "scene/procedural_moon.h"
+#include "scene/view.h"
+
+namespace halfspace {
+
+// A mesh with its indices checked once.
+struct MeshAsset {
+  explicit MeshAsset(Mesh m) : mesh(std::move(m)), indices(mesh.indices, mesh.positions.size()) {}
+  Mesh mesh;
+  Indices indices;
+};
+
+// What an asset is made from, in words: the key it is kept by.
+template <class... T>
+std::string recipe(const T&... parts) {
+  std::string text;
+  const auto add = [&](const auto& part) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(part)>>) {
+      text += number_text(static_cast<double>(part)) + " ";
+    } else {
+      text += std::string(part) + " ";
+    }
+  };
+  (add(parts), ...);
+  return text;
+}
+
+// A map as one object needs it.
+struct MapUse {
+  TextureDescription texture;
+  int width;  // of a generated map, else 0
+};
+
+/// How the shader reads a texture.
+Sampler make_sampler(const TextureDescription& t);
+
+/// World from object, for each copy.
+std::vector<glm::dmat4> places_of(const ObjectDescription& o);
+
+class ScenePreparation {
+ public:
+  ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height);
+  PreparedScene prepare();
+
+ private:
+  // What displaces a sphere.
+  struct Relief {
+    std::shared_ptr<const HeightField> field;  // null: nothing does
+    std::string recipe;
+    std::shared_ptr<const Texture2D> slopes;  // null: normals come with the mesh
+    Sampler sampler;
+  };
+
+  const CameraDescription& camera() const;
+
+  // The asset made from `recipe`, made now if it is not there.
+  template <class T, class F>
+  std::shared_ptr<const T> asset(const std::string& recipe, F make) {
+    auto found = assets_.entries_.find(recipe);
+    if (found == assets_.entries_.end())
+      found = assets_.entries_.emplace(recipe, SceneAssets::Entry{std::make_shared<const T>(make()), true}).first;
+    found->second.wanted = true;
+    out_.assets.push_back(found->second.asset);
+    return std::static_pointer_cast<const T>(found->second.asset);
+  }
+  // prepare_maps.cpp
+  int width_for(const ObjectDescription& o) const;
+  MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
+  std::shared_ptr<const MoonMaps> moon_maps(int width);
+  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& path);
+  std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& path);
+
+  // prepare_objects.cpp
+  void add_object(const std::string& path, const ObjectDescription& o);
+  Relief relief_of(const ObjectDescription& o, const std::string& path);
+  std::shared_ptr<const MeshAsset> mesh_of(const ObjectDescription& o, const Relief& relief);
+  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  void place(LitSurface& s, glm::dmat4 world) const;
+
+  // prepare_background.cpp
+  void add_stars();
+
+  SceneAssets& assets_;
+  const SceneDescription& scene_;
+  View view_;
+  std::shared_ptr<const std::vector<Light>> lights_;
+  PreparedScene out_;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a camera sees of the world, in matrices and vectors.
+#pragma once
+
+#include "core/vec.h"
+#include "scene/description.h"
+
+namespace halfspace {
+
+struct View {
+  glm::dmat4 clip_from_world;
+  glm::dvec3 eye_ws;
+  glm::dvec3 to_eye_ws;                    ///< orthographic: towards the eye from everywhere; else 0
+  glm::dvec3 forward_ws, right_ws, up_ws;  ///< unit vectors
+  double tan_x, tan_y;                     ///< of half the field of view
+  double near;
+  int height_px;
+};
+
+/// The view of a camera on a picture of width x height px; reversed Z.
+View make_view(const CameraDescription& camera, int width, int height);
+
+/// The transform that a placement says: scaled, turned, then moved.
+glm::dmat4 world_from_object(const Placement& placement);
+
+}  // namespace halfspace
