@@ -258,6 +258,11 @@ TEST(PreparedScene, WhatCannotBeUsedIsToldInOneLine) {
   EXPECT_THROW(moon_with({"moon.height_scale=2.5"}), InputError) << "2.5 can turn the sphere inside out";
   EXPECT_EQ(error_of(moon_with({"moon.height=surface"})), "objects.moon.height: is a map of colours; expected a map of heights");
   EXPECT_EQ(error_of(moon_with({"moon.color=relief"})), "objects.moon.color: is a map of heights; expected a map of colours");
+  EXPECT_EQ(error_of(moon_with({"moon.normal_map=surface"})), "objects.moon.normal_map: is a map of colours; expected a map of numbers");
+  EXPECT_EQ(error_of(moon_with({"moon.normal=map"})),
+            "objects.moon.normal: is map, and normal_map is none; expected a texture or an image file as normal_map");
+  EXPECT_EQ(error_of(moon_with({"moon.normal=bump"})),
+            "objects.moon.normal: is bump, and bump_map is none; expected a texture or an image file as bump_map");
   EXPECT_EQ(error_of(moon_with({"moon.color=/none.png"})), "/none.png: no such file; expected an image");
   EXPECT_EQ(error_of(parsed(R"({"version": 1, "textures": {"t": {}}, "objects": {"a": {"color": "t"}}})")),
             "textures.t.file: missing; expected an image file");
