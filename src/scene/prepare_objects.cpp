@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Objects of a scene: mesh, surface, place, and the shader that draws them.
+// Objects of a scene: surface, place, and the shader that draws them.
 #include <algorithm>
 
 #include "scene/displaced_sphere.h"
 #include "scene/preparation.h"
-#include "scene/shapes.h"
 
 namespace halfspace {
 
 namespace {
 
-bool is_displaced(const ObjectDescription& o) { return o.shape == Shape::uv_sphere && !std::holds_alternative<Color>(o.height); }
+bool is_displaced(const ObjectDescription& o) { return !std::holds_alternative<Color>(o.height); }
 
 DrawState state_of(const ObjectDescription& o, const glm::dmat4& world) {
   DrawState state;
@@ -30,23 +29,6 @@ std::vector<glm::dmat4> places_of(const ObjectDescription& o) {
   std::vector<glm::dmat4> places;
   for (const Placement& p : o.instances) places.push_back(whole * world_from_object(p));
   return places;
-}
-
-std::shared_ptr<const MeshAsset> ScenePreparation::mesh_of(const ObjectDescription& o, const Relief& relief) {
-  const auto radius = static_cast<float>(o.radius), size = static_cast<float>(o.size);
-  switch (o.shape) {
-    case Shape::plane: return asset<MeshAsset>(recipe("plane", o.size), [&] { return MeshAsset(plane(size)); });
-    case Shape::cube: return asset<MeshAsset>(recipe("cube", o.size), [&] { return MeshAsset(cube(size)); });
-    case Shape::uv_sphere: break;
-  }
-  const std::string sphere = recipe("sphere", o.radius, o.latitudes, o.longitudes);
-  if (relief.field == nullptr) return asset<MeshAsset>(sphere, [&] { return MeshAsset(uv_sphere(o.latitudes, o.longitudes, radius)); });
-  const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
-  return asset<MeshAsset>(recipe(sphere, relief.recipe, static_cast<int>(normals)), [&] {
-    const HeightField filtered = relief.field->filtered(o.longitudes, assets_.workers_);
-    return MeshAsset(
-        displaced_uv_sphere(o.latitudes, o.longitudes, radius, filtered, o.height_scale, o.height_zero, assets_.workers_, normals));
-  });
 }
 
 // What all copies of an object share.
@@ -79,8 +61,9 @@ ScenePreparation::Relief ScenePreparation::relief_of(const ObjectDescription& o,
   const MapUse use = use_of(o.height, o);
   Relief r;
   r.field = height_field(use, o, path);
-  r.recipe = recipe(use.texture.file.path.string(), use.width, o.height_smoothing, o.height_scale, o.height_zero);
-  if (o.normals != NormalSource::pixel) return r;
+  r.recipe = recipe(static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing, o.height_scale,
+                    o.height_zero);
+  if (o.shape != Shape::uv_sphere || o.normals != NormalSource::pixel) return r;
   const int width = std::min(width_for(o), r.field->width());
   r.slopes = asset<Texture2D>(recipe("slopes", r.recipe, width, o.radius), [&] {
     const HeightField filtered = r.field->filtered(width, assets_.workers_);

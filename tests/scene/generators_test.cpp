@@ -100,7 +100,7 @@ std::vector<ShapeCase> shape_cases() {
         flat(-1.25 * kY, kX, kZ, 3, fade_in_radius)},
        by_base},
       {"Torus",
-       [](int n, const Displacement* d) { return torus(1.5f, 0.5f, n + 2, 2 * n, d); },
+       [](int n, const Displacement* d) { return torus(1.5f, 0.5f, 2 * n, 4 * n, d); },
        MapEdges::torus,
        4 * kPi * kPi * 1.5 * 0.5,
        2 * kPi * kPi * 1.5 * 0.25,
