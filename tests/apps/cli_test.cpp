@@ -146,7 +146,7 @@ const Mistake kMistakes[] = {
      2,
      "-o is 'earth.gif'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr"},
     {"NearScene", {"render", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
-    {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected one of earth, moon, moon-normals, moon-tessellation"},
+    {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected one of earth, moon, moon-normals, moon-tessellation, shapes"},
     {"NoSceneFile", {"render", "my.json"}, 3, "my.json: no such scene file"},
     {"NearKey", {"render", "earth", "--set", "earth.colour=a.png"}, 3, "--set: earth.colour: unknown key 'colour'; did you mean 'color'?"},
     {"NearThing",
@@ -183,7 +183,7 @@ const Mistake kMistakes[] = {
     {"ControlCharacters",
      {"render", "a\nb\x1b"},
      3,
-     "unknown scene 'a\\x0ab\\x1b'; expected one of earth, moon, moon-normals, moon-tessellation"},
+     "unknown scene 'a\\x0ab\\x1b'; expected one of earth, moon, moon-normals, moon-tessellation, shapes"},
     {"PrintChecksToo",
      {"render", "earth", "--print", "--size", "bogus"},
      2,
@@ -332,7 +332,7 @@ TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
                               (root / "out").string() + " 2>&1; " HALFSPACE_PROGRAM " render earth --size 8x8 -o " +
                               (directory / "e.png").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
-  EXPECT_EQ(lines_of(text_of(root / "out")), 4);
+  EXPECT_EQ(lines_of(text_of(root / "out")), 5);
 }
 
 TEST_F(Cli, ASceneFileTellsItsErrors) {
@@ -344,7 +344,7 @@ TEST_F(Cli, ASceneFileTellsItsErrors) {
 
 TEST_F(Cli, ListTellsScenesAndKeys) {
   const Outcome scenes = run({"list"});
-  EXPECT_EQ(lines_of(scenes.out), 4);
+  EXPECT_EQ(lines_of(scenes.out), 5);
   EXPECT_NE(scenes.out.find("\nmoon "), std::string::npos);
   const Outcome keys = run({"list", "moon"});
   EXPECT_NE(keys.out.find("height_scale"), std::string::npos);
@@ -493,7 +493,7 @@ TEST_F(Cli, ProgressIsABarOnATerminal) {
   EXPECT_GT(lines, 4);
   const std::string stopped = shown("stty cols 80; timeout --foreground -s INT 0.5 " + frames + "999999");
   EXPECT_NE(stopped.find("/1000000  "), std::string::npos);
-  EXPECT_TRUE(stopped.ends_with("\r\033[K")) << stopped.substr(stopped.size() - 60);
+  EXPECT_TRUE(stopped.ends_with("\r\033[K")) << stopped;
 }
 
 // Interrupted at many moments, the program ends at once and leaves either the whole picture or nothing. A process ends in a

@@ -71,7 +71,7 @@ std::string another_value(const Field& field) {
     case KeyType::file: return "other.png";
     case KeyType::map: return "#804020";
     case KeyType::numbers: return now.is_array() ? vector(now) : number(now.get<double>());
-    case KeyType::keyframes: return "[[0, 1], [1, 2]]";
+    case KeyType::keyframes: return !now.empty() && now[0][1].is_array() ? "[[0, [0, 0, 1]], [1, [0, 2, 0]]]" : "[[0, 1], [1, 2]]";
     case KeyType::text: return "";
   }
   return "";
