@@ -116,8 +116,9 @@ std::shared_ptr<const HeightField> ScenePreparation::height_field(const MapUse& 
   switch (use.texture.source) {
     case TextureSource::file:
       return asset<HeightField>(words, [&] {
-        const Image<float> map = read_gray(use.texture.file.path);
-        if (map.width() < 2) throw InputError(use.texture.file.path.string() + ": is one texel wide; expected a map of heights");
+        const Image<float> map = read_for(path + ".height", [&] { return read_gray(use.texture.file.path); });
+        if (map.width() < 2)
+          throw InputError(path + ".height: " + use.texture.file.path.string() + ": is one texel wide; expected a map of heights");
         return field(map);
       });
     case TextureSource::moon_height: return asset<HeightField>(words, [&] { return field(unit_numbers(moon_maps(use.width)->height)); });

@@ -338,6 +338,7 @@ TEST(PreparedScene, WhatCannotBeUsedIsToldInOneLine) {
   EXPECT_EQ(error_of(moon_with({"moon.height=surface"})), "objects.moon.height: is a map of colours; expected a map of heights");
   EXPECT_EQ(error_of(moon_with({"moon.color=relief"})), "objects.moon.color: is a map of heights; expected a map of colours");
   EXPECT_EQ(error_of(moon_with({"moon.color=/none.png"})), "objects.moon.color: /none.png: no such file; expected an image");
+  EXPECT_EQ(error_of(moon_with({"moon.height=/none.png"})), "objects.moon.height: /none.png: no such file; expected an image");
   EXPECT_EQ(error_of(parsed(R"({"version": 1, "textures": {"t": {}}, "objects": {"a": {"color": "t"}}})")),
             "textures.t.file: missing; expected an image file");
 }
