@@ -35,8 +35,10 @@ struct ChoiceNames<BumpMethod> {
 };
 template <>
 struct ChoiceNames<TextureSource> {
-  static constexpr std::array<std::string_view, 6> names{"file",         "earth_color", "earth_height",
-                                                         "earth_normal", "moon_color",  "moon_height"};
+  static constexpr std::array<std::string_view, 18> names{
+      "file",         "earth_color",     "earth_height",    "earth_normal", "moon_color",   "moon_height",
+      "checkerboard", "grass_color",     "bark_color",      "bark_height",  "bricks_color", "bricks_height",
+      "facade_color", "facade_specular", "facade_emissive", "rock_color",   "rock_height",  "hills_height"};
 };
 template <>
 struct ChoiceNames<Filter> {
@@ -48,7 +50,7 @@ struct ChoiceNames<Wrap> {
 };
 template <>
 struct ChoiceNames<Shape> {
-  static constexpr std::array<std::string_view, 3> names{"uv_sphere", "plane", "cube"};
+  static constexpr std::array<std::string_view, 7> names{"uv_sphere", "icosphere", "plane", "cube", "cylinder", "cone", "torus"};
 };
 template <>
 struct ChoiceNames<NormalSource> {
@@ -70,6 +72,11 @@ struct ChoiceNames<Easing> {
 namespace {
 
 constexpr double kTiny = 1e-6;
+
+constexpr const char* kGenerated =
+    "earth_color earth_height earth_normal moon_color moon_height checkerboard grass_color bark_color bark_height bricks_color "
+    "bricks_height facade_color "
+    "facade_specular facade_emissive rock_color rock_height hills_height";
 
 }  // namespace
 
@@ -123,7 +130,7 @@ Section section_of(TextureDescription& t) {
       key<&T::source>("source", "A file, or the generator that makes the map"),
       key<&T::file>("file", "Image file", {.only = "file"}),
       key<&T::width>("width", "Width of the generated map, an even number; 0: what the view needs",
-                     {.unit = "texels", .low = 0, .high = 16384, .only = "earth_color earth_height earth_normal moon_color moon_height"}),
+                     {.unit = "texels", .low = 0, .high = 16384, .only = kGenerated}),
       key<&T::filter>("filter", "How texels are mixed"),
       key<&T::wrap_s>("wrap_s", "What lies beyond the left and right edge"),
       key<&T::wrap_t>("wrap_t", "What lies beyond the upper and lower edge"),
@@ -175,17 +182,25 @@ Section section_of(ObjectDescription& o) {
   using T = ObjectDescription;
   static const std::vector<Key> keys{
       key<&T::shape>("shape", "Generator of the mesh"),
-      key<&T::radius>("radius", "Radius", {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere"}),
-      key<&T::latitudes>("latitudes", "Bands from pole to pole", {.low = 2, .high = 8192, .only = "uv_sphere"}),
-      key<&T::longitudes>("longitudes", "Sectors round the axis", {.low = 3, .high = 16384, .only = "uv_sphere"}),
+      key<&T::radius>("radius", "Radius; of a torus, to its tube's middle",
+                      {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere cylinder cone torus"}),
+      key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = "torus"}),
+      key<&T::length>("length", "From the bottom to the top", {.unit = "units", .low = kTiny, .high = 1e6, .only = "cylinder cone"}),
+      key<&T::latitudes>("latitudes", "Bands from the top to the bottom, or round a tube",
+                         {.low = 2, .high = 8192, .only = "uv_sphere cylinder cone torus"}),
+      key<&T::longitudes>("longitudes", "Sectors round the axis", {.low = 3, .high = 16384, .only = "uv_sphere cylinder cone torus"}),
+      key<&T::level>("level", "How often each triangle is divided into four", {.low = 0, .high = 8, .only = "icosphere"}),
       key<&T::size>("size", "Length of an edge", {.unit = "units", .low = kTiny, .high = 1e6, .only = "plane cube"}),
+      key<&T::segments>("segments", "Parts that an edge is divided into", {.low = 1, .high = 1024, .only = "plane cube"}),
+      key<&T::tiles_u>("tiles_u", "How often a map of colours repeats along u",
+                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus"}),
+      key<&T::tiles_v>("tiles_v", "How often a map of colours repeats along v",
+                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus"}),
       key<&T::visible>("visible", "Whether the object is drawn"),
-      key<&T::height>("height", "Map of heights that displaces the surface; a colour: none", {.low = 0, .only = "uv_sphere"}),
-      key<&T::height_scale>("height_scale", "Height between the map's 0 and 1",
-                            {.unit = "units", .low = -1e6, .high = 1e6, .only = "uv_sphere"}),
-      key<&T::height_zero>("height_zero", "The map's value that displaces nothing", {.low = 0, .high = 1, .only = "uv_sphere"}),
-      key<&T::height_smoothing>("height_smoothing", "Radius over which heights are averaged",
-                                {.unit = "texels", .low = 0, .high = 64, .only = "uv_sphere"}),
+      key<&T::height>("height", "Map of heights that displaces the surface; a colour: none", {.low = 0}),
+      key<&T::height_scale>("height_scale", "Height between the map's 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
+      key<&T::height_zero>("height_zero", "The map's value that displaces nothing", {.low = 0, .high = 1}),
+      key<&T::height_smoothing>("height_smoothing", "Radius over which heights are averaged", {.unit = "texels", .low = 0, .high = 64}),
       key<&T::normals>("normals", "Normals of a displaced surface: by pixel, by vertex, or as before", {.only = "uv_sphere"}),
       key<&T::material>("material", "Name of a material; keys of the object's own override it"),
   };

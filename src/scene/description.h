@@ -45,7 +45,26 @@ struct LightDescription {
   double inner = 20.0, outer = 30.0;  ///< degrees from the axis
 };
 
-enum class TextureSource : uint8_t { file, earth_color, earth_height, earth_normal, moon_color, moon_height };
+enum class TextureSource : uint8_t {
+  file,
+  earth_color,
+  earth_height,
+  earth_normal,
+  moon_color,
+  moon_height,
+  checkerboard,
+  grass_color,
+  bark_color,
+  bark_height,
+  bricks_color,
+  bricks_height,
+  facade_color,
+  facade_specular,
+  facade_emissive,
+  rock_color,
+  rock_height,
+  hills_height
+};
 
 struct TextureDescription {
   TextureSource source = TextureSource::file;
@@ -91,7 +110,7 @@ struct SurfaceDescription {
   BumpMethod bump_method = BumpMethod::gradient;
 };
 
-enum class Shape : uint8_t { uv_sphere, plane, cube };
+enum class Shape : uint8_t { uv_sphere, icosphere, plane, cube, cylinder, cone, torus };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
 
 struct Placement {
@@ -103,8 +122,13 @@ struct Placement {
 struct ObjectDescription {
   Shape shape = Shape::uv_sphere;
   double radius = 1.0;
+  double tube = 0.25;
+  double length = 2.0;
   int latitudes = 64, longitudes = 128;
+  int level = 5;
   double size = 2.0;
+  int segments = 1;
+  int tiles_u = 1, tiles_v = 1;
   bool visible = true;
 
   MapValue height = Color{glm::dvec3(0.0)};  ///< a constant means none

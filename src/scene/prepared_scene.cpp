@@ -65,6 +65,14 @@ const CameraDescription& ScenePreparation::camera() const {
   return scene_.cameras.front().second;
 }
 
+void ScenePreparation::expect() {
+  for (const auto& [name, object] : scene_.objects) {
+    if (object.visible) assets_.widths_[name] = width_for(object);
+  }
+}
+
+void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }
+
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
   for (auto& [recipe, entry] : entries_) entry.wanted = false;
   PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();

@@ -54,7 +54,11 @@ class SceneAssets {
  public:
   explicit SceneAssets(const Workers& workers) : workers_(workers) {}
 
-  /// width, height: of the picture, px. Throws InputError where a file cannot be used.
+  /// Tells of a frame to come: from now on, generated maps without a width of their own are at least as fine as that frame
+  /// needs. Told of all frames of a range before the first, they do not change on the way. width, height: of the picture, px.
+  void expect(const SceneDescription& scene, int width, int height);
+
+  /// width, height: of the picture, px. Throws InputError that begins with the key, where a file cannot be used.
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
  private:
@@ -65,6 +69,7 @@ class SceneAssets {
   };
   const Workers& workers_;
   std::map<std::string, Entry> entries_;  ///< by what they are made from
+  std::map<std::string, int> widths_;     ///< of generated maps, at least, by the object's name
 };
 
 /// Draws the scene into 8-bit sRGB codes.
