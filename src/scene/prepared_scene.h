@@ -16,13 +16,14 @@
 #include "scene/description.h"
 #include "shading/blinn_phong.h"
 #include "shading/displaced_sphere.h"
+#include "shading/environment_sky.h"
 #include "shading/star_sky.h"
 
 namespace halfspace {
 
 /// One draw. std::visit on the shader gives its type back.
 struct PreparedDraw {
-  std::variant<BlinnPhong, DisplacedSphere, StarSky> shader;
+  std::variant<BlinnPhong, DisplacedSphere, StarSky, EnvironmentSky> shader;
   VertexView vertices;
   std::shared_ptr<const Indices> indices;
   DrawState state;  ///< reversed Z: clear depth to 0
@@ -32,6 +33,7 @@ struct PreparedDraw {
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
+  PostDescription post;
   std::vector<std::shared_ptr<const void>> assets;
 };
 
@@ -54,9 +56,10 @@ class SceneAssets {
   std::map<std::string, Entry> entries_;  ///< by what they are made from
 };
 
-/// Draws the scene into 8-bit sRGB codes.
+/// Draws the scene into 8-bit codes, as its post section says. Light is kept for the whole picture only where
+/// auto_exposure must see all of it first; else it lives in the tiles.
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
-/// Draws the scene as linear numbers, alpha 1.
+/// Draws the scene as linear numbers, alpha 1: light before exposure and tone curve.
 PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers);
 
 }  // namespace halfspace
