@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
-// prepare_surface.cpp, prepare_objects.cpp, prepare_background.cpp.
+// prepare_surface.cpp, prepare_objects.cpp, prepare_environments.cpp, prepare_background.cpp.
 // Included by these alone.
 #pragma once
 
@@ -99,6 +99,7 @@ class ScenePreparation {
   }
   // prepare_maps.cpp
   int width_for(const ObjectDescription& o) const;
+  const TextureDescription& texture_named(const std::string& name) const;
   MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
   std::shared_ptr<const MoonMaps> moon_maps(int width);
   // where: the key's path, for messages.
@@ -130,7 +131,17 @@ class ScenePreparation {
   void place(LitSurface& s, glm::dmat4 world) const;
 
   // prepare_background.cpp
-  void add_stars();
+  void add_background();
+  StarSky star_sky(double density, double brightness) const;
+  EnvironmentSky environment_sky();
+
+  // prepare_environments.cpp
+  Environment environment_of(const std::string& name, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> generated_sky(const EnvironmentDescription& e);
+  int panorama_width() const;
+  int face_size() const;
 
   SceneAssets& assets_;
   const SceneDescription& scene_;

@@ -69,16 +69,20 @@ int ScenePreparation::width_for(const ObjectDescription& o) const {
   return width;
 }
 
+const TextureDescription& ScenePreparation::texture_named(const std::string& name) const {
+  const TextureDescription& t = std::ranges::find_if(scene_.textures, [&](const auto& entry) { return entry.first == name; })->second;
+  if (t.source == TextureSource::file && t.file.path.empty())
+    throw InputError("textures." + name + ".file: missing; expected an image file");
+  return t;
+}
+
 MapUse ScenePreparation::use_of(const MapValue& map, const ObjectDescription& o) const {
   TextureDescription t;
   if (const auto* file = std::get_if<FilePath>(&map)) {
     t.file = *file;
     if (edges_of(o.shape) == MapEdges::sphere) t.wrap_t = Wrap::clamp;  // nothing lies beyond the poles
   } else {
-    const std::string& name = std::get<TextureName>(map).name;
-    t = std::ranges::find_if(scene_.textures, [&](const auto& entry) { return entry.first == name; })->second;
-    if (t.source == TextureSource::file && t.file.path.empty())
-      throw InputError("textures." + name + ".file: missing; expected an image file");
+    t = texture_named(std::get<TextureName>(map).name);
   }
   if (t.source == TextureSource::file) return {t, 0};
   if (t.width != 0) return {t, t.width};

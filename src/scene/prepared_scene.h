@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "raster/pass.h"
 #include "scene/description.h"
+#include "shading/environment_sky.h"
 #include "shading/star_sky.h"
 #include "shading/surface_shader.h"
 
@@ -28,7 +29,7 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
-                                 StarSky>;
+                                 StarSky, EnvironmentSky>;
 
 /// One draw. std::visit on the shader gives its type back.
 struct PreparedDraw {
@@ -45,6 +46,7 @@ void add_draw(Pass& pass, const PreparedDraw& draw);
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
+  PostDescription post;
   std::vector<std::shared_ptr<const void>> assets;
 };
 
@@ -72,9 +74,10 @@ class SceneAssets {
   std::map<std::string, int> widths_;     ///< of generated maps, at least, by the object's name
 };
 
-/// Draws the scene into 8-bit sRGB codes.
+/// Draws the scene into 8-bit codes, as its post section says. Light is kept for the whole picture only where
+/// auto_exposure must see all of it first; else it lives in the tiles.
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
-/// Draws the scene as linear numbers, alpha 1.
+/// Draws the scene as linear numbers, alpha 1: light before exposure and tone curve.
 PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers);
 
 }  // namespace halfspace

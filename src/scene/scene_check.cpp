@@ -43,6 +43,10 @@ void check(const TextureDescription& t, const std::string& where) {
   if (t.width % 2 != 0) fail(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
 }
 
+void check(const EnvironmentDescription& e, const std::string& where) {
+  if (e.sun == glm::dvec3(0.0)) fail(where + ".sun", "is zero; expected a direction");
+}
+
 void check(const SurfaceDescription&, const std::string&) {}
 
 // Of an object: a material alone may leave it to the object to name the map.
@@ -112,12 +116,25 @@ void check_total(const Named<ObjectDescription>& objects, const std::string& sou
   }
 }
 
+void check_background(SceneDescription& scene, const std::string& source) {
+  const BackgroundDescription& b = scene.background;
+  const auto check_name = [&](const char* key, const std::string& name) {
+    if (name.empty() || find_named(scene.environments, name) != nullptr) return;
+    fail(source, std::string("background.") + key + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
+  };
+  check_name("environment", b.environment);
+  check_name("second", b.second);
+  if (b.type == BackgroundType::environment && scene.environments.empty())
+    fail(source, "background.type: the scene has no environment; expected one in environments");
+}
+
 }  // namespace
 
 void check_scene(SceneDescription& scene, const std::string& source) {
   if (!scene.head.camera.empty() && find_named(scene.cameras, scene.head.camera) == nullptr) {
     fail(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
   }
+  check_background(scene, source);
   for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
     for (auto& entry : list) {
       const std::string path = std::string(collection) + "." + entry.first;
