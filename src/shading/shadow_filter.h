@@ -96,20 +96,19 @@ HS_INLINE R disk_shadow(const ShadowView& view, const ShadowPlace<R>& p, R radiu
   return sum * R(1.0f / N);
 }
 
-/// The radius, in texels, of the disk that a light of light_radius casts over the place through a pinhole at the given depth.
-/// By similar triangles from light to receiver; on the map, which is seen from the light's middle.
+/// The radius, in texels, of the penumbra that an occluder at the given depth throws at the place, by similar triangles.
+/// Directional: tan · Δz, with Δz = Δdepth / depth_per_unit. Perspective: radius · (1/w_occluder − 1/w) on the plane w = 1, and
+/// depth is depth_per_unit/w + constant: the same formula.
 template <class R>
-HS_INLINE R penumbra_texels(const ShadowView& view, R light_radius, const ShadowPlace<R>& p, R blocker_depth) {
-  if (!view.perspective) return light_radius * (blocker_depth - p.depth) * R(1.0f / (view.depth_per_unit * view.texel_per_w));
-  // depth = a/w + b with a = depth_per_unit, so 1/blocker_w − 1/w is the difference of depths over a.
-  return light_radius * (blocker_depth - p.depth) * R(1.0f / (view.depth_per_unit * view.texel_per_w));
+HS_INLINE R penumbra_texels(const ShadowView& view, float light_radius, const ShadowPlace<R>& p, R occluder_depth) {
+  return (occluder_depth - p.depth) * R(light_radius / (view.depth_per_unit * view.texel_per_w));
 }
 
 /// Finds what stands in the way, how far off it is, and so how wide the penumbra is; then averages over that width.
 template <class R>
 HS_INLINE R pcss_shadow(const ShadowView& view, const ShadowPlace<R>& p, float light_radius, const detail::Turn<R>& turn) {
   constexpr int kTaps = 32;
-  const R widest = clamp(penumbra_texels(view, R(light_radius), p, R(1)), R(0.5f), R(kMaxPenumbra));
+  const R widest = clamp(penumbra_texels(view, light_radius, p, R(1)), R(0.5f), R(kMaxPenumbra));
   R count(0), sum(0);
   for (const glm::vec2& point : detail::vogel_disk<kTaps>()) {
     const vec2<R> d = turn(point) * widest;
@@ -121,7 +120,7 @@ HS_INLINE R pcss_shadow(const ShadowView& view, const ShadowPlace<R>& p, float l
   const MaskOf<R> blocked = count > R(0);
   if (none(blocked)) return R(1);
   const R mean_depth = select(blocked, sum / count, R(1));
-  const R radius = clamp(penumbra_texels(view, R(light_radius), p, mean_depth), R(0.5f), R(kMaxPenumbra));
+  const R radius = clamp(penumbra_texels(view, light_radius, p, mean_depth), R(0.5f), R(kMaxPenumbra));
   return select(blocked, disk_shadow<kTaps>(view, p, radius, turn), R(1));
 }
 

@@ -52,10 +52,10 @@ inline constexpr float kAutomaticOffset = 0.5f, kAutomaticConstant = 0.1f;
 struct ShadowSettings {
   ShadowFilter filter = ShadowFilter::pcf3;
   ShadowBias bias = ShadowBias::automatic;
-  float constant = 1.0f;   ///< texels
-  float slope = 1.0f;      ///< factor of the depth that a texel spans
-  float max_slope = 16.0f; ///< largest tangent of the light's angle that is believed
-  float radius = 2.0f;     ///< texels; of vogel's disk and of the moments' filter
+  float constant = 1.0f;    ///< texels
+  float slope = 1.0f;       ///< factor of the depth that a texel spans
+  float max_slope = 16.0f;  ///< largest tangent of the light's angle that is believed
+  float radius = 2.0f;      ///< texels; of vogel's disk and of the moments' filter
   /// Half the light's width: the tangent of half its angle (directional), or its radius in world units (point, spot). For pcss.
   float light_radius = 0.0f;
 };
@@ -87,7 +87,7 @@ struct ShadowReceiver {
   vec3<R> face_normal_ws;     ///< of the triangle, on the side of the light
   vec3<R> shading_normal_ws;  ///< as the light is computed with
   vec3<R> to_light_ws;
-  R x_px, y_px;               ///< window coordinates; turn vogel's and pcss's disk
+  R x_px, y_px;  ///< window coordinates; turn vogel's and pcss's disk
 };
 
 }  // namespace halfspace

@@ -23,8 +23,9 @@ HS_INLINE vec4<R> moments_at(const ShadowView& view, const ShadowPlace<R>& p) {
   const R fx = x - left, fy = y - low;
   const IntOf<R> i = truncate_to_int(left), j = truncate_to_int(low), last(view.size - 1);
   const auto texel = [&](IntOf<R> column, IntOf<R> row) {
-    column = clamp(column, IntOf<R>(0), last);
-    const IntOf<R> first = ((last - clamp(row, IntOf<R>(0), last)) * view.size + column) * 4;
+    column = min(max(column, IntOf<R>(0)), last);
+    row = last - min(max(row, IntOf<R>(0)), last);
+    const IntOf<R> first = (row * IntOf<R>(view.size) + column) * IntOf<R>(4);
     const float* base = &view.moments->x;
     return vec4<R>(R(gather(base, first)), R(gather(base, IntOf<R>(first + 1))), R(gather(base, IntOf<R>(first + 2))),
                    R(gather(base, IntOf<R>(first + 3))));

@@ -54,8 +54,8 @@ HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_ew, con
 template <class R>
 HS_INLINE R map_depth(const ShadowView& view, IntOf<R> i, IntOf<R> j) {
   const IntOf<R> last(view.size - 1);
-  const IntOf<R> column = clamp(i, IntOf<R>(0), last), row = last - clamp(j, IntOf<R>(0), last);
-  return R(gather(view.depth, IntOf<R>(row * view.size + column)));
+  const IntOf<R> column = min(max(i, IntOf<R>(0)), last), row = last - min(max(j, IntOf<R>(0)), last);
+  return R(gather(view.depth, IntOf<R>(row * IntOf<R>(view.size) + column)));
 }
 
 /// 1 where the light reaches the place as far as texel (i, j) tells, else 0.
