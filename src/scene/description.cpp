@@ -38,6 +38,20 @@ struct ChoiceNames<BackgroundType> {
   static constexpr std::array<std::string_view, 2> names{"color", "stars"};
 };
 template <>
+struct ChoiceNames<ShadowMethod> {
+  static constexpr std::array<std::string_view, 10> names{"none",  "hard", "bilinear", "pcf3", "pcf5",
+                                                          "pcf7", "vogel", "pcss",     "vsm",  "moments"};
+};
+template <>
+struct ChoiceNames<ShadowBias> {
+  static constexpr std::array<std::string_view, 9> names{"none",           "constant", "slope", "angle",   "normal_offset",
+                                                         "receiver_plane", "adaptive", "auto",  "original"};
+};
+template <>
+struct ChoiceNames<ShadowFaces> {
+  static constexpr std::array<std::string_view, 3> names{"front", "back", "both"};
+};
+template <>
 struct ChoiceNames<AnimationType> {
   static constexpr std::array<std::string_view, 3> names{"rate", "orbit", "keyframes"};
 };
@@ -85,6 +99,8 @@ Section section_of(LightDescription& l) {
       key<&T::color>("color", "Colour, linear", {.low = 0}),
       key<&T::intensity>("intensity", "Factor of the colour", {.low = 0}),
       key<&T::attenuation>("attenuation", "Terms c, l, q of 1 / (c + l d + q d^2) at distance d", {.low = 0, .only = "point"}),
+      key<&T::shadow>("shadow", "Whether the light casts shadows"),
+      key<&T::size>("size", "Radius, or of a directional light half the angle it spans, in degrees", {.low = 0, .high = 1e6}),
   };
   return {{keys, &l}};
 }
@@ -134,6 +150,8 @@ Section section_of(ObjectDescription& o) {
       key<&T::longitudes>("longitudes", "Sectors round the axis", {.low = 3, .high = 16384, .only = "uv_sphere"}),
       key<&T::size>("size", "Length of an edge", {.unit = "units", .low = kTiny, .high = 1e6, .only = "plane cube"}),
       key<&T::visible>("visible", "Whether the object is drawn"),
+      key<&T::casts_shadow>("casts_shadow", "Whether it shades others"),
+      key<&T::receives_shadow>("receives_shadow", "Whether others, or itself, shade it"),
       key<&T::height>("height", "Map of heights that displaces the surface; a colour: none", {.low = 0, .only = "uv_sphere"}),
       key<&T::height_scale>("height_scale", "Height between the map's 0 and 1",
                             {.unit = "units", .low = -1e6, .high = 1e6, .only = "uv_sphere"}),
@@ -157,6 +175,26 @@ Section section_of(BackgroundDescription& b) {
       key<&T::density>("density", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "stars"}),
   };
   return {{keys, &b}};
+}
+
+Section section_of(ShadowDescription& s) {
+  using T = ShadowDescription;
+  static const std::vector<Key> keys{
+      key<&T::method>("method", "How the map is filtered; none: no shadows, and no cost"),
+      key<&T::bias>("bias", "How a surface is kept out of its own shadow"),
+      key<&T::resolution>("resolution", "Width of a map; 0: as footprint asks", {.unit = "texels", .low = 0, .high = 8192}),
+      key<&T::footprint>("footprint", "With resolution 0: what a texel spans at most on 95 % of the picture",
+                         {.unit = "px", .low = 0.1, .high = 100}),
+      key<&T::constant>("constant", "Constant part of the bias", {.unit = "texels", .low = 0, .high = 1000}),
+      key<&T::slope>("slope", "Factor of the bias that grows with the light's angle", {.low = 0, .high = 1000}),
+      key<&T::max_slope>("max_slope", "Largest tangent of the light's angle that a bias follows", {.low = 0, .high = 1e6}),
+      key<&T::radius>("radius", "Of vogel's disk and of the moments' filter", {.unit = "texels", .low = 0, .high = 16}),
+      key<&T::faces>("faces", "Faces that cast, as the light sees them"),
+      key<&T::cascades>("cascades", "Maps of a directional light, by distance", {.low = 1, .high = 4}),
+      key<&T::cascade_growth>("cascade_growth", "0: even distances, 1: each cascade a constant times the one before",
+                              {.low = 0, .high = 1}),
+  };
+  return {{keys, &s}};
 }
 
 Section section_of(AnimationDescription& a) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/keys.h"
+#include "shading/shadow_map.h"
 #include "shading/texture.h"
 
 namespace halfspace {
@@ -38,6 +39,8 @@ struct LightDescription {
   Color color{glm::dvec3(1.0)};
   double intensity = 1.0;
   glm::dvec3 attenuation{1, 0, 0};
+  bool shadow = true;
+  double size = 0.0;  ///< radius in units; directional: half the angle that it spans, degrees
 };
 
 enum class TextureSource : uint8_t { file, earth_color, moon_color, moon_height };
@@ -75,6 +78,7 @@ struct ObjectDescription {
   int latitudes = 64, longitudes = 128;
   double size = 2.0;
   bool visible = true;
+  bool casts_shadow = true, receives_shadow = true;
 
   MapValue height = Color{glm::dvec3(0.0)};  ///< a constant means none
   double height_scale = 0.02;                ///< units between the map's 0 and 1
@@ -95,6 +99,25 @@ struct BackgroundDescription {
   Color color{glm::dvec3(0.0)};
   double brightness = 1.0;
   double density = 0.3;
+};
+
+/// ShadowFilter, and none before it.
+enum class ShadowMethod : uint8_t { none, hard, bilinear, pcf3, pcf5, pcf7, vogel, pcss, vsm, moments };
+/// Which faces of a closed surface are drawn into shadow maps, as the light sees them.
+enum class ShadowFaces : uint8_t { front, back, both };
+
+struct ShadowDescription {
+  ShadowMethod method = ShadowMethod::none;
+  ShadowBias bias = ShadowBias::automatic;
+  int resolution = 2048;       ///< texels a side; 0: as footprint asks
+  double footprint = 1.0;      ///< pixels that a texel spans at most on 95 % of the picture
+  double constant = 1.0;       ///< texels
+  double slope = 1.0;
+  double max_slope = 16.0;
+  double radius = 2.0;         ///< texels
+  ShadowFaces faces = ShadowFaces::front;
+  int cascades = 1;
+  double cascade_growth = 0.75;  ///< 0: cascades of even depth, 1: each a constant times the one before
 };
 
 enum class AnimationType : uint8_t { rate, orbit, keyframes };
@@ -135,6 +158,7 @@ struct SceneDescription {
   Named<ObjectDescription> objects;
   Named<AnimationDescription> animations;
   BackgroundDescription background;
+  ShadowDescription shadow;
   Playback animation;
 };
 
@@ -148,6 +172,7 @@ Section section_of(SurfaceDescription&);
 Section section_of(ObjectDescription&);
 Section section_of(Placement&);
 Section section_of(BackgroundDescription&);
+Section section_of(ShadowDescription&);
 Section section_of(AnimationDescription&);
 Section section_of(Playback&);
 
@@ -166,6 +191,7 @@ void for_each_collection(Scene& scene, F&& visit) {
 template <class Scene, class F>
 void for_each_single(Scene& scene, F&& visit) {
   visit("background", "What is seen where nothing is", scene.background);
+  visit("shadow", "How lights' shadows are found", scene.shadow);
   visit("animation", "All animations together", scene.animation);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_objects.cpp, prepare_background.cpp.
+// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_objects.cpp,
+// prepare_shadows.cpp, prepare_background.cpp.
 // Included by these alone.
 #pragma once
 
@@ -89,6 +90,9 @@ class ScenePreparation {
   std::shared_ptr<const MeshAsset> mesh_of(const ObjectDescription& o, const Relief& relief);
   LitSurface surface_of(const ObjectDescription& o, const std::string& path);
   void place(LitSurface& s, glm::dmat4 world) const;
+
+  // prepare_shadows.cpp: fills the shadows' views, once all objects are placed
+  void add_shadows();
 
   // prepare_background.cpp
   void add_stars();

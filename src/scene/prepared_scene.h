@@ -14,8 +14,10 @@
 #include "core/parallel.h"
 #include "raster/pass.h"
 #include "scene/description.h"
+#include "scene/mesh.h"
 #include "shading/blinn_phong.h"
 #include "shading/displaced_sphere.h"
+#include "shading/shadow_map.h"
 #include "shading/star_sky.h"
 
 namespace halfspace {
@@ -28,10 +30,30 @@ struct PreparedDraw {
   DrawState state;  ///< reversed Z: clear depth to 0
 };
 
+/// A mesh and its place: what shadow maps and rays are made from.
+struct PlacedMesh {
+  std::string object;
+  const Mesh* mesh;
+  std::shared_ptr<const Indices> indices;
+  glm::dmat4 world_from_object;
+  bool two_sided, casts_shadow, receives_shadow;
+};
+
+/// What became of a light in this picture.
+struct PreparedLight {
+  std::string name;
+  int description;      ///< index into SceneDescription::lights
+  Shadow shadow;        ///< no views: none is cast, or nothing in view receives it
+};
+
 /// All that a picture needs. Movable; keeps alive what its draws point to.
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
+  std::vector<PlacedMesh> meshes;     ///< of every object that is drawn
+  std::vector<PreparedLight> lights;
+  PassStatistics shadow_statistics;   ///< of the passes that made shadow maps
+  double shadow_ms = 0.0;             ///< that they took
   std::vector<std::shared_ptr<const void>> assets;
 };
 

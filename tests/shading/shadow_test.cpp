@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "shading/shadow_lookup.h"
+
 namespace halfspace {
 namespace {
 
@@ -302,7 +304,7 @@ TEST(Shadow, LanesGiveTheBitsOfFloat) {
   map.make_moments();
   std::mt19937 random(7);
   std::uniform_real_distribution<float> any(-1.1f, 1.1f);
-  using L = RealN<8>;
+  using L = RealN<8>;  // instantiated here
   for (int f = 0; f <= static_cast<int>(ShadowFilter::moments); ++f) {
     for (int b = 0; b <= static_cast<int>(ShadowBias::original); ++b) {
       Shadow s = shadow_of(map.view, static_cast<ShadowFilter>(f), static_cast<ShadowBias>(b));
