@@ -14,9 +14,9 @@
 #include "halfspace/arguments.h"
 #include "halfspace/commands.h"
 #include "halfspace/frames.h"
+#include "halfspace/scene_arguments.h"
 #include "halfspace/statistics.h"
 #include "scene/image_io.h"
-#include "scene/nearest_name.h"
 #include "scene/output_file.h"
 #include "scene/prepared_scene.h"
 #include "scene/scene_file.h"
@@ -65,26 +65,6 @@ ImageFile output_format(const std::filesystem::path& path) {
   throw UsageError("-o is '" + path.string() + "'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr");
 }
 
-void set_camera(SceneFile& scene, const std::string& name) {
-  if (name.empty()) return;
-  std::vector<std::string_view> names;
-  for (const auto& [camera, description] : scene.description().cameras) names.push_back(camera);
-  if (std::ranges::find(names, name) == names.end()) throw InputError("--camera: no camera '" + name + "'" + suggestion(name, names));
-  scene.set("camera=" + name);
-}
-
-SceneFile open_scene(const RenderArguments& args) {
-  SceneFile scene = SceneFile::open(args.scene);
-  for (const std::string& setting : args.set) {
-    if (setting.find('=') == std::string::npos || setting.starts_with('=')) {
-      throw UsageError("--set is '" + setting + "'; expected KEY=VALUE, for example camera=main");
-    }
-  }
-  scene.set(args.set);
-  set_camera(scene, args.camera);
-  return scene;
-}
-
 RenderJob understand(const RenderArguments& args) {
   const PictureSize size = parse_size(args.size);
   const int threads = parse_threads(args.threads);
@@ -102,7 +82,7 @@ RenderJob understand(const RenderArguments& args) {
   if (frames && !out.has_extension())
     throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
-  return {open_scene(args), out, format, size, time, fps, frames, threads, args.resume};
+  return {open_scene(args.scene, args.set, args.camera), out, format, size, time, fps, frames, threads, args.resume};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -192,10 +172,7 @@ void add_render_command(CLI::App& program) {
   command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->required()->type_name("");
   command->add_option("-o,--output", args->out, ".png .jpg .tif, or linear .exr .hdr")->type_name("OUT");
   command->add_option("--size", args->size, "Pixels (default 1920x1080)")->type_name("WxH");
-  command->add_option("--set", args->set, "Set a key ('halfspace list SCENE' tells all)")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_set_option(command, args->set);
   command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
   command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");

@@ -137,11 +137,6 @@ Image<glm::vec4> filtered_moments(const ShadowView& view, const Image<float>& de
   return out;
 }
 
-// The share of a frustum's length that its part within some boxes spans; from > to where there is none.
-struct Reach {
-  double from = 1.0, to = 0.0;
-};
-
 // Finds a light's views.
 class ViewFinder {
  public:
@@ -251,17 +246,19 @@ class ViewFinder {
 void ScenePreparation::add_shadows() {
   const ShadowDescription& d = scene_.shadow;
   if (d.method == ShadowMethod::none) return;
-  const auto start = std::chrono::steady_clock::now();
-  for (PreparedLight& light : out_.lights) {
-    const LightDescription& l = scene_.lights[static_cast<std::size_t>(light.description)].second;
+  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+    const LightDescription& l = scene_.lights[i].second;
     if (!l.shadow) continue;
+    const auto start = std::chrono::steady_clock::now();
+    PreparedLight& light = out_.lights[i];
     light.shadow.settings = settings_of(d, l);
     // Half a texel more than the filter asks: rounding must not push a point on a face's edge out of both faces.
     const ViewFinder finder(view_, out_.meshes, d.resolution, static_cast<double>(filter_reach(light.shadow.settings)) + 0.5);
     if (finder.nothing_received()) continue;
     const std::vector<LightView> views = l.type == LightType::directional
                                              ? finder.directional(l.direction, d.cascades, d.cascade_growth)
-                                             : finder.cube(l.position);
+                                             : l.type == LightType::spot ? finder.spot(l.position, -l.direction, 2.0 * l.outer * kRadiansPerDegree)
+                                                                   : finder.cube(l.position);
     const auto maps = std::make_shared<ShadowMaps>();
     for (const LightView& view : views) {
       maps->views.push_back(to_shading(view, d.resolution, view_.eye_ws));
@@ -274,8 +271,8 @@ void ScenePreparation::add_shadows() {
     }
     light.shadow.views = maps->views;
     out_.assets.push_back(maps);
+    light.map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
-  out_.shadow_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace halfspace

@@ -15,6 +15,7 @@
 #include "raster/pass.h"
 #include "scene/description.h"
 #include "scene/mesh.h"
+#include "scene/view.h"
 #include "shading/blinn_phong.h"
 #include "shading/displaced_sphere.h"
 #include "shading/shadow_map.h"
@@ -39,21 +40,22 @@ struct PlacedMesh {
   bool two_sided, casts_shadow, receives_shadow;
 };
 
-/// What became of a light in this picture.
+/// A light as this picture has it.
 struct PreparedLight {
   std::string name;
-  int description;      ///< index into SceneDescription::lights
-  Shadow shadow;        ///< no views: none is cast, or nothing in view receives it
+  Light light;
+  Shadow shadow;        ///< no views: it casts none, or nothing in view receives it
+  double map_ms = 0.0;  ///< that its maps took
 };
 
 /// All that a picture needs. Movable; keeps alive what its draws point to.
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
-  std::vector<PlacedMesh> meshes;     ///< of every object that is drawn
+  View view;
+  std::vector<PlacedMesh> meshes;    ///< of every object that is drawn
   std::vector<PreparedLight> lights;
-  PassStatistics shadow_statistics;   ///< of the passes that made shadow maps
-  double shadow_ms = 0.0;             ///< that they took
+  PassStatistics shadow_statistics;  ///< of the passes that made shadow maps
   std::vector<std::shared_ptr<const void>> assets;
 };
 
