@@ -10,8 +10,8 @@
 #include "halfspace/commands.h"
 #include "halfspace/scene_arguments.h"
 #include "reference/validation.h"
+#include "scene/image_io.h"
 #include "scene/output_file.h"
-#include "scene/png.h"
 
 namespace halfspace {
 
@@ -40,7 +40,7 @@ void validate_command(const ValidateArguments& args) {
   const double rays = args.rays.empty() ? 1024.0 : parse_real("--rays", args.rays, 1, 1e6, "rays a pixel, for example 1024");
   const SceneFile scene = open_scene(args.scene, args.set, args.camera);
   const std::filesystem::path folder = args.out;
-  if (!args.out.empty()) make_folder(folder);
+  if (!args.out.empty()) make_directory(folder);
   SceneAssets assets(workers);
   const Validation validation = validate(std::filesystem::path(args.scene).stem().string(), scene.at(time),
                                          {size.width, size.height, static_cast<int>(rays)}, assets, workers);

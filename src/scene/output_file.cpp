@@ -98,6 +98,12 @@ void write_in_place(const std::filesystem::path& path, std::span<const std::byte
 
 }  // namespace
 
+void make_directory(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw OutputError(path.string() + ": cannot make the directory (" + error.message() + ")");
+}
+
 void check_writable(const std::filesystem::path& path) {
   if (path.empty()) throw OutputError("the output has no name; expected a file name");
   const auto status = status_of(path);

@@ -18,6 +18,9 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
 /// program can say so before it computes what it cannot keep.
 void check_writable(const std::filesystem::path& path);
 
+/// Makes the directory, and those above it, where they are absent. Throws OutputError.
+void make_directory(const std::filesystem::path& path);
+
 /// Removes the file that is being written aside, if there is one. For signal handlers: async-signal-safe.
 void remove_unfinished_output() noexcept;
 
