@@ -13,6 +13,7 @@
 #include "scene/mesh.h"
 #include "scene/prepared_scene.h"
 #include "scene/procedural_moon.h"
+#include "scene/shadow_views.h"
 #include "scene/view.h"
 
 namespace halfspace {
@@ -93,6 +94,8 @@ class ScenePreparation {
 
   // prepare_shadows.cpp: fills the shadows' views, once all objects are placed
   void add_shadows();
+  std::vector<LightView> shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const;
+  int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
 
   // prepare_background.cpp
   void add_stars();

@@ -87,14 +87,14 @@ ShadowView to_shading(const LightView& v, int size, const glm::dvec3& eye_ws) {
   return s;
 }
 
-// Draws the casters' depth as the view sees them.
-PassStatistics draw_depth(const LightView& view, const std::vector<Extent>& casters, ShadowFaces faces, Image<float>& depth,
-                          const Workers& workers) {
+// Draws the meshes' depth as it is seen from a light, or from the eye.
+PassStatistics draw_depth(const glm::dmat4& clip_from_world, const std::vector<PlacedMesh>& meshes, bool casters_only, ShadowFaces faces,
+                          Image<float>& depth, const Workers& workers) {
   DepthTarget target = d32f_target(depth);
   target.clear_value = 0.0f;
   Pass pass(depth.width(), depth.height(), {}, target);
-  for (const Extent& caster : casters) {
-    const PlacedMesh& m = *caster.mesh;
+  for (const PlacedMesh& m : meshes) {
+    if (casters_only && !m.casts_shadow) continue;
     DrawState state;
     state.cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
                  : faces == ShadowFaces::front             ? CullMode::back
@@ -102,7 +102,7 @@ PassStatistics draw_depth(const LightView& view, const std::vector<Extent>& cast
     if (glm::determinant(glm::dmat3(m.world_from_object)) < 0) state.front = Winding::clockwise;
     state.depth.clip = ClipDepth::zero_to_one;
     state.depth.compare = CompareOp::greater;
-    pass.draw_depth(DepthOnly{glm::mat4(view.clip_from_world * m.world_from_object)}, vertices(stream(m.mesh->positions)), *m.indices, state);
+    pass.draw_depth(DepthOnly{glm::mat4(clip_from_world * m.world_from_object)}, vertices(stream(m.mesh->positions)), *m.indices, state);
   }
   return pass.run(workers);
 }
@@ -149,7 +149,6 @@ class ViewFinder {
     }
   }
 
-  const std::vector<Extent>& casters() const { return casters_; }
   bool nothing_received() const { return receivers_.empty(); }
 
   std::vector<LightView> directional(const glm::dvec3& to_light_ws, int cascades, double growth) const {
@@ -241,7 +240,77 @@ class ViewFinder {
   std::vector<Extent> casters_, receivers_;
 };
 
+std::vector<LightView> views_of(const LightDescription& light, const ShadowDescription& shadow, const ViewFinder& finder) {
+  switch (light.type) {
+    case LightType::directional: return finder.directional(light.direction, shadow.cascades, shadow.cascade_growth);
+    case LightType::spot: return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree);
+    case LightType::point: break;
+  }
+  return finder.cube(light.position);
+}
+
+// Places of receivers that the picture shows, and the width of a pixel there: from a coarse picture of their depth.
+struct SeenPlace {
+  glm::dvec3 position_ew;
+  double pixel;
+};
+std::vector<SeenPlace> seen_places(const View& view, const std::vector<PlacedMesh>& meshes, const Workers& workers) {
+  constexpr int kWidth = 96, kHeight = 54;
+  Image<float> depth(kWidth, kHeight);
+  draw_depth(view.clip_from_world, meshes, false, ShadowFaces::front, depth, workers);
+  const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
+  std::vector<SeenPlace> places;
+  for (int row = 0; row < kHeight; ++row) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (depth.at(x, row) == 0.0f) continue;
+      const glm::dvec4 p = world_from_clip * glm::dvec4((x + 0.5) / kWidth * 2.0 - 1.0, 1.0 - (row + 0.5) / kHeight * 2.0,
+                                                        static_cast<double>(depth.at(x, row)), 1.0);
+      const glm::dvec3 position_ew = glm::dvec3(p) / p.w - view.eye_ws;
+      const double spanned = view.to_eye_ws == glm::dvec3(0.0) ? 2.0 * view.tan_y * glm::dot(position_ew, view.forward_ws)
+                                                               : 2.0 / glm::length(glm::dvec3(view.clip_from_world[0][1], view.clip_from_world[1][1],
+                                                                                              view.clip_from_world[2][1]));
+      places.push_back({position_ew, spanned / view.height_px});
+    }
+  }
+  return places;
+}
+
+// What a texel spans, in pixels, on all but a twentieth of the places; 0 where no view holds any.
+double footprint_of(const std::vector<ShadowView>& views, const std::vector<SeenPlace>& places, float margin) {
+  std::vector<double> footprints;
+  for (const SeenPlace& place : places) {
+    for (const ShadowView& view : views) {
+      const ShadowPlace<float> p = place_on(view, glm::vec3(place.position_ew));
+      if (!holds(view, p, margin)) continue;
+      footprints.push_back(static_cast<double>(view.texel_per_w * p.w) / place.pixel);
+      break;
+    }
+  }
+  if (footprints.empty()) return 0.0;
+  const auto nth = footprints.begin() + static_cast<std::ptrdiff_t>((footprints.size() - 1) * 95 / 100);
+  std::ranges::nth_element(footprints, nth);
+  return *nth;
+}
+
 }  // namespace
+
+std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const {
+  // Half a texel more than the filter asks: rounding must not push a point on a face's edge out of both faces.
+  const ViewFinder finder(view_, out_.meshes, size, static_cast<double>(filter_reach(settings)) + 0.5);
+  return finder.nothing_received() ? std::vector<LightView>{} : views_of(light, scene_.shadow, finder);
+}
+
+int ScenePreparation::shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const {
+  if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
+  const std::vector<SeenPlace> places = seen_places(view_, out_.meshes, assets_.workers_);
+  int size = 256;
+  for (; size < kMostShadowTexels; size *= 2) {
+    std::vector<ShadowView> views;
+    for (const LightView& view : shadow_views(light, settings, size)) views.push_back(to_shading(view, size, view_.eye_ws));
+    if (footprint_of(views, places, filter_reach(settings)) <= scene_.shadow.footprint) break;
+  }
+  return size;
+}
 
 void ScenePreparation::add_shadows() {
   const ShadowDescription& d = scene_.shadow;
@@ -252,19 +321,14 @@ void ScenePreparation::add_shadows() {
     const auto start = std::chrono::steady_clock::now();
     PreparedLight& light = out_.lights[i];
     light.shadow.settings = settings_of(d, l);
-    // Half a texel more than the filter asks: rounding must not push a point on a face's edge out of both faces.
-    const ViewFinder finder(view_, out_.meshes, d.resolution, static_cast<double>(filter_reach(light.shadow.settings)) + 0.5);
-    if (finder.nothing_received()) continue;
-    const std::vector<LightView> views = l.type == LightType::directional
-                                             ? finder.directional(l.direction, d.cascades, d.cascade_growth)
-                                             : l.type == LightType::spot ? finder.spot(l.position, -l.direction, 2.0 * l.outer * kRadiansPerDegree)
-                                                                   : finder.cube(l.position);
+    const int size = shadow_resolution(l, light.shadow.settings);
+    const std::vector<LightView> views = shadow_views(l, light.shadow.settings, size);
     const auto maps = std::make_shared<ShadowMaps>();
     for (const LightView& view : views) {
-      maps->views.push_back(to_shading(view, d.resolution, view_.eye_ws));
+      maps->views.push_back(to_shading(view, size, view_.eye_ws));
       ShadowView& s = maps->views.back();
-      Image<float>& depth = maps->depths.emplace_back(d.resolution, d.resolution);
-      out_.shadow_statistics += draw_depth(view, finder.casters(), d.faces, depth, assets_.workers_);
+      Image<float>& depth = maps->depths.emplace_back(size, size);
+      out_.shadow_statistics += draw_depth(view.clip_from_world, out_.meshes, true, d.faces, depth, assets_.workers_);
       s.depth = depth.data();
       if (!is_moment_filter(light.shadow.settings.filter)) continue;
       s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(d.radius)), assets_.workers_)).data();
