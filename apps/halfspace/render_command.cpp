@@ -17,6 +17,7 @@
 #include "halfspace/scene_arguments.h"
 #include "halfspace/statistics.h"
 #include "scene/image_io.h"
+#include "scene/nearest_name.h"
 #include "scene/output_file.h"
 #include "scene/prepared_scene.h"
 #include "scene/scene_file.h"
@@ -31,6 +32,7 @@ struct RenderArguments {
   std::string size = "1920x1080";
   std::vector<std::string> set;
   std::string camera;   // empty: the scene's
+  std::string shading;  // empty: the objects'
   std::string time;     // empty: 0
   std::string frames;   // empty: one picture
   std::string fps;      // empty: 30
@@ -65,6 +67,19 @@ ImageFile output_format(const std::filesystem::path& path) {
   throw UsageError("-o is '" + path.string() + "'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr");
 }
 
+// One shading rate for every object.
+void set_shading(SceneFile& scene, const std::string& rate) {
+  if (rate.empty()) return;
+  ObjectDescription any;
+  const std::span<const std::string_view> rates = find_field(section_of(any), "shading").key->choices;
+  if (std::ranges::find(rates, rate) == rates.end()) {
+    throw UsageError("--shading is '" + rate + "'" + suggestion(rate, rates));
+  }
+  std::vector<std::string> settings;
+  for (const auto& [name, object] : scene.description().objects) settings.push_back("objects." + name + ".shading=" + rate);
+  scene.set(settings);
+}
+
 RenderJob understand(const RenderArguments& args) {
   const PictureSize size = parse_size(args.size);
   const int threads = parse_threads(args.threads);
@@ -82,7 +97,9 @@ RenderJob understand(const RenderArguments& args) {
   if (frames && !out.has_extension())
     throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
-  return {open_scene(args.scene, args.set, args.camera), out, format, size, time, fps, frames, threads, args.resume};
+  SceneFile scene = open_scene(args.scene, args.set, args.camera);
+  set_shading(scene, args.shading);
+  return {std::move(scene), out, format, size, time, fps, frames, threads, args.resume};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -174,6 +191,7 @@ void add_render_command(CLI::App& program) {
   command->add_option("--size", args->size, "Pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
   command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
+  command->add_option("--shading", args->shading, "How often all objects are lit: none flat provoking gouraud phong")->type_name("RATE");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
   command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");

@@ -5,20 +5,17 @@
 #pragma once
 
 #include "shading/contract.h"
-#include "shading/face_normal.h"
 #include "shading/lighting.h"
-#include "shading/shadow.h"
 
 namespace halfspace {
 
-/// Colour: (share of the light that arrives by the map, shading normal · light, 1 + mesh, triangle).
+/// Colour: (share of the light that arrives by the map, 1 without one; shading normal · light, 1 + mesh, triangle).
 struct ShadowMask {
   glm::mat4 clip_from_object;
   glm::mat4 world_from_object;   ///< to the world's axes round the eye
   glm::mat3 normal_from_object;  ///< inverse transpose
   glm::vec3 to_eye_ws{0.0f};     ///< orthographic: unit vector towards the eye; else 0
   Light light;
-  Shadow shadow;  ///< no views: 1 everywhere
   float mesh = 0.0f;
 
   template <class R>
@@ -44,10 +41,11 @@ struct ShadowMask {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec3<R> v_ws = to_eye_ws == glm::vec3(0.0f) ? normalize_or_zero(-in.position_ew) : vec3<R>(to_eye_ws);
-    const vec3<R> face_ws = face_normal(px, &Varyings<R>::position_ew, v_ws);
+    const vec3<R> face_ws = face_towards(cross(px.ddx(&Varyings<R>::position_ew), px.ddy(&Varyings<R>::position_ew)), v_ws);
     const vec3<R> n_ws = normalize_or_zero(in.normal_ws) * select(px.front_facing, R(1), R(-1));
     const vec3<R> l_ws = light_at(light, in.position_ew).l_ws;
-    const R arriving = light_arriving(shadow, ShadowReceiver<R>{in.position_ew, face_ws, n_ws, l_ws, px.x, px.y});
+    const ShadowReceiver<R> receiver{in.position_ew, face_ws, n_ws, l_ws, px.x, px.y};
+    const R arriving = light.shadow == nullptr ? R(1) : light_arriving(*light.shadow, receiver);
     return {vec4<R>(arriving, dot(n_ws, l_ws), R(mesh + 1.0f), in.triangle.value)};
   }
 };

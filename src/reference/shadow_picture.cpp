@@ -58,7 +58,7 @@ ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, i
     const Loose& loose = meshes.emplace_back(loosened(placed));
     ShadowMask shader = mask_of(placed, view);
     shader.light = light.light;
-    if (with_shadow && placed.receives_shadow) shader.shadow = light.shadow;
+    if (!with_shadow || !placed.receives_shadow) shader.light.shadow = nullptr;
     shader.mesh = static_cast<float>(m);
     DrawState state;
     state.cull = placed.two_sided ? CullMode::none : CullMode::back;

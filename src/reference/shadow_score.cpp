@@ -182,8 +182,10 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
                                 const RayScene& casters, int width, int height, int rays_per_pixel, const Workers& workers) {
   const PreparedLight& light = choice.scene->lights[choice.index];
   const View& view = choice.scene->view;
-  const RayLight ray_light{light.light, static_cast<double>(light.shadow.settings.light_radius),
-                           light.shadow.settings.light_radius > 0.0f ? rays_per_pixel : 1};
+  static const Shadow kNone;
+  const Shadow& shadow = light.light.shadow == nullptr ? kNone : *light.light.shadow;
+  const RayLight ray_light{light.light, static_cast<double>(shadow.settings.light_radius),
+                           shadow.settings.light_radius > 0.0f ? rays_per_pixel : 1};
   const ShadowPicture picture = draw_shadow_picture(choice, view, width, height, true, workers);
   ShadowComparison out{Image<float>(width, height), Image<float>(width, height), {}};
   Pixels pixels{Image<PixelKind>(width, height), primary_hits(rays, view, width, height, workers)};
@@ -218,7 +220,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
   s.light = light.name;
   s.truth_error = static_cast<double>(*std::ranges::max_element(errors));
   score_means(out, pixels);
-  score_false_pixels(out, pixels, light.shadow, EdgeFinder(rays, casters, {ray_light.light, 0.0, 1}), workers);
+  score_false_pixels(out, pixels, shadow, EdgeFinder(rays, casters, {ray_light.light, 0.0, 1}), workers);
   s.edge_px = edge_distance(edge_pixels(out.map, pixels), edge_pixels(out.truth, pixels), width, height);
   s.map_ms = light.map_ms;
   s.lookup_ms = std::max(0.0, median_draw_ms(choice, view, width, height, true, workers) -

@@ -40,7 +40,8 @@ Validation validate(const std::string& name, const SceneDescription& description
     c.score.scene = name;
     c.score.method = shadow.at("method").get<std::string>();
     c.score.bias = shadow.at("bias").get<std::string>();
-    c.score.resolution = scene.lights[i].shadow.views.empty() ? 0 : scene.lights[i].shadow.views.front().size;
+    const Shadow* maps = scene.lights[i].light.shadow;
+    c.score.resolution = maps == nullptr || maps->views.empty() ? 0 : maps->views.front().size;
   }
   return out;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_objects.cpp,
+// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_surface.cpp, prepare_objects.cpp,
 // prepare_shadows.cpp, prepare_background.cpp.
 // Included by these alone.
 #pragma once
@@ -62,8 +62,6 @@ class ScenePreparation {
   struct Relief {
     std::shared_ptr<const HeightField> field;  // null: nothing does
     std::string recipe;
-    std::shared_ptr<const Texture2D> slopes;  // null: normals come with the mesh
-    Sampler sampler;
   };
 
   const CameraDescription& camera() const;
@@ -82,14 +80,25 @@ class ScenePreparation {
   int width_for(const ObjectDescription& o) const;
   MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
   std::shared_ptr<const MoonMaps> moon_maps(int width);
-  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& path);
-  std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& path);
+  // where: the key's path, for messages.
+  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Texture2D> data_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Image<float>> heights(const MapUse& use, const std::string& where);
+  std::shared_ptr<const HeightField> height_field(const MapUse& use, double smoothing, const std::string& where);
+
+  // prepare_surface.cpp
+  void add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map, const ObjectDescription& o,
+                  const std::string& where);
+  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  DetailMap normal_map(const ObjectDescription& o, const std::string& where);
+  DetailMap bump_map(const ObjectDescription& o, const std::string& where);
 
   // prepare_objects.cpp
   void add_object(const std::string& path, const ObjectDescription& o);
   Relief relief_of(const ObjectDescription& o, const std::string& path);
   std::shared_ptr<const MeshAsset> mesh_of(const ObjectDescription& o, const Relief& relief);
-  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  DetailMap slopes_of(const Relief& relief, const ObjectDescription& o);
+  NormalDetail add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path);
   void place(LitSurface& s, glm::dmat4 world) const;
 
   // prepare_shadows.cpp: fills the shadows' views, once all objects are placed
@@ -103,7 +112,10 @@ class ScenePreparation {
   SceneAssets& assets_;
   const SceneDescription& scene_;
   View view_;
+  std::shared_ptr<std::vector<Shadow>> shadows_;              // by light; empty without shadows
   std::shared_ptr<const std::vector<Light>> lights_;
+  std::shared_ptr<const std::vector<Light>> shadowless_lights_;  // for what receives no shadow
+  glm::dvec3 ambient_;
   PreparedScene out_;
 };
 

@@ -319,10 +319,10 @@ void ScenePreparation::add_shadows() {
     const LightDescription& l = scene_.lights[i].second;
     if (!l.shadow) continue;
     const auto start = std::chrono::steady_clock::now();
-    PreparedLight& light = out_.lights[i];
-    light.shadow.settings = settings_of(d, l);
-    const int size = shadow_resolution(l, light.shadow.settings);
-    const std::vector<LightView> views = shadow_views(l, light.shadow.settings, size);
+    Shadow& shadow = (*shadows_)[i];
+    shadow.settings = settings_of(d, l);
+    const int size = shadow_resolution(l, shadow.settings);
+    const std::vector<LightView> views = shadow_views(l, shadow.settings, size);
     const auto maps = std::make_shared<ShadowMaps>();
     for (const LightView& view : views) {
       maps->views.push_back(to_shading(view, size, view_.eye_ws));
@@ -330,12 +330,12 @@ void ScenePreparation::add_shadows() {
       Image<float>& depth = maps->depths.emplace_back(size, size);
       out_.shadow_statistics += draw_depth(view.clip_from_world, out_.meshes, true, d.faces, depth, assets_.workers_);
       s.depth = depth.data();
-      if (!is_moment_filter(light.shadow.settings.filter)) continue;
+      if (!is_moment_filter(shadow.settings.filter)) continue;
       s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(d.radius)), assets_.workers_)).data();
     }
-    light.shadow.views = maps->views;
+    shadow.views = maps->views;
     out_.assets.push_back(maps);
-    light.map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    out_.lights[i].map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 }
 

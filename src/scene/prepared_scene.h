@@ -16,20 +16,33 @@
 #include "scene/description.h"
 #include "scene/mesh.h"
 #include "scene/view.h"
-#include "shading/blinn_phong.h"
-#include "shading/displaced_sphere.h"
 #include "shading/shadow_map.h"
 #include "shading/star_sky.h"
+#include "shading/surface_shader.h"
 
 namespace halfspace {
 
+/// Every shader that a scene may draw by. What visits it compiles them all: add_draw.cpp, and one file of tests.
+using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, SurfaceShader<ShadingRate::none, true>,            //
+                                 SurfaceShader<ShadingRate::flat, false>, SurfaceShader<ShadingRate::flat, true>,            //
+                                 SurfaceShader<ShadingRate::provoking, false>, SurfaceShader<ShadingRate::provoking, true>,  //
+                                 SurfaceShader<ShadingRate::gouraud, false>, SurfaceShader<ShadingRate::gouraud, true>,      //
+                                 SurfaceShader<ShadingRate::phong, false>, SurfaceShader<ShadingRate::phong, true>,          //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
+                                 StarSky>;
+
 /// One draw. std::visit on the shader gives its type back.
 struct PreparedDraw {
-  std::variant<BlinnPhong, DisplacedSphere, StarSky> shader;
+  SceneShader shader;
   VertexView vertices;
   std::shared_ptr<const Indices> indices;
   DrawState state;  ///< reversed Z: clear depth to 0
 };
+
+/// Adds it to a pass.
+void add_draw(Pass& pass, const PreparedDraw& draw);
 
 /// A mesh and its place: what shadow maps and rays are made from.
 struct PlacedMesh {
@@ -43,10 +56,10 @@ struct PlacedMesh {
 /// A light as this picture has it.
 struct PreparedLight {
   std::string name;
-  Light light;
-  Shadow shadow;        ///< no views: it casts none, or nothing in view receives it
+  Light light;          ///< its shadow is null where it casts none
   double map_ms = 0.0;  ///< that its maps took
 };
+
 
 /// All that a picture needs. Movable; keeps alive what its draws point to.
 struct PreparedScene {
