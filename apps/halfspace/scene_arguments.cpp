@@ -6,6 +6,7 @@
 #include "core/check.h"
 #include "halfspace/commands.h"
 #include "scene/nearest_name.h"
+#include "scene/scene_file.h"
 
 namespace halfspace {
 

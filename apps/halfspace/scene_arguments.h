@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_file.h"
-
 namespace halfspace {
+
+class SceneFile;
 
 /// The option --set KEY=VALUE, which may be given several times.
 void add_set_option(CLI::App* command, std::vector<std::string>& settings);

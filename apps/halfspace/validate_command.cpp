@@ -12,6 +12,7 @@
 #include "reference/validation.h"
 #include "scene/image_io.h"
 #include "scene/output_file.h"
+#include "scene/scene_file.h"
 
 namespace halfspace {
 

@@ -26,7 +26,8 @@ std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& axis) {
 // Points of the unit disk, one in each of strata² cells of equal area: radius² and angle run evenly.
 glm::dvec2 disk_point(int cell, int strata, uint32_t seed) {
   const auto random = [&](uint32_t salt) {
-    return static_cast<double>(unit_fraction<float>(mix_bits(static_cast<int32_t>(seed ^ salt ^ (static_cast<uint32_t>(cell) * 0x9e3779b9u)))));
+    return static_cast<double>(
+        unit_fraction<float>(mix_bits(static_cast<int32_t>(seed ^ salt ^ (static_cast<uint32_t>(cell) * 0x9e3779b9u)))));
   };
   const double r = std::sqrt((cell / strata + random(0x51ed270bu)) / strata);
   const SinCosDouble a = sincos_turns(std::min((cell % strata + random(0x2545f491u)) / strata, 1.0 - 0x1p-30));

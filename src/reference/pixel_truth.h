@@ -27,7 +27,8 @@ struct ShadowPicture {
 };
 
 /// Draws it; with `with_shadow` false as if the light had no map.
-ShadowPicture draw_shadow_picture(const LightChoice& light, const View& view, int width, int height, bool with_shadow, const Workers& workers);
+ShadowPicture draw_shadow_picture(const LightChoice& light, const View& view, int width, int height, bool with_shadow,
+                                  const Workers& workers);
 
 /// The ray of a point of the picture: x, y in pixels from the top left corner, pixel centres at + 0.5.
 struct PictureRay {
@@ -40,10 +41,10 @@ Image<std::optional<RayHit>> primary_hits(const RayScene& rays, const View& view
 
 /// How the rasterizer's visible triangles compare with the rays'.
 struct VisibilityScore {
-  int64_t pixels = 0;       ///< covered by either
-  int64_t same = 0;         ///< the same triangle, or none in both
-  int64_t near_edge = 0;    ///< another one, that a ray within 1/256 px sees
-  int64_t depth_tie = 0;    ///< another one, nearer or farther by less than the surface's depth changes over 1/256 px
+  int64_t pixels = 0;     ///< covered by either
+  int64_t same = 0;       ///< the same triangle, or none in both
+  int64_t near_edge = 0;  ///< another one, that a ray within 1/256 px sees
+  int64_t depth_tie = 0;  ///< another one, nearer or farther by less than the surface's depth changes over 1/256 px
   int64_t unexplained = 0;
 };
 VisibilityScore compare_visibility(const ShadowPicture& picture, const Image<std::optional<RayHit>>& hits, const RayScene& rays,

@@ -88,8 +88,8 @@ RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws,
       placed.positions_ew.push_back(glm::dvec3(mesh.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye_ws);
     const RTCGeometry geometry = rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     const std::size_t triangles = mesh.indices->size() / 3;
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 3 * sizeof(float), placed.positions_ew.size()));
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), placed.positions_ew.size()));
     for (const glm::dvec3& p : placed.positions_ew)
       for (int k = 0; k < 3; ++k) *vertices++ = static_cast<float>(p[k]);
     auto* indices = static_cast<uint32_t*>(

@@ -17,12 +17,12 @@ namespace halfspace {
 
 /// Where a ray meets the scene. The suffix _ew: the world's axes, RaySceneOptions::eye_ws as origin.
 struct RayHit {
-  int mesh;                    ///< index into the meshes given
-  uint32_t triangle;           ///< of that mesh: its indices are 3·triangle …
-  float distance;              ///< along the ray, in lengths of its direction
+  int mesh;                       ///< index into the meshes given
+  uint32_t triangle;              ///< of that mesh: its indices are 3·triangle …
+  float distance;                 ///< along the ray, in lengths of its direction
   std::array<double, 3> weights;  ///< barycentric, of the triangle's vertices; they add up to 1
-  glm::dvec3 position_ew;      ///< by the weights, in double: nearer to the triangle than origin + distance·direction
-  glm::dvec3 face_normal_ws;   ///< unit; the triangle's, counter-clockwise in front
+  glm::dvec3 position_ew;         ///< by the weights, in double: nearer to the triangle than origin + distance·direction
+  glm::dvec3 face_normal_ws;      ///< unit; the triangle's, counter-clockwise in front
 };
 
 /// Immutable; any number of threads may ask at once.

@@ -38,7 +38,8 @@ class EdgeFinder {
 
   double distance(const RayHit& hit, const glm::dvec3& face_normal_ws, bool lit, double texel, double radius) const {
     const bool directional = light_.light.type == LightType::directional;
-    const glm::dvec3 axis = directional ? glm::dvec3(light_.light.place_ew) : unit_or_zero(glm::dvec3(light_.light.place_ew) - hit.position_ew);
+    const glm::dvec3 axis =
+        directional ? glm::dvec3(light_.light.place_ew) : unit_or_zero(glm::dvec3(light_.light.place_ew) - hit.position_ew);
     const glm::dvec3 right = unit_or_zero(glm::cross(std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), axis));
     const glm::dvec3 up = glm::cross(axis, right);
     const double lean = glm::dot(face_normal_ws, axis);
@@ -178,8 +179,8 @@ double median_draw_ms(const LightChoice& light, const View& view, int width, int
 
 }  // namespace
 
-ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
-                                const RayScene& casters, int width, int height, int rays_per_pixel, const Workers& workers) {
+ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays, const RayScene& casters, int width, int height,
+                                int rays_per_pixel, const Workers& workers) {
   const PreparedLight& light = choice.scene->lights[choice.index];
   const View& view = choice.scene->view;
   static const Shadow kNone;
@@ -223,8 +224,8 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
   score_false_pixels(out, pixels, shadow, EdgeFinder(rays, casters, {ray_light.light, 0.0, 1}), workers);
   s.edge_px = edge_distance(edge_pixels(out.map, pixels), edge_pixels(out.truth, pixels), width, height);
   s.map_ms = light.map_ms;
-  s.lookup_ms = std::max(0.0, median_draw_ms(choice, view, width, height, true, workers) -
-                                  median_draw_ms(choice, view, width, height, false, workers));
+  s.lookup_ms = std::max(
+      0.0, median_draw_ms(choice, view, width, height, true, workers) - median_draw_ms(choice, view, width, height, false, workers));
   return out;
 }
 

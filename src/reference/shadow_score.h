@@ -30,9 +30,9 @@ struct ShadowScore {
   DistanceShares false_shadow;    ///< |map − rays| > 0.5, of the lit pixels
   DistanceShares false_light;     ///< the same of the shadowed ones
   EdgeDistance edge_px;
-  double penumbra_error = 0.0;    ///< mean of |map − rays| where 0 < rays < 1; 0 where there is no penumbra
-  double error = 0.0;             ///< the same over all pixels
-  double truth_error = 0.0;       ///< largest standard error of the rays
+  double penumbra_error = 0.0;  ///< mean of |map − rays| where 0 < rays < 1; 0 where there is no penumbra
+  double error = 0.0;           ///< the same over all pixels
+  double truth_error = 0.0;     ///< largest standard error of the rays
   double map_ms = 0.0, lookup_ms = 0.0;
 };
 
@@ -43,7 +43,7 @@ struct ShadowComparison {
 };
 
 /// Compares a prepared scene's light. `rays` holds all meshes, `casters` those that cast; both round the view's eye.
-ShadowComparison compare_shadow(const LightChoice& light, const RayScene& rays,
-                                const RayScene& casters, int width, int height, int rays_per_pixel, const Workers& workers);
+ShadowComparison compare_shadow(const LightChoice& light, const RayScene& rays, const RayScene& casters, int width, int height,
+                                int rays_per_pixel, const Workers& workers);
 
 }  // namespace halfspace

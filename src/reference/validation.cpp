@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/validation.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace halfspace {
 
 namespace {
 
-Json to_json(const DistanceShares& s) {
-  return {{"within_1", s.within_1}, {"from_1_to_3", s.from_1_to_3}, {"beyond_3", s.beyond_3}};
-}
+Json to_json(const DistanceShares& s) { return {{"within_1", s.within_1}, {"from_1_to_3", s.from_1_to_3}, {"beyond_3", s.beyond_3}}; }
 
 glm::u8vec4 gray(float value) {
   const auto code = static_cast<uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
@@ -32,11 +30,12 @@ Validation validate(const std::string& name, const SceneDescription& description
     const LightChoice light{&scene, i};
     if (i == 0) {
       const ShadowPicture picture = draw_shadow_picture(light, scene.view, options.width, options.height, false, workers);
-      out.visibility = compare_visibility(picture, primary_hits(rays, scene.view, options.width, options.height, workers), rays, scene.view,
-                                          workers);
+      out.visibility =
+          compare_visibility(picture, primary_hits(rays, scene.view, options.width, options.height, workers), rays, scene.view, workers);
     }
     if (!description.lights[i].second.shadow) continue;
-    ShadowComparison& c = out.lights.emplace_back(compare_shadow(light, rays, casters, options.width, options.height, options.rays, workers));
+    ShadowComparison& c =
+        out.lights.emplace_back(compare_shadow(light, rays, casters, options.width, options.height, options.rays, workers));
     c.score.scene = name;
     c.score.method = shadow.at("method").get<std::string>();
     c.score.bias = shadow.at("bias").get<std::string>();
@@ -77,25 +76,27 @@ std::string json_report(const Validation& validation) {
 }
 
 std::string text_report(const Validation& validation) {
-  std::string text = fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:^29}  {:^29}  {:>18} {:>7} {:>7}\n", "scene", "light", "method", "bias",
-                                 "size", "false shadow, % of lit", "false light, % of shadowed", "edge, px", "map ms", "look-up");
+  std::string text = fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:^29}  {:^29}  {:>18} {:>7} {:>7}\n", "scene", "light", "method",
+                                 "bias", "size", "false shadow, % of lit", "false light, % of shadowed", "edge, px", "map ms", "look-up");
   text += fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:>9}{:>10}{:>10}  {:>9}{:>10}{:>10}  {:>5} {:>5} {:>6}\n", "", "", "", "", "",
                       "<=1 texel", "1 to 3", "beyond", "<=1 texel", "1 to 3", "beyond", "mean", "p95", "max");
   for (const ShadowComparison& c : validation.lights) {
     const ShadowScore& s = c.score;
-    text += fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:>9.4f}{:>10.4f}{:>10.4f}  {:>9.4f}{:>10.4f}{:>10.4f}  {:>5.2f} {:>5.2f} {:>6.1f} "
-                        "{:>7.1f} {:>7.1f}\n",
-                        s.scene, s.light, s.method, s.bias, s.resolution, 100 * s.false_shadow.within_1, 100 * s.false_shadow.from_1_to_3,
-                        100 * s.false_shadow.beyond_3, 100 * s.false_light.within_1, 100 * s.false_light.from_1_to_3,
-                        100 * s.false_light.beyond_3, s.edge_px.mean, s.edge_px.p95, s.edge_px.max, s.map_ms, s.lookup_ms);
+    text += fmt::format(
+        "{:<14} {:<10} {:<9} {:<14} {:>5}  {:>9.4f}{:>10.4f}{:>10.4f}  {:>9.4f}{:>10.4f}{:>10.4f}  {:>5.2f} {:>5.2f} {:>6.1f} "
+        "{:>7.1f} {:>7.1f}\n",
+        s.scene, s.light, s.method, s.bias, s.resolution, 100 * s.false_shadow.within_1, 100 * s.false_shadow.from_1_to_3,
+        100 * s.false_shadow.beyond_3, 100 * s.false_light.within_1, 100 * s.false_light.from_1_to_3, 100 * s.false_light.beyond_3,
+        s.edge_px.mean, s.edge_px.p95, s.edge_px.max, s.map_ms, s.lookup_ms);
     if (s.truth_error > 0.0)
-      text += fmt::format("    soft: mean error {:.4f} in penumbrae, {:.4f} in all; standard error of the rays at most {:.4f}\n", s.penumbra_error,
-                          s.error, s.truth_error);
+      text += fmt::format("    soft: mean error {:.4f} in penumbrae, {:.4f} in all; standard error of the rays at most {:.4f}\n",
+                          s.penumbra_error, s.error, s.truth_error);
     if (s.sides_differ > 0.0) text += fmt::format("    {:.3f} % of pixels: face and shading normal differ in side\n", 100 * s.sides_differ);
   }
   const VisibilityScore& v = validation.visibility;
-  return text + fmt::format("visible triangles: {} pixels, {} as by rays, {} within 1/256 px of an edge, {} of equal depth, {} unexplained\n", v.pixels,
-                            v.same, v.near_edge, v.depth_tie, v.unexplained);
+  return text +
+         fmt::format("visible triangles: {} pixels, {} as by rays, {} within 1/256 px of an edge, {} of equal depth, {} unexplained\n",
+                     v.pixels, v.same, v.near_edge, v.depth_tie, v.unexplained);
 }
 
 Image<glm::u8vec4> light_picture(const Image<float>& light) {

@@ -207,8 +207,13 @@ class ViewFinder {
       const glm::dvec3 reach = glm::max(glm::abs(e.box_ws.low - position), glm::abs(e.box_ws.high - position));
       far = std::max({far, reach.x, reach.y, reach.z});
     }
-    const auto views = cube_views(position, near_end(near, far), far * 1.001, size_, margin_);
-    return {views.begin(), views.end()};
+    std::vector<LightView> views;
+    for (const LightView& view : cube_views(position, near_end(near, far), far * 1.001, size_, margin_)) {
+      const auto seen = frustum_corners(view.clip_from_world);
+      const auto sees = [&](const Extent& e) { return !common_corners(seen, e.box_ws).empty(); };
+      if (std::ranges::any_of(receivers_, sees) && std::ranges::any_of(casters_, sees)) views.push_back(view);
+    }
+    return views;
   }
 
  private:
@@ -266,9 +271,10 @@ std::vector<SeenPlace> seen_places(const View& view, const std::vector<PlacedMes
       const glm::dvec4 p = world_from_clip * glm::dvec4((x + 0.5) / kWidth * 2.0 - 1.0, 1.0 - (row + 0.5) / kHeight * 2.0,
                                                         static_cast<double>(depth.at(x, row)), 1.0);
       const glm::dvec3 position_ew = glm::dvec3(p) / p.w - view.eye_ws;
-      const double spanned = view.to_eye_ws == glm::dvec3(0.0) ? 2.0 * view.tan_y * glm::dot(position_ew, view.forward_ws)
-                                                               : 2.0 / glm::length(glm::dvec3(view.clip_from_world[0][1], view.clip_from_world[1][1],
-                                                                                              view.clip_from_world[2][1]));
+      const double spanned =
+          view.to_eye_ws == glm::dvec3(0.0)
+              ? 2.0 * view.tan_y * glm::dot(position_ew, view.forward_ws)
+              : 2.0 / glm::length(glm::dvec3(view.clip_from_world[0][1], view.clip_from_world[1][1], view.clip_from_world[2][1]));
       places.push_back({position_ew, spanned / view.height_px});
     }
   }
