@@ -3,6 +3,7 @@
 // `halfspace render SCENE`: checks all arguments, renders a picture or a range of frames, writes them.
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -61,9 +62,7 @@ std::filesystem::path output_path(const RenderArguments& args) {
 
 ImageFile output_format(const std::filesystem::path& path) {
   if (const std::optional<ImageFile> format = image_file_of(path)) return *format;
-  std::error_code error;
-  const bool special = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
-  if (special && !path.has_extension()) return ImageFile::png;  // /dev/stdout
+  if (is_stream(path) && !path.has_extension()) return ImageFile::png;
   throw UsageError("-o is '" + path.string() + "'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr");
 }
 
@@ -111,13 +110,23 @@ void write_picture(const std::filesystem::path& path, const Image<glm::u8vec4>& 
   path.has_extension() ? write_image(path, picture) : write_png(path, picture);  // /dev/stdout
 }
 
+// What the scene asks for and cannot have is told with its name.
+PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets) {
+  const SceneDescription scene = job.scene.at(seconds);
+  try {
+    return assets.prepare(scene, job.size.width, job.size.height);
+  } catch (const InputError& e) {
+    throw InputError(job.scene.source() + ": " + e.what());
+  }
+}
+
 // Renders one picture into a file and adds to the report.
 template <class Pixel>
 void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
                     RenderReport& report) {
   const auto start = std::chrono::steady_clock::now();
   Image<Pixel> picture(job.size.width, job.size.height);
-  report.counts += render(assets.prepare(job.scene.at(seconds), job.size.width, job.size.height), picture, workers);
+  report.counts += render(prepare(job, seconds, assets), picture, workers);
   const double render_ms = milliseconds_since(start);
   write_picture(path, picture);
   report.render_ms += render_ms;
@@ -145,6 +154,20 @@ bool is_whole(const std::filesystem::path& path, const RenderJob& job) {
   }
 }
 
+double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
+
+// Generated maps are as fine as the nearest of all views needs, so that none changes its width on the way. A thousand looks
+// along a longer range are enough to find it.
+void expect_frames(const RenderJob& job, SceneAssets& assets) {
+  constexpr int kMostLooks = 1000;
+  const bool stands = job.scene.description().animations.empty();
+  const int looks = stands ? 1 : std::min(job.frames->count(), kMostLooks);
+  for (int i = 0; i < looks; ++i) {
+    const int frame = job.frames->first + static_cast<int>(static_cast<int64_t>(job.frames->count() - 1) * i / std::max(looks - 1, 1));
+    assets.expect(job.scene.at(time_of(job, frame)), job.size.width, job.size.height);
+  }
+}
+
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
   SceneAssets assets(workers);
@@ -155,11 +178,12 @@ RenderReport run(const RenderJob& job) {
     return report;
   }
   check_writable(frame_path(job.out, job.frames->first, *job.frames));
+  expect_frames(job, assets);
   Progress progress(job.frames->count());
   for (int frame = job.frames->first; frame <= job.frames->last; ++frame) {
     const std::filesystem::path path = frame_path(job.out, frame, *job.frames);
     const bool skip = job.resume && is_whole(path, job);
-    if (!skip) render_picture(job, job.time + frame / job.fps, path, assets, workers, report);
+    if (!skip) render_picture(job, time_of(job, frame), path, assets, workers, report);
     progress.advance(skip);
   }
   return report;
@@ -178,7 +202,9 @@ void render_command(const RenderArguments& args) {
   report.width = job.size.width;
   report.height = job.size.height;
   report.threads = job.threads;
-  std::cout << (args.statistics == "json" ? json_report(report) : text_report(report));
+  // Not into the picture.
+  std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;
+  out << (args.statistics == "json" ? json_report(report) : text_report(report));
 }
 
 }  // namespace

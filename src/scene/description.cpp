@@ -35,8 +35,10 @@ struct ChoiceNames<BumpMethod> {
 };
 template <>
 struct ChoiceNames<TextureSource> {
-  static constexpr std::array<std::string_view, 6> names{"file",         "earth_color", "earth_height",
-                                                         "earth_normal", "moon_color",  "moon_height"};
+  static constexpr std::array<std::string_view, 18> names{
+      "file",         "earth_color",     "earth_height",    "earth_normal", "moon_color",   "moon_height",
+      "checkerboard", "grass_color",     "bark_color",      "bark_height",  "bricks_color", "bricks_height",
+      "facade_color", "facade_specular", "facade_emissive", "rock_color",   "rock_height",  "hills_height"};
 };
 template <>
 struct ChoiceNames<Filter> {
@@ -48,19 +50,39 @@ struct ChoiceNames<Wrap> {
 };
 template <>
 struct ChoiceNames<Shape> {
-  static constexpr std::array<std::string_view, 3> names{"uv_sphere", "plane", "cube"};
+  static constexpr std::array<std::string_view, 7> names{"uv_sphere", "icosphere", "plane", "cube", "cylinder", "cone", "torus"};
 };
 template <>
 struct ChoiceNames<NormalSource> {
   static constexpr std::array<std::string_view, 3> names{"pixel", "vertex", "undisplaced"};
 };
 template <>
+struct ChoiceNames<EnvironmentType> {
+  static constexpr std::array<std::string_view, 5> names{"equirect", "globe", "cube", "day_sky", "night_sky"};
+};
+template <>
 struct ChoiceNames<BackgroundType> {
-  static constexpr std::array<std::string_view, 2> names{"color", "stars"};
+  static constexpr std::array<std::string_view, 3> names{"color", "stars", "environment"};
+};
+template <>
+struct ChoiceNames<LightFormat> {
+  static constexpr std::array<std::string_view, 2> names{"rgba16f", "rgba32f"};
+};
+template <>
+struct ChoiceNames<ToneCurve> {
+  static constexpr std::array<std::string_view, 5> names{"none", "reinhard", "reinhard_extended", "exponential", "aces"};
+};
+template <>
+struct ChoiceNames<ToneOn> {
+  static constexpr std::array<std::string_view, 2> names{"luminance", "channel"};
+};
+template <>
+struct ChoiceNames<DisplayEncoding> {
+  static constexpr std::array<std::string_view, 2> names{"srgb", "gamma"};
 };
 template <>
 struct ChoiceNames<ShadowMethod> {
-  static constexpr std::array<std::string_view, 10> names{"none",  "hard", "bilinear", "pcf3", "pcf5",
+  static constexpr std::array<std::string_view, 10> names{"none", "hard",  "bilinear", "pcf3", "pcf5",
                                                           "pcf7", "vogel", "pcss",     "vsm",  "moments"};
 };
 template <>
@@ -84,6 +106,11 @@ struct ChoiceNames<Easing> {
 namespace {
 
 constexpr double kTiny = 1e-6;
+
+constexpr const char* kGenerated =
+    "earth_color earth_height earth_normal moon_color moon_height checkerboard grass_color bark_color bark_height bricks_color "
+    "bricks_height facade_color "
+    "facade_specular facade_emissive rock_color rock_height hills_height";
 
 }  // namespace
 
@@ -139,13 +166,38 @@ Section section_of(TextureDescription& t) {
       key<&T::source>("source", "A file, or the generator that makes the map"),
       key<&T::file>("file", "Image file", {.only = "file"}),
       key<&T::width>("width", "Width of the generated map, an even number; 0: what the view needs",
-                     {.unit = "texels", .low = 0, .high = 16384, .only = "earth_color earth_height earth_normal moon_color moon_height"}),
+                     {.unit = "texels", .low = 0, .high = 16384, .only = kGenerated}),
       key<&T::filter>("filter", "How texels are mixed"),
       key<&T::wrap_s>("wrap_s", "What lies beyond the left and right edge"),
       key<&T::wrap_t>("wrap_t", "What lies beyond the upper and lower edge"),
       key<&T::anisotropy>("anisotropy", "Most samples along a stretched footprint", {.low = 1, .high = 16}),
   };
   return {{keys, &t}};
+}
+
+Section section_of(EnvironmentDescription& e) {
+  using T = EnvironmentDescription;
+  static const std::vector<Key> keys{
+      key<&T::type>("type", "A panorama seen from within, the map of a globe round the eye, six faces, or a generated sky"),
+      key<&T::map>("map", "Panorama or map of a globe; a colour: the same light from everywhere", {.low = 0, .only = "equirect globe"}),
+      key<&T::folder>("folder", "Folder of files named right, left, top, bottom, front, back", {.only = "cube"}),
+      key<&T::right>("right", "Face at +x; empty: from the folder", {.only = "cube"}),
+      key<&T::left>("left", "Face at -x; empty: from the folder", {.only = "cube"}),
+      key<&T::top>("top", "Face at +y; empty: from the folder", {.only = "cube"}),
+      key<&T::bottom>("bottom", "Face at -y; empty: from the folder", {.only = "cube"}),
+      key<&T::front>("front", "Face at -z; empty: from the folder", {.only = "cube"}),
+      key<&T::back>("back", "Face at +z; empty: from the folder", {.only = "cube"}),
+      key<&T::size>("size", "Edge of a generated face; 0: what the view needs",
+                    {.unit = "texels", .low = 0, .high = 4096, .only = "day_sky night_sky"}),
+      key<&T::sun>("sun", "Where the sun is seen, any length; low: dusk", {.only = "day_sky"}),
+      key<&T::clouds>("clouds", "How much of the sky clouds cover", {.low = 0, .high = 1, .only = "day_sky"}),
+      key<&T::milky_way>("milky_way", "Factor of the Milky Way's light", {.low = 0, .high = 1e3, .only = "night_sky"}),
+      key<&T::stars>("stars", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "night_sky"}),
+      key<&T::star_brightness>("star_brightness", "Of the brightest star, linear", {.low = 0, .only = "night_sky"}),
+      key<&T::rotation>("rotation", "Turns about x, y and z; z first, then x, then y", {.unit = "degrees"}),
+      key<&T::brightness>("brightness", "Factor of its light", {.low = 0, .high = 1e6}),
+  };
+  return {{keys, &e}};
 }
 
 Section section_of(SurfaceDescription& s) {
@@ -191,19 +243,27 @@ Section section_of(ObjectDescription& o) {
   using T = ObjectDescription;
   static const std::vector<Key> keys{
       key<&T::shape>("shape", "Generator of the mesh"),
-      key<&T::radius>("radius", "Radius", {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere"}),
-      key<&T::latitudes>("latitudes", "Bands from pole to pole", {.low = 2, .high = 8192, .only = "uv_sphere"}),
-      key<&T::longitudes>("longitudes", "Sectors round the axis", {.low = 3, .high = 16384, .only = "uv_sphere"}),
+      key<&T::radius>("radius", "Radius; of a torus, to its tube's middle",
+                      {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere cylinder cone torus"}),
+      key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = "torus"}),
+      key<&T::length>("length", "From the bottom to the top", {.unit = "units", .low = kTiny, .high = 1e6, .only = "cylinder cone"}),
+      key<&T::latitudes>("latitudes", "Bands from the top to the bottom, or round a tube",
+                         {.low = 2, .high = 8192, .only = "uv_sphere cylinder cone torus"}),
+      key<&T::longitudes>("longitudes", "Sectors round the axis", {.low = 3, .high = 16384, .only = "uv_sphere cylinder cone torus"}),
+      key<&T::level>("level", "How often each triangle is divided into four", {.low = 0, .high = 8, .only = "icosphere"}),
       key<&T::size>("size", "Length of an edge", {.unit = "units", .low = kTiny, .high = 1e6, .only = "plane cube"}),
+      key<&T::segments>("segments", "Parts that an edge is divided into", {.low = 1, .high = 1024, .only = "plane cube"}),
+      key<&T::tiles_u>("tiles_u", "How often a map of colours repeats along u",
+                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus"}),
+      key<&T::tiles_v>("tiles_v", "How often a map of colours repeats along v",
+                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus"}),
       key<&T::visible>("visible", "Whether the object is drawn"),
       key<&T::casts_shadow>("casts_shadow", "Whether it shades others"),
       key<&T::receives_shadow>("receives_shadow", "Whether others, or itself, shade it"),
-      key<&T::height>("height", "Map of heights that displaces the surface; a colour: none", {.low = 0, .only = "uv_sphere"}),
-      key<&T::height_scale>("height_scale", "Height between the map's 0 and 1",
-                            {.unit = "units", .low = -1e6, .high = 1e6, .only = "uv_sphere"}),
-      key<&T::height_zero>("height_zero", "The map's value that displaces nothing", {.low = 0, .high = 1, .only = "uv_sphere"}),
-      key<&T::height_smoothing>("height_smoothing", "Radius over which heights are averaged",
-                                {.unit = "texels", .low = 0, .high = 64, .only = "uv_sphere"}),
+      key<&T::height>("height", "Map of heights that displaces the surface; a colour: none", {.low = 0}),
+      key<&T::height_scale>("height_scale", "Height between the map's 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
+      key<&T::height_zero>("height_zero", "The map's value that displaces nothing", {.low = 0, .high = 1}),
+      key<&T::height_smoothing>("height_smoothing", "Radius over which heights are averaged", {.unit = "texels", .low = 0, .high = 64}),
       key<&T::normals>("normals", "Normals of a displaced surface: by pixel, by vertex, or as before", {.only = "uv_sphere"}),
       key<&T::material>("material", "Name of a material; keys of the object's own override it"),
   };
@@ -219,8 +279,29 @@ Section section_of(BackgroundDescription& b) {
       key<&T::color>("color", "Colour, or that between the stars", {.low = 0}),
       key<&T::brightness>("brightness", "Of the brightest star, linear", {.low = 0, .only = "stars"}),
       key<&T::density>("density", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "stars"}),
+      key<&T::environment>("environment", "Name of an environment; empty: the first", {.only = "environment"}),
+      key<&T::second>("second", "Name of the environment to fade into; empty: none", {.only = "environment"}),
+      key<&T::weight>("weight", "Weight of the second environment", {.low = 0, .high = 1, .only = "environment"}),
   };
   return {{keys, &b}};
+}
+
+Section section_of(PostDescription& p) {
+  using T = PostDescription;
+  static const std::vector<Key> keys{
+      key<&T::hdr>("hdr", "Keep light beyond 1 until it is exposed and bent by the tone curve; off: the keys below do not count"),
+      key<&T::format>("format", "Numbers that hold light; halfs end at 65504"),
+      key<&T::exposure>("exposure", "Factor of the light", {.low = 0, .high = 1e9}),
+      key<&T::auto_exposure>("auto_exposure", "Multiply by key_value over the picture's log-average luminance too"),
+      key<&T::key_value>("key_value", "What auto_exposure makes of the average", {.low = 0, .high = 1e3}),
+      key<&T::tone>("tone", "Curve from light to [0, 1]; none: what is above 1 becomes 1"),
+      key<&T::tone_on>("tone_on", "What the curve bends: all channels by their luminance, or each"),
+      key<&T::white>("white", "Light that reinhard_extended makes 1", {.low = 1e-3, .high = 1e6}),
+      key<&T::encode>("encode", "From linear to codes: exactly sRGB, or a power"),
+      key<&T::gamma>("gamma", "The power is 1 over this; for encode gamma", {.low = 0.1, .high = 10}),
+      key<&T::dither>("dither", "Break up bands by an ordered pattern of 8x8 pixels"),
+  };
+  return {{keys, &p}};
 }
 
 Section section_of(ShadowDescription& s) {

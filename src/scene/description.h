@@ -12,6 +12,7 @@
 #include "shading/lighting.h"
 #include "shading/shadow_map.h"
 #include "shading/texture.h"
+#include "shading/tone.h"
 
 namespace halfspace {
 
@@ -48,7 +49,26 @@ struct LightDescription {
   double size = 0.0;  ///< radius in units; directional: half the angle that it spans, degrees
 };
 
-enum class TextureSource : uint8_t { file, earth_color, earth_height, earth_normal, moon_color, moon_height };
+enum class TextureSource : uint8_t {
+  file,
+  earth_color,
+  earth_height,
+  earth_normal,
+  moon_color,
+  moon_height,
+  checkerboard,
+  grass_color,
+  bark_color,
+  bark_height,
+  bricks_color,
+  bricks_height,
+  facade_color,
+  facade_specular,
+  facade_emissive,
+  rock_color,
+  rock_height,
+  hills_height
+};
 
 struct TextureDescription {
   TextureSource source = TextureSource::file;
@@ -94,7 +114,7 @@ struct SurfaceDescription {
   BumpMethod bump_method = BumpMethod::gradient;
 };
 
-enum class Shape : uint8_t { uv_sphere, plane, cube };
+enum class Shape : uint8_t { uv_sphere, icosphere, plane, cube, cylinder, cone, torus };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
 
 struct Placement {
@@ -106,8 +126,13 @@ struct Placement {
 struct ObjectDescription {
   Shape shape = Shape::uv_sphere;
   double radius = 1.0;
+  double tube = 0.25;
+  double length = 2.0;
   int latitudes = 64, longitudes = 128;
+  int level = 5;
   double size = 2.0;
+  int segments = 1;
+  int tiles_u = 1, tiles_v = 1;
   bool visible = true;
   bool casts_shadow = true, receives_shadow = true;
 
@@ -123,13 +148,52 @@ struct ObjectDescription {
   std::vector<Placement> instances;  ///< copies, relative to placement; empty: one, at placement
 };
 
-enum class BackgroundType : uint8_t { color, stars };
+enum class EnvironmentType : uint8_t { equirect, globe, cube, day_sky, night_sky };
+
+/// Light from far away, by its direction (see shading/environment.h).
+struct EnvironmentDescription {
+  EnvironmentType type = EnvironmentType::equirect;
+  MapValue map = Color{glm::dvec3(1.0)};  ///< of a texture its source alone counts
+  FilePath folder;                        ///< of files named right, left, top, bottom, front and back
+  FilePath right, left, top, bottom, front, back;
+  int size = 0;                    ///< of a generated sky's faces; 0: as fine as the view needs
+  glm::dvec3 sun{0.5, 0.6, -0.6};  ///< towards it, any length
+  double clouds = 0.4;
+  double milky_way = 1.0;
+  double stars = 0.3;             ///< density, as the background's
+  double star_brightness = 0.05;  ///< linear
+  glm::dvec3 rotation{0.0};       ///< degrees, as Placement's
+  double brightness = 1.0;
+};
+
+enum class BackgroundType : uint8_t { color, stars, environment };
 
 struct BackgroundDescription {
   BackgroundType type = BackgroundType::color;
   Color color{glm::dvec3(0.0)};
   double brightness = 1.0;
   double density = 0.3;
+  std::string environment;  ///< empty: the first
+  std::string second;       ///< empty: none
+  double weight = 0.0;      ///< of the second
+};
+
+enum class LightFormat : uint8_t { rgba16f, rgba32f };
+enum class DisplayEncoding : uint8_t { srgb, gamma };
+
+/// How light becomes codes.
+struct PostDescription {
+  bool hdr = false;  ///< off: light is held to [0, 1] and encoded to sRGB, and no other key of these counts
+  LightFormat format = LightFormat::rgba16f;
+  double exposure = 1.0;
+  bool auto_exposure = false;
+  double key_value = 0.18;
+  ToneCurve tone = ToneCurve::aces;
+  ToneOn tone_on = ToneOn::channel;
+  double white = 4.0;
+  DisplayEncoding encode = DisplayEncoding::srgb;
+  double gamma = 2.2;
+  bool dither = false;
 };
 
 /// ShadowFilter, and none before it.
@@ -143,12 +207,12 @@ inline constexpr int kMostShadowTexels = 8192;
 struct ShadowDescription {
   ShadowMethod method = ShadowMethod::none;
   ShadowBias bias = ShadowBias::automatic;
-  int resolution = 2048;       ///< texels a side; 0: as footprint asks
-  double footprint = 1.0;      ///< pixels that a texel spans at most on 95 % of the picture
-  double constant = 1.0;       ///< texels
+  int resolution = 2048;   ///< texels a side; 0: as footprint asks
+  double footprint = 1.0;  ///< pixels that a texel spans at most on 95 % of the picture
+  double constant = 1.0;   ///< texels
   double slope = 1.0;
   double max_slope = 16.0;
-  double radius = 2.0;         ///< texels
+  double radius = 2.0;  ///< texels
   ShadowFaces faces = ShadowFaces::front;
   int cascades = 1;
   double cascade_growth = 0.75;  ///< 0: cascades of even depth, 1: each a constant times the one before
@@ -188,10 +252,12 @@ struct SceneDescription {
   Named<CameraDescription> cameras;
   Named<LightDescription> lights;
   Named<TextureDescription> textures;
+  Named<EnvironmentDescription> environments;
   Named<SurfaceDescription> materials;
   Named<ObjectDescription> objects;
   Named<AnimationDescription> animations;
   BackgroundDescription background;
+  PostDescription post;
   ShadowDescription shadow;
   Playback animation;
 };
@@ -202,10 +268,12 @@ Section section_of(SceneHead&);
 Section section_of(CameraDescription&);
 Section section_of(LightDescription&);
 Section section_of(TextureDescription&);
+Section section_of(EnvironmentDescription&);
 Section section_of(SurfaceDescription&);
 Section section_of(ObjectDescription&);
 Section section_of(Placement&);
 Section section_of(BackgroundDescription&);
+Section section_of(PostDescription&);
 Section section_of(ShadowDescription&);
 Section section_of(AnimationDescription&);
 Section section_of(Playback&);
@@ -216,6 +284,7 @@ void for_each_collection(Scene& scene, F&& visit) {
   visit("cameras", "A point of view", scene.cameras);
   visit("lights", "A source of light", scene.lights);
   visit("textures", "An image, or a generated one, and how it is read", scene.textures);
+  visit("environments", "Light from far away, by its direction", scene.environments);
   visit("materials", "What a surface looks like, for objects that share it", scene.materials);
   visit("objects", "A shape, its surface and its place", scene.objects);
   visit("animations", "How a key changes in time", scene.animations);
@@ -225,6 +294,7 @@ void for_each_collection(Scene& scene, F&& visit) {
 template <class Scene, class F>
 void for_each_single(Scene& scene, F&& visit) {
   visit("background", "What is seen where nothing is", scene.background);
+  visit("post", "How light becomes codes; linear files (.exr, .hdr) are written before it", scene.post);
   visit("shadow", "How lights' shadows are found", scene.shadow);
   visit("animation", "All animations together", scene.animation);
 }

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Objects of a scene: mesh, surface, place, and the shader that draws them.
+// Objects of a scene: surface, place, and the shader that draws them.
 #include <algorithm>
 
 #include "scene/displaced_sphere.h"
 #include "scene/preparation.h"
-#include "scene/shapes.h"
 
 namespace halfspace {
 
 namespace {
 
-bool is_displaced(const ObjectDescription& o) { return o.shape == Shape::uv_sphere && is_map(o.height); }
+bool is_displaced(const ObjectDescription& o) { return is_map(o.height); }
 
 DrawState state_of(const LitSurface& s) {
   DrawState state;
@@ -32,23 +31,6 @@ std::vector<glm::dmat4> places_of(const ObjectDescription& o) {
   return places;
 }
 
-std::shared_ptr<const MeshAsset> ScenePreparation::mesh_of(const ObjectDescription& o, const Relief& relief) {
-  const auto radius = static_cast<float>(o.radius), size = static_cast<float>(o.size);
-  switch (o.shape) {
-    case Shape::plane: return asset<MeshAsset>(recipe("plane", o.size), [&] { return MeshAsset(plane(size)); });
-    case Shape::cube: return asset<MeshAsset>(recipe("cube", o.size), [&] { return MeshAsset(cube(size)); });
-    case Shape::uv_sphere: break;
-  }
-  const std::string sphere = recipe("sphere", o.radius, o.latitudes, o.longitudes);
-  if (relief.field == nullptr) return asset<MeshAsset>(sphere, [&] { return MeshAsset(uv_sphere(o.latitudes, o.longitudes, radius)); });
-  const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
-  return asset<MeshAsset>(recipe(sphere, relief.recipe, static_cast<int>(normals)), [&] {
-    const HeightField filtered = relief.field->filtered(o.longitudes, assets_.workers_);
-    return MeshAsset(
-        displaced_uv_sphere(o.latitudes, o.longitudes, radius, filtered, o.height_scale, o.height_zero, assets_.workers_, normals));
-  });
-}
-
 void ScenePreparation::place(LitSurface& s, glm::dmat4 world) const {
   s.clip_from_object = glm::mat4(view_.clip_from_world * world);
   world[3] -= glm::dvec4(view_.eye_ws, 0.0);
@@ -61,15 +43,16 @@ ScenePreparation::Relief ScenePreparation::relief_of(const ObjectDescription& o,
   if (!is_displaced(o)) return {};
   const MapUse use = use_of(o.height, o);
   Relief r;
-  r.field = height_field(use, o.height_smoothing, path + ".height");
-  r.recipe = recipe(use.texture.file.path.string(), use.width, o.height_smoothing, o.height_scale, o.height_zero);
+  r.field = height_field(use, o, path + ".height");
+  r.recipe = recipe(static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing, o.height_scale,
+                    o.height_zero);
   return r;
 }
 
 // The slopes of a displaced sphere, for normals by pixel; a null map where they come with the mesh.
 DetailMap ScenePreparation::slopes_of(const Relief& relief, const ObjectDescription& o) {
   DetailMap d;
-  if (relief.field == nullptr || o.normals != NormalSource::pixel) return d;
+  if (relief.field == nullptr || o.shape != Shape::uv_sphere || o.normals != NormalSource::pixel) return d;
   const int width = std::min(width_for(o), relief.field->width());
   d.map = asset<Texture2D>(recipe("slopes", relief.recipe, width, o.radius), [&] {
             const HeightField filtered = relief.field->filtered(width, assets_.workers_);

@@ -5,6 +5,7 @@
 
 #include "core/trig_double.h"
 #include "scene/camera.h"
+#include "scene/display.h"
 #include "scene/preparation.h"
 
 namespace halfspace {
@@ -62,10 +63,11 @@ ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& 
 
 PreparedScene ScenePreparation::prepare() {
   out_.clear_color = glm::vec4(glm::vec3(scene_.background.color.linear), 1.0f);
+  out_.post = scene_.post;
   for (const auto& [name, object] : scene_.objects) {
     if (object.visible) add_object("objects." + name, object);
   }
-  if (scene_.background.type == BackgroundType::stars) add_stars();
+  add_background();
   add_shadows();
   return std::move(out_);
 }
@@ -77,6 +79,14 @@ const CameraDescription& ScenePreparation::camera() const {
   return scene_.cameras.front().second;
 }
 
+void ScenePreparation::expect() {
+  for (const auto& [name, object] : scene_.objects) {
+    if (object.visible) assets_.widths_[name] = width_for(object);
+  }
+}
+
+void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }
+
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
   for (auto& [recipe, entry] : entries_) entry.wanted = false;
   PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();
@@ -86,27 +96,52 @@ PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int
 
 namespace {
 
-PassStatistics draw_all(const PreparedScene& scene, Pass& pass, const Workers& workers) {
+constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
+
+// A pass that holds the scene's draws.
+Pass pass_of(const PreparedScene& scene, int width, int height, ColorTarget color) {
+  color.clear_value = scene.clear_color;
+  Pass pass(width, height, color, kDepth);
   for (const PreparedDraw& draw : scene.draws) add_draw(pass, draw);
+  return pass;
+}
+
+// Light in the tiles alone.
+PassStatistics render_exposed(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {
+  const ColorFormat format = scene.post.format == LightFormat::rgba16f ? ColorFormat::rgba16f : ColorFormat::rgba32f;
+  Pass pass = pass_of(scene, picture.width(), picture.height(), {.format = format, .store = StoreOp::dont_care});
+  show(pass, scene.post, scene.post.exposure, picture);
   return pass.run(workers);
 }
 
-constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
+// Light of the whole picture, measured, then shown by a pass that draws nothing.
+template <class Pixel>
+PassStatistics render_metered(const PreparedScene& scene, ColorTarget (*target)(Image<Pixel>&), Image<glm::u8vec4>& picture,
+                              const Workers& workers) {
+  const int width = picture.width(), height = picture.height();
+  Image<Pixel> light(width, height);
+  const PassStatistics statistics = pass_of(scene, width, height, target(light)).run(workers);
+  const double exposure = scene.post.exposure * scene.post.key_value / log_average_luminance(light, workers);
+  ColorTarget whole = target(light);
+  whole.load = LoadOp::load;
+  whole.store = StoreOp::dont_care;
+  Pass pass(width, height, whole, {});
+  show(pass, scene.post, exposure, picture);
+  pass.run(workers);
+  return statistics;
+}
 
 }  // namespace
 
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {
-  ColorTarget color = srgb8a8_target(picture);
-  color.clear_value = scene.clear_color;
-  Pass pass(picture.width(), picture.height(), color, kDepth);
-  return draw_all(scene, pass, workers);
+  if (!scene.post.hdr) return pass_of(scene, picture.width(), picture.height(), srgb8a8_target(picture)).run(workers);
+  if (!scene.post.auto_exposure) return render_exposed(scene, picture, workers);
+  return scene.post.format == LightFormat::rgba16f ? render_metered<U16Vec4>(scene, rgba16f_target, picture, workers)
+                                                   : render_metered<glm::vec4>(scene, rgba32f_target, picture, workers);
 }
 
 PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers) {
-  ColorTarget color = rgba32f_target(picture);
-  color.clear_value = scene.clear_color;
-  Pass pass(picture.width(), picture.height(), color, kDepth);
-  return draw_all(scene, pass, workers);
+  return pass_of(scene, picture.width(), picture.height(), rgba32f_target(picture)).run(workers);
 }
 
 }  // namespace halfspace

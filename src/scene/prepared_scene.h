@@ -16,6 +16,7 @@
 #include "scene/description.h"
 #include "scene/mesh.h"
 #include "scene/view.h"
+#include "shading/environment_sky.h"
 #include "shading/shadow_map.h"
 #include "shading/star_sky.h"
 #include "shading/surface_shader.h"
@@ -31,7 +32,7 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
-                                 StarSky>;
+                                 StarSky, EnvironmentSky>;
 
 /// One draw. std::visit on the shader gives its type back.
 struct PreparedDraw {
@@ -60,13 +61,13 @@ struct PreparedLight {
   double map_ms = 0.0;  ///< that its maps took
 };
 
-
 /// All that a picture needs. Movable; keeps alive what its draws point to.
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
+  PostDescription post;
   View view;
-  std::vector<PlacedMesh> meshes;    ///< of every object that is drawn
+  std::vector<PlacedMesh> meshes;  ///< of every object that is drawn
   std::vector<PreparedLight> lights;
   PassStatistics shadow_statistics;  ///< of the passes that made shadow maps
   std::vector<std::shared_ptr<const void>> assets;
@@ -78,7 +79,11 @@ class SceneAssets {
  public:
   explicit SceneAssets(const Workers& workers) : workers_(workers) {}
 
-  /// width, height: of the picture, px. Throws InputError where a file cannot be used.
+  /// Tells of a frame to come: from now on, generated maps without a width of their own are at least as fine as that frame
+  /// needs. Told of all frames of a range before the first, they do not change on the way. width, height: of the picture, px.
+  void expect(const SceneDescription& scene, int width, int height);
+
+  /// width, height: of the picture, px. Throws InputError that begins with the key, where a file cannot be used.
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
  private:
@@ -89,11 +94,13 @@ class SceneAssets {
   };
   const Workers& workers_;
   std::map<std::string, Entry> entries_;  ///< by what they are made from
+  std::map<std::string, int> widths_;     ///< of generated maps, at least, by the object's name
 };
 
-/// Draws the scene into 8-bit sRGB codes.
+/// Draws the scene into 8-bit codes, as its post section says. Light is kept for the whole picture only where
+/// auto_exposure must see all of it first; else it lives in the tiles.
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
-/// Draws the scene as linear numbers, alpha 1.
+/// Draws the scene as linear numbers, alpha 1: light before exposure and tone curve.
 PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers);
 
 }  // namespace halfspace

@@ -123,7 +123,8 @@ HS_INLINE Illumination<R> illuminate(std::span<const Light> lights, LightModel m
     Arriving<R> arriving = light_at(light, p.position_ew);
     const R n_l = dot(p.n_ws, arriving.l_ws);
     if (light.shadow != nullptr && any(n_l > R(0)))  // what faces away is dark without asking
-      arriving.strength *= light_arriving(*light.shadow, ShadowReceiver<R>{p.position_ew, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+      arriving.strength *=
+          light_arriving(*light.shadow, ShadowReceiver<R>{p.position_ew, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
     sum.diffuse += light.diffuse * (max(n_l, R(0)) * arriving.strength);
     if (model == LightModel::lambert) continue;
     const R highlight = pow(highlight_cosine(model, p, arriving.l_ws, n_l), shininess);
