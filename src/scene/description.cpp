@@ -96,7 +96,7 @@ struct ChoiceNames<ShadowFaces> {
 };
 template <>
 struct ChoiceNames<AnimationType> {
-  static constexpr std::array<std::string_view, 3> names{"rate", "orbit", "keyframes"};
+  static constexpr std::array<std::string_view, 4> names{"rate", "orbit", "wave", "keyframes"};
 };
 template <>
 struct ChoiceNames<Easing> {
@@ -333,8 +333,10 @@ Section section_of(AnimationDescription& a) {
       key<&T::center>("center", "Middle of the ellipse", {.unit = "units", .only = "orbit"}),
       key<&T::a>("a", "Half axis of the ellipse, reached at phase 0", {.unit = "units", .only = "orbit"}),
       key<&T::b>("b", "Half axis of the ellipse, reached a quarter later", {.unit = "units", .only = "orbit"}),
-      key<&T::period>("period", "Time of one turn", {.unit = "s", .low = kTiny, .only = "orbit"}),
-      key<&T::phase>("phase", "Where the turn begins", {.unit = "turns", .only = "orbit"}),
+      key<&T::mean>("mean", "Middle of the wave", {.only = "wave"}),
+      key<&T::swing>("swing", "What the wave adds to it at phase 0; the key's range holds it", {.only = "wave"}),
+      key<&T::period>("period", "Time of one turn", {.unit = "s", .low = kTiny, .only = "orbit wave"}),
+      key<&T::phase>("phase", "Where the turn begins", {.unit = "turns", .only = "orbit wave"}),
       key<&T::keys>("keys", "Rows of seconds and value", {.only = "keyframes"}),
       key<&T::easing>("easing", "How it goes from row to row", {.only = "keyframes"}),
       key<&T::loop>("loop", "Begin again after the last row", {.only = "keyframes"}),
@@ -347,6 +349,14 @@ Section section_of(Playback& p) {
       key<&Playback::speed>("speed", "Factor of the time; 0 stands still"),
   };
   return {{keys, &p}};
+}
+
+Section section_of(TimeOfDay& t) {
+  static const std::vector<Key> keys{
+      key<&TimeOfDay::hours>("hours", "The hour at which animations begin; 12: noon", {.unit = "h", .low = 0, .high = 24}),
+      key<&TimeOfDay::day>("day", "How long a day takes", {.unit = "s", .low = kTiny}),
+  };
+  return {{keys, &t}};
 }
 
 }  // namespace halfspace

@@ -218,7 +218,7 @@ struct ShadowDescription {
   double cascade_growth = 0.75;  ///< 0: cascades of even depth, 1: each a constant times the one before
 };
 
-enum class AnimationType : uint8_t { rate, orbit, keyframes };
+enum class AnimationType : uint8_t { rate, orbit, wave, keyframes };
 enum class Easing : uint8_t { linear, smooth, step };
 
 /// What changes one key in time; it begins with the scene's own value of the key at 0 s.
@@ -229,6 +229,8 @@ struct AnimationDescription {
   glm::dvec3 center{0.0};  ///< orbit: center + a·cos φ + b·sin φ, φ = 2π(t / period + phase)
   glm::dvec3 a{1, 0, 0};
   glm::dvec3 b{0, 0, -1};
+  Numbers mean{0.0};     ///< wave: mean + swing·cos φ, held to the key's range
+  Numbers swing{1.0};
   double period = 10.0;  ///< seconds
   double phase = 0.0;    ///< turns
   Keyframes keys;
@@ -238,6 +240,12 @@ struct AnimationDescription {
 
 struct Playback {
   double speed = 1.0;
+};
+
+/// The time of day at which the animations begin: hours/24 of a day after their own 0 s.
+struct TimeOfDay {
+  double hours = 0.0;
+  double day = 24.0;  ///< seconds
 };
 
 /// The keys at the top of a scene file.
@@ -260,6 +268,7 @@ struct SceneDescription {
   PostDescription post;
   ShadowDescription shadow;
   Playback animation;
+  TimeOfDay time;
 };
 
 // ---- sections --------------------------------------------------------------------------------------------------
@@ -277,6 +286,7 @@ Section section_of(PostDescription&);
 Section section_of(ShadowDescription&);
 Section section_of(AnimationDescription&);
 Section section_of(Playback&);
+Section section_of(TimeOfDay&);
 
 /// Calls visit(name, help, named) for each collection of named things.
 template <class Scene, class F>
@@ -297,6 +307,7 @@ void for_each_single(Scene& scene, F&& visit) {
   visit("post", "How light becomes codes; linear files (.exr, .hdr) are written before it", scene.post);
   visit("shadow", "How lights' shadows are found", scene.shadow);
   visit("animation", "All animations together", scene.animation);
+  visit("time", "The time of day", scene.time);
 }
 
 }  // namespace halfspace

@@ -153,9 +153,9 @@ class ScenePreparation {
   SceneAssets& assets_;
   const SceneDescription& scene_;
   View view_;
-  std::shared_ptr<std::vector<Shadow>> shadows_;  // by light; empty without shadows
-  std::shared_ptr<const std::vector<Light>> lights_;
-  std::shared_ptr<const std::vector<Light>> shadowless_lights_;  // for what receives no shadow
+  std::span<Shadow> shadows_;  // by light, as out_.lights
+  std::span<const Light> lights_;
+  std::span<const Light> shadowless_lights_;  // for what receives no shadow
   glm::dvec3 ambient_;
   PreparedScene out_;
 };
