@@ -217,7 +217,7 @@ void add_render_command(CLI::App& program) {
   command->add_option("--size", args->size, "Pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
   command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
-  command->add_option("--shading", args->shading, "How often all objects are lit: none flat provoking gouraud phong")->type_name("RATE");
+  command->add_option("--shading", args->shading, "Light all by: none flat provoking gouraud phong")->type_name("RATE");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
   command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");

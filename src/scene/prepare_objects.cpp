@@ -3,6 +3,7 @@
 // Objects of a scene: surface, place, and the shader that draws them.
 #include <algorithm>
 
+#include "core/check.h"
 #include "scene/displaced_sphere.h"
 #include "scene/preparation.h"
 
@@ -112,10 +113,14 @@ NormalDetail ScenePreparation::add_detail(LitSurface& s, const ObjectDescription
   if (d.shading != ShadingRate::phong) return NormalDetail::none;
   const bool automatic = d.normal == DetailChoice::automatic;
   if (d.normal == DetailChoice::map || (automatic && is_map(d.normal_map))) {
+    if (!is_map(d.normal_map))
+      throw InputError(path + ".normal: is map, and normal_map is none; expected a texture or an image file as normal_map");
     s.detail = normal_map(o, path + ".normal_map");
     return NormalDetail::map;
   }
   if (d.normal == DetailChoice::bump || (automatic && is_map(d.bump_map))) {
+    if (!is_map(d.bump_map))
+      throw InputError(path + ".normal: is bump, and bump_map is none; expected a texture or an image file as bump_map");
     s.detail = bump_map(o, path + ".bump_map");
     return NormalDetail::bump;
   }

@@ -127,7 +127,7 @@ void fill_heights(std::span<float> out, const Longitudes& longitudes, const SinC
   const float coast = coast_of(width);
   for (int x = 0; x < width; x += kLanes) {
     const Terrain t = terrain_at(directions(longitudes, latitude, x), coast);
-    const Real plain = Real(0.05f) + Real(0.22f) * max(t.height, Real(0.0f)) + Real(0.03f) * t.detail;
+    const Real plain = Real(0.012f) + Real(0.25f) * max(t.height, Real(0.0f)) + Real(0.02f) * t.detail;
     const Real land = clamp(plain + Real(0.42f) * t.mountains * (Real(1.0f) + Real(0.25f) * t.detail), Real(0.0f), Real(1.0f));
     const Real height = land * step(-coast, coast, t.height);
     for (int i = 0; i < kLanes && x + i < width; ++i) out[static_cast<std::size_t>(x + i)] = lane(height, i);

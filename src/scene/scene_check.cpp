@@ -49,14 +49,6 @@ void check(const EnvironmentDescription& e, const std::string& where) {
 
 void check(const SurfaceDescription&, const std::string&) {}
 
-// Of an object: a material alone may leave it to the object to name the map.
-void check_detail(const SurfaceDescription& s, const std::string& where) {
-  if (s.normal == DetailChoice::map && !is_map(s.normal_map))
-    fail(where + ".normal", "is map, and normal_map is none; expected a texture or an image file as normal_map");
-  if (s.normal == DetailChoice::bump && !is_map(s.bump_map))
-    fail(where + ".normal", "is bump, and bump_map is none; expected a texture or an image file as bump_map");
-}
-
 void check(const Placement& p, const std::string& where) {
   const glm::dvec3 s = glm::abs(p.scale);
   if (std::min({s.x, s.y, s.z}) < kLeastScale)
@@ -83,7 +75,6 @@ double thickness_of(const ObjectDescription& o) {
 }
 
 void check(const ObjectDescription& o, const std::string& where) {
-  check_detail(o.surface, where);
   check(o.placement, where);
   for (std::size_t i = 0; i < o.instances.size(); ++i)
     check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));

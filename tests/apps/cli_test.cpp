@@ -180,6 +180,11 @@ const Mistake kMistakes[] = {
      {"render", "earth", "--set", "earth.color="},
      3,
      "--set: earth.color: expected a colour (#rrggbb, r,g,b or a number), the name of a texture or that of an image file, got \"\""},
+    {"NoShading", {"render", "earth", "--shading", "gourod"}, 2, "--shading is 'gourod'; did you mean 'gouraud'?"},
+    {"NoMapOfNormals",
+     {"render", "earth", "--set", "earth.normal_map=1"},
+     3,
+     "objects.earth.normal: is map, and normal_map is none; expected a texture or an image file as normal_map"},
     {"NoCamera", {"render", "earth", "--camera", "nroth"}, 3, "--camera: no camera 'nroth'; did you mean 'north'?"},
     {"TimeWord", {"render", "earth", "--time", "noon"}, 2, "--time is 'noon'; expected seconds, for example 2.5"},
     {"FramesBackwards", {"render", "earth", "--frames", "5..2"}, 2, "--frames is '5..2'; expected FIRST..LAST, for example 0..47"},
@@ -281,6 +286,24 @@ TEST_F(Cli, ThreadsDoNotChangeTheFile) {
     EXPECT_EQ(run({"render", "earth", "--size", "200x120", "--threads", n, "-o", std::string(n) + ".png"}).exit_code, 0);
   EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "2.png"));
   EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "7.png"));
+}
+
+TEST_F(Cli, ShadingOverridesEveryObject) {
+  // Two objects, one of them with a rate of its own.
+  std::ofstream(directory / "s.json") << R"({"version": 1, "lights": {"l": {"direction": [1, 1, 1]}},
+    "objects": {"a": {"latitudes": 8, "longitudes": 16, "position": [-1.1, 0, 0]},
+                "b": {"latitudes": 8, "longitudes": 16, "position": [1.1, 0, 0], "shading": "gouraud"}}})";
+  std::vector<std::string> pictures;
+  for (const char* rate : {"none", "flat", "provoking", "gouraud", "phong"}) {
+    const std::string out = std::string(rate) + ".png", again = std::string(rate) + "-set.png";
+    EXPECT_EQ(run({"render", "s.json", "--size", "64x36", "--shading", rate, "-o", out}).exit_code, 0);
+    const std::string set = std::string("shading=") + rate;
+    EXPECT_EQ(run({"render", "s.json", "--size", "64x36", "--set", "a." + set, "--set", "b." + set, "-o", again}).exit_code, 0);
+    EXPECT_EQ(text_of(directory / out), text_of(directory / again)) << rate;
+    pictures.push_back(text_of(directory / out));
+  }
+  std::ranges::sort(pictures);
+  EXPECT_EQ(std::ranges::adjacent_find(pictures), pictures.end()) << "five different pictures";
 }
 
 TEST_F(Cli, AColorMapIsUsed) {

@@ -20,10 +20,14 @@ inline Image<glm::u8vec4> picture_of(const SceneDescription& scene, int width, i
   return picture;
 }
 
+/// Where the double twin has its vertices: by its own double computation, or where float arithmetic puts them, so that all fall
+/// on the same 1/256 px and what is compared is shading alone.
+enum class Positions { in_r, as_rendered };
+
 /// The scene by the naive pipeline in R, float or double: linear colour, top row first. In naive_picture.cpp, for all
 /// shaders of scenes are compiled there.
 template <class R>
-Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height);
+Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height, Positions positions = Positions::in_r);
 
 template <class R>
 Image<vec4<R>> naive_picture(const SceneDescription& scene, int width, int height) {
