@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/keys.h"
+#include "shading/lighting.h"
 #include "shading/texture.h"
 #include "shading/tone.h"
 
@@ -30,7 +31,7 @@ struct CameraDescription {
   double near = 0.1, far = 1000.0;
 };
 
-enum class LightType : uint8_t { directional, point };
+enum class Falloff : uint8_t { attenuation, physical };
 
 struct LightDescription {
   LightType type = LightType::directional;
@@ -38,10 +39,33 @@ struct LightDescription {
   glm::dvec3 position{0, 0, 5};
   Color color{glm::dvec3(1.0)};
   double intensity = 1.0;
+  double ambient = 0.0;  ///< factors of color and intensity; ambient light is not attenuated
+  double diffuse = 1.0, specular = 1.0;
+  Falloff falloff = Falloff::attenuation;
   glm::dvec3 attenuation{1, 0, 0};
+  double inner = 20.0, outer = 30.0;  ///< degrees from the axis
 };
 
-enum class TextureSource : uint8_t { file, earth_color, moon_color, moon_height };
+enum class TextureSource : uint8_t {
+  file,
+  earth_color,
+  earth_height,
+  earth_normal,
+  moon_color,
+  moon_height,
+  checkerboard,
+  grass_color,
+  bark_color,
+  bark_height,
+  bricks_color,
+  bricks_height,
+  facade_color,
+  facade_specular,
+  facade_emissive,
+  rock_color,
+  rock_height,
+  hills_height
+};
 
 struct TextureDescription {
   TextureSource source = TextureSource::file;
@@ -53,15 +77,41 @@ struct TextureDescription {
   int anisotropy = 8;
 };
 
+/// Which normal map of a surface is used: the one that there is (the normal map before the bump map), or by name.
+enum class DetailChoice : uint8_t { automatic, none, map, bump };
+/// How the slope of a bump map is found: by the gradient of its filtered heights, or by differences within 2x2 pixels.
+enum class BumpMethod : uint8_t { gradient, difference };
+
+/// Each factor is a constant times a map; a map that is a colour is a constant too.
 struct SurfaceDescription {
   MapValue color = Color{glm::dvec3(1.0)};
+  Color tint{glm::dvec3(1.0)};
   Color ambient{glm::dvec3(1.0)};
+  MapValue ambient_map = Color{glm::dvec3(1.0)};
   Color diffuse{glm::dvec3(1.0)};
+  MapValue diffuse_map = Color{glm::dvec3(1.0)};
   Color specular{glm::dvec3(0.0)};
+  MapValue specular_map = Color{glm::dvec3(1.0)};
   double shininess = 32.0;
+  MapValue shininess_map = Color{glm::dvec3(1.0)};
+  Color emissive{glm::dvec3(0.0)};
+  MapValue emissive_map = Color{glm::dvec3(1.0)};
+  bool textured = true;  ///< false: colour maps count as 1
+
+  LightModel model = LightModel::blinn_phong;
+  ShadingRate shading = ShadingRate::phong;
+  bool two_sided = false;
+
+  DetailChoice normal = DetailChoice::automatic;
+  MapValue normal_map = Color{glm::dvec3(1.0)};  ///< a constant means none
+  double normal_strength = 1.0;
+  bool normal_flip_green = false;
+  MapValue bump_map = Color{glm::dvec3(1.0)};  ///< a constant means none
+  double bump_scale = 0.02;                    ///< units of the world between the map's 0 and 1
+  BumpMethod bump_method = BumpMethod::gradient;
 };
 
-enum class Shape : uint8_t { uv_sphere, plane, cube };
+enum class Shape : uint8_t { uv_sphere, icosphere, plane, cube, cylinder, cone, torus };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
 
 struct Placement {
@@ -73,8 +123,13 @@ struct Placement {
 struct ObjectDescription {
   Shape shape = Shape::uv_sphere;
   double radius = 1.0;
+  double tube = 0.25;
+  double length = 2.0;
   int latitudes = 64, longitudes = 128;
+  int level = 5;
   double size = 2.0;
+  int segments = 1;
+  int tiles_u = 1, tiles_v = 1;
   bool visible = true;
 
   MapValue height = Color{glm::dvec3(0.0)};  ///< a constant means none

@@ -49,6 +49,9 @@ Image<glm::vec4> read_linear(const std::filesystem::path& path);
 /// Writes 8-bit sRGB codes with straight alpha as PNG (without alpha where all are 255), whatever the name of the file.
 void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
 
+/// Writes codes that are numbers, no colours, such as a normal map, as PNG that does not say sRGB.
+void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
+
 /// Writes 8-bit sRGB codes with straight alpha by the extension of path: .png and .tif (deflate) exactly, without alpha
 /// where all are 255; .jpg at quality 95 with colour at full resolution, alpha dropped. The image must not be empty.
 void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/prepared_scene.h"
 
+#include <algorithm>
+
+#include "core/trig_double.h"
 #include "scene/camera.h"
 #include "scene/display.h"
 #include "scene/preparation.h"
@@ -10,13 +13,30 @@ namespace halfspace {
 namespace {
 
 std::vector<Light> make_lights(const Named<LightDescription>& descriptions, const glm::dvec3& eye_ws) {
+  constexpr double kLeastCone = 1e-6;  // in cosines: a sharp edge
   std::vector<Light> lights;
   for (const auto& [name, d] : descriptions) {
-    const bool point = d.type == LightType::point;
-    const glm::dvec3 place = point ? d.position - eye_ws : unit_or_zero(d.direction);
-    lights.push_back({point, glm::vec3(place), glm::vec3(d.color.linear * d.intensity), glm::vec3(d.attenuation)});
+    const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
+    const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
+    Light light;
+    light.type = d.type;
+    light.place_ew = glm::vec3(d.type == LightType::directional ? towards : d.position - eye_ws);
+    light.diffuse = glm::vec3(color * d.diffuse);
+    light.specular = glm::vec3(color * d.specular);
+    light.attenuation = d.falloff == Falloff::physical ? glm::vec3(0, 0, 1) : glm::vec3(d.attenuation);
+    light.axis_ws = glm::vec3(towards);
+    light.cos_outer = static_cast<float>(cos_outer);
+    light.cone_scale = static_cast<float>(1.0 / std::max(cos_inner - cos_outer, kLeastCone));
+    lights.push_back(light);
   }
   return lights;
+}
+
+// Ambient light reaches every point alike, whatever light it is told by.
+glm::dvec3 ambient_of(const SceneDescription& scene) {
+  glm::dvec3 sum = scene.head.ambient.linear;
+  for (const auto& [name, light] : scene.lights) sum += light.color.linear * light.intensity * light.ambient;
+  return sum;
 }
 
 }  // namespace
@@ -25,7 +45,8 @@ ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& 
     : assets_(assets),
       scene_(scene),
       view_(make_view(camera(), width, height)),
-      lights_(std::make_shared<const std::vector<Light>>(make_lights(scene.lights, view_.eye_ws))) {
+      lights_(std::make_shared<const std::vector<Light>>(make_lights(scene.lights, view_.eye_ws))),
+      ambient_(ambient_of(scene)) {
   out_.assets.push_back(lights_);
 }
 
@@ -46,6 +67,14 @@ const CameraDescription& ScenePreparation::camera() const {
   return scene_.cameras.front().second;
 }
 
+void ScenePreparation::expect() {
+  for (const auto& [name, object] : scene_.objects) {
+    if (object.visible) assets_.widths_[name] = width_for(object);
+  }
+}
+
+void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }
+
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
   for (auto& [recipe, entry] : entries_) entry.wanted = false;
   PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();
@@ -61,9 +90,7 @@ constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
 Pass pass_of(const PreparedScene& scene, int width, int height, ColorTarget color) {
   color.clear_value = scene.clear_color;
   Pass pass(width, height, color, kDepth);
-  for (const PreparedDraw& draw : scene.draws) {
-    std::visit([&](const auto& shader) { pass.draw(shader, draw.vertices, *draw.indices, draw.state); }, draw.shader);
-  }
+  for (const PreparedDraw& draw : scene.draws) add_draw(pass, draw);
   return pass;
 }
 

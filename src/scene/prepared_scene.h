@@ -14,20 +14,33 @@
 #include "core/parallel.h"
 #include "raster/pass.h"
 #include "scene/description.h"
-#include "shading/blinn_phong.h"
-#include "shading/displaced_sphere.h"
 #include "shading/environment_sky.h"
 #include "shading/star_sky.h"
+#include "shading/surface_shader.h"
 
 namespace halfspace {
 
+/// Every shader that a scene may draw by. What visits it compiles them all: add_draw.cpp, and one file of tests.
+using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, SurfaceShader<ShadingRate::none, true>,            //
+                                 SurfaceShader<ShadingRate::flat, false>, SurfaceShader<ShadingRate::flat, true>,            //
+                                 SurfaceShader<ShadingRate::provoking, false>, SurfaceShader<ShadingRate::provoking, true>,  //
+                                 SurfaceShader<ShadingRate::gouraud, false>, SurfaceShader<ShadingRate::gouraud, true>,      //
+                                 SurfaceShader<ShadingRate::phong, false>, SurfaceShader<ShadingRate::phong, true>,          //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
+                                 StarSky, EnvironmentSky>;
+
 /// One draw. std::visit on the shader gives its type back.
 struct PreparedDraw {
-  std::variant<BlinnPhong, DisplacedSphere, StarSky, EnvironmentSky> shader;
+  SceneShader shader;
   VertexView vertices;
   std::shared_ptr<const Indices> indices;
   DrawState state;  ///< reversed Z: clear depth to 0
 };
+
+/// Adds it to a pass.
+void add_draw(Pass& pass, const PreparedDraw& draw);
 
 /// All that a picture needs. Movable; keeps alive what its draws point to.
 struct PreparedScene {
@@ -43,7 +56,11 @@ class SceneAssets {
  public:
   explicit SceneAssets(const Workers& workers) : workers_(workers) {}
 
-  /// width, height: of the picture, px. Throws InputError where a file cannot be used.
+  /// Tells of a frame to come: from now on, generated maps without a width of their own are at least as fine as that frame
+  /// needs. Told of all frames of a range before the first, they do not change on the way. width, height: of the picture, px.
+  void expect(const SceneDescription& scene, int width, int height);
+
+  /// width, height: of the picture, px. Throws InputError that begins with the key, where a file cannot be used.
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
  private:
@@ -54,6 +71,7 @@ class SceneAssets {
   };
   const Workers& workers_;
   std::map<std::string, Entry> entries_;  ///< by what they are made from
+  std::map<std::string, int> widths_;     ///< of generated maps, at least, by the object's name
 };
 
 /// Draws the scene into 8-bit codes, as its post section says. Light is kept for the whole picture only where

@@ -106,7 +106,7 @@ void lay_out_vertices(const float* rows, std::size_t count, int components, Vert
   const auto stride = static_cast<int32_t>(n + gap);
   view.streams[0] = {memory.buffers[0].data(), stride, static_cast<int32_t>(first_part), count};
   view.stream_count = 1;
-  if (first_part < n)
+  if (first_part < n && count > 0)
     view.streams[static_cast<std::size_t>(view.stream_count++)] = {memory.buffers[0].data() + first_part, stride,
                                                                    static_cast<int32_t>(n - first_part), count};
 }
