@@ -97,6 +97,7 @@ struct SurfaceDescription {
   Color emissive{glm::dvec3(0.0)};
   MapValue emissive_map = Color{glm::dvec3(1.0)};
   bool textured = true;  ///< false: colour maps count as 1
+  Color reflection{glm::dvec3(0.0)};
 
   LightModel model = LightModel::blinn_phong;
   ShadingRate shading = ShadingRate::phong;
@@ -174,6 +175,12 @@ struct BackgroundDescription {
   double weight = 0.0;      ///< of the second
 };
 
+/// What surfaces mirror.
+struct ReflectionsDescription {
+  bool on = true;
+  std::string environment;  ///< empty: what the background shows, without its stars
+};
+
 enum class LightFormat : uint8_t { rgba16f, rgba32f };
 enum class DisplayEncoding : uint8_t { srgb, gamma };
 
@@ -231,6 +238,7 @@ struct SceneDescription {
   Named<ObjectDescription> objects;
   Named<AnimationDescription> animations;
   BackgroundDescription background;
+  ReflectionsDescription reflections;
   PostDescription post;
   Playback animation;
 };
@@ -246,6 +254,7 @@ Section section_of(SurfaceDescription&);
 Section section_of(ObjectDescription&);
 Section section_of(Placement&);
 Section section_of(BackgroundDescription&);
+Section section_of(ReflectionsDescription&);
 Section section_of(PostDescription&);
 Section section_of(AnimationDescription&);
 Section section_of(Playback&);
@@ -266,6 +275,7 @@ void for_each_collection(Scene& scene, F&& visit) {
 template <class Scene, class F>
 void for_each_single(Scene& scene, F&& visit) {
   visit("background", "What is seen where nothing is", scene.background);
+  visit("reflections", "What surfaces with a reflection mirror", scene.reflections);
   visit("post", "How light becomes codes; linear files (.exr, .hdr) are written before it", scene.post);
   visit("animation", "All animations together", scene.animation);
 }

@@ -136,6 +136,9 @@ class ScenePreparation {
   EnvironmentSky environment_sky();
 
   // prepare_environments.cpp
+  const std::pair<std::string, EnvironmentDescription>& environment_named(const std::string& name) const;
+  EnvironmentBlend background_light();
+  const EnvironmentBlend* surroundings();
   Environment environment_of(const std::string& name, const EnvironmentDescription& e);
   std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
   std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
@@ -148,6 +151,7 @@ class ScenePreparation {
   View view_;
   std::shared_ptr<const std::vector<Light>> lights_;
   glm::dvec3 ambient_;
+  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not asked for yet
   PreparedScene out_;
 };
 
