@@ -100,6 +100,7 @@ struct SurfaceDescription {
   Color emissive{glm::dvec3(0.0)};
   MapValue emissive_map = Color{glm::dvec3(1.0)};
   bool textured = true;  ///< false: colour maps count as 1
+  Color reflection{glm::dvec3(0.0)};
 
   LightModel model = LightModel::blinn_phong;
   ShadingRate shading = ShadingRate::phong;
@@ -176,6 +177,12 @@ struct BackgroundDescription {
   std::string environment;  ///< empty: the first
   std::string second;       ///< empty: none
   double weight = 0.0;      ///< of the second
+};
+
+/// What surfaces mirror.
+struct ReflectionsDescription {
+  bool on = true;
+  std::string environment;  ///< empty: what the background shows, without its stars
 };
 
 enum class LightFormat : uint8_t { rgba16f, rgba32f };
@@ -265,6 +272,7 @@ struct SceneDescription {
   Named<ObjectDescription> objects;
   Named<AnimationDescription> animations;
   BackgroundDescription background;
+  ReflectionsDescription reflections;
   PostDescription post;
   ShadowDescription shadow;
   Playback animation;
@@ -282,6 +290,7 @@ Section section_of(SurfaceDescription&);
 Section section_of(ObjectDescription&);
 Section section_of(Placement&);
 Section section_of(BackgroundDescription&);
+Section section_of(ReflectionsDescription&);
 Section section_of(PostDescription&);
 Section section_of(ShadowDescription&);
 Section section_of(AnimationDescription&);
@@ -304,6 +313,7 @@ void for_each_collection(Scene& scene, F&& visit) {
 template <class Scene, class F>
 void for_each_single(Scene& scene, F&& visit) {
   visit("background", "What is seen where nothing is", scene.background);
+  visit("reflections", "What surfaces with a reflection mirror", scene.reflections);
   visit("post", "How light becomes codes; linear files (.exr, .hdr) are written before it", scene.post);
   visit("shadow", "How lights' shadows are found", scene.shadow);
   visit("animation", "All animations together", scene.animation);

@@ -143,6 +143,9 @@ class ScenePreparation {
   EnvironmentSky environment_sky();
 
   // prepare_environments.cpp
+  const std::pair<std::string, EnvironmentDescription>& environment_named(const std::string& name) const;
+  EnvironmentBlend background_light();
+  const EnvironmentBlend* surroundings();
   Environment environment_of(const std::string& name, const EnvironmentDescription& e);
   std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
   std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
@@ -157,6 +160,7 @@ class ScenePreparation {
   std::span<const Light> lights_;
   std::span<const Light> shadowless_lights_;  // for what receives no shadow
   glm::dvec3 ambient_;
+  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not asked for yet
   PreparedScene out_;
 };
 
