@@ -51,6 +51,17 @@ fault "anisotropy: probes along the shorter axis" src/shading/footprint.h 'selec
 fault "mirrored wrap: nearest takes the wrong side of an edge" src/shading/texture_lookup.cpp 'select(coordinate < R(0.0f), !back, back)' 'back'
 fault "border shows through as the edge" src/shading/texture_lookup.cpp 'select(inside, texels.to_linear(v), border)' 'texels.to_linear(v)'
 fault "r16: halves of a word swapped" src/shading/texels.h 'select((i & 1) != 0, two >> 16, two) & 0xffff' 'select((i & 1) == 0, two >> 16, two) & 0xffff'
+fault "environment: a cube's faces know nothing of their neighbours" src/shading/environment_levels.cpp 'out.at(0, i + 1) = beyond_edge(faces, face, -1, i);' 'out.at(0, i + 1) = middle.at(0, i);'
+fault "environment: no half turn beyond the poles" src/shading/environment_levels.cpp '(x + width / 2) % width, b = (x + (width + 1) / 2) % width' 'x, b = x'
+fault "environment: levels not averaged towards the poles" src/shading/environment_levels.cpp 'levels_ == 0 ? level : low_passed(level)' 'level'
+fault "environment: right face mirrored" src/shading/environment.cpp 'select(is_x, -z,' 'select(is_x, z,'
+fault "environment: level of a panorama twice too coarse" src/shading/environment.cpp 'log2(turn2 * (texels * texels))' 'log2(turn2 * (texels * texels) * R(4.0f))'
+fault "environment: a packet reads one face alone" src/shading/environment.cpp 'left &= ~bits(here);' 'left = 0;'
+fault "reflection: the normal does not turn" src/shading/reflection.h ' + dn * along)' ')'
+fault "tone: light that is NaN passes" src/shading/tone.h 'return clamp(x, 0.0f, kMostLight);' 'return select(x > R(kMostLight), R(kMostLight), x);'
+fault "tone: white point not squared" src/shading/tone.h 'x / R(white * white)' 'x / R(white)'
+fault "tone: curves not held to 1" src/shading/tone.h 'c[k] = clamp(c[k], 0.0f, 1.0f);' 'c[k] = max(c[k], R(0.0f));'
+fault "dithering: thresholds repeat" src/shading/tone.h 'bit(y, 2, 0)' 'bit(y, 1, 0)'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done

@@ -32,6 +32,7 @@ struct RenderArguments {
   std::string size = "1920x1080";
   std::vector<std::string> set;
   std::string camera;   // empty: the scene's
+  std::string shading;  // empty: the objects'
   std::string time;     // empty: 0
   std::string frames;   // empty: one picture
   std::string fps;      // empty: 30
@@ -72,6 +73,19 @@ void set_camera(SceneFile& scene, const std::string& name) {
   scene.set("camera=" + name);
 }
 
+// One shading rate for every object.
+void set_shading(SceneFile& scene, const std::string& rate) {
+  if (rate.empty()) return;
+  ObjectDescription any;
+  const std::span<const std::string_view> rates = find_field(section_of(any), "shading").key->choices;
+  if (std::ranges::find(rates, rate) == rates.end()) {
+    throw UsageError("--shading is '" + rate + "'" + suggestion(rate, rates));
+  }
+  std::vector<std::string> settings;
+  for (const auto& [name, object] : scene.description().objects) settings.push_back("objects." + name + ".shading=" + rate);
+  scene.set(settings);
+}
+
 SceneFile open_scene(const RenderArguments& args) {
   SceneFile scene = SceneFile::open(args.scene);
   for (const std::string& setting : args.set) {
@@ -81,6 +95,7 @@ SceneFile open_scene(const RenderArguments& args) {
   }
   scene.set(args.set);
   set_camera(scene, args.camera);
+  set_shading(scene, args.shading);
   return scene;
 }
 
@@ -223,6 +238,7 @@ void add_render_command(CLI::App& program) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
+  command->add_option("--shading", args->shading, "How often all objects are lit: none flat provoking gouraud phong")->type_name("RATE");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
   command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");

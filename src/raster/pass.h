@@ -28,13 +28,20 @@ struct PassOptions {
 };
 
 /// A functor for the end of the pass: template <class R> vec4<R> operator()(vec4<R> color) const, from the pass's colour
-/// to that of the post target; for tone mapping and encoding while the tile is in cache.
-using PostKernel = void (*)(const void* function, PacketColor& color);
+/// to that of the post target; for tone mapping and encoding while the tile is in cache. It may take the pixel's window
+/// coordinates too: operator()(vec4<R> color, IntOf<R> x, IntOf<R> y).
+using PostKernel = void (*)(const void* function, Int x, Int y, PacketColor& color);
 
 namespace detail {
 template <class F>
-void post_kernel(const void* function, PacketColor& color) {
-  const vec4<Real> out = (*static_cast<const F*>(function))(vec4<Real>(color[0], color[1], color[2], color[3]));
+void post_kernel(const void* function, [[maybe_unused]] Int x, [[maybe_unused]] Int y, PacketColor& color) {
+  const F& f = *static_cast<const F*>(function);
+  vec4<Real> out(color[0], color[1], color[2], color[3]);
+  if constexpr (requires { f(out, x, y); }) {
+    out = f(out, x, y);
+  } else {
+    out = f(out);
+  }
   for (int k = 0; k < 4; ++k) color[static_cast<std::size_t>(k)] = out[k];
 }
 

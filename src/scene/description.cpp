@@ -11,13 +11,34 @@ struct ChoiceNames<Projection> {
 };
 template <>
 struct ChoiceNames<LightType> {
-  static constexpr std::array<std::string_view, 2> names{"directional", "point"};
+  static constexpr std::array<std::string_view, 3> names{"directional", "point", "spot"};
+};
+template <>
+struct ChoiceNames<Falloff> {
+  static constexpr std::array<std::string_view, 2> names{"attenuation", "physical"};
+};
+template <>
+struct ChoiceNames<LightModel> {
+  static constexpr std::array<std::string_view, 3> names{"lambert", "phong", "blinn_phong"};
+};
+template <>
+struct ChoiceNames<ShadingRate> {
+  static constexpr std::array<std::string_view, 5> names{"none", "flat", "provoking", "gouraud", "phong"};
+};
+template <>
+struct ChoiceNames<DetailChoice> {
+  static constexpr std::array<std::string_view, 4> names{"auto", "none", "map", "bump"};
+};
+template <>
+struct ChoiceNames<BumpMethod> {
+  static constexpr std::array<std::string_view, 2> names{"gradient", "difference"};
 };
 template <>
 struct ChoiceNames<TextureSource> {
-  static constexpr std::array<std::string_view, 16> names{
-      "file",         "earth_color",   "moon_color",   "moon_height",     "checkerboard",    "grass_color", "bark_color",  "bark_height",
-      "bricks_color", "bricks_height", "facade_color", "facade_specular", "facade_emissive", "rock_color",  "rock_height", "hills_height"};
+  static constexpr std::array<std::string_view, 18> names{
+      "file",         "earth_color",     "earth_height",    "earth_normal", "moon_color",   "moon_height",
+      "checkerboard", "grass_color",     "bark_color",      "bark_height",  "bricks_color", "bricks_height",
+      "facade_color", "facade_specular", "facade_emissive", "rock_color",   "rock_height",  "hills_height"};
 };
 template <>
 struct ChoiceNames<Filter> {
@@ -36,8 +57,28 @@ struct ChoiceNames<NormalSource> {
   static constexpr std::array<std::string_view, 3> names{"pixel", "vertex", "undisplaced"};
 };
 template <>
+struct ChoiceNames<EnvironmentType> {
+  static constexpr std::array<std::string_view, 5> names{"equirect", "globe", "cube", "day_sky", "night_sky"};
+};
+template <>
 struct ChoiceNames<BackgroundType> {
-  static constexpr std::array<std::string_view, 2> names{"color", "stars"};
+  static constexpr std::array<std::string_view, 3> names{"color", "stars", "environment"};
+};
+template <>
+struct ChoiceNames<LightFormat> {
+  static constexpr std::array<std::string_view, 2> names{"rgba16f", "rgba32f"};
+};
+template <>
+struct ChoiceNames<ToneCurve> {
+  static constexpr std::array<std::string_view, 5> names{"none", "reinhard", "reinhard_extended", "exponential", "aces"};
+};
+template <>
+struct ChoiceNames<ToneOn> {
+  static constexpr std::array<std::string_view, 2> names{"luminance", "channel"};
+};
+template <>
+struct ChoiceNames<DisplayEncoding> {
+  static constexpr std::array<std::string_view, 2> names{"srgb", "gamma"};
 };
 template <>
 struct ChoiceNames<AnimationType> {
@@ -53,7 +94,8 @@ namespace {
 constexpr double kTiny = 1e-6;
 
 constexpr const char* kGenerated =
-    "earth_color moon_color moon_height checkerboard grass_color bark_color bark_height bricks_color bricks_height facade_color "
+    "earth_color earth_height earth_normal moon_color moon_height checkerboard grass_color bark_color bark_height bricks_color "
+    "bricks_height facade_color "
     "facade_specular facade_emissive rock_color rock_height hills_height";
 
 }  // namespace
@@ -86,11 +128,18 @@ Section section_of(LightDescription& l) {
   using T = LightDescription;
   static const std::vector<Key> keys{
       key<&T::type>("type", "Kind of light"),
-      key<&T::direction>("direction", "Where the light comes from, any length", {.only = "directional"}),
-      key<&T::position>("position", "Where the light is", {.unit = "units", .only = "point"}),
+      key<&T::direction>("direction", "Where the light comes from, any length; a spot shines the other way", {.only = "directional spot"}),
+      key<&T::position>("position", "Where the light is", {.unit = "units", .only = "point spot"}),
       key<&T::color>("color", "Colour, linear", {.low = 0}),
       key<&T::intensity>("intensity", "Factor of the colour", {.low = 0}),
-      key<&T::attenuation>("attenuation", "Terms c, l, q of 1 / (c + l d + q d^2) at distance d", {.low = 0, .only = "point"}),
+      key<&T::ambient>("ambient", "Factor of its ambient light, which is the same everywhere", {.low = 0}),
+      key<&T::diffuse>("diffuse", "Factor of its diffuse light", {.low = 0}),
+      key<&T::specular>("specular", "Factor of its highlights", {.low = 0}),
+      key<&T::falloff>("falloff", "How light fades: by attenuation, or physically as 1 / d^2", {.only = "point spot"}),
+      key<&T::attenuation>("attenuation", "Terms c, l, q of 1 / (c + l d + q d^2) at distance d", {.low = 0, .only = "point spot"}),
+      key<&T::inner>("inner", "Angle to the axis up to which it shines in full",
+                     {.unit = "degrees", .low = 0, .high = 180, .only = "spot"}),
+      key<&T::outer>("outer", "Angle to the axis from which on it is dark", {.unit = "degrees", .low = 0.01, .high = 180, .only = "spot"}),
   };
   return {{keys, &l}};
 }
@@ -110,14 +159,57 @@ Section section_of(TextureDescription& t) {
   return {{keys, &t}};
 }
 
+Section section_of(EnvironmentDescription& e) {
+  using T = EnvironmentDescription;
+  static const std::vector<Key> keys{
+      key<&T::type>("type", "A panorama seen from within, the map of a globe round the eye, six faces, or a generated sky"),
+      key<&T::map>("map", "Panorama or map of a globe; a colour: the same light from everywhere", {.low = 0, .only = "equirect globe"}),
+      key<&T::folder>("folder", "Folder of files named right, left, top, bottom, front, back", {.only = "cube"}),
+      key<&T::right>("right", "Face at +x; empty: from the folder", {.only = "cube"}),
+      key<&T::left>("left", "Face at -x; empty: from the folder", {.only = "cube"}),
+      key<&T::top>("top", "Face at +y; empty: from the folder", {.only = "cube"}),
+      key<&T::bottom>("bottom", "Face at -y; empty: from the folder", {.only = "cube"}),
+      key<&T::front>("front", "Face at -z; empty: from the folder", {.only = "cube"}),
+      key<&T::back>("back", "Face at +z; empty: from the folder", {.only = "cube"}),
+      key<&T::size>("size", "Edge of a generated face; 0: what the view needs",
+                    {.unit = "texels", .low = 0, .high = 4096, .only = "day_sky night_sky"}),
+      key<&T::sun>("sun", "Where the sun is seen, any length; low: dusk", {.only = "day_sky"}),
+      key<&T::clouds>("clouds", "How much of the sky clouds cover", {.low = 0, .high = 1, .only = "day_sky"}),
+      key<&T::milky_way>("milky_way", "Factor of the Milky Way's light", {.low = 0, .high = 1e3, .only = "night_sky"}),
+      key<&T::stars>("stars", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "night_sky"}),
+      key<&T::star_brightness>("star_brightness", "Of the brightest star, linear", {.low = 0, .only = "night_sky"}),
+      key<&T::rotation>("rotation", "Turns about x, y and z; z first, then x, then y", {.unit = "degrees"}),
+      key<&T::brightness>("brightness", "Factor of its light", {.low = 0, .high = 1e6}),
+  };
+  return {{keys, &e}};
+}
+
 Section section_of(SurfaceDescription& s) {
   using T = SurfaceDescription;
   static const std::vector<Key> keys{
       key<&T::color>("color", "Colour of the surface, or its map", {.low = 0}),
-      key<&T::ambient>("ambient", "Factor of the scene's ambient light", {.low = 0}),
+      key<&T::tint>("tint", "Factor of the colour", {.low = 0}),
+      key<&T::ambient>("ambient", "Factor of the ambient light", {.low = 0}),
+      key<&T::ambient_map>("ambient_map", "Map of that factor", {.low = 0}),
       key<&T::diffuse>("diffuse", "Factor of the light that is sent back every way", {.low = 0}),
+      key<&T::diffuse_map>("diffuse_map", "Map of that factor", {.low = 0}),
       key<&T::specular>("specular", "Factor of the highlight", {.low = 0}),
+      key<&T::specular_map>("specular_map", "Map of that factor", {.low = 0}),
       key<&T::shininess>("shininess", "Exponent of the highlight: larger is smaller and sharper", {.low = 0, .high = 1e5}),
+      key<&T::shininess_map>("shininess_map", "Map of a factor of the exponent, not decoded from sRGB", {.low = 0, .high = 1}),
+      key<&T::emissive>("emissive", "Light of the surface's own", {.low = 0}),
+      key<&T::emissive_map>("emissive_map", "Map of its factor", {.low = 0}),
+      key<&T::textured>("textured", "Whether maps of colour count"),
+      key<&T::model>("model", "Highlight: none, by the reflected ray, by the half vector"),
+      key<&T::shading>("shading", "How often light is computed: never, by triangle, by vertex, by pixel"),
+      key<&T::two_sided>("two_sided", "Whether both sides are seen; a plane's always are"),
+      key<&T::normal>("normal", "What gives pixels' normals their detail; auto: the map that there is"),
+      key<&T::normal_map>("normal_map", "Normal map in tangent space, green up; a colour: none", {.low = 0}),
+      key<&T::normal_strength>("normal_strength", "Factor of the normal map's tilt", {.low = 0, .high = 1000}),
+      key<&T::normal_flip_green>("normal_flip_green", "Whether the normal map has green down"),
+      key<&T::bump_map>("bump_map", "Map of heights for bumps; a colour: none", {.low = 0}),
+      key<&T::bump_scale>("bump_scale", "Height of bumps between the map's 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
+      key<&T::bump_method>("bump_method", "Slope of bumps: of the filtered heights, or by differences in 2x2 pixels"),
   };
   return {{keys, &s}};
 }
@@ -169,8 +261,29 @@ Section section_of(BackgroundDescription& b) {
       key<&T::color>("color", "Colour, or that between the stars", {.low = 0}),
       key<&T::brightness>("brightness", "Of the brightest star, linear", {.low = 0, .only = "stars"}),
       key<&T::density>("density", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "stars"}),
+      key<&T::environment>("environment", "Name of an environment; empty: the first", {.only = "environment"}),
+      key<&T::second>("second", "Name of the environment to fade into; empty: none", {.only = "environment"}),
+      key<&T::weight>("weight", "Weight of the second environment", {.low = 0, .high = 1, .only = "environment"}),
   };
   return {{keys, &b}};
+}
+
+Section section_of(PostDescription& p) {
+  using T = PostDescription;
+  static const std::vector<Key> keys{
+      key<&T::hdr>("hdr", "Keep light beyond 1 until it is exposed and bent by the tone curve; off: the keys below do not count"),
+      key<&T::format>("format", "Numbers that hold light; halfs end at 65504"),
+      key<&T::exposure>("exposure", "Factor of the light", {.low = 0, .high = 1e9}),
+      key<&T::auto_exposure>("auto_exposure", "Multiply by key_value over the picture's log-average luminance too"),
+      key<&T::key_value>("key_value", "What auto_exposure makes of the average", {.low = 0, .high = 1e3}),
+      key<&T::tone>("tone", "Curve from light to [0, 1]; none: what is above 1 becomes 1"),
+      key<&T::tone_on>("tone_on", "What the curve bends: all channels by their luminance, or each"),
+      key<&T::white>("white", "Light that reinhard_extended makes 1", {.low = 1e-3, .high = 1e6}),
+      key<&T::encode>("encode", "From linear to codes: exactly sRGB, or a power"),
+      key<&T::gamma>("gamma", "The power is 1 over this; for encode gamma", {.low = 0.1, .high = 10}),
+      key<&T::dither>("dither", "Break up bands by an ordered pattern of 8x8 pixels"),
+  };
+  return {{keys, &p}};
 }
 
 Section section_of(AnimationDescription& a) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
-// prepare_objects.cpp, prepare_background.cpp.
+// prepare_surface.cpp, prepare_objects.cpp, prepare_environments.cpp, prepare_background.cpp.
 // Included by these alone.
 #pragma once
 
@@ -83,8 +83,6 @@ class ScenePreparation {
   struct Relief {
     std::shared_ptr<const HeightField> field;  // null: nothing does
     std::string recipe;
-    std::shared_ptr<const Texture2D> slopes;  // of a uv_sphere; null: normals come with the mesh
-    Sampler sampler;
   };
 
   const CameraDescription& camera() const;
@@ -101,10 +99,21 @@ class ScenePreparation {
   }
   // prepare_maps.cpp
   int width_for(const ObjectDescription& o) const;
+  const TextureDescription& texture_named(const std::string& name) const;
   MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
   std::shared_ptr<const MoonMaps> moon_maps(int width);
-  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& path);
-  std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& path);
+  // where: the key's path, for messages.
+  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Texture2D> data_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Image<float>> heights(const MapUse& use, const std::string& where);
+  std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& where);
+
+  // prepare_surface.cpp
+  void add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map, const ObjectDescription& o,
+                  const std::string& where);
+  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  DetailMap normal_map(const ObjectDescription& o, const std::string& where);
+  DetailMap bump_map(const ObjectDescription& o, const std::string& where);
 
   // prepare_patterns.cpp
   std::shared_ptr<const PatternMaps> pattern_maps(const MapUse& use);
@@ -117,16 +126,28 @@ class ScenePreparation {
   // prepare_objects.cpp
   void add_object(const std::string& path, const ObjectDescription& o);
   Relief relief_of(const ObjectDescription& o, const std::string& path);
-  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  DetailMap slopes_of(const Relief& relief, const ObjectDescription& o);
+  NormalDetail add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path);
   void place(LitSurface& s, glm::dmat4 world) const;
 
   // prepare_background.cpp
-  void add_stars();
+  void add_background();
+  StarSky star_sky(double density, double brightness) const;
+  EnvironmentSky environment_sky();
+
+  // prepare_environments.cpp
+  Environment environment_of(const std::string& name, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> generated_sky(const EnvironmentDescription& e);
+  int panorama_width() const;
+  int face_size() const;
 
   SceneAssets& assets_;
   const SceneDescription& scene_;
   View view_;
   std::shared_ptr<const std::vector<Light>> lights_;
+  glm::dvec3 ambient_;
   PreparedScene out_;
 };
 

@@ -2,9 +2,11 @@
 //
 // Maps of a scene's objects: read from files, or generated as fine as the view needs.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/check.h"
+#include "scene/displaced_sphere.h"
 #include "scene/image_io.h"
 #include "scene/preparation.h"
 #include "scene/procedural_earth.h"
@@ -67,16 +69,20 @@ int ScenePreparation::width_for(const ObjectDescription& o) const {
   return width;
 }
 
+const TextureDescription& ScenePreparation::texture_named(const std::string& name) const {
+  const TextureDescription& t = std::ranges::find_if(scene_.textures, [&](const auto& entry) { return entry.first == name; })->second;
+  if (t.source == TextureSource::file && t.file.path.empty())
+    throw InputError("textures." + name + ".file: missing; expected an image file");
+  return t;
+}
+
 MapUse ScenePreparation::use_of(const MapValue& map, const ObjectDescription& o) const {
   TextureDescription t;
   if (const auto* file = std::get_if<FilePath>(&map)) {
     t.file = *file;
     if (edges_of(o.shape) == MapEdges::sphere) t.wrap_t = Wrap::clamp;  // nothing lies beyond the poles
   } else {
-    const std::string& name = std::get<TextureName>(map).name;
-    t = std::ranges::find_if(scene_.textures, [&](const auto& entry) { return entry.first == name; })->second;
-    if (t.source == TextureSource::file && t.file.path.empty())
-      throw InputError("textures." + name + ".file: missing; expected an image file");
+    t = texture_named(std::get<TextureName>(map).name);
   }
   if (t.source == TextureSource::file) return {t, 0};
   if (t.width != 0) return {t, t.width};
@@ -87,12 +93,36 @@ std::shared_ptr<const MoonMaps> ScenePreparation::moon_maps(int width) {
   return asset<MoonMaps>(recipe("moon", width), [&] { return procedural_moon(width, assets_.workers_); });
 }
 
-std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& use, const std::string& path) {
+namespace {
+
+[[noreturn]] void fail_not(const std::string& where, const TextureDescription& t, const char* expected) {
+  const bool heights = t.source == TextureSource::earth_height || t.source == TextureSource::moon_height || is_pattern_height(t.source);
+  const char* is = t.source == TextureSource::earth_normal ? "a normal map" : heights ? "a map of heights" : "a map of colours";
+  throw InputError(where + ": is " + is + "; expected " + expected);
+}
+
+// Normals of the sphere of radius 1 that the heights raise by kEarthRelief, coded for a normal map.
+constexpr double kEarthRelief = 0.02;
+
+Image<glm::vec4> normals_of(const HeightField& field, int width, const Workers& workers) {
+  Image<glm::vec4> map = slope_map(field, width, width / 2, 1.0, kEarthRelief, 0.0, workers);
+  for (int y = 0; y < map.height(); ++y) {
+    for (glm::vec4& t : map.row(y)) {
+      const glm::vec3 n(-t.x, -t.y, t.z);
+      t = glm::vec4(n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) * 0.5f + 0.5f, 1.0f);
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& use, const std::string& where) {
   if (is_pattern(use.texture.source) && !is_pattern_height(use.texture.source)) return pattern_texture(use);
   switch (use.texture.source) {
     case TextureSource::file:
       return asset<Texture2D>(recipe("color", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(path + ".color", [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8);
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8);
       });
     case TextureSource::earth_color:
       return asset<Texture2D>(recipe("earth_color", use.width), [&] {
@@ -101,29 +131,54 @@ std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& u
     case TextureSource::moon_color:
       return asset<Texture2D>(recipe("moon_color", use.width),
                               [&] { return Texture2D(moon_maps(use.width)->color, TexelFormat::srgb8a8); });
-    default: break;
+    default: fail_not(where, use.texture, "a map of colours");
   }
-  throw InputError(path + ".color: is a map of heights; expected a map of colours");
+}
+
+// Numbers as they stand in the file: normals, exponents.
+std::shared_ptr<const Texture2D> ScenePreparation::data_texture(const MapUse& use, const std::string& where) {
+  switch (use.texture.source) {
+    case TextureSource::file:
+      return asset<Texture2D>(recipe("data", use.texture.file.path.string()), [&] {
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8);
+      });
+    case TextureSource::earth_normal:
+      return asset<Texture2D>(recipe("earth_normal", use.width), [&] {
+        MapUse relief = use;
+        relief.texture.source = TextureSource::earth_height;
+        const HeightField field(*heights(relief, where), 1.0, assets_.workers_);
+        return Texture2D(normals_of(field, use.width, assets_.workers_), TexelFormat::rgba16f);
+      });
+    default: fail_not(where, use.texture, "a map of numbers");
+  }
+}
+
+std::shared_ptr<const Image<float>> ScenePreparation::heights(const MapUse& use, const std::string& where) {
+  if (is_pattern_height(use.texture.source)) {
+    return asset<Image<float>>(recipe("pattern heights", static_cast<int>(use.texture.source), use.width),
+                               [&] { return unit_numbers(pattern_maps(use)->height); });
+  }
+  switch (use.texture.source) {
+    case TextureSource::file:
+      return asset<Image<float>>(recipe("numbers", use.texture.file.path.string()),
+                                 [&] { return read_for(where, [&] { return read_gray(use.texture.file.path); }); });
+    case TextureSource::earth_height:
+      return asset<Image<float>>(recipe("earth_height", use.width),
+                                 [&] { return procedural_earth_heights(use.width, use.width / 2, assets_.workers_); });
+    case TextureSource::moon_height:
+      return asset<Image<float>>(recipe("moon_height", use.width), [&] { return unit_numbers(moon_maps(use.width)->height); });
+    default: fail_not(where, use.texture, "a map of heights");
+  }
 }
 
 // The map of heights, smoothed, as a function on the object's surface.
-std::shared_ptr<const HeightField> ScenePreparation::height_field(const MapUse& use, const ObjectDescription& o, const std::string& path) {
-  const std::string words = recipe("heights", use.texture.file.path.string(), use.width, o.height_smoothing,
-                                   static_cast<int>(use.texture.source), static_cast<int>(edges_of(o.shape)));
-  const auto field = [&](const Image<float>& map) { return HeightField(map, o.height_smoothing, assets_.workers_, edges_of(o.shape)); };
-  if (is_pattern_height(use.texture.source))
-    return asset<HeightField>(words, [&] { return field(unit_numbers(pattern_maps(use)->height)); });
-  switch (use.texture.source) {
-    case TextureSource::file:
-      return asset<HeightField>(words, [&] {
-        const Image<float> map = read_for(path + ".height", [&] { return read_gray(use.texture.file.path); });
-        if (map.width() < 2)
-          throw InputError(path + ".height: " + use.texture.file.path.string() + ": is one texel wide; expected a map of heights");
-        return field(map);
-      });
-    case TextureSource::moon_height: return asset<HeightField>(words, [&] { return field(unit_numbers(moon_maps(use.width)->height)); });
-    default: throw InputError(path + ".height: is a map of colours; expected a map of heights");
-  }
+std::shared_ptr<const HeightField> ScenePreparation::height_field(const MapUse& use, const ObjectDescription& o, const std::string& where) {
+  const std::shared_ptr<const Image<float>> map = heights(use, where);
+  if (map->width() < 2) throw InputError(where + ": " + use.texture.file.path.string() + ": is one texel wide; expected a map of heights");
+  const MapEdges edges = edges_of(o.shape);
+  return asset<HeightField>(recipe("field", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width,
+                                   o.height_smoothing, static_cast<int>(edges)),
+                            [&] { return HeightField(*map, o.height_smoothing, assets_.workers_, edges); });
 }
 
 }  // namespace halfspace

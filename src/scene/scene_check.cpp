@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kLeastScale = 1e-6, kLeastAttenuation = 1e-6;
+constexpr double kLeastScale = 1e-6, kLeastTerm = 1e-6;
 constexpr int64_t kMostVertices = int64_t{1} << 23;  // of one mesh: 0.6 GB
 constexpr int64_t kMostCopies = 65536;
 constexpr int64_t kMostDrawnVertices = int64_t{1} << 25;  // of all copies that are drawn: 2 GB while a frame is rendered
@@ -32,16 +32,30 @@ void check(const CameraDescription& c, const std::string& where) {
 
 void check(const LightDescription& l, const std::string& where) {
   if (l.direction == glm::dvec3(0.0)) fail(where + ".direction", "is zero; expected a direction");
-  if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kLeastAttenuation) {
-    fail(where + ".attenuation", "is zero; expected one term of at least " + number_text(kLeastAttenuation));
+  if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kLeastTerm) {
+    fail(where + ".attenuation", "is zero; expected one term of at least " + number_text(kLeastTerm));
   }
+  if (l.type == LightType::spot && l.inner > l.outer)
+    fail(where + ".inner", number_text(l.inner) + " is more than outer; expected at most " + number_text(l.outer));
 }
 
 void check(const TextureDescription& t, const std::string& where) {
   if (t.width % 2 != 0) fail(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
 }
 
+void check(const EnvironmentDescription& e, const std::string& where) {
+  if (e.sun == glm::dvec3(0.0)) fail(where + ".sun", "is zero; expected a direction");
+}
+
 void check(const SurfaceDescription&, const std::string&) {}
+
+// Of an object: a material alone may leave it to the object to name the map.
+void check_detail(const SurfaceDescription& s, const std::string& where) {
+  if (s.normal == DetailChoice::map && !is_map(s.normal_map))
+    fail(where + ".normal", "is map, and normal_map is none; expected a texture or an image file as normal_map");
+  if (s.normal == DetailChoice::bump && !is_map(s.bump_map))
+    fail(where + ".normal", "is bump, and bump_map is none; expected a texture or an image file as bump_map");
+}
 
 void check(const Placement& p, const std::string& where) {
   const glm::dvec3 s = glm::abs(p.scale);
@@ -69,6 +83,7 @@ double thickness_of(const ObjectDescription& o) {
 }
 
 void check(const ObjectDescription& o, const std::string& where) {
+  check_detail(o.surface, where);
   check(o.placement, where);
   for (std::size_t i = 0; i < o.instances.size(); ++i)
     check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));
@@ -76,7 +91,7 @@ void check(const ObjectDescription& o, const std::string& where) {
   if (o.shape == Shape::torus && o.tube >= o.radius)
     fail(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
   if (o.shape == Shape::torus && o.latitudes < 3) fail(where + ".latitudes", "2 make no tube; expected at least 3");
-  const bool displaced = o.shape != Shape::plane && !std::holds_alternative<Color>(o.height);
+  const bool displaced = o.shape != Shape::plane && is_map(o.height);
   if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness_of(o)) {
     fail(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +
                                       " inside out; expected less than " + (o.shape == Shape::uv_sphere ? "its radius, " : "") +
@@ -101,12 +116,25 @@ void check_total(const Named<ObjectDescription>& objects, const std::string& sou
   }
 }
 
+void check_background(SceneDescription& scene, const std::string& source) {
+  const BackgroundDescription& b = scene.background;
+  const auto check_name = [&](const char* key, const std::string& name) {
+    if (name.empty() || find_named(scene.environments, name) != nullptr) return;
+    fail(source, std::string("background.") + key + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
+  };
+  check_name("environment", b.environment);
+  check_name("second", b.second);
+  if (b.type == BackgroundType::environment && scene.environments.empty())
+    fail(source, "background.type: the scene has no environment; expected one in environments");
+}
+
 }  // namespace
 
 void check_scene(SceneDescription& scene, const std::string& source) {
   if (!scene.head.camera.empty() && find_named(scene.cameras, scene.head.camera) == nullptr) {
     fail(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
   }
+  check_background(scene, source);
   for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
     for (auto& entry : list) {
       const std::string path = std::string(collection) + "." + entry.first;

@@ -25,6 +25,13 @@ struct Linear {
   T value;
 };
 
+/// A member that is not there: no components and, declared [[no_unique_address]], no room. Two in one struct need different tags.
+template <int tag>
+struct Absent {};
+/// T, or a member that is not there: for a shader whose variants carry different things.
+template <bool present, class T, int tag>
+using MemberIf = std::conditional_t<present, T, Absent<tag>>;
+
 enum class Interpolation : uint8_t { smooth, flat, linear };
 
 namespace detail {
@@ -48,6 +55,12 @@ struct FieldTraits<Flat<T>> : FieldTraits<T> {
 template <class T>
 struct FieldTraits<Linear<T>> : FieldTraits<T> {
   static constexpr Interpolation interpolation = Interpolation::linear;
+};
+
+template <int tag>
+struct FieldTraits<Absent<tag>> {
+  static constexpr std::size_t components = 0;
+  static constexpr Interpolation interpolation = Interpolation::flat;
 };
 
 template <class T>

@@ -125,24 +125,6 @@ TEST(Moon, SilhouetteOfTheDisplacedLiesBetweenItsHeights) {
   EXPECT_LT(inside, between * 9 / 10);
 }
 
-TEST(DisplacedSphereShader, TiltsByTheSlopes) {
-  // Against the frame written out at (u, v), in double; the shader has the same from n alone.
-  for (int i = 1; i < 20; ++i) {
-    for (int j = 0; j < 20; ++j) {
-      const double v = i / 20.0, u = j / 20.0 + 0.013;
-      const double s = std::sin(kPi * v), c = std::cos(kPi * v), su = std::sin(2 * kPi * u), cu = std::cos(2 * kPi * u);
-      const glm::dvec3 n(s * cu, c, -s * su), east(-su, 0, -cu), north(-c * cu, s, c * su);
-      const glm::dvec3 slope(0.3 - 0.02 * i, 0.04 * j - 0.4, 1.02);
-      const glm::dvec3 want = n * slope.z - east * slope.x - north * slope.y;
-      const vec3<double> got = DisplacedSphere::tilted<double>(n, slope);
-      EXPECT_LT(glm::length(got - want), 1e-14);
-      const vec3<float> single = DisplacedSphere::tilted<float>(glm::vec3(n), glm::vec3(slope));
-      EXPECT_LT(glm::length(glm::dvec3(single) - want), 1e-6);  // n rounded to float, over a ring of at least 0.15
-    }
-  }
-  EXPECT_EQ(DisplacedSphere::tilted<float>({0, 1, 0}, {0.5f, 0.5f, 1}), glm::vec3(0, 1, 0)) << "a pole has no east";
-}
-
 TEST(Moon, NormalsByPixelShowOnACoarseMeshWhatAFineMeshShows) {
   const auto picture = [](int sectors, const char* normals) {
     return picture_of(moon_with({"moon.longitudes=" + std::to_string(sectors), "moon.latitudes=" + std::to_string(sectors / 2),
@@ -174,15 +156,15 @@ TEST(PreparedScene, DrawsNoMoreThanAsked) {
   EXPECT_TRUE(assets.prepare(parsed(R"({"version": 1, "objects": {"a": {"visible": false, "color": "none.png"}}})"), 8, 8).draws.empty())
       << "what is not seen is not read";
   const PreparedScene plain = assets.prepare(parsed(R"({"version": 1, "objects": {"a": {"color": 0.5}}})"), 8, 8);
-  EXPECT_EQ(std::get<BlinnPhong>(plain.draws.at(0).shader).map, nullptr);
-  EXPECT_TRUE(std::get<BlinnPhong>(plain.draws.at(0).shader).lights.empty());
+  EXPECT_EQ(surface_of(plain.draws.at(0)).factors[kColor].map, nullptr);
+  EXPECT_TRUE(surface_of(plain.draws.at(0)).lights.empty());
 }
 
 TEST(PreparedScene, AssetsAreKeptWhileTheyAreWanted) {
   const Workers workers(1);
   SceneAssets assets(workers);
   SceneDescription scene = moon_with({"textures.surface.width=64", "textures.relief.width=64"});
-  const auto map_of = [](const PreparedScene& p) { return std::get<DisplacedSphere>(p.draws.front().shader).map; };
+  const auto map_of = [](const PreparedScene& p) { return surface_of(p.draws.front()).factors[kColor].map; };
   const PreparedScene first = assets.prepare(scene, 32, 32);
   scene.objects.front().second.placement.rotation.y += 10;
   const PreparedScene second = assets.prepare(scene, 32, 32);

@@ -91,7 +91,7 @@ TEST_P(EveryScene, EveryKeyCanBeSetPrintedAndReadBack) {
       ASSERT_EQ(error_of([&] { scene.set(path + "=" + value); }), "no error") << path << "=" << value;
       SceneDescription set = scene.description();
       const Json want = value_of(find_key(set, path, "").field);
-      if (name != "camera" && name != "material") {
+      if (field.key->type != KeyType::text || name == "title") {
         EXPECT_NE(want, value_of(field)) << path << "=" << value;
       }
       const SceneFile again = scene_of(scene.print());
