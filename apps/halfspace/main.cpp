@@ -116,6 +116,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   program.get_formatter()->column_width(28);
   add_render_command(program);
   add_convert_normal_command(program);
+  if constexpr (HALFSPACE_HAS_RAYS) add_validate_command(program);
   add_list_command(program);
   add_info_command(program);
   add_completion_command(program);

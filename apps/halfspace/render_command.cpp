@@ -15,6 +15,7 @@
 #include "halfspace/arguments.h"
 #include "halfspace/commands.h"
 #include "halfspace/frames.h"
+#include "halfspace/scene_arguments.h"
 #include "halfspace/statistics.h"
 #include "scene/image_io.h"
 #include "scene/nearest_name.h"
@@ -65,14 +66,6 @@ ImageFile output_format(const std::filesystem::path& path) {
   throw UsageError("-o is '" + path.string() + "'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr");
 }
 
-void set_camera(SceneFile& scene, const std::string& name) {
-  if (name.empty()) return;
-  std::vector<std::string_view> names;
-  for (const auto& [camera, description] : scene.description().cameras) names.push_back(camera);
-  if (std::ranges::find(names, name) == names.end()) throw InputError("--camera: no camera '" + name + "'" + suggestion(name, names));
-  scene.set("camera=" + name);
-}
-
 // One shading rate for every object.
 void set_shading(SceneFile& scene, const std::string& rate) {
   if (rate.empty()) return;
@@ -84,19 +77,6 @@ void set_shading(SceneFile& scene, const std::string& rate) {
   std::vector<std::string> settings;
   for (const auto& [name, object] : scene.description().objects) settings.push_back("objects." + name + ".shading=" + rate);
   scene.set(settings);
-}
-
-SceneFile open_scene(const RenderArguments& args) {
-  SceneFile scene = SceneFile::open(args.scene);
-  for (const std::string& setting : args.set) {
-    if (setting.find('=') == std::string::npos || setting.starts_with('=')) {
-      throw UsageError("--set is '" + setting + "'; expected KEY=VALUE, for example camera=main");
-    }
-  }
-  scene.set(args.set);
-  set_camera(scene, args.camera);
-  set_shading(scene, args.shading);
-  return scene;
 }
 
 RenderJob understand(const RenderArguments& args) {
@@ -116,7 +96,9 @@ RenderJob understand(const RenderArguments& args) {
   if (frames && !out.has_extension())
     throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
-  return {open_scene(args), out, format, size, time, fps, frames, threads, args.resume};
+  SceneFile scene = open_scene(args.scene, args.set, args.camera);
+  set_shading(scene, args.shading);
+  return {std::move(scene), out, format, size, time, fps, frames, threads, args.resume};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -233,10 +215,7 @@ void add_render_command(CLI::App& program) {
   command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->required()->type_name("");
   command->add_option("-o,--output", args->out, ".png .jpg .tif, or linear .exr .hdr")->type_name("OUT");
   command->add_option("--size", args->size, "Pixels (default 1920x1080)")->type_name("WxH");
-  command->add_option("--set", args->set, "Set a key ('halfspace list SCENE' tells all)")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_set_option(command, args->set);
   command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
   command->add_option("--shading", args->shading, "How often all objects are lit: none flat provoking gouraud phong")->type_name("RATE");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");

@@ -81,6 +81,20 @@ struct ChoiceNames<DisplayEncoding> {
   static constexpr std::array<std::string_view, 2> names{"srgb", "gamma"};
 };
 template <>
+struct ChoiceNames<ShadowMethod> {
+  static constexpr std::array<std::string_view, 10> names{"none", "hard",  "bilinear", "pcf3", "pcf5",
+                                                          "pcf7", "vogel", "pcss",     "vsm",  "moments"};
+};
+template <>
+struct ChoiceNames<ShadowBias> {
+  static constexpr std::array<std::string_view, 9> names{"none",           "constant", "slope", "angle",   "normal_offset",
+                                                         "receiver_plane", "adaptive", "auto",  "original"};
+};
+template <>
+struct ChoiceNames<ShadowFaces> {
+  static constexpr std::array<std::string_view, 3> names{"front", "back", "both"};
+};
+template <>
 struct ChoiceNames<AnimationType> {
   static constexpr std::array<std::string_view, 3> names{"rate", "orbit", "keyframes"};
 };
@@ -140,6 +154,8 @@ Section section_of(LightDescription& l) {
       key<&T::inner>("inner", "Angle to the axis up to which it shines in full",
                      {.unit = "degrees", .low = 0, .high = 180, .only = "spot"}),
       key<&T::outer>("outer", "Angle to the axis from which on it is dark", {.unit = "degrees", .low = 0.01, .high = 180, .only = "spot"}),
+      key<&T::shadow>("shadow", "Whether the light casts shadows"),
+      key<&T::size>("size", "Radius, or of a directional light half the angle it spans, in degrees", {.low = 0, .high = 1e6}),
   };
   return {{keys, &l}};
 }
@@ -242,6 +258,8 @@ Section section_of(ObjectDescription& o) {
       key<&T::tiles_v>("tiles_v", "How often a map of colours repeats along v",
                        {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus"}),
       key<&T::visible>("visible", "Whether the object is drawn"),
+      key<&T::casts_shadow>("casts_shadow", "Whether it shades others"),
+      key<&T::receives_shadow>("receives_shadow", "Whether others, or itself, shade it"),
       key<&T::height>("height", "Map of heights that displaces the surface; a colour: none", {.low = 0}),
       key<&T::height_scale>("height_scale", "Height between the map's 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
       key<&T::height_zero>("height_zero", "The map's value that displaces nothing", {.low = 0, .high = 1}),
@@ -284,6 +302,26 @@ Section section_of(PostDescription& p) {
       key<&T::dither>("dither", "Break up bands by an ordered pattern of 8x8 pixels"),
   };
   return {{keys, &p}};
+}
+
+Section section_of(ShadowDescription& s) {
+  using T = ShadowDescription;
+  static const std::vector<Key> keys{
+      key<&T::method>("method", "How the map is filtered; none: no shadows, and no cost"),
+      key<&T::bias>("bias", "How a surface is kept out of its own shadow"),
+      key<&T::resolution>("resolution", "Width of a map; 0: as footprint asks", {.unit = "texels", .low = 0, .high = kMostShadowTexels}),
+      key<&T::footprint>("footprint", "With resolution 0: what a texel spans at most on 95 % of the picture",
+                         {.unit = "px", .low = 0.1, .high = 100}),
+      key<&T::constant>("constant", "Constant part of the bias", {.unit = "texels", .low = 0, .high = 1000}),
+      key<&T::slope>("slope", "Factor of the bias that grows with the light's angle", {.low = 0, .high = 1000}),
+      key<&T::max_slope>("max_slope", "Largest tangent of the light's angle that a bias follows", {.low = 0, .high = 1e6}),
+      key<&T::radius>("radius", "Of vogel's disk and of the moments' filter", {.unit = "texels", .low = 0, .high = 16}),
+      key<&T::faces>("faces", "Faces that cast, as the light sees them"),
+      key<&T::cascades>("cascades", "Maps of a directional light, by distance", {.low = 1, .high = 4}),
+      key<&T::cascade_growth>("cascade_growth", "0: even distances, 1: each cascade a constant times the one before",
+                              {.low = 0, .high = 1}),
+  };
+  return {{keys, &s}};
 }
 
 Section section_of(AnimationDescription& a) {

@@ -10,6 +10,7 @@
 
 #include "scene/keys.h"
 #include "shading/lighting.h"
+#include "shading/shadow_map.h"
 #include "shading/texture.h"
 #include "shading/tone.h"
 
@@ -44,6 +45,8 @@ struct LightDescription {
   Falloff falloff = Falloff::attenuation;
   glm::dvec3 attenuation{1, 0, 0};
   double inner = 20.0, outer = 30.0;  ///< degrees from the axis
+  bool shadow = true;
+  double size = 0.0;  ///< radius in units; directional: half the angle that it spans, degrees
 };
 
 enum class TextureSource : uint8_t {
@@ -134,6 +137,7 @@ struct ObjectDescription {
   int segments = 1;
   int tiles_u = 1, tiles_v = 1;
   bool visible = true;
+  bool casts_shadow = true, receives_shadow = true;
 
   MapValue height = Color{glm::dvec3(0.0)};  ///< a constant means none
   double height_scale = 0.02;                ///< units between the map's 0 and 1
@@ -195,6 +199,28 @@ struct PostDescription {
   bool dither = false;
 };
 
+/// ShadowFilter, and none before it.
+enum class ShadowMethod : uint8_t { none, hard, bilinear, pcf3, pcf5, pcf7, vogel, pcss, vsm, moments };
+/// Which faces of a closed surface are drawn into shadow maps, as the light sees them.
+enum class ShadowFaces : uint8_t { front, back, both };
+
+/// The widest shadow map, texels.
+inline constexpr int kMostShadowTexels = 8192;
+
+struct ShadowDescription {
+  ShadowMethod method = ShadowMethod::none;
+  ShadowBias bias = ShadowBias::automatic;
+  int resolution = 2048;   ///< texels a side; 0: as footprint asks
+  double footprint = 1.0;  ///< pixels that a texel spans at most on 95 % of the picture
+  double constant = 1.0;   ///< texels
+  double slope = 1.0;
+  double max_slope = 16.0;
+  double radius = 2.0;  ///< texels
+  ShadowFaces faces = ShadowFaces::front;
+  int cascades = 1;
+  double cascade_growth = 0.75;  ///< 0: cascades of even depth, 1: each a constant times the one before
+};
+
 enum class AnimationType : uint8_t { rate, orbit, keyframes };
 enum class Easing : uint8_t { linear, smooth, step };
 
@@ -235,6 +261,7 @@ struct SceneDescription {
   Named<AnimationDescription> animations;
   BackgroundDescription background;
   PostDescription post;
+  ShadowDescription shadow;
   Playback animation;
 };
 
@@ -250,6 +277,7 @@ Section section_of(ObjectDescription&);
 Section section_of(Placement&);
 Section section_of(BackgroundDescription&);
 Section section_of(PostDescription&);
+Section section_of(ShadowDescription&);
 Section section_of(AnimationDescription&);
 Section section_of(Playback&);
 
@@ -270,6 +298,7 @@ template <class Scene, class F>
 void for_each_single(Scene& scene, F&& visit) {
   visit("background", "What is seen where nothing is", scene.background);
   visit("post", "How light becomes codes; linear files (.exr, .hdr) are written before it", scene.post);
+  visit("shadow", "How lights' shadows are found", scene.shadow);
   visit("animation", "All animations together", scene.animation);
 }
 

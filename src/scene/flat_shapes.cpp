@@ -33,7 +33,7 @@ void add_face(SurfaceMesh& mesh, double h, const Face& face, int segments, bool 
   const auto coordinate = [&](int i) { return static_cast<double>(2 * i - segments) / segments; };
   for (int i = 0; i <= segments; ++i) {
     for (int j = 0; j <= segments; ++j) {
-      ShapePoint p{};
+      MeshPoint p{};
       p.uv = {static_cast<double>(j) / segments, static_cast<double>(i) / segments};
       p.position = h * (face.center + face.right * coordinate(j) - face.up * coordinate(i));
       p.du = 2.0 * h * face.right;

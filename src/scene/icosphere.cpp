@@ -67,10 +67,10 @@ glm::dvec2 map_coordinates(const glm::dvec3& p) {
   return {std::floor((turns - std::floor(turns)) * 0x1p32) * 0x1p-32, v};
 }
 
-ShapePoint sphere_point(double radius, const glm::dvec2& uv, double u_in_first_turn) {
+MeshPoint sphere_point(double radius, const glm::dvec2& uv, double u_in_first_turn) {
   const SinCosDouble pi_v = sincos_turns(0.5 * uv.y);
   const SphereFrame frame = sphere_frame(sincos_turns(u_in_first_turn), pi_v);
-  ShapePoint p{};
+  MeshPoint p{};
   p.uv = uv;
   p.position = radius * frame.normal;
   p.normal = frame.normal;
@@ -131,7 +131,7 @@ class Icosphere {
     }
   }
 
-  ShapePoint pole_point(int pole, double u) const { return sphere_point(radius_, {u, uvs_[static_cast<std::size_t>(pole)].y}, u); }
+  MeshPoint pole_point(int pole, double u) const { return sphere_point(radius_, {u, uvs_[static_cast<std::size_t>(pole)].y}, u); }
 
   double mean_height(int pole) const {
     const std::vector<double>& us = pole_us_[static_cast<std::size_t>(pole)];

@@ -107,6 +107,12 @@ bool is_standard_output(const std::filesystem::path& path) {
   return ::stat(path.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 && file.st_dev == out.st_dev && file.st_ino == out.st_ino;
 }
 
+void make_directory(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw OutputError(path.string() + ": cannot make the directory (" + error.message() + ")");
+}
+
 void check_writable(const std::filesystem::path& path) {
   if (path.empty()) throw OutputError("the output has no name; expected a file name");
   const auto status = status_of(path);

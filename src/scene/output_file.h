@@ -21,6 +21,8 @@ void check_writable(const std::filesystem::path& path);
 
 /// Is that the file, pipe or terminal that standard output goes to, such as /dev/stdout?
 bool is_standard_output(const std::filesystem::path& path);
+/// Makes the directory, and those above it, where they are absent. Throws OutputError.
+void make_directory(const std::filesystem::path& path);
 
 /// Removes the file that is being written aside, if there is one. For signal handlers: async-signal-safe.
 void remove_unfinished_output() noexcept;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
-// prepare_surface.cpp, prepare_objects.cpp, prepare_environments.cpp, prepare_background.cpp.
+// prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp,
+// prepare_background.cpp.
 // Included by these alone.
 #pragma once
 
@@ -15,6 +16,7 @@
 #include "scene/prepared_scene.h"
 #include "scene/procedural_moon.h"
 #include "scene/procedural_patterns.h"
+#include "scene/shadow_views.h"
 #include "scene/view.h"
 
 namespace halfspace {
@@ -127,6 +129,11 @@ class ScenePreparation {
   NormalDetail add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path);
   void place(LitSurface& s, glm::dmat4 world) const;
 
+  // prepare_shadows.cpp: fills the shadows' views, once all objects are placed
+  void add_shadows();
+  std::vector<LightView> shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const;
+  int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
+
   // prepare_background.cpp
   void add_background();
   StarSky star_sky(double density, double brightness) const;
@@ -143,7 +150,9 @@ class ScenePreparation {
   SceneAssets& assets_;
   const SceneDescription& scene_;
   View view_;
+  std::shared_ptr<std::vector<Shadow>> shadows_;  // by light; empty without shadows
   std::shared_ptr<const std::vector<Light>> lights_;
+  std::shared_ptr<const std::vector<Light>> shadowless_lights_;  // for what receives no shadow
   glm::dvec3 ambient_;
   PreparedScene out_;
 };

@@ -132,6 +132,7 @@ void ScenePreparation::add_object(const std::string& path, const ObjectDescripti
   for (const glm::dmat4& world : places_of(o)) {
     place(surface, world);
     out_.draws.push_back(draw_of(surface, o.surface.shading, detail, *mesh, indices));
+    out_.meshes.push_back({path, &mesh->mesh, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow});
   }
 }
 

@@ -23,7 +23,8 @@ LitSurface ScenePreparation::surface_of(const ObjectDescription& o, const std::s
   const SurfaceDescription& d = o.surface;
   LitSurface s;
   s.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  s.lights = *lights_;
+  s.lights = o.receives_shadow ? *lights_ : *shadowless_lights_;
+  s.shadowed = o.receives_shadow && std::ranges::any_of(*lights_, [](const Light& l) { return l.shadow != nullptr; });
   s.two_sided = d.two_sided || o.shape == Shape::plane;
   add_factor(s, kColor, d.tint.linear, d.color, o, path + ".color");
   add_factor(s, kAmbient, d.ambient.linear * ambient_, d.ambient_map, o, path + ".ambient_map");

@@ -32,6 +32,13 @@ std::vector<Light> make_lights(const Named<LightDescription>& descriptions, cons
   return lights;
 }
 
+// The lights, each with its shadow where it casts one.
+std::vector<Light> with_shadows(std::vector<Light> lights, const SceneDescription& scene, const std::vector<Shadow>& shadows) {
+  for (std::size_t i = 0; i < shadows.size(); ++i)
+    if (scene.lights[i].second.shadow) lights[i].shadow = &shadows[i];
+  return lights;
+}
+
 // Ambient light reaches every point alike, whatever light it is told by.
 glm::dvec3 ambient_of(const SceneDescription& scene) {
   glm::dvec3 sum = scene.head.ambient.linear;
@@ -45,9 +52,13 @@ ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& 
     : assets_(assets),
       scene_(scene),
       view_(make_view(camera(), width, height)),
-      lights_(std::make_shared<const std::vector<Light>>(make_lights(scene.lights, view_.eye_ws))),
+      shadows_(std::make_shared<std::vector<Shadow>>(scene.shadow.method == ShadowMethod::none ? 0 : scene.lights.size())),
+      shadowless_lights_(std::make_shared<const std::vector<Light>>(make_lights(scene.lights, view_.eye_ws))),
       ambient_(ambient_of(scene)) {
-  out_.assets.push_back(lights_);
+  lights_ = std::make_shared<const std::vector<Light>>(with_shadows(*shadowless_lights_, scene, *shadows_));
+  out_.view = view_;
+  for (std::size_t i = 0; i < lights_->size(); ++i) out_.lights.push_back({scene.lights[i].first, (*lights_)[i]});
+  out_.assets.insert(out_.assets.end(), {shadows_, lights_, shadowless_lights_});
 }
 
 PreparedScene ScenePreparation::prepare() {
@@ -57,6 +68,7 @@ PreparedScene ScenePreparation::prepare() {
     if (object.visible) add_object("objects." + name, object);
   }
   add_background();
+  add_shadows();
   return std::move(out_);
 }
 

@@ -14,7 +14,10 @@
 #include "core/parallel.h"
 #include "raster/pass.h"
 #include "scene/description.h"
+#include "scene/mesh.h"
+#include "scene/view.h"
 #include "shading/environment_sky.h"
+#include "shading/shadow_map.h"
 #include "shading/star_sky.h"
 #include "shading/surface_shader.h"
 
@@ -42,11 +45,31 @@ struct PreparedDraw {
 /// Adds it to a pass.
 void add_draw(Pass& pass, const PreparedDraw& draw);
 
+/// A mesh and its place: what shadow maps and rays are made from.
+struct PlacedMesh {
+  std::string object;
+  const Mesh* mesh;
+  std::shared_ptr<const Indices> indices;
+  glm::dmat4 world_from_object;
+  bool two_sided, casts_shadow, receives_shadow;
+};
+
+/// A light as this picture has it.
+struct PreparedLight {
+  std::string name;
+  Light light;          ///< its shadow is null where it casts none
+  double map_ms = 0.0;  ///< that its maps took
+};
+
 /// All that a picture needs. Movable; keeps alive what its draws point to.
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
   PostDescription post;
+  View view;
+  std::vector<PlacedMesh> meshes;  ///< of every object that is drawn
+  std::vector<PreparedLight> lights;
+  PassStatistics shadow_statistics;  ///< of the passes that made shadow maps
   std::vector<std::shared_ptr<const void>> assets;
 };
 

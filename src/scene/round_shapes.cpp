@@ -49,8 +49,8 @@ class Cap {
  public:
   Cap(double radius, double y, double up) : radius_(radius), y_(y), up_(up) {}
 
-  ShapePoint at(double rho, const Meridian& m) const {
-    ShapePoint p{};
+  MeshPoint at(double rho, const Meridian& m) const {
+    MeshPoint p{};
     const double x = rho * m.out.x, z = up_ * rho * m.out.z;  // 2u − 1, 2v − 1
     p.uv = {0.5 + 0.5 * x, 0.5 + 0.5 * z};
     p.position = (rho * radius_) * m.out + y_ * kUp;
@@ -100,7 +100,7 @@ Mesh cylinder(float radius, float length, int bands, int sectors, const Displace
     const double v = static_cast<double>(i) / bands;
     add_row(mesh, sectors, [&](double u) {
       const Meridian m = meridian(u);
-      ShapePoint p{};
+      MeshPoint p{};
       p.uv = {u, v};
       p.position = r * m.out + (l * (0.5 - v)) * kUp;
       p.du = r * m.out_du;
@@ -124,7 +124,7 @@ Mesh cone(float radius, float length, int bands, int sectors, const Displacement
   const double r = static_cast<double>(radius), l = static_cast<double>(length), slant = std::sqrt(r * r + l * l);
   const auto at = [&](double u, double v) {
     const Meridian m = meridian(u);
-    ShapePoint p{};
+    MeshPoint p{};
     p.uv = {u, v};
     p.position = (v * r) * m.out + (l * (0.5 - v)) * kUp;
     p.du = (v * r) * m.out_du;
@@ -155,7 +155,7 @@ Mesh torus(float radius, float tube, int bands, int sectors, const Displacement*
     const SinCosDouble b = sincos_turns(v);
     add_row(mesh, sectors, [&](double u) {
       const Meridian m = meridian(u);
-      ShapePoint p{};
+      MeshPoint p{};
       p.uv = {u, v};
       p.normal = -b.cos * m.out + b.sin * kUp;
       p.normal_du = -b.cos * m.out_du;

@@ -20,12 +20,12 @@ FadeStep fade_in(double x) {
   return {s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / kFadeWidth};
 }
 
-double SurfaceMesh::height_at(const ShapePoint& p) const {
+double SurfaceMesh::height_at(const MeshPoint& p) const {
   if (displacement_ == nullptr) return 0.0;
   return p.fade.value * displacement_->scale * (displacement_->field->at(p.uv.x, p.uv.y).value - displacement_->zero);
 }
 
-int SurfaceMesh::add(const ShapePoint& p) {
+int SurfaceMesh::add(const MeshPoint& p) {
   if (displacement_ == nullptr) return add_vertex(p.position, p.normal, p.du / length_of(p.du), p.uv);
   const HeightSample h = displacement_->field->at(p.uv.x, p.uv.y);
   const double whole = displacement_->scale * (h.value - displacement_->zero);
@@ -38,7 +38,7 @@ int SurfaceMesh::add(const ShapePoint& p) {
   return add_vertex(p.position + g * p.normal, normal / length_of(normal), du / length_of(du), p.uv);
 }
 
-int SurfaceMesh::add_pole(const ShapePoint& p, double g) { return add_vertex(p.position + g * p.normal, p.normal, p.tangent, p.uv); }
+int SurfaceMesh::add_pole(const MeshPoint& p, double g) { return add_vertex(p.position + g * p.normal, p.normal, p.tangent, p.uv); }
 
 int SurfaceMesh::add_vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& tangent, const glm::dvec2& uv) {
   mesh_.positions.push_back(rounded(position));

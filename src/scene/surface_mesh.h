@@ -40,7 +40,7 @@ struct FadeStep {
 FadeStep fade_in(double x);
 
 /// One point of a surface.
-struct ShapePoint {
+struct MeshPoint {
   glm::dvec2 uv;
   glm::dvec3 position, du, dv;              ///< P, ∂P/∂u, ∂P/∂v
   glm::dvec3 normal, normal_du, normal_dv;  ///< n and its derivatives
@@ -54,12 +54,12 @@ class SurfaceMesh {
   /// displacement: null for none.
   explicit SurfaceMesh(const Displacement* displacement) : displacement_(displacement) {}
 
-  double height_at(const ShapePoint& p) const;
+  double height_at(const MeshPoint& p) const;
 
   /// Adds a vertex and returns its index.
-  int add(const ShapePoint& p);
+  int add(const MeshPoint& p);
   /// Adds a vertex where ∂P/∂u is zero, at the height g: it keeps the normal and the tangent of the undisplaced surface.
-  int add_pole(const ShapePoint& p, double g);
+  int add_pole(const MeshPoint& p, double g);
   /// Adds a triangle, counter-clockwise seen from outside.
   void add_triangle(int a, int b, int c);
   /// Adds the triangles of (columns + 1) x (rows + 1) vertices from `first` on, row by row, row 0 at the top of the map.

@@ -18,6 +18,7 @@
 
 #include "core/lane_math.h"
 #include "core/vec.h"
+#include "shading/shadow.h"
 
 namespace halfspace {
 
@@ -46,6 +47,7 @@ struct Light {
   glm::vec3 axis_ws{0, 0, 1};      ///< spot: unit vector from what it shines on to the light
   float cos_outer = 0.0f;          ///< spot: cosine of the angle to the axis from which on it is dark
   float cone_scale = 1.0f;         ///< spot: 1 / (cosine of the angle up to which it shines in full − cos_outer)
+  const Shadow* shadow = nullptr;  ///< what keeps it from points; null: nothing. Not owned
 };
 
 /// What arrives nearer to a light than the distance at which its attenuation is 1 over this is held to it.
@@ -58,12 +60,22 @@ HS_INLINE vec3<R> normalize_or_zero(const vec3<R>& v) {
   return v * select(squared > R(0), R(1) / sqrt(squared), R(0));
 }
 
+/// A normal of any length as a unit vector on the side of v; the zero vector stays zero.
+template <class R>
+HS_INLINE vec3<R> face_towards(const vec3<R>& normal, const vec3<R>& v) {
+  const vec3<R> n = normalize_or_zero(normal);
+  return n * select(dot(n, v) >= R(0), R(1), R(-1));
+}
+
 /// The point of a surface that is lit.
 template <class R>
 struct SurfacePoint {
   vec3<R> position_ew;
   vec3<R> n_ws;  ///< unit normal; a zero or NaN one is in the dark
   vec3<R> v_ws;  ///< unit vector towards the eye
+  // For shadows alone; where no light has one they need not be set.
+  vec3<R> face_ws{};   ///< unit normal of the triangle, on the side that is seen
+  R x_px{0}, y_px{0};  ///< window coordinates
 };
 
 /// A light as a point sees it.
@@ -108,8 +120,11 @@ template <class R>
 HS_INLINE Illumination<R> illuminate(std::span<const Light> lights, LightModel model, R shininess, const SurfacePoint<R>& p) {
   Illumination<R> sum{vec3<R>(R(0)), vec3<R>(R(0))};
   for (const Light& light : lights) {
-    const Arriving<R> arriving = light_at(light, p.position_ew);
+    Arriving<R> arriving = light_at(light, p.position_ew);
     const R n_l = dot(p.n_ws, arriving.l_ws);
+    if (light.shadow != nullptr && any(n_l > R(0)))  // what faces away is dark without asking
+      arriving.strength *=
+          light_arriving(*light.shadow, ShadowReceiver<R>{p.position_ew, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
     sum.diffuse += light.diffuse * (max(n_l, R(0)) * arriving.strength);
     if (model == LightModel::lambert) continue;
     const R highlight = pow(highlight_cosine(model, p, arriving.l_ws, n_l), shininess);

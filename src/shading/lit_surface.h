@@ -52,6 +52,7 @@ struct LitSurface {
   float handedness = 1.0f;        ///< −1 where world_from_object mirrors
   glm::vec3 to_eye_ws{0.0f};      ///< unit vector towards the eye where that is the same everywhere (orthographic); else 0
   std::span<const Light> lights;  ///< not owned
+  bool shadowed = false;          ///< one of them at least has a shadow
   LightModel model = LightModel::blinn_phong;
   bool two_sided = false;  ///< a back face is lit by the turned normal
   std::array<Factor, kMaterialFactors> factors;

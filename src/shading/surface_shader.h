@@ -126,7 +126,7 @@ struct SurfaceShader : LitSurface {
   HS_INLINE SurfacePoint<R> point_towards_eye(const vec3<R>& position_ew, const vec3<R>& n_ws) const {
     const vec3<R> v_ws = to_eye(position_ew);
     const R side = two_sided ? select(dot(n_ws, v_ws) < R(0), R(-1), R(1)) : R(1);
-    return {position_ew, n_ws * side, v_ws};
+    return {position_ew, n_ws * side, v_ws, n_ws * side};
   }
 
   template <class R, class To>
@@ -172,7 +172,24 @@ struct SurfaceShader : LitSurface {
       position = in.position_ew;
     }
     const vec3<R> n_ws = normalize_or_zero(detailed_normal(in, px));
-    return {position, two_sided ? n_ws * select(px.front_facing, R(1), R(-1)) : n_ws, to_eye(position)};
+    SurfacePoint<R> p{position, two_sided ? n_ws * select(px.front_facing, R(1), R(-1)) : n_ws, to_eye(position)};
+    if (shadowed) {
+      p.face_ws = face_normal(px, p.v_ws);
+      p.x_px = px.x;
+      p.y_px = px.y;
+    }
+    return p;
+  }
+
+  /// The unit normal of the triangle that a pixel shows, on the side of the eye; zero where it is seen edge-on.
+  template <class R>
+  HS_INLINE vec3<R> face_normal(const Pixel<R>& px, const vec3<R>& v_ws) const {
+    using V = Varyings<R>;
+    if constexpr (kSlopes) {
+      return face_towards(normal_from_object * cross(px.ddx(&V::position_os), px.ddy(&V::position_os)), v_ws);
+    } else {
+      return face_towards(cross(px.ddx(&V::position_ew), px.ddy(&V::position_ew)), v_ws);
+    }
   }
 
   template <class R>

@@ -118,9 +118,9 @@ std::string shipped_scenes() {
 void PrintTo(const Mistake& m, std::ostream* os) { *os << m.name; }
 
 const Mistake kMistakes[] = {
-    {"NoCommand", {}, 2, "no command; expected one of render, convert-normal, list, info, completion (see 'halfspace --help')"},
+    {"NoCommand", {}, 2, "no command; expected one of render, convert-normal, validate, list, info, completion (see 'halfspace --help')"},
     {"WrongCommand", {"rendr", "earth"}, 2, "unknown command 'rendr'; did you mean 'render'?"},
-    {"FarCommand", {"paint"}, 2, "unknown command 'paint'; expected one of render, convert-normal, list, info, completion"},
+    {"FarCommand", {"paint"}, 2, "unknown command 'paint'; expected one of render, convert-normal, validate, list, info, completion"},
     {"WrongOption", {"render", "earth", "--siez", "3x3"}, 2, "unknown option '--siez'; did you mean '--size'?"},
     {"OptionOfNoCommand", {"--jsn"}, 2, "unknown option '--jsn'; expected one of --help, --version"},
     {"NoScene", {"render"}, 2, "SCENE is required; see 'halfspace render --help'"},

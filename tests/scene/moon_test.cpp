@@ -184,10 +184,10 @@ TEST(PreparedScene, InstancesShareMeshAndTexture) {
     "objects": {"a": {"shape": "cube", "color": "t", "instances": [{}, {"position": [2, 0, 0]}, {"position": [4, 0, 0]}]}}})"),
                                          8, 8);
   ASSERT_EQ(p.draws.size(), 3u);
-  const auto& first = std::get<BlinnPhong>(p.draws[0].shader);
+  const LitSurface& first = surface_of(p.draws[0]);
   for (std::size_t i = 1; i < 3; ++i) {
-    const auto& copy = std::get<BlinnPhong>(p.draws[i].shader);
-    EXPECT_EQ(copy.map, first.map);
+    const LitSurface& copy = surface_of(p.draws[i]);
+    EXPECT_EQ(copy.factors[kColor].map, first.factors[kColor].map);
     EXPECT_NE(copy.world_from_object, first.world_from_object);
     EXPECT_EQ(p.draws[i].indices, p.draws[0].indices);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(p.draws[i].vertices.streams[k].data, p.draws[0].vertices.streams[k].data);
@@ -203,7 +203,7 @@ TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
                                            "test.json", {});
   const auto width_at = [&](SceneAssets& assets, double seconds) {
     const PreparedScene p = assets.prepare(scene.at(seconds), 480, 270);
-    return std::get<BlinnPhong>(p.draws[0].shader).map->width();
+    return surface_of(p.draws[0]).factors[kColor].map->width();
   };
   SceneAssets alone(workers), together(workers);
   EXPECT_LT(width_at(alone, 0), width_at(alone, 1));
@@ -233,7 +233,7 @@ TEST(PreparedScene, EveryShapeAndPatternIsDrawn) {
         assets.prepare(parsed(std::string(R"({"version": 1, "textures": {"t": {"width": 64, "source": ")") + source +
                               R"("}}, "objects": {"a": {"shape": "plane", "tiles_u": 2, "tiles_v": 3, "color": "t"}}})"),
                        8, 8);
-    EXPECT_EQ(std::get<BlinnPhong>(p.draws.at(0).shader).map->width(), 64) << source;
+    EXPECT_EQ(surface_of(p.draws.at(0)).factors[kColor].map->width(), 64) << source;
   }
 }
 
