@@ -70,6 +70,9 @@ enum class TextureSource : uint8_t {
   hills_height
 };
 
+/// Is it a map of scene/procedural_patterns.h, which tiles?
+inline bool is_pattern(TextureSource source) { return source >= TextureSource::checkerboard; }
+
 struct TextureDescription {
   TextureSource source = TextureSource::file;
   FilePath file;

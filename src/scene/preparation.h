@@ -59,10 +59,7 @@ struct MapUse {
   int width;  // of a generated map, else 0
 };
 
-/// Is the source a map of procedural_patterns.h, which tiles?
-bool is_pattern(TextureSource source);
-
-/// Is it one of heights?
+/// Is the source a pattern's map of heights?
 bool is_pattern_height(TextureSource source);
 
 /// How the map goes on beyond its edges on that shape.

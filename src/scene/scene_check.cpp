@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLeastScale = 1e-6, kLeastTerm = 1e-6;
 constexpr int64_t kMostVertices = int64_t{1} << 23;  // of one mesh: 0.6 GB
+constexpr int kMostPatternWidth = 4096;              // 14 bytes a texel, and square
 constexpr int64_t kMostCopies = 65536;
 constexpr int64_t kMostDrawnVertices = int64_t{1} << 25;  // of all copies that are drawn: 2 GB while a frame is rendered
 
@@ -41,6 +42,9 @@ void check(const LightDescription& l, const std::string& where) {
 
 void check(const TextureDescription& t, const std::string& where) {
   if (t.width % 2 != 0) fail(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
+  if (is_pattern(t.source) && t.width > kMostPatternWidth)
+    fail(where + ".width",
+         "expected at most " + std::to_string(kMostPatternWidth) + " of a map that tiles, got " + std::to_string(t.width));
 }
 
 void check(const EnvironmentDescription& e, const std::string& where) {
