@@ -33,7 +33,7 @@ Validation validate(const std::string& name, const SceneDescription& description
       out.visibility =
           compare_visibility(picture, primary_hits(rays, scene.view, options.width, options.height, workers), rays, scene.view, workers);
     }
-    if (!description.lights[i].second.shadow) continue;
+    if (!scene.lights[i].description.shadow) continue;
     ShadowComparison& c =
         out.lights.emplace_back(compare_shadow(light, rays, casters, options.width, options.height, options.rays, workers));
     c.score.scene = name;

@@ -57,30 +57,6 @@ struct ChoiceNames<NormalSource> {
   static constexpr std::array<std::string_view, 3> names{"pixel", "vertex", "undisplaced"};
 };
 template <>
-struct ChoiceNames<EnvironmentType> {
-  static constexpr std::array<std::string_view, 5> names{"equirect", "globe", "cube", "day_sky", "night_sky"};
-};
-template <>
-struct ChoiceNames<BackgroundType> {
-  static constexpr std::array<std::string_view, 3> names{"color", "stars", "environment"};
-};
-template <>
-struct ChoiceNames<LightFormat> {
-  static constexpr std::array<std::string_view, 2> names{"rgba16f", "rgba32f"};
-};
-template <>
-struct ChoiceNames<ToneCurve> {
-  static constexpr std::array<std::string_view, 5> names{"none", "reinhard", "reinhard_extended", "exponential", "aces"};
-};
-template <>
-struct ChoiceNames<ToneOn> {
-  static constexpr std::array<std::string_view, 2> names{"luminance", "channel"};
-};
-template <>
-struct ChoiceNames<DisplayEncoding> {
-  static constexpr std::array<std::string_view, 2> names{"srgb", "gamma"};
-};
-template <>
 struct ChoiceNames<ShadowMethod> {
   static constexpr std::array<std::string_view, 10> names{"none", "hard",  "bilinear", "pcf3", "pcf5",
                                                           "pcf7", "vogel", "pcss",     "vsm",  "moments"};
@@ -96,7 +72,7 @@ struct ChoiceNames<ShadowFaces> {
 };
 template <>
 struct ChoiceNames<AnimationType> {
-  static constexpr std::array<std::string_view, 3> names{"rate", "orbit", "keyframes"};
+  static constexpr std::array<std::string_view, 4> names{"rate", "orbit", "wave", "keyframes"};
 };
 template <>
 struct ChoiceNames<Easing> {
@@ -175,31 +151,6 @@ Section section_of(TextureDescription& t) {
   return {{keys, &t}};
 }
 
-Section section_of(EnvironmentDescription& e) {
-  using T = EnvironmentDescription;
-  static const std::vector<Key> keys{
-      key<&T::type>("type", "A panorama seen from within, the map of a globe round the eye, six faces, or a generated sky"),
-      key<&T::map>("map", "Panorama or map of a globe; a colour: the same light from everywhere", {.low = 0, .only = "equirect globe"}),
-      key<&T::folder>("folder", "Folder of files named right, left, top, bottom, front, back", {.only = "cube"}),
-      key<&T::right>("right", "Face at +x; empty: from the folder", {.only = "cube"}),
-      key<&T::left>("left", "Face at -x; empty: from the folder", {.only = "cube"}),
-      key<&T::top>("top", "Face at +y; empty: from the folder", {.only = "cube"}),
-      key<&T::bottom>("bottom", "Face at -y; empty: from the folder", {.only = "cube"}),
-      key<&T::front>("front", "Face at -z; empty: from the folder", {.only = "cube"}),
-      key<&T::back>("back", "Face at +z; empty: from the folder", {.only = "cube"}),
-      key<&T::size>("size", "Edge of a generated face; 0: what the view needs",
-                    {.unit = "texels", .low = 0, .high = 4096, .only = "day_sky night_sky"}),
-      key<&T::sun>("sun", "Where the sun is seen, any length; low: dusk", {.only = "day_sky"}),
-      key<&T::clouds>("clouds", "How much of the sky clouds cover", {.low = 0, .high = 1, .only = "day_sky"}),
-      key<&T::milky_way>("milky_way", "Factor of the Milky Way's light", {.low = 0, .high = 1e3, .only = "night_sky"}),
-      key<&T::stars>("stars", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "night_sky"}),
-      key<&T::star_brightness>("star_brightness", "Of the brightest star, linear", {.low = 0, .only = "night_sky"}),
-      key<&T::rotation>("rotation", "Turns about x, y and z; z first, then x, then y", {.unit = "degrees"}),
-      key<&T::brightness>("brightness", "Factor of its light", {.low = 0, .high = 1e6}),
-  };
-  return {{keys, &e}};
-}
-
 Section section_of(SurfaceDescription& s) {
   using T = SurfaceDescription;
   static const std::vector<Key> keys{
@@ -215,6 +166,8 @@ Section section_of(SurfaceDescription& s) {
       key<&T::shininess_map>("shininess_map", "Map of a factor of the exponent, not decoded from sRGB", {.low = 0, .high = 1}),
       key<&T::emissive>("emissive", "Light of the surface's own", {.low = 0}),
       key<&T::emissive_map>("emissive_map", "Map of its factor", {.low = 0}),
+      key<&T::reflection>("reflection", "Factor of the light of the surroundings that is mirrored; for shading phong",
+                          {.low = 0, .high = 1e3}),
       key<&T::textured>("textured", "Whether maps of colour count"),
       key<&T::model>("model", "Highlight: none, by the reflected ray, by the half vector"),
       key<&T::shading>("shading", "How often light is computed: never, by triangle, by vertex, by pixel"),
@@ -272,38 +225,6 @@ Section section_of(ObjectDescription& o) {
   return section;
 }
 
-Section section_of(BackgroundDescription& b) {
-  using T = BackgroundDescription;
-  static const std::vector<Key> keys{
-      key<&T::type>("type", "Kind of background"),
-      key<&T::color>("color", "Colour, or that between the stars", {.low = 0}),
-      key<&T::brightness>("brightness", "Of the brightest star, linear", {.low = 0, .only = "stars"}),
-      key<&T::density>("density", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "stars"}),
-      key<&T::environment>("environment", "Name of an environment; empty: the first", {.only = "environment"}),
-      key<&T::second>("second", "Name of the environment to fade into; empty: none", {.only = "environment"}),
-      key<&T::weight>("weight", "Weight of the second environment", {.low = 0, .high = 1, .only = "environment"}),
-  };
-  return {{keys, &b}};
-}
-
-Section section_of(PostDescription& p) {
-  using T = PostDescription;
-  static const std::vector<Key> keys{
-      key<&T::hdr>("hdr", "Keep light beyond 1 until it is exposed and bent by the tone curve; off: the keys below do not count"),
-      key<&T::format>("format", "Numbers that hold light; halfs end at 65504"),
-      key<&T::exposure>("exposure", "Factor of the light", {.low = 0, .high = 1e9}),
-      key<&T::auto_exposure>("auto_exposure", "Multiply by key_value over the picture's log-average luminance too"),
-      key<&T::key_value>("key_value", "What auto_exposure makes of the average", {.low = 0, .high = 1e3}),
-      key<&T::tone>("tone", "Curve from light to [0, 1]; none: what is above 1 becomes 1"),
-      key<&T::tone_on>("tone_on", "What the curve bends: all channels by their luminance, or each"),
-      key<&T::white>("white", "Light that reinhard_extended makes 1", {.low = 1e-3, .high = 1e6}),
-      key<&T::encode>("encode", "From linear to codes: exactly sRGB, or a power"),
-      key<&T::gamma>("gamma", "The power is 1 over this; for encode gamma", {.low = 0.1, .high = 10}),
-      key<&T::dither>("dither", "Break up bands by an ordered pattern of 8x8 pixels"),
-  };
-  return {{keys, &p}};
-}
-
 Section section_of(ShadowDescription& s) {
   using T = ShadowDescription;
   static const std::vector<Key> keys{
@@ -333,8 +254,10 @@ Section section_of(AnimationDescription& a) {
       key<&T::center>("center", "Middle of the ellipse", {.unit = "units", .only = "orbit"}),
       key<&T::a>("a", "Half axis of the ellipse, reached at phase 0", {.unit = "units", .only = "orbit"}),
       key<&T::b>("b", "Half axis of the ellipse, reached a quarter later", {.unit = "units", .only = "orbit"}),
-      key<&T::period>("period", "Time of one turn", {.unit = "s", .low = kTiny, .only = "orbit"}),
-      key<&T::phase>("phase", "Where the turn begins", {.unit = "turns", .only = "orbit"}),
+      key<&T::mean>("mean", "Middle of the wave", {.only = "wave"}),
+      key<&T::swing>("swing", "What the wave adds to it at phase 0; the key's range holds it", {.only = "wave"}),
+      key<&T::period>("period", "Time of one turn", {.unit = "s", .low = kTiny, .only = "orbit wave"}),
+      key<&T::phase>("phase", "Where the turn begins", {.unit = "turns", .only = "orbit wave"}),
       key<&T::keys>("keys", "Rows of seconds and value", {.only = "keyframes"}),
       key<&T::easing>("easing", "How it goes from row to row", {.only = "keyframes"}),
       key<&T::loop>("loop", "Begin again after the last row", {.only = "keyframes"}),
@@ -347,6 +270,14 @@ Section section_of(Playback& p) {
       key<&Playback::speed>("speed", "Factor of the time; 0 stands still"),
   };
   return {{keys, &p}};
+}
+
+Section section_of(TimeOfDay& t) {
+  static const std::vector<Key> keys{
+      key<&TimeOfDay::hours>("hours", "The hour at which animations begin; 12: noon", {.unit = "h", .low = 0, .high = 24}),
+      key<&TimeOfDay::day>("day", "How long a day takes", {.unit = "s", .low = kTiny}),
+  };
+  return {{keys, &t}};
 }
 
 }  // namespace halfspace

@@ -70,6 +70,9 @@ enum class TextureSource : uint8_t {
   hills_height
 };
 
+/// Is it a map of scene/procedural_patterns.h, which tiles?
+inline bool is_pattern(TextureSource source) { return source >= TextureSource::checkerboard; }
+
 struct TextureDescription {
   TextureSource source = TextureSource::file;
   FilePath file;
@@ -100,6 +103,7 @@ struct SurfaceDescription {
   Color emissive{glm::dvec3(0.0)};
   MapValue emissive_map = Color{glm::dvec3(1.0)};
   bool textured = true;  ///< false: colour maps count as 1
+  Color reflection{glm::dvec3(0.0)};
 
   LightModel model = LightModel::blinn_phong;
   ShadingRate shading = ShadingRate::phong;
@@ -178,6 +182,12 @@ struct BackgroundDescription {
   double weight = 0.0;      ///< of the second
 };
 
+/// What surfaces mirror.
+struct ReflectionsDescription {
+  bool on = true;
+  std::string environment;  ///< empty: what the background shows, without its stars
+};
+
 enum class LightFormat : uint8_t { rgba16f, rgba32f };
 enum class DisplayEncoding : uint8_t { srgb, gamma };
 
@@ -218,7 +228,7 @@ struct ShadowDescription {
   double cascade_growth = 0.75;  ///< 0: cascades of even depth, 1: each a constant times the one before
 };
 
-enum class AnimationType : uint8_t { rate, orbit, keyframes };
+enum class AnimationType : uint8_t { rate, orbit, wave, keyframes };
 enum class Easing : uint8_t { linear, smooth, step };
 
 /// What changes one key in time; it begins with the scene's own value of the key at 0 s.
@@ -229,6 +239,8 @@ struct AnimationDescription {
   glm::dvec3 center{0.0};  ///< orbit: center + a·cos φ + b·sin φ, φ = 2π(t / period + phase)
   glm::dvec3 a{1, 0, 0};
   glm::dvec3 b{0, 0, -1};
+  Numbers mean{0.0};     ///< wave: mean + swing·cos φ, held to the key's range
+  Numbers swing{1.0};
   double period = 10.0;  ///< seconds
   double phase = 0.0;    ///< turns
   Keyframes keys;
@@ -238,6 +250,12 @@ struct AnimationDescription {
 
 struct Playback {
   double speed = 1.0;
+};
+
+/// The time of day at which the animations begin: hours/24 of a day after their own 0 s.
+struct TimeOfDay {
+  double hours = 0.0;
+  double day = 24.0;  ///< seconds
 };
 
 /// The keys at the top of a scene file.
@@ -257,9 +275,11 @@ struct SceneDescription {
   Named<ObjectDescription> objects;
   Named<AnimationDescription> animations;
   BackgroundDescription background;
+  ReflectionsDescription reflections;
   PostDescription post;
   ShadowDescription shadow;
   Playback animation;
+  TimeOfDay time;
 };
 
 // ---- sections --------------------------------------------------------------------------------------------------
@@ -273,10 +293,12 @@ Section section_of(SurfaceDescription&);
 Section section_of(ObjectDescription&);
 Section section_of(Placement&);
 Section section_of(BackgroundDescription&);
+Section section_of(ReflectionsDescription&);
 Section section_of(PostDescription&);
 Section section_of(ShadowDescription&);
 Section section_of(AnimationDescription&);
 Section section_of(Playback&);
+Section section_of(TimeOfDay&);
 
 /// Calls visit(name, help, named) for each collection of named things.
 template <class Scene, class F>
@@ -294,9 +316,11 @@ void for_each_collection(Scene& scene, F&& visit) {
 template <class Scene, class F>
 void for_each_single(Scene& scene, F&& visit) {
   visit("background", "What is seen where nothing is", scene.background);
+  visit("reflections", "What surfaces with a reflection mirror", scene.reflections);
   visit("post", "How light becomes codes; linear files (.exr, .hdr) are written before it", scene.post);
   visit("shadow", "How lights' shadows are found", scene.shadow);
   visit("animation", "All animations together", scene.animation);
+  visit("time", "The time of day", scene.time);
 }
 
 }  // namespace halfspace

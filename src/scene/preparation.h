@@ -59,10 +59,7 @@ struct MapUse {
   int width;  // of a generated map, else 0
 };
 
-/// Is the source a map of procedural_patterns.h, which tiles?
-bool is_pattern(TextureSource source);
-
-/// Is it one of heights?
+/// Is the source a pattern's map of heights?
 bool is_pattern_height(TextureSource source);
 
 /// How the map goes on beyond its edges on that shape.
@@ -143,6 +140,9 @@ class ScenePreparation {
   EnvironmentSky environment_sky();
 
   // prepare_environments.cpp
+  const std::pair<std::string, EnvironmentDescription>& environment_named(const std::string& name) const;
+  EnvironmentBlend background_light();
+  const EnvironmentBlend* surroundings();
   Environment environment_of(const std::string& name, const EnvironmentDescription& e);
   std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
   std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
@@ -153,10 +153,11 @@ class ScenePreparation {
   SceneAssets& assets_;
   const SceneDescription& scene_;
   View view_;
-  std::shared_ptr<std::vector<Shadow>> shadows_;  // by light; empty without shadows
-  std::shared_ptr<const std::vector<Light>> lights_;
-  std::shared_ptr<const std::vector<Light>> shadowless_lights_;  // for what receives no shadow
+  std::span<Shadow> shadows_;  // by light, as out_.lights
+  std::span<const Light> lights_;
+  std::span<const Light> shadowless_lights_;  // for what receives no shadow
   glm::dvec3 ambient_;
+  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not asked for yet
   PreparedScene out_;
 };
 

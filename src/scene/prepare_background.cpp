@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is seen where no object is.
-#include <algorithm>
-
 #include "scene/preparation.h"
 
 namespace halfspace {
@@ -28,23 +26,17 @@ StarSky ScenePreparation::star_sky(double density, double brightness) const {
   return sky;
 }
 
-// Of two environments only those are made that are seen.
 EnvironmentSky ScenePreparation::environment_sky() {
   const BackgroundDescription& b = scene_.background;
-  const auto find = [&](const std::string& name) -> const auto& {
-    const auto found = std::ranges::find_if(scene_.environments, [&](const auto& e) { return e.first == name; });
-    return found == scene_.environments.end() ? scene_.environments.front() : *found;
-  };
   EnvironmentSky sky;
   set_view(sky, view_);
-  sky.environment.weight = b.second.empty() ? 0.0f : static_cast<float>(b.weight);
-  const auto add = [&](const auto& named, Environment& environment, StarSky& stars) {
-    const auto& [name, e] = named;
-    environment = environment_of(name, e);
-    if (e.type == EnvironmentType::night_sky) stars = star_sky(e.stars, e.star_brightness);
+  sky.environment = background_light();
+  const auto stars_of = [&](const std::string& name) {
+    const EnvironmentDescription& e = environment_named(name).second;
+    return e.type == EnvironmentType::night_sky ? star_sky(e.stars, e.star_brightness) : StarSky{.density = 0.0f};
   };
-  if (sky.environment.weight < 1.0f) add(find(b.environment), sky.environment.first, sky.first_stars);
-  if (sky.environment.weight > 0.0f) add(find(b.second), sky.environment.second, sky.second_stars);
+  sky.first_stars = stars_of(b.environment);
+  sky.second_stars = stars_of(b.second);
   return sky;
 }
 

@@ -49,12 +49,12 @@ fs::path face_in(const fs::path& folder, const std::string& name) {
   return found;
 }
 
-std::array<fs::path, 6> face_files(const std::string& path, const EnvironmentDescription& e) {
+std::array<fs::path, 6> face_files(const EnvironmentDescription& e) {
   const std::array<const FilePath*, 6> own{&e.right, &e.left, &e.top, &e.bottom, &e.front, &e.back};
   std::array<fs::path, 6> files;
   for (std::size_t f = 0; f < 6; ++f) {
     if (own[f]->path.empty() && e.folder.path.empty())
-      throw InputError(path + "." + kFaceNames[f] + ": missing; expected an image file, or a folder of six");
+      throw InputError(std::string("the face ") + kFaceNames[f] + " is missing; expected an image file, or a folder of six");
     files[f] = own[f]->path.empty() ? face_in(e.folder.path, kFaceNames[f]) : own[f]->path;
   }
   return files;
@@ -85,8 +85,9 @@ EnvironmentMap read_cube(const std::array<fs::path, 6>& files) {
                                                                  : cube_of<glm::vec4>(files, pictures);
 }
 
-EnvironmentMap read_panorama(const fs::path& path) {
-  return std::visit([](const auto& image) { return EnvironmentMap(image, format_for(image)); }, read_picture(path));
+EnvironmentMap read_panorama(const fs::path& path, const std::string& where) {
+  return read_for(
+      where, [&] { return std::visit([](const auto& image) { return EnvironmentMap(image, format_for(image)); }, read_picture(path)); });
 }
 
 EnvironmentMap uniform(const Color& color) {
@@ -117,10 +118,10 @@ std::shared_ptr<const EnvironmentMap> ScenePreparation::environment_map(const st
     case EnvironmentType::equirect:
     case EnvironmentType::globe: return panorama(path, e);
     case EnvironmentType::cube: {
-      const std::array<fs::path, 6> files = face_files(path, e);
+      const std::array<fs::path, 6> files = read_for(path, [&] { return face_files(e); });
       std::string words = "cube ";
       for (const fs::path& file : files) words += recipe(file.string());
-      return asset<EnvironmentMap>(words, [&] { return read_cube(files); });
+      return asset<EnvironmentMap>(words, [&] { return read_for(path, [&] { return read_cube(files); }); });
     }
     default: return generated_sky(e);
   }
@@ -140,7 +141,8 @@ std::shared_ptr<const EnvironmentMap> ScenePreparation::panorama(const std::stri
   const int width = texture.width != 0 ? texture.width : panorama_width();
   switch (texture.source) {
     case TextureSource::file:
-      return asset<EnvironmentMap>(recipe("panorama", texture.file.path.string()), [&] { return read_panorama(texture.file.path); });
+      return asset<EnvironmentMap>(recipe("panorama", texture.file.path.string()),
+                                   [&] { return read_panorama(texture.file.path, path + ".map"); });
     case TextureSource::earth_color:
       return asset<EnvironmentMap>(recipe("earth_color panorama", width), [&] {
         return EnvironmentMap(procedural_earth(width, width / 2, assets_.workers_), TexelFormat::srgb8a8);
@@ -175,6 +177,46 @@ Environment ScenePreparation::environment_of(const std::string& name, const Envi
   out.map_from_world = (e.type == EnvironmentType::globe ? kMapFromGlobe : kMapFromWorld) * glm::transpose(world_from_turned);
   out.brightness = static_cast<float>(e.brightness);
   return out;
+}
+
+// The first where the name is empty.
+const std::pair<std::string, EnvironmentDescription>& ScenePreparation::environment_named(const std::string& name) const {
+  const auto found = std::ranges::find_if(scene_.environments, [&](const auto& e) { return e.first == name; });
+  return found == scene_.environments.end() ? scene_.environments.front() : *found;
+}
+
+// Of two environments only those are made that are seen.
+EnvironmentBlend ScenePreparation::background_light() {
+  const BackgroundDescription& b = scene_.background;
+  const auto make = [&](const std::string& name) {
+    const auto& [found, e] = environment_named(name);
+    return environment_of(found, e);
+  };
+  EnvironmentBlend light;
+  light.weight = b.second.empty() ? 0.0f : static_cast<float>(b.weight);
+  if (light.weight < 1.0f) light.first = make(b.environment);
+  if (light.weight > 0.0f) light.second = make(b.second);
+  return light;
+}
+
+// What surfaces mirror; null where reflections are off.
+const EnvironmentBlend* ScenePreparation::surroundings() {
+  if (!scene_.reflections.on) return nullptr;
+  if (surroundings_ == nullptr) {
+    EnvironmentBlend light;
+    if (const std::string& name = scene_.reflections.environment; !name.empty()) {
+      light.first = environment_of(name, environment_named(name).second);
+    } else if (scene_.background.type == BackgroundType::environment) {
+      light = background_light();
+    } else {
+      EnvironmentDescription color;
+      color.map = scene_.background.color;
+      light.first = environment_of("background", color);
+    }
+    surroundings_ = std::make_shared<const EnvironmentBlend>(light);
+    out_.assets.push_back(surroundings_);
+  }
+  return surroundings_.get();
 }
 
 }  // namespace halfspace

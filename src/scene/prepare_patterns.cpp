@@ -27,8 +27,6 @@ Pattern pattern_of(TextureSource source) {
 
 }  // namespace
 
-bool is_pattern(TextureSource source) { return source >= TextureSource::checkerboard; }
-
 bool is_pattern_height(TextureSource source) {
   return source == TextureSource::bark_height || source == TextureSource::bricks_height || source == TextureSource::rock_height ||
          source == TextureSource::hills_height;

@@ -321,11 +321,11 @@ int ScenePreparation::shadow_resolution(const LightDescription& light, const Sha
 void ScenePreparation::add_shadows() {
   const ShadowDescription& d = scene_.shadow;
   if (d.method == ShadowMethod::none) return;
-  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-    const LightDescription& l = scene_.lights[i].second;
+  for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+    const LightDescription& l = out_.lights[i].description;
     if (!l.shadow) continue;
     const auto start = std::chrono::steady_clock::now();
-    Shadow& shadow = (*shadows_)[i];
+    Shadow& shadow = shadows_[i];
     shadow.settings = settings_of(d, l);
     const int size = shadow_resolution(l, shadow.settings);
     const std::vector<LightView> views = shadow_views(l, shadow.settings, size);

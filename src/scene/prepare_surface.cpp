@@ -23,14 +23,18 @@ LitSurface ScenePreparation::surface_of(const ObjectDescription& o, const std::s
   const SurfaceDescription& d = o.surface;
   LitSurface s;
   s.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  s.lights = o.receives_shadow ? *lights_ : *shadowless_lights_;
-  s.shadowed = o.receives_shadow && std::ranges::any_of(*lights_, [](const Light& l) { return l.shadow != nullptr; });
+  s.lights = o.receives_shadow ? lights_ : shadowless_lights_;
+  s.shadowed = o.receives_shadow && std::ranges::any_of(lights_, [](const Light& l) { return l.shadow != nullptr; });
   s.two_sided = d.two_sided || o.shape == Shape::plane;
   add_factor(s, kColor, d.tint.linear, d.color, o, path + ".color");
   add_factor(s, kAmbient, d.ambient.linear * ambient_, d.ambient_map, o, path + ".ambient_map");
   add_factor(s, kDiffuse, d.diffuse.linear, d.diffuse_map, o, path + ".diffuse_map");
   add_factor(s, kSpecular, d.specular.linear, d.specular_map, o, path + ".specular_map");
   add_factor(s, kEmissive, d.emissive.linear, d.emissive_map, o, path + ".emissive_map");
+  if (d.reflection.linear != glm::dvec3(0.0) && d.shading == ShadingRate::phong) {
+    s.surroundings = surroundings();
+    s.reflection = glm::vec3(d.reflection.linear);
+  }
   s.model = s.factors[kSpecular].constant == glm::vec3(0.0f) ? LightModel::lambert : d.model;
   if (s.model == LightModel::lambert) return s;
   add_factor(s, kShininess, glm::dvec3(d.shininess), d.shininess_map, o, path + ".shininess_map");

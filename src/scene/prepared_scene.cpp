@@ -12,30 +12,29 @@ namespace halfspace {
 
 namespace {
 
-std::vector<Light> make_lights(const Named<LightDescription>& descriptions, const glm::dvec3& eye_ws) {
+Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
   constexpr double kLeastCone = 1e-6;  // in cosines: a sharp edge
-  std::vector<Light> lights;
-  for (const auto& [name, d] : descriptions) {
-    const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
-    const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
-    Light light;
-    light.type = d.type;
-    light.place_ew = glm::vec3(d.type == LightType::directional ? towards : d.position - eye_ws);
-    light.diffuse = glm::vec3(color * d.diffuse);
-    light.specular = glm::vec3(color * d.specular);
-    light.attenuation = d.falloff == Falloff::physical ? glm::vec3(0, 0, 1) : glm::vec3(d.attenuation);
-    light.axis_ws = glm::vec3(towards);
-    light.cos_outer = static_cast<float>(cos_outer);
-    light.cone_scale = static_cast<float>(1.0 / std::max(cos_inner - cos_outer, kLeastCone));
-    lights.push_back(light);
-  }
-  return lights;
+  const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
+  const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
+  Light light;
+  light.type = d.type;
+  light.place_ew = glm::vec3(d.type == LightType::directional ? towards : d.position - eye_ws);
+  light.diffuse = glm::vec3(color * d.diffuse);
+  light.specular = glm::vec3(color * d.specular);
+  light.attenuation = d.falloff == Falloff::physical ? glm::vec3(0, 0, 1) : glm::vec3(d.attenuation);
+  light.axis_ws = glm::vec3(towards);
+  light.cos_outer = static_cast<float>(cos_outer);
+  light.cone_scale = static_cast<float>(1.0 / std::max(cos_inner - cos_outer, kLeastCone));
+  return light;
 }
 
-// The lights, each with its shadow where it casts one.
-std::vector<Light> with_shadows(std::vector<Light> lights, const SceneDescription& scene, const std::vector<Shadow>& shadows) {
-  for (std::size_t i = 0; i < shadows.size(); ++i)
-    if (scene.lights[i].second.shadow) lights[i].shadow = &shadows[i];
+// The lights that give any light besides their ambient part.
+std::vector<PreparedLight> shining_lights(const SceneDescription& scene, const glm::dvec3& eye_ws) {
+  std::vector<PreparedLight> lights;
+  for (const auto& [name, d] : scene.lights) {
+    const Light light = make_light(d, eye_ws);
+    if (light.diffuse != glm::vec3(0.0f) || light.specular != glm::vec3(0.0f)) lights.push_back({name, light, d});
+  }
   return lights;
 }
 
@@ -49,16 +48,21 @@ glm::dvec3 ambient_of(const SceneDescription& scene) {
 }  // namespace
 
 ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height)
-    : assets_(assets),
-      scene_(scene),
-      view_(make_view(camera(), width, height)),
-      shadows_(std::make_shared<std::vector<Shadow>>(scene.shadow.method == ShadowMethod::none ? 0 : scene.lights.size())),
-      shadowless_lights_(std::make_shared<const std::vector<Light>>(make_lights(scene.lights, view_.eye_ws))),
-      ambient_(ambient_of(scene)) {
-  lights_ = std::make_shared<const std::vector<Light>>(with_shadows(*shadowless_lights_, scene, *shadows_));
+    : assets_(assets), scene_(scene), view_(make_view(camera(), width, height)), ambient_(ambient_of(scene)) {
   out_.view = view_;
-  for (std::size_t i = 0; i < lights_->size(); ++i) out_.lights.push_back({scene.lights[i].first, (*lights_)[i]});
-  out_.assets.insert(out_.assets.end(), {shadows_, lights_, shadowless_lights_});
+  out_.lights = shining_lights(scene, view_.eye_ws);
+  const auto shadows = std::make_shared<std::vector<Shadow>>(out_.lights.size());
+  const auto lights = std::make_shared<std::vector<Light>>(), shadowless = std::make_shared<std::vector<Light>>();
+  for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+    PreparedLight& light = out_.lights[i];
+    shadowless->push_back(light.light);
+    if (scene.shadow.method != ShadowMethod::none && light.description.shadow) light.light.shadow = &(*shadows)[i];
+    lights->push_back(light.light);
+  }
+  shadows_ = *shadows;
+  lights_ = *lights;
+  shadowless_lights_ = *shadowless;
+  out_.assets.insert(out_.assets.end(), {shadows, lights, shadowless});
 }
 
 PreparedScene ScenePreparation::prepare() {

@@ -58,6 +58,7 @@ struct PlacedMesh {
 struct PreparedLight {
   std::string name;
   Light light;          ///< its shadow is null where it casts none
+  LightDescription description;
   double map_ms = 0.0;  ///< that its maps took
 };
 

@@ -93,8 +93,8 @@ constexpr glm::vec3 kGalacticCentre(0.5418f, 0.4564f, 0.7058f);
 // A band of unresolved stars, brighter towards its centre, with clouds of dust before it.
 Vec milky_way(const Vec& d) {
   const Real across = dot(d, kGalacticPole) + Real(0.05f) * cloud(scaled(d, 3.0f, 1.1f, 2.2f, 3.3f), 3, 601);
-  const Real band = exp(across * across * Real(-22.0f));
-  if (none(band > Real(1e-3f))) return Vec(Real(0.0f));
+  const Real band = max(exp(across * across * Real(-22.0f)) - Real(1e-3f), Real(0.0f));
+  if (none(band > Real(0.0f))) return Vec(Real(0.0f));
   const Real centre = Real(0.55f) + Real(0.45f) * dot(d, kGalacticCentre);
   const Real grain = max(Real(0.75f) + Real(0.5f) * cloud(scaled(d, 6.0f, 7.4f, 0.3f, 5.2f), 6, 621), Real(0.0f));
   const Real dust = step(0.05f, 0.55f, cloud(scaled(d, 5.0f, 2.6f, 9.1f, 4.4f), 5, 641)) * exp(across * across * Real(-120.0f));

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLeastScale = 1e-6, kLeastTerm = 1e-6;
 constexpr int64_t kMostVertices = int64_t{1} << 23;  // of one mesh: 0.6 GB
+constexpr int kMostPatternWidth = 4096;              // 14 bytes a texel, and square
 constexpr int64_t kMostCopies = 65536;
 constexpr int64_t kMostDrawnVertices = int64_t{1} << 25;  // of all copies that are drawn: 2 GB while a frame is rendered
 
@@ -41,6 +42,9 @@ void check(const LightDescription& l, const std::string& where) {
 
 void check(const TextureDescription& t, const std::string& where) {
   if (t.width % 2 != 0) fail(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
+  if (is_pattern(t.source) && t.width > kMostPatternWidth)
+    fail(where + ".width",
+         "expected at most " + std::to_string(kMostPatternWidth) + " of a map that tiles, got " + std::to_string(t.width));
 }
 
 void check(const EnvironmentDescription& e, const std::string& where) {
@@ -107,14 +111,15 @@ void check_total(const Named<ObjectDescription>& objects, const std::string& sou
   }
 }
 
-void check_background(SceneDescription& scene, const std::string& source) {
+void check_environments(SceneDescription& scene, const std::string& source) {
   const BackgroundDescription& b = scene.background;
   const auto check_name = [&](const char* key, const std::string& name) {
     if (name.empty() || find_named(scene.environments, name) != nullptr) return;
-    fail(source, std::string("background.") + key + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
+    fail(source, std::string(key) + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
   };
-  check_name("environment", b.environment);
-  check_name("second", b.second);
+  check_name("background.environment", b.environment);
+  check_name("background.second", b.second);
+  check_name("reflections.environment", scene.reflections.environment);
   if (b.type == BackgroundType::environment && scene.environments.empty())
     fail(source, "background.type: the scene has no environment; expected one in environments");
 }
@@ -125,7 +130,7 @@ void check_scene(SceneDescription& scene, const std::string& source) {
   if (!scene.head.camera.empty() && find_named(scene.cameras, scene.head.camera) == nullptr) {
     fail(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
   }
-  check_background(scene, source);
+  check_environments(scene, source);
   for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
     for (auto& entry : list) {
       const std::string path = std::string(collection) + "." + entry.first;

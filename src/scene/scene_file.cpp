@@ -279,8 +279,9 @@ void SceneFile::set(std::span<const std::string> settings) {
 
 SceneDescription SceneFile::at(double seconds) const {
   SceneDescription scene = description_;
+  const double begun = description_.time.hours / 24.0 * description_.time.day;
   for (const auto& [name, animation] : description_.animations) {
-    animate(scene, animation, "animations." + name, source_, seconds * description_.animation.speed);
+    animate(scene, animation, "animations." + name, source_, begun + seconds * description_.animation.speed);
   }
   check_scene(scene, source_ + " at " + std::to_string(seconds) + " s");
   return scene;

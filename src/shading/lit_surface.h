@@ -2,13 +2,15 @@
 //
 // What the shaders of lit surfaces have in common: where the surface stands, what it looks like, what light falls on it.
 //
-//   colour = color · (ambient + diffuse · D) + specular · S + emissive
+//   colour = color · (ambient + diffuse · D) + specular · S + emissive + reflection · M
 //
-// with D and S the diffuse and specular light of shading/lighting.h. Each factor is a constant times a map where there is one.
+// with D and S the diffuse and specular light of shading/lighting.h, M the light of the surroundings that the surface mirrors
+// (shading/reflection.h; by pixel alone). Each factor but reflection is a constant times a map where there is one.
 #pragma once
 
 #include <array>
 
+#include "shading/environment.h"
 #include "shading/lighting.h"
 #include "shading/texture.h"
 
@@ -57,6 +59,8 @@ struct LitSurface {
   bool two_sided = false;  ///< a back face is lit by the turned normal
   std::array<Factor, kMaterialFactors> factors;
   DetailMap detail;
+  const EnvironmentBlend* surroundings = nullptr;  ///< what is mirrored; null: nothing; not owned
+  glm::vec3 reflection{0.0f};
 
   template <class R>
   HS_INLINE vec3<R> position_ew(const vec3<R>& position_os) const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "shading/contract.h"
+#include "shading/reflection.h"
 #include "shading/surface_detail.h"
 
 namespace halfspace {
@@ -107,7 +108,9 @@ struct SurfaceShader : LitSurface {
     } else {
       const Material<R> m = material(in, px);
       const SurfacePoint<R> p = point_at(in, px);
-      return {vec4<R>(reflected(m, illuminate(lights, model, m[kShininess].x, p)), R(1))};
+      vec3<R> light = reflected(m, illuminate(lights, model, m[kShininess].x, p));
+      if (surroundings != nullptr) light += reflection * mirrored_light(*surroundings, from_eye(in, px), normal_with_steps(in, px, p.n_ws));
+      return {vec4<R>(light, R(1))};
     }
   }
 
@@ -209,6 +212,34 @@ struct SurfaceShader : LitSurface {
       const vec3<R> slope(detail.map->sample(detail.sampler, at.uv, at.duv_dx, at.duv_dy));
       return normal_from_object * normal_from_slopes(normalize_or_zero(in.position_os), slope);
     }
+  }
+
+  /// The vector from the eye to the pixel's point, with its derivatives.
+  template <class R>
+  HS_INLINE Differential<R> from_eye(const Varyings<R>& in, const Pixel<R>& px) const {
+    using V = Varyings<R>;
+    if (to_eye_ws != glm::vec3(0.0f)) return {vec3<R>(-to_eye_ws), vec3<R>(R(0)), vec3<R>(R(0))};
+    if constexpr (kSlopes) {
+      const glm::mat3 turn(world_from_object);
+      return {position_ew(in.position_os), turn * px.ddx(&V::position_os), turn * px.ddy(&V::position_os)};
+    } else {
+      return {in.position_ew, px.ddx(&V::position_ew), px.ddy(&V::position_ew)};
+    }
+  }
+
+  /// The pixel's normal n_ws, with the derivatives of the surface's own: how maps turn it from pixel to pixel is not known.
+  template <class R>
+  HS_INLINE Differential<R> normal_with_steps(const Varyings<R>& in, const Pixel<R>& px, const vec3<R>& n_ws) const {
+    using V = Varyings<R>;
+    Differential<R> n;
+    if constexpr (kSlopes) {
+      const glm::mat3& turn = normal_from_object;
+      n = normalized<R>({turn * in.position_os, turn * px.ddx(&V::position_os), turn * px.ddy(&V::position_os)});
+    } else {
+      n = normalized<R>({in.normal_ws, px.ddx(&V::normal_ws), px.ddy(&V::normal_ws)});
+    }
+    const R side = two_sided ? select(px.front_facing, R(1), R(-1)) : R(1);
+    return {n_ws, n.dx * side, n.dy * side};
   }
 };
 

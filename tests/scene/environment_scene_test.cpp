@@ -98,7 +98,8 @@ TEST(EnvironmentScene, FadesAndMakesOnlyWhatIsSeen) {
   SceneFile scene = SceneFile::parse(text, "test.json", ".");
   EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(1, 0.5f, 0, 1)) << "night's file is not missed";
   scene.set("background.weight=0.001");
-  EXPECT_EQ(input_error([&] { light_of(scene.description(), 4, 4); }), "/none.png: no such file; expected an image");
+  EXPECT_EQ(input_error([&] { light_of(scene.description(), 4, 4); }),
+            "environments.night.map: /none.png: no such file; expected an image");
   scene.set("background.second=dusk");
   scene.set("background.weight=0.5");
   EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.625f, 0.375f, 0.125f, 1));
@@ -121,6 +122,89 @@ TEST(EnvironmentScene, StandsBehindEverything) {
   const Image<glm::vec4> image = light_of(d, 64, 64), sky = light_of(scene.description(), 64, 64);
   EXPECT_EQ(image.at(32, 32), glm::vec4(1.0f));
   EXPECT_EQ(image.at(2, 2), sky.at(2, 2));
+}
+
+// ---- mirrors -----------------------------------------------------------------------------------------------------------
+
+// A ball that only mirrors, under a globe whose map is known; each pixel's ray is thrown back here.
+TEST(Reflections, ABallShowsTheSkyWhereTheLawOfReflectionSays) {
+  constexpr int kSize = 200;
+  SceneFile scene = SceneFile::parse(R"({"version": 1, "cameras": {"c": {"position": [0, 0, 4], "fov": 40}},
+    "textures": {"surface": {"source": "earth_color", "width": 256}},
+    "environments": {"sky": {"type": "globe", "map": "surface"}},
+    "objects": {"ball": {"color": 0, "reflection": [0.9, 0.8, 0.7], "latitudes": 512, "longitudes": 1024}},
+    "background": {"type": "environment"}})",
+                                     "test.json", ".");
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  const PreparedScene prepared = assets.prepare(scene.description(), kSize, kSize);
+  Image<glm::vec4> image(kSize, kSize);
+  render(prepared, image, workers);
+  const Environment& sky = sky_of(prepared).environment.first;
+  const double tangent = std::tan(20 * std::numbers::pi / 180);
+  // The ray of a place on the picture, and thrown back; zero where the ball is not met or nearly missed.
+  const auto thrown_back = [&](double x, double y) {
+    const glm::dvec3 eye(0, 0, 4), d = glm::normalize(glm::dvec3((x / kSize * 2 - 1) * tangent, (1 - y / kSize * 2) * tangent, -1));
+    const double b = glm::dot(eye, d), disc = b * b - 15;
+    if (disc < 0.05) return glm::dvec3(0.0);
+    const glm::dvec3 n = eye + d * (-b - std::sqrt(disc));
+    return d - n * (2 * glm::dot(d, n));
+  };
+  double sum = 0, worst = 0;
+  int count = 0;
+  for (int y = 1; y + 1 < kSize; ++y) {
+    for (int x = 1; x + 1 < kSize; ++x) {
+      const glm::dvec3 r = thrown_back(x + 0.5, y + 0.5), right = thrown_back(x + 1.5, y + 0.5), up = thrown_back(x + 0.5, y - 0.5);
+      if (r == glm::dvec3(0.0) || right == glm::dvec3(0.0) || up == glm::dvec3(0.0)) continue;
+      const glm::dvec3 left = thrown_back(x - 0.5, y + 0.5), down = thrown_back(x + 0.5, y + 1.5);
+      if (left == glm::dvec3(0.0) || down == glm::dvec3(0.0)) continue;
+      const glm::dvec3 want = sky.light<double>(r, (right - left) * 0.5, (up - down) * 0.5) * glm::dvec3(0.9, 0.8, 0.7);
+      for (int k = 0; k < 3; ++k) {
+        const double error = std::abs(want[k] - static_cast<double>(image.at(x, y)[k]));
+        worst = std::max(worst, error);
+        sum += error;
+        ++count;
+      }
+    }
+  }
+  ASSERT_GT(count, 20000);
+  RecordProperty("mean", std::to_string(sum / count));
+  RecordProperty("worst", std::to_string(worst));
+  // Half a facet's sagitta, (π/512)²/8 = 5e-6 of the radius, moves the point, the mesh's interpolated normals by as little: some
+  // 1e-4 of a texel. The derivative by differences errs by the square of a pixel's step over its distance to the rim: levels
+  // by some 1e-3. A step between texels is at most 0.3.
+  EXPECT_LT(sum / count, 2e-4);
+  EXPECT_LT(worst, 1e-2);
+}
+
+TEST(Reflections, AreOfWhatTheirKeysSay) {
+  const auto middle = [](const std::vector<std::string>& settings) {
+    SceneFile scene = SceneFile::parse(R"({"version": 1, "objects": {"ball": {"color": 0, "reflection": 0.5}},
+      "environments": {"a": {"map": [1, 0.5, 0.25]}, "b": {"map": 3}},
+      "background": {"type": "environment", "environment": "a", "second": "b"}})",
+                                       "test.json", ".");
+    scene.set(settings);
+    return light_of(scene.description(), 9, 9).at(4, 4);
+  };
+  EXPECT_EQ(middle({}), glm::vec4(0.5f, 0.25f, 0.125f, 1)) << "the background's";
+  EXPECT_EQ(middle({"background.weight=1"}), glm::vec4(1.5f, 1.5f, 1.5f, 1)) << "as it fades";
+  EXPECT_EQ(middle({"reflections.environment=b"}), glm::vec4(1.5f, 1.5f, 1.5f, 1));
+  EXPECT_EQ(middle({"background.type=color", "background.color=0.5"}), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "nothing but a colour";
+  EXPECT_EQ(middle({"reflections.on=false"}), glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(middle({"ball.reflection=0"}), glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(input_error([&] { middle({"reflections.environment=c"}); }),
+            "test.json: reflections.environment: no environment 'c'; expected one of a, b");
+}
+
+TEST(Reflections, AreWithinOneCodeOfDoublePrecisionWithEveryKindOfNormal) {
+  for (const char* detail : {R"("normals": "pixel", "height": "relief")", R"("bump_map": "relief")", R"("normal": "none")"}) {
+    const std::string text = std::string(R"({"version": 1, "textures": {"relief": {"source": "moon_height", "width": 256}},
+      "environments": {"sky": {"type": "day_sky", "size": 64}}, "background": {"type": "environment"},
+      "objects": {"ball": {"color": 0.2, "reflection": 0.7, )") +
+                             detail + "}}}";
+    // Silhouettes, as everywhere.
+    EXPECT_LE(share_beyond_one_code<double>(SceneFile::parse(text, "test.json", ".").description(), 160, 100), 3e-3) << detail;
+  }
 }
 
 // ---- files -------------------------------------------------------------------------------------------------------------
@@ -162,22 +246,25 @@ TEST_F(EnvironmentFiles, SixFacesAreSeenWhereTheirNamesSay) {
 TEST_F(EnvironmentFiles, AFaceOfItsOwnComesBeforeTheFolder) {
   put_faces();
   std::filesystem::rename(directory / "front.png", directory / "other.png");
-  EXPECT_EQ(error_of(cube()), directory.string() + ": has no file for the face front; expected front.png or the like");
+  EXPECT_EQ(error_of(cube()),
+            "environments.globe: " + directory.string() + ": has no file for the face front; expected front.png or the like");
   EXPECT_EQ(error_of(cube({"globe.front=" + (directory / "other.png").string()})), "(no error)");
 }
 
 TEST_F(EnvironmentFiles, MistakesAreToldInOneLine) {
-  EXPECT_EQ(error_of({"globe.type=cube"}), "environments.globe.right: missing; expected an image file, or a folder of six");
+  EXPECT_EQ(error_of({"globe.type=cube"}), "environments.globe: the face right is missing; expected an image file, or a folder of six");
   EXPECT_EQ(error_of({"globe.type=cube", "globe.folder=/none"}),
-            "/none: cannot be read (No such file or directory); expected a folder of six faces");
+            "environments.globe: /none: cannot be read (No such file or directory); expected a folder of six faces");
   put_faces();
   put_face(3, 4, 5);
-  EXPECT_EQ(error_of(cube()), (directory / "bottom.png").string() + ": is 4x5; expected a square face, all six of one size");
+  EXPECT_EQ(error_of(cube()),
+            "environments.globe: " + (directory / "bottom.png").string() + ": is 4x5; expected a square face, all six of one size");
   put_face(3, 8, 8);
-  EXPECT_EQ(error_of(cube()), (directory / "bottom.png").string() + ": is 8x8; expected a square face, all six of one size");
+  EXPECT_EQ(error_of(cube()),
+            "environments.globe: " + (directory / "bottom.png").string() + ": is 8x8; expected a square face, all six of one size");
   put_face(3, 4, 4);
   put("left.jpg", "x");
-  EXPECT_EQ(error_of(cube()), directory.string() + ": has two files for the face left; expected one");
+  EXPECT_EQ(error_of(cube()), "environments.globe: " + directory.string() + ": has two files for the face left; expected one");
   EXPECT_EQ(error_of({"background.environment=glob"}),
             "scene environment: background.environment: no environment 'glob'; did you mean 'globe'?");
   EXPECT_EQ(error_of({"background.second=glob"}), "scene environment: background.second: no environment 'glob'; did you mean 'globe'?");

@@ -282,6 +282,8 @@ const Wrong kWrong[] = {
      "test.json: textures.t.width: expected 0 or an even number, got 7"},
     {"Vertices", R"({"version": 1, "objects": {"a": {"latitudes": 8192, "longitudes": 16384}}})",
      "test.json: objects.a.longitudes: more than 2^23 vertices; expected fewer latitudes or longitudes"},
+    {"PatternWidth", R"({"version": 1, "textures": {"t": {"source": "rock_color", "width": 4098}}})",
+     "test.json: textures.t.width: expected at most 4096 of a map that tiles, got 4098"},
     {"TorusTube", R"({"version": 1, "objects": {"a": {"shape": "torus", "tube": 2}}})",
      "test.json: objects.a.tube: 2 fills the ring; expected less than radius, 1"},
     {"TorusBands", R"({"version": 1, "objects": {"a": {"shape": "torus", "latitudes": 2}}})",
