@@ -89,6 +89,12 @@ vec4<Counted> Texture2D::sample<Counted>(const Sampler& sampler, const vec2<Coun
 }
 
 template <>
+vec3<Counted> EnvironmentMap::sample<Counted>(const vec3<Counted>&, const vec3<Counted>&, const vec3<Counted>&) const {
+  ++counts.now->fetches;
+  return vec3<Counted>(Counted(0));
+}
+
+template <>
 Counted light_arriving<Counted>(const Shadow&, const ShadowReceiver<Counted>&) {
   ++counts.now->shadows;
   return 1;
