@@ -389,7 +389,7 @@ TEST_F(Cli, ListTellsScenesAndKeys) {
 
 TEST_F(Cli, CompletionScriptsAreRight) {
   for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
-  EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nlist\ninfo\ncompletion\n");
+  EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nvalidate\nlist\ninfo\ncompletion\n");
   std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
 halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
 compopt() { :; }
