@@ -184,7 +184,7 @@ const Mistake kMistakes[] = {
     {"NoMapOfNormals",
      {"render", "earth", "--set", "earth.normal_map=1"},
      3,
-     "objects.earth.normal: is map, and normal_map is none; expected a texture or an image file as normal_map"},
+     "scene earth: objects.earth.normal: is map, and normal_map is none; expected a texture or an image file as normal_map"},
     {"NoCamera", {"render", "earth", "--camera", "nroth"}, 3, "--camera: no camera 'nroth'; did you mean 'north'?"},
     {"TimeWord", {"render", "earth", "--time", "noon"}, 2, "--time is 'noon'; expected seconds, for example 2.5"},
     {"FramesBackwards", {"render", "earth", "--frames", "5..2"}, 2, "--frames is '5..2'; expected FIRST..LAST, for example 0..47"},

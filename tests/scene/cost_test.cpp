@@ -67,7 +67,7 @@ namespace {
 
 // Of one stage: how often it ran, and what it did.
 struct Stage {
-  int runs = 0, fetches = 0, lights = 0;
+  int runs = 0, fetches = 0, lights = 0, shadows = 0;
   double fetches_each() const { return static_cast<double>(fetches) / runs; }
   double lights_each() const { return static_cast<double>(lights) / runs; }
 };
@@ -100,6 +100,12 @@ vec3<Counted> EnvironmentMap::sample<Counted>(const vec3<Counted>& d_ms, const v
 template <>
 Counted light_arriving<Counted>(const Shadow&, const ShadowReceiver<Counted>&) {
   ADD_FAILURE() << "no scene of the table has shadows";
+  return 1;
+}
+
+template <>
+Counted light_arriving<Counted>(const Shadow&, const ShadowReceiver<Counted>&) {
+  ++counts.now->shadows;
   return 1;
 }
 
@@ -188,6 +194,7 @@ Cost cost_of(const char* scene_name, const std::vector<std::string>& settings) {
   cost.vertex_lights = counts.vertex.lights_each();
   cost.face_lights = counts.primitive.runs == 0 ? 0 : counts.primitive.lights_each();
   EXPECT_EQ(counts.vertex.fetches + counts.primitive.fetches, 0) << "maps are read by pixel";
+  EXPECT_EQ(counts.vertex.shadows + counts.primitive.shadows + counts.fragment.shadows, 0) << "none of these scenes has shadows";
   return cost;
 }
 

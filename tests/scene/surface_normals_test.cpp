@@ -160,7 +160,7 @@ double blockiness(const Image<glm::dvec3>& seen) {
 
 class SphereBumps : public testing::Test {
  protected:
-  const Bumps bumps;
+  const Bumps bumps{};
   const Mesh sphere = uv_sphere(256, 512, 1.0f);
   const Image<float> map = heights(bumps, 1024, 512);
 };
