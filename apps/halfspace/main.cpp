@@ -121,11 +121,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   add_info_command(program);
   add_completion_command(program);
   program.footer("halfspace COMMAND --help tells more of a command.");
-  if (argc < 2) {
-    std::string commands;
-    for (const std::string& name : names_of(program, false)) commands += (commands.empty() ? "" : ", ") + name;
-    throw UsageError("no command; expected one of " + commands + " (see 'halfspace --help')");
-  }
+  if (argc < 2) throw UsageError("no command" + suggestion("", names_of(program, false)) + " (see 'halfspace --help')");
   program.parse(argc, argv);
 }
 
