@@ -50,7 +50,8 @@ struct ChoiceNames<Wrap> {
 };
 template <>
 struct ChoiceNames<Shape> {
-  static constexpr std::array<std::string_view, 7> names{"uv_sphere", "icosphere", "plane", "cube", "cylinder", "cone", "torus"};
+  static constexpr std::array<std::string_view, 8> names{"uv_sphere", "icosphere", "plane", "cube",
+                                                         "cylinder",  "cone",      "torus", "torus_knot"};
 };
 template <>
 struct ChoiceNames<NormalSource> {
@@ -197,19 +198,20 @@ Section section_of(ObjectDescription& o) {
   static const std::vector<Key> keys{
       key<&T::shape>("shape", "Generator of the mesh"),
       key<&T::radius>("radius", "Radius; of a torus, to its tube's middle",
-                      {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere cylinder cone torus"}),
-      key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = "torus"}),
+                      {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere cylinder cone torus torus_knot"}),
+      key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = "torus torus_knot"}),
       key<&T::length>("length", "From the bottom to the top", {.unit = "units", .low = kTiny, .high = 1e6, .only = "cylinder cone"}),
       key<&T::latitudes>("latitudes", "Bands from the top to the bottom, or round a tube",
-                         {.low = 2, .high = 8192, .only = "uv_sphere cylinder cone torus"}),
-      key<&T::longitudes>("longitudes", "Sectors round the axis", {.low = 3, .high = 16384, .only = "uv_sphere cylinder cone torus"}),
+                         {.low = 2, .high = 8192, .only = "uv_sphere cylinder cone torus torus_knot"}),
+      key<&T::longitudes>("longitudes", "Sectors round the axis",
+                          {.low = 3, .high = 16384, .only = "uv_sphere cylinder cone torus torus_knot"}),
       key<&T::level>("level", "How often each triangle is divided into four", {.low = 0, .high = 8, .only = "icosphere"}),
       key<&T::size>("size", "Length of an edge", {.unit = "units", .low = kTiny, .high = 1e6, .only = "plane cube"}),
       key<&T::segments>("segments", "Parts that an edge is divided into", {.low = 1, .high = 1024, .only = "plane cube"}),
       key<&T::tiles_u>("tiles_u", "How often a map of colours repeats along u",
-                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus"}),
+                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus torus_knot"}),
       key<&T::tiles_v>("tiles_v", "How often a map of colours repeats along v",
-                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus"}),
+                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus torus_knot"}),
       key<&T::visible>("visible", "Whether the object is drawn"),
       key<&T::casts_shadow>("casts_shadow", "Whether it shades others"),
       key<&T::receives_shadow>("receives_shadow", "Whether others, or itself, shade it"),

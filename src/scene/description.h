@@ -118,7 +118,7 @@ struct SurfaceDescription {
   BumpMethod bump_method = BumpMethod::gradient;
 };
 
-enum class Shape : uint8_t { uv_sphere, icosphere, plane, cube, cylinder, cone, torus };
+enum class Shape : uint8_t { uv_sphere, icosphere, plane, cube, cylinder, cone, torus, torus_knot };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
 
 struct Placement {

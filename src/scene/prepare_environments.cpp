@@ -101,14 +101,14 @@ EnvironmentMap uniform(const Color& color) {
 // How many texels round the whole sky are worth having: in the picture's middle one spans two pixels.
 int ScenePreparation::panorama_width() const {
   const double circumference_px = std::numbers::pi / view_.tan_y * view_.height_px;
-  int width = 256;
+  int width = std::max(256, assets_.panorama_width_);
   while (width < 4096 && 2 * width < circumference_px) width *= 2;
   return width;
 }
 
 // The same of a cube's face, whose texels are largest in its middle.
 int ScenePreparation::face_size() const {
-  int size = 64;
+  int size = std::max(64, assets_.face_size_);
   while (size < 1024 && size < view_.height_px / (2.0 * view_.tan_y)) size *= 2;
   return size;
 }

@@ -38,6 +38,7 @@ Extent extent_of(const ObjectDescription& o) {
     case Shape::plane: return {o.size, o.size * std::numbers::sqrt2 / 2.0};
     case Shape::cube: return {o.size, o.size * std::numbers::sqrt3 / 2.0};
     case Shape::torus: return {round(o.radius + o.tube), o.radius + o.tube};
+    case Shape::torus_knot: return {round(3.0 * o.radius), 1.4 * o.radius + o.tube};  // the knot is about 3 circles long
     case Shape::cylinder:
     case Shape::cone: break;
   }

@@ -31,9 +31,10 @@ Mesh generated(const ObjectDescription& o, const Displacement* displacement) {
     case Shape::cube: return cube(size, o.segments, displacement);
     case Shape::cylinder: return cylinder(radius, length, o.latitudes, o.longitudes, displacement);
     case Shape::cone: return cone(radius, length, o.latitudes, o.longitudes, displacement);
-    case Shape::torus: break;
+    case Shape::torus: return torus(radius, tube, o.latitudes, o.longitudes, displacement);
+    case Shape::torus_knot: break;
   }
-  return torus(radius, tube, o.latitudes, o.longitudes, displacement);
+  return torus_knot(radius, tube, o.latitudes, o.longitudes, displacement);
 }
 
 }  // namespace
@@ -42,7 +43,8 @@ MapEdges edges_of(Shape shape) {
   switch (shape) {
     case Shape::uv_sphere:
     case Shape::icosphere: return MapEdges::sphere;
-    case Shape::torus: return MapEdges::torus;
+    case Shape::torus:
+    case Shape::torus_knot: return MapEdges::torus;
     case Shape::cylinder:
     case Shape::cone: return MapEdges::cylinder;
     default: return MapEdges::sheet;

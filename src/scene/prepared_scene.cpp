@@ -87,6 +87,8 @@ void ScenePreparation::expect() {
   for (const auto& [name, object] : scene_.objects) {
     if (object.visible) assets_.widths_[name] = width_for(object);
   }
+  assets_.panorama_width_ = panorama_width();
+  assets_.face_size_ = face_size();
 }
 
 void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }

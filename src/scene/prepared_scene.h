@@ -57,7 +57,7 @@ struct PlacedMesh {
 /// A light as this picture has it.
 struct PreparedLight {
   std::string name;
-  Light light;          ///< its shadow is null where it casts none
+  Light light;  ///< its shadow is null where it casts none
   LightDescription description;
   double map_ms = 0.0;  ///< that its maps took
 };
@@ -94,8 +94,9 @@ class SceneAssets {
     bool wanted;  // by the frame being prepared
   };
   const Workers& workers_;
-  std::map<std::string, Entry> entries_;  ///< by what they are made from
-  std::map<std::string, int> widths_;     ///< of generated maps, at least, by the object's name
+  std::map<std::string, Entry> entries_;    ///< by what they are made from
+  std::map<std::string, int> widths_;       ///< of generated maps, at least, by the object's name
+  int panorama_width_ = 0, face_size_ = 0;  ///< of generated environments, at least
 };
 
 /// Draws the scene into 8-bit codes, as its post section says. Light is kept for the whole picture only where

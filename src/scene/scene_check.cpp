@@ -72,9 +72,11 @@ int64_t vertices_of(const ObjectDescription& o) {
   }
 }
 
+bool is_ring(Shape shape) { return shape == Shape::torus || shape == Shape::torus_knot; }
+
 // How far a surface may go inwards before it meets itself.
 double thickness_of(const ObjectDescription& o) {
-  if (o.shape == Shape::torus) return o.tube;
+  if (is_ring(o.shape)) return o.tube;
   return o.shape == Shape::cube ? 0.5 * o.size : o.radius;
 }
 
@@ -83,9 +85,9 @@ void check(const ObjectDescription& o, const std::string& where) {
   for (std::size_t i = 0; i < o.instances.size(); ++i)
     check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));
   if (vertices_of(o) > kMostVertices) fail(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
-  if (o.shape == Shape::torus && o.tube >= o.radius)
+  if (is_ring(o.shape) && o.tube >= o.radius)
     fail(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
-  if (o.shape == Shape::torus && o.latitudes < 3) fail(where + ".latitudes", "2 make no tube; expected at least 3");
+  if (is_ring(o.shape) && o.latitudes < 3) fail(where + ".latitudes", "2 make no tube; expected at least 3");
   const bool displaced = o.shape != Shape::plane && is_map(o.height);
   if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness_of(o)) {
     fail(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +

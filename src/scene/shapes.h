@@ -71,6 +71,11 @@ Mesh cone(float radius, float length, int bands, int sectors, const Displacement
 /// v = 0 is the inmost circle, 1/4 the uppermost, 1/2 the outmost. Field edges: torus.
 Mesh torus(float radius, float tube, int bands, int sectors, const Displacement* displacement = nullptr);
 
+/// A tube along a trefoil knot on a torus round the y axis: `bands` ≥ 3 rows round the tube, `sectors` ≥ 3 columns along the
+/// knot, which runs twice round the axis, at `radius` on the mean. tube below a quarter of the radius keeps clear of itself.
+/// Its formula stands in torus_knot.cpp. Field edges: torus.
+Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displacement* displacement = nullptr);
+
 /// A square in the plane y = 0 with corners at ±size/2, facing up, of segments² squares; u grows along +x, v along +z. Field
 /// edges: sheet.
 Mesh plane(float size, int segments = 1, const Displacement* displacement = nullptr);

@@ -70,6 +70,22 @@ std::vector<Face> cube_faces(double size) {
 
 glm::dvec3 sphere_normal(double u, double v) { return std::sin(kPi * v) * out(u) + std::cos(kPi * v) * kY; }
 glm::dvec3 torus_normal(double u, double v) { return -std::cos(2 * kPi * v) * out(u) + std::sin(2 * kPi * v) * kY; }
+glm::dvec3 knot(double u) {
+  const double ring = 1.5 + 0.6 * std::cos(6 * kPi * u);
+  return ring * out(2 * u) + 0.6 * std::sin(6 * kPi * u) * kY;
+}
+double knot_length() {
+  constexpr int kSteps = 20000;  // chords are short by a part in 1e-7
+  double length = 0.0;
+  for (int i = 0; i < kSteps; ++i) length += glm::distance(knot(static_cast<double>(i) / kSteps), knot((i + 1.0) / kSteps));
+  return length;
+}
+glm::dvec3 knot_normal(double u, double v) {
+  constexpr double h = 1e-5;
+  const glm::dvec3 n = std::cos(6 * kPi * u) * out(2 * u) + std::sin(6 * kPi * u) * kY;
+  const glm::dvec3 b = glm::cross(glm::normalize(knot(u + h) - knot(u - h)), n);
+  return std::cos(2 * kPi * v) * n + std::sin(2 * kPi * v) * b;
+}
 const double kSlant = std::sqrt(1.5 * 1.5 + 2.5 * 2.5);
 
 std::vector<ShapeCase> shape_cases() {
@@ -105,6 +121,13 @@ std::vector<ShapeCase> shape_cases() {
        4 * kPi * kPi * 1.5 * 0.5,
        2 * kPi * kPi * 1.5 * 0.25,
        {{[](double u, double v) { return 1.5 * out(u) + 0.5 * torus_normal(u, v); }, torus_normal}},
+       first_face},
+      {"TorusKnot",  // of a tube round a closed curve: circumference and section, times the curve's length
+       [](int n, const Displacement* d) { return torus_knot(1.5f, 0.2f, 2 * n, 24 * n, d); },
+       MapEdges::torus,
+       2 * kPi * 0.2 * knot_length(),
+       kPi * 0.04 * knot_length(),
+       {{[](double u, double v) { return knot(u) + 0.2 * knot_normal(u, v); }, knot_normal}},
        first_face},
       {"Plane",
        [](int n, const Displacement* d) { return plane(3.0f, n, d); },

@@ -217,7 +217,7 @@ TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
 TEST(PreparedScene, EveryShapeAndPatternIsDrawn) {
   const Workers workers(2);
   SceneAssets assets(workers);
-  for (const char* shape : {"uv_sphere", "icosphere", "plane", "cube", "cylinder", "cone", "torus"}) {
+  for (const char* shape : {"uv_sphere", "icosphere", "plane", "cube", "cylinder", "cone", "torus", "torus_knot"}) {
     for (const char* height : {"0", "\"bark\""}) {
       const PreparedScene p = assets.prepare(
           parsed(

@@ -166,5 +166,18 @@ TEST(ProceduralSky, IsNoFinerThanTheViewNeeds) {
   EXPECT_EQ(size_of(200), 256);
 }
 
+TEST(ProceduralSky, ExpectedFramesShareItsSize) {
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  const auto size_of = [&](const char* fov) {
+    const PreparedScene scene = assets.prepare(sky_with({"day.size=0", "day.clouds=0", fov}), 100, 100);
+    return std::get<EnvironmentSky>(scene.draws.back().shader).environment.first.map->width();
+  };
+  EXPECT_EQ(size_of("c.fov=60"), 128);
+  assets.expect(sky_with({"c.fov=30"}), 100, 100);  // a pixel spans half as much
+  EXPECT_EQ(size_of("c.fov=60"), 256);
+  EXPECT_EQ(size_of("c.fov=30"), 256);
+}
+
 }  // namespace
 }  // namespace halfspace
