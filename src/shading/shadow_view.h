@@ -31,11 +31,11 @@ HS_INLINE ShadowPlace<R> place_on(const ShadowView& view, const vec3<R>& positio
   return {fma(p.x * inverse, half, half), fma(p.y * inverse, half, half), p.z * inverse, p.w, R(0), R(0)};
 }
 
-/// Does the view show the point, with `margin` texels of picture around it?
+/// Does the view show the point, with `margin` texels of picture around it? Beyond its far end a cascade knows nothing.
 template <class R>
 HS_INLINE MaskOf<R> holds(const ShadowView& view, const ShadowPlace<R>& p, float margin) {
   const R low(margin), high(static_cast<float>(view.size) - margin);
-  return p.w > R(0) && p.x >= low && p.x <= high && p.y >= low && p.y <= high && p.depth <= R(1);
+  return p.w > R(0) && p.x >= low && p.x <= high && p.y >= low && p.y <= high && p.depth >= R(0) && p.depth <= R(1);
 }
 
 /// Gives the place the plane through position_ew with the given normal. A plane stays one in window space, so the slope is

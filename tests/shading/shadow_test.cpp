@@ -190,6 +190,7 @@ TEST(Shadow, OutsideOfTheMapIsLit) {
   EXPECT_EQ(light_arriving(s, receiver({1.01f, 0, 0})), 1.0f);
   EXPECT_EQ(light_arriving(s, receiver({0, -1.01f, 0})), 1.0f);
   EXPECT_EQ(light_arriving(s, receiver({0, 0, 1.01f})), 1.0f);     // nearer than the view begins
+  EXPECT_EQ(light_arriving(s, receiver({0, 0, -1.01f})), 1.0f);  // beyond its end: another cascade's
   EXPECT_EQ(light_arriving(Shadow{}, receiver({0, 0, 0})), 1.0f);  // a light without shadow
 }
 
