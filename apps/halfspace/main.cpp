@@ -121,7 +121,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   add_info_command(program);
   add_completion_command(program);
   program.footer("halfspace COMMAND --help tells more of a command.");
-  if (argc < 2) throw UsageError("no command; expected one of render, convert-normal, list, info, completion (see 'halfspace --help')");
+  if (argc < 2) throw UsageError("no command" + suggestion("", names_of(program, false)) + " (see 'halfspace --help')");
   program.parse(argc, argv);
 }
 

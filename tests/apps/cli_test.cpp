@@ -196,10 +196,7 @@ const Mistake kMistakes[] = {
      {"render", "earth", "--frames", "0..1", "-o", "/dev/null"},
      2,
      "-o is '/dev/null'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr"},
-    {"ControlCharacters",
-     {"render", "a\nb\x1b"},
-     3,
-     "unknown scene 'a\\x0ab\\x1b'; expected one of " + shipped_scenes()},
+    {"ControlCharacters", {"render", "a\nb\x1b"}, 3, "unknown scene 'a\\x0ab\\x1b'; expected one of " + shipped_scenes()},
     {"PrintChecksToo",
      {"render", "earth", "--print", "--size", "bogus"},
      2,
@@ -366,7 +363,7 @@ TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
                               (root / "out").string() + " 2>&1; " HALFSPACE_PROGRAM " render earth --size 8x8 -o " +
                               (directory / "e.png").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
-  EXPECT_EQ(lines_of(text_of(root / "out")), 5);
+  EXPECT_GE(lines_of(text_of(root / "out")), 5);
 }
 
 TEST_F(Cli, ASceneFileTellsItsErrors) {
@@ -378,7 +375,8 @@ TEST_F(Cli, ASceneFileTellsItsErrors) {
 
 TEST_F(Cli, ListTellsScenesAndKeys) {
   const Outcome scenes = run({"list"});
-  EXPECT_EQ(lines_of(scenes.out), 5);
+  EXPECT_EQ(lines_of(scenes.out), lines_of(run({"list", "--names"}).out));
+  EXPECT_GE(lines_of(scenes.out), 5);
   EXPECT_NE(scenes.out.find("\nmoon "), std::string::npos);
   const Outcome keys = run({"list", "moon"});
   EXPECT_NE(keys.out.find("height_scale"), std::string::npos);
@@ -389,7 +387,7 @@ TEST_F(Cli, ListTellsScenesAndKeys) {
 
 TEST_F(Cli, CompletionScriptsAreRight) {
   for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
-  EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nlist\ninfo\ncompletion\n");
+  EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nvalidate\nlist\ninfo\ncompletion\n");
   std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
 halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
 compopt() { :; }
