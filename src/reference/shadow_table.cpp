@@ -70,7 +70,7 @@ std::vector<TableRow> shadow_table(bool full, const ValidationOptions& options, 
     SceneAssets assets(workers);
     for (const Variant& v : variants(full)) {
       SceneFile varied = file;
-      varied.set({"shadow.bias=" + std::string(v.bias), "shadow.method=" + std::string(v.filter),
+      varied.set(std::vector<std::string>{"shadow.bias=" + std::string(v.bias), "shadow.method=" + std::string(v.filter),
                   "shadow.resolution=" + std::to_string(v.resolution)});
       SceneDescription scene = varied.at(0.0);
       LightDescription& light = scene.lights.front().second;
