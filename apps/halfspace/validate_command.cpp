@@ -9,7 +9,7 @@
 #include "halfspace/arguments.h"
 #include "halfspace/commands.h"
 #include "halfspace/scene_arguments.h"
-#include "reference/validation.h"
+#include "reference/shadow_table.h"
 #include "scene/image_io.h"
 #include "scene/output_file.h"
 #include "scene/scene_file.h"
@@ -24,7 +24,7 @@ struct ValidateArguments {
   std::string size = "960x540";
   std::vector<std::string> set;
   std::string camera, time, threads, rays;
-  bool json = false;
+  bool json = false, table = false, full = false;
 };
 
 void write_pictures(const std::filesystem::path& folder, const ShadowComparison& c) {
@@ -34,9 +34,20 @@ void write_pictures(const std::filesystem::path& folder, const ShadowComparison&
   write_png(folder / (name + "-difference.png"), difference_picture(c));
 }
 
+void print_table(const ValidateArguments& args, const PictureSize& size, const Workers& workers) {
+  std::cout << csv_header() << std::flush;
+  shadow_table(args.full, {size.width, size.height, 1}, workers, [](const TableRow& row) { std::cout << csv_line(row) << std::flush; });
+}
+
 void validate_command(const ValidateArguments& args) {
   const PictureSize size = parse_size(args.size);
   const Workers workers(parse_threads(args.threads));
+  if (args.full && !args.table) throw UsageError("--full is for the table; expected --table too");
+  if (args.table != args.scene.empty()) {
+    throw UsageError(args.table ? "--table has scenes of its own; expected no SCENE"
+                                : "SCENE is required, or --table; see 'halfspace validate --help'");
+  }
+  if (args.table) return print_table(args, size, workers);
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
   const double rays = args.rays.empty() ? 1024.0 : parse_real("--rays", args.rays, 1, 1e6, "rays a pixel, for example 1024");
   const SceneFile scene = open_scene(args.scene, args.set, args.camera);
@@ -55,9 +66,11 @@ void validate_command(const ValidateArguments& args) {
 void add_validate_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("validate", "Hold a scene's shadows against rays");
   const auto args = std::make_shared<ValidateArguments>();
-  command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->required()->type_name("");
+  command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->type_name("");
   command->add_flag("--json", args->json, "Report as JSON: one object per light");
   command->add_option("-o,--output", args->out, "Write pictures: map, truth, difference")->type_name("DIR");
+  command->add_flag("--table", args->table, "Every bias and filter, one at a time, on four scenes: CSV");
+  command->add_flag("--full", args->full, "With --table: every combination (hours)");
   add_set_option(command, args->set);
   command->add_option("--size", args->size, "Pixels (default 960x540)")->type_name("WxH");
   command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");

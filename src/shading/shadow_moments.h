@@ -51,7 +51,7 @@ HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
 template <class R>
 HS_INLINE R four_moment_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
   // The moments are drawn a little towards those of a spread-out distribution, against rounding.
-  constexpr float kSpread = 3e-6f;
+  constexpr float kSpread = 1e-5f;
   const vec4<R> m = moments_at(view, p) * (1.0f - kSpread) + vec4<R>(R(0.5f * kSpread));
   const R z0 = linear_depth(view, p.depth, p.w);
   // Cholesky factors of the Hankel matrix (1 b1 b2; b1 b2 b3; b2 b3 b4), and its solution for (1, z0, z0²).
