@@ -23,6 +23,10 @@ constexpr Rect intersect(const Rect& a, const Rect& b) {
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
+/// How indices make primitives (OpenGL 4.6, section 10.1). Of a strip every other triangle has its first two vertices swapped,
+/// so that all face one way.
+enum class Topology : uint8_t { triangles, triangle_strip, triangle_fan };
+
 enum class CompareOp : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class CullMode : uint8_t { none, front, back, front_and_back };
 constexpr bool is_culled(CullMode mode, bool front_facing) {
@@ -82,6 +86,9 @@ struct BlendState {
 
 /// Everything that a draw sets besides its shader and vertices.
 struct DrawState {
+  Topology topology = Topology::triangles;
+  int32_t base_vertex = 0;  ///< added to every index
+  uint32_t instances = 1;   ///< the draw is repeated this many times; see VertexId and per_instance()
   std::optional<Rect> viewport{};  ///< default: the whole target
   std::optional<Rect> scissor{};   ///< default: no scissor test
   CullMode cull = CullMode::none;

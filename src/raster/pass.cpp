@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/float_mode.h"
+#include "raster/assembly.h"
 #include "raster/bin.h"
 #include "raster/clip.h"
 #include "raster/setup.h"
@@ -55,7 +56,9 @@ Pass::Pass(int width, int height, const ColorTarget& color, const DepthTarget& d
 void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> shader, const VertexView& vertices,
                     std::shared_ptr<const Indices> indices, const DrawState& state) {
   const FloatMode mode;  // the viewport transform is computed here, not in a task
-  HS_CHECK_OP(std::size_t{indices->end_vertex()}, <=, vertices.vertex_count);
+  HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0);
+  HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count));
+  HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count);
   HS_CHECK(kernels.fragment != nullptr || color_.format == ColorFormat::none);
   HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
   Draw d;
@@ -64,6 +67,7 @@ void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> sh
   d.vertices = vertices;
   d.indices = std::move(indices);
   d.state = state;
+  count_primitives(d);
   const Rect whole{0, 0, frame_.width, frame_.height};
   const Rect viewport = state.viewport.value_or(whole);
   check_rect(viewport, 1);
@@ -91,7 +95,7 @@ void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) 
   for (std::size_t d = 0; d < frame_.draws.size(); ++d) {
     const Draw& draw = frame_.draws[d];
     allocate_vertices(draw, frame_.shaded[d]);
-    const std::size_t count = draw.indices->used_count();
+    const std::size_t count = draw.indices->used_count() * draw.state.instances;
     statistics.vertices_shaded += count;
     for (std::size_t b = 0; b < count; b += kVerticesPerTask) tasks.push_back({d, b, std::min(count, b + kVerticesPerTask)});
   }
@@ -105,16 +109,18 @@ std::vector<std::vector<Segment>> Pass::split_into_chunks() const {
   std::vector<std::vector<Segment>> chunks;
   uint32_t room = 0;
   for (uint32_t d = 0; d < frame_.draws.size(); ++d) {
-    const uint32_t count = frame_.draws[d].triangle_count();
-    for (uint32_t first = 0; first < count;) {
-      if (room == 0) {
-        chunks.emplace_back();
-        room = options_.chunk_triangles;
+    const uint32_t count = frame_.draws[d].primitive_count;
+    for (uint32_t instance = 0; instance < frame_.draws[d].state.instances; ++instance) {
+      for (uint32_t first = 0; first < count;) {
+        if (room == 0) {
+          chunks.emplace_back();
+          room = options_.chunk_triangles;
+        }
+        const uint32_t n = std::min(room, count - first);
+        chunks.back().push_back({d, instance, first, n});
+        first += n;
+        room -= n;
       }
-      const uint32_t n = std::min(room, count - first);
-      chunks.back().push_back({d, first, n});
-      first += n;
-      room -= n;
     }
   }
   return chunks;

@@ -66,8 +66,8 @@ class Pass {
   /// width, height: 1 … 16384 px, the size of every target. Targets' images must outlive the pass.
   Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {});
 
-  /// Adds a draw of a triangle list. The shader is copied; the vertices' and indices' memory, and whatever the shader
-  /// points to, must stay unchanged until run() returns. Indices beyond a multiple of 3 are ignored, as GL does.
+  /// Adds a draw. The shader is copied; the vertices' and indices' memory, and whatever the shader points to, must stay
+  /// unchanged until run() returns. Indices that make no whole primitive are ignored, as GL does.
   template <class S>
   void draw(const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
     if constexpr (require_shader<S>()) add(shader, vertices, std::shared_ptr<const Indices>(std::shared_ptr<void>(), &indices), state);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/assembly.h"
 #include "raster/clip.h"
 #include "raster/vertex_stage.h"
 
@@ -136,15 +137,18 @@ class SegmentSetup {
         draw_(frame.draws[chunk.segments[segment].draw]),
         shaded_(frame.shaded[chunk.segments[segment].draw]),
         format_(frame.depth_format),
+        assembly_(draw_, chunk.segments[segment].first),
+        instance_(chunk.segments[segment].instance),
+        slot_base_(shaded_.first - instance_ * shaded_.count),
         provoking_(draw_.state.provoking == ProvokingVertex::first ? 0 : 2) {}
 
-  void submit(uint32_t triangle) {
+  void submit() {
     ++chunk_.statistics.primitives_in;
-    std::array<uint32_t, 3> id;
+    std::array<uint32_t, 3> id = assembly_.next();
     Outcode any = 0;
     Outcode all = kOutView;
     for (uint32_t i = 0; i < 3; ++i) {
-      id[i] = (*draw_.indices)[std::size_t{triangle} * 3 + i] - shaded_.first;
+      id[i] -= slot_base_;
       any |= shaded_.outcodes[id[i]];
       all &= shaded_.outcodes[id[i]];
     }
@@ -179,8 +183,10 @@ class SegmentSetup {
 
   void clip(const std::array<uint32_t, 3>& id) {
     alignas(64) std::array<float, 4 * kVertexBatch> rows{};
-    const std::array<uint32_t, 3> global{id[0] + shaded_.first, id[1] + shaded_.first, id[2] + shaded_.first};
-    draw_.kernels.position(draw_.shader.get(), {&draw_.vertices, global.data(), 0, 3, 0, nullptr, rows.data()});
+    const std::array<uint32_t, 3> index{id[0] + slot_base_, id[1] + slot_base_, id[2] + slot_base_};
+    const VertexView view = at_instance(draw_.vertices, instance_);
+    draw_.kernels.position(draw_.shader.get(), {&view, index.data(), 0, 3, 0, draw_.state.base_vertex, static_cast<int32_t>(instance_),
+                                                nullptr, rows.data()});
     std::array<glm::vec4, 3> pos_clip;
     for (std::size_t i = 0; i < 3; ++i) {
       pos_clip[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
@@ -233,6 +239,9 @@ class SegmentSetup {
   const Draw& draw_;
   const ShadedVertices& shaded_;
   DepthFormat format_;
+  Assembly assembly_;
+  uint32_t instance_;
+  uint32_t slot_base_;  ///< a vertex's slot is its index less this (modulo 2^32)
   uint32_t provoking_;
 };
 
@@ -243,7 +252,7 @@ void set_up_chunk(const Frame& frame, Chunk& chunk) {
     Segment& segment = chunk.segments[s];
     segment.first_triangle = static_cast<uint32_t>(chunk.triangles.size());
     SegmentSetup setup(frame, chunk, s);
-    for (uint32_t t = 0; t < segment.count; ++t) setup.submit(segment.first + t);
+    for (uint32_t i = 0; i < segment.count; ++i) setup.submit();
   }
   chunk.statistics.triangles_binned = chunk.triangles.size();
 }

@@ -47,10 +47,10 @@ inline constexpr Outcode kOutGuard = 64;       ///< beyond the guard band, or w 
 inline constexpr Outcode kOutNonFinite = 128;  ///< a NaN or Inf among x, y, z, w
 inline constexpr Outcode kOutView = 63;        ///< the six planes of the view volume
 
-/// The vertices of one draw, indexed by (vertex index − first).
+/// The vertices of one draw. A vertex's slot, by which all later stages know it, is (index − first) + instance · count.
 struct ShadedVertices {
   uint32_t first = 0;
-  uint32_t count = 0;
+  uint32_t count = 0;                      ///< slots of an instance
   int varying_count = 0;                   ///< floats per vertex in varyings
   std::unique_ptr<ScreenVertex[]> screen;  ///< uninitialized where no index refers to it
   std::unique_ptr<Outcode[]> outcodes;
@@ -107,10 +107,10 @@ struct ClipSource {
   std::array<uint32_t, 3> vertex;
 };
 
-/// A run of consecutive triangles of one draw.
+/// A run of consecutive primitives of one instance of a draw.
 struct Segment {
-  uint32_t draw;
-  uint32_t first, count;         ///< triangles of the draw's index list
+  uint32_t draw, instance;
+  uint32_t first, count;         ///< primitives of the draw's index list
   uint32_t first_triangle = 0;   ///< written by setup: where its triangles start in Chunk::triangles
   uint32_t first_primitive = 0;  ///< written by the primitive stage: where its values start in Chunk::primitives
 };
@@ -160,6 +160,12 @@ struct ShaderKernels {
   bool writes_depth = false;
 };
 
+/// Where a list, strip or fan begins after a primitive restart.
+struct IndexRun {
+  uint32_t first_primitive;  ///< primitives of the draw before it
+  uint32_t first_index;      ///< its place in the index list
+};
+
 /// A draw as the pass keeps it: its arguments, and what follows from them once for all triangles.
 struct Draw {
   ShaderKernels kernels;
@@ -174,7 +180,8 @@ struct Draw {
   float depth_high = 1.0f;
   bool deferred = false;  ///< shaded after visibility, once per visible pixel; else at once, in order
 
-  uint32_t triangle_count() const { return static_cast<uint32_t>(indices->size() / 3); }
+  uint32_t primitive_count = 0;  ///< of one instance
+  std::vector<IndexRun> runs;    ///< those with a primitive in them; empty where no index is a restart
 };
 
 /// Everything the stages after the vertex stage read.

@@ -85,7 +85,8 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.first = draw.indices->first_vertex();
   out.count = draw.indices->end_vertex() - out.first;
   out.varying_count = draw.kernels.varying_count;
-  const std::size_t n = out.count;
+  const std::size_t n = out.count * std::size_t{draw.state.instances};
+  HS_CHECK_OP(n, <, std::size_t{1} << 32);
   out.screen.reset(new ScreenVertex[n]);  // not make_unique: rows that no index uses need no initialization
   out.outcodes.reset(new Outcode[n]);
   out.varyings.reset(new float[n * static_cast<std::size_t>(out.varying_count)]);
@@ -96,19 +97,32 @@ void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Shaded
   std::array<ScreenVertex, kVertexBatch> screen;
   std::array<Outcode, kVertexBatch> outcodes;
   const std::span<const uint32_t> used = draw.indices->used();
-  for (std::size_t b = begin; b < end; b += kVertexBatch) {
-    const int count = static_cast<int>(std::min<std::size_t>(kVertexBatch, end - b));
-    const uint32_t first = out.first + static_cast<uint32_t>(b);
-    const uint32_t* ids = used.empty() ? nullptr : used.data() + b;
-    draw.kernels.vertex(draw.shader.get(), {&draw.vertices, ids, first, count, out.first, out.varyings.get(), clip.data()});
+  const std::size_t per_instance = draw.indices->used_count();
+  VertexView instance_view;
+  for (std::size_t b = begin; b < end;) {
+    const auto instance = static_cast<uint32_t>(b / per_instance);
+    const std::size_t local = b % per_instance;
+    const int count = static_cast<int>(std::min<std::size_t>(kVertexBatch, std::min(end - b, per_instance - local)));
+    b += static_cast<std::size_t>(count);
+    const VertexView* view = &draw.vertices;
+    if (view->has_instance_streams) {
+      instance_view = at_instance(draw.vertices, instance);
+      view = &instance_view;
+    }
+    const uint32_t slot_base = out.first - instance * out.count;
+    const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
+    draw.kernels.vertex(draw.shader.get(),
+                        {view, ids, out.first + static_cast<uint32_t>(local), count, slot_base, draw.state.base_vertex,
+                         static_cast<int32_t>(instance), out.varyings.get(), clip.data()});
     if (ids == nullptr) {
-      project(draw, clip.data(), count, out.screen.get() + b, out.outcodes.get() + b);
+      const std::size_t slot = std::size_t{instance} * out.count + local;
+      project(draw, clip.data(), count, out.screen.get() + slot, out.outcodes.get() + slot);
       continue;
     }
     project(draw, clip.data(), count, screen.data(), outcodes.data());
     for (int i = 0; i < count; ++i) {
-      out.screen[ids[i] - out.first] = screen[static_cast<std::size_t>(i)];
-      out.outcodes[ids[i] - out.first] = outcodes[static_cast<std::size_t>(i)];
+      out.screen[ids[i] - slot_base] = screen[static_cast<std::size_t>(i)];
+      out.outcodes[ids[i] - slot_base] = outcodes[static_cast<std::size_t>(i)];
     }
   }
 }

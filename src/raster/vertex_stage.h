@@ -18,7 +18,9 @@ struct VertexBatch {
   const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
   uint32_t first;
   int count;
-  uint32_t slot_base;  ///< varyings of vertex i go to row i − slot_base
+  uint32_t slot_base;    ///< varyings of vertex i go to row i − slot_base (modulo 2^32)
+  int32_t base_vertex;   ///< index + base_vertex is the row of the streams
+  int32_t instance;      ///< all vertices are of this one
   float* varyings;     ///< null for the position kernel
   float* clip;         ///< out: x, y, z, w of clip space as four rows of kVertexBatch
 };
@@ -26,7 +28,7 @@ struct VertexBatch {
 /// The transform of a draw's clip space to the window. viewport in pixels; depth range as in DepthState.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
 
-/// Shades vertices [begin, end) of the list of vertices that the draw's indices use.
+/// Shades vertices [begin, end) of the list of vertices that the draw's indices use, instance after instance.
 void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out);
 
 /// Allocates out for all the vertices that the draw uses.
@@ -59,7 +61,8 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
     const Int ids =
         batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index) : lane_index + static_cast<int32_t>(batch.first);
     Varyings out;
-    const vec4<Real> clip = s.vertex(load_attributes<Attributes>(*batch.vertices, ids), out);
+    const VertexId<Real> id{ids + batch.base_vertex, batch.instance};
+    const vec4<Real> clip = call_vertex<S, Real>(s, load_attributes<Attributes>(*batch.vertices, id.vertex), id, out);
     for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
     if constexpr (with_varyings && n != 0) {
       std::array<float, n* static_cast<std::size_t>(kLanes)> rows;

@@ -9,6 +9,8 @@
 //
 // and, where it wants them,
 //
+//   template <class R> vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const;
+//     a vertex function that is told which vertex of which instance it makes.
 //   template <class R> struct Primitive { … };       one value a triangle, and the function that makes it, run once
 //   template <class R> Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const;
 //     per surviving triangle; fragment then takes (const Varyings<R>&, const Primitive<R>&, const Pixel<R>&).
@@ -23,6 +25,13 @@
 #include "shading/pixel.h"
 
 namespace halfspace {
+
+/// Which vertex a vertex function makes.
+template <class R>
+struct VertexId {
+  IntOf<R> vertex;   ///< its row in the streams: the index plus DrawState::base_vertex
+  int32_t instance;  ///< 0 … DrawState::instances − 1
+};
 
 /// Colour only: linear, straight alpha.
 template <class R>
@@ -65,10 +74,17 @@ concept HasPrimitive = requires {
   typename S::template Primitive<float>;
 };
 template <class S>
-concept HasVertexFunction = requires(const S& s, const typename S::template Attributes<float>& in,
-                                     typename S::template Varyings<float>& out) {
+concept HasPlainVertexFunction = requires(const S& s, const typename S::template Attributes<float>& in,
+                                          typename S::template Varyings<float>& out) {
   { s.vertex(in, out) } -> std::same_as<vec4<float>>;
 };
+template <class S>
+concept HasVertexIdFunction = requires(const S& s, const typename S::template Attributes<float>& in, const VertexId<float>& id,
+                                       typename S::template Varyings<float>& out) {
+  { s.vertex(in, id, out) } -> std::same_as<vec4<float>>;
+};
+template <class S>
+concept HasVertexFunction = HasPlainVertexFunction<S> || HasVertexIdFunction<S>;
 template <class S>
 concept HasPrimitiveFunction = requires(const S& s, const typename S::template Varyings<float>& v) {
   { s.primitive(v, v, v) } -> std::same_as<typename S::template Primitive<float>>;
@@ -127,6 +143,17 @@ consteval bool require_shader() {
                   "the shader lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
   }
   return Shader<S>;
+}
+
+/// Calls the shader's vertex function, with the vertex's number where it asks for it.
+template <class S, class R>
+HS_INLINE auto call_vertex(const S& s, const typename S::template Attributes<R>& in, const VertexId<R>& id,
+                           typename S::template Varyings<R>& out) {
+  if constexpr (HasVertexIdFunction<S>) {
+    return s.vertex(in, id, out);
+  } else {
+    return s.vertex(in, out);
+  }
 }
 
 /// Calls the shader's fragment function, with its primitive's value where it has one.

@@ -619,6 +619,38 @@ float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, 
   return std::fma(w2, s.delta2[i], std::fma(w1, s.delta1[i], s.value0[i]));
 }
 
+// ---- primitives ----------------------------------------------------------------------------------------------------------
+
+std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, bool restart, const DrawState& state) {
+  std::vector<std::array<uint32_t, 3>> out;
+  std::vector<uint32_t> run;
+  const auto finish_run = [&] {
+    const std::size_t step = state.topology == Topology::triangles ? 3 : 1;
+    for (std::size_t i = 0; i + 3 <= run.size(); i += step) {
+      std::array<uint32_t, 3> t{run[i], run[i + 1], run[i + 2]};  // table 13.2: first and last vertex provoke, but in a fan
+      if (state.topology == Topology::triangle_fan) t = {run[i + 1], run[i + 2], run[0]};
+      const bool turned = state.topology == Topology::triangle_strip && i % 2 == 1;
+      if (state.provoking == ProvokingVertex::first) {
+        if (turned) std::swap(t[1], t[2]);
+      } else {
+        if (state.topology == Topology::triangle_fan) t = {run[0], run[i + 1], run[i + 2]};
+        if (turned) std::swap(t[0], t[1]);
+      }
+      out.push_back(t);
+    }
+    run.clear();
+  };
+  for (const uint32_t i : indices) {
+    if (restart && i == kRestart) {
+      finish_run();
+    } else {
+      run.push_back(i);
+    }
+  }
+  finish_run();
+  return out;
+}
+
 // ---- the loops -----------------------------------------------------------------------------------------------------------
 
 std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, const ShaderFacts& facts,

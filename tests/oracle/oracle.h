@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -123,19 +124,36 @@ Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> int
 SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, int x, int y);
 float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, std::size_t component);
 
+/// What a draw reads. A vertex's attributes are its row's; their last instance_components come from the instance's row.
+template <class S>
+struct Input {
+  using Row = typename S::template Attributes<float>;
+  std::vector<Row> vertices;
+  std::vector<uint32_t> indices;
+  bool restart = false;  ///< the index kRestart ends a primitive
+  std::size_t instance_components = 0;
+  std::vector<Row> instances;
+  uint32_t divisor = 1;
+};
+inline constexpr uint32_t kRestart = 0xffffffffu;
+
+/// The triangles that indices make, each with its provoking vertex first or last as the state says.
+std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, bool restart, const DrawState& state);
+
 class Renderer {
  public:
   /// Draws into the framebuffer, which must outlive the renderer.
   explicit Renderer(Framebuffer& target) : target_(target) {}
 
-  /// indices.size() / 3 triangles.
   template <class S>
-  void draw(const S& shader, const std::vector<typename S::template Attributes<float>>& vertices, const std::vector<uint32_t>& indices,
-            const DrawState& state);
+  void draw(const S& shader, const Input<S>& input, const DrawState& state);
 
   const Counts& counts() const { return counts_; }
 
  private:
+  template <class S>
+  void draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance);
+
   using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, int x, int y)>;
 
   // A submitted triangle's pieces in the window: none if culled, several if clipped.
@@ -227,23 +245,31 @@ ShaderFacts facts_of() {
 }  // namespace detail
 
 template <class S>
-void Renderer::draw(const S& shader, const std::vector<typename S::template Attributes<float>>& vertices,
-                    const std::vector<uint32_t>& indices, const DrawState& state) {
+void Renderer::draw(const S& shader, const Input<S>& input, const DrawState& state) {
+  for (uint32_t instance = 0; instance < state.instances; ++instance) draw_instance(shader, input, state, instance);
+}
+
+template <class S>
+void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance) {
   using V = typename S::template Varyings<float>;
   using P = PrimitiveOf<S, float>;
   const ShaderFacts facts = detail::facts_of<S>();
-  std::vector<ShadedVertex> shaded(vertices.size());
-  std::vector<bool> done(vertices.size());
-  for (const uint32_t i : indices) {
-    if (done[i]) continue;
-    done[i] = true;
+  std::map<uint32_t, ShadedVertex> shaded;
+  for (const uint32_t i : input.indices) {
+    if ((input.restart && i == kRestart) || shaded.contains(i)) continue;
     ++counts_.vertices_shaded;
+    const auto row = static_cast<uint32_t>(static_cast<int64_t>(i) + state.base_vertex);
+    auto attributes = detail::components_of(input.vertices[row]);
+    for (std::size_t k = attributes.size() - input.instance_components; k < attributes.size(); ++k) {
+      attributes[k] = detail::components_of(input.instances[instance / input.divisor])[k];
+    }
     V out{};
-    shaded[i].pos_clip = shader.vertex(vertices[i], out);
+    const VertexId<float> id{static_cast<int32_t>(row), static_cast<int32_t>(instance)};
+    shaded[i].pos_clip = call_vertex<S, float>(shader, detail::struct_of<typename Input<S>::Row>(attributes), id, out);
     shaded[i].varyings = detail::components_of(out);
   }
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    const std::array<const ShadedVertex*, 3> v{&shaded[indices[i]], &shaded[indices[i + 1]], &shaded[indices[i + 2]]};
+  for (const auto& [a, b, c] : assemble(input.indices, input.restart, state)) {
+    const std::array<const ShadedVertex*, 3> v{&shaded[a], &shaded[b], &shaded[c]};
     P face{};
     if constexpr (HasPrimitive<S>) {
       face = shader.primitive(detail::struct_of<V>(v[0]->varyings), detail::struct_of<V>(v[1]->varyings),

@@ -307,15 +307,52 @@ void fill_images(Scene& s, Random& random) {
   s.depth_before = f.depth_bytes;
 }
 
-template <class S>
-SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, const DrawState& state, Random& random) {
-  using A = typename S::template Attributes<float>;
+// Positions, and numbers for all other attributes.
+template <class A>
+std::vector<A> random_rows(const std::vector<glm::vec4>& positions, Random& random) {
   std::vector<A> rows;
-  for (const glm::vec4& p : g.positions) {
+  for (const glm::vec4& p : positions) {
     std::array<float, kComponents<A>> row{};
     for (std::size_t k = 0; k < row.size(); ++k) row[k] = k < 4 ? p[static_cast<int>(k)] : random.real(-0.5f, 1.5f);
     rows.push_back(from_components<A, float>(row));
   }
+  return rows;
+}
+
+// Strips, fans, restarts, instances and a base vertex.
+template <class S>
+SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, DrawState state, Random& random) {
+  using A = typename S::template Attributes<float>;
+  oracle::Input<S> input;
+  input.vertices = random_rows<A>(g.positions, random);
+  input.indices = g.indices;
+  state.topology = random.pick({Topology::triangles, Topology::triangle_strip, Topology::triangle_fan});
+  input.restart = random.once_in(2);
+  for (std::size_t i = 0; input.restart && i < input.indices.size(); ++i) {
+    if (random.once_in(random.pick({2, 5, 20}))) input.indices[i] = oracle::kRestart;
+  }
+  if (!input.vertices.empty() && random.once_in(3)) {  // some rows before those that are used, or none but by a negative base
+    state.base_vertex = random.pick({1, 5, -3});
+    const auto extra = static_cast<std::size_t>(std::max(state.base_vertex, 0));
+    input.vertices.insert(input.vertices.begin(), extra, input.vertices.front());
+    for (uint32_t& i : input.indices) {
+      if (state.base_vertex < 0 && !(input.restart && i == oracle::kRestart)) i += 3;
+    }
+  }
+  state.instances = random.pick({1u, 1u, 2u, 3u, 7u, 0u});
+  if (kComponents<A> > 4 && random.once_in(2)) {
+    input.instance_components = static_cast<std::size_t>(random.between(1, static_cast<int>(kComponents<A>) - 4));
+    input.divisor = random.pick({1u, 2u, 5u});
+    input.instances = random_rows<A>(std::vector<glm::vec4>(state.instances / input.divisor + 1), random);
+  }
+  const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
+  return make_draw(shader, name, input, state, vertex_layout, random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
+}
+
+template <class S>
+SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, const DrawState& state, Random& random) {
+  using A = typename S::template Attributes<float>;
+  std::vector<A> rows = random_rows<A>(g.positions, random);
   const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
   if (HasFragmentFunction<S> && random.once_in(4)) {  // without an index list: vertices are repeated, and one or two may be left over
     std::vector<A> repeated;
@@ -329,7 +366,17 @@ SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, cons
                    random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
 }
 
+SceneDraw random_primitives(bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  if (depth_only) return primitives_draw(DepthShader{matrix}, "DepthShader", g, state, random);
+  switch (random.below(4)) {
+    case 0: return primitives_draw(MixedShader{}, "MixedShader", g, state, random);
+    case 1: return primitives_draw(FaceShader{}, "FaceShader", g, state, random);
+    default: return primitives_draw(InstanceShader{}, "InstanceShader", g, state, random);
+  }
+}
+
 SceneDraw random_draw(Theme theme, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  if (theme == Theme::primitives && !random.once_in(4)) return random_primitives(depth_only, g, state, matrix, random);
   if (depth_only) return shader_draw(DepthShader{matrix}, "DepthShader", g, state, random);
   const bool themed = !random.once_in(3);
   const float value = random.real(0.05f, 0.4f);

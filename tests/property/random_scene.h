@@ -9,10 +9,10 @@
 namespace halfspace {
 
 /// What a scene is mostly made of.
-enum class Theme { opaque, blended, discarding, depth_writing, faces, clipped, many_draws };
+enum class Theme { opaque, blended, discarding, depth_writing, faces, clipped, many_draws, primitives };
 inline constexpr Theme kThemes[] = {Theme::opaque, Theme::blended, Theme::discarding, Theme::depth_writing,
-                                    Theme::faces,  Theme::clipped, Theme::many_draws};
-inline constexpr const char* kThemeNames[] = {"Opaque", "Blended", "Discarding", "DepthWriting", "Faces", "Clipped", "ManyDraws"};
+                                    Theme::faces,  Theme::clipped, Theme::many_draws, Theme::primitives};
+inline constexpr const char* kThemeNames[] = {"Opaque", "Blended", "Discarding", "DepthWriting", "Faces", "Clipped", "ManyDraws", "Primitives"};
 
 /// The scene of a seed: the same on every machine and compiler.
 Scene random_scene(Theme theme, uint64_t seed);

@@ -111,14 +111,39 @@ void lay_out_vertices(const float* rows, std::size_t count, int components, Vert
                                                                    static_cast<int32_t>(n - first_part), count};
 }
 
-void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, IndexLayout layout, DrawMemory& memory) {
+void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
+                       DrawMemory& memory) {
+  if (instance_components == 0) return;
+  // The vertices' streams lose their last components; what is left of them keeps its place.
+  VertexView& view = memory.view;
+  std::size_t rest = static_cast<std::size_t>(components) - instance_components;
+  int streams = 0;
+  for (int i = 0; i < view.stream_count; ++i) {
+    VertexStream& s = view.streams[static_cast<std::size_t>(i)];
+    s.components = std::min(s.components, static_cast<int32_t>(rest));
+    rest -= static_cast<std::size_t>(s.components);
+    if (s.components != 0) ++streams;
+  }
+  const std::size_t n = count * static_cast<std::size_t>(components);
+  memory.buffers.emplace_back(rows, rows + n);
+  view.streams[static_cast<std::size_t>(streams)] = per_instance(
+      {memory.buffers.back().data() + (static_cast<std::size_t>(components) - instance_components), static_cast<int32_t>(components),
+       static_cast<int32_t>(instance_components), count},
+      divisor);
+  view.stream_count = streams + 1;
+  view.has_instance_streams = true;
+  view.instance_count = count * divisor;
+}
+
+void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, bool restart, IndexLayout layout, DrawMemory& memory) {
   if (layout == IndexLayout::none) return;
+  const PrimitiveRestart mode = restart ? PrimitiveRestart::on : PrimitiveRestart::off;
   if (layout == IndexLayout::narrow) {
     for (const uint32_t i : list) memory.narrow.push_back(static_cast<uint16_t>(i));
-    memory.indices.emplace(std::span<const uint16_t>(memory.narrow), vertex_count);
+    memory.indices.emplace(std::span<const uint16_t>(memory.narrow), vertex_count, mode);
   } else {
     memory.wide = list;
-    memory.indices.emplace(std::span<const uint32_t>(memory.wide), vertex_count);
+    memory.indices.emplace(std::span<const uint32_t>(memory.wide), vertex_count, mode);
   }
 }
 
@@ -190,7 +215,8 @@ std::string describe(const Scene& s) {
       << kDepthNames[static_cast<int>(s.depth.format)] << '\n';
   for (const SceneDraw& d : s.draws) {
     const DepthState& z = d.state.depth;
-    out << "  " << d.shader << ", " << d.triangles << " triangles, cull " << static_cast<int>(d.state.cull)
+    out << "  " << d.shader << ", " << d.triangles << " triangles (topology " << static_cast<int>(d.state.topology) << ", "
+        << d.state.instances << " instances, base vertex " << d.state.base_vertex << "), cull " << static_cast<int>(d.state.cull)
         << (d.state.front == Winding::clockwise ? " cw" : " ccw") << ", depth "
         << (z.test ? kCompareNames[static_cast<int>(z.compare)] : "off") << (z.write ? "" : " (no write)") << (z.clamp ? " clamp" : "")
         << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far

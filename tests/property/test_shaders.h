@@ -267,6 +267,35 @@ struct FaceCutoutShader {
   }
 };
 
+/// Moves by the number of the instance, and shows that of the vertex.
+struct InstanceShader {
+  glm::vec2 step{0.1f, -0.05f};
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec3<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+    Flat<R> number;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    out.color = in.color;
+    out.number.value = to_real<R>(id.vertex & IntOf<R>(7)) * R(0.125f);
+    const auto n = static_cast<float>(id.instance);
+    vec4<R> p = in.position;
+    p.x = p.x + p.w * R(step.x * n);
+    p.y = p.y + p.w * R(step.y * n);
+    return p;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {held(vec4<R>(in.color, in.number.value), 8.0f)};
+  }
+};
+
 /// Depth alone; its positions are those of ColorShader.
 struct DepthShader {
   glm::mat4 clip_from_model{1.0f};
