@@ -15,12 +15,12 @@ struct Pair {
   uint16_t triangle;
 };
 
-// Does a tile hold a sample inside of edge e? Tested at the sample of the tile where E is largest.
-bool reaches(const Edge& e, int tile_x, int tile_y, int size) {
+// May a tile hold a sample inside of edge e? Tested where in the samples' box E is largest.
+bool reaches(const Edge& e, int tile_x, int tile_y, int size, const SampleSpan& span) {
   const int px = tile_x * size + (e.ey < 0 ? size - 1 : 0);
   const int py = tile_y * size + (e.ex > 0 ? size - 1 : 0);
-  constexpr int half = kSubPixels / 2;
-  return e.at(int64_t{px} * kSubPixels + half, int64_t{py} * kSubPixels + half) - fill_bias(e) >= 0;
+  const int x = e.ey < 0 ? span.high : span.low, y = e.ex > 0 ? span.high : span.low;
+  return e.at(int64_t{px} * kSubPixels + x, int64_t{py} * kSubPixels + y) - fill_bias(e) >= 0;
 }
 
 void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& b, uint16_t index, std::vector<Pair>& pairs) {
@@ -32,7 +32,8 @@ void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& b, uin
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       // The box of a triangle within one row or column of tiles is near enough.
-      if (!one_row && !(reaches(edges[0], x, y, size) && reaches(edges[1], x, y, size) && reaches(edges[2], x, y, size))) continue;
+      const auto inside = [&](const Edge& e) { return reaches(e, x, y, size, frame.samples_at); };
+      if (!one_row && !(inside(edges[0]) && inside(edges[1]) && inside(edges[2]))) continue;
       pairs.push_back({static_cast<uint32_t>(y * frame.tiles_x + x), index});
     }
   }
@@ -46,7 +47,7 @@ void bin_chunk(const Frame& frame, Chunk& chunk) {
   int x0 = frame.tiles_x, y0 = frame.tiles_y, x1 = 0, y1 = 0;
   for (std::size_t i = 0; i < chunk.triangles.size(); ++i) {
     const Triangle& t = chunk.triangles[i];
-    const PixelBounds b = pixel_bounds(t, frame.draws[chunk.segments[t.segment()].draw].bounds);
+    const PixelBounds b = pixel_bounds(t, frame.draws[chunk.segments[t.segment()].draw].bounds, frame.samples_at);
     x0 = std::min(x0, b.x0 / frame.tile_size);
     y0 = std::min(y0, b.y0 / frame.tile_size);
     x1 = std::max(x1, (b.x1 - 1) / frame.tile_size + 1);

@@ -46,16 +46,24 @@ float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, 
 
 }  // namespace
 
-PixelBounds pixel_bounds(const Triangle& t, const PixelBounds& b) {
+PixelBounds pixel_bounds(const Triangle& t, const PixelBounds& b, const SampleSpan& span) {
   const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
   const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  constexpr int32_t half = kSubPixels / 2;
-  // first centre at or right of x_low, one past the last centre at or left of x_high
-  return {std::max(b.x0, (x_low + half - 1) >> kSubPixelBits), std::max(b.y0, (y_low + half - 1) >> kSubPixelBits),
-          std::min(b.x1, ((x_high - half) >> kSubPixelBits) + 1), std::min(b.y1, ((y_high - half) >> kSubPixelBits) + 1)};
+  constexpr int32_t last = kSubPixels - 1;
+  // first pixel with a sample at or right of x_low, one past the last with a sample at or left of x_high
+  return {std::max(b.x0, (x_low - span.high + last) >> kSubPixelBits), std::max(b.y0, (y_low - span.high + last) >> kSubPixelBits),
+          std::min(b.x1, ((x_high - span.low) >> kSubPixelBits) + 1), std::min(b.y1, ((y_high - span.low) >> kSubPixelBits) + 1)};
 }
 
-Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<const ScreenVertex*, 3>& v,
+PixelBounds pixel_bounds(const Triangle& t, const PixelBounds& b, const SamplePosition& at) {
+  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  constexpr int32_t last = kSubPixels - 1;
+  return {std::max(b.x0, (x_low - at.x + last) >> kSubPixelBits), std::max(b.y0, (y_low - at.y + last) >> kSubPixelBits),
+          std::min(b.x1, ((x_high - at.x) >> kSubPixelBits) + 1), std::min(b.y1, ((y_high - at.y) >> kSubPixelBits) + 1)};
+}
+
+Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 3>& v,
                      const std::array<uint32_t, 3>& index, uint32_t provoking, Triangle& out) {
   const int64_t e1x = v[1]->x - v[0]->x, e1y = v[1]->y - v[0]->y;
   const int64_t e2x = v[2]->x - v[0]->x, e2y = v[2]->y - v[0]->y;
@@ -76,12 +84,12 @@ Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<cons
     out.vertex[i] = index[order[i]];
     if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
   }
-  if (pixel_bounds(out, draw.bounds).empty()) return Cull::no_sample;
+  if (pixel_bounds(out, draw.bounds, frame.samples_at).empty()) return Cull::no_sample;
 
   const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
                          static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
   const float z_max = std::max({v[0]->z, v[1]->z, v[2]->z});
-  const float offset = depth_offset(draw.state.offset, format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
+  const float offset = depth_offset(draw.state.offset, frame.depth_format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
   out.z0 = z_min + offset;
   out.z_max = z_max + offset;
   out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
@@ -132,11 +140,11 @@ Fan fan_of(const ClipVertex* v, uint32_t count) {
 class SegmentSetup {
  public:
   SegmentSetup(const Frame& frame, Chunk& chunk, uint32_t segment)
-      : chunk_(chunk),
+      : frame_(frame),
+        chunk_(chunk),
         segment_(segment),
         draw_(frame.draws[chunk.segments[segment].draw]),
         shaded_(frame.shaded[chunk.segments[segment].draw]),
-        format_(frame.depth_format),
         assembly_(draw_, chunk.segments[segment].first),
         instance_(chunk.segments[segment].instance),
         slot_base_(shaded_.first - instance_ * shaded_.count),
@@ -174,7 +182,7 @@ class SegmentSetup {
 
   Cull append(const std::array<const ScreenVertex*, 3>& v, const std::array<uint32_t, 3>& index, uint32_t flags, uint32_t provoking) {
     Triangle t;
-    const Cull why = set_up_triangle(draw_, format_, v, index, provoking, t);
+    const Cull why = set_up_triangle(draw_, frame_, v, index, provoking, t);
     if (why != Cull::none) return why;
     t.flags |= flags | segment_ << kSegmentShift;
     chunk_.triangles.push_back(t);
@@ -234,11 +242,11 @@ class SegmentSetup {
     }
   }
 
+  const Frame& frame_;
   Chunk& chunk_;
   uint32_t segment_;
   const Draw& draw_;
   const ShadedVertices& shaded_;
-  DepthFormat format_;
   Assembly assembly_;
   uint32_t instance_;
   uint32_t slot_base_;  ///< a vertex's slot is its index less this (modulo 2^32)

@@ -67,6 +67,11 @@ struct Viewport {
   float guard_left, guard_right, guard_bottom, guard_top;  ///< x ≥ guard_left·w, x ≤ guard_right·w, …
 };
 
+/// The least and the largest coordinate, x or y, of any sample in its pixel, in 1/256 px.
+struct SampleSpan {
+  int low = kSubPixels / 2, high = kSubPixels / 2;
+};
+
 /// The pixels a draw may touch, half open.
 struct PixelBounds {
   int x0, y0, x1, y1;
@@ -156,6 +161,7 @@ struct ShaderKernels {
   int varying_count = 0;                          ///< floats per vertex
   int primitive_count = 0;                        ///< floats per triangle
   const Interpolation* interpolations = nullptr;  ///< varying_count entries
+  int color_count = 1;                            ///< colours that the fragment function returns
   bool discards = false;
   bool writes_depth = false;
 };
@@ -178,7 +184,11 @@ struct Draw {
   PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
   float depth_low = 0.0f;  ///< depth range in order
   float depth_high = 1.0f;
-  bool deferred = false;  ///< shaded after visibility, once per visible pixel; else at once, in order
+  bool deferred = false;  ///< shaded after visibility, once per visible pixel: replaces all colours; else shaded at once, in order
+  bool writes_color = false;    ///< some channel of some attachment
+  bool shades_samples = false;  ///< the fragment function runs for each sample, not for each pixel
+  uint32_t sample_mask = 1;     ///< samples that may be drawn
+  std::array<AttachmentState, kMaxColorTargets> attachments{};
 
   uint32_t primitive_count = 0;  ///< of one instance
   std::vector<IndexRun> runs;    ///< those with a primitive in them; empty where no index is a restart
@@ -192,7 +202,9 @@ struct Frame {
   int width = 0, height = 0;  ///< target, px
   int tile_size = 64;
   int tiles_x = 0, tiles_y = 0;
-  DepthFormat depth_format = DepthFormat::none;
+  DepthFormat depth_format = DepthFormat::none;  ///< without its stencil
+  int samples = 1;                               ///< of a pixel
+  SampleSpan samples_at{};
 };
 
 }  // namespace halfspace

@@ -19,7 +19,13 @@ PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   fragments_shaded += o.fragments_shaded;
   tiles_touched += o.tiles_touched;
   flushes += o.flushes;
+  for (std::size_t i = 0; i < o.queries.size(); ++i) add_to_query(i, o.queries[i]);
   return *this;
+}
+
+void PassStatistics::add_to_query(std::size_t query, uint64_t samples) {
+  if (queries.size() <= query) queries.resize(query + 1);
+  queries[query] += samples;
 }
 
 }  // namespace halfspace

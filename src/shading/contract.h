@@ -19,8 +19,11 @@
 //     depth be shaded once per visible pixel like an opaque one.
 //
 // R is float, double or lanes; float and glm::vec3 are uniform, R and vec3<R> vary from pixel to pixel. What fragment
-// returns says what it does: Fragment (colour only), DiscardingFragment, DepthFragment.
+// returns says what it does: Fragment (colour only), DiscardingFragment, DepthFragment; or Fragments<R, N>,
+// DiscardingFragments<R, N>, DepthFragments<R, N> with a colour for each of N attachments.
 #pragma once
+
+#include <array>
 
 #include "shading/pixel.h"
 
@@ -50,6 +53,23 @@ struct DiscardingFragment {
 template <class R>
 struct DepthFragment {
   vec4<R> color;
+  MaskOf<R> keep;
+  R depth;
+};
+
+/// The same with N colours: one an attachment, or the two sources of dual source blending.
+template <class R, std::size_t N>
+struct Fragments {
+  std::array<vec4<R>, N> color;
+};
+template <class R, std::size_t N>
+struct DiscardingFragments {
+  std::array<vec4<R>, N> color;
+  MaskOf<R> keep;
+};
+template <class R, std::size_t N>
+struct DepthFragments {
+  std::array<vec4<R>, N> color;
   MaskOf<R> keep;
   R depth;
 };
@@ -182,10 +202,28 @@ template <class R>
 inline constexpr bool kIsDiscarding<DiscardingFragment<R>> = true;
 template <class R>
 inline constexpr bool kIsDiscarding<DepthFragment<R>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsDiscarding<DiscardingFragments<R, N>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsDiscarding<DepthFragments<R, N>> = true;
 template <class F>
 inline constexpr bool kHasDepth = false;
 template <class R>
 inline constexpr bool kHasDepth<DepthFragment<R>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kHasDepth<DepthFragments<R, N>> = true;
+template <class C>
+inline constexpr std::size_t kColorsIn = 1;
+template <class C, std::size_t N>
+inline constexpr std::size_t kColorsIn<std::array<C, N>> = N;
+template <class R>
+HS_INLINE const vec4<R>& nth_color(const vec4<R>& color, std::size_t) {
+  return color;
+}
+template <class R, std::size_t N>
+HS_INLINE const vec4<R>& nth_color(const std::array<vec4<R>, N>& colors, std::size_t n) {
+  return colors[n];
+}
 }  // namespace detail
 
 /// The shader's per-triangle value, or an empty struct.
@@ -196,6 +234,9 @@ template <class S>
 using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), std::declval<const typename S::template Varyings<float>&>(),
                                                     std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
 
+/// How many colours does the shader return?
+template <class S>
+inline constexpr std::size_t kColors = detail::kColorsIn<decltype(FragmentOf<S>::color)>;
 /// May the shader drop a fragment?
 template <class S>
 inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;

@@ -46,8 +46,6 @@ uint16_t encode_half(float x) {
   return static_cast<uint16_t>(sign | ((static_cast<uint32_t>(exponent + 14) << 10) + mantissa));
 }
 
-int depth_bytes_per_pixel(DepthFormat f) { return f == DepthFormat::none ? 0 : f == DepthFormat::d16 ? 2 : 4; }
-
 template <class T>
 T read(const std::vector<std::byte>& bytes, std::size_t index) {
   T t;
@@ -61,83 +59,147 @@ void write(std::vector<std::byte>& bytes, std::size_t index, T t) {
 
 }  // namespace
 
-Framebuffer::Framebuffer(int width, int height, ColorFormat color, DepthFormat depth)
-    : width_(width), height_(height), color_format_(color), depth_format_(depth) {
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  color_bytes.resize(pixels * static_cast<std::size_t>(bytes_per_pixel(color)));
-  depth_bytes.resize(pixels * static_cast<std::size_t>(depth_bytes_per_pixel(depth)));
+Framebuffer::Framebuffer(int width, int height, std::vector<ColorFormat> colors, DepthFormat depth, int samples)
+    : width_(width), height_(height), samples_(samples), color_formats_(std::move(colors)), depth_format_(depth) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(samples);
+  for (const ColorFormat f : color_formats_) color_bytes.emplace_back(pixels * static_cast<std::size_t>(bytes_per_pixel(f)));
+  depth_bytes.resize(pixels * static_cast<std::size_t>(bytes_per_pixel(depth)));
 }
 
-std::size_t Framebuffer::pixel(int x, int y) const {
-  return static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+std::size_t Framebuffer::pixel(const Sample& s) const {
+  const int row = s.number * height_ + (height_ - 1 - s.y);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(s.x);
 }
 
-void Framebuffer::clear_color(glm::vec4 value) {
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) set_color(x, y, value);
+namespace {
+
+// Calls f for every sample of a framebuffer.
+template <class F>
+void for_each_sample(const Framebuffer& b, F f) {
+  for (int y = 0; y < b.height(); ++y) {
+    for (int x = 0; x < b.width(); ++x) {
+      for (int s = 0; s < b.samples(); ++s) f(Sample{x, y, s});
+    }
   }
 }
 
-void Framebuffer::clear_depth(float value) {
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) set_depth(x, y, depth_value(hold(value, 0.0f, 1.0f)));
-  }
+}  // namespace
+
+void Framebuffer::clear_color(std::size_t attachment, glm::vec4 value) {
+  for_each_sample(*this, [&](const Sample& s) { set_color(attachment, s, value); });
 }
 
-glm::vec4 Framebuffer::color(int x, int y) const {
+void Framebuffer::clear_depth(float value, uint8_t stencil_value) {
+  for_each_sample(*this, [&](const Sample& s) {
+    set_depth(s, depth_value(hold(value, 0.0f, 1.0f)));
+    set_stencil(s, stencil_value);
+  });
+}
+
+glm::vec4 Framebuffer::color(std::size_t attachment, const Sample& s) const {
   glm::vec4 c(0.0f);
+  const std::vector<std::byte>& bytes = color_bytes[attachment];
   for (int k = 0; k < 4; ++k) {
-    const std::size_t i = pixel(x, y) * 4 + static_cast<std::size_t>(k);
-    switch (color_format_) {
+    const std::size_t i = pixel(s) * 4 + static_cast<std::size_t>(k);
+    switch (color_formats_[attachment]) {
       case ColorFormat::none: break;
-      case ColorFormat::rgba8: c[k] = static_cast<float>(read<uint8_t>(color_bytes, i)) / 255.0f; break;
+      case ColorFormat::rgba8: c[k] = static_cast<float>(read<uint8_t>(bytes, i)) / 255.0f; break;
       case ColorFormat::srgb8a8:
-        c[k] = k == 3 ? static_cast<float>(read<uint8_t>(color_bytes, i)) / 255.0f : kSrgbToLinear[read<uint8_t>(color_bytes, i)];
+        c[k] = k == 3 ? static_cast<float>(read<uint8_t>(bytes, i)) / 255.0f : kSrgbToLinear[read<uint8_t>(bytes, i)];
         break;
-      case ColorFormat::rgba16f: c[k] = decode_half(read<uint16_t>(color_bytes, i)); break;
-      case ColorFormat::rgba32f: c[k] = read<float>(color_bytes, i); break;
+      case ColorFormat::rgba16f: c[k] = decode_half(read<uint16_t>(bytes, i)); break;
+      case ColorFormat::rgba32f: c[k] = read<float>(bytes, i); break;
     }
   }
   return c;
 }
 
-void Framebuffer::set_color(int x, int y, glm::vec4 value) {
+void Framebuffer::set_color(std::size_t attachment, const Sample& s, glm::vec4 value) {
+  std::vector<std::byte>& bytes = color_bytes[attachment];
   for (int k = 0; k < 4; ++k) {
-    const std::size_t i = pixel(x, y) * 4 + static_cast<std::size_t>(k);
-    switch (color_format_) {
+    const std::size_t i = pixel(s) * 4 + static_cast<std::size_t>(k);
+    switch (color_formats_[attachment]) {
       case ColorFormat::none: break;
-      case ColorFormat::rgba8: write(color_bytes, i, encode_unorm8(value[k])); break;
+      case ColorFormat::rgba8: write(bytes, i, encode_unorm8(value[k])); break;
       case ColorFormat::srgb8a8:
-        write(color_bytes, i, k == 3 ? encode_unorm8(value[k]) : static_cast<uint8_t>(linear_to_srgb(value[k])));
+        write(bytes, i, k == 3 ? encode_unorm8(value[k]) : static_cast<uint8_t>(linear_to_srgb(value[k])));
         break;
-      case ColorFormat::rgba16f: write(color_bytes, i, encode_half(value[k])); break;
-      case ColorFormat::rgba32f: write(color_bytes, i, value[k]); break;
+      case ColorFormat::rgba16f: write(bytes, i, encode_half(value[k])); break;
+      case ColorFormat::rgba32f: write(bytes, i, value[k]); break;
     }
   }
 }
 
-double Framebuffer::depth(int x, int y) const {
+double Framebuffer::depth(const Sample& s) const {
+  const std::size_t i = pixel(s);
   switch (depth_format_) {
     case DepthFormat::none: break;
-    case DepthFormat::d16: return read<uint16_t>(depth_bytes, pixel(x, y));
-    case DepthFormat::d24: return read<uint32_t>(depth_bytes, pixel(x, y));
-    case DepthFormat::d32f: return static_cast<double>(read<float>(depth_bytes, pixel(x, y)));
+    case DepthFormat::d16: return read<uint16_t>(depth_bytes, i);
+    case DepthFormat::d24: return read<uint32_t>(depth_bytes, i);
+    case DepthFormat::d32f: return static_cast<double>(read<float>(depth_bytes, i));
+    case DepthFormat::d24s8: return read<uint32_t>(depth_bytes, i) / 256;
+    case DepthFormat::d32fs8: return static_cast<double>(read<float>(depth_bytes, 2 * i));
   }
   return 0.0;
 }
 
-void Framebuffer::set_depth(int x, int y, double value) {
+void Framebuffer::set_depth(const Sample& s, double value) {
+  const std::size_t i = pixel(s);
   switch (depth_format_) {
     case DepthFormat::none: break;
-    case DepthFormat::d16: write(depth_bytes, pixel(x, y), static_cast<uint16_t>(value)); break;
-    case DepthFormat::d24: write(depth_bytes, pixel(x, y), static_cast<uint32_t>(value)); break;
-    case DepthFormat::d32f: write(depth_bytes, pixel(x, y), static_cast<float>(value)); break;
+    case DepthFormat::d16: write(depth_bytes, i, static_cast<uint16_t>(value)); break;
+    case DepthFormat::d24: write(depth_bytes, i, static_cast<uint32_t>(value)); break;
+    case DepthFormat::d32f: write(depth_bytes, i, static_cast<float>(value)); break;
+    case DepthFormat::d24s8: write(depth_bytes, i, static_cast<uint32_t>(value) * 256 + stencil(s)); break;
+    case DepthFormat::d32fs8: write(depth_bytes, 2 * i, static_cast<float>(value)); break;
   }
+}
+
+uint8_t Framebuffer::stencil(const Sample& s) const {
+  if (depth_format_ == DepthFormat::d24s8) return read<uint8_t>(depth_bytes, 4 * pixel(s));  // little endian: the low byte
+  if (depth_format_ == DepthFormat::d32fs8) return read<uint8_t>(depth_bytes, 8 * pixel(s) + 4);
+  return 0;
+}
+
+void Framebuffer::set_stencil(const Sample& s, uint8_t value) {
+  if (depth_format_ == DepthFormat::d24s8) write(depth_bytes, 4 * pixel(s), value);
+  if (depth_format_ == DepthFormat::d32fs8) write(depth_bytes, 8 * pixel(s) + 4, value);
+}
+
+Framebuffer Framebuffer::resolved() const {
+  if (samples_ == 1) return *this;
+  Framebuffer to(width_, height_, color_formats_, depth_format_);
+  for_each_sample(to, [&](const Sample& pixel) {
+    for (std::size_t a = 0; a < color_formats_.size(); ++a) {
+      std::vector<glm::vec4> c;
+      for (int s = 0; s < samples_; ++s) c.push_back(color(a, {pixel.x, pixel.y, s}));
+      while (c.size() > 1) {  // neighbours two by two
+        for (std::size_t i = 0; i < c.size() / 2; ++i) c[i] = c[2 * i] + c[2 * i + 1];
+        c.resize(c.size() / 2);
+      }
+      to.set_color(a, pixel, c[0] * (1.0f / static_cast<float>(samples_)));
+    }
+    to.set_depth(pixel, depth(pixel));
+    to.set_stencil(pixel, stencil(pixel));
+  });
+  return to;
+}
+
+Point center_of(int x, int y) { return {int64_t{x} * 256 + 128, int64_t{y} * 256 + 128}; }
+
+Point position_of(const Sample& s, int samples) {
+  // In 1/16 px, from the Vulkan specification's table of standard sample locations.
+  static const std::vector<std::pair<int, int>> two{{12, 12}, {4, 4}}, four{{6, 2}, {14, 6}, {2, 10}, {10, 14}},
+      eight{{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
+  if (samples == 1) return center_of(s.x, s.y);
+  const auto [x, y] = (samples == 2 ? two : samples == 4 ? four : eight)[static_cast<std::size_t>(s.number)];
+  return {int64_t{s.x} * 256 + x * 16, int64_t{s.y} * 256 + y * 16};
 }
 
 double Framebuffer::depth_value(float z) const {
   switch (depth_format_) {
     case DepthFormat::d16: return std::nearbyint(static_cast<double>(z) * 65535.0);  // the products are exact
+    case DepthFormat::d24s8:
     case DepthFormat::d24: return std::nearbyint(static_cast<double>(z) * 16777215.0);
     default: return static_cast<double>(z);
   }
@@ -348,12 +410,18 @@ Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
   return b;
 }
 
-// The pixels whose centres lie in the closed bounding box.
-Box covered_box(const WindowTriangle& t) {
+// The pixels with a sample in the closed bounding box, as far as the samples' own box tells.
+Box covered_box(const WindowTriangle& t, int samples) {
+  double low = 256.0, high = 0.0;
+  for (int s = 0; s < samples; ++s) {
+    const Point p = position_of({0, 0, s}, samples);
+    low = std::fmin(low, static_cast<double>(std::min(p.x, p.y)));
+    high = std::fmax(high, static_cast<double>(std::max(p.x, p.y)));
+  }
   const auto [xl, xh] = std::minmax({t.corner[0].x, t.corner[1].x, t.corner[2].x});
   const auto [yl, yh] = std::minmax({t.corner[0].y, t.corner[1].y, t.corner[2].y});
-  const auto first = [](int64_t v) { return static_cast<int64_t>(std::ceil((static_cast<double>(v) - 128.0) / 256.0)); };
-  const auto last = [](int64_t v) { return static_cast<int64_t>(std::floor((static_cast<double>(v) - 128.0) / 256.0)); };
+  const auto first = [&](int64_t v) { return static_cast<int64_t>(std::ceil((static_cast<double>(v) - high) / 256.0)); };
+  const auto last = [&](int64_t v) { return static_cast<int64_t>(std::floor((static_cast<double>(v) - low) / 256.0)); };
   return {first(xl), first(yl), last(xh) + 1, last(yh) + 1};
 }
 
@@ -401,7 +469,7 @@ float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTrian
   }
   double unit = 1.0 / 16777215.0;
   if (format == DepthFormat::d16) unit = 1.0 / 65535.0;
-  if (format == DepthFormat::d32f || format == DepthFormat::none) {
+  if (format == DepthFormat::d32f || format == DepthFormat::d32fs8 || format == DepthFormat::none) {
     float largest = 0.0f;
     for (const Corner& c : t.corner) largest = std::fmax(largest, std::fabs(c.z));
     unit = std::ldexp(1.0, largest > 0.0f ? std::ilogb(largest) - 23 : -149);
@@ -416,7 +484,7 @@ enum class Fate { drawn, degenerate, wrong_face, no_sample };
 
 // Face, order of corners and depth of a triangle whose corners are given as submitted.
 std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format,
-                                                     const std::array<Corner, 3>& submitted, std::size_t provoking) {
+                                                     int samples, const std::array<Corner, 3>& submitted, std::size_t provoking) {
   WindowTriangle t;
   t.corner = submitted;
   t.flat = submitted[provoking].varyings;
@@ -426,7 +494,7 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   const bool counter_clockwise = t.area > 0;
   t.front = counter_clockwise == (state.front == Winding::counter_clockwise);
   if (culls_face(state.cull, t.front)) return {Fate::wrong_face, t};
-  if (intersect(covered_box(t), allowed).empty()) return {Fate::no_sample, t};
+  if (intersect(covered_box(t, samples), allowed).empty()) return {Fate::no_sample, t};
   if (!counter_clockwise) {
     std::swap(c[1], c[2]);
     t.area = -t.area;
@@ -446,13 +514,13 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
 
 // ---- a pixel of a triangle -----------------------------------------------------------------------------------------
 
-// Is the pixel's centre inside? A centre on an edge belongs to the side where the point lies that is a hair to the right of
+// Is the point inside? One on an edge belongs to the side where the point lies that is a hair to the right of
 // it and, less than that, above it.
-bool covers(const WindowTriangle& t, int64_t x, int64_t y) {
+bool covers(const WindowTriangle& t, const Point& at) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Corner& a = t.corner[i];
     const Corner& b = t.corner[(i + 1) % 3];
-    const int64_t e = cross(b.x - a.x, b.y - a.y, x - a.x, y - a.y);
+    const int64_t e = cross(b.x - a.x, b.y - a.y, at.x - a.x, at.y - a.y);
     const int64_t to_right = -(b.y - a.y), upwards = b.x - a.x;  // how e changes
     const bool inside = e != 0 ? e > 0 : to_right != 0 ? to_right > 0 : upwards > 0;
     if (!inside) return false;
@@ -466,8 +534,6 @@ float determinant(float a, float b, float c, float d) {
   const float lost = std::fma(-c, d, product);
   return std::fma(a, b, -product) + lost;
 }
-
-constexpr int64_t center_of(int pixel) { return int64_t{pixel} * 256 + 128; }
 
 // Extent of a triangle up to which its edge functions are exact whole numbers in the depth sum.
 constexpr int64_t kExactExtent = 63 * 256;
@@ -483,30 +549,30 @@ float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, floa
   return hold(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, hold(t.z_max, low, high));
 }
 
-// The two determinants E1 = d × e2 and E2 = e1 × d in floats, d from corner 0 to the pixel's centre.
-std::pair<float, float> float_determinants(const WindowTriangle& t, int x, int y) {
+// The two determinants E1 = d × e2 and E2 = e1 × d in floats, d from corner 0 to the point.
+std::pair<float, float> float_determinants(const WindowTriangle& t, const Point& at) {
   const auto& c = t.corner;
   const auto f = [](int64_t v) { return static_cast<float>(v); };
-  const float dx = f(center_of(x) - c[0].x), dy = f(center_of(y) - c[0].y);
+  const float dx = f(at.x - c[0].x), dy = f(at.y - c[0].y);
   return {determinant(dx, f(c[2].y - c[0].y), dy, f(c[2].x - c[0].x)), determinant(f(c[1].x - c[0].x), dy, f(c[1].y - c[0].y), dx)};
 }
 
 // The window depth that is tested.
-float tested_depth(const WindowTriangle& t, const DepthState& state, int x, int y) {
+float tested_depth(const WindowTriangle& t, const DepthState& state, const Point& at) {
   if (is_small(t)) {
     const auto& c = t.corner;
-    const int64_t dx = center_of(x) - c[0].x, dy = center_of(y) - c[0].y;
+    const int64_t dx = at.x - c[0].x, dy = at.y - c[0].y;
     const int64_t e1 = cross(dx, dy, c[2].x - c[0].x, c[2].y - c[0].y);
     const int64_t e2 = cross(c[1].x - c[0].x, c[1].y - c[0].y, dx, dy);
     return depth_sum(t, state, static_cast<float>(e1), static_cast<float>(e2));
   }
-  const auto [e1, e2] = float_determinants(t, x, y);
+  const auto [e1, e2] = float_determinants(t, at);
   return depth_sum(t, state, e1, e2);
 }
 
 // ---- blending --------------------------------------------------------------------------------------------------------
 
-float blend_factor(BlendFactor f, const glm::vec4& src, const glm::vec4& dst, int k) {
+float blend_factor(BlendFactor f, const glm::vec4& src, const glm::vec4& src1, const glm::vec4& dst, const glm::vec4& constant, int k) {
   switch (f) {
     case BlendFactor::zero: return 0.0f;
     case BlendFactor::one: return 1.0f;
@@ -518,6 +584,15 @@ float blend_factor(BlendFactor f, const glm::vec4& src, const glm::vec4& dst, in
     case BlendFactor::one_minus_src_alpha: return 1.0f - src.w;
     case BlendFactor::dst_alpha: return dst.w;
     case BlendFactor::one_minus_dst_alpha: return 1.0f - dst.w;
+    case BlendFactor::constant_color: return constant[k];
+    case BlendFactor::one_minus_constant_color: return 1.0f - constant[k];
+    case BlendFactor::constant_alpha: return constant.w;
+    case BlendFactor::one_minus_constant_alpha: return 1.0f - constant.w;
+    case BlendFactor::src_alpha_saturate: return k == 3 ? 1.0f : src.w < 1.0f - dst.w ? src.w : 1.0f - dst.w;
+    case BlendFactor::src1_color: return src1[k];
+    case BlendFactor::one_minus_src1_color: return 1.0f - src1[k];
+    case BlendFactor::src1_alpha: return src1.w;
+    case BlendFactor::one_minus_src1_alpha: return 1.0f - src1.w;
   }
   return 0.0f;
 }
@@ -534,15 +609,47 @@ float blend_channel(BlendEquation equation, float s, float s_factor, float d, fl
   return 0.0f;
 }
 
-glm::vec4 blend(const BlendState& b, const glm::vec4& src, const glm::vec4& dst) {
+glm::vec4 blend(const BlendState& b, const glm::vec4& src, const glm::vec4& src1, const glm::vec4& dst, const glm::vec4& constant) {
   glm::vec4 out;
   for (int k = 0; k < 4; ++k) {
     const bool alpha = k == 3;
-    const float s = blend_factor(alpha ? b.source_alpha : b.source_color, src, dst, k);
-    const float d = blend_factor(alpha ? b.destination_alpha : b.destination_color, src, dst, k);
+    const float s = blend_factor(alpha ? b.source_alpha : b.source_color, src, src1, dst, constant, k);
+    const float d = blend_factor(alpha ? b.destination_alpha : b.destination_color, src, src1, dst, constant, k);
     out[k] = blend_channel(alpha ? b.alpha_equation : b.color_equation, src[k], s, dst[k], d);
   }
   return out;
+}
+
+// ---- tests -----------------------------------------------------------------------------------------------------------
+
+template <class T>
+bool compares(CompareOp op, T a, T b) {
+  switch (op) {
+    case CompareOp::never: return false;
+    case CompareOp::less: return a < b;
+    case CompareOp::equal: return a == b;
+    case CompareOp::less_equal: return a <= b;
+    case CompareOp::greater: return a > b;
+    case CompareOp::not_equal: return a != b;
+    case CompareOp::greater_equal: return a >= b;
+    case CompareOp::always: return true;
+  }
+  return false;
+}
+
+uint8_t stencil_result(const StencilFace& f, StencilOp op, uint8_t stored) {
+  int v = stored;
+  switch (op) {
+    case StencilOp::keep: break;
+    case StencilOp::zero: v = 0; break;
+    case StencilOp::replace: v = f.reference; break;
+    case StencilOp::increment_clamp: v = std::min(stored + 1, 255); break;
+    case StencilOp::decrement_clamp: v = std::max(stored - 1, 0); break;
+    case StencilOp::invert: v = 255 - stored; break;
+    case StencilOp::increment_wrap: v = (stored + 1) % 256; break;
+    case StencilOp::decrement_wrap: v = (stored + 255) % 256; break;
+  }
+  return static_cast<uint8_t>((stored & ~f.write_mask) | (v & f.write_mask));
 }
 
 }  // namespace
@@ -594,11 +701,11 @@ std::array<float, 3> share(const std::array<float, 3>& n) {
 
 }  // namespace
 
-SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, int x, int y) {
+SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, const Point& at) {
   const TriangleLanes<float>& l = s.lanes;
   SurfacePoint p{};
-  p.dx = static_cast<float>(center_of(x)) - l.x0;
-  p.dy = static_cast<float>(center_of(y)) - l.y0;
+  p.dx = static_cast<float>(at.x) - l.x0;
+  p.dy = static_cast<float>(at.y) - l.y0;
   const float e0 = determinant(l.e1x - p.dx, l.e2y - p.dy, l.e1y - p.dy, l.e2x - p.dx);
   const float e1 = determinant(p.dx, l.e2y, p.dy, l.e2x);
   const float e2 = determinant(l.e1x, p.dy, l.e1y, p.dx);
@@ -607,7 +714,7 @@ SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const Dept
   p.weights = {perspective[1], perspective[2], linear[1], linear[2], perspective[0]};
   p.inv_w = p.weights.denominator / l.area * l.q_unscale;
   // Shaders are told the depth by float determinants, also for triangles whose tested depth is by whole numbers.
-  const auto [z1, z2] = float_determinants(t, x, y);
+  const auto [z1, z2] = float_determinants(t, at);
   p.z = depth_sum(t, state, z1, z2);
   return p;
 }
@@ -699,7 +806,7 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
   std::vector<WindowTriangle> pieces;
   Fate last = Fate::drawn;
   for (const std::array<Corner, 3>& c : clipped ? fan(corners) : std::vector<std::array<Corner, 3>>{{corners[0], corners[1], corners[2]}}) {
-    auto [fate, piece] = make_window_triangle(state, allowed, target_.depth_format(), c, clipped ? 0 : provoking);
+    auto [fate, piece] = make_window_triangle(state, allowed, target_.depth_format(), target_.samples(), c, clipped ? 0 : provoking);
     if (fate == Fate::drawn) pieces.push_back(std::move(piece));
     last = fate;
   }
@@ -714,56 +821,87 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
 
 void Renderer::rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade) {
   const Surface surface = make_surface(t, facts.interpolations);
-  const Box box = intersect(covered_box(t), allowed_pixels(target_, state));
+  const Box box = intersect(covered_box(t, target_.samples()), allowed_pixels(target_, state));
   for (int64_t y = box.y0; y < box.y1; ++y) {
     for (int64_t x = box.x0; x < box.x1; ++x) {
-      const int px = static_cast<int>(x), py = static_cast<int>(y);
-      if (covers(t, center_of(px), center_of(py))) draw_fragment(state, facts, t, surface, px, py, shade);
+      draw_pixel(state, facts, t, surface, static_cast<int>(x), static_cast<int>(y), shade);
     }
   }
 }
 
-void Renderer::draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x,
-                             int y, const FragmentFunction& shade) {
-  double z = target_.depth_value(tested_depth(t, state.depth, x, y));
-  if (!facts.writes_depth && !depth_passes(state, x, y, z)) return;
-  const FragmentResult result = shade(t, surface, x, y);
+void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
+                          const FragmentFunction& shade) {
+  std::optional<FragmentResult> of_pixel;
+  for (int i = 0; i < target_.samples(); ++i) {
+    const Sample s{x, y, i};
+    if (!covers(t, position_of(s, target_.samples()))) continue;
+    if (target_.samples() > 1 && (state.sample_mask >> i) % 2 == 0) continue;
+    if (state.sample_shading || supersample_) {
+      draw_sample(state, facts, t, s, shade(t, surface, position_of(s, target_.samples())));
+    } else {
+      if (!of_pixel) of_pixel = shade(t, surface, center_of(x, y));
+      draw_sample(state, facts, t, s, *of_pixel);
+    }
+  }
+}
+
+void Renderer::draw_sample(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Sample& s,
+                           const FragmentResult& result) {
   if (!result.keep) return;
+  const auto samples = static_cast<float>(target_.samples());
+  if (state.alpha_to_coverage && facts.has_fragment && samples > 1.0f && !(result.colors[0].w * samples >= static_cast<float>(s.number) + 0.5f)) return;
+  double z = target_.depth_value(tested_depth(t, state.depth, position_of(s, target_.samples())));
   if (facts.writes_depth) {
     const float low = std::min(state.depth.range_near, state.depth.range_far),
                 high = std::max(state.depth.range_near, state.depth.range_far);
     z = target_.depth_value(hold(result.depth, low, high));
-    if (!depth_passes(state, x, y, z)) return;
   }
+  if (!tests_pass(state, t.front, s, z)) return;
   ++counts_.samples_passed;
-  if (state.depth.test && state.depth.write) target_.set_depth(x, y, z);
-  if (facts.has_fragment) write_color(state, x, y, result.color);
+  if (state.query) counts_.queries[*state.query] += 1;
+  if (state.depth.test && state.depth.write) target_.set_depth(s, z);
+  if (facts.has_fragment) write_colors(state, s, result.colors);
 }
 
-bool Renderer::depth_passes(const DrawState& state, int x, int y, double z) const {
-  if (!state.depth.test || target_.depth_format() == DepthFormat::none) return true;
-  const double stored = target_.depth(x, y);
-  switch (state.depth.compare) {
-    case CompareOp::never: return false;
-    case CompareOp::less: return z < stored;
-    case CompareOp::equal: return z == stored;
-    case CompareOp::less_equal: return z <= stored;
-    case CompareOp::greater: return z > stored;
-    case CompareOp::not_equal: return z != stored;
-    case CompareOp::greater_equal: return z >= stored;
-    case CompareOp::always: return true;
-  }
-  return false;
+bool Renderer::depth_passes(const DrawState& state, const Sample& s, double z) const {
+  return !state.depth.test || target_.depth_format() == DepthFormat::none || compares(state.depth.compare, z, target_.depth(s));
 }
 
-void Renderer::write_color(const DrawState& state, int x, int y, glm::vec4 color) {
-  if (target_.color_format() == ColorFormat::none) return;
-  if (state.blend) {
-    const bool fixed_point = target_.color_format() == ColorFormat::rgba8 || target_.color_format() == ColorFormat::srgb8a8;
-    for (int k = 0; fixed_point && k < 4; ++k) color[k] = hold(color[k], 0.0f, 1.0f);
-    color = blend(*state.blend, color, target_.color(x, y));
+// Stencil, then depth; the stencil remembers what became of the sample.
+bool Renderer::tests_pass(const DrawState& state, bool front, const Sample& s, double z) {
+  if (!state.stencil || !has_stencil(target_.depth_format())) return depth_passes(state, s, z);
+  const StencilFace& f = front ? state.stencil->front : state.stencil->back;
+  const uint8_t stored = target_.stencil(s);
+  const bool stencil_passes = compares(f.compare, f.reference & f.read_mask, stored & f.read_mask);
+  const bool passes = stencil_passes && depth_passes(state, s, z);
+  target_.set_stencil(s, stencil_result(f, !stencil_passes ? f.fail : passes ? f.pass : f.depth_fail, stored));
+  return passes;
+}
+
+void Renderer::write_colors(const DrawState& state, const Sample& s, const std::vector<glm::vec4>& colors) {
+  const glm::vec4 none(0.0f);
+  for (std::size_t i = 0; i < std::min(colors.size(), target_.color_formats().size()); ++i) {
+    const ColorFormat format = target_.color_formats()[i];
+    if (format == ColorFormat::none) continue;
+    const bool own = state.attachments[i].has_value();
+    const std::optional<BlendState>& blending = own ? state.attachments[i]->blend : state.blend;
+    const ColorMask mask = own ? state.attachments[i]->mask : state.color_mask;
+    const glm::vec4 before = target_.color(i, s);
+    glm::vec4 color = colors[i];
+    if (blending) {
+      const auto in_range = [&](glm::vec4 c) {
+        const bool fixed_point = format == ColorFormat::rgba8 || format == ColorFormat::srgb8a8;
+        for (int k = 0; fixed_point && k < 4; ++k) c[k] = hold(c[k], 0.0f, 1.0f);
+        return c;
+      };
+      color = blend(*blending, in_range(color), in_range(colors.size() > 1 ? colors[1] : none), before, in_range(blending->constant));
+    }
+    const std::array<bool, 4> written{mask.r, mask.g, mask.b, mask.a};
+    for (int k = 0; k < 4; ++k) {
+      if (!written[static_cast<std::size_t>(k)]) color[k] = before[k];
+    }
+    target_.set_color(i, s, color);
   }
-  target_.set_color(x, y, color);
 }
 
 }  // namespace halfspace::oracle

@@ -34,39 +34,61 @@ struct Counts {
   uint64_t clipped = 0;
   uint64_t triangles = 0;  ///< triangles of which some sample may be drawn
   uint64_t samples_passed = 0;
+  std::map<uint32_t, uint64_t> queries;
 };
 
-/// Colour and depth images in the targets' formats and layout (top row first), read and written by window coordinates.
+/// A sample of a pixel.
+struct Sample {
+  int x = 0, y = 0;  ///< the pixel, in window coordinates
+  int number = 0;
+};
+
+/// Colour and depth images in the targets' formats and layout (top row first), read and written by window coordinates; with
+/// several samples an image for each, one after the other.
 class Framebuffer {
  public:
-  Framebuffer(int width, int height, ColorFormat color, DepthFormat depth);
+  Framebuffer(int width, int height, std::vector<ColorFormat> colors, DepthFormat depth, int samples = 1);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  ColorFormat color_format() const { return color_format_; }
+  int samples() const { return samples_; }
+  const std::vector<ColorFormat>& color_formats() const { return color_formats_; }
   DepthFormat depth_format() const { return depth_format_; }
 
-  void clear_color(glm::vec4 value);
-  void clear_depth(float value);
+  void clear_color(std::size_t attachment, glm::vec4 value);
+  void clear_depth(float value, uint8_t stencil);
 
-  /// The pixel's colour, decoded.
-  glm::vec4 color(int x, int y) const;
-  void set_color(int x, int y, glm::vec4 value);
-  /// The pixel's depth as the format holds it: a code, or for d32f the depth itself.
-  double depth(int x, int y) const;
-  void set_depth(int x, int y, double value);
+  /// A sample's colour, decoded.
+  glm::vec4 color(std::size_t attachment, const Sample& s) const;
+  void set_color(std::size_t attachment, const Sample& s, glm::vec4 value);
+  /// A sample's depth as the format holds it: a code, or for floats the depth itself.
+  double depth(const Sample& s) const;
+  void set_depth(const Sample& s, double value);
+  uint8_t stencil(const Sample& s) const;
+  void set_stencil(const Sample& s, uint8_t value);
   /// What the format holds for a window depth in [0, 1].
   double depth_value(float z) const;
+  /// One sample a pixel: the mean of the colours, depth and stencil of the first.
+  Framebuffer resolved() const;
 
-  std::vector<std::byte> color_bytes, depth_bytes;
+  std::vector<std::vector<std::byte>> color_bytes;
+  std::vector<std::byte> depth_bytes;
 
  private:
-  std::size_t pixel(int x, int y) const;
+  std::size_t pixel(const Sample& s) const;
 
-  int width_, height_;
-  ColorFormat color_format_;
+  int width_, height_, samples_;
+  std::vector<ColorFormat> color_formats_;
   DepthFormat depth_format_;
 };
+
+/// A point of the window in 1/256 px.
+struct Point {
+  int64_t x = 0, y = 0;
+};
+Point center_of(int x, int y);
+/// Where a sample lies, by the standard positions for that many samples.
+Point position_of(const Sample& s, int samples);
 
 /// A vertex after the vertex function.
 struct ShadedVertex {
@@ -94,7 +116,7 @@ struct WindowTriangle {
 
 /// What the fragment function answered.
 struct FragmentResult {
-  glm::vec4 color{};
+  std::vector<glm::vec4> colors;
   bool keep = true;
   float depth = 0.0f;
 };
@@ -121,7 +143,7 @@ struct SurfacePoint {
 };
 
 Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations);
-SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, int x, int y);
+SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, const Point& at);
 float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, std::size_t component);
 
 /// What a draw reads. A vertex's attributes are its row's; their last instance_components come from the instance's row.
@@ -143,7 +165,7 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
 class Renderer {
  public:
   /// Draws into the framebuffer, which must outlive the renderer.
-  explicit Renderer(Framebuffer& target) : target_(target) {}
+  explicit Renderer(Framebuffer& target, bool supersample = false) : target_(target), supersample_(supersample) {}
 
   template <class S>
   void draw(const S& shader, const Input<S>& input, const DrawState& state);
@@ -154,27 +176,31 @@ class Renderer {
   template <class S>
   void draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance);
 
-  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, int x, int y)>;
+  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Point& at)>;
 
   // A submitted triangle's pieces in the window: none if culled, several if clipped.
   std::vector<WindowTriangle> window_triangles(const DrawState& state, const ShaderFacts& facts,
                                                const std::array<const ShadedVertex*, 3>& v);
   void rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade);
-  void draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
-                     const FragmentFunction& shade);
-  bool depth_passes(const DrawState& state, int x, int y, double z) const;
-  void write_color(const DrawState& state, int x, int y, glm::vec4 color);
+  void draw_pixel(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
+                  const FragmentFunction& shade);
+  void draw_sample(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Sample& s,
+                   const FragmentResult& result);
+  bool depth_passes(const DrawState& state, const Sample& s, double z) const;
+  bool tests_pass(const DrawState& state, bool front, const Sample& s, double z);
+  void write_colors(const DrawState& state, const Sample& s, const std::vector<glm::vec4>& colors);
 
   Framebuffer& target_;
+  bool supersample_;
   Counts counts_;
 };
 
 /// Every pixel of `from` sent through the function (as Pass::post does) into a new framebuffer without depth.
 template <class F>
 Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format) {
-  Framebuffer to(from.width(), from.height(), format, DepthFormat::none);
+  Framebuffer to(from.width(), from.height(), {format}, DepthFormat::none);
   for (int y = 0; y < from.height(); ++y) {
-    for (int x = 0; x < from.width(); ++x) to.set_color(x, y, function(from.color(x, y)));
+    for (int x = 0; x < from.width(); ++x) to.set_color(0, {x, y, 0}, function(from.color(0, {x, y, 0})));
   }
   return to;
 }
@@ -198,10 +224,10 @@ T struct_of(const std::vector<float>& components) {
 
 template <class S>
 FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, const WindowTriangle& t, const Surface& s,
-                           const DepthState& state, int x, int y) {
+                           const DepthState& state, const Point& at) {
   using V = typename S::template Varyings<float>;
   constexpr std::size_t n = kComponents<V>;
-  const SurfacePoint p = surface_point(s, t, state, x, y);
+  const SurfacePoint p = surface_point(s, t, state, at);
   ComponentLanes<float, n> components{};
   std::array<float, n> values{};
   for (std::size_t i = 0; i < n; ++i) {
@@ -211,8 +237,8 @@ FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, c
     values[i] = component_at(s, p, kInterpolations<V>[i], i);
   }
   Pixel<float> px;
-  px.x = static_cast<float>(x) + 0.5f;
-  px.y = static_cast<float>(y) + 0.5f;
+  px.x = static_cast<float>(at.x) / 256.0f;
+  px.y = static_cast<float>(at.y) / 256.0f;
   px.z = p.z;
   px.inv_w = p.inv_w;
   px.front_facing = t.front;
@@ -221,12 +247,12 @@ FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, c
   px.weights = p.weights;
   px.dx = p.dx;
   px.dy = p.dy;
-  px.quad_x = static_cast<float>(x % 2);
-  px.quad_y = static_cast<float>(y % 2);
+  px.quad_x = static_cast<float>(at.x / 256 % 2);
+  px.quad_y = static_cast<float>(at.y / 256 % 2);
   FragmentResult result;
   if constexpr (HasFragmentFunction<S>) {
     const auto fragment = call_fragment<S, float>(shader, from_components<V, float>(values), face, px);
-    result.color = fragment.color;
+    for (std::size_t i = 0; i < kColors<S>; ++i) result.colors.push_back(halfspace::detail::nth_color(fragment.color, i));
     if constexpr (kDiscards<S>) result.keep = fragment.keep;
     if constexpr (kWritesDepth<S>) result.depth = fragment.depth;
   }
@@ -276,8 +302,8 @@ void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawS
                               detail::struct_of<V>(v[2]->varyings));
     }
     for (const WindowTriangle& t : window_triangles(state, facts, v)) {
-      rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, int x, int y) {
-        return detail::call_shader(shader, face, triangle, surface, state.depth, x, y);
+      rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Point& at) {
+        return detail::call_shader(shader, face, triangle, surface, state.depth, at);
       });
     }
   }

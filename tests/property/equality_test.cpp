@@ -61,6 +61,7 @@ std::string statistics_difference(const PassStatistics& s, const oracle::Counts&
   check("clipped", s.clipped, c.clipped);
   check("triangles_binned", s.triangles_binned, c.triangles);
   check("samples_passed", s.samples_passed, c.samples_passed);
+  for (const auto& [query, samples] : c.queries) check("a query", s.queries.at(query), samples);
   return out;
 }
 

@@ -217,7 +217,7 @@ void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& rand
 
 namespace {
 
-constexpr int kCompareOps = 8, kBlendFactors = 10, kBlendEquations = 5;
+constexpr int kCompareOps = 8, kBlendFactors = 15, kBlendEquations = 5, kStencilOps = 8;
 
 Rect random_rect(int width, int height, Random& random) {
   const int x = random.between(-width / 4, width * 3 / 4);
@@ -237,7 +237,56 @@ BlendState random_blend(Random& random) {
   b.alpha_equation = equation();
   b.source_alpha = factor();
   b.destination_alpha = factor();
+  b.constant = {random.real(-0.2f, 1.2f), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
   return b;
+}
+
+ColorMask random_mask(Random& random) {
+  ColorMask m;
+  m.r = !random.once_in(3);
+  m.g = !random.once_in(3);
+  m.b = !random.once_in(3);
+  m.a = !random.once_in(3);
+  return m;
+}
+
+StencilFace random_stencil_face(Random& random) {
+  const auto op = [&] { return static_cast<StencilOp>(random.below(kStencilOps)); };
+  StencilFace f;
+  if (!random.once_in(3)) f.compare = static_cast<CompareOp>(random.below(kCompareOps));
+  if (!random.once_in(3)) f.fail = op();
+  if (!random.once_in(3)) f.depth_fail = op();
+  if (!random.once_in(4)) f.pass = op();
+  f.reference = static_cast<uint8_t>(random.pick({0, 1, 2, 127, 128, 255}));
+  f.read_mask = static_cast<uint8_t>(random.pick({255, 255, 1, 0xf0, 0}));
+  f.write_mask = static_cast<uint8_t>(random.pick({255, 255, 1, 0x3c, 0}));
+  return f;
+}
+
+// What comes after coverage: stencil, masks, a state for each attachment, dual sources, samples, queries.
+void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawState& s) {
+  if (!random.once_in(3)) {
+    s.stencil.emplace();
+    s.stencil->front = random_stencil_face(random);
+    s.stencil->back = random.once_in(2) ? s.stencil->front : random_stencil_face(random);
+  }
+  if (random.once_in(3)) s.color_mask = random_mask(random);
+  for (std::size_t i = 0; i <= scene.more_colors.size(); ++i) {
+    if (!random.once_in(5)) continue;
+    s.attachments[i].emplace();
+    s.attachments[i]->mask = random_mask(random);
+    if (random.once_in(2)) s.attachments[i]->blend = random_blend(random);
+  }
+  if (dual_sources && scene.more_colors.empty() && random.once_in(2)) {
+    s.blend = random_blend(random);
+    s.blend->source_color = random.pick({BlendFactor::src1_color, BlendFactor::one_minus_src1_alpha});
+    s.blend->destination_color = random.pick({BlendFactor::one_minus_src1_color, BlendFactor::src1_alpha});
+    s.blend->destination_alpha = random.pick({BlendFactor::one_minus_src1_color, BlendFactor::src1_alpha});
+  }
+  if (random.once_in(4)) s.sample_shading = true;
+  if (random.once_in(5)) s.alpha_to_coverage = true;
+  if (random.once_in(5)) s.sample_mask = random.bits();
+  if (random.once_in(3)) s.query = static_cast<uint32_t>(random.below(3));
 }
 
 // Mostly a test that something can pass against the cleared depth.
@@ -296,14 +345,20 @@ glm::mat4 random_matrix(Random& random) {
 
 // Fills the images that the pass loads. Floats are finite and not too large, depths in [0, 1].
 void fill_images(Scene& s, Random& random) {
-  oracle::Framebuffer f(s.width, s.height, s.color.format, s.depth.format);
+  std::vector<ColorFormat> formats{s.color.format};
+  for (const ColorTarget& c : s.more_colors) formats.push_back(c.format);
+  oracle::Framebuffer f(s.width, s.height, formats, s.depth.format);
   for (int y = 0; y < s.height; ++y) {
     for (int x = 0; x < s.width; ++x) {
-      f.set_color(x, y, glm::vec4{random.real(0, 1), random.real(0, 1), random.real(0, 2), random.real(0, 1)});
-      f.set_depth(x, y, f.depth_value(random.real(0, 1)));
+      for (std::size_t i = 0; i < formats.size(); ++i) {
+        f.set_color(i, {x, y, 0}, glm::vec4{random.real(0, 1), random.real(0, 1), random.real(0, 2), random.real(0, 1)});
+      }
+      f.set_depth({x, y, 0}, f.depth_value(random.real(0, 1)));
+      f.set_stencil({x, y, 0}, static_cast<uint8_t>(random.below(256)));
     }
   }
-  s.color_before = f.color_bytes;
+  s.color_before = f.color_bytes[0];
+  s.more_before.assign(f.color_bytes.begin() + 1, f.color_bytes.end());
   s.depth_before = f.depth_bytes;
 }
 
@@ -375,7 +430,32 @@ SceneDraw random_primitives(bool depth_only, const Geometry& g, const DrawState&
   }
 }
 
-SceneDraw random_draw(Theme theme, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+template <class S>
+SceneDraw operations_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
+  bool dual_sources = false;
+  if constexpr (HasFragmentFunction<S>) dual_sources = kColors<S> > 1;
+  add_operations(scene, dual_sources, random, state);
+  return shader_draw(shader, name, g, state, random);
+}
+
+SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  const float value = random.real(0.05f, 0.4f);
+  if (scene.color.format == ColorFormat::none || random.once_in(12)) return operations_draw(DepthShader{matrix}, "DepthShader", scene, g, state, random);
+  switch (random.below(10)) {
+    case 0: return operations_draw(ColorShader{matrix, 1.0f}, "ColorShader", scene, g, state, random);
+    case 1: return operations_draw(CutoutShader<false>{value}, "CutoutShader", scene, g, state, random);
+    case 2: return operations_draw(CutoutShader<true>{value}, "CutoutShader with visibility", scene, g, state, random);
+    case 3: return operations_draw(BumpShader<false>{value}, "BumpShader", scene, g, state, random);
+    case 4: return operations_draw(BumpShader<true>{value}, "BumpShader with visibility", scene, g, state, random);
+    case 5: return operations_draw(DerivativeShader{}, "DerivativeShader", scene, g, state, random);
+    case 6: return operations_draw(PixelShader{matrix, glm::vec4{value, 1, 1, 0.75f}}, "PixelShader", scene, g, state, random);
+    case 7: return operations_draw(ManyColorsShader<2>{value}, "ManyColorsShader<2>", scene, g, state, random);
+    default: return operations_draw(ManyColorsShader<4>{value}, "ManyColorsShader<4>", scene, g, state, random);
+  }
+}
+
+SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  if (theme == Theme::operations || theme == Theme::samples) return random_operations(scene, g, state, matrix, random);
   if (theme == Theme::primitives && !random.once_in(4)) return random_primitives(depth_only, g, state, matrix, random);
   if (depth_only) return shader_draw(DepthShader{matrix}, "DepthShader", g, state, random);
   const bool themed = !random.once_in(3);
@@ -398,6 +478,22 @@ SceneDraw random_draw(Theme theme, bool depth_only, const Geometry& g, const Dra
   }
 }
 
+// Stencil, more colours, more samples.
+void add_attachments(Theme theme, bool depth_only, Random& random, Scene& s) {
+  s.depth.format = random.pick({DepthFormat::d24s8, DepthFormat::d32fs8, DepthFormat::d32fs8, DepthFormat::d24});
+  s.depth.stencil_clear_value = static_cast<uint8_t>(random.pick({0, 0, 1, 128, 255}));
+  for (int i = depth_only ? 0 : random.pick({0, 0, 1, 3}); i > 0; --i) {
+    ColorTarget c;
+    c.format = random.pick({ColorFormat::none, ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+    c.clear_value = {random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
+    s.more_colors.push_back(c);
+  }
+  if (theme == Theme::samples) {
+    s.samples = random.pick({2, 4, 4, 8});
+    s.supersample = random.once_in(6);
+  }
+}
+
 }  // namespace
 
 Scene random_scene(Theme theme, uint64_t seed) {
@@ -413,9 +509,11 @@ Scene random_scene(Theme theme, uint64_t seed) {
   s.depth.format = random.pick({DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16, DepthFormat::none});
   s.color.clear_value = {random.real(0, 1), random.real(0, 1), random.real(-0.5f, 1.5f), random.real(0, 1)};
   s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});
+  if (theme == Theme::operations || theme == Theme::samples) add_attachments(theme, depth_only, random, s);
   if (random.once_in(4)) {
     fill_images(s, random);
     s.color.load = s.depth.load = LoadOp::load;
+    for (ColorTarget& c : s.more_colors) c.load = LoadOp::load;
   }
   if (!depth_only && random.once_in(4)) {
     s.post_format = random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
@@ -440,7 +538,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
       state.offset = {};
       state.depth.compare = random.pick({CompareOp::equal, CompareOp::equal, CompareOp::not_equal, CompareOp::greater_equal});
     }
-    s.draws.push_back(random_draw(theme, depth_only, g, state, matrix, random));
+    s.draws.push_back(random_draw(theme, s, depth_only, g, state, matrix, random));
   }
   return s;
 }

@@ -27,9 +27,13 @@ struct SceneDraw {
 
 struct Scene {
   int width = 1, height = 1;
+  int samples = 1;
+  bool supersample = false;
   ColorTarget color;  ///< data is filled in by run_pass
   DepthTarget depth;
+  std::vector<ColorTarget> more_colors;               ///< attachments 1, 2 and 3; they have images
   std::vector<std::byte> color_before, depth_before;  ///< what the images hold before the pass
+  std::vector<std::vector<std::byte>> more_before;
   std::vector<SceneDraw> draws;
   bool has_color_image = true;  ///< else the colour is seen through the post step alone
   bool has_depth_image = true;
@@ -39,6 +43,7 @@ struct Scene {
 /// What is seen of a scene afterwards.
 struct Pictures {
   std::vector<std::byte> color, depth, post;
+  std::vector<std::vector<std::byte>> more;
   friend bool operator==(const Pictures&, const Pictures&) = default;
 };
 

@@ -296,6 +296,44 @@ struct InstanceShader {
   }
 };
 
+/// N colours, one of which may be the other source of blending; discards in stripes.
+template <std::size_t N>
+struct ManyColorsShader {
+  float width = 0.2f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> a;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.a = in.a;
+    return in.position;
+  }
+  template <class R>
+  DiscardingFragments<R, N> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    DiscardingFragments<R, N> out;
+    for (std::size_t i = 0; i < N; ++i) {
+      const R n(static_cast<float>(i) * 0.25f);
+      out.color[i] = held(vec4<R>(in.a.x + n, in.a.y * n, in.a.z, in.a.w - n), 8.0f);
+    }
+    out.keep = keeps(in, px);
+    return out;
+  }
+  template <class R>
+  MaskOf<R> keeps(const Varyings<R>& in, const Pixel<R>&) const {
+    return abs(in.a.x - R(0.5f)) > R(width);
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {keeps(in, px), px.z};
+  }
+};
+
 /// Depth alone; its positions are those of ColorShader.
 struct DepthShader {
   glm::mat4 clip_from_model{1.0f};
