@@ -10,6 +10,7 @@ namespace {
 // Primitives that n indices make.
 std::size_t primitives_of(Topology topology, std::size_t n) {
   switch (topology) {
+    case Topology::points: return n;
     case Topology::triangles: return n / 3;
     case Topology::triangle_strip:
     case Topology::triangle_fan: return n < 3 ? 0 : n - 2;
@@ -53,6 +54,7 @@ std::array<uint32_t, 3> Assembly::next_of_run() {
   const auto at = [&](uint32_t place) { return list[std::size_t{first_index_} + place]; };
   const bool first_provokes = draw_.state.provoking == ProvokingVertex::first;
   switch (topology_) {
+    case Topology::points: return {at(i), at(i), at(i)};
     case Topology::triangles: return {at(3 * i), at(3 * i + 1), at(3 * i + 2)};
     case Topology::triangle_strip:
       if (i % 2 == 0) return {at(i), at(i + 1), at(i + 2)};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Primitive assembly. In: a draw's index list. Out: the three indices of each triangle, in the order in which they count as
-// submitted: the provoking vertex is the first or the last of them, as the state says (OpenGL 4.6, table 13.2).
+// submitted: the provoking vertex is the first or the last of them, as the state says (OpenGL 4.6, table 13.2). A point has
+// its one index thrice.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ class Assembly {
   /// Begins at a primitive below d.primitive_count.
   Assembly(const Draw& d, uint32_t primitive) : draw_(d), topology_(d.state.topology) { begin_run(primitive); }
 
-  /// The indices of the next triangle.
+  /// The indices of the next primitive.
   HS_INLINE std::array<uint32_t, 3> next() {
     const Indices& list = *draw_.indices;
     if (topology_ == Topology::triangles && draw_.runs.empty()) {

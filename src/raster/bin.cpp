@@ -27,7 +27,7 @@ void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& b, uin
   const int size = frame.tile_size;
   const int x0 = b.x0 / size, x1 = (b.x1 - 1) / size;
   const int y0 = b.y0 / size, y1 = (b.y1 - 1) / size;
-  const bool one_row = x0 == x1 || y0 == y1;
+  const bool one_row = x0 == x1 || y0 == y1 || t.is(kSprite);
   const std::array<Edge, 3> edges{edge_of(t, 0), edge_of(t, 1), edge_of(t, 2)};
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {

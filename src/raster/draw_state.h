@@ -28,7 +28,10 @@ constexpr Rect intersect(const Rect& a, const Rect& b) {
 
 /// How indices make primitives (OpenGL 4.6, section 10.1). Of a strip every other triangle has its first two vertices swapped,
 /// so that all face one way.
-enum class Topology : uint8_t { triangles, triangle_strip, triangle_fan };
+enum class Topology : uint8_t { triangles, triangle_strip, triangle_fan, points };
+
+/// Where a point's coordinate (0, 0) lies (GL_POINT_SPRITE_COORD_ORIGIN).
+enum class PointOrigin : uint8_t { upper_left, lower_left };
 
 enum class CompareOp : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class CullMode : uint8_t { none, front, back, front_and_back };
@@ -137,6 +140,8 @@ struct DrawState {
   Topology topology = Topology::triangles;
   int32_t base_vertex = 0;  ///< added to every index
   uint32_t instances = 1;   ///< the draw is repeated this many times; see VertexId and per_instance()
+  float point_size = 1.0f;  ///< px, where the vertex function gives none: the side of the square that a point covers
+  PointOrigin point_origin = PointOrigin::upper_left;
   std::optional<Rect> viewport{};  ///< default: the whole target
   std::optional<Rect> scissor{};   ///< default: no scissor test
   CullMode cull = CullMode::none;
@@ -153,5 +158,8 @@ struct DrawState {
   std::array<std::optional<AttachmentState>, kMaxColorTargets> attachments{};  ///< where given, instead of blend and color_mask
   std::optional<uint32_t> query{};  ///< an occlusion query: samples that pass are counted in PassStatistics::queries[query]
 };
+
+/// Are there points among what is drawn?
+constexpr bool draws_points(const DrawState& s) { return s.topology == Topology::points; }
 
 }  // namespace halfspace

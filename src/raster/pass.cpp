@@ -40,7 +40,7 @@ void check_rect(const Rect& r, int smallest) {
 
 }  // namespace
 
-Pass::Pass(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options)
+Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options)
     : colors_(colors.begin(), colors.end()), depth_(depth), options_(options) {
   HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize);
   HS_CHECK(options.tile_size == 8 || options.tile_size == 16 || options.tile_size == 32 || options.tile_size == 64);

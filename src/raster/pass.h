@@ -8,6 +8,7 @@
 //   PassStatistics statistics = pass.run(workers);
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <memory>
 #include <span>
@@ -48,6 +49,8 @@ ShaderKernels kernels_of() {
   ShaderKernels k;
   k.vertex = vertex_kernel<S, true>;
   k.position = vertex_kernel<S, false>;
+  k.gives_point_size = kGivesPointSize<S>;
+  k.gives_sprite = kGivesSprite<S>;
   k.varying_count = static_cast<int>(kComponents<V>);
   k.interpolations = kInterpolations<V>.data();
   if constexpr (HasPrimitive<S>) {
@@ -70,9 +73,12 @@ class Pass {
  public:
   /// width, height: 1 … 16384 px, the size of every target. Targets' images must outlive the pass.
   /// Up to kMaxColorTargets colours: the fragment function's n-th goes to the n-th, which keeps what it has where there is none.
-  Pass(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options = {});
+  template <class Colors>
+  requires std::convertible_to<const Colors&, std::span<const ColorTarget>>
+  Pass(int width, int height, const Colors& colors, const DepthTarget& depth, const PassOptions& options = {})
+      : Pass(std::span<const ColorTarget>(colors), width, height, depth, options) {}
   Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {})
-      : Pass(width, height, std::span(&color, 1), depth, options) {}
+      : Pass(std::span(&color, 1), width, height, depth, options) {}
 
   /// Adds a draw. The shader is copied; the vertices' and indices' memory, and whatever the shader points to, must stay
   /// unchanged until run() returns. Indices that make no whole primitive are ignored, as GL does.
@@ -104,6 +110,8 @@ class Pass {
   PassStatistics run(const Workers& workers);
 
  private:
+  Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options);
+
   template <class S>
   void add(const S& shader, const VertexView& vertices, std::shared_ptr<const Indices> indices, const DrawState& state) {
     HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<typename S::template Attributes<float>>));

@@ -16,6 +16,9 @@ namespace {
 // at most (63 + 64)·256 < 2^15 sub-pixels from a vertex, times an edge of at most 63·256 < 2^14, twice: below 2^30.
 constexpr int32_t kSmallExtent = 63 * kSubPixels;
 
+// A point with a smaller w (kMinW of the vertex stage) is behind the eye or in it.
+constexpr float kLargestInvW = 0x1p96f;
+
 // The smallest depth step that makes a difference: OpenGL 4.6, section 14.6.5.
 double smallest_depth_step(DepthFormat format, float largest_z) {
   switch (format) {
@@ -150,7 +153,21 @@ class SegmentSetup {
         slot_base_(shaded_.first - instance_ * shaded_.count),
         provoking_(draw_.state.provoking == ProvokingVertex::first ? 0 : 2) {}
 
-  void submit() {
+  void submit_point() {
+    ++chunk_.statistics.primitives_in;
+    const uint32_t id = assembly_.next()[0] - slot_base_;
+    const Outcode code = shaded_.outcodes[id];
+    const float w_sign = shaded_.screen[id].inv_w;
+    if (code & kOutNonFinite) {
+      ++chunk_.statistics.culled_non_finite;
+    } else if ((code & (kOutNear | kOutFar)) != 0 || !(w_sign > 0.0f && w_sign <= kLargestInvW)) {
+      ++chunk_.statistics.culled_outside;
+    } else {
+      count(append_point(id), 1);
+    }
+  }
+
+  void submit_triangle() {
     ++chunk_.statistics.primitives_in;
     std::array<uint32_t, 3> id = assembly_.next();
     Outcode any = 0;
@@ -189,12 +206,23 @@ class SegmentSetup {
     return Cull::none;
   }
 
+  Cull append_point(uint32_t id) {
+    const SpriteRect& r = shaded_.sprites[id];
+    const ScreenVertex& v = shaded_.screen[id];
+    if (r.x0 >= r.x1 || r.y0 >= r.y1) return Cull::degenerate;
+    Triangle t{.x = {r.x0, r.x1 - 1, r.x0}, .y = {r.y0, r.y1 - 1, r.y0}, .z0 = v.z, .z_edge1 = 0, .z_edge2 = 0, .z_max = v.z,
+               .vertex = {id, id, id}, .flags = kSprite | kSmall | kFrontFacing | segment_ << kSegmentShift};
+    if (pixel_bounds(t, draw_.bounds, frame_.samples_at).empty()) return Cull::no_sample;
+    chunk_.triangles.push_back(t);
+    return Cull::none;
+  }
+
   void clip(const std::array<uint32_t, 3>& id) {
     alignas(64) std::array<float, 4 * kVertexBatch> rows{};
     const std::array<uint32_t, 3> index{id[0] + slot_base_, id[1] + slot_base_, id[2] + slot_base_};
     const VertexView view = at_instance(draw_.vertices, instance_);
     draw_.kernels.position(draw_.shader.get(), {&view, index.data(), 0, 3, 0, draw_.state.base_vertex, static_cast<int32_t>(instance_),
-                                                nullptr, rows.data()});
+                                                nullptr, rows.data(), nullptr});
     std::array<glm::vec4, 3> pos_clip;
     for (std::size_t i = 0; i < 3; ++i) {
       pos_clip[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
@@ -260,7 +288,8 @@ void set_up_chunk(const Frame& frame, Chunk& chunk) {
     Segment& segment = chunk.segments[s];
     segment.first_triangle = static_cast<uint32_t>(chunk.triangles.size());
     SegmentSetup setup(frame, chunk, s);
-    for (uint32_t i = 0; i < segment.count; ++i) setup.submit();
+    const bool points = frame.draws[segment.draw].state.topology == Topology::points;
+    for (uint32_t i = 0; i < segment.count; ++i) points ? setup.submit_point() : setup.submit_triangle();
   }
   chunk.statistics.triangles_binned = chunk.triangles.size();
 }

@@ -4,16 +4,18 @@
 #include <algorithm>
 
 #include "raster/output.h"
+#include "raster/sprite.h"
 
 namespace halfspace {
 
-TriangleSource find_triangle(const Frame& frame, TriangleId id) {
+void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
   const Chunk& chunk = frame.chunks[id >> 16];
   const uint32_t index = id & 0xffff;
   const Triangle& t = chunk.triangles[index];
   const Segment& segment = chunk.segments[t.segment()];
   const Draw& draw = frame.draws[segment.draw];
-  TriangleSource s{&t, {}, {}, nullptr, nullptr};
+  s.triangle = &t;
+  s.primitive = nullptr;
   if (t.is(kClipped)) {
     for (std::size_t i = 0; i < 3; ++i) {
       const ClipVertex& v = chunk.clip_vertices[t.vertex[i]];
@@ -27,12 +29,15 @@ TriangleSource find_triangle(const Frame& frame, TriangleId id) {
       s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
     }
   }
+  if (t.is(kSprite)) {
+    s.corners = sprite_corners(t, *s.vertex[0], draw.state.point_origin);
+    for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
+  }
   s.flat_varyings = s.varyings[t.provoking()];
   if (draw.kernels.primitive_count != 0) {
     const std::size_t row = index - segment.first_triangle;
     s.primitive = chunk.primitives.data() + segment.first_primitive + row * static_cast<std::size_t>(draw.kernels.primitive_count);
   }
-  return s;
 }
 
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile) {

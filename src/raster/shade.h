@@ -47,11 +47,12 @@ struct FragmentBatch {
 struct TriangleSource {
   const Triangle* triangle;
   std::array<const ScreenVertex*, 3> vertex;
+  std::array<ScreenVertex, 3> corners;  ///< what vertex points to, of a point
   std::array<const float*, 3> varyings;
   const float* flat_varyings;  ///< the provoking vertex's row
   const float* primitive;      ///< the primitive stage's row, or null
 };
-TriangleSource find_triangle(const Frame& frame, TriangleId id);
+void find_triangle(const Frame& frame, TriangleId id, TriangleSource& out);
 
 /// Shades all pixels of the tile that wait for it, and writes their colours.
 void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
@@ -122,7 +123,8 @@ struct PacketTriangles {
 /// values; the others to the lanes of m.
 template <class V, bool first, std::size_t N, std::size_t P>
 HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketTriangles<N, P>& out) {
-  const TriangleSource source = find_triangle(frame, id);
+  TriangleSource source;
+  find_triangle(frame, id, source);
   const TriangleScalars<N> s = triangle_scalars<V>(source);
   const auto put = [=](Real& to, float value) {
     if constexpr (first) {

@@ -41,6 +41,11 @@ struct ScreenVertex {
   float inv_w;   ///< 1 / w_clip
 };
 
+/// What a point covers: samples with x0 ≤ x < x1 and y0 ≤ y < y1, in 24.8 fixed point, held to ±2^28.
+struct SpriteRect {
+  int32_t x0, y0, x1, y1;
+};
+
 using Outcode = uint8_t;
 inline constexpr Outcode kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 8, kOutNear = 16, kOutFar = 32;
 inline constexpr Outcode kOutGuard = 64;       ///< beyond the guard band, or w too small: no window position
@@ -55,6 +60,7 @@ struct ShadedVertices {
   std::unique_ptr<ScreenVertex[]> screen;  ///< uninitialized where no index refers to it
   std::unique_ptr<Outcode[]> outcodes;
   std::unique_ptr<float[]> varyings;
+  std::unique_ptr<SpriteRect[]> sprites;  ///< of points alone
 };
 
 // ---- the viewport transform ------------------------------------------------------------------------------------
@@ -84,9 +90,11 @@ inline constexpr uint32_t kFrontFacing = 1;     ///< the triangle faces front
 inline constexpr uint32_t kClipped = 2;         ///< vertex[] index the chunk's clip vertices
 inline constexpr uint32_t kSmall = 4;           ///< every edge function fits in int32 without a shift
 inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: which of vertex[] is the provoking vertex
+inline constexpr uint32_t kSprite = 32;         ///< a point: see Triangle
 inline constexpr uint32_t kSegmentShift = 8;    ///< the rest: which segment of the chunk
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
+/// A point (kSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
 struct Triangle {
   std::array<int32_t, 3> x, y;  ///< snapped, 24.8
   float z0;                     ///< depth at vertex 0, offset included
@@ -161,6 +169,8 @@ struct ShaderKernels {
   int varying_count = 0;                          ///< floats per vertex
   int primitive_count = 0;                        ///< floats per triangle
   const Interpolation* interpolations = nullptr;  ///< varying_count entries
+  bool gives_point_size = false;                  ///< the vertex function does
+  bool gives_sprite = false;                      ///< and bounds of points
   int color_count = 1;                            ///< colours that the fragment function returns
   bool discards = false;
   bool writes_depth = false;

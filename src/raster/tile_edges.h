@@ -39,7 +39,8 @@ struct TileEdges {
 };
 
 inline TileEdges tile_edges(const Triangle& t, const SampleGrid& grid, int tile_size) {
-  TileEdges r;
+  TileEdges r{};
+  if (t.is(kSprite)) return r;  // its bounds say all
   const int64_t x = grid.x_sub(), y = grid.y_sub();
   const bool small = t.is(kSmall);
   const int64_t last = tile_size - 1;

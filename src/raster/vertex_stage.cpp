@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/vertex_stage.h"
 
+#include "raster/sprite.h"
+
 namespace halfspace {
 
 namespace {
@@ -90,12 +92,15 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.screen.reset(new ScreenVertex[n]);  // not make_unique: rows that no index uses need no initialization
   out.outcodes.reset(new Outcode[n]);
   out.varyings.reset(new float[n * static_cast<std::size_t>(out.varying_count)]);
+  if (draws_points(draw.state)) out.sprites.reset(new SpriteRect[n]);
 }
 
 void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
   alignas(64) std::array<float, 4 * kVertexBatch> clip{};
   std::array<ScreenVertex, kVertexBatch> screen;
   std::array<Outcode, kVertexBatch> outcodes;
+  alignas(64) std::array<float, kMostExtraRows * kVertexBatch> extra;
+  std::array<SpriteRect, kVertexBatch> sprites;
   const std::span<const uint32_t> used = draw.indices->used();
   const std::size_t per_instance = draw.indices->used_count();
   VertexView instance_view;
@@ -113,14 +118,19 @@ void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Shaded
     const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
     draw.kernels.vertex(draw.shader.get(),
                         {view, ids, out.first + static_cast<uint32_t>(local), count, slot_base, draw.state.base_vertex,
-                         static_cast<int32_t>(instance), out.varyings.get(), clip.data()});
+                         static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
     if (ids == nullptr) {
       const std::size_t slot = std::size_t{instance} * out.count + local;
-      project(draw, clip.data(), count, out.screen.get() + slot, out.outcodes.get() + slot);
+      ScreenVertex* to = out.screen.get() + slot;
+      Outcode* codes = out.outcodes.get() + slot;
+      project(draw, clip.data(), count, to, codes);
+      if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, to, codes, out.sprites.get() + slot);
       continue;
     }
     project(draw, clip.data(), count, screen.data(), outcodes.data());
+    if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
     for (int i = 0; i < count; ++i) {
+      if (out.sprites) out.sprites[ids[i] - slot_base] = sprites[static_cast<std::size_t>(i)];
       out.screen[ids[i] - slot_base] = screen[static_cast<std::size_t>(i)];
       out.outcodes[ids[i] - slot_base] = outcodes[static_cast<std::size_t>(i)];
     }

@@ -23,7 +23,9 @@ struct VertexBatch {
   int32_t instance;      ///< all vertices are of this one
   float* varyings;     ///< null for the position kernel
   float* clip;         ///< out: x, y, z, w of clip space as four rows of kVertexBatch
+  float* extra;        ///< out, or null: a row for the point size, or four for a sprite's low x, low y, high x, high y
 };
+inline constexpr int kMostExtraRows = 4;
 
 /// The transform of a draw's clip space to the window. viewport in pixels; depth range as in DepthState.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
@@ -49,6 +51,17 @@ HS_INLINE A load_attributes(const VertexView& view, Int ids) {
   return from_components<A, Real>(components);
 }
 
+template <std::size_t N>
+HS_INLINE void store_extra(const PerVertex<Real, N>& v, float* rows) {
+  store(rows, v.point_size);
+}
+HS_INLINE void store_extra(const SpriteVertex<Real>& v, float* rows) {
+  store(rows, v.low.x);
+  store(rows + kVertexBatch, v.low.y);
+  store(rows + 2 * kVertexBatch, v.high.x);
+  store(rows + 3 * kVertexBatch, v.high.y);
+}
+
 template <class S, bool with_varyings>
 HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
   using Attributes = typename S::template Attributes<Real>;
@@ -62,8 +75,12 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
         batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index) : lane_index + static_cast<int32_t>(batch.first);
     Varyings out;
     const VertexId<Real> id{ids + batch.base_vertex, batch.instance};
-    const vec4<Real> clip = call_vertex<S, Real>(s, load_attributes<Attributes>(*batch.vertices, id.vertex), id, out);
+    const auto vertex = call_vertex<S, Real>(s, load_attributes<Attributes>(*batch.vertices, id.vertex), id, out);
+    const vec4<Real> clip = position_of(vertex);
     for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
+    if constexpr (with_varyings && !std::is_same_v<std::remove_const_t<decltype(vertex)>, vec4<Real>>) {
+      if (batch.extra != nullptr) store_extra(vertex, batch.extra + begin);
+    }
     if constexpr (with_varyings && n != 0) {
       std::array<float, n* static_cast<std::size_t>(kLanes)> rows;
       store(rows.data(), to_components<Real>(out));

@@ -190,7 +190,7 @@ void rasterize_sample(const Context& context, int sample) {
   const TileEdges edges = tile_edges(t, c.grid, tile.size);
   if (edges.outside) return;
   // Only where the bounds cut the tile can a covered pixel lie outside of them; and a cell has others beside it.
-  const bool cut = tile.size != kMaxTileSize || allowed.x0 > tile.x0 || allowed.y0 > tile.y0 || allowed.x1 < tile.x0 + tile.size ||
+  const bool cut = t.is(kSprite) || tile.size != kMaxTileSize || allowed.x0 > tile.x0 || allowed.y0 > tile.y0 || allowed.x1 < tile.x0 + tile.size ||
                    allowed.y1 < tile.y0 + tile.size;
   const TileRect rect{b.x0 - c.grid.x0, b.y0 - c.grid.y0, b.x1 - c.grid.x0, b.y1 - c.grid.y0};
   if (t.is(kSmall)) {

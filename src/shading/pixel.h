@@ -112,6 +112,10 @@ struct Pixel {
     return derivative(member, dx, triangle->e1x, triangle->e2x, R(-256));
   }
 
+  /// Where in a point's square the pixel lies: 0 to 1 from left to right and from the top to the bottom, or the bottom to the
+  /// top (DrawState::point_origin). Of points alone.
+  HS_INLINE vec2<R> point_coord() const { return {dx / triangle->e1x, dy / triangle->e2y}; }
+
   /// The varyings V at pixel (i, j) of the 2x2 quad that holds this pixel (i, j in {0, 1}; quads start at even window
   /// coordinates), by the same triangle, which need not cover it. For differences of computed values, as dFdx takes.
   template <class V>

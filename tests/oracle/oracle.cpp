@@ -412,6 +412,7 @@ Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
 
 // The pixels with a sample in the closed bounding box, as far as the samples' own box tells.
 Box covered_box(const WindowTriangle& t, int samples) {
+  if (t.is_point) return {t.low.x / 256 - 2, t.low.y / 256 - 2, t.high.x / 256 + 2, t.high.y / 256 + 2};
   double low = 256.0, high = 0.0;
   for (int s = 0; s < samples; ++s) {
     const Point p = position_of({0, 0, s}, samples);
@@ -517,6 +518,7 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
 // Is the point inside? One on an edge belongs to the side where the point lies that is a hair to the right of
 // it and, less than that, above it.
 bool covers(const WindowTriangle& t, const Point& at) {
+  if (t.is_point) return at.x >= t.low.x && at.x < t.high.x && at.y >= t.low.y && at.y < t.high.y;
   for (std::size_t i = 0; i < 3; ++i) {
     const Corner& a = t.corner[i];
     const Corner& b = t.corner[(i + 1) % 3];
@@ -559,6 +561,7 @@ std::pair<float, float> float_determinants(const WindowTriangle& t, const Point&
 
 // The window depth that is tested.
 float tested_depth(const WindowTriangle& t, const DepthState& state, const Point& at) {
+  if (t.is_point) return depth_sum(t, state, 0.0f, 0.0f);
   if (is_small(t)) {
     const auto& c = t.corner;
     const int64_t dx = at.x - c[0].x, dy = at.y - c[0].y;
@@ -656,7 +659,28 @@ uint8_t stencil_result(const StencilFace& f, StencilOp op, uint8_t stored) {
 
 // ---- interpolation -----------------------------------------------------------------------------------------------------
 
+namespace {
+
+// The plane in which corner 1 lies one step of s and corner 2 one step of t away from where the point coordinate is (0, 0).
+Surface point_surface(const WindowTriangle& t) {
+  const auto f = [](int64_t v) { return static_cast<float>(v); };
+  const bool from_top = t.origin == PointOrigin::upper_left;
+  const int64_t height = from_top ? t.low.y - t.high.y : t.high.y - t.low.y;
+  Surface s{};
+  s.lanes = {f(t.low.x), f(from_top ? t.high.y : t.low.y), f(t.high.x - t.low.x), 0.0f, 0.0f, f(height), f((t.high.x - t.low.x) * height), 0.0f, 0.0f, 0.0f, 0.0f};
+  const int exponent = std::max(std::ilogb(t.corner[0].inv_w), -127);
+  s.lanes.q0 = s.lanes.q1 = s.lanes.q2 = std::ldexp(t.corner[0].inv_w, -exponent);
+  s.lanes.q_unscale = exponent == -127 ? 0.0f : std::ldexp(1.0f, exponent);
+  s.value0 = t.corner[0].varyings;
+  s.delta1.assign(s.value0.size(), 0.0f);
+  s.delta2 = s.delta1;
+  return s;
+}
+
+}  // namespace
+
 Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations) {
+  if (t.is_point) return point_surface(t);
   std::array<const Corner*, 3> c{&t.corner[0], &t.corner[1], &t.corner[2]};
   const auto farthest = std::min_element(c.begin(), c.end(), [](const Corner* a, const Corner* b) { return a->inv_w < b->inv_w; });
   std::rotate(c.begin(), farthest, c.end());
@@ -714,7 +738,7 @@ SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const Dept
   p.weights = {perspective[1], perspective[2], linear[1], linear[2], perspective[0]};
   p.inv_w = p.weights.denominator / l.area * l.q_unscale;
   // Shaders are told the depth by float determinants, also for triangles whose tested depth is by whole numbers.
-  const auto [z1, z2] = float_determinants(t, at);
+  const auto [z1, z2] = t.is_point ? std::pair{0.0f, 0.0f} : float_determinants(t, at);
   p.z = depth_sum(t, state, z1, z2);
   return p;
 }
@@ -732,6 +756,11 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
   std::vector<std::array<uint32_t, 3>> out;
   std::vector<uint32_t> run;
   const auto finish_run = [&] {
+    if (state.topology == Topology::points) {
+      for (const uint32_t i : run) out.push_back({i, i, i});
+      run.clear();
+      return;
+    }
     const std::size_t step = state.topology == Topology::triangles ? 3 : 1;
     for (std::size_t i = 0; i + 3 <= run.size(); i += step) {
       std::array<uint32_t, 3> t{run[i], run[i + 1], run[i + 2]};  // table 13.2: first and last vertex provoke, but in a fan
@@ -759,6 +788,61 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
 }
 
 // ---- the loops -----------------------------------------------------------------------------------------------------------
+
+std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, const ShadedVertex& v) {
+  ++counts_.primitives_in;
+  const glm::vec4& p = v.pos_clip;
+  if (!is_finite(p)) {
+    ++counts_.culled_non_finite;
+    return {};
+  }
+  const float inv_w = 1.0f / p.w;
+  if (!(inv_w > 0.0f && inv_w <= 1.0f / kLeastW) || (!state.depth.clamp && (beyond_near(state.depth, p) || beyond_far(p)))) {
+    ++counts_.culled_outside;
+    return {};
+  }
+  const Transform f = make_transform(state.viewport.value_or(Rect{0, 0, target_.width(), target_.height()}), state.depth);
+  const auto place = [](double ndc, float half, float center) {
+    return std::llrint(std::fmin(std::fmax((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0, -0x1p28), 0x1p28));
+  };
+  WindowTriangle t;
+  t.is_point = t.front = true;
+  t.origin = state.point_origin;
+  Corner& c = t.corner[0];
+  c.varyings = v.varyings;
+  c.inv_w = inv_w;
+  c.z = hold(std::fma(p.z * c.inv_w, f.z_scale, f.z_bias), -1e30f, 1e30f);
+  t.z0 = t.z_max = c.z;
+  if (v.has_bounds) {
+    const auto number = [](float x) { return static_cast<double>(x); };
+    t.low = {place(number(v.low.x), f.half_width, f.center_x), place(number(v.low.y), f.half_height, f.center_y)};
+    t.high = {place(number(v.high.x), f.half_width, f.center_x), place(number(v.high.y), f.half_height, f.center_y)};
+  } else {
+    const bool near_by = !needs_clip(f, {.clamp = true}, p);
+    const auto x = static_cast<double>(p.x) / static_cast<double>(p.w), y = static_cast<double>(p.y) / static_cast<double>(p.w);
+    c.x = near_by ? snap(p.x, p.w, f.half_width, f.center_x) : place(x, f.half_width, f.center_x);
+    c.y = near_by ? snap(p.y, p.w, f.half_height, f.center_y) : place(y, f.half_height, f.center_y);
+    const int64_t side = std::llrint(std::fmin(std::fmax(static_cast<double>(v.point_size) * 256.0, 0.0), 0x1p28));
+    t.low = {c.x - side / 2, c.y - side / 2};
+    t.high = {t.low.x + side, t.low.y + side};
+  }
+  if (t.low.x >= t.high.x || t.low.y >= t.high.y) {
+    ++counts_.culled_degenerate;
+    return {};
+  }
+  // Some pixel whose samples' box meets the rectangle must be allowed.
+  const Box allowed = allowed_pixels(target_, state);
+  WindowTriangle closed = t;
+  closed.is_point = false;
+  closed.corner[0] = {t.low.x, t.low.y, 0, 0, {}};
+  closed.corner[1] = closed.corner[2] = {t.high.x - 1, t.high.y - 1, 0, 0, {}};
+  if (intersect(covered_box(closed, target_.samples()), allowed).empty()) {
+    ++counts_.culled_no_sample;
+    return {};
+  }
+  ++counts_.triangles;
+  return {t};
+}
 
 std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, const ShaderFacts& facts,
                                                        const std::array<const ShadedVertex*, 3>& v) {

@@ -93,6 +93,9 @@ Point position_of(const Sample& s, int samples);
 /// A vertex after the vertex function.
 struct ShadedVertex {
   glm::vec4 pos_clip{};
+  float point_size = 1.0f;
+  bool has_bounds = false;  ///< low and high, in normalized device coordinates, instead of a size
+  glm::vec2 low{}, high{};
   std::vector<float> varyings;
 };
 
@@ -112,6 +115,10 @@ struct WindowTriangle {
   int64_t area = 0;                ///< twice the area, (1/256 px)²
   float z0 = 0, z_max = 0;         ///< smallest and largest depth, offset included
   float z_step1 = 0, z_step2 = 0;  ///< depth per unit of E1 and E2
+
+  bool is_point = false;  ///< then a rectangle, of which corner 0 is the point and low … high (half open) the extent
+  Point low, high;
+  PointOrigin origin = PointOrigin::upper_left;
 };
 
 /// What the fragment function answered.
@@ -178,6 +185,8 @@ class Renderer {
 
   using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Point& at)>;
 
+  // A submitted point in the window, or none.
+  std::vector<WindowTriangle> window_points(const DrawState& state, const ShadedVertex& v);
   // A submitted triangle's pieces in the window: none if culled, several if clipped.
   std::vector<WindowTriangle> window_triangles(const DrawState& state, const ShaderFacts& facts,
                                                const std::array<const ShadedVertex*, 3>& v);
@@ -208,6 +217,19 @@ Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format)
 // ---- the part that calls the shader ----------------------------------------------------------------------------
 
 namespace detail {
+
+inline void take_vertex(const glm::vec4& v, ShadedVertex& out) { out.pos_clip = v; }
+template <std::size_t N>
+void take_vertex(const PerVertex<float, N>& v, ShadedVertex& out) {
+  out.pos_clip = v.position;
+  out.point_size = v.point_size;
+}
+inline void take_vertex(const SpriteVertex<float>& v, ShadedVertex& out) {
+  out.pos_clip = {0.0f, 0.0f, v.depth, v.drawn ? 1.0f : -1.0f};
+  out.has_bounds = true;
+  out.low = v.low;
+  out.high = v.high;
+}
 
 template <class T>
 std::vector<float> components_of(const T& t) {
@@ -291,7 +313,9 @@ void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawS
     }
     V out{};
     const VertexId<float> id{static_cast<int32_t>(row), static_cast<int32_t>(instance)};
-    shaded[i].pos_clip = call_vertex<S, float>(shader, detail::struct_of<typename Input<S>::Row>(attributes), id, out);
+    const auto vertex = call_vertex<S, float>(shader, detail::struct_of<typename Input<S>::Row>(attributes), id, out);
+    shaded[i].point_size = state.point_size;
+    detail::take_vertex(vertex, shaded[i]);
     shaded[i].varyings = detail::components_of(out);
   }
   for (const auto& [a, b, c] : assemble(input.indices, input.restart, state)) {
@@ -301,7 +325,8 @@ void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawS
       face = shader.primitive(detail::struct_of<V>(v[0]->varyings), detail::struct_of<V>(v[1]->varyings),
                               detail::struct_of<V>(v[2]->varyings));
     }
-    for (const WindowTriangle& t : window_triangles(state, facts, v)) {
+    const bool points = state.topology == Topology::points;
+    for (const WindowTriangle& t : points ? window_points(state, *v[0]) : window_triangles(state, facts, v)) {
       rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Point& at) {
         return detail::call_shader(shader, face, triangle, surface, state.depth, at);
       });

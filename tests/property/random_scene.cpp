@@ -454,7 +454,33 @@ SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawSta
   }
 }
 
+// Points of all sizes, by state and by shader, and sprites that give their bounds.
+template <class S>
+SceneDraw points_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
+  state.topology = Topology::points;
+  state.point_size = random.pick({1.0f, 1.0f, 3.7f, 16.0f, 90.5f, 4096.0f});
+  if (random.once_in(2)) state.point_origin = PointOrigin::lower_left;
+  if (random.once_in(2)) state.cull = CullMode::none;
+  if (random.once_in(3)) add_operations(scene, false, random, state);
+  return shader_draw(shader, name, g, state, random);
+}
+
+SceneDraw random_points(const Scene& scene, const Geometry& g, const DrawState& state, Random& random) {
+  const float size = random.pick({2.0f, 15.0f, 60.0f, 4096.0f, -1.0f});
+  if (scene.color.format == ColorFormat::none) return points_draw(DepthShader{}, "DepthShader", scene, g, state, random);
+  switch (random.below(7)) {
+    case 0: return points_draw(MixedShader{}, "MixedShader", scene, g, state, random);
+    case 1: return points_draw(FaceCutoutShader{}, "FaceCutoutShader", scene, g, state, random);
+    case 2: return points_draw(DerivativeShader{}, "DerivativeShader", scene, g, state, random);
+    case 3: return points_draw(PointShader<false>{size}, "PointShader", scene, g, state, random);
+    case 4: return points_draw(PointShader<true>{size}, "PointShader with visibility", scene, g, state, random);
+    case 5: return points_draw(BoundsShader<false>{random.real(0.01f, 1.5f)}, "BoundsShader", scene, g, state, random);
+    default: return points_draw(BoundsShader<true>{random.real(0.01f, 1.5f)}, "BoundsShader with visibility", scene, g, state, random);
+  }
+}
+
 SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  if (theme == Theme::points) return random_points(scene, g, state, random);
   if (theme == Theme::operations || theme == Theme::samples) return random_operations(scene, g, state, matrix, random);
   if (theme == Theme::primitives && !random.once_in(4)) return random_primitives(depth_only, g, state, matrix, random);
   if (depth_only) return shader_draw(DepthShader{matrix}, "DepthShader", g, state, random);
@@ -488,7 +514,7 @@ void add_attachments(Theme theme, bool depth_only, Random& random, Scene& s) {
     c.clear_value = {random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
     s.more_colors.push_back(c);
   }
-  if (theme == Theme::samples) {
+  if (theme != Theme::operations) {
     s.samples = random.pick({2, 4, 4, 8});
     s.supersample = random.once_in(6);
   }
@@ -509,7 +535,8 @@ Scene random_scene(Theme theme, uint64_t seed) {
   s.depth.format = random.pick({DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16, DepthFormat::none});
   s.color.clear_value = {random.real(0, 1), random.real(0, 1), random.real(-0.5f, 1.5f), random.real(0, 1)};
   s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});
-  if (theme == Theme::operations || theme == Theme::samples) add_attachments(theme, depth_only, random, s);
+  const bool many_points = theme == Theme::points && random.once_in(2);
+  if (theme == Theme::operations || theme == Theme::samples || many_points) add_attachments(theme, depth_only, random, s);
   if (random.once_in(4)) {
     fill_images(s, random);
     s.color.load = s.depth.load = LoadOp::load;

@@ -334,6 +334,79 @@ struct ManyColorsShader {
   }
 };
 
+/// Points of a size from an attribute, cut to a disc by the point coordinate.
+template <bool has_visibility>
+struct PointShader {
+  float size = 10.0f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+    Linear<R> fade;
+  };
+  template <class R>
+  PerVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = vec3<R>(in.a.x, in.a.y, in.a.z);
+    out.fade.value = in.a.w;
+    return {in.position, in.a.w * R(size), {}};
+  }
+  template <class R>
+  MaskOf<R> keeps(const Pixel<R>& px) const {
+    const vec2<R> c = px.point_coord();
+    const R x = c.x - R(0.5f), y = c.y - R(0.4f);
+    return x * x + y * y < R(0.25f);
+  }
+  template <class R>
+  DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec2<R> c = px.point_coord();
+    return {held(vec4<R>(c.x, c.y, in.color.z * px.inv_w, in.fade.value + in.color.x), 8.0f), keeps(px)};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const requires has_visibility {
+    return {keeps(px), px.z};
+  }
+};
+
+/// Sprites that say what rectangle they cover, with a depth by pixel.
+template <bool has_visibility>
+struct BoundsShader {
+  float size = 0.1f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> a;
+  };
+  template <class R>
+  SpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.a = in.a;
+    const vec2<R> center(clamp(in.position.x, R(-9.0f), R(9.0f)), clamp(in.position.y, R(-9.0f), R(9.0f)));
+    const R left = in.a.x * R(size), right = in.a.y * R(size), up = in.a.z * R(size);
+    return {vec2<R>(center.x - left, center.y - up), vec2<R>(center.x + right, center.y + up), in.a.w, in.a.x < R(1.3f)};
+  }
+  template <class R>
+  Visibility<R> decide(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec2<R> c = px.point_coord();
+    return {c.x + c.y > R(0.3f), px.z + R(0.2f) * (c.x - c.y * in.a.z)};
+  }
+  template <class R>
+  DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const Visibility<R> v = decide(in, px);
+    return {held(vec4<R>(in.a.x, in.a.y, px.point_coord().x, v.depth), 8.0f), v.keep, v.depth};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
+    return decide(in, px);
+  }
+};
+
 /// Depth alone; its positions are those of ColorShader.
 struct DepthShader {
   glm::mat4 clip_from_model{1.0f};
