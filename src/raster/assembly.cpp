@@ -11,6 +11,9 @@ namespace {
 std::size_t primitives_of(Topology topology, std::size_t n) {
   switch (topology) {
     case Topology::points: return n;
+    case Topology::lines: return n / 2;
+    case Topology::line_strip: return n < 2 ? 0 : n - 1;
+    case Topology::line_loop: return n < 2 ? 0 : n;
     case Topology::triangles: return n / 3;
     case Topology::triangle_strip:
     case Topology::triangle_fan: return n < 3 ? 0 : n - 2;
@@ -55,6 +58,12 @@ std::array<uint32_t, 3> Assembly::next_of_run() {
   const bool first_provokes = draw_.state.provoking == ProvokingVertex::first;
   switch (topology_) {
     case Topology::points: return {at(i), at(i), at(i)};
+    case Topology::lines: return {at(2 * i), at(2 * i + 1), at(2 * i + 1)};
+    case Topology::line_strip: return {at(i), at(i + 1), at(i + 1)};
+    case Topology::line_loop: {
+      const uint32_t next = i + 1 == run_end_ ? 0 : i + 1;
+      return {at(i), at(next), at(next)};
+    }
     case Topology::triangles: return {at(3 * i), at(3 * i + 1), at(3 * i + 2)};
     case Topology::triangle_strip:
       if (i % 2 == 0) return {at(i), at(i + 1), at(i + 2)};

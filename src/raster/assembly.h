@@ -2,7 +2,7 @@
 //
 // Primitive assembly. In: a draw's index list. Out: the three indices of each triangle, in the order in which they count as
 // submitted: the provoking vertex is the first or the last of them, as the state says (OpenGL 4.6, table 13.2). A point has
-// its one index thrice.
+// its one index thrice, a line its second twice.
 #pragma once
 
 #include <array>

@@ -28,7 +28,12 @@ constexpr Rect intersect(const Rect& a, const Rect& b) {
 
 /// How indices make primitives (OpenGL 4.6, section 10.1). Of a strip every other triangle has its first two vertices swapped,
 /// so that all face one way.
-enum class Topology : uint8_t { triangles, triangle_strip, triangle_fan, points };
+enum class Topology : uint8_t { triangles, triangle_strip, triangle_fan, points, lines, line_strip, line_loop };
+constexpr bool is_lines(Topology t) { return t == Topology::lines || t == Topology::line_strip || t == Topology::line_loop; }
+
+/// What is drawn of a triangle: its inside, its outline or its vertices (glPolygonMode). The outline of a triangle that is clipped is
+/// that of what is left of it.
+enum class PolygonMode : uint8_t { fill, line, point };
 
 /// Where a point's coordinate (0, 0) lies (GL_POINT_SPRITE_COORD_ORIGIN).
 enum class PointOrigin : uint8_t { upper_left, lower_left };
@@ -58,7 +63,7 @@ struct DepthState {
   float range_far = 1.0f;
 };
 
-/// Polygon offset, added to a triangle's window depth: o = slope·m + constant·r, then clamped (OpenGL 4.6, section
+/// Polygon offset, added to a filled triangle's window depth: o = slope·m + constant·r, then clamped (OpenGL 4.6, section
 /// 14.6.5), with m = max(|dz/dx|, |dz/dy|) and r the smallest step of the depth format (for D32F 2^(e−23), e the
 /// exponent of the largest |z| of the triangle). Positive moves away from the eye under the OpenGL convention and
 /// towards it under reversed Z.
@@ -142,6 +147,8 @@ struct DrawState {
   uint32_t instances = 1;   ///< the draw is repeated this many times; see VertexId and per_instance()
   float point_size = 1.0f;  ///< px, where the vertex function gives none: the side of the square that a point covers
   PointOrigin point_origin = PointOrigin::upper_left;
+  float line_width = 1.0f;  ///< px, at most 4096; with one sample a pixel the nearest whole number, with several a rectangle
+  PolygonMode polygon_mode = PolygonMode::fill;
   std::optional<Rect> viewport{};  ///< default: the whole target
   std::optional<Rect> scissor{};   ///< default: no scissor test
   CullMode cull = CullMode::none;
@@ -160,6 +167,8 @@ struct DrawState {
 };
 
 /// Are there points among what is drawn?
-constexpr bool draws_points(const DrawState& s) { return s.topology == Topology::points; }
+constexpr bool draws_points(const DrawState& s) {
+  return s.topology == Topology::points || (!is_lines(s.topology) && s.polygon_mode == PolygonMode::point);
+}
 
 }  // namespace halfspace

@@ -6,7 +6,6 @@
 #include "core/float_mode.h"
 #include "raster/assembly.h"
 #include "raster/bin.h"
-#include "raster/clip.h"
 #include "raster/setup.h"
 
 namespace halfspace {
@@ -19,8 +18,6 @@ constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
 constexpr int kTileBudget = 160 << 10;
 // Chunks that go through setup between two looks at the budget.
 constexpr std::size_t kWave = 32;
-
-static_assert(std::size_t{4096} * kMaxPieces <= kMaxTrianglesPerChunk, "a chunk's triangles are counted in 16 bits");
 
 std::size_t bytes_of(const Chunk& c) {
   return c.triangles.capacity() * sizeof(Triangle) + c.bin_triangles.capacity() * sizeof(uint16_t) +
@@ -141,19 +138,23 @@ void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) 
 
 std::vector<std::vector<Segment>> Pass::split_into_chunks() const {
   std::vector<std::vector<Segment>> chunks;
-  uint32_t room = 0;
+  uint32_t room = 0;     // for primitives in the last chunk
+  uint32_t records = 0;  // for what they may become
   for (uint32_t d = 0; d < frame_.draws.size(); ++d) {
-    const uint32_t count = frame_.draws[d].primitive_count;
-    for (uint32_t instance = 0; instance < frame_.draws[d].state.instances; ++instance) {
-      for (uint32_t first = 0; first < count;) {
-        if (room == 0) {
+    const Draw& draw = frame_.draws[d];
+    const uint32_t each = most_records(draw, frame_.samples);
+    for (uint32_t instance = 0; instance < draw.state.instances; ++instance) {
+      for (uint32_t first = 0; first < draw.primitive_count;) {
+        if (room == 0 || records < each) {
           chunks.emplace_back();
           room = options_.chunk_triangles;
+          records = kMaxTrianglesPerChunk;
         }
-        const uint32_t n = std::min(room, count - first);
+        const uint32_t n = std::min({room, records / each, draw.primitive_count - first});
         chunks.back().push_back({d, instance, first, n});
         first += n;
         room -= n;
+        records -= n * each;
       }
     }
   }

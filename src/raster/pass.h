@@ -51,6 +51,8 @@ ShaderKernels kernels_of() {
   k.position = vertex_kernel<S, false>;
   k.gives_point_size = kGivesPointSize<S>;
   k.gives_sprite = kGivesSprite<S>;
+  static_assert(kClipDistances<S> <= kMostClipDistances);
+  k.clip_distance_count = static_cast<int>(kClipDistances<S>);
   k.varying_count = static_cast<int>(kComponents<V>);
   k.interpolations = kInterpolations<V>.data();
   if constexpr (HasPrimitive<S>) {

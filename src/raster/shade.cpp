@@ -16,15 +16,17 @@ void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
   const Draw& draw = frame.draws[segment.draw];
   s.triangle = &t;
   s.primitive = nullptr;
+  s.z_low = draw.depth_low;
+  const std::size_t vertices = t.is(kLine) ? 2 : 3;
   if (t.is(kClipped)) {
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < vertices; ++i) {
       const ClipVertex& v = chunk.clip_vertices[t.vertex[i]];
       s.vertex[i] = &v.screen;
       s.varyings[i] = chunk.clip_varyings.data() + v.first_varying;
     }
   } else {
     const ShadedVertices& shaded = frame.shaded[segment.draw];
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < vertices; ++i) {
       s.vertex[i] = &shaded.screen[t.vertex[i]];
       s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
     }
@@ -32,6 +34,12 @@ void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
   if (t.is(kSprite)) {
     s.corners = sprite_corners(t, *s.vertex[0], draw.state.point_origin);
     for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
+  }
+  if (t.is(kLine)) {  // the third corner lies beside the first and has its values
+    s.corners[2] = {t.x[2], t.y[2], s.vertex[0]->z, s.vertex[0]->inv_w};
+    s.vertex[2] = &s.corners[2];
+    s.varyings[2] = s.varyings[0];
+    s.z_low = std::clamp(t.z0, draw.depth_low, draw.depth_high);
   }
   s.flat_varyings = s.varyings[t.provoking()];
   if (draw.kernels.primitive_count != 0) {

@@ -47,10 +47,11 @@ struct FragmentBatch {
 struct TriangleSource {
   const Triangle* triangle;
   std::array<const ScreenVertex*, 3> vertex;
-  std::array<ScreenVertex, 3> corners;  ///< what vertex points to, of a point
+  std::array<ScreenVertex, 3> corners;  ///< what vertex points to, of points and lines
   std::array<const float*, 3> varyings;
   const float* flat_varyings;  ///< the provoking vertex's row
   const float* primitive;      ///< the primitive stage's row, or null
+  float z_low;                 ///< the least depth in the window
 };
 void find_triangle(const Frame& frame, TriangleId id, TriangleSource& out);
 
@@ -157,7 +158,7 @@ HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketT
   put(out.z0, tri.z0);
   put(out.z_edge1, tri.z_edge1);
   put(out.z_edge2, tri.z_edge2);
-  put(out.z_low, draw.depth_low);
+  put(out.z_low, source.z_low);
   put(out.z_high, clamp(tri.z_max, draw.depth_low, draw.depth_high));
   put(out.zx0, static_cast<float>(tri.x[0]));
   put(out.zy0, static_cast<float>(tri.y[0]));

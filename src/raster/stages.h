@@ -41,6 +41,13 @@ struct ScreenVertex {
   float inv_w;   ///< 1 / w_clip
 };
 
+/// The pixels of a line along its longer axis, half open, cut to 0 … 2^15.
+struct LineRange {
+  int first, end;
+  uint32_t packed() const { return static_cast<uint32_t>(first) | static_cast<uint32_t>(end) << 16; }
+  static LineRange unpack(uint32_t p) { return {static_cast<int>(p & 0xffff), static_cast<int>(p >> 16)}; }
+};
+
 /// What a point covers: samples with x0 ≤ x < x1 and y0 ≤ y < y1, in 24.8 fixed point, held to ±2^28.
 struct SpriteRect {
   int32_t x0, y0, x1, y1;
@@ -50,6 +57,7 @@ using Outcode = uint8_t;
 inline constexpr Outcode kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 8, kOutNear = 16, kOutFar = 32;
 inline constexpr Outcode kOutGuard = 64;       ///< beyond the guard band, or w too small: no window position
 inline constexpr Outcode kOutNonFinite = 128;  ///< a NaN or Inf among x, y, z, w
+inline constexpr Outcode kOutNeedsClip = kOutNear | kOutFar | kOutGuard;
 inline constexpr Outcode kOutView = 63;        ///< the six planes of the view volume
 
 /// The vertices of one draw. A vertex's slot, by which all later stages know it, is (index − first) + instance · count.
@@ -61,6 +69,8 @@ struct ShadedVertices {
   std::unique_ptr<Outcode[]> outcodes;
   std::unique_ptr<float[]> varyings;
   std::unique_ptr<SpriteRect[]> sprites;  ///< of points alone
+  int clip_distance_count = 0;            ///< floats per vertex in clip_distances
+  std::unique_ptr<float[]> clip_distances;
 };
 
 // ---- the viewport transform ------------------------------------------------------------------------------------
@@ -91,10 +101,13 @@ inline constexpr uint32_t kClipped = 2;         ///< vertex[] index the chunk's 
 inline constexpr uint32_t kSmall = 4;           ///< every edge function fits in int32 without a shift
 inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: which of vertex[] is the provoking vertex
 inline constexpr uint32_t kSprite = 32;         ///< a point: see Triangle
+inline constexpr uint32_t kLine = 64;           ///< a line: see Triangle
 inline constexpr uint32_t kSegmentShift = 8;    ///< the rest: which segment of the chunk
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
 /// A point (kSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
+/// A line (kLine, with one sample a pixel) has its ends as vertices 0 and 1, that of smaller depth first, and a third corner beside
+/// the first so that E1 and the area are the products along the line that interpolation needs; vertex[2] is its LineRange.
 struct Triangle {
   std::array<int32_t, 3> x, y;  ///< snapped, 24.8
   float z0;                     ///< depth at vertex 0, offset included
@@ -171,6 +184,7 @@ struct ShaderKernels {
   const Interpolation* interpolations = nullptr;  ///< varying_count entries
   bool gives_point_size = false;                  ///< the vertex function does
   bool gives_sprite = false;                      ///< and bounds of points
+  int clip_distance_count = 0;                    ///< and clip distances
   int color_count = 1;                            ///< colours that the fragment function returns
   bool discards = false;
   bool writes_depth = false;

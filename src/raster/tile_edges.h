@@ -7,6 +7,7 @@
 #include <array>
 
 #include "raster/edge.h"
+#include "raster/line.h"
 #include "raster/sample_pattern.h"
 #include "raster/tile.h"
 
@@ -38,19 +39,18 @@ struct TileEdges {
   bool outside = false;  ///< no sample of the tile is inside
 };
 
-inline TileEdges tile_edges(const Triangle& t, const SampleGrid& grid, int tile_size) {
+inline TileEdges tile_edges(const Draw& draw, const Triangle& t, const SampleGrid& grid, int tile_size) {
   TileEdges r{};
   if (t.is(kSprite)) return r;  // its bounds say all
   const int64_t x = grid.x_sub(), y = grid.y_sub();
   const bool small = t.is(kSmall);
   const int64_t last = tile_size - 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Edge edge = edge_of(t, i);
+  const auto put = [&](std::size_t i, const Edge& edge, int64_t offset, int32_t bias) {
     const int64_t shift = small ? 0 : kSubPixelBits;
     const int64_t step_x = -(int64_t{edge.ey} * kSubPixels) >> shift;
     const int64_t step_y = (int64_t{edge.ex} * kSubPixels) >> shift;
-    r.bias[i] = fill_bias(edge);
-    const int64_t e = (edge.at(x, y) - r.bias[i]) >> shift;
+    r.bias[i] = bias;
+    const int64_t e = (edge.at(x, y) + offset - bias) >> shift;
     const int64_t corner = e + step_x * grid.cell.x + step_y * grid.cell.y;
     const int64_t low = corner + std::min<int64_t>(0, step_x * last) + std::min<int64_t>(0, step_y * last);
     const int64_t high = corner + std::max<int64_t>(0, step_x * last) + std::max<int64_t>(0, step_y * last);
@@ -59,6 +59,15 @@ inline TileEdges tile_edges(const Triangle& t, const SampleGrid& grid, int tile_
     r.e[i] = drop || high < 0 ? 0 : static_cast<int32_t>(e);
     r.step_x[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_x);
     r.step_y[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_y);
+  };
+  if (t.is(kLine)) {
+    const std::array<BandEdge, 2> band = band_edges(t, line_pixels(draw.state.line_width));
+    for (std::size_t i = 0; i < 2; ++i) put(i, band[i].edge, band[i].offset, band[i].bias);
+    return r;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge edge = edge_of(t, i);
+    put(i, edge, 0, fill_bias(edge));
   }
   return r;
 }
@@ -71,7 +80,7 @@ class DepthPlane {
       : z0_(t.z0),
         z_edge1_(t.z_edge1),
         z_edge2_(t.z_edge2),
-        low_(draw.depth_low),
+        low_(t.is(kLine) ? std::clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low),
         high_(std::clamp(t.z_max, draw.depth_low, draw.depth_high)),
         format_(format) {
     if constexpr (small) {

@@ -92,6 +92,8 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.screen.reset(new ScreenVertex[n]);  // not make_unique: rows that no index uses need no initialization
   out.outcodes.reset(new Outcode[n]);
   out.varyings.reset(new float[n * static_cast<std::size_t>(out.varying_count)]);
+  out.clip_distance_count = draw.kernels.clip_distance_count;
+  if (out.clip_distance_count != 0) out.clip_distances.reset(new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
   if (draws_points(draw.state)) out.sprites.reset(new SpriteRect[n]);
 }
 
@@ -119,6 +121,15 @@ void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Shaded
     draw.kernels.vertex(draw.shader.get(),
                         {view, ids, out.first + static_cast<uint32_t>(local), count, slot_base, draw.state.base_vertex,
                          static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
+    if (out.clip_distances) {
+      for (int i = 0; i < count; ++i) {
+        const uint32_t slot = (ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base;
+        for (int k = 0; k < out.clip_distance_count; ++k) {
+          const std::size_t at = std::size_t{slot} * static_cast<std::size_t>(out.clip_distance_count) + static_cast<std::size_t>(k);
+          out.clip_distances[at] = extra[static_cast<std::size_t>((k + 1) * kVertexBatch + i)];
+        }
+      }
+    }
     if (ids == nullptr) {
       const std::size_t slot = std::size_t{instance} * out.count + local;
       ScreenVertex* to = out.screen.get() + slot;

@@ -23,9 +23,10 @@ struct VertexBatch {
   int32_t instance;      ///< all vertices are of this one
   float* varyings;     ///< null for the position kernel
   float* clip;         ///< out: x, y, z, w of clip space as four rows of kVertexBatch
-  float* extra;        ///< out, or null: a row for the point size, or four for a sprite's low x, low y, high x, high y
+  float* extra;        ///< out, or null: rows of the point size and the clip distances, or a sprite's low x, low y, high x, high y
 };
-inline constexpr int kMostExtraRows = 4;
+inline constexpr int kMostClipDistances = 8;
+inline constexpr int kMostExtraRows = 1 + kMostClipDistances;
 
 /// The transform of a draw's clip space to the window. viewport in pixels; depth range as in DepthState.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
@@ -54,6 +55,7 @@ HS_INLINE A load_attributes(const VertexView& view, Int ids) {
 template <std::size_t N>
 HS_INLINE void store_extra(const PerVertex<Real, N>& v, float* rows) {
   store(rows, v.point_size);
+  for (std::size_t i = 0; i < N; ++i) store(rows + (i + 1) * kVertexBatch, v.clip_distance[i]);
 }
 HS_INLINE void store_extra(const SpriteVertex<Real>& v, float* rows) {
   store(rows, v.low.x);

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "raster/compare.h"
-#include "raster/setup.h"
+#include "raster/primitive_setup.h"
 #include "raster/stencil.h"
 #include "raster/tile_edges.h"
 
@@ -182,15 +182,15 @@ void rasterize_sample(const Context& context, int sample) {
   const Tile& tile = context.tile;
   const PixelBounds& allowed = context.draw.bounds;
   SampleContext c{context, SampleGrid(tile, sample)};
-  const PixelBounds b = pixel_bounds(t,
+  const PixelBounds b = pixel_bounds(context.draw, t,
                                      {std::max(allowed.x0, tile.x0), std::max(allowed.y0, tile.y0),
                                       std::min(allowed.x1, tile.x0 + tile.width), std::min(allowed.y1, tile.y0 + tile.height)},
                                      c.grid.position);
   if (b.empty()) return;
-  const TileEdges edges = tile_edges(t, c.grid, tile.size);
+  const TileEdges edges = tile_edges(context.draw, t, c.grid, tile.size);
   if (edges.outside) return;
   // Only where the bounds cut the tile can a covered pixel lie outside of them; and a cell has others beside it.
-  const bool cut = t.is(kSprite) || tile.size != kMaxTileSize || allowed.x0 > tile.x0 || allowed.y0 > tile.y0 || allowed.x1 < tile.x0 + tile.size ||
+  const bool cut = t.is(kSprite | kLine) || tile.size != kMaxTileSize || allowed.x0 > tile.x0 || allowed.y0 > tile.y0 || allowed.x1 < tile.x0 + tile.size ||
                    allowed.y1 < tile.y0 + tile.size;
   const TileRect rect{b.x0 - c.grid.x0, b.y0 - c.grid.y0, b.x1 - c.grid.x0, b.y1 - c.grid.y0};
   if (t.is(kSmall)) {

@@ -307,8 +307,13 @@ using Polygon = std::vector<ClipPoint>;
 // Inside is a·x + b·y + c·z + d·w + k ≥ 0.
 struct Plane {
   double a, b, c, d, k;
+  std::optional<std::array<double, 3>> by_vertex{};  // a clip distance: what it is at the triangle's vertices
 
-  double operator()(const ClipPoint& q) const { return a * q.p[0] + b * q.p[1] + c * q.p[2] + d * q.p[3] + k; }
+  double operator()(const ClipPoint& q) const {
+    if (!by_vertex) return a * q.p[0] + b * q.p[1] + c * q.p[2] + d * q.p[3] + k;
+    if (q.vertex >= 0) return (*by_vertex)[static_cast<std::size_t>(q.vertex)];
+    return q.weight[0] * (*by_vertex)[0] + q.weight[1] * (*by_vertex)[1] + q.weight[2] * (*by_vertex)[2];
+  }
 };
 
 // In the order in which they cut.
@@ -363,6 +368,15 @@ Polygon cut(const Plane& plane, bool is_least_w, const Polygon& polygon) {
   return kept;
 }
 
+// Of a line between two points what lies inside: two points or none.
+Polygon cut_line(const Plane& plane, bool is_least_w, const Polygon& line) {
+  if (line.empty()) return {};
+  const bool in0 = plane(line[0]) >= 0, in1 = plane(line[1]) >= 0;
+  const auto meeting = [&](const ClipPoint& in, const ClipPoint& out) { return is_least_w ? meet_least_w(in, out) : meet(plane, in, out); };
+  if (!in0 && !in1) return {};
+  return {in0 ? line[0] : meeting(line[1], line[0]), in1 ? line[1] : meeting(line[0], line[1])};
+}
+
 int64_t snap_corner(double ndc, float half, float center) {
   return std::llrint((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0);
 }
@@ -412,6 +426,12 @@ Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
 
 // The pixels with a sample in the closed bounding box, as far as the samples' own box tells.
 Box covered_box(const WindowTriangle& t, int samples) {
+  if (t.is_line) {
+    const int64_t margin = t.width / 2 + 3;
+    const auto [xl, xh] = std::minmax(t.from.x, t.to.x);
+    const auto [yl, yh] = std::minmax(t.from.y, t.to.y);
+    return {xl / 256 - margin, yl / 256 - margin, xh / 256 + margin, yh / 256 + margin};
+  }
   if (t.is_point) return {t.low.x / 256 - 2, t.low.y / 256 - 2, t.high.x / 256 + 2, t.high.y / 256 + 2};
   double low = 256.0, high = 0.0;
   for (int s = 0; s < samples; ++s) {
@@ -485,7 +505,8 @@ enum class Fate { drawn, degenerate, wrong_face, no_sample };
 
 // Face, order of corners and depth of a triangle whose corners are given as submitted.
 std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format,
-                                                     int samples, const std::array<Corner, 3>& submitted, std::size_t provoking) {
+                                                     int samples, const std::array<Corner, 3>& submitted, std::size_t provoking,
+                                                     std::optional<bool> faces_front = {}) {
   WindowTriangle t;
   t.corner = submitted;
   t.flat = submitted[provoking].varyings;
@@ -494,7 +515,8 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   if (t.area == 0) return {Fate::degenerate, t};
   const bool counter_clockwise = t.area > 0;
   t.front = counter_clockwise == (state.front == Winding::counter_clockwise);
-  if (culls_face(state.cull, t.front)) return {Fate::wrong_face, t};
+  if (faces_front) t.front = *faces_front;
+  if (!faces_front && culls_face(state.cull, t.front)) return {Fate::wrong_face, t};
   if (intersect(covered_box(t, samples), allowed).empty()) return {Fate::no_sample, t};
   if (!counter_clockwise) {
     std::swap(c[1], c[2]);
@@ -505,7 +527,7 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   std::rotate(c.begin(), nearest, c.end());
   const double dz1 = static_cast<double>(c[1].z) - static_cast<double>(c[0].z);
   const double dz2 = static_cast<double>(c[2].z) - static_cast<double>(c[0].z);
-  const float offset = polygon_offset(state.offset, format, t, dz1, dz2);
+  const float offset = faces_front ? 0.0f : polygon_offset(state.offset, format, t, dz1, dz2);
   t.z0 = c[0].z + offset;
   t.z_max = std::max({c[0].z, c[1].z, c[2].z}) + offset;
   t.z_step1 = static_cast<float>(dz1 / static_cast<double>(t.area));
@@ -515,9 +537,68 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
 
 // ---- a pixel of a triangle -----------------------------------------------------------------------------------------
 
+// ---- lines: the diamond-exit rule as it is written (OpenGL 4.6, section 14.5.1) --------------------------------------
+
+__extension__ typedef __int128 Wide;
+struct WidePoint {
+  Wide x, y;
+};
+
+// Does the segment meet the open diamond |x| + |y| < h? Each of its four sides leaves an open interval of the segment.
+bool meets_diamond(const WidePoint& a, const WidePoint& b, Wide h) {
+  Wide low_n = -1, low_d = 1, high_n = 2, high_d = 1;
+  for (const auto& [sx, sy] : {std::pair{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}) {
+    const Wide fa = sx * a.x + sy * a.y - h, fb = sx * b.x + sy * b.y - h;
+    if (fa >= 0 && fb >= 0) return false;
+    if (fa < 0 && fb < 0) continue;
+    const Wide n = fa >= 0 ? fa : -fa, d = fa >= 0 ? fa - fb : fb - fa;
+    if (fa >= 0 && n * low_d > low_n * d) {
+      low_n = n;
+      low_d = d;
+    }
+    if (fa < 0 && n * high_d < high_n * d) {
+      high_n = n;
+      high_d = d;
+    }
+  }
+  return low_n * high_d < high_n * low_d;
+}
+
+// Does the line, one pixel wide, produce the pixel? Both ends are moved by (-e, -e^2).
+bool produces(const Point& from, const Point& to, int64_t x, int64_t y) {
+  const bool near_by = std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)}) < int64_t{1} << 19;
+  const int bits = near_by ? 40 : 34;
+  const auto moved = [&](const Point& p) {
+    return WidePoint{(Wide{p.x - (x * 256 + 128)} << bits) - (Wide{1} << (bits / 2)), (Wide{p.y - (y * 256 + 128)} << bits) - 1};
+  };
+  const WidePoint a = moved(from), b = moved(to);
+  const Wide h = Wide{128} << bits;
+  const auto size = [](Wide v) { return v < 0 ? -v : v; };
+  const bool ends_in_it = size(b.x) + size(b.y) < h;
+  return !ends_in_it && meets_diamond(a, b, h);
+}
+
+bool line_covers(const WindowTriangle& t, int64_t x, int64_t y) {
+  const int64_t dx = t.to.x - t.from.x, dy = t.to.y - t.from.y;
+  const bool y_major = std::abs(dy) > std::abs(dx);
+  // Far from the line there is nothing to ask.
+  const auto along = static_cast<double>(y_major ? y * 256 + 128 - t.from.y : x * 256 + 128 - t.from.x);
+  const double slope = static_cast<double>(y_major ? dx : dy) / static_cast<double>(y_major ? dy : dx);
+  const double across = static_cast<double>(y_major ? x * 256 + 128 - t.from.x : y * 256 + 128 - t.from.y) - slope * along;
+  if (std::fabs(across) > 128.0 * t.width + 512.0) return false;
+  const int64_t shift = 128 * (t.width - 1);
+  const Point from = y_major ? Point{t.from.x - shift, t.from.y} : Point{t.from.x, t.from.y - shift};
+  const Point to = y_major ? Point{t.to.x - shift, t.to.y} : Point{t.to.x, t.to.y - shift};
+  for (int k = 0; k < t.width; ++k) {
+    if (produces(from, to, y_major ? x - k : x, y_major ? y : y - k)) return true;
+  }
+  return false;
+}
+
 // Is the point inside? One on an edge belongs to the side where the point lies that is a hair to the right of
 // it and, less than that, above it.
 bool covers(const WindowTriangle& t, const Point& at) {
+  if (t.is_line) return line_covers(t, at.x >> 8, at.y >> 8);
   if (t.is_point) return at.x >= t.low.x && at.x < t.high.x && at.y >= t.low.y && at.y < t.high.y;
   for (std::size_t i = 0; i < 3; ++i) {
     const Corner& a = t.corner[i];
@@ -547,7 +628,9 @@ bool is_small(const WindowTriangle& t) {
 }
 
 float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, float e2) {
-  const float low = std::min(state.range_near, state.range_far), high = std::max(state.range_near, state.range_far);
+  const float high = std::max(state.range_near, state.range_far);
+  float low = std::min(state.range_near, state.range_far);
+  if (t.is_line) low = hold(t.z0, low, high);
   return hold(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, hold(t.z_max, low, high));
 }
 
@@ -562,7 +645,7 @@ std::pair<float, float> float_determinants(const WindowTriangle& t, const Point&
 // The window depth that is tested.
 float tested_depth(const WindowTriangle& t, const DepthState& state, const Point& at) {
   if (t.is_point) return depth_sum(t, state, 0.0f, 0.0f);
-  if (is_small(t)) {
+  if (!t.is_line && is_small(t)) {
     const auto& c = t.corner;
     const int64_t dx = at.x - c[0].x, dy = at.y - c[0].y;
     const int64_t e1 = cross(dx, dy, c[2].x - c[0].x, c[2].y - c[0].y);
@@ -761,6 +844,13 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
       run.clear();
       return;
     }
+    if (is_lines(state.topology)) {
+      const std::size_t step = state.topology == Topology::lines ? 2 : 1;
+      for (std::size_t i = 0; i + 2 <= run.size(); i += step) out.push_back({run[i], run[i + 1], run[i + 1]});
+      if (state.topology == Topology::line_loop && run.size() > 1) out.push_back({run.back(), run[0], run[0]});
+      run.clear();
+      return;
+    }
     const std::size_t step = state.topology == Topology::triangles ? 3 : 1;
     for (std::size_t i = 0; i + 3 <= run.size(); i += step) {
       std::array<uint32_t, 3> t{run[i], run[i + 1], run[i + 2]};  // table 13.2: first and last vertex provoke, but in a fan
@@ -797,7 +887,8 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
     return {};
   }
   const float inv_w = 1.0f / p.w;
-  if (!(inv_w > 0.0f && inv_w <= 1.0f / kLeastW) || (!state.depth.clamp && (beyond_near(state.depth, p) || beyond_far(p)))) {
+  const bool beyond = std::any_of(v.clip_distances.begin(), v.clip_distances.end(), [](float d) { return !(d >= 0.0f); });
+  if (beyond || !(inv_w > 0.0f && inv_w <= 1.0f / kLeastW) || (!state.depth.clamp && (beyond_near(state.depth, p) || beyond_far(p)))) {
     ++counts_.culled_outside;
     return {};
   }
@@ -844,46 +935,142 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
   return {t};
 }
 
+// A line: one of the diamond-exit rule, or with several samples a pixel the two halves of a rectangle.
+std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const Corner& a, const Corner& b, const std::vector<float>& flat,
+                                                  bool front) {
+  const int64_t dx = b.x - a.x, dy = b.y - a.y;
+  if (dx == 0 && dy == 0) return {};
+  if (target_.samples() == 1) {
+    WindowTriangle t;
+    t.is_line = true;
+    t.from = {a.x, a.y};
+    t.to = {b.x, b.y};
+    t.width = static_cast<int>(std::nearbyint(hold(state.line_width, 1.0f, 4096.0f)));
+    t.front = front;
+    t.flat = flat;
+    const bool swap = b.z < a.z;
+    const Corner &near = swap ? b : a, &far = swap ? a : b;
+    t.corner = {near, far, near};
+    t.corner[2].x = near.x - (far.y - near.y);
+    t.corner[2].y = near.y + (far.x - near.x);
+    t.area = dx * dx + dy * dy;
+    t.z0 = near.z;
+    t.z_max = far.z;
+    t.z_step1 = static_cast<float>((static_cast<double>(far.z) - static_cast<double>(near.z)) / static_cast<double>(t.area));
+    return {t};
+  }
+  const auto length = std::sqrt(static_cast<double>(dx) * static_cast<double>(dx) + static_cast<double>(dy) * static_cast<double>(dy));
+  const double scale = static_cast<double>(hold(state.line_width, 0.0f, 4096.0f)) * 128.0 / length;
+  const int64_t nx = std::llrint(static_cast<double>(-dy) * scale), ny = std::llrint(static_cast<double>(dx) * scale);
+  const auto moved = [&](Corner c, int64_t by) {
+    c.x += by * nx;
+    c.y += by * ny;
+    return c;
+  };
+  std::vector<WindowTriangle> halves;
+  for (const std::array<Corner, 3>& half : {std::array{moved(a, -1), moved(b, -1), moved(b, 1)}, {moved(a, -1), moved(b, 1), moved(a, 1)}}) {
+    auto [fate, piece] =
+        make_window_triangle(state, allowed_pixels(target_, state), target_.depth_format(), target_.samples(), half, 0, front);
+    piece.flat = flat;
+    if (fate == Fate::drawn) halves.push_back(std::move(piece));
+  }
+  return halves;
+}
+
+// The lines or points that a polygon is drawn as.
+std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, const std::vector<Corner>& corners,
+                                                     const std::vector<int>& vertex, const std::array<const ShadedVertex*, 3>& v,
+                                                     const std::vector<float>& flat) {
+  int64_t area = 0;
+  for (std::size_t i = 2; i < corners.size(); ++i) area += turn(corners[0], corners[i - 1], corners[i]);
+  const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
+  if (area == 0) ++counts_.culled_degenerate;
+  if (area != 0 && culls_face(state.cull, front)) ++counts_.culled_face;
+  if (area == 0 || culls_face(state.cull, front)) return {};
+  std::vector<WindowTriangle> out;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (state.polygon_mode == PolygonMode::line) {
+      for (WindowTriangle& t : window_line(state, corners[i], corners[(i + 1) % corners.size()], flat, front)) out.push_back(std::move(t));
+    } else if (vertex[i] >= 0) {
+      ShadedVertex point = *v[static_cast<std::size_t>(vertex[i])];
+      point.clip_distances.clear();
+      const Counts before = counts_;
+      std::vector<WindowTriangle> one = window_points(state, point);
+      counts_ = before;
+      for (WindowTriangle& t : one) {
+        t.front = front;
+        t.corner[0].varyings = corners[i].varyings;
+        out.push_back(std::move(t));
+      }
+    }
+  }
+  return out;
+}
+
 std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, const ShaderFacts& facts,
                                                        const std::array<const ShadedVertex*, 3>& v) {
   ++counts_.primitives_in;
+  const bool line = is_lines(state.topology);
+  counts_.has_lines |= line || state.polygon_mode != PolygonMode::fill;
   if (!std::all_of(v.begin(), v.end(), [](const ShadedVertex* s) { return is_finite(s->pos_clip); })) {
     ++counts_.culled_non_finite;
     return {};
   }
-  if (all_outside(state.depth, v)) {
+  bool beyond_all = false, beyond_any = false;  // of a clip distance
+  for (std::size_t k = 0; k < v[0]->clip_distances.size(); ++k) {
+    const auto beyond = [k](const ShadedVertex* s) { return !(s->clip_distances[k] >= 0.0f); };
+    beyond_all |= std::all_of(v.begin(), v.end(), beyond);
+    beyond_any |= std::any_of(v.begin(), v.end(), beyond);
+  }
+  if (all_outside(state.depth, v) || beyond_all) {
     ++counts_.culled_outside;
     return {};
   }
   const Transform transform = make_transform(state.viewport.value_or(Rect{0, 0, target_.width(), target_.height()}), state.depth);
   const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   std::vector<Corner> corners;
+  std::vector<int> vertices{0, 1, 2};
   bool corners_are_cut = false;
-  if (std::any_of(v.begin(), v.end(), [&](const ShadedVertex* s) { return needs_clip(transform, state.depth, s->pos_clip); })) {
+  if (beyond_any || std::any_of(v.begin(), v.end(), [&](const ShadedVertex* s) { return needs_clip(transform, state.depth, s->pos_clip); })) {
     Polygon polygon;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < (line ? 2 : 3); ++i) {
       const glm::vec4& p = v[i]->pos_clip;
       polygon.push_back({{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), static_cast<double>(p.w)},
                          {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0},
                          static_cast<int>(i)});
     }
-    const std::vector<Plane> planes = clip_planes(transform, state.depth);
-    for (const Plane& plane : planes) polygon = cut(plane, &plane == planes.data(), polygon);
-    if (polygon.size() < 3) {
+    std::vector<Plane> planes = clip_planes(transform, state.depth);
+    for (std::size_t k = 0; k < v[0]->clip_distances.size(); ++k) {
+      const auto of = [&](std::size_t i) { return static_cast<double>(v[i]->clip_distances[k]); };
+      planes.push_back({0, 0, 0, 0, 0, std::array{of(0), of(1), of(2)}});
+    }
+    for (const Plane& plane : planes) {
+      polygon = line ? cut_line(plane, &plane == planes.data(), polygon) : cut(plane, &plane == planes.data(), polygon);
+    }
+    if (polygon.size() < (line ? 2u : 3u)) {
       ++counts_.culled_outside;
       return {};
     }
     ++counts_.clipped;
     corners_are_cut = true;
-    for (const ClipPoint& c : polygon) corners.push_back(clip_corner(transform, c, v, facts, provoking));
-    for (Corner& c : corners) {  // all corners carry the provoking vertex's flat values
-      for (std::size_t i = 0; i < c.varyings.size(); ++i) {
-        if (facts.interpolations[i] == Interpolation::flat) c.varyings[i] = v[provoking]->varyings[i];
-      }
+    vertices.clear();
+    for (const ClipPoint& c : polygon) {
+      corners.push_back(clip_corner(transform, c, v, facts, provoking));
+      vertices.push_back(c.vertex);
     }
   } else {
-    for (const ShadedVertex* s : v) corners.push_back(project(transform, *s));
+    for (std::size_t i = 0; i < (line ? 2 : 3); ++i) corners.push_back(project(transform, *v[i]));
   }
+  const std::vector<float>& flat = v[provoking]->varyings;
+  if (line || state.polygon_mode != PolygonMode::fill || corners_are_cut) {  // all corners carry the provoking vertex's flat values
+    for (Corner& c : corners) {
+      for (std::size_t i = 0; i < c.varyings.size(); ++i) {
+        if (facts.interpolations[i] == Interpolation::flat) c.varyings[i] = flat[i];
+      }
+    }
+  }
+  if (line) return window_line(state, corners[0], corners[1], flat, true);
+  if (state.polygon_mode != PolygonMode::fill) return window_outline(state, corners, vertices, v, flat);
 
   const Box allowed = allowed_pixels(target_, state);
   const bool clipped = corners.size() != 3 || corners_are_cut;

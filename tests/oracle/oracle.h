@@ -34,6 +34,7 @@ struct Counts {
   uint64_t clipped = 0;
   uint64_t triangles = 0;  ///< triangles of which some sample may be drawn
   uint64_t samples_passed = 0;
+  bool has_lines = false;  ///< then what lines leave no sample is not counted as the pass does
   std::map<uint32_t, uint64_t> queries;
 };
 
@@ -94,6 +95,7 @@ Point position_of(const Sample& s, int samples);
 struct ShadedVertex {
   glm::vec4 pos_clip{};
   float point_size = 1.0f;
+  std::vector<float> clip_distances;
   bool has_bounds = false;  ///< low and high, in normalized device coordinates, instead of a size
   glm::vec2 low{}, high{};
   std::vector<float> varyings;
@@ -116,6 +118,9 @@ struct WindowTriangle {
   float z0 = 0, z_max = 0;         ///< smallest and largest depth, offset included
   float z_step1 = 0, z_step2 = 0;  ///< depth per unit of E1 and E2
 
+  bool is_line = false;  ///< then one from `from` to `to`, so many pixels wide, and corner 2 lies beside corner 0
+  Point from, to;
+  int width = 1;
   bool is_point = false;  ///< then a rectangle, of which corner 0 is the point and low … high (half open) the extent
   Point low, high;
   PointOrigin origin = PointOrigin::upper_left;
@@ -187,9 +192,13 @@ class Renderer {
 
   // A submitted point in the window, or none.
   std::vector<WindowTriangle> window_points(const DrawState& state, const ShadedVertex& v);
-  // A submitted triangle's pieces in the window: none if culled, several if clipped.
+  // A submitted triangle's pieces in the window (of a line the third vertex is the second): none if culled, several if clipped.
   std::vector<WindowTriangle> window_triangles(const DrawState& state, const ShaderFacts& facts,
                                                const std::array<const ShadedVertex*, 3>& v);
+  std::vector<WindowTriangle> window_line(const DrawState& state, const Corner& a, const Corner& b, const std::vector<float>& flat,
+                                          bool front);
+  std::vector<WindowTriangle> window_outline(const DrawState& state, const std::vector<Corner>& corners, const std::vector<int>& vertex,
+                                             const std::array<const ShadedVertex*, 3>& v, const std::vector<float>& flat);
   void rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade);
   void draw_pixel(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
                   const FragmentFunction& shade);
@@ -223,6 +232,7 @@ template <std::size_t N>
 void take_vertex(const PerVertex<float, N>& v, ShadedVertex& out) {
   out.pos_clip = v.position;
   out.point_size = v.point_size;
+  out.clip_distances.assign(v.clip_distance.begin(), v.clip_distance.end());
 }
 inline void take_vertex(const SpriteVertex<float>& v, ShadedVertex& out) {
   out.pos_clip = {0.0f, 0.0f, v.depth, v.drawn ? 1.0f : -1.0f};

@@ -479,7 +479,35 @@ SceneDraw random_points(const Scene& scene, const Geometry& g, const DrawState& 
   }
 }
 
+// Lines, outlines and clip distances.
+template <class S>
+SceneDraw lines_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
+  if (random.once_in(2)) {
+    state.topology = random.pick({Topology::lines, Topology::line_strip, Topology::line_loop});
+  } else if (!random.once_in(3)) {
+    state.polygon_mode = random.pick({PolygonMode::line, PolygonMode::line, PolygonMode::point});
+  }
+  state.line_width = random.pick({1.0f, 1.0f, 1.0f, 1.6f, 3.0f, 4.0f, 11.3f});
+  state.point_size = random.pick({1.0f, 5.0f, 20.0f});
+  if (random.once_in(4)) add_operations(scene, false, random, state);
+  return shader_draw(shader, name, g, state, random);
+}
+
+SceneDraw random_lines(const Scene& scene, const Geometry& g, const DrawState& state, Random& random) {
+  if (scene.color.format == ColorFormat::none) return lines_draw(DepthShader{}, "DepthShader", scene, g, state, random);
+  switch (random.below(7)) {
+    case 0: return lines_draw(MixedShader{}, "MixedShader", scene, g, state, random);
+    case 1: return lines_draw(FaceShader{}, "FaceShader", scene, g, state, random);
+    case 2: return lines_draw(DerivativeShader{}, "DerivativeShader", scene, g, state, random);
+    case 3: return lines_draw(CutoutShader<true>{0.2f}, "CutoutShader with visibility", scene, g, state, random);
+    case 4: return lines_draw(ClipShader<1>{}, "ClipShader<1>", scene, g, state, random);
+    case 5: return lines_draw(ClipShader<8>{}, "ClipShader<8>", scene, g, state, random);
+    default: return lines_draw(PixelShader{}, "PixelShader", scene, g, state, random);
+  }
+}
+
 SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  if (theme == Theme::lines) return random_lines(scene, g, state, random);
   if (theme == Theme::points) return random_points(scene, g, state, random);
   if (theme == Theme::operations || theme == Theme::samples) return random_operations(scene, g, state, matrix, random);
   if (theme == Theme::primitives && !random.once_in(4)) return random_primitives(depth_only, g, state, matrix, random);
@@ -535,7 +563,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
   s.depth.format = random.pick({DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16, DepthFormat::none});
   s.color.clear_value = {random.real(0, 1), random.real(0, 1), random.real(-0.5f, 1.5f), random.real(0, 1)};
   s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});
-  const bool many_points = theme == Theme::points && random.once_in(2);
+  const bool many_points = (theme == Theme::points || theme == Theme::lines) && random.once_in(theme == Theme::points ? 2 : 4);
   if (theme == Theme::operations || theme == Theme::samples || many_points) add_attachments(theme, depth_only, random, s);
   if (random.once_in(4)) {
     fill_images(s, random);

@@ -407,6 +407,38 @@ struct BoundsShader {
   }
 };
 
+/// N clip distances.
+template <std::size_t N>
+struct ClipShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> a;
+    Flat<R> id;
+    Linear<R> ramp;
+  };
+  template <class R>
+  PerVertex<R, N> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.a = in.a;
+    out.id.value = in.a.x;
+    out.ramp.value = in.a.y;
+    PerVertex<R, N> v{in.position, R(4.0f), {}};
+    for (std::size_t i = 0; i < N; ++i) {
+      const R turn(static_cast<float>(i) * 0.125f);
+      v.clip_distance[i] = in.a.x - turn * in.a.y + (in.a.z + R(0.4f)) * (R(1.0f) - turn);
+    }
+    return v;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {held(vec4<R>(in.a.x, in.a.y + in.id.value, in.ramp.value, in.a.w), 8.0f)};
+  }
+};
+
 /// Depth alone; its positions are those of ColorShader.
 struct DepthShader {
   glm::mat4 clip_from_model{1.0f};
