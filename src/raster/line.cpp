@@ -28,12 +28,14 @@ int64_t pixel_before(int64_t x) { return (x - 1) >> kSubPixelBits; }
 
 int line_pixels(float width) { return static_cast<int>(std::nearbyint(std::clamp(width, 1.0f, 4096.0f))); }
 
-LineRange line_range(const ScreenVertex& a, const ScreenVertex& b) {
+LineRange line_range(const ScreenVertex& a, const ScreenVertex& b, int pixels) {
   const bool y_major = is_y_major(int64_t{b.x} - a.x, int64_t{b.y} - a.y);
   const auto major = [&](const ScreenVertex& v) { return y_major ? v.y : v.x; };
   // Does the diamond of pixel i along the longer axis hold the end?
+  const int64_t shift = int64_t{kHalf} * (pixels - 1);  // to the lowest of the lines, one pixel wide, that a wide one is made of
   const auto holds = [&](const ScreenVertex& v, int i) {
-    return y_major ? diamond_holds(pixel_before(v.x), i, v.x, v.y) : diamond_holds(i, pixel_before(v.y), v.x, v.y);
+    const int64_t x = y_major ? v.x - shift : v.x, y = y_major ? v.y : v.y - shift;
+    return y_major ? diamond_holds(pixel_before(x), i, x, y) : diamond_holds(i, pixel_before(y), x, y);
   };
   const int from = first_center(major(a)), to = first_center(major(b));
   // Centres between the ends are crossed. The first diamond also counts if the line starts in its farther half, the last does

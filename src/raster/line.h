@@ -19,7 +19,7 @@ int line_pixels(float width);
 inline bool is_y_major(int64_t dx, int64_t dy) { return (dx < 0 ? -dx : dx) < (dy < 0 ? -dy : dy); }
 
 /// The columns (y-major: rows) that a line from a to b covers.
-LineRange line_range(const ScreenVertex& a, const ScreenVertex& b);
+LineRange line_range(const ScreenVertex& a, const ScreenVertex& b, int pixels);
 
 /// One of the two long sides of a line's band: inside where E + offset − bias ≥ 0.
 struct BandEdge {

@@ -107,7 +107,7 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
 
 Cull set_up_line(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 2>& v, const std::array<uint32_t, 2>& index,
                  uint32_t provoking, Facing facing, Triangle& out) {
-  const LineRange range = line_range(*v[0], *v[1]);
+  const LineRange range = line_range(*v[0], *v[1], line_pixels(draw.state.line_width));
   const std::size_t near = v[1]->z < v[0]->z ? 1 : 0;
   const ScreenVertex &a = *v[near], &b = *v[1 - near];
   const int32_t dx = b.x - a.x, dy = b.y - a.y;

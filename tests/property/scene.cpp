@@ -250,7 +250,7 @@ std::string describe(const Scene& s) {
         << (d.state.front == Winding::clockwise ? " cw" : " ccw") << ", depth "
         << (z.test ? kCompareNames[static_cast<int>(z.compare)] : "off") << (z.write ? "" : " (no write)") << (z.clamp ? " clamp" : "")
         << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far
-        << (d.state.blend ? ", blend" : "") << (d.state.stencil ? ", stencil" : "") << (d.state.color_mask.all() ? "" : ", mask")
+        << ", polygon mode " << static_cast<int>(d.state.polygon_mode) << ", line width " << d.state.line_width << (d.state.blend ? ", blend" : "") << (d.state.stencil ? ", stencil" : "") << (d.state.color_mask.all() ? "" : ", mask")
         << (d.state.sample_shading ? ", shaded by sample" : "") << (d.state.alpha_to_coverage ? ", alpha to coverage" : "");
     if (d.state.offset.slope != 0 || d.state.offset.constant != 0) out << ", offset";
     for (const auto& r : {d.state.viewport, d.state.scissor}) {
