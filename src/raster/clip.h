@@ -41,7 +41,7 @@ struct ClipDistances {
 
 /// pos_clip finite. The polygon keeps the triangle's orientation.
 ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip,
-                          const ClipDistances& distances);
+                          const ClipDistances& distances = {});
 
 /// The same of a line between the first two vertices: two corners, or none.
 ClipPolygon clip_line(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip,

@@ -49,6 +49,7 @@ ShaderKernels kernels_of() {
   ShaderKernels k;
   k.vertex = vertex_kernel<S, true>;
   k.position = vertex_kernel<S, false>;
+  k.uses_centroid = kUsesCentroid<V>;
   k.gives_point_size = kGivesPointSize<S>;
   k.gives_sprite = kGivesSprite<S>;
   static_assert(kClipDistances<S> <= kMostClipDistances);

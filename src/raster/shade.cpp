@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "raster/centroid.h"
 #include "raster/output.h"
 #include "raster/sprite.h"
 
@@ -128,6 +129,7 @@ void run_job(const Frame& frame, Tile& tile, const Job& job, PassStatistics& sta
   std::stable_sort(work.begin(), work.begin() + count, [](const Work& a, const Work& b) { return a.draw < b.draw; });
   FragmentOutput out;
   std::array<PacketMask, kFragmentBatch> packets;
+  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
   for (int begin = 0; begin < count;) {
     const Draw& draw = *work[static_cast<std::size_t>(begin)].draw;
     int n = 0;
@@ -136,8 +138,13 @@ void run_job(const Frame& frame, Tile& tile, const Job& job, PassStatistics& sta
       statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[static_cast<std::size_t>(n)].lanes));
       ++n;
     }
+    const bool looks_inside = draw.kernels.uses_centroid && tile.samples > 1 && job.share == Share::per_pixel;
+    for (std::size_t i = 0; looks_inside && i < static_cast<std::size_t>(n); ++i) {
+      const int p = packets[i].packet;
+      find_centroids(frame, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
+    }
     draw.kernels.fragment(draw.shader.get(), {&frame, tile.x0 - job.cell.x, tile.y0 - job.cell.y, job.position, job.ids, kNoTriangle,
-                                              packets.data(), n, &out});
+                                              packets.data(), n, looks_inside ? centroids.data() : nullptr, &out});
     for (int i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (job.share == Share::per_pixel && tile.samples > 1) {

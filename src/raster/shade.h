@@ -39,7 +39,8 @@ struct FragmentBatch {
   const TriangleId* ids;  ///< the tile's triangle of each pixel, or null: uniform_id everywhere
   TriangleId uniform_id;
   const PacketMask* packets;
-  int count;  ///< ≤ kFragmentBatch
+  int count;                        ///< ≤ kFragmentBatch
+  const SamplePosition* centroids;  ///< where centroid varyings are looked up, a row of W for each packet; or null: at position
   FragmentOutput* out;
 };
 
@@ -199,8 +200,8 @@ HS_INLINE void gather_triangles(const FragmentBatch& batch, PacketMask packet, P
 
 /// Sets up the Pixel of a packet and interpolates its varyings.
 template <class S, std::size_t N, std::size_t P>
-HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const SamplePosition& at, const PacketTriangles<N, P>& t,
-                                                           Pixel<Real>& px) {
+HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const SamplePosition& at, const SamplePosition* centroids,
+                                                           const PacketTriangles<N, P>& t, Pixel<Real>& px) {
   using V = typename S::template Varyings<Real>;
   const Int ix = lane_x() + x, iy = lane_y() + y;
   const Real x_sub = to_real<Real>(ix * kSubPixels + at.x);
@@ -217,6 +218,19 @@ HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const S
   px.z = packet_depth(t, x_sub, y_sub);
   px.inv_w = px.weights.denominator / t.lanes.area * t.lanes.q_unscale;
   px.front_facing = t.front;
+  if constexpr (kUsesCentroid<typename S::template Varyings<float>>) {
+    if (centroids != nullptr) {
+      Int cx{}, cy{};
+      for (int i = 0; i < kLanes; ++i) {
+        set_lane(cx, i, centroids[i].x);
+        set_lane(cy, i, centroids[i].y);
+      }
+      const Weights<Real> inside =
+          weights_at(t.lanes, to_real<Real>(ix * kSubPixels + cx) - t.lanes.x0, to_real<Real>(iy * kSubPixels + cy) - t.lanes.y0);
+      return interpolate_all<V>(px.weights, inside, t.components, std::make_index_sequence<N>());
+    }
+  }
+  (void)centroids;
   return interpolate_all<V>(px.weights, t.components, std::make_index_sequence<N>());
 }
 
@@ -234,7 +248,7 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     gather_triangles<F>(batch, packet, triangles);
     Pixel<Real> px;
     const V in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), batch.position,
-                                 triangles, px);
+                                 batch.centroids == nullptr ? nullptr : batch.centroids + i * kLanes, triangles, px);
     P face{};
     if constexpr (p != 0) face = from_components<P, Real>(triangles.primitive);
     const auto fragment = call_fragment<S, Real>(s, in, face, px);
@@ -255,7 +269,7 @@ HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityPacket& pa
   PacketTriangles<kComponents<V>, 0> triangles;
   merge_triangle<F, true>(*packet.frame, packet.id, Mask(true), triangles);
   Pixel<Real> px;
-  const V in = begin_packet<S>(packet.x, packet.y, packet.position, triangles, px);
+  const V in = begin_packet<S>(packet.x, packet.y, packet.position, packet.centroids, triangles, px);
   const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
   store(packet.depth, v.depth);
   *packet.lanes &= bits(v.keep);

@@ -3,6 +3,7 @@
 // Shading at once, in order: what blends, and what only its fragment function can decide.
 #include <algorithm>
 
+#include "raster/centroid.h"
 #include "raster/shade.h"
 #include "raster/stencil.h"
 
@@ -62,9 +63,16 @@ void finish_sample(const Context& c, const FragmentOutput& out, std::size_t i, i
 template <class F>
 void shade_packets(const Context& c, const PacketMask* packets, int count, const SampleCell& cell, const SamplePosition& at, F finish) {
   FragmentOutput out;
+  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
   for (int begin = 0; begin < count; begin += kFragmentBatch) {
     const int n = std::min(kFragmentBatch, count - begin);
-    c.draw.kernels.fragment(c.draw.shader.get(), {&c.frame, c.tile.x0 - cell.x, c.tile.y0 - cell.y, at, nullptr, c.id, packets + begin, n, &out});
+    const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
+    for (int i = 0; looks_inside && i < n; ++i) {
+      const int p = packets[begin + i].packet;
+      find_centroids(c.frame, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id, &centroids[static_cast<std::size_t>(i * kLanes)]);
+    }
+    c.draw.kernels.fragment(c.draw.shader.get(), {&c.frame, c.tile.x0 - cell.x, c.tile.y0 - cell.y, at, nullptr, c.id, packets + begin, n,
+                                                  looks_inside ? centroids.data() : nullptr, &out});
     for (int i = 0; i < n; ++i) {
       const PacketMask& packet = packets[begin + i];
       c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packet.lanes));

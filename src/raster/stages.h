@@ -182,6 +182,7 @@ struct ShaderKernels {
   int varying_count = 0;                          ///< floats per vertex
   int primitive_count = 0;                        ///< floats per triangle
   const Interpolation* interpolations = nullptr;  ///< varying_count entries
+  bool uses_centroid = false;                     ///< some varying does
   bool gives_point_size = false;                  ///< the vertex function does
   bool gives_sprite = false;                      ///< and bounds of points
   int clip_distance_count = 0;                    ///< and clip distances

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "raster/centroid.h"
 #include "raster/compare.h"
 #include "raster/primitive_setup.h"
 #include "raster/stencil.h"
@@ -69,8 +70,12 @@ void ask_shader(const SampleContext& c, int packet, Real& z, Mask& mask) {
   alignas(64) std::array<float, kLanes> depth;
   uint32_t lanes = bits(mask);
   const SamplePosition at = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
+  const int x = c.grid.x0 + packet_x(packet), y = c.grid.y0 + packet_y(packet);
+  std::array<SamplePosition, kLanes> centroids;
+  const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
+  if (looks_inside) find_centroids(c.frame, x, y, nullptr, c.id, centroids.data());
   c.draw.kernels.visibility(c.draw.shader.get(),
-                            {&c.frame, c.id, c.grid.x0 + packet_x(packet), c.grid.y0 + packet_y(packet), at, depth.data(), &lanes});
+                            {&c.frame, c.id, x, y, at, looks_inside ? centroids.data() : nullptr, depth.data(), &lanes});
   const Real shader_z = clamp(load<Real>(depth.data()), Real(c.draw.depth_low), Real(c.draw.depth_high));
   if (c.draw.kernels.writes_depth) z = depth_value(c.tile.depth_format, shader_z);
   mask = mask & mask_from_bits<Mask>(lanes);

@@ -46,7 +46,8 @@ struct VisibilityPacket {
   const Frame* frame;
   TriangleId id;
   int x, y;         ///< window coordinates of the packet's lowest corner
-  SamplePosition position;  ///< where in their pixels the shader looks
+  SamplePosition position;          ///< where in their pixels the shader looks
+  const SamplePosition* centroids;  ///< as in FragmentBatch
   float* depth;     ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
   uint32_t* lanes;  ///< in and out: bits of the covered lanes, then of those kept
 };

@@ -93,6 +93,16 @@ HS_INLINE V interpolate_all(const Weights<R>& w, const ComponentLanes<R, sizeof.
   return from_components<V, R>(out);
 }
 
+/// The same with the centroid components at weights of their own.
+template <class V, class R, std::size_t... I>
+HS_INLINE V interpolate_all(const Weights<R>& w, const Weights<R>& centroid, const ComponentLanes<R, sizeof...(I)>& c,
+                            std::index_sequence<I...>) {
+  constexpr auto modes = kInterpolations<V>;
+  std::array<R, sizeof...(I)> out{
+      interpolate<modes[I]>(modes[I] == Interpolation::centroid ? centroid : w, c.value0[I], c.delta1[I], c.delta2[I])...};
+  return from_components<V, R>(out);
+}
+
 /// What a fragment shader is told of its pixel, lane by lane.
 template <class R>
 struct Pixel {

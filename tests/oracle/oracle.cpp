@@ -1103,14 +1103,22 @@ void Renderer::rasterize(const DrawState& state, const ShaderFacts& facts, const
 void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
                           const FragmentFunction& shade) {
   std::optional<FragmentResult> of_pixel;
+  Point centroid = center_of(x, y);  // unless a sample is not covered: then the first that is
+  std::vector<Point> covered;
+  for (int i = 0; i < target_.samples(); ++i) {
+    const Point p = position_of({x, y, i}, target_.samples());
+    if (covers(t, p)) covered.push_back(p);
+  }
+  if (!covered.empty() && covered.size() < static_cast<std::size_t>(target_.samples())) centroid = covered[0];
   for (int i = 0; i < target_.samples(); ++i) {
     const Sample s{x, y, i};
     if (!covers(t, position_of(s, target_.samples()))) continue;
     if (target_.samples() > 1 && (state.sample_mask >> i) % 2 == 0) continue;
     if (state.sample_shading || supersample_) {
-      draw_sample(state, facts, t, s, shade(t, surface, position_of(s, target_.samples())));
+      const Point at = position_of(s, target_.samples());
+      draw_sample(state, facts, t, s, shade(t, surface, at, at));
     } else {
-      if (!of_pixel) of_pixel = shade(t, surface, center_of(x, y));
+      if (!of_pixel) of_pixel = shade(t, surface, center_of(x, y), centroid);
       draw_sample(state, facts, t, s, *of_pixel);
     }
   }

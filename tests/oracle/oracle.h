@@ -188,7 +188,8 @@ class Renderer {
   template <class S>
   void draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance);
 
-  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Point& at)>;
+  // at: where the pixel is looked at; centroid: where its centroid varyings are
+  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Point& at, const Point& centroid)>;
 
   // A submitted point in the window, or none.
   std::vector<WindowTriangle> window_points(const DrawState& state, const ShadedVertex& v);
@@ -256,17 +257,18 @@ T struct_of(const std::vector<float>& components) {
 
 template <class S>
 FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, const WindowTriangle& t, const Surface& s,
-                           const DepthState& state, const Point& at) {
+                           const DepthState& state, const Point& at, const Point& centroid) {
   using V = typename S::template Varyings<float>;
   constexpr std::size_t n = kComponents<V>;
-  const SurfacePoint p = surface_point(s, t, state, at);
+  const SurfacePoint p = surface_point(s, t, state, at), inside = surface_point(s, t, state, centroid);
   ComponentLanes<float, n> components{};
   std::array<float, n> values{};
   for (std::size_t i = 0; i < n; ++i) {
     components.value0[i] = s.value0[i];
     components.delta1[i] = s.delta1[i];
     components.delta2[i] = s.delta2[i];
-    values[i] = component_at(s, p, kInterpolations<V>[i], i);
+    const Interpolation mode = kInterpolations<V>[i];
+    values[i] = component_at(s, mode == Interpolation::centroid ? inside : p, mode, i);
   }
   Pixel<float> px;
   px.x = static_cast<float>(at.x) / 256.0f;
@@ -337,8 +339,8 @@ void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawS
     }
     const bool points = state.topology == Topology::points;
     for (const WindowTriangle& t : points ? window_points(state, *v[0]) : window_triangles(state, facts, v)) {
-      rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Point& at) {
-        return detail::call_shader(shader, face, triangle, surface, state.depth, at);
+      rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Point& at, const Point& centroid) {
+        return detail::call_shader(shader, face, triangle, surface, state.depth, at, centroid);
       });
     }
   }

@@ -145,21 +145,23 @@ struct CutoutShader {
     vec2<R> uv;
     Flat<R> id;
     Linear<R> fade;
+    Centroid<vec2<R>> inside;
   };
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.uv = vec2<R>(in.a.x, in.a.y);
     out.id.value = in.a.z;
     out.fade.value = in.a.w;
+    out.inside.value = out.uv;
     return in.position;
   }
   template <class R>
   MaskOf<R> keeps(const Varyings<R>& in, const Pixel<R>& px) const {
-    return (abs(in.uv.x * in.uv.y) > R(threshold)) & (px.z + in.fade.value * R(0.5f) < R(0.95f));
+    return (abs(in.uv.x * in.inside.value.y) > R(threshold)) & (px.z + in.fade.value * R(0.5f) < R(0.95f));
   }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {held(vec4<R>(in.uv.x, in.uv.y, in.id.value, in.fade.value), 8.0f), keeps(in, px)};
+    return {held(vec4<R>(in.uv.x, in.inside.value.y, in.id.value, in.fade.value), 8.0f), keeps(in, px)};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
