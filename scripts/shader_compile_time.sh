@@ -8,10 +8,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 unit() {
   echo '#include "raster/pass.h"'
-  echo '#include "shading/blinn_phong.h"'
+  echo '#include "shading/surface_shader.h"'
   echo 'using namespace halfspace;'
   for i in $(seq "$1"); do
-    echo "struct Shader$i : BlinnPhong {};"
+    echo "struct Shader$i : SurfaceShader<ShadingRate::phong, true> {};"
     echo "void draw$i(Pass& pass, const Shader$i& shader, const VertexView& view) { pass.draw(shader, view); }"
   done
 }

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "halfspace/commands.h"
+#include "scene/output_file.h"
 
 namespace halfspace {
 
@@ -42,6 +43,11 @@ double parse_real(std::string_view option, std::string_view text, double low, do
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
   if (error == std::errc() && end == text.data() + text.size() && x >= low && x <= high) return x;
   throw UsageError(std::string(option) + " is '" + std::string(text) + "'; expected " + std::string(example));
+}
+
+bool is_stream(const std::filesystem::path& path) {
+  std::error_code error;
+  return is_standard_output(path) || (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error));
 }
 
 }  // namespace halfspace

@@ -3,6 +3,7 @@
 // Values of options, checked: what is wrong with one is told in the option's words.
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 namespace halfspace {
@@ -22,5 +23,8 @@ int parse_threads(std::string_view text);
 
 /// A finite number in [low, high]. `option` and `example` are for the message. Throws UsageError.
 double parse_real(std::string_view option, std::string_view text, double low, double high, std::string_view example);
+
+/// Is there something of that name that is written to as a stream: standard output, a pipe, a device?
+bool is_stream(const std::filesystem::path& path);
 
 }  // namespace halfspace

@@ -24,6 +24,8 @@ class UsageError : public std::runtime_error {
 
 /// They throw UsageError, InputError or OutputError from the parser's callback.
 void add_render_command(CLI::App& program);
+void add_convert_normal_command(CLI::App& program);
+void add_validate_command(CLI::App& program);  // where the program has rays
 void add_list_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_completion_command(CLI::App& program);

@@ -40,6 +40,7 @@ complete -c halfspace -f
 complete -c halfspace -n __fish_use_subcommand -a '(halfspace completion words)'
 complete -c halfspace -n '__fish_seen_subcommand_from render list' -a '(halfspace list --names)'
 complete -c halfspace -n '__fish_seen_subcommand_from render' -l set -x -a '(halfspace list (commandline -opc)[3] --names 2> /dev/null)'
+complete -c halfspace -n '__fish_seen_subcommand_from convert-normal' -F
 complete -c halfspace -n 'not __fish_use_subcommand' -a '(halfspace completion words (commandline -opc)[2])'
 )script";
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/frames.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -32,14 +35,42 @@ std::filesystem::path frame_path(const std::filesystem::path& out, int frame, co
   return out.parent_path() / (out.stem().string() + "_" + number + out.extension().string());
 }
 
+namespace {
+
+// Is there a line to be cleared? For the signal handler.
+std::atomic<bool> line_shown = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Columns of the terminal; 80 where it does not tell.
+int terminal_columns() {
+  winsize size = {};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+// "1:05", "2:00:07".
+std::string time_text(int seconds) {
+  char text[32];
+  if (seconds < 3600) {
+    std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%d:%02d:%02d", seconds / 3600, seconds / 60 % 60, seconds % 60);
+  }
+  return text;
+}
+
+}  // namespace
+
+void clear_progress() noexcept {
+  constexpr char kClear[] = {'\r', '\033', '[', 'K'};
+  if (line_shown.exchange(false)) (void)!::write(STDERR_FILENO, kClear, sizeof kClear);
+}
+
 Progress::Progress(int total)
     : on_terminal_(::isatty(STDERR_FILENO) == 1 && total > 1), total_(total), start_(std::chrono::steady_clock::now()) {
   show();
 }
 
-Progress::~Progress() {
-  if (on_terminal_) std::fprintf(stderr, "\r\033[K");
-}
+Progress::~Progress() { clear_progress(); }
 
 void Progress::advance(bool skipped) {
   ++done_;
@@ -49,16 +80,22 @@ void Progress::advance(bool skipped) {
 
 void Progress::show() const {
   if (!on_terminal_) return;
-  constexpr int kWidth = 30;
-  const int filled = kWidth * done_ / total_;
-  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kWidth - filled), '.');
-  std::fprintf(stderr, "\r\033[K[%s] %d/%d", bar.c_str(), done_, total_);
+  std::string text = " " + std::to_string(done_) + "/" + std::to_string(total_);
   if (rendered_ > 0) {
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const auto left = static_cast<int>(spent / rendered_ * (total_ - done_) + 0.5);
-    std::fprintf(stderr, "  %d:%02d left", left / 60, left % 60);
+    text += "  " + time_text(static_cast<int>(std::min(spent / rendered_ * (total_ - done_) + 0.5, 1e9))) + " left";
   }
+  // A line that wraps could not be written over: the bar gives way.
+  constexpr int kWidest = 30;
+  const int width = std::min(kWidest, terminal_columns() - 3 - static_cast<int>(text.size()));
+  std::string line = "\r\033[K";
+  if (width > 0) {
+    const auto filled = static_cast<std::size_t>(static_cast<int64_t>(width) * done_ / total_);
+    line += "[" + std::string(filled, '#') + std::string(static_cast<std::size_t>(width) - filled, '.') + "]";
+  }
+  std::fputs((line + text).c_str(), stderr);
   std::fflush(stderr);
+  line_shown = true;
 }
 
 }  // namespace halfspace

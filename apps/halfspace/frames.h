@@ -41,4 +41,7 @@ class Progress {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// Clears the line of the Progress that is shown, if one is. For signal handlers: async-signal-safe.
+void clear_progress() noexcept;
+
 }  // namespace halfspace

@@ -12,6 +12,7 @@
 
 #include "core/check.h"
 #include "halfspace/commands.h"
+#include "halfspace/frames.h"
 #include "scene/nearest_name.h"
 #include "scene/output_file.h"
 
@@ -23,6 +24,7 @@ namespace {
 // once (SA_RESETHAND), so the second raise, delivered when it returns, ends the program.
 extern "C" void on_signal(int signal) {
   remove_unfinished_output();
+  clear_progress();
   std::raise(signal);
 }
 
@@ -113,11 +115,13 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   program.formatter(std::make_shared<HelpFormatter>());
   program.get_formatter()->column_width(28);
   add_render_command(program);
+  add_convert_normal_command(program);
+  if constexpr (HALFSPACE_HAS_RAYS) add_validate_command(program);
   add_list_command(program);
   add_info_command(program);
   add_completion_command(program);
   program.footer("halfspace COMMAND --help tells more of a command.");
-  if (argc < 2) throw UsageError("no command; expected one of render, list, info, completion (see 'halfspace --help')");
+  if (argc < 2) throw UsageError("no command; expected one of render, convert-normal, list, info, completion (see 'halfspace --help')");
   program.parse(argc, argv);
 }
 

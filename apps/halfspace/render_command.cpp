@@ -3,6 +3,7 @@
 // `halfspace render SCENE`: checks all arguments, renders a picture or a range of frames, writes them.
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "halfspace/arguments.h"
 #include "halfspace/commands.h"
 #include "halfspace/frames.h"
+#include "halfspace/scene_arguments.h"
 #include "halfspace/statistics.h"
 #include "scene/image_io.h"
 #include "scene/nearest_name.h"
@@ -31,6 +33,7 @@ struct RenderArguments {
   std::string size = "1920x1080";
   std::vector<std::string> set;
   std::string camera;   // empty: the scene's
+  std::string shading;  // empty: the objects'
   std::string time;     // empty: 0
   std::string frames;   // empty: one picture
   std::string fps;      // empty: 30
@@ -59,30 +62,21 @@ std::filesystem::path output_path(const RenderArguments& args) {
 
 ImageFile output_format(const std::filesystem::path& path) {
   if (const std::optional<ImageFile> format = image_file_of(path)) return *format;
-  std::error_code error;
-  const bool special = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
-  if (special && !path.has_extension()) return ImageFile::png;  // /dev/stdout
+  if (is_stream(path) && !path.has_extension()) return ImageFile::png;
   throw UsageError("-o is '" + path.string() + "'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr");
 }
 
-void set_camera(SceneFile& scene, const std::string& name) {
-  if (name.empty()) return;
-  std::vector<std::string_view> names;
-  for (const auto& [camera, description] : scene.description().cameras) names.push_back(camera);
-  if (std::ranges::find(names, name) == names.end()) throw InputError("--camera: no camera '" + name + "'" + suggestion(name, names));
-  scene.set("camera=" + name);
-}
-
-SceneFile open_scene(const RenderArguments& args) {
-  SceneFile scene = SceneFile::open(args.scene);
-  for (const std::string& setting : args.set) {
-    if (setting.find('=') == std::string::npos || setting.starts_with('=')) {
-      throw UsageError("--set is '" + setting + "'; expected KEY=VALUE, for example camera=main");
-    }
+// One shading rate for every object.
+void set_shading(SceneFile& scene, const std::string& rate) {
+  if (rate.empty()) return;
+  ObjectDescription any;
+  const std::span<const std::string_view> rates = find_field(section_of(any), "shading").key->choices;
+  if (std::ranges::find(rates, rate) == rates.end()) {
+    throw UsageError("--shading is '" + rate + "'" + suggestion(rate, rates));
   }
-  scene.set(args.set);
-  set_camera(scene, args.camera);
-  return scene;
+  std::vector<std::string> settings;
+  for (const auto& [name, object] : scene.description().objects) settings.push_back("objects." + name + ".shading=" + rate);
+  scene.set(settings);
 }
 
 RenderJob understand(const RenderArguments& args) {
@@ -102,7 +96,9 @@ RenderJob understand(const RenderArguments& args) {
   if (frames && !out.has_extension())
     throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
-  return {open_scene(args), out, format, size, time, fps, frames, threads, args.resume};
+  SceneFile scene = open_scene(args.scene, args.set, args.camera);
+  set_shading(scene, args.shading);
+  return {std::move(scene), out, format, size, time, fps, frames, threads, args.resume};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -114,13 +110,23 @@ void write_picture(const std::filesystem::path& path, const Image<glm::u8vec4>& 
   path.has_extension() ? write_image(path, picture) : write_png(path, picture);  // /dev/stdout
 }
 
+// What the scene asks for and cannot have is told with its name.
+PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets) {
+  const SceneDescription scene = job.scene.at(seconds);
+  try {
+    return assets.prepare(scene, job.size.width, job.size.height);
+  } catch (const InputError& e) {
+    throw InputError(job.scene.source() + ": " + e.what());
+  }
+}
+
 // Renders one picture into a file and adds to the report.
 template <class Pixel>
 void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
                     RenderReport& report) {
   const auto start = std::chrono::steady_clock::now();
   Image<Pixel> picture(job.size.width, job.size.height);
-  report.counts += render(assets.prepare(job.scene.at(seconds), job.size.width, job.size.height), picture, workers);
+  report.counts += render(prepare(job, seconds, assets), picture, workers);
   const double render_ms = milliseconds_since(start);
   write_picture(path, picture);
   report.render_ms += render_ms;
@@ -148,6 +154,20 @@ bool is_whole(const std::filesystem::path& path, const RenderJob& job) {
   }
 }
 
+double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
+
+// Generated maps are as fine as the nearest of all views needs, so that none changes its width on the way. A thousand looks
+// along a longer range are enough to find it.
+void expect_frames(const RenderJob& job, SceneAssets& assets) {
+  constexpr int kMostLooks = 1000;
+  const bool stands = job.scene.description().animations.empty();
+  const int looks = stands ? 1 : std::min(job.frames->count(), kMostLooks);
+  for (int i = 0; i < looks; ++i) {
+    const int frame = job.frames->first + static_cast<int>(static_cast<int64_t>(job.frames->count() - 1) * i / std::max(looks - 1, 1));
+    assets.expect(job.scene.at(time_of(job, frame)), job.size.width, job.size.height);
+  }
+}
+
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
   SceneAssets assets(workers);
@@ -158,11 +178,12 @@ RenderReport run(const RenderJob& job) {
     return report;
   }
   check_writable(frame_path(job.out, job.frames->first, *job.frames));
+  expect_frames(job, assets);
   Progress progress(job.frames->count());
   for (int frame = job.frames->first; frame <= job.frames->last; ++frame) {
     const std::filesystem::path path = frame_path(job.out, frame, *job.frames);
     const bool skip = job.resume && is_whole(path, job);
-    if (!skip) render_picture(job, job.time + frame / job.fps, path, assets, workers, report);
+    if (!skip) render_picture(job, time_of(job, frame), path, assets, workers, report);
     progress.advance(skip);
   }
   return report;
@@ -181,7 +202,9 @@ void render_command(const RenderArguments& args) {
   report.width = job.size.width;
   report.height = job.size.height;
   report.threads = job.threads;
-  std::cout << (args.statistics == "json" ? json_report(report) : text_report(report));
+  // Not into the picture.
+  std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;
+  out << (args.statistics == "json" ? json_report(report) : text_report(report));
 }
 
 }  // namespace
@@ -192,11 +215,9 @@ void add_render_command(CLI::App& program) {
   command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->required()->type_name("");
   command->add_option("-o,--output", args->out, ".png .jpg .tif, or linear .exr .hdr")->type_name("OUT");
   command->add_option("--size", args->size, "Pixels (default 1920x1080)")->type_name("WxH");
-  command->add_option("--set", args->set, "Set a key ('halfspace list SCENE' tells all)")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_set_option(command, args->set);
   command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
+  command->add_option("--shading", args->shading, "Light all by: none flat provoking gouraud phong")->type_name("RATE");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
   command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");

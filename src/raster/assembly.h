@@ -18,12 +18,15 @@ void count_primitives(Draw& d);
 class Assembly {
  public:
   /// Begins at a primitive below d.primitive_count.
-  Assembly(const Draw& d, uint32_t primitive) : draw_(d), topology_(d.state.topology) { begin_run(primitive); }
+  Assembly(const Draw& d, uint32_t primitive)
+      : draw_(d), topology_(d.state.topology), plain_list_(topology_ == Topology::triangles && d.runs.empty()) {
+    begin_run(primitive);
+  }
 
   /// The indices of the next primitive.
   HS_INLINE std::array<uint32_t, 3> next() {
     const Indices& list = *draw_.indices;
-    if (topology_ == Topology::triangles && draw_.runs.empty()) {
+    if (plain_list_) {
       const std::size_t at = std::size_t{primitive_++} * 3;
       return {list[at], list[at + 1], list[at + 2]};
     }
@@ -36,6 +39,7 @@ class Assembly {
 
   const Draw& draw_;
   Topology topology_;
+  bool plain_list_;           ///< of triangles, without a restart
   uint32_t primitive_ = 0;    ///< the next one, counted from the run's first
   uint32_t first_index_ = 0;  ///< of the run
   uint32_t run_ = 0;

@@ -45,29 +45,38 @@ void store_halves(uint16_t* p, Int h, uint32_t lanes) {
   }
 }
 
-Real factor(BlendFactor f, const PacketColor& src, const PacketColor& src1, const PacketColor& dst, const PacketColor& constant,
-            std::size_t k) {
+// What the factors are made of. Of fixed-point targets the last two are still to be clamped.
+struct BlendSources {
+  const PacketColor &src, &dst, &src1;
+  const glm::vec4& constant;
+  bool fixed_point;
+
+  Real held(Real x) const { return fixed_point ? clamp(x, Real(0.0f), Real(1.0f)) : x; }
+};
+
+Real factor(BlendFactor f, const BlendSources& s, std::size_t k) {
   const Real one(1.0f);
+  const auto constant = [&](std::size_t i) { return s.held(Real(s.constant[static_cast<int>(i)])); };
   switch (f) {
     case BlendFactor::zero: return Real(0.0f);
     case BlendFactor::one: return one;
-    case BlendFactor::src_color: return src[k];
-    case BlendFactor::one_minus_src_color: return one - src[k];
-    case BlendFactor::dst_color: return dst[k];
-    case BlendFactor::one_minus_dst_color: return one - dst[k];
-    case BlendFactor::src_alpha: return src[3];
-    case BlendFactor::one_minus_src_alpha: return one - src[3];
-    case BlendFactor::dst_alpha: return dst[3];
-    case BlendFactor::one_minus_dst_alpha: return one - dst[3];
-    case BlendFactor::constant_color: return constant[k];
-    case BlendFactor::one_minus_constant_color: return one - constant[k];
-    case BlendFactor::constant_alpha: return constant[3];
-    case BlendFactor::one_minus_constant_alpha: return one - constant[3];
-    case BlendFactor::src_alpha_saturate: return k == 3 ? one : min(src[3], one - dst[3]);
-    case BlendFactor::src1_color: return src1[k];
-    case BlendFactor::one_minus_src1_color: return one - src1[k];
-    case BlendFactor::src1_alpha: return src1[3];
-    case BlendFactor::one_minus_src1_alpha: return one - src1[3];
+    case BlendFactor::src_color: return s.src[k];
+    case BlendFactor::one_minus_src_color: return one - s.src[k];
+    case BlendFactor::dst_color: return s.dst[k];
+    case BlendFactor::one_minus_dst_color: return one - s.dst[k];
+    case BlendFactor::src_alpha: return s.src[3];
+    case BlendFactor::one_minus_src_alpha: return one - s.src[3];
+    case BlendFactor::dst_alpha: return s.dst[3];
+    case BlendFactor::one_minus_dst_alpha: return one - s.dst[3];
+    case BlendFactor::constant_color: return constant(k);
+    case BlendFactor::one_minus_constant_color: return one - constant(k);
+    case BlendFactor::constant_alpha: return constant(3);
+    case BlendFactor::one_minus_constant_alpha: return one - constant(3);
+    case BlendFactor::src_alpha_saturate: return k == 3 ? one : min(s.src[3], one - s.dst[3]);
+    case BlendFactor::src1_color: return s.held(s.src1[k]);
+    case BlendFactor::one_minus_src1_color: return one - s.held(s.src1[k]);
+    case BlendFactor::src1_alpha: return s.held(s.src1[3]);
+    case BlendFactor::one_minus_src1_alpha: return one - s.held(s.src1[3]);
   }
   return one;
 }
@@ -85,22 +94,15 @@ Real combine(BlendEquation e, Real src, Real src_factor, Real dst, Real dst_fact
 
 bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
 
-PacketColor blend_colors(const BlendState& s, const PacketColor& src, const PacketColor& src1, const PacketColor& dst,
-                         const PacketColor& constant) {
+PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
   PacketColor out;
   for (std::size_t k = 0; k < 4; ++k) {
     const bool alpha = k == 3;
     const BlendFactor sf = alpha ? s.source_alpha : s.source_color;
     const BlendFactor df = alpha ? s.destination_alpha : s.destination_color;
-    out[k] = combine(alpha ? s.alpha_equation : s.color_equation, src[k], factor(sf, src, src1, dst, constant, k), dst[k],
-                     factor(df, src, src1, dst, constant, k));
+    out[k] = combine(alpha ? s.alpha_equation : s.color_equation, from.src[k], factor(sf, from, k), from.dst[k], factor(df, from, k));
   }
   return out;
-}
-
-PacketColor clamped(PacketColor c) {
-  for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
-  return c;
 }
 
 void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
@@ -137,14 +139,12 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
                  const AttachmentState& state) {
   PacketColor c = src;
   if (state.blend) {
-    const glm::vec4& k = state.blend->constant;
-    PacketColor second = src1, constant{Real(k.x), Real(k.y), Real(k.z), Real(k.w)};
-    if (is_fixed_point(buffer.format)) {  // OpenGL 4.6, section 17.3.6: clamped before blending
-      c = clamped(c);
-      second = clamped(second);
-      constant = clamped(constant);
+    const bool fixed_point = is_fixed_point(buffer.format);
+    if (fixed_point) {  // OpenGL 4.6, section 17.3.6: clamped before blending
+      for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
     }
-    c = blend_colors(*state.blend, c, second, read_color(buffer, packet), constant);
+    const PacketColor dst = read_color(buffer, packet);
+    c = blend_colors(*state.blend, {c, dst, src1, state.blend->constant, fixed_point});
   }
   const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
   if (is_fixed_point(buffer.format)) {

@@ -16,8 +16,7 @@ PacketColor read_color(const ColorBuffer& buffer, int packet);
 
 /// Writes the channels that the state names of src where mask says: blended with what is there if the state blends, else
 /// replacing it. src1 is the second colour of dual source blending (any, where no factor asks for it).
-void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1,
-                 const AttachmentState& state);
+void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1, const AttachmentState& state);
 
 /// Does a factor ask for the second colour?
 bool uses_second_source(const BlendState& blend);

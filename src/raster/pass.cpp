@@ -6,6 +6,7 @@
 #include "core/float_mode.h"
 #include "raster/assembly.h"
 #include "raster/bin.h"
+#include "raster/primitive_setup.h"
 #include "raster/setup.h"
 
 namespace halfspace {
@@ -127,6 +128,7 @@ void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) 
     const Draw& draw = frame_.draws[d];
     allocate_vertices(draw, frame_.shaded[d]);
     const std::size_t count = draw.indices->used_count() * draw.state.instances;
+    statistics.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
     statistics.vertices_shaded += count;
     for (std::size_t b = 0; b < count; b += kVerticesPerTask) tasks.push_back({d, b, std::min(count, b + kVerticesPerTask)});
   }

@@ -23,22 +23,29 @@ namespace halfspace {
 
 /// How many samples a pixel has, and how a pass does its work. But for the samples, none of these changes a pixel.
 struct PassOptions {
-  int samples = 1;           ///< 1, 2, 4 or 8, at the standard positions; their mean is stored (of depth and stencil the first)
-  bool supersample = false;  ///< every draw is shaded for each sample, as by DrawState::sample_shading
-  int tile_size = kMaxTileSize;                     ///< 8, 16, 32 or 64 px; smaller where samples and attachments need the room
-  uint32_t chunk_triangles = 4096;                  ///< submitted primitives per setup task, 1 … 4096
+  int samples = 1;                  ///< 1, 2, 4 or 8, at the standard positions; their mean is stored (of depth and stencil the first)
+  bool supersample = false;         ///< every draw is shaded for each sample, as by DrawState::sample_shading
+  int tile_size = kMaxTileSize;     ///< 8, 16, 32 or 64 px; smaller where samples and attachments need the room
+  uint32_t chunk_triangles = 4096;  ///< submitted primitives per setup task, 1 … 4096
   std::size_t bin_budget = std::size_t{256} << 20;  ///< bytes of set-up triangles and bins before the tiles are flushed
   bool defer = true;                                ///< false: shade every fragment at once, in order
 };
 
 /// A functor for the end of the pass: template <class R> vec4<R> operator()(vec4<R> color) const, from the pass's colour
-/// to that of the post target; for tone mapping and encoding while the tile is in cache.
-using PostKernel = void (*)(const void* function, PacketColor& color);
+/// to that of the post target; for tone mapping and encoding while the tile is in cache. It may take the pixel's window
+/// coordinates too: operator()(vec4<R> color, IntOf<R> x, IntOf<R> y).
+using PostKernel = void (*)(const void* function, Int x, Int y, PacketColor& color);
 
 namespace detail {
 template <class F>
-void post_kernel(const void* function, PacketColor& color) {
-  const vec4<Real> out = (*static_cast<const F*>(function))(vec4<Real>(color[0], color[1], color[2], color[3]));
+void post_kernel(const void* function, [[maybe_unused]] Int x, [[maybe_unused]] Int y, PacketColor& color) {
+  const F& f = *static_cast<const F*>(function);
+  vec4<Real> out(color[0], color[1], color[2], color[3]);
+  if constexpr (requires { f(out, x, y); }) {
+    out = f(out, x, y);
+  } else {
+    out = f(out);
+  }
   for (int k = 0; k < 4; ++k) color[static_cast<std::size_t>(k)] = out[k];
 }
 
@@ -77,8 +84,8 @@ class Pass {
   /// width, height: 1 … 16384 px, the size of every target. Targets' images must outlive the pass.
   /// Up to kMaxColorTargets colours: the fragment function's n-th goes to the n-th, which keeps what it has where there is none.
   template <class Colors>
-  requires std::convertible_to<const Colors&, std::span<const ColorTarget>>
-  Pass(int width, int height, const Colors& colors, const DepthTarget& depth, const PassOptions& options = {})
+  requires std::convertible_to<const Colors&, std::span<const ColorTarget>> Pass(int width, int height, const Colors& colors,
+                                                                                 const DepthTarget& depth, const PassOptions& options = {})
       : Pass(std::span<const ColorTarget>(colors), width, height, depth, options) {}
   Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {})
       : Pass(std::span(&color, 1), width, height, depth, options) {}

@@ -91,7 +91,7 @@ void Pass::run_post_step(const Tile& tile) const {
   for (int p = 0; p < kPackets; ++p) {
     if (packet_x(p) >= tile.width || packet_y(p) >= tile.height) continue;
     PacketColor c = read_color(tile.color[0], p);
-    post_kernel_(post_function_.get(), c);
+    post_kernel_(post_function_.get(), Int(tile.x0 + packet_x(p)) + lane_x(), Int(tile.y0 + packet_y(p)) + lane_y(), c);
     write_color(finished, p, Mask(true), c, c, {});
   }
   store_color(post_target_, frame_.width, frame_.height, Samples::one, tile, finished);

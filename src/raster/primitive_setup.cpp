@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/clip.h"
 #include "raster/line.h"
 
 namespace halfspace {
@@ -92,7 +93,9 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
   const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
                          static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
   const float z_max = std::max({v[0]->z, v[1]->z, v[2]->z});
-  const float offset = facing != Facing::by_winding ? 0.0f : depth_offset(draw.state.offset, frame.depth_format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
+  const float offset = facing != Facing::by_winding
+                           ? 0.0f
+                           : depth_offset(draw.state.offset, frame.depth_format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
   out.z0 = z_min + offset;
   out.z_max = z_max + offset;
   out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
@@ -128,8 +131,23 @@ std::array<ScreenVertex, 4> line_rectangle(const ScreenVertex& a, const ScreenVe
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double scale = static_cast<double>(std::clamp(width, 0.0f, 4096.0f)) * (kSubPixels / 2) / std::sqrt(dx * dx + dy * dy);
   const auto nx = static_cast<int32_t>(std::nearbyint(-dy * scale)), ny = static_cast<int32_t>(std::nearbyint(dx * scale));
-  return {ScreenVertex{a.x - nx, a.y - ny, a.z, a.inv_w}, {b.x - nx, b.y - ny, b.z, b.inv_w}, {b.x + nx, b.y + ny, b.z, b.inv_w},
+  return {ScreenVertex{a.x - nx, a.y - ny, a.z, a.inv_w},
+          {b.x - nx, b.y - ny, b.z, b.inv_w},
+          {b.x + nx, b.y + ny, b.z, b.inv_w},
           {a.x + nx, a.y + ny, a.z, a.inv_w}};
+}
+
+uint32_t most_records(const Draw& draw, int samples) {
+  const uint32_t by_line = samples > 1 ? 2 : 1;
+  if (draw.state.topology == Topology::points) return 1;
+  if (is_lines(draw.state.topology)) return by_line;
+  const auto corners = static_cast<uint32_t>(most_corners(draw.kernels.clip_distance_count));
+  switch (draw.state.polygon_mode) {
+    case PolygonMode::fill: return corners - 2;
+    case PolygonMode::line: return corners * by_line;
+    case PolygonMode::point: return 3;
+  }
+  return corners;
 }
 
 }  // namespace halfspace

@@ -31,4 +31,7 @@ PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds&
 /// Those whose sample at a position lies in it.
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SamplePosition& at);
 
+/// Entries of Chunk::triangles that one primitive of a draw becomes, at the most.
+uint32_t most_records(const Draw& draw, int samples);
+
 }  // namespace halfspace

@@ -20,10 +20,21 @@ struct SamplePosition {
 /// The standard sample positions of 1, 2, 4 and 8 samples (Vulkan 1.3, "Multisampling": in 1/16 px, as Mesa has them too;
 /// here y is up).
 inline constexpr std::array<SamplePosition, 15> kSamplePositions{{
-    {128, 128},                                                                                          // 1
-    {192, 192}, {64, 64},                                                                                // 2
-    {96, 32}, {224, 96}, {32, 160}, {160, 224},                                                          // 4
-    {144, 80}, {112, 176}, {208, 144}, {80, 48}, {48, 208}, {16, 112}, {176, 240}, {240, 16},            // 8
+    {128, 128},  // 1
+    {192, 192},
+    {64, 64},  // 2
+    {96, 32},
+    {224, 96},
+    {32, 160},
+    {160, 224},  // 4
+    {144, 80},
+    {112, 176},
+    {208, 144},
+    {80, 48},
+    {48, 208},
+    {16, 112},
+    {176, 240},
+    {240, 16},  // 8
 }};
 /// samples: 1, 2, 4 or 8.
 constexpr SamplePosition sample_position(int samples, int sample) {

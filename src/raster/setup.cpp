@@ -136,8 +136,14 @@ class SegmentSetup {
   Cull append_point(const SpriteRect& r, const ScreenVertex& v, uint32_t id, uint32_t flags, Facing facing) {
     if (r.x0 >= r.x1 || r.y0 >= r.y1) return Cull::degenerate;
     if (facing != Facing::back) flags |= kFrontFacing;
-    Triangle t{.x = {r.x0, r.x1 - 1, r.x0}, .y = {r.y0, r.y1 - 1, r.y0}, .z0 = v.z, .z_edge1 = 0, .z_edge2 = 0, .z_max = v.z,
-               .vertex = {id, id, id}, .flags = flags | kSprite | kSmall | segment_ << kSegmentShift};
+    Triangle t{.x = {r.x0, r.x1 - 1, r.x0},
+               .y = {r.y0, r.y1 - 1, r.y0},
+               .z0 = v.z,
+               .z_edge1 = 0,
+               .z_edge2 = 0,
+               .z_max = v.z,
+               .vertex = {id, id, id},
+               .flags = flags | kSprite | kSmall | segment_ << kSegmentShift};
     if (pixel_bounds(draw_, t, draw_.bounds, frame_.samples_at).empty()) return Cull::no_sample;
     chunk_.triangles.push_back(t);
     return Cull::none;
@@ -177,8 +183,8 @@ class SegmentSetup {
       return;
     }
     if (needed) ++chunk_.statistics.clipped;
-    const uint32_t first =
-        add_corners(polygon, id, {static_cast<double>(pos_clip[0].w), static_cast<double>(pos_clip[1].w), static_cast<double>(pos_clip[2].w)});
+    const uint32_t first = add_corners(
+        polygon, id, {static_cast<double>(pos_clip[0].w), static_cast<double>(pos_clip[1].w), static_cast<double>(pos_clip[2].w)});
     const std::size_t before = chunk_.triangles.size();
     const Cull why = append_pieces(polygon, first, id);
     if (chunk_.triangles.size() == before) count(why, 1);  // counted as culled only if no piece is left
@@ -287,19 +293,6 @@ void set_up_chunk(const Frame& frame, Chunk& chunk) {
     }
   }
   chunk.statistics.triangles_binned = chunk.triangles.size();
-}
-
-uint32_t most_records(const Draw& draw, int samples) {
-  const uint32_t by_line = samples > 1 ? 2 : 1;
-  if (draw.state.topology == Topology::points) return 1;
-  if (is_lines(draw.state.topology)) return by_line;
-  const auto corners = static_cast<uint32_t>(most_corners(draw.kernels.clip_distance_count));
-  switch (draw.state.polygon_mode) {
-    case PolygonMode::fill: return corners - 2;
-    case PolygonMode::line: return corners * by_line;
-    case PolygonMode::point: return 3;
-  }
-  return corners;
 }
 
 }  // namespace halfspace

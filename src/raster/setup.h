@@ -11,7 +11,4 @@ namespace halfspace {
 /// Fills chunk.triangles from chunk.segments.
 void set_up_chunk(const Frame& frame, Chunk& chunk);
 
-/// Entries of Chunk::triangles that one primitive of a draw becomes, at the most.
-uint32_t most_records(const Draw& draw, int samples);
-
 }  // namespace halfspace

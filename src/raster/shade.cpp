@@ -9,25 +9,18 @@
 
 namespace halfspace {
 
-void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
-  const Chunk& chunk = frame.chunks[id >> 16];
-  const uint32_t index = id & 0xffff;
-  const Triangle& t = chunk.triangles[index];
-  const Segment& segment = chunk.segments[t.segment()];
-  const Draw& draw = frame.draws[segment.draw];
-  s.triangle = &t;
-  s.primitive = nullptr;
-  s.z_low = draw.depth_low;
-  const std::size_t vertices = t.is(kLine) ? 2 : 3;
-  if (t.is(kClipped)) {
-    for (std::size_t i = 0; i < vertices; ++i) {
+namespace {
+
+// The vertices of what is clipped, a point or a line.
+void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, const Draw& draw, TriangleSource& s) {
+  const Triangle& t = *s.triangle;
+  for (std::size_t i = 0; i < (t.is(kLine) ? 2u : 3u); ++i) {
+    if (t.is(kClipped)) {
       const ClipVertex& v = chunk.clip_vertices[t.vertex[i]];
       s.vertex[i] = &v.screen;
       s.varyings[i] = chunk.clip_varyings.data() + v.first_varying;
-    }
-  } else {
-    const ShadedVertices& shaded = frame.shaded[segment.draw];
-    for (std::size_t i = 0; i < vertices; ++i) {
+    } else {
+      const ShadedVertices& shaded = frame.shaded[segment.draw];
       s.vertex[i] = &shaded.screen[t.vertex[i]];
       s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
     }
@@ -42,6 +35,28 @@ void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
     s.varyings[2] = s.varyings[0];
     s.z_low = std::clamp(t.z0, draw.depth_low, draw.depth_high);
   }
+}
+
+}  // namespace
+
+void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
+  const Chunk& chunk = frame.chunks[id >> 16];
+  const uint32_t index = id & 0xffff;
+  const Triangle& t = chunk.triangles[index];
+  const Segment& segment = chunk.segments[t.segment()];
+  const Draw& draw = frame.draws[segment.draw];
+  s.triangle = &t;
+  s.primitive = nullptr;
+  s.z_low = draw.depth_low;
+  if (t.is(kClipped | kSprite | kLine)) {
+    find_rare(frame, chunk, segment, draw, s);
+  } else {
+    const ShadedVertices& shaded = frame.shaded[segment.draw];
+    for (std::size_t i = 0; i < 3; ++i) {
+      s.vertex[i] = &shaded.screen[t.vertex[i]];
+      s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
+    }
+  }
   s.flat_varyings = s.varyings[t.provoking()];
   if (draw.kernels.primitive_count != 0) {
     const std::size_t row = index - segment.first_triangle;
@@ -50,7 +65,7 @@ void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
 }
 
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile) {
-  const PacketColor second = draw.kernels.color_count > 1 ? out.packet_color(1, i) : PacketColor{};
+  const PacketColor& second = out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);
   for (int n = 0; n < std::min(tile.color_count, draw.kernels.color_count); ++n) {
     const auto at = static_cast<std::size_t>(n);
     if (tile.color[at].format == ColorFormat::none) continue;
@@ -87,9 +102,11 @@ bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.s
 // The pixels that wait, packet by packet; a packet that shows several draws appears once for each.
 int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<Work, kMaxTilePixels>& work) {
   int count = 0;
+  const bool whole = tile.size == kMaxTileSize;
+  const int shift = packet_shift(job.cell);
   for (int pixels = 0; pixels < kPackets; ++pixels) {
-    if (!is_in_cell(tile, pixels)) continue;
-    const int p = pixels + packet_shift(job.cell);
+    if (!whole && !is_in_cell(tile, pixels)) continue;
+    const int p = pixels + shift;
     const TriangleId* ids = job.ids + static_cast<std::size_t>(p) * kLanes;
     const Int packet_ids = load<Int>(ids);
     uint32_t rest = bits(packet_ids != Int(std::bit_cast<int32_t>(kNoTriangle)));

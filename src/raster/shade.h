@@ -20,23 +20,20 @@ inline constexpr int kFragmentBatch = 16;
 
 /// Colours, and where the shader decides them keep masks and depths, of a batch.
 struct FragmentOutput {
-  alignas(64) std::array<Real, 4 * kFragmentBatch * kMaxColorTargets> color;  ///< see color_at()
-  alignas(64) std::array<Real, kFragmentBatch> depth;      ///< if the shader writes depth
-  std::array<uint16_t, kFragmentBatch> keep;               ///< bit a lane; if the shader discards
+  alignas(64) std::array<PacketColor, kFragmentBatch * kMaxColorTargets> color;  ///< see packet_color()
+  alignas(64) std::array<Real, kFragmentBatch> depth;                            ///< if the shader writes depth
+  std::array<uint16_t, kFragmentBatch> keep;                                     ///< bit a lane; if the shader discards
 
-  /// Where r, g, b, a of the n-th colour of packet i begin.
-  static constexpr std::size_t color_at(std::size_t n, std::size_t i) { return 4 * (n * kFragmentBatch + i); }
-  PacketColor packet_color(std::size_t n, std::size_t i) const {
-    const std::size_t at = color_at(n, i);
-    return {color[at], color[at + 1], color[at + 2], color[at + 3]};
-  }
+  /// The n-th colour of packet i.
+  PacketColor& packet_color(std::size_t n, std::size_t i) { return color[n * kFragmentBatch + i]; }
+  const PacketColor& packet_color(std::size_t n, std::size_t i) const { return color[n * kFragmentBatch + i]; }
 };
 
 struct FragmentBatch {
   const Frame* frame;
-  int tile_x0, tile_y0;   ///< window coordinates of pixel (0, 0) of the tile's room
+  int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's room
   SamplePosition position;  ///< where in their pixels the shader looks
-  const TriangleId* ids;  ///< the tile's triangle of each pixel, or null: uniform_id everywhere
+  const TriangleId* ids;    ///< the tile's triangle of each pixel, or null: uniform_id everywhere
   TriangleId uniform_id;
   const PacketMask* packets;
   int count;                        ///< ≤ kFragmentBatch
@@ -255,7 +252,7 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     const auto at = static_cast<std::size_t>(i);
     for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
       const vec4<Real>& color = nth_color(fragment.color, n_color);
-      for (int k = 0; k < 4; ++k) batch.out->color[FragmentOutput::color_at(n_color, at) + static_cast<std::size_t>(k)] = color[k];
+      batch.out->packet_color(n_color, at) = {color.x, color.y, color.z, color.w};
     }
     if constexpr (kDiscards<S>) batch.out->keep[at] = static_cast<uint16_t>(bits(fragment.keep));
     if constexpr (kWritesDepth<S>) batch.out->depth[at] = fragment.depth;

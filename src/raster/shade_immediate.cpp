@@ -69,7 +69,8 @@ void shade_packets(const Context& c, const PacketMask* packets, int count, const
     const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
     for (int i = 0; looks_inside && i < n; ++i) {
       const int p = packets[begin + i].packet;
-      find_centroids(c.frame, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id, &centroids[static_cast<std::size_t>(i * kLanes)]);
+      find_centroids(c.frame, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
+                     &centroids[static_cast<std::size_t>(i * kLanes)]);
     }
     c.draw.kernels.fragment(c.draw.shader.get(), {&c.frame, c.tile.x0 - cell.x, c.tile.y0 - cell.y, at, nullptr, c.id, packets + begin, n,
                                                   looks_inside ? centroids.data() : nullptr, &out});

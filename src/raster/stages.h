@@ -58,7 +58,7 @@ inline constexpr Outcode kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 
 inline constexpr Outcode kOutGuard = 64;       ///< beyond the guard band, or w too small: no window position
 inline constexpr Outcode kOutNonFinite = 128;  ///< a NaN or Inf among x, y, z, w
 inline constexpr Outcode kOutNeedsClip = kOutNear | kOutFar | kOutGuard;
-inline constexpr Outcode kOutView = 63;        ///< the six planes of the view volume
+inline constexpr Outcode kOutView = 63;  ///< the six planes of the view volume
 
 /// The vertices of one draw. A vertex's slot, by which all later stages know it, is (index − first) + instance · count.
 struct ShadedVertices {
@@ -209,7 +209,7 @@ struct Draw {
   PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
   float depth_low = 0.0f;  ///< depth range in order
   float depth_high = 1.0f;
-  bool deferred = false;  ///< shaded after visibility, once per visible pixel: replaces all colours; else shaded at once, in order
+  bool deferred = false;        ///< shaded after visibility, once per visible pixel: replaces all colours; else shaded at once, in order
   bool writes_color = false;    ///< some channel of some attachment
   bool shades_samples = false;  ///< the fragment function runs for each sample, not for each pixel
   uint32_t sample_mask = 1;     ///< samples that may be drawn

@@ -4,6 +4,7 @@
 namespace halfspace {
 
 PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
+  vertices_in += o.vertices_in;
   vertices_shaded += o.vertices_shaded;
   primitives_in += o.primitives_in;
   culled_non_finite += o.culled_non_finite;

@@ -8,6 +8,7 @@ namespace halfspace {
 
 /// What a pass did. Every count is exact, and the same for any number of threads and any lane width.
 struct PassStatistics {
+  uint64_t vertices_in = 0;        ///< indices submitted, in all instances; restarts are none
   uint64_t vertices_shaded = 0;    ///< distinct vertices referenced, per draw
   uint64_t primitives_in = 0;      ///< triangles submitted
   uint64_t culled_non_finite = 0;  ///< a position with NaN or Inf

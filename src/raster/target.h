@@ -33,7 +33,6 @@ struct DepthStencil {
   friend bool operator==(const DepthStencil&, const DepthStencil&) = default;
 };
 
-
 /// Bytes of one pixel; 0 for none.
 constexpr int bytes_per_pixel(ColorFormat f) {
   return f == ColorFormat::rgba32f ? 16 : f == ColorFormat::rgba16f ? 8 : f == ColorFormat::none ? 0 : 4;

@@ -17,7 +17,7 @@ namespace halfspace {
 /// (raster/sample_pattern.h) are the packets that hold it.
 struct SampleGrid {
   SampleGrid(const Tile& tile, int s)
-      : cell(sample_cell(tile.samples, s, tile.size)),
+      : cell(s == 0 ? SampleCell{0, 0} : sample_cell(tile.samples, s, tile.size)),
         x0(tile.x0 - cell.x),
         y0(tile.y0 - cell.y),
         position(sample_position(tile.samples, s)) {}
@@ -45,13 +45,15 @@ inline TileEdges tile_edges(const Draw& draw, const Triangle& t, const SampleGri
   const int64_t x = grid.x_sub(), y = grid.y_sub();
   const bool small = t.is(kSmall);
   const int64_t last = tile_size - 1;
+  const bool cell = (grid.cell.x | grid.cell.y) != 0;
   const auto put = [&](std::size_t i, const Edge& edge, int64_t offset, int32_t bias) {
     const int64_t shift = small ? 0 : kSubPixelBits;
     const int64_t step_x = -(int64_t{edge.ey} * kSubPixels) >> shift;
     const int64_t step_y = (int64_t{edge.ex} * kSubPixels) >> shift;
     r.bias[i] = bias;
     const int64_t e = (edge.at(x, y) + offset - bias) >> shift;
-    const int64_t corner = e + step_x * grid.cell.x + step_y * grid.cell.y;
+    int64_t corner = e;
+    if (cell) corner += step_x * grid.cell.x + step_y * grid.cell.y;
     const int64_t low = corner + std::min<int64_t>(0, step_x * last) + std::min<int64_t>(0, step_y * last);
     const int64_t high = corner + std::max<int64_t>(0, step_x * last) + std::max<int64_t>(0, step_y * last);
     if (high < 0) r.outside = true;

@@ -118,9 +118,8 @@ void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Shaded
     }
     const uint32_t slot_base = out.first - instance * out.count;
     const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
-    draw.kernels.vertex(draw.shader.get(),
-                        {view, ids, out.first + static_cast<uint32_t>(local), count, slot_base, draw.state.base_vertex,
-                         static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
+    draw.kernels.vertex(draw.shader.get(), {view, ids, out.first + static_cast<uint32_t>(local), count, slot_base, draw.state.base_vertex,
+                                            static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
     if (out.clip_distances) {
       for (int i = 0; i < count; ++i) {
         const uint32_t slot = (ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base;

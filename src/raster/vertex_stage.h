@@ -18,12 +18,12 @@ struct VertexBatch {
   const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
   uint32_t first;
   int count;
-  uint32_t slot_base;    ///< varyings of vertex i go to row i − slot_base (modulo 2^32)
-  int32_t base_vertex;   ///< index + base_vertex is the row of the streams
-  int32_t instance;      ///< all vertices are of this one
-  float* varyings;     ///< null for the position kernel
-  float* clip;         ///< out: x, y, z, w of clip space as four rows of kVertexBatch
-  float* extra;        ///< out, or null: rows of the point size and the clip distances, or a sprite's low x, low y, high x, high y
+  uint32_t slot_base;   ///< varyings of vertex i go to row i − slot_base (modulo 2^32)
+  int32_t base_vertex;  ///< index + base_vertex is the row of the streams
+  int32_t instance;     ///< all vertices are of this one
+  float* varyings;      ///< null for the position kernel
+  float* clip;          ///< out: x, y, z, w of clip space as four rows of kVertexBatch
+  float* extra;         ///< out, or null: rows of the point size and the clip distances, or a sprite's low x, low y, high x, high y
 };
 inline constexpr int kMostClipDistances = 8;
 inline constexpr int kMostExtraRows = 1 + kMostClipDistances;

@@ -57,16 +57,13 @@ struct Context {
   bool writes;                 // and it writes
   bool asks_shader;            // the shader's visibility function decides
   bool rejects;                // blocks whose depths no sample can pass are passed over
-};
-
-// Of one sample of the pixels.
-struct SampleContext : Context {
-  SampleGrid grid;
-  float low = 0.0f, high = 1.0f;  // bounds of the triangle's depth
+  bool is_rare;                // the shader or the stencil has a say
+  SampleGrid grid;             // which sample of the pixels
+  float low, high;             // bounds of the triangle's depth
 };
 
 // The shader's say on a packet: narrows mask, replaces z.
-void ask_shader(const SampleContext& c, int packet, Real& z, Mask& mask) {
+void ask_shader(const Context& c, int packet, Real& z, Mask& mask) {
   alignas(64) std::array<float, kLanes> depth;
   uint32_t lanes = bits(mask);
   const SamplePosition at = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
@@ -81,26 +78,23 @@ void ask_shader(const SampleContext& c, int packet, Real& z, Mask& mask) {
   mask = mask & mask_from_bits<Mask>(lanes);
 }
 
-void visit_packet(const SampleContext& c, int packet, Mask mask, Real z) {
-  c.statistics.samples_tested += static_cast<uint64_t>(std::popcount(bits(mask)));
-  Tile& tile = c.tile;
-  const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
-  if (c.mode == VisibilityMode::cover_only) {
-    c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
-    return;
+// Both tests; the stencil remembers what became of each sample.
+Mask test_with_stencil(const Context& c, int packet, Real z, Mask mask) {
+  const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
+  Mask passed = stencil_passed;
+  if (c.tests) {
+    passed = passed & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
   }
-  if (c.asks_shader) ask_shader(c, packet, z, mask);
-  const auto depth_passes = [&] { return compare(c.draw.state.depth.compare, z, load<Real>(&tile.depth[first])); };
-  if (c.stencil != nullptr) {
-    const Mask stencil_passed = stencil_test(*c.stencil, tile, packet, mask);
-    const Mask passed = c.tests ? stencil_passed & depth_passes() : stencil_passed;
-    update_stencil(*c.stencil, tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
-    mask = passed;
-  } else if (c.tests) {
-    mask = mask & depth_passes();
-  }
+  update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
+  return passed;
+}
+
+// What becomes of the lanes that passed.
+HS_INLINE void finish_packet(const Context& c, int packet, Mask mask, Real z) {
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
+  Tile& tile = c.tile;
+  const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
   if (c.writes && c.mode != VisibilityMode::test_only) {
     store(&tile.depth[first], select(mask, z, load<Real>(&tile.depth[first])));
   }
@@ -114,13 +108,35 @@ void visit_packet(const SampleContext& c, int packet, Mask mask, Real z) {
   c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
 }
 
+// Where the shader or the stencil has a say.
+__attribute__((noinline)) void visit_rare_packet(const Context& c, int packet, Mask mask, Real z) {
+  if (c.mode == VisibilityMode::cover_only) {
+    c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
+    return;
+  }
+  if (c.asks_shader) ask_shader(c, packet, z, mask);
+  if (c.stencil != nullptr) {
+    mask = test_with_stencil(c, packet, z, mask);
+  } else if (c.tests) {
+    mask = mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+  }
+  finish_packet(c, packet, mask, z);
+}
+
+void visit_packet(const Context& c, int packet, Mask mask, Real z) {
+  c.statistics.samples_tested += static_cast<uint64_t>(std::popcount(bits(mask)));
+  if (c.is_rare) return visit_rare_packet(c, packet, mask, z);
+  if (c.tests) mask = mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+  finish_packet(c, packet, mask, z);
+}
+
 // Pixels of the tile's room, half open.
 struct TileRect {
   int x0, y0, x1, y1;
 };
 
 template <bool small>
-void visit_block(const SampleContext& c, const TileEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool cut, int block_x0,
+void visit_block(const Context& c, const TileEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool cut, int block_x0,
                  int block_y0) {
   const int block = block_y0 / kBlockSize * kBlocksPerRow + block_x0 / kBlockSize;
   if (c.rejects) {
@@ -157,7 +173,7 @@ bool misses_block(const TileEdges& edges, int x, int y) {
 }
 
 template <bool small>
-void visit_triangle(SampleContext& c, const TileEdges& edges, const TileRect& rect, bool cut) {
+void visit_triangle(Context& c, const TileEdges& edges, const TileRect& rect, bool cut) {
   const DepthPlane<small> plane(c.triangle, edges, c.draw, c.grid, c.tile.depth_format);
   const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
   c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : plane.low();
@@ -182,21 +198,20 @@ VisibilityMode visibility_mode(const Draw& draw) {
 
 namespace {
 
-void rasterize_sample(const Context& context, int sample) {
-  const Triangle& t = context.triangle;
-  const Tile& tile = context.tile;
-  const PixelBounds& allowed = context.draw.bounds;
-  SampleContext c{context, SampleGrid(tile, sample)};
-  const PixelBounds b = pixel_bounds(context.draw, t,
+void rasterize_sample(Context& c) {
+  const Triangle& t = c.triangle;
+  const Tile& tile = c.tile;
+  const PixelBounds& allowed = c.draw.bounds;
+  const PixelBounds b = pixel_bounds(c.draw, t,
                                      {std::max(allowed.x0, tile.x0), std::max(allowed.y0, tile.y0),
                                       std::min(allowed.x1, tile.x0 + tile.width), std::min(allowed.y1, tile.y0 + tile.height)},
                                      c.grid.position);
   if (b.empty()) return;
-  const TileEdges edges = tile_edges(context.draw, t, c.grid, tile.size);
+  const TileEdges edges = tile_edges(c.draw, t, c.grid, tile.size);
   if (edges.outside) return;
   // Only where the bounds cut the tile can a covered pixel lie outside of them; and a cell has others beside it.
-  const bool cut = t.is(kSprite | kLine) || tile.size != kMaxTileSize || allowed.x0 > tile.x0 || allowed.y0 > tile.y0 || allowed.x1 < tile.x0 + tile.size ||
-                   allowed.y1 < tile.y0 + tile.size;
+  const bool cut = t.is(kSprite | kLine) || tile.size != kMaxTileSize || allowed.x0 > tile.x0 || allowed.y0 > tile.y0 ||
+                   allowed.x1 < tile.x0 + tile.size || allowed.y1 < tile.y0 + tile.size;
   const TileRect rect{b.x0 - c.grid.x0, b.y0 - c.grid.y0, b.x1 - c.grid.x0, b.y1 - c.grid.y0};
   if (t.is(kSmall)) {
     visit_triangle<true>(c, edges, rect, cut);
@@ -218,21 +233,26 @@ void rasterize(const Frame& frame, uint32_t chunk, uint32_t index, VisibilityMod
   const bool tests = !late && tests_depth(draw.state.depth, tile);
   const bool asks_shader = mode == VisibilityMode::deferred && draw.kernels.visibility != nullptr;
   const bool counts_failures = stencil != nullptr && (stencil->fail != StencilOp::keep || stencil->depth_fail != StencilOp::keep);
-  const Context c{frame,
-                  draw,
-                  t,
-                  triangle_id(chunk, index),
-                  mode,
-                  tile,
-                  list,
-                  statistics,
-                  late ? nullptr : stencil,
-                  tests,
-                  tests && draw.state.depth.write,
-                  asks_shader,
-                  tests && !asks_shader && !counts_failures && mode != VisibilityMode::cover_only};
+  Context c{frame,
+            draw,
+            t,
+            triangle_id(chunk, index),
+            mode,
+            tile,
+            list,
+            statistics,
+            late ? nullptr : stencil,
+            tests,
+            tests && draw.state.depth.write,
+            asks_shader,
+            tests && !asks_shader && !counts_failures && mode != VisibilityMode::cover_only,
+            asks_shader || mode == VisibilityMode::cover_only || (stencil != nullptr && !late),
+            SampleGrid(tile, 0),
+            0.0f,
+            1.0f};
   for (int s = 0; s < tile.samples; ++s) {
-    if ((draw.sample_mask >> s & 1) != 0) rasterize_sample(c, s);
+    if (s != 0) c.grid = SampleGrid(tile, s);
+    if ((draw.sample_mask >> s & 1) != 0) rasterize_sample(c);
     if (list != nullptr) list->sample_end[static_cast<std::size_t>(s)] = list->count;
   }
 }

@@ -45,11 +45,11 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
 struct VisibilityPacket {
   const Frame* frame;
   TriangleId id;
-  int x, y;         ///< window coordinates of the packet's lowest corner
+  int x, y;                         ///< window coordinates of the packet's lowest corner
   SamplePosition position;          ///< where in their pixels the shader looks
   const SamplePosition* centroids;  ///< as in FragmentBatch
-  float* depth;     ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
-  uint32_t* lanes;  ///< in and out: bits of the covered lanes, then of those kept
+  float* depth;                     ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
+  uint32_t* lanes;                  ///< in and out: bits of the covered lanes, then of those kept
 };
 
 }  // namespace halfspace

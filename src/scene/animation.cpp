@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/animation.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
@@ -13,9 +14,20 @@ namespace {
 
 bool is_vector(const Key& key) { return key.type == KeyType::vector || key.type == KeyType::color; }
 
-Numbers orbit_at(const AnimationDescription& a, double seconds) {
+SinCosDouble phase_at(const AnimationDescription& a, double seconds) {
   const double turns = seconds / a.period + a.phase;
-  const auto [sine, cosine] = sincos_turns(turns - std::floor(turns));
+  return sincos_turns(turns - std::floor(turns));
+}
+
+Numbers wave_at(const AnimationDescription& a, const Limits& limits, double seconds) {
+  const double cosine = phase_at(a, seconds).cos;
+  Numbers value = a.mean;
+  for (std::size_t k = 0; k < value.size(); ++k) value[k] = std::clamp(value[k] + a.swing[k] * cosine, limits.low, limits.high);
+  return value;
+}
+
+Numbers orbit_at(const AnimationDescription& a, double seconds) {
+  const auto [sine, cosine] = phase_at(a, seconds);
   const glm::dvec3 p = a.center + a.a * cosine + a.b * sine;
   return {p.x, p.y, p.z};
 }
@@ -52,7 +64,7 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
   if (a.target.empty()) throw InputError(source + ": " + path + ".target: missing; expected the path of a number or a vector");
   const FoundKey found = find_key(scene, a.target, source + ": " + path + ".target");
   const Key& key = *found.field.key;
-  for (const char* fixed : {"materials", "animations", "animation"}) {
+  for (const char* fixed : {"materials", "animations", "animation", "time"}) {
     if (found.words[0] != fixed) continue;
     throw InputError(source + ": " + path + ".target: " + a.target +
                      " cannot change in time; expected a key of an object, a light, a camera or the background");
@@ -68,6 +80,10 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
     }
   };
   if (a.type == AnimationType::rate) check_size("rate", a.rate.size());
+  if (a.type == AnimationType::wave) {
+    check_size("mean", a.mean.size());
+    check_size("swing", a.swing.size());
+  }
   if (a.type == AnimationType::orbit && size != 3) {
     throw InputError(source + ": " + path + ".target: " + a.target + " is a number, and an orbit moves a vector; expected the path of one");
   }
@@ -81,6 +97,7 @@ void animate(SceneDescription& scene, const AnimationDescription& a, const std::
   Numbers value;
   switch (a.type) {
     case AnimationType::rate: value = rate_at(a, value_of(field), seconds); break;
+    case AnimationType::wave: value = wave_at(a, field.key->limits, seconds); break;
     case AnimationType::orbit: value = orbit_at(a, seconds); break;
     case AnimationType::keyframes: value = keyframes_at(a, seconds); break;
   }

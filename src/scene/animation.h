@@ -13,6 +13,7 @@ void check_animation(SceneDescription& scene, const AnimationDescription& animat
 /// Sets the animation's target to its value at a time in seconds. Throws InputError where that leaves the key's range.
 ///   rate      value + rate · t
 ///   orbit     center + a·cos φ + b·sin φ, φ = 2π(t / period + phase)
+///   wave      mean + swing·cos φ, held to the key's range
 ///   keyframes between the rows before and after t: linear, smooth (3x² − 2x³) or the row before (step); before the first
 ///             row its value, after the last again from the first (loop) or the last value
 void animate(SceneDescription& scene, const AnimationDescription& animation, const std::string& path, const std::string& source,

@@ -58,25 +58,29 @@ int wrapped(int x, int width) {
   return r < 0 ? r + width : r;
 }
 
-// A row beyond a pole is one before it, seen half a turn further on.
+int column_at(int x, int width, MapEdges edges) { return edges == MapEdges::sheet ? std::clamp(x, 0, width - 1) : wrapped(x, width); }
+
 struct FoldedRow {
   int row;
   int shift;  // to be added to the column
 };
 
-FoldedRow fold(int row, int width, int height) {
+// A row beyond a pole is one before it, seen half a turn further on.
+FoldedRow fold(int row, int width, int height, MapEdges edges) {
+  if (edges == MapEdges::torus) return {wrapped(row, height), 0};
+  if (edges != MapEdges::sphere) return {std::clamp(row, 0, height - 1), 0};
   const int r = wrapped(row, 2 * height);
   return r < height ? FoldedRow{r, 0} : FoldedRow{2 * height - 1 - r, width / 2};
 }
 
 // Smooths one row along u, in place.
-void smooth_row(std::span<float> row, const Kernel& kernel) {
+void smooth_row(std::span<float> row, const Kernel& kernel, MapEdges edges) {
   const int width = static_cast<int>(row.size());
-  const Kernel k = on_ring(kernel, width);
+  const Kernel k = edges == MapEdges::sheet ? kernel : on_ring(kernel, width);
   const int count = static_cast<int>(k.weights.size());
   std::vector<double> ring(static_cast<std::size_t>(width + count));
   for (int x = 0; x < width + count; ++x) {
-    ring[static_cast<std::size_t>(x)] = static_cast<double>(row[static_cast<std::size_t>(wrapped(x + k.first, width))]);
+    ring[static_cast<std::size_t>(x)] = static_cast<double>(row[static_cast<std::size_t>(column_at(x + k.first, width, edges))]);
   }
   std::vector<double> sum(static_cast<std::size_t>(width));
   for (std::size_t i = 0; i < k.weights.size(); ++i) {
@@ -85,14 +89,14 @@ void smooth_row(std::span<float> row, const Kernel& kernel) {
   for (std::size_t x = 0; x < sum.size(); ++x) row[x] = static_cast<float>(sum[x]);
 }
 
-// Smooths along v, over the poles.
-Image<float> smooth_columns(const Image<float>& map, const Kernel& k, const Workers& workers) {
+// Smooths along v, over the edges.
+Image<float> smooth_columns(const Image<float>& map, const Kernel& k, MapEdges edges, const Workers& workers) {
   const int width = map.width(), height = map.height();
   Image<float> out(width, height);
   workers.for_each(height, [&](int row) {
     std::vector<double> sum(static_cast<std::size_t>(width));
     for (std::size_t i = 0; i < k.weights.size(); ++i) {
-      const FoldedRow from = fold(row + k.first + static_cast<int>(i), width, height);
+      const FoldedRow from = fold(row + k.first + static_cast<int>(i), width, height, edges);
       for (int x = 0; x < width; ++x) {
         const int column = x + from.shift < width ? x + from.shift : x + from.shift - width;
         sum[static_cast<std::size_t>(x)] += k.weights[i] * static_cast<double>(map.at(column, from.row));
@@ -161,7 +165,7 @@ SplineWeights spline_weights(double t) {
 
 }  // namespace
 
-HeightField::HeightField(const Image<float>& map, double smoothing, const Workers& workers) {
+HeightField::HeightField(const Image<float>& map, double smoothing, const Workers& workers, MapEdges edges) : edges_(edges) {
   HS_CHECK_OP(map.width(), >=, 2);
   HS_CHECK_OP(map.height(), >=, 1);
   HS_CHECK_OP(smoothing, >=, 0.0);
@@ -171,23 +175,25 @@ HeightField::HeightField(const Image<float>& map, double smoothing, const Worker
     for (float& t : texels_.row(row)) t -= base_;
   }
   const int even_width = map.width() / 2 * 2;
-  if (even_width != map.width()) texels_ = averaged(texels_, even_width, map.height(), workers);
+  if (edges == MapEdges::sphere && even_width != map.width()) texels_ = averaged(texels_, even_width, map.height(), workers);
   if (smoothing == 0) return;
-  texels_ = smooth_columns(texels_, gaussian(smoothing), workers);
-  workers.for_each(height(),
-                   [&](int row) { smooth_row(texels_.row(row), capped_gaussian(smoothing / sin_of_row(row, height()), width())); });
+  texels_ = smooth_columns(texels_, gaussian(smoothing), edges, workers);
+  workers.for_each(height(), [&](int row) {
+    const double scale = edges == MapEdges::sphere ? sin_of_row(row, height()) : 1.0;
+    smooth_row(texels_.row(row), capped_gaussian(smoothing / scale, width()), edges);
+  });
 }
 
 HeightSample HeightField::at(double u, double v) const {
-  const double x = (u - std::floor(u)) * width() - 0.5;
-  const double y = v * height() - 0.5;
+  const double x = (edges_ == MapEdges::sheet ? u : u - std::floor(u)) * width() - 0.5;
+  const double y = (edges_ == MapEdges::torus ? v - std::floor(v) : v) * height() - 0.5;
   const double left = std::floor(x), top = std::floor(y);
   const SplineWeights along_u = spline_weights(x - left), along_v = spline_weights(y - top);
   int columns[4];
-  for (int i = 0; i < 4; ++i) columns[i] = wrapped(static_cast<int>(left) - 1 + i, width());
+  for (int i = 0; i < 4; ++i) columns[i] = column_at(static_cast<int>(left) - 1 + i, width(), edges_);
   HeightSample sum{};
   for (int j = 0; j < 4; ++j) {
-    const FoldedRow from = fold(static_cast<int>(top) - 1 + j, width(), height());
+    const FoldedRow from = fold(static_cast<int>(top) - 1 + j, width(), height(), edges_);
     const std::span<const float> row = texels_.row(from.row);
     double value = 0, slope = 0;
     for (int i = 0; i < 4; ++i) {
@@ -210,10 +216,12 @@ HeightField HeightField::filtered(int max_width, const Workers& workers) const {
   const int64_t rounded = (static_cast<int64_t>(height()) * to_width * 2 + width()) / (2 * static_cast<int64_t>(width()));
   HeightField coarse;
   coarse.base_ = base_;
+  coarse.edges_ = edges_;
   coarse.texels_ = averaged(texels_, to_width, std::max(static_cast<int>(rounded), 1), workers);
+  if (edges_ != MapEdges::sphere) return coarse;
   workers.for_each(coarse.height(), [&](int row) {
     const SinCosDouble angle = sincos_turns(0.5 * (row + 0.5) / coarse.height());
-    smooth_row(coarse.texels_.row(row), capped_gaussian(0.5 * std::fabs(angle.cos) / angle.sin, to_width));
+    smooth_row(coarse.texels_.row(row), capped_gaussian(0.5 * std::fabs(angle.cos) / angle.sin, to_width), edges_);
   });
   return coarse;
 }

@@ -29,6 +29,9 @@ std::optional<ImageFile> image_file_of(const std::filesystem::path& path);
 /// Does the format hold linear numbers (exr, hdr), not 8-bit codes?
 bool is_linear(ImageFile file);
 
+/// Does the file hold linear numbers by its format (OpenEXR, Radiance HDR, PFM)? Throws InputError as readers do.
+bool holds_linear_numbers(const std::filesystem::path& path);
+
 /// Reads a file of codes as 8-bit codes: grey is repeated, absent alpha is 255, 16 bits are rounded to 8. No colour
 /// conversion, no turning by EXIF; the first picture of several. A file of numbers is refused.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
@@ -45,6 +48,9 @@ Image<glm::vec4> read_linear(const std::filesystem::path& path);
 
 /// Writes 8-bit sRGB codes with straight alpha as PNG (without alpha where all are 255), whatever the name of the file.
 void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
+
+/// Writes codes that are numbers, no colours, such as a normal map, as PNG that does not say sRGB.
+void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
 
 /// Writes 8-bit sRGB codes with straight alpha by the extension of path: .png and .tif (deflate) exactly, without alpha
 /// where all are 255; .jpg at quality 95 with colour at full resolution, alpha dropped. The image must not be empty.

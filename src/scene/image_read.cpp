@@ -75,6 +75,11 @@ ColorPicture read_color(const std::filesystem::path& path, const Source& source)
 
 }  // namespace
 
+bool holds_linear_numbers(const std::filesystem::path& path) {
+  const Source source = open_source(path, kAllFormats);
+  return source.tool_format && source.tool_format->linear_name != nullptr;
+}
+
 Image<glm::u8vec4> read_image(const std::filesystem::path& path) try {
   const Source source = open_source(path, kCodeFormats);
   if (source.tool_format && source.tool_format->linear_name != nullptr) {

@@ -121,6 +121,10 @@ bool is_linear(ImageFile file) { return file == ImageFile::exr || file == ImageF
 
 void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image) { write_file(path, encode_png(image)); }
 
+void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
+  write_file(path, encode_png(image, PngCodes::numbers));
+}
+
 void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image) try {
   const ImageFile file = checked_image_file(path, false);
   if (file == ImageFile::png) return write_png(path, image);

@@ -37,6 +37,7 @@ struct TextureName {
 
 /// What covers a surface: one colour, a texture of the scene by its name, or an image file.
 using MapValue = std::variant<Color, TextureName, FilePath>;
+inline bool is_map(const MapValue& value) { return !std::holds_alternative<Color>(value); }
 
 /// One number, or the three of a vector.
 using Numbers = std::vector<double>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/noise.h"
 
+#include <algorithm>
 #include <type_traits>
 
 #include "core/hash.h"
@@ -80,6 +81,66 @@ Real ridges(Vec p, int octaves, int32_t seed) {
     strength *= 0.5f;
     p = next_octave(p);
   }
+  return sum;
+}
+
+namespace {
+
+// x of a lattice point, modulo the period. Exact: both are small whole numbers.
+HS_INLINE Real modulo(Real x, Real period) { return x - period * floor(x / period); }
+
+// Of eight directions 45° apart, all of length √2.
+HS_INLINE Real plane_gradient(Int hash, Real x, Real y) {
+  const Int sign(INT32_MIN);
+  const Real a = as_real(as_int(x) ^ (hash & sign)), b = as_real(as_int(y) ^ ((hash << 1) & sign));
+  const Real straight = Real(1.41421356f) * select((hash & 0x10000000) == 0, a, b);
+  return select((hash & 0x08000000) == 0, a + b, straight);
+}
+
+// Calls octave(noise, strength) from coarse to fine. Each octave is moved, so that lattices do not line up.
+template <class F>
+void for_each_octave(Real u, Real v, int period_u, int period_v, int octaves, int texels, int32_t seed, F octave) {
+  float strength = 1.0f;
+  Real x = u * Real(static_cast<float>(period_u)), y = v * Real(static_cast<float>(period_v));
+  for (int i = 0; i < octaves && 2 * std::max(period_u, period_v) <= texels; ++i) {
+    octave(tiled_noise(x, y, period_u, period_v, seed + i), strength);
+    strength *= 0.5f;
+    x = fma(x, Real(2.0f), Real(0.37f));
+    y = fma(y, Real(2.0f), Real(0.61f));
+    period_u *= 2;
+    period_v *= 2;
+  }
+}
+
+}  // namespace
+
+Real tiled_noise(Real x, Real y, int period_x, int period_y, int32_t seed) {
+  const Real cell_x = floor(x), cell_y = floor(y);
+  const Real px(static_cast<float>(period_x)), py(static_cast<float>(period_y));
+  const auto column = [&](Real c) { return wrapping_mul(truncate_to_int(modulo(c, px)), 0x1b873593); };
+  const auto row = [&](Real c) { return wrapping_add(wrapping_mul(truncate_to_int(modulo(c, py)), 0x19d699a5), seed); };
+  const Int x0 = column(cell_x), x1 = column(cell_x + Real(1.0f)), y0 = row(cell_y), y1 = row(cell_y + Real(1.0f));
+  const Real fx = x - cell_x, fy = y - cell_y, gx = fx - Real(1.0f), gy = fy - Real(1.0f);
+  const Real a = fade(fx), b = fade(fy);
+  const Real top = lerp(plane_gradient(scramble(x0 ^ y0), fx, fy), plane_gradient(scramble(x1 ^ y0), gx, fy), a);
+  const Real bottom = lerp(plane_gradient(scramble(x0 ^ y1), fx, gy), plane_gradient(scramble(x1 ^ y1), gx, gy), a);
+  return lerp(top, bottom, b);
+}
+
+Real tiled_cloud(Real u, Real v, int period_u, int period_v, int octaves, int texels, int32_t seed) {
+  Real sum(0.0f);
+  for_each_octave(u, v, period_u, period_v, octaves, texels, seed,
+                  [&](Real noise, float strength) { sum = fma(Real(strength), noise, sum); });
+  return sum;
+}
+
+Real tiled_ridges(Real u, Real v, int period_u, int period_v, int octaves, int texels, int32_t seed) {
+  Real sum(0.0f), crest(1.0f);
+  for_each_octave(u, v, period_u, period_v, octaves, texels, seed, [&](Real noise, float strength) {
+    const Real r = max(Real(1.0f) - Real(1.6f) * abs(noise), Real(0.0f));
+    crest = r * r * min(Real(2.0f) * crest, Real(1.0f));  // fine crests only upon coarse ones
+    sum = fma(Real(strength), crest, sum);
+  });
   return sum;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the invented planets share: gradient noise (after Perlin, "Improving noise", 2002, with a hash in place of his
+// What the invented planets and materials share: gradient noise (after Perlin, "Improving noise", 2002, with a hash in place of his
 // table), summed over octaves in three dimensions and looked up on the unit sphere. Lanes run along a row; only
 // correctly rounded operations are used, so all has the same bits at every lane width.
 #pragma once
@@ -21,6 +21,17 @@ Real cloud(Vec p, int octaves, int32_t seed);
 
 /// The same with sharp crests where the noise is zero: mountain chains, in [0, 2).
 Real ridges(Vec p, int octaves, int32_t seed);
+
+/// Gradient noise in the plane that repeats after period_x along x and period_y along y; about [−1, 1], zero at the integers.
+/// |x|, |y| must stay below 2^20, periods ≥ 1.
+Real tiled_noise(Real x, Real y, int period_x, int period_y, int32_t seed);
+
+/// Octaves of tiled_noise, each twice as fine and half as strong as the one before, for as long as a wave spans at least two
+/// of `texels` a period: at (u, v) · period, periodic in u and v with 1. `octaves` at most.
+Real tiled_cloud(Real u, Real v, int period_u, int period_v, int octaves, int texels, int32_t seed);
+
+/// The same with sharp crests where the noise is zero, in [0, 2).
+Real tiled_ridges(Real u, Real v, int period_u, int period_v, int octaves, int texels, int32_t seed);
 
 HS_INLINE Real lerp(Real a, Real b, Real t) { return fma(t, b - a, a); }
 

@@ -90,13 +90,28 @@ int create_aside(const std::filesystem::path& path) {
   return -1;
 }
 
+// Opening a pipe that no one reads would wait for ever: without waiting it is an error. Writing then waits for the reader.
 void write_in_place(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  const Descriptor file{::open(path.c_str(), O_WRONLY | O_CLOEXEC)};
+  const Descriptor file{::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)};
+  if (file.fd < 0 && errno == ENXIO) fail(path, "no one reads from it; expected a program that does, or a file name");
   if (file.fd < 0) fail_errno(path, errno);
+  const int flags = ::fcntl(file.fd, F_GETFL);
+  if (flags < 0 || ::fcntl(file.fd, F_SETFL, flags & ~O_NONBLOCK) != 0) fail_errno(path, errno);
   if (const int error = write_all(file.fd, bytes); error != 0) fail_errno(path, error);
 }
 
 }  // namespace
+
+bool is_standard_output(const std::filesystem::path& path) {
+  struct stat file = {}, out = {};
+  return ::stat(path.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 && file.st_dev == out.st_dev && file.st_ino == out.st_ino;
+}
+
+void make_directory(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw OutputError(path.string() + ": cannot make the directory (" + error.message() + ")");
+}
 
 void check_writable(const std::filesystem::path& path) {
   if (path.empty()) throw OutputError("the output has no name; expected a file name");
@@ -112,6 +127,10 @@ void check_writable(const std::filesystem::path& path) {
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const std::lock_guard lock(writing);
   check_writable(path);
+  if (is_standard_output(path)) {
+    if (const int error = write_all(STDOUT_FILENO, bytes); error != 0) fail_errno(path, error);
+    return;
+  }
   const auto status = status_of(path);
   if (status && !S_ISREG(status->st_mode)) return write_in_place(path, bytes);
 

@@ -65,7 +65,7 @@ Image<Texel> decode_texels(spng_ctx* context, const spng_ihdr& header, spng_form
 
 }  // namespace
 
-std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image) {
+std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes) {
   HS_CHECK(!image.empty());
   const bool opaque = std::ranges::all_of(image.texels(), [](const glm::u8vec4& t) { return t.w == 255; });
   const Context context = new_context(SPNG_CTX_ENCODER);
@@ -79,7 +79,7 @@ std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image) {
   check_encoding(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1));
   check_encoding(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB));
   check_encoding(spng_set_ihdr(context.get(), &header));
-  check_encoding(spng_set_srgb(context.get(), 0));
+  if (codes == PngCodes::srgb) check_encoding(spng_set_srgb(context.get(), 0));
   if (opaque) {
     const std::vector<std::byte> rgb = rgb_bytes(image.texels());
     check_encoding(spng_encode_image(context.get(), rgb.data(), rgb.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));

@@ -14,9 +14,12 @@
 
 namespace halfspace {
 
-/// Encodes sRGB codes with straight alpha; without an alpha channel where every alpha is 255. The image must not be
-/// empty.
-std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image);
+/// What the codes of a file mean.
+enum class PngCodes { srgb, numbers };
+
+/// Encodes codes with straight alpha; without an alpha channel where every alpha is 255. The file says that they are sRGB, or
+/// nothing where they are numbers. The image must not be empty.
+std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes = PngCodes::srgb);
 
 /// Do the bytes begin with PNG's signature?
 bool is_png(std::span<const std::byte> bytes);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_objects.cpp, prepare_background.cpp.
+// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
+// prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp,
+// prepare_background.cpp.
 // Included by these alone.
 #pragma once
 
@@ -8,10 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "core/check.h"
 #include "scene/height_field.h"
 #include "scene/mesh.h"
 #include "scene/prepared_scene.h"
 #include "scene/procedural_moon.h"
+#include "scene/procedural_patterns.h"
+#include "scene/shadow_views.h"
 #include "scene/view.h"
 
 namespace halfspace {
@@ -38,11 +43,27 @@ std::string recipe(const T&... parts) {
   return text;
 }
 
+// Reads a file; what is wrong with it is told with the key that asks for it.
+template <class F>
+auto read_for(const std::string& key, F read) {
+  try {
+    return read();
+  } catch (const InputError& e) {
+    throw InputError(key + ": " + e.what());
+  }
+}
+
 // A map as one object needs it.
 struct MapUse {
   TextureDescription texture;
   int width;  // of a generated map, else 0
 };
+
+/// Is the source a pattern's map of heights?
+bool is_pattern_height(TextureSource source);
+
+/// How the map goes on beyond its edges on that shape.
+MapEdges edges_of(Shape shape);
 
 /// How the shader reads a texture.
 Sampler make_sampler(const TextureDescription& t);
@@ -54,14 +75,13 @@ class ScenePreparation {
  public:
   ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height);
   PreparedScene prepare();
+  void expect();
 
  private:
-  // What displaces a sphere.
+  // What displaces an object.
   struct Relief {
     std::shared_ptr<const HeightField> field;  // null: nothing does
     std::string recipe;
-    std::shared_ptr<const Texture2D> slopes;  // null: normals come with the mesh
-    Sampler sampler;
   };
 
   const CameraDescription& camera() const;
@@ -78,25 +98,66 @@ class ScenePreparation {
   }
   // prepare_maps.cpp
   int width_for(const ObjectDescription& o) const;
+  const TextureDescription& texture_named(const std::string& name) const;
   MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
   std::shared_ptr<const MoonMaps> moon_maps(int width);
-  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& path);
-  std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& path);
+  // where: the key's path, for messages.
+  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Texture2D> data_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Image<float>> heights(const MapUse& use, const std::string& where);
+  std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& where);
+
+  // prepare_surface.cpp
+  void add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map, const ObjectDescription& o,
+                  const std::string& where);
+  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  DetailMap normal_map(const ObjectDescription& o, const std::string& where);
+  DetailMap bump_map(const ObjectDescription& o, const std::string& where);
+
+  // prepare_patterns.cpp
+  std::shared_ptr<const PatternMaps> pattern_maps(const MapUse& use);
+  std::shared_ptr<const Texture2D> pattern_texture(const MapUse& use);
+
+  // prepare_meshes.cpp
+  std::shared_ptr<const MeshAsset> mesh_of(const ObjectDescription& o, const Relief& relief);
+  std::shared_ptr<const MeshAsset> sphere_of(const ObjectDescription& o, const Relief& relief);
 
   // prepare_objects.cpp
   void add_object(const std::string& path, const ObjectDescription& o);
   Relief relief_of(const ObjectDescription& o, const std::string& path);
-  std::shared_ptr<const MeshAsset> mesh_of(const ObjectDescription& o, const Relief& relief);
-  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  DetailMap slopes_of(const Relief& relief, const ObjectDescription& o);
+  NormalDetail add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path);
   void place(LitSurface& s, glm::dmat4 world) const;
 
+  // prepare_shadows.cpp: fills the shadows' views, once all objects are placed
+  void add_shadows();
+  std::vector<LightView> shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const;
+  int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
+
   // prepare_background.cpp
-  void add_stars();
+  void add_background();
+  StarSky star_sky(double density, double brightness) const;
+  EnvironmentSky environment_sky();
+
+  // prepare_environments.cpp
+  const std::pair<std::string, EnvironmentDescription>& environment_named(const std::string& name) const;
+  EnvironmentBlend background_light();
+  const EnvironmentBlend* surroundings();
+  Environment environment_of(const std::string& name, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> generated_sky(const EnvironmentDescription& e);
+  int panorama_width() const;
+  int face_size() const;
 
   SceneAssets& assets_;
   const SceneDescription& scene_;
   View view_;
-  std::shared_ptr<const std::vector<Light>> lights_;
+  std::span<Shadow> shadows_;  // by light, as out_.lights
+  std::span<const Light> lights_;
+  std::span<const Light> shadowless_lights_;  // for what receives no shadow
+  glm::dvec3 ambient_;
+  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not asked for yet
   PreparedScene out_;
 };
 

@@ -2,9 +2,11 @@
 //
 // Maps of a scene's objects: read from files, or generated as fine as the view needs.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/check.h"
+#include "scene/displaced_sphere.h"
 #include "scene/image_io.h"
 #include "scene/preparation.h"
 #include "scene/procedural_earth.h"
@@ -21,45 +23,108 @@ Sampler make_sampler(const TextureDescription& t) {
   return s;
 }
 
-// How many texels round the object are worth having: at its middle one spans two pixels.
+namespace {
+
+// What the map spans from left to right on the object, and the radius of the ball that holds the object; units.
+struct Extent {
+  double map_width, radius;
+};
+
+Extent extent_of(const ObjectDescription& o) {
+  const auto round = [](double radius) { return 2.0 * std::numbers::pi * radius; };
+  switch (o.shape) {
+    case Shape::uv_sphere:
+    case Shape::icosphere: return {round(o.radius), o.radius};
+    case Shape::plane: return {o.size, o.size * std::numbers::sqrt2 / 2.0};
+    case Shape::cube: return {o.size, o.size * std::numbers::sqrt3 / 2.0};
+    case Shape::torus: return {round(o.radius + o.tube), o.radius + o.tube};
+    case Shape::torus_knot: return {round(3.0 * o.radius), 1.4 * o.radius + o.tube};  // the knot is about 3 circles long
+    case Shape::cylinder:
+    case Shape::cone: break;
+  }
+  return {round(o.radius), glm::length(glm::dvec2(o.radius, 0.5 * o.length))};
+}
+
+Image<float> unit_numbers(const Image<uint16_t>& codes) {
+  Image<float> map(codes.width(), codes.height());
+  std::ranges::transform(codes.texels(), map.data(), [](uint16_t code) { return static_cast<float>(code) / 65535.0f; });
+  return map;
+}
+
+}  // namespace
+
+// How many texels along u are worth having: where the object is nearest one spans two pixels.
 int ScenePreparation::width_for(const ObjectDescription& o) const {
-  double circumference_px = 0.0;
+  const Extent extent = extent_of(o);
+  double most_px = 0.0;
   for (const glm::dmat4& world : places_of(o)) {
     const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
-    const double radius = (o.shape == Shape::uv_sphere ? o.radius : o.size) * scale;
-    const double distance = std::max(glm::distance(glm::dvec3(world[3]), view_.eye_ws) - radius, view_.near);
+    const double distance = std::max(glm::distance(glm::dvec3(world[3]), view_.eye_ws) - extent.radius * scale, view_.near);
     const double height = camera().type == Projection::orthographic ? camera().height : 2.0 * view_.tan_y * distance;
-    circumference_px = std::max(circumference_px, 2.0 * std::numbers::pi * radius / height * view_.height_px);
+    most_px = std::max(most_px, extent.map_width * scale / height * view_.height_px);
   }
-  int width = 256;
-  while (width < 4096 && 2 * width < circumference_px) width *= 2;
+  const auto is_this = [&](const auto& entry) { return &entry.second == &o; };
+  const auto expected = assets_.widths_.find(std::ranges::find_if(scene_.objects, is_this)->first);
+  int width = expected == assets_.widths_.end() ? 256 : expected->second;
+  while (width < 4096 && 2 * width < most_px) width *= 2;
   return width;
+}
+
+const TextureDescription& ScenePreparation::texture_named(const std::string& name) const {
+  const TextureDescription& t = std::ranges::find_if(scene_.textures, [&](const auto& entry) { return entry.first == name; })->second;
+  if (t.source == TextureSource::file && t.file.path.empty())
+    throw InputError("textures." + name + ".file: missing; expected an image file");
+  return t;
 }
 
 MapUse ScenePreparation::use_of(const MapValue& map, const ObjectDescription& o) const {
   TextureDescription t;
   if (const auto* file = std::get_if<FilePath>(&map)) {
     t.file = *file;
-    if (o.shape == Shape::uv_sphere) t.wrap_t = Wrap::clamp;  // nothing lies beyond the poles
+    if (edges_of(o.shape) == MapEdges::sphere) t.wrap_t = Wrap::clamp;  // nothing lies beyond the poles
   } else {
-    const std::string& name = std::get<TextureName>(map).name;
-    t = std::ranges::find_if(scene_.textures, [&](const auto& entry) { return entry.first == name; })->second;
-    if (t.source == TextureSource::file && t.file.path.empty())
-      throw InputError("textures." + name + ".file: missing; expected an image file");
+    t = texture_named(std::get<TextureName>(map).name);
   }
   if (t.source == TextureSource::file) return {t, 0};
-  return {t, t.width != 0 ? t.width : width_for(o)};
+  if (t.width != 0) return {t, t.width};
+  return {t, is_pattern(t.source) ? std::clamp(width_for(o) / o.tiles_u, kLeastPattern, kMostPattern) : width_for(o)};
 }
 
 std::shared_ptr<const MoonMaps> ScenePreparation::moon_maps(int width) {
   return asset<MoonMaps>(recipe("moon", width), [&] { return procedural_moon(width, assets_.workers_); });
 }
 
-std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& use, const std::string& path) {
+namespace {
+
+[[noreturn]] void fail_not(const std::string& where, const TextureDescription& t, const char* expected) {
+  const bool heights = t.source == TextureSource::earth_height || t.source == TextureSource::moon_height || is_pattern_height(t.source);
+  const char* is = t.source == TextureSource::earth_normal ? "a normal map" : heights ? "a map of heights" : "a map of colours";
+  throw InputError(where + ": is " + is + "; expected " + expected);
+}
+
+// Normals of the sphere of radius 1 that the heights raise by kEarthRelief, coded for a normal map.
+constexpr double kEarthRelief = 0.02;
+
+Image<glm::vec4> normals_of(const HeightField& field, int width, const Workers& workers) {
+  Image<glm::vec4> map = slope_map(field, width, width / 2, 1.0, kEarthRelief, 0.0, workers);
+  for (int y = 0; y < map.height(); ++y) {
+    for (glm::vec4& t : map.row(y)) {
+      const glm::vec3 n(-t.x, -t.y, t.z);
+      t = glm::vec4(n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) * 0.5f + 0.5f, 1.0f);
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& use, const std::string& where) {
+  if (is_pattern(use.texture.source) && !is_pattern_height(use.texture.source)) return pattern_texture(use);
   switch (use.texture.source) {
     case TextureSource::file:
-      return asset<Texture2D>(recipe("color", use.texture.file.path.string()),
-                              [&] { return Texture2D(read_image(use.texture.file.path), TexelFormat::srgb8a8); });
+      return asset<Texture2D>(recipe("color", use.texture.file.path.string()), [&] {
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8);
+      });
     case TextureSource::earth_color:
       return asset<Texture2D>(recipe("earth_color", use.width), [&] {
         return Texture2D(procedural_earth(use.width, use.width / 2, assets_.workers_), TexelFormat::srgb8a8);
@@ -67,31 +132,54 @@ std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& u
     case TextureSource::moon_color:
       return asset<Texture2D>(recipe("moon_color", use.width),
                               [&] { return Texture2D(moon_maps(use.width)->color, TexelFormat::srgb8a8); });
-    case TextureSource::moon_height: break;
+    default: fail_not(where, use.texture, "a map of colours");
   }
-  throw InputError(path + ".color: moon_height is a map of heights; expected a map of colours");
 }
 
-// The map of heights, smoothed, as a function on the sphere.
-std::shared_ptr<const HeightField> ScenePreparation::height_field(const MapUse& use, const ObjectDescription& o, const std::string& path) {
-  const std::string words = recipe("heights", use.texture.file.path.string(), use.width, o.height_smoothing);
+// Numbers as they stand in the file: normals, exponents.
+std::shared_ptr<const Texture2D> ScenePreparation::data_texture(const MapUse& use, const std::string& where) {
   switch (use.texture.source) {
     case TextureSource::file:
-      return asset<HeightField>(words, [&] {
-        const Image<float> map = read_gray(use.texture.file.path);
-        if (map.width() < 2)
-          throw InputError(use.texture.file.path.string() + ": is one texel wide; expected a map of heights round a sphere");
-        return HeightField(map, o.height_smoothing, assets_.workers_);
+      return asset<Texture2D>(recipe("data", use.texture.file.path.string()), [&] {
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8);
       });
-    case TextureSource::moon_height:
-      return asset<HeightField>(words, [&] {
-        const Image<uint16_t>& codes = moon_maps(use.width)->height;
-        Image<float> map(codes.width(), codes.height());
-        std::ranges::transform(codes.texels(), map.data(), [](uint16_t code) { return static_cast<float>(code) / 65535.0f; });
-        return HeightField(map, o.height_smoothing, assets_.workers_);
+    case TextureSource::earth_normal:
+      return asset<Texture2D>(recipe("earth_normal", use.width), [&] {
+        MapUse relief = use;
+        relief.texture.source = TextureSource::earth_height;
+        const HeightField field(*heights(relief, where), 1.0, assets_.workers_);
+        return Texture2D(normals_of(field, use.width, assets_.workers_), TexelFormat::rgba16f);
       });
-    default: throw InputError(path + ".height: is a map of colours; expected a map of heights");
+    default: fail_not(where, use.texture, "a map of numbers");
   }
+}
+
+std::shared_ptr<const Image<float>> ScenePreparation::heights(const MapUse& use, const std::string& where) {
+  if (is_pattern_height(use.texture.source)) {
+    return asset<Image<float>>(recipe("pattern heights", static_cast<int>(use.texture.source), use.width),
+                               [&] { return unit_numbers(pattern_maps(use)->height); });
+  }
+  switch (use.texture.source) {
+    case TextureSource::file:
+      return asset<Image<float>>(recipe("numbers", use.texture.file.path.string()),
+                                 [&] { return read_for(where, [&] { return read_gray(use.texture.file.path); }); });
+    case TextureSource::earth_height:
+      return asset<Image<float>>(recipe("earth_height", use.width),
+                                 [&] { return procedural_earth_heights(use.width, use.width / 2, assets_.workers_); });
+    case TextureSource::moon_height:
+      return asset<Image<float>>(recipe("moon_height", use.width), [&] { return unit_numbers(moon_maps(use.width)->height); });
+    default: fail_not(where, use.texture, "a map of heights");
+  }
+}
+
+// The map of heights, smoothed, as a function on the object's surface.
+std::shared_ptr<const HeightField> ScenePreparation::height_field(const MapUse& use, const ObjectDescription& o, const std::string& where) {
+  const std::shared_ptr<const Image<float>> map = heights(use, where);
+  if (map->width() < 2) throw InputError(where + ": " + use.texture.file.path.string() + ": is one texel wide; expected a map of heights");
+  const MapEdges edges = edges_of(o.shape);
+  return asset<HeightField>(recipe("field", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width,
+                                   o.height_smoothing, static_cast<int>(edges)),
+                            [&] { return HeightField(*map, o.height_smoothing, assets_.workers_, edges); });
 }
 
 }  // namespace halfspace

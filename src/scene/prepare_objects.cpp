@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Objects of a scene: mesh, surface, place, and the shader that draws them.
+// Objects of a scene: surface, place, and the shader that draws them.
 #include <algorithm>
 
+#include "core/check.h"
 #include "scene/displaced_sphere.h"
 #include "scene/preparation.h"
-#include "scene/shapes.h"
 
 namespace halfspace {
 
 namespace {
 
-bool is_displaced(const ObjectDescription& o) { return o.shape == Shape::uv_sphere && !std::holds_alternative<Color>(o.height); }
+bool is_displaced(const ObjectDescription& o) { return is_map(o.height); }
 
-DrawState state_of(const ObjectDescription& o, const glm::dmat4& world) {
+DrawState state_of(const LitSurface& s) {
   DrawState state;
-  state.cull = o.shape == Shape::plane ? CullMode::none : CullMode::back;
-  if (glm::determinant(glm::dmat3(world)) < 0) state.front = Winding::clockwise;  // mirrored
+  state.cull = s.two_sided ? CullMode::none : CullMode::back;
+  if (s.handedness < 0) state.front = Winding::clockwise;
   state.depth.clip = ClipDepth::zero_to_one;
   state.depth.compare = CompareOp::greater;
   return state;
@@ -32,81 +32,112 @@ std::vector<glm::dmat4> places_of(const ObjectDescription& o) {
   return places;
 }
 
-std::shared_ptr<const MeshAsset> ScenePreparation::mesh_of(const ObjectDescription& o, const Relief& relief) {
-  const auto radius = static_cast<float>(o.radius), size = static_cast<float>(o.size);
-  switch (o.shape) {
-    case Shape::plane: return asset<MeshAsset>(recipe("plane", o.size), [&] { return MeshAsset(plane(size)); });
-    case Shape::cube: return asset<MeshAsset>(recipe("cube", o.size), [&] { return MeshAsset(cube(size)); });
-    case Shape::uv_sphere: break;
-  }
-  const std::string sphere = recipe("sphere", o.radius, o.latitudes, o.longitudes);
-  if (relief.field == nullptr) return asset<MeshAsset>(sphere, [&] { return MeshAsset(uv_sphere(o.latitudes, o.longitudes, radius)); });
-  const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
-  return asset<MeshAsset>(recipe(sphere, relief.recipe, static_cast<int>(normals)), [&] {
-    const HeightField filtered = relief.field->filtered(o.longitudes, assets_.workers_);
-    return MeshAsset(
-        displaced_uv_sphere(o.latitudes, o.longitudes, radius, filtered, o.height_scale, o.height_zero, assets_.workers_, normals));
-  });
-}
-
-// What all copies of an object share.
-LitSurface ScenePreparation::surface_of(const ObjectDescription& o, const std::string& path) {
-  LitSurface s;
-  s.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  s.lights = *lights_;
-  s.two_sided = o.shape == Shape::plane;
-  s.surface = {glm::vec3(o.surface.ambient.linear * scene_.head.ambient.linear), glm::vec3(o.surface.diffuse.linear),
-               glm::vec3(o.surface.specular.linear), static_cast<float>(o.surface.shininess)};
-  if (const auto* color = std::get_if<Color>(&o.surface.color)) {
-    s.color = glm::vec3(color->linear);
-  } else {
-    const MapUse use = use_of(o.surface.color, o);
-    s.map = color_texture(use, path).get();
-    s.sampler = make_sampler(use.texture);
-  }
-  return s;
-}
-
 void ScenePreparation::place(LitSurface& s, glm::dmat4 world) const {
   s.clip_from_object = glm::mat4(view_.clip_from_world * world);
   world[3] -= glm::dvec4(view_.eye_ws, 0.0);
   s.world_from_object = glm::mat4(world);
   s.normal_from_object = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world))));
+  s.handedness = glm::determinant(glm::dmat3(world)) < 0 ? -1.0f : 1.0f;
 }
 
 ScenePreparation::Relief ScenePreparation::relief_of(const ObjectDescription& o, const std::string& path) {
   if (!is_displaced(o)) return {};
   const MapUse use = use_of(o.height, o);
   Relief r;
-  r.field = height_field(use, o, path);
-  r.recipe = recipe(use.texture.file.path.string(), use.width, o.height_smoothing, o.height_scale, o.height_zero);
-  if (o.normals != NormalSource::pixel) return r;
-  const int width = std::min(width_for(o), r.field->width());
-  r.slopes = asset<Texture2D>(recipe("slopes", r.recipe, width, o.radius), [&] {
-    const HeightField filtered = r.field->filtered(width, assets_.workers_);
-    return Texture2D(slope_map(filtered, width, std::max(1, width / 2), o.radius, o.height_scale, o.height_zero, assets_.workers_),
-                     TexelFormat::rgba16f);
-  });
-  r.sampler = make_sampler(use.texture);
-  r.sampler.wrap_t = Wrap::clamp;
+  r.field = height_field(use, o, path + ".height");
+  r.recipe = recipe(static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing, o.height_scale,
+                    o.height_zero);
   return r;
+}
+
+// The slopes of a displaced sphere, for normals by pixel; a null map where they come with the mesh.
+DetailMap ScenePreparation::slopes_of(const Relief& relief, const ObjectDescription& o) {
+  DetailMap d;
+  if (relief.field == nullptr || o.shape != Shape::uv_sphere || o.normals != NormalSource::pixel) return d;
+  const int width = std::min(width_for(o), relief.field->width());
+  d.map = asset<Texture2D>(recipe("slopes", relief.recipe, width, o.radius), [&] {
+            const HeightField filtered = relief.field->filtered(width, assets_.workers_);
+            return Texture2D(slope_map(filtered, width, std::max(1, width / 2), o.radius, o.height_scale, o.height_zero, assets_.workers_),
+                             TexelFormat::rgba16f);
+          }).get();
+  d.sampler = make_sampler(use_of(o.height, o).texture);
+  d.sampler.wrap_t = Wrap::clamp;
+  return d;
+}
+
+namespace {
+
+// The mesh's streams in the order of the shader's attributes.
+template <class S>
+VertexView view_of(const Mesh& m) {
+  if constexpr (S::kTangents) return vertices(stream(m.positions), stream(m.normals), stream(m.tangents), stream(m.uvs));
+  if constexpr (S::kNormals && S::kMapped) return vertices(stream(m.positions), stream(m.normals), stream(m.uvs));
+  if constexpr (S::kNormals) return vertices(stream(m.positions), stream(m.normals));
+  if constexpr (S::kMapped) return vertices(stream(m.positions), stream(m.uvs));
+  return vertices(stream(m.positions));
+}
+
+template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none>
+PreparedDraw draw_of(const LitSurface& surface, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices) {
+  using S = SurfaceShader<rate, mapped, detail>;
+  return {S{surface}, view_of<S>(mesh.mesh), indices, state_of(surface)};
+}
+
+// The variant of the shader that carries what the surface needs, and no more.
+PreparedDraw draw_of(const LitSurface& s, ShadingRate rate, NormalDetail detail, const MeshAsset& mesh,
+                     const std::shared_ptr<const Indices>& indices) {
+  const bool mapped = std::ranges::any_of(s.factors, [](const Factor& f) { return f.map != nullptr; });
+  switch (rate) {
+    case ShadingRate::none: return (mapped ? draw_of<ShadingRate::none, true> : draw_of<ShadingRate::none, false>)(s, mesh, indices);
+    case ShadingRate::flat: return (mapped ? draw_of<ShadingRate::flat, true> : draw_of<ShadingRate::flat, false>)(s, mesh, indices);
+    case ShadingRate::provoking:
+      return (mapped ? draw_of<ShadingRate::provoking, true> : draw_of<ShadingRate::provoking, false>)(s, mesh, indices);
+    case ShadingRate::gouraud:
+      return (mapped ? draw_of<ShadingRate::gouraud, true> : draw_of<ShadingRate::gouraud, false>)(s, mesh, indices);
+    case ShadingRate::phong: break;
+  }
+  switch (detail) {
+    case NormalDetail::map: return draw_of<ShadingRate::phong, true, NormalDetail::map>(s, mesh, indices);
+    case NormalDetail::bump: return draw_of<ShadingRate::phong, true, NormalDetail::bump>(s, mesh, indices);
+    case NormalDetail::slopes: return draw_of<ShadingRate::phong, true, NormalDetail::slopes>(s, mesh, indices);
+    case NormalDetail::none: break;
+  }
+  return (mapped ? draw_of<ShadingRate::phong, true> : draw_of<ShadingRate::phong, false>)(s, mesh, indices);
+}
+
+}  // namespace
+
+// The map that tells the normals of an object's pixels, if one does.
+NormalDetail ScenePreparation::add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path) {
+  const SurfaceDescription& d = o.surface;
+  if (d.shading != ShadingRate::phong) return NormalDetail::none;
+  const bool automatic = d.normal == DetailChoice::automatic;
+  if (d.normal == DetailChoice::map || (automatic && is_map(d.normal_map))) {
+    if (!is_map(d.normal_map))
+      throw InputError(path + ".normal: is map, and normal_map is none; expected a texture or an image file as normal_map");
+    s.detail = normal_map(o, path + ".normal_map");
+    return NormalDetail::map;
+  }
+  if (d.normal == DetailChoice::bump || (automatic && is_map(d.bump_map))) {
+    if (!is_map(d.bump_map))
+      throw InputError(path + ".normal: is bump, and bump_map is none; expected a texture or an image file as bump_map");
+    s.detail = bump_map(o, path + ".bump_map");
+    return NormalDetail::bump;
+  }
+  s.detail = slopes_of(relief, o);
+  return s.detail.map != nullptr ? NormalDetail::slopes : NormalDetail::none;
 }
 
 void ScenePreparation::add_object(const std::string& path, const ObjectDescription& o) {
   const Relief relief = relief_of(o, path);
-  const std::shared_ptr<const MeshAsset> asset = mesh_of(o, relief);
-  const Mesh& mesh = asset->mesh;
-  const std::shared_ptr<const Indices> indices(asset, &asset->indices);
+  const std::shared_ptr<const MeshAsset> mesh = mesh_of(o, relief);
+  const std::shared_ptr<const Indices> indices(mesh, &mesh->indices);
   LitSurface surface = surface_of(o, path);
+  const NormalDetail detail = add_detail(surface, o, relief, path);
   for (const glm::dmat4& world : places_of(o)) {
     place(surface, world);
-    if (relief.slopes != nullptr) {
-      const DisplacedSphere shader{surface, relief.slopes.get(), relief.sampler};
-      out_.draws.push_back({shader, vertices(stream(mesh.positions), stream(mesh.uvs)), indices, state_of(o, world)});
-    } else {
-      const BlinnPhong shader{surface};
-      out_.draws.push_back({shader, vertices(stream(mesh.positions), stream(mesh.normals), stream(mesh.uvs)), indices, state_of(o, world)});
-    }
+    out_.draws.push_back(draw_of(surface, o.surface.shading, detail, *mesh, indices));
+    out_.meshes.push_back({path, &mesh->mesh, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow});
   }
 }
 

@@ -14,24 +14,63 @@
 #include "core/parallel.h"
 #include "raster/pass.h"
 #include "scene/description.h"
-#include "shading/blinn_phong.h"
-#include "shading/displaced_sphere.h"
+#include "scene/mesh.h"
+#include "scene/view.h"
+#include "shading/environment_sky.h"
+#include "shading/shadow_map.h"
 #include "shading/star_sky.h"
+#include "shading/surface_shader.h"
 
 namespace halfspace {
 
+/// Every shader that a scene may draw by. What visits it compiles them all: add_draw.cpp, and one file of tests.
+using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, SurfaceShader<ShadingRate::none, true>,            //
+                                 SurfaceShader<ShadingRate::flat, false>, SurfaceShader<ShadingRate::flat, true>,            //
+                                 SurfaceShader<ShadingRate::provoking, false>, SurfaceShader<ShadingRate::provoking, true>,  //
+                                 SurfaceShader<ShadingRate::gouraud, false>, SurfaceShader<ShadingRate::gouraud, true>,      //
+                                 SurfaceShader<ShadingRate::phong, false>, SurfaceShader<ShadingRate::phong, true>,          //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
+                                 SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
+                                 StarSky, EnvironmentSky>;
+
 /// One draw. std::visit on the shader gives its type back.
 struct PreparedDraw {
-  std::variant<BlinnPhong, DisplacedSphere, StarSky> shader;
+  SceneShader shader;
   VertexView vertices;
   std::shared_ptr<const Indices> indices;
   DrawState state;  ///< reversed Z: clear depth to 0
+};
+
+/// Adds it to a pass.
+void add_draw(Pass& pass, const PreparedDraw& draw);
+
+/// A mesh and its place: what shadow maps and rays are made from.
+struct PlacedMesh {
+  std::string object;
+  const Mesh* mesh;
+  std::shared_ptr<const Indices> indices;
+  glm::dmat4 world_from_object;
+  bool two_sided, casts_shadow, receives_shadow;
+};
+
+/// A light as this picture has it.
+struct PreparedLight {
+  std::string name;
+  Light light;          ///< its shadow is null where it casts none
+  LightDescription description;
+  double map_ms = 0.0;  ///< that its maps took
 };
 
 /// All that a picture needs. Movable; keeps alive what its draws point to.
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
+  PostDescription post;
+  View view;
+  std::vector<PlacedMesh> meshes;  ///< of every object that is drawn
+  std::vector<PreparedLight> lights;
+  PassStatistics shadow_statistics;  ///< of the passes that made shadow maps
   std::vector<std::shared_ptr<const void>> assets;
 };
 
@@ -41,7 +80,11 @@ class SceneAssets {
  public:
   explicit SceneAssets(const Workers& workers) : workers_(workers) {}
 
-  /// width, height: of the picture, px. Throws InputError where a file cannot be used.
+  /// Tells of a frame to come: from now on, generated maps without a width of their own are at least as fine as that frame
+  /// needs. Told of all frames of a range before the first, they do not change on the way. width, height: of the picture, px.
+  void expect(const SceneDescription& scene, int width, int height);
+
+  /// width, height: of the picture, px. Throws InputError that begins with the key, where a file cannot be used.
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
  private:
@@ -52,11 +95,13 @@ class SceneAssets {
   };
   const Workers& workers_;
   std::map<std::string, Entry> entries_;  ///< by what they are made from
+  std::map<std::string, int> widths_;     ///< of generated maps, at least, by the object's name
 };
 
-/// Draws the scene into 8-bit sRGB codes.
+/// Draws the scene into 8-bit codes, as its post section says. Light is kept for the whole picture only where
+/// auto_exposure must see all of it first; else it lives in the tiles.
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
-/// Draws the scene as linear numbers, alpha 1.
+/// Draws the scene as linear numbers, alpha 1: light before exposure and tone curve.
 PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers);
 
 }  // namespace halfspace

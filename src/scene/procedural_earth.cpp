@@ -95,15 +95,21 @@ Vec land_color(const Terrain& t) {
   return c * shade;
 }
 
+// Half the height over which sea turns into land: about that of one pixel, so that coasts are not jagged.
+float coast_of(int width) { return 6.0f / static_cast<float>(width); }
+
+// Directions of W pixels of a row, from x on.
+HS_INLINE Vec directions(const Longitudes& longitudes, const SinCosDouble& latitude, int x) {
+  const Real ring(static_cast<float>(latitude.sin));
+  return Vec(ring * load<Real>(longitudes.cos.data() + x), Real(static_cast<float>(latitude.cos)),
+             ring * load<Real>(longitudes.minus_sin.data() + x));
+}
+
 void fill_row(std::span<glm::u8vec4> out, const Longitudes& longitudes, const SinCosDouble& latitude) {
   const int width = static_cast<int>(out.size());
-  // Half the height over which sea turns into land: about that of one pixel, so that coasts are not jagged.
-  const float coast = 6.0f / static_cast<float>(width);
-  const Real y(static_cast<float>(latitude.cos));
-  const Real ring(static_cast<float>(latitude.sin));
+  const float coast = coast_of(width);
   for (int x = 0; x < width; x += kLanes) {
-    const Vec p(ring * load<Real>(longitudes.cos.data() + x), y, ring * load<Real>(longitudes.minus_sin.data() + x));
-    const Terrain t = terrain_at(p, coast);
+    const Terrain t = terrain_at(directions(longitudes, latitude, x), coast);
     const Real land = step(-coast, coast, t.height);
     const Vec sea_rgb = sea_color(t);
     const Vec land_rgb = land_color(t);
@@ -115,7 +121,29 @@ void fill_row(std::span<glm::u8vec4> out, const Longitudes& longitudes, const Si
   }
 }
 
+// Plains that rise inland, and mountains on them. The sea lies flat.
+void fill_heights(std::span<float> out, const Longitudes& longitudes, const SinCosDouble& latitude) {
+  const int width = static_cast<int>(out.size());
+  const float coast = coast_of(width);
+  for (int x = 0; x < width; x += kLanes) {
+    const Terrain t = terrain_at(directions(longitudes, latitude, x), coast);
+    const Real plain = Real(0.012f) + Real(0.25f) * max(t.height, Real(0.0f)) + Real(0.02f) * t.detail;
+    const Real land = clamp(plain + Real(0.42f) * t.mountains * (Real(1.0f) + Real(0.25f) * t.detail), Real(0.0f), Real(1.0f));
+    const Real height = land * step(-coast, coast, t.height);
+    for (int i = 0; i < kLanes && x + i < width; ++i) out[static_cast<std::size_t>(x + i)] = lane(height, i);
+  }
+}
+
 }  // namespace
+
+Image<float> procedural_earth_heights(int width, int height, const Workers& workers) {
+  HS_CHECK_OP(width, >=, 1);
+  HS_CHECK_OP(height, >=, 1);
+  Image<float> map(width, height);
+  const Longitudes longitudes = longitudes_of(width);
+  workers.for_each(height, [&](int row) { fill_heights(map.row(row), longitudes, sincos_turns(0.5 * (row + 0.5) / height)); });
+  return map;
+}
 
 Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& workers) {
   HS_CHECK_OP(width, >=, 1);

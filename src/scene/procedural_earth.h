@@ -14,4 +14,7 @@ namespace halfspace {
 /// alone. width, height ≥ 1.
 Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& workers);
 
+/// The heights that belong to it: 0 the sea, 1 the highest mountains; not coded. Bits as above.
+Image<float> procedural_earth_heights(int width, int height, const Workers& workers);
+
 }  // namespace halfspace

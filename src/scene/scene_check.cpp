@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/check.h"
 #include "scene/animation.h"
@@ -14,8 +15,11 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kLeastScale = 1e-6, kLeastAttenuation = 1e-6;
-constexpr int kMostVertices = 1 << 23;  // of one mesh: 0.6 GB
+constexpr double kLeastScale = 1e-6, kLeastTerm = 1e-6;
+constexpr int64_t kMostVertices = int64_t{1} << 23;  // of one mesh: 0.6 GB
+constexpr int kMostPatternWidth = 4096;              // 14 bytes a texel, and square
+constexpr int64_t kMostCopies = 65536;
+constexpr int64_t kMostDrawnVertices = int64_t{1} << 25;  // of all copies that are drawn: 2 GB while a frame is rendered
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
 
@@ -29,13 +33,22 @@ void check(const CameraDescription& c, const std::string& where) {
 
 void check(const LightDescription& l, const std::string& where) {
   if (l.direction == glm::dvec3(0.0)) fail(where + ".direction", "is zero; expected a direction");
-  if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kLeastAttenuation) {
-    fail(where + ".attenuation", "is zero; expected one term of at least " + number_text(kLeastAttenuation));
+  if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kLeastTerm) {
+    fail(where + ".attenuation", "is zero; expected one term of at least " + number_text(kLeastTerm));
   }
+  if (l.type == LightType::spot && l.inner > l.outer)
+    fail(where + ".inner", number_text(l.inner) + " is more than outer; expected at most " + number_text(l.outer));
 }
 
 void check(const TextureDescription& t, const std::string& where) {
   if (t.width % 2 != 0) fail(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
+  if (is_pattern(t.source) && t.width > kMostPatternWidth)
+    fail(where + ".width",
+         "expected at most " + std::to_string(kMostPatternWidth) + " of a map that tiles, got " + std::to_string(t.width));
+}
+
+void check(const EnvironmentDescription& e, const std::string& where) {
+  if (e.sun == glm::dvec3(0.0)) fail(where + ".sun", "is zero; expected a direction");
 }
 
 void check(const SurfaceDescription&, const std::string&) {}
@@ -46,18 +59,71 @@ void check(const Placement& p, const std::string& where) {
     fail(where + ".scale", "has a zero; expected at least " + number_text(kLeastScale) + " either way");
 }
 
+// Of the object's mesh; for an icosphere, without the few that its seam takes twice.
+int64_t vertices_of(const ObjectDescription& o) {
+  const int64_t bands = o.latitudes, sectors = o.longitudes, n = o.segments;
+  switch (o.shape) {
+    case Shape::icosphere: return 10 * (int64_t{1} << (2 * o.level)) + 2;
+    case Shape::plane: return (n + 1) * (n + 1);
+    case Shape::cube: return 6 * (n + 1) * (n + 1);
+    case Shape::cylinder: return 3 * bands * sectors;
+    case Shape::cone: return 2 * bands * sectors;
+    default: return bands * sectors;
+  }
+}
+
+bool is_ring(Shape shape) { return shape == Shape::torus || shape == Shape::torus_knot; }
+
+// How far a surface may go inwards before it meets itself.
+double thickness_of(const ObjectDescription& o) {
+  if (is_ring(o.shape)) return o.tube;
+  return o.shape == Shape::cube ? 0.5 * o.size : o.radius;
+}
+
 void check(const ObjectDescription& o, const std::string& where) {
   check(o.placement, where);
   for (std::size_t i = 0; i < o.instances.size(); ++i)
     check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));
-  if (o.shape == Shape::uv_sphere && o.longitudes > kMostVertices / o.latitudes) {
-    fail(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
+  if (vertices_of(o) > kMostVertices) fail(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
+  if (is_ring(o.shape) && o.tube >= o.radius)
+    fail(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
+  if (is_ring(o.shape) && o.latitudes < 3) fail(where + ".latitudes", "2 make no tube; expected at least 3");
+  const bool displaced = o.shape != Shape::plane && is_map(o.height);
+  if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness_of(o)) {
+    fail(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +
+                                      " inside out; expected less than " + (o.shape == Shape::uv_sphere ? "its radius, " : "") +
+                                      number_text(thickness_of(o)));
   }
-  const bool displaced = o.shape == Shape::uv_sphere && !std::holds_alternative<Color>(o.height);
-  if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= o.radius) {
-    fail(where + ".height_scale",
-         number_text(o.height_scale) + " can turn the sphere inside out; expected less than its radius, " + number_text(o.radius));
+}
+
+// What all objects together ask of memory.
+void check_total(const Named<ObjectDescription>& objects, const std::string& source) {
+  int64_t vertices = 0, copies = 0;
+  for (const auto& [name, o] : objects) {
+    if (!o.visible) continue;
+    const int64_t count = std::max<int64_t>(1, static_cast<int64_t>(o.instances.size()));
+    copies += count;
+    vertices += vertices_of(o) * count;
   }
+  if (copies > kMostCopies)
+    fail(source, "objects: are " + std::to_string(copies) + " with all their instances; expected at most " + std::to_string(kMostCopies));
+  if (vertices > kMostDrawnVertices) {
+    fail(source, "objects: have " + std::to_string(vertices) +
+                     " vertices with all their instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
+  }
+}
+
+void check_environments(SceneDescription& scene, const std::string& source) {
+  const BackgroundDescription& b = scene.background;
+  const auto check_name = [&](const char* key, const std::string& name) {
+    if (name.empty() || find_named(scene.environments, name) != nullptr) return;
+    fail(source, std::string(key) + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
+  };
+  check_name("background.environment", b.environment);
+  check_name("background.second", b.second);
+  check_name("reflections.environment", scene.reflections.environment);
+  if (b.type == BackgroundType::environment && scene.environments.empty())
+    fail(source, "background.type: the scene has no environment; expected one in environments");
 }
 
 }  // namespace
@@ -66,6 +132,7 @@ void check_scene(SceneDescription& scene, const std::string& source) {
   if (!scene.head.camera.empty() && find_named(scene.cameras, scene.head.camera) == nullptr) {
     fail(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
   }
+  check_environments(scene, source);
   for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
     for (auto& entry : list) {
       const std::string path = std::string(collection) + "." + entry.first;
@@ -76,6 +143,7 @@ void check_scene(SceneDescription& scene, const std::string& source) {
       }
     }
   });
+  check_total(scene.objects, source);
 }
 
 }  // namespace halfspace

@@ -180,6 +180,14 @@ SceneDescription read_scene(const Json& json, const std::string& source, const s
   return Reader(json, {source, directory, {}}).read();
 }
 
+// What an object's surface has of its material is left to the material: a key set there later reaches the object.
+void drop_keys_of_material(Json& json, SurfaceDescription& surface, SurfaceDescription& material) {
+  const Section own = section_of(surface), shared = section_of(material);
+  for (const Field& field : fields_of(own)) {
+    if (value_of(field) == value_of(find_field(shared, field.key->name))) json.erase(field.key->name);
+  }
+}
+
 // The whole scene as JSON, every key told.
 Json json_of(SceneDescription scene) {
   Json json = {{"version", SceneFile::kVersion}};
@@ -190,6 +198,8 @@ Json json_of(SceneDescription scene) {
     for (auto& [thing, value] : list) {
       collection[thing] = json_of(section_of(value));
       if constexpr (std::is_same_v<std::decay_t<decltype(value)>, ObjectDescription>) {
+        if (SurfaceDescription* material = find_named(scene.materials, value.material); material != nullptr)
+          drop_keys_of_material(collection[thing], value.surface, *material);
         for (Placement& p : value.instances) collection[thing][kInstances].push_back(json_of(section_of(p)));
       }
     }
@@ -269,8 +279,9 @@ void SceneFile::set(std::span<const std::string> settings) {
 
 SceneDescription SceneFile::at(double seconds) const {
   SceneDescription scene = description_;
+  const double begun = description_.time.hours / 24.0 * description_.time.day;
   for (const auto& [name, animation] : description_.animations) {
-    animate(scene, animation, "animations." + name, source_, seconds * description_.animation.speed);
+    animate(scene, animation, "animations." + name, source_, begun + seconds * description_.animation.speed);
   }
   check_scene(scene, source_ + " at " + std::to_string(seconds) + " s");
   return scene;

@@ -43,7 +43,11 @@ class SceneFile {
   /// The scene at a time in seconds: animated keys have their values then. Throws InputError where one leaves its range.
   SceneDescription at(double seconds) const;
 
-  /// The scene with every key, absolute paths, ready to be read again.
+  /// What messages about the scene begin with: its file, or "scene NAME".
+  const std::string& source() const { return source_; }
+
+  /// The scene with every key, absolute paths, ready to be read again. An object's keys that say what its material says are
+  /// left out.
   std::string print() const;
 
  private:

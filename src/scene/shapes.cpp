@@ -22,20 +22,6 @@ void add_triangle(Mesh& mesh, int a, int b, int c) {
   for (const int i : {a, b, c}) mesh.indices.push_back(static_cast<uint32_t>(i));
 }
 
-// A square face with half edge h round h·center; right and up are unit vectors as seen from the front, where the
-// first texture row is at the top.
-void add_face(Mesh& mesh, float h, const glm::vec3& center, const glm::vec3& right, const glm::vec3& up) {
-  const int first = static_cast<int>(mesh.positions.size());
-  for (const glm::vec2 uv : {glm::vec2(0, 0), glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(1, 0)}) {
-    mesh.positions.push_back(h * (center + right * (2.0f * uv.x - 1.0f) + up * (1.0f - 2.0f * uv.y)));
-    mesh.normals.push_back(glm::cross(right, up));
-    mesh.tangents.emplace_back(right, 1.0f);
-    mesh.uvs.push_back(uv);
-  }
-  add_triangle(mesh, first, first + 1, first + 2);
-  add_triangle(mesh, first, first + 2, first + 3);
-}
-
 }  // namespace
 
 // One vertex per sector at a pole, one more than sectors elsewhere.
@@ -74,27 +60,6 @@ Mesh uv_sphere(int latitudes, int longitudes, float radius) {
       }
     }
   }
-  return mesh;
-}
-
-Mesh plane(float size) {
-  HS_CHECK_OP(size, >, 0.0f);
-  Mesh mesh;
-  add_face(mesh, 0.5f * size, {0, 0, 0}, {1, 0, 0}, {0, 0, -1});
-  return mesh;
-}
-
-Mesh cube(float size) {
-  HS_CHECK_OP(size, >, 0.0f);
-  Mesh mesh;
-  const float h = 0.5f * size;
-  const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  add_face(mesh, h, x, -z, y);
-  add_face(mesh, h, -x, z, y);
-  add_face(mesh, h, y, x, -z);
-  add_face(mesh, h, -y, x, z);
-  add_face(mesh, h, z, x, y);
-  add_face(mesh, h, -z, -x, y);
   return mesh;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shapes from formulas, computed in double without libm and rounded to float once: the same bits on every machine.
-// All are y up, wound counter-clockwise seen from outside, with outward unit normals, texture coordinates and tangents.
+// All are y up, wound counter-clockwise seen from outside, with outward unit normals, texture coordinates and tangents. What is
+// closed has equal position bits where two faces, or the two ends of a map, meet. `displacement`, where it is given, lays heights
+// on the surface (scene/surface_mesh.h); it stays closed, whatever the map holds.
 #pragma once
 
 #include "core/trig_double.h"
-#include "scene/mesh.h"
+#include "scene/surface_mesh.h"
 
 namespace halfspace {
 
@@ -40,11 +42,46 @@ struct SphereFrame {
 };
 SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v);
 
-/// A square in the plane y = 0 with corners at ±size/2, facing up; u grows along +x, v along +z. Two triangles.
-Mesh plane(float size);
+/// A sphere round the origin from the icosahedron with corners at the poles, each triangle divided into 4^level ones and its
+/// corners moved to the sphere: 20 · 4^level triangles of nearly one size; level ≥ 0. Formula and map are uv_sphere's. A
+/// triangle over the seam has u above 1, never a jump back; one at a pole has its own vertex there, u between the two others.
+/// Field edges: sphere; a pole has one height, the mean of its vertices'.
+Mesh icosphere(int level, float radius, const Displacement* displacement = nullptr);
 
-/// An axis-aligned cube round the origin with edges of length `size`: 24 vertices, every face with the whole of
-/// [0, 1]² as its texture coordinates. Twelve triangles.
-Mesh cube(float size);
+/// A closed cylinder round the y axis, y from −length/2 to length/2. Side of `bands` ≥ 1 rows and `sectors` ≥ 3 columns:
+///
+///   P(u, v) = (r cos 2πu, length · (1/2 − v), −r sin 2πu)
+///
+/// The caps show the disc within the map: from above u grows along +x and v along +z; from below v along −z. They have
+/// `bands` rings. Field edges: cylinder; heights fade to zero towards the rims, within kFadeWidth of v and of the radius.
+Mesh cylinder(float radius, float length, int bands, int sectors, const Displacement* displacement = nullptr);
+
+/// A closed cone round the y axis with its apex at y = length/2 and its base, a cap as the cylinder's lower one, at −length/2:
+///
+///   P(u, v) = (v r cos 2πu, length · (1/2 − v), −v r sin 2πu)
+///
+/// The apex has one vertex a sector, at its middle. Field edges: cylinder; heights fade to zero towards apex and rim.
+Mesh cone(float radius, float length, int bands, int sectors, const Displacement* displacement = nullptr);
+
+/// A ring round the y axis, `bands` ≥ 3 rows round its tube and `sectors` ≥ 3 columns round the axis; the tube's middle is
+/// `radius` from the axis, tube < radius:
+///
+///   P(u, v) = ((R − t cos 2πv) cos 2πu, t sin 2πv, −(R − t cos 2πv) sin 2πu)
+///
+/// v = 0 is the inmost circle, 1/4 the uppermost, 1/2 the outmost. Field edges: torus.
+Mesh torus(float radius, float tube, int bands, int sectors, const Displacement* displacement = nullptr);
+
+/// A tube along a trefoil knot on a torus round the y axis: `bands` ≥ 3 rows round the tube, `sectors` ≥ 3 columns along the
+/// knot, which runs twice round the axis, at `radius` on the mean. tube below a quarter of the radius keeps clear of itself.
+/// Its formula stands in torus_knot.cpp. Field edges: torus.
+Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displacement* displacement = nullptr);
+
+/// A square in the plane y = 0 with corners at ±size/2, facing up, of segments² squares; u grows along +x, v along +z. Field
+/// edges: sheet.
+Mesh plane(float size, int segments = 1, const Displacement* displacement = nullptr);
+
+/// An axis-aligned cube round the origin with edges of length `size`, every face of segments² squares with the whole of
+/// [0, 1]² as its texture coordinates. Field edges: sheet; heights fade to zero towards the edges, within kFadeWidth of a face.
+Mesh cube(float size, int segments = 1, const Displacement* displacement = nullptr);
 
 }  // namespace halfspace

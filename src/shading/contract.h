@@ -42,7 +42,7 @@ struct VertexId {
 template <class R, std::size_t clip_distances = 0>
 struct PerVertex {
   vec4<R> position;
-  R point_size{1.0f};                              ///< px; where points are drawn
+  R point_size{1.0f};                             ///< px; where points are drawn
   std::array<R, clip_distances> clip_distance{};  ///< at most 8: what lies where one of them is negative is cut away
 };
 
@@ -268,9 +268,9 @@ using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), st
                                                     std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
 
 template <class S>
-using VertexOf = decltype(call_vertex<S, float>(std::declval<const S&>(), std::declval<const typename S::template Attributes<float>&>(),
-                                                std::declval<const VertexId<float>&>(),
-                                                std::declval<typename S::template Varyings<float>&>()));
+using VertexOf =
+    decltype(call_vertex<S, float>(std::declval<const S&>(), std::declval<const typename S::template Attributes<float>&>(),
+                                   std::declval<const VertexId<float>&>(), std::declval<typename S::template Varyings<float>&>()));
 /// Clip distances that the vertex function gives.
 template <class S>
 inline constexpr std::size_t kClipDistances = detail::kClipDistancesIn<VertexOf<S>>;

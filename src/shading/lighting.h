@@ -1,37 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light that falls on a point of a surface, and what the surface sends back: Lambert's cosine law and a highlight by the
-// half vector.
+// Light that falls on a point of a surface: one function for every rate at which it may be asked (shading/surface_shader.h:
+// by triangle, by vertex, by pixel). It tells diffuse and specular light apart, so that a surface's maps may be
+// applied finer than the light was computed.
 //
-//   colour = albedo · (ambient + Σ aᵢ·cᵢ · diffuse · max(n·lᵢ, 0)) + Σ aᵢ·cᵢ · specular · max(n·hᵢ, 0)^shininess
+//   diffuse  = Σ sᵢ·dᵢ · max(n·lᵢ, 0)
+//   specular = Σ sᵢ·gᵢ · c^shininess where n·lᵢ > 0, c = max(rᵢ·v, 0) (Phong) or max(n·hᵢ, 0) (Blinn and Phong)
 //
-// with cᵢ the colour of light i, aᵢ its attenuation at the point, lᵢ the unit vector towards it and hᵢ = (lᵢ + v) / |lᵢ + v|.
-// J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977.
+// with dᵢ and gᵢ the diffuse and specular colour of light i, lᵢ the unit vector towards it, v that towards the eye, sᵢ what
+// arrives of the light, rᵢ = 2(n·lᵢ)n − lᵢ and hᵢ = (lᵢ + v) / |lᵢ + v|.
+// B. T. Phong, "Illumination for computer generated pictures", CACM 1975; J. F. Blinn, "Models of light reflection for computer
+// synthesized pictures", SIGGRAPH 1977.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "core/lane_math.h"
 #include "core/vec.h"
+#include "shading/shadow.h"
 
 namespace halfspace {
 
-/// A directional light or, where is_point, a point light. Colours are linear, intensity included. The suffix _ew says: the
-/// world's axes, but the eye as origin, so that floats are finest where the eye is.
-struct Light {
-  bool is_point = false;
-  glm::vec3 place_ew{0, 0, 1};  ///< point: position; directional: unit vector towards the light
-  glm::vec3 color{1.0f};
-  glm::vec3 attenuation{1, 0, 0};  ///< point: constant, linear and quadratic term a in 1 / (a0 + a1·d + a2·d²)
+enum class LightType : uint8_t { directional, point, spot };
+
+/// How often light is computed (shading/surface_shader.h).
+enum class ShadingRate : uint8_t {
+  none,       ///< no light: colour and emission
+  flat,       ///< once a triangle that survives culling, at its middle, with the normal of its face
+  provoking,  ///< by vertex, and the provoking vertex's light for all the triangle (GL's flat shading)
+  gouraud,    ///< by vertex, interpolated
+  phong       ///< by pixel, with the interpolated normal
 };
 
-/// How a surface answers to light; factors per channel, linear.
-struct Reflectance {
-  glm::vec3 ambient{0.0f};  ///< of the albedo, seen without any light: includes the scene's ambient light
+/// Which highlight a surface has: none, by the reflected ray, or by the half vector.
+enum class LightModel : uint8_t { lambert, phong, blinn_phong };
+
+/// One light. Colours are linear, intensity included. The suffix _ew says: the world's axes, but the eye as origin, so that
+/// floats are finest where the eye is.
+struct Light {
+  LightType type = LightType::directional;
+  glm::vec3 place_ew{0, 0, 1};  ///< directional: unit vector towards the light; else its position
   glm::vec3 diffuse{1.0f};
-  glm::vec3 specular{0.0f};
-  float shininess = 1.0f;  ///< ≥ 0
+  glm::vec3 specular{1.0f};
+  glm::vec3 attenuation{1, 0, 0};  ///< terms a of 1 / (a0 + a1·d + a2·d²); (0, 0, 1) is the physical falloff
+  glm::vec3 axis_ws{0, 0, 1};      ///< spot: unit vector from what it shines on to the light
+  float cos_outer = 0.0f;          ///< spot: cosine of the angle to the axis from which on it is dark
+  float cone_scale = 1.0f;         ///< spot: 1 / (cosine of the angle up to which it shines in full − cos_outer)
+  const Shadow* shadow = nullptr;  ///< what keeps it from points; null: nothing. Not owned
 };
+
+/// What arrives nearer to a light than the distance at which its attenuation is 1 over this is held to it.
+inline constexpr float kLeastAttenuation = 1e-12f;
 
 /// v over its length; the zero vector stays zero.
 template <class R>
@@ -40,32 +60,77 @@ HS_INLINE vec3<R> normalize_or_zero(const vec3<R>& v) {
   return v * select(squared > R(0), R(1) / sqrt(squared), R(0));
 }
 
-/// The colour of a surface point towards the eye. n_ws and v_ws (towards the eye) have unit length. No highlight where the
-/// light is behind the surface.
+/// A normal of any length as a unit vector on the side of v; the zero vector stays zero.
 template <class R>
-HS_INLINE vec3<R> blinn_phong(std::span<const Light> lights, const Reflectance& surface, const vec3<R>& albedo, const vec3<R>& n_ws,
-                              const vec3<R>& v_ws, const vec3<R>& position_ew) {
-  vec3<R> diffuse = vec3<R>(surface.ambient);
-  vec3<R> specular(R(0));
-  for (const Light& light : lights) {
-    vec3<R> l(light.place_ew);
-    R strength(1);
-    if (light.is_point) {
-      const vec3<R> to_light = light.place_ew - position_ew;
-      const R distance = sqrt(dot(to_light, to_light));
-      l = normalize_or_zero(to_light);
-      strength = R(1) / fma(R(light.attenuation.z) * distance + R(light.attenuation.y), distance, R(light.attenuation.x));
-    }
-    const R n_l = dot(n_ws, l);
-    const R cosine = max(n_l, R(0)) * strength;
-    diffuse += surface.diffuse * light.color * cosine;
-    if (surface.specular != glm::vec3(0.0f)) {  // nothing is spent on a highlight that no one sees
-      const vec3<R> h = normalize_or_zero(l + v_ws);
-      const R highlight = select(n_l > R(0), pow(max(dot(n_ws, h), R(0)), R(surface.shininess)) * strength, R(0));
-      specular += surface.specular * light.color * highlight;
-    }
+HS_INLINE vec3<R> face_towards(const vec3<R>& normal, const vec3<R>& v) {
+  const vec3<R> n = normalize_or_zero(normal);
+  return n * select(dot(n, v) >= R(0), R(1), R(-1));
+}
+
+/// The point of a surface that is lit.
+template <class R>
+struct SurfacePoint {
+  vec3<R> position_ew;
+  vec3<R> n_ws;  ///< unit normal; a zero or NaN one is in the dark
+  vec3<R> v_ws;  ///< unit vector towards the eye
+  // For shadows alone; where no light has one they need not be set.
+  vec3<R> face_ws{};   ///< unit normal of the triangle, on the side that is seen
+  R x_px{0}, y_px{0};  ///< window coordinates
+};
+
+/// A light as a point sees it.
+template <class R>
+struct Arriving {
+  vec3<R> l_ws;  ///< unit vector towards the light
+  R strength;    ///< what arrives of it: every factor between light and point is multiplied in here
+};
+
+template <class R>
+HS_INLINE Arriving<R> light_at(const Light& light, const vec3<R>& position_ew) {
+  if (light.type == LightType::directional) return {vec3<R>(light.place_ew), R(1)};
+  const vec3<R> to_light = light.place_ew - position_ew;
+  const R d = sqrt(dot(to_light, to_light));
+  const vec3<R> l_ws = normalize_or_zero(to_light);
+  const R attenuation = fma(R(light.attenuation.z) * d + R(light.attenuation.y), d, R(light.attenuation.x));
+  R strength = R(1) / max(attenuation, R(kLeastAttenuation));
+  if (light.type == LightType::spot) {
+    const R t = clamp((dot(l_ws, light.axis_ws) - R(light.cos_outer)) * R(light.cone_scale), R(0), R(1));
+    strength *= t * t * (R(3) - R(2) * t);
   }
-  return albedo * diffuse + specular;
+  return {l_ws, strength};
+}
+
+/// The cosine that a highlight is a power of, at most 1.
+template <class R>
+HS_INLINE R highlight_cosine(LightModel model, const SurfacePoint<R>& p, const vec3<R>& l_ws, R n_l) {
+  const R c = model == LightModel::phong ? fma(R(2) * n_l, dot(p.n_ws, p.v_ws), -dot(l_ws, p.v_ws))  // r·v
+                                         : dot(p.n_ws, normalize_or_zero(l_ws + p.v_ws));
+  return clamp(c, R(0), R(1));
+}
+
+/// Light on a point, in linear colours.
+template <class R>
+struct Illumination {
+  vec3<R> diffuse, specular;
+};
+
+/// What all lights do at p. shininess ≥ 0. A highlight that is no power at all (shininess 0) is 1 wherever the light is in
+/// front; lambert gives no specular light and spends nothing on it. Never NaN.
+template <class R>
+HS_INLINE Illumination<R> illuminate(std::span<const Light> lights, LightModel model, R shininess, const SurfacePoint<R>& p) {
+  Illumination<R> sum{vec3<R>(R(0)), vec3<R>(R(0))};
+  for (const Light& light : lights) {
+    Arriving<R> arriving = light_at(light, p.position_ew);
+    const R n_l = dot(p.n_ws, arriving.l_ws);
+    if (light.shadow != nullptr && any(n_l > R(0)))  // what faces away is dark without asking
+      arriving.strength *=
+          light_arriving(*light.shadow, ShadowReceiver<R>{p.position_ew, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+    sum.diffuse += light.diffuse * (max(n_l, R(0)) * arriving.strength);
+    if (model == LightModel::lambert) continue;
+    const R highlight = pow(highlight_cosine(model, p, arriving.l_ws, n_l), shininess);
+    sum.specular += light.specular * select(n_l > R(0), highlight * arriving.strength, R(0));
+  }
+  return sum;
 }
 
 }  // namespace halfspace

@@ -155,8 +155,8 @@ struct Pixel {
   // and along y the same of x with the other sign. Nothing is lost where w differs much from vertex to vertex.
   template <class V, class F>
   HS_INLINE F derivative(F V::*member, R r, R r1, R r2, R sub_pixels) const {
-    using Field = detail::FieldTraits<F>;
-    static_assert(Field::interpolation == Interpolation::smooth, "only smooth varyings have derivatives");
+    using Traits = detail::FieldTraits<F>;
+    static_assert(Traits::interpolation == Interpolation::smooth, "only smooth varyings have derivatives");
     const TriangleLanes<R>& t = *triangle;
     const R inverse = R(1) / weights.denominator;
     const R scale = sub_pixels * t.area * inverse * inverse;
@@ -164,8 +164,8 @@ struct Pixel {
     const R dp2 = t.q2 * scale * difference_of_products(t.q0, r - r1, t.q1, r);
     const std::size_t first = first_component(member);
     const auto& c = components<V>();
-    std::array<R, Field::components> out;
-    for (std::size_t k = 0; k < Field::components; ++k) {
+    std::array<R, Traits::components> out;
+    for (std::size_t k = 0; k < Traits::components; ++k) {
       out[k] = fma(dp2, c.delta2[first + k], dp1 * c.delta1[first + k]);
     }
     return std::bit_cast<F>(out);

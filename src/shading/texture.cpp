@@ -194,12 +194,20 @@ Texture2D::Texture2D(const Image<glm::vec4>& base, TexelFormat format) : format_
 
 Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
+  add_levels(levels);
+}
+Texture2D::Texture2D(std::span<const Image<glm::vec4>> levels, TexelFormat format) : format_(format) {
+  HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f);
+  add_levels(levels);
+}
+
+template <class Texel>
+void Texture2D::add_levels(std::span<const Image<Texel>> levels) {
   HS_CHECK_OP(levels.size(), >=, 1u);
   std::size_t size = 0;
-  for (const Image<glm::u8vec4>& level : levels)
-    size += static_cast<std::size_t>(level.width() + 1) * static_cast<std::size_t>(level.height());
-  texels_.reserve(size);
-  for (const Image<glm::u8vec4>& level : levels) add_level(level);
+  for (const Image<Texel>& level : levels) size += static_cast<std::size_t>(level.width() + 1) * static_cast<std::size_t>(level.height());
+  texels_.reserve(words_of(size, format_));
+  for (const Image<Texel>& level : levels) add_level(level);
 }
 
 template <class Texel>

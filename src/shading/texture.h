@@ -74,6 +74,7 @@ class Texture2D {
   /// Given levels: level 0 as above, then each half of the one before, rounded down, but at least 1. At least one level;
   /// a shorter chain than down to 1 × 1 is allowed, and then ends the choice of levels.
   Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format);
+  Texture2D(std::span<const Image<glm::vec4>> levels, TexelFormat format);  ///< rgba16f or rgba32f
 
   int width(int level = 0) const { return width_[static_cast<std::size_t>(level)]; }
   int height(int level = 0) const { return height_[static_cast<std::size_t>(level)]; }
@@ -120,6 +121,8 @@ class Texture2D {
 
   template <class Texel>
   void add_chain(const Image<Texel>& base);
+  template <class Texel>
+  void add_levels(std::span<const Image<Texel>> levels);
   template <class Texel>
   void add_level(const Image<Texel>& image);
   std::size_t index_of(int level, int x, int row) const;

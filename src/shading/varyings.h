@@ -25,6 +25,13 @@ struct Linear {
   T value;
 };
 
+/// A member that is not there: no components and, declared [[no_unique_address]], no room. Two in one struct need different tags.
+template <int tag>
+struct Absent {};
+/// T, or a member that is not there: for a shader whose variants carry different things.
+template <bool present, class T, int tag>
+using MemberIf = std::conditional_t<present, T, Absent<tag>>;
+
 /// A smooth varying that is looked up inside of the triangle where it covers a pixel in part and the pixel is shaded once for
 /// several samples: at the first covered sample instead of the centre (GLSL: centroid).
 template <class T>
@@ -55,6 +62,12 @@ struct FieldTraits<Flat<T>> : FieldTraits<T> {
 template <class T>
 struct FieldTraits<Linear<T>> : FieldTraits<T> {
   static constexpr Interpolation interpolation = Interpolation::linear;
+};
+
+template <int tag>
+struct FieldTraits<Absent<tag>> {
+  static constexpr std::size_t components = 0;
+  static constexpr Interpolation interpolation = Interpolation::flat;
 };
 
 template <class T>

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -100,15 +101,26 @@ struct Mistake {
   const char* name;
   std::vector<std::string> arguments;
   int exit_code;
-  const char* line;  // without "halfspace: " and the line's end
+  std::string line;  // without "halfspace: " and the line's end
 };
+
+// The scenes that ship, as a message lists them. (Tests run from the source tree.)
+std::string shipped_scenes() {
+  std::vector<std::string> names;
+  std::error_code absent;
+  for (const auto& entry : fs::directory_iterator("scenes", absent)) names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
 
 void PrintTo(const Mistake& m, std::ostream* os) { *os << m.name; }
 
 const Mistake kMistakes[] = {
-    {"NoCommand", {}, 2, "no command; expected one of render, list, info, completion (see 'halfspace --help')"},
+    {"NoCommand", {}, 2, "no command; expected one of render, convert-normal, validate, list, info, completion (see 'halfspace --help')"},
     {"WrongCommand", {"rendr", "earth"}, 2, "unknown command 'rendr'; did you mean 'render'?"},
-    {"FarCommand", {"paint"}, 2, "unknown command 'paint'; expected one of render, list, info, completion"},
+    {"FarCommand", {"paint"}, 2, "unknown command 'paint'; expected one of render, convert-normal, validate, list, info, completion"},
     {"WrongOption", {"render", "earth", "--siez", "3x3"}, 2, "unknown option '--siez'; did you mean '--size'?"},
     {"OptionOfNoCommand", {"--jsn"}, 2, "unknown option '--jsn'; expected one of --help, --version"},
     {"NoScene", {"render"}, 2, "SCENE is required; see 'halfspace render --help'"},
@@ -145,7 +157,7 @@ const Mistake kMistakes[] = {
      2,
      "-o is 'earth.gif'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr"},
     {"NearScene", {"render", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
-    {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected one of earth, moon, moon-normals, moon-tessellation"},
+    {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected one of " + shipped_scenes()},
     {"NoSceneFile", {"render", "my.json"}, 3, "my.json: no such scene file"},
     {"NearKey", {"render", "earth", "--set", "earth.colour=a.png"}, 3, "--set: earth.colour: unknown key 'colour'; did you mean 'color'?"},
     {"NearThing",
@@ -163,11 +175,16 @@ const Mistake kMistakes[] = {
     {"WrongChoice",
      {"render", "earth", "--set", "earth.shape=ball"},
      3,
-     "--set: earth.shape: \"ball\" is no choice; expected one of uv_sphere, plane, cube"},
+     "--set: earth.shape: \"ball\" is no choice; expected one of uv_sphere, icosphere, plane, cube, cylinder, cone, torus"},
     {"EmptyValue",
      {"render", "earth", "--set", "earth.color="},
      3,
      "--set: earth.color: expected a colour (#rrggbb, r,g,b or a number), the name of a texture or that of an image file, got \"\""},
+    {"NoShading", {"render", "earth", "--shading", "gourod"}, 2, "--shading is 'gourod'; did you mean 'gouraud'?"},
+    {"NoMapOfNormals",
+     {"render", "earth", "--set", "earth.normal_map=1"},
+     3,
+     "scene earth: objects.earth.normal: is map, and normal_map is none; expected a texture or an image file as normal_map"},
     {"NoCamera", {"render", "earth", "--camera", "nroth"}, 3, "--camera: no camera 'nroth'; did you mean 'north'?"},
     {"TimeWord", {"render", "earth", "--time", "noon"}, 2, "--time is 'noon'; expected seconds, for example 2.5"},
     {"FramesBackwards", {"render", "earth", "--frames", "5..2"}, 2, "--frames is '5..2'; expected FIRST..LAST, for example 0..47"},
@@ -182,16 +199,37 @@ const Mistake kMistakes[] = {
     {"ControlCharacters",
      {"render", "a\nb\x1b"},
      3,
-     "unknown scene 'a\\x0ab\\x1b'; expected one of earth, moon, moon-normals, moon-tessellation"},
+     "unknown scene 'a\\x0ab\\x1b'; expected one of " + shipped_scenes()},
     {"PrintChecksToo",
      {"render", "earth", "--print", "--size", "bogus"},
      2,
      "--size is 'bogus'; expected WxH with 1 to 16384 each, for example 1920x1080"},
     {"ListUnknown", {"list", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
+    {"NormalWithoutOutput", {"convert-normal", "a.png"}, 2, "--output is required; see 'halfspace convert-normal --help'"},
+    {"NormalFormat", {"convert-normal", "a.png", "-o", "n.jpg"}, 2, "-o is 'n.jpg'; expected a name that ends in .png"},
+    {"NormalStrength",
+     {"convert-normal", "a.png", "-o", "n.png", "--strength", "strong"},
+     2,
+     "--strength is 'strong'; expected texels from black to white, for example 8"},
+    {"NormalEdges",
+     {"convert-normal", "a.png", "-o", "n.png", "--edges", "round"},
+     2,
+     "--edges is 'round'; expected repeat, clamp or sphere"},
+    {"NormalOfNothing", {"convert-normal", "a.png", "-o", "n.png"}, 3, "a.png: no such file; expected an image"},
+    {"NormalNowhere", {"convert-normal", "a.png", "-o", "no/n.png"}, 4, "no/n.png: cannot write (there is no directory no)"},
     {"Shell", {"completion", "tcsh"}, 2, "completion: no shell 'tcsh'; expected bash, zsh or fish"},
-    {"NoMap", {"render", "earth", "--set", "earth.color=none.jpg"}, 3, "{here}/none.jpg: no such file; expected an image"},
-    {"MapIsADirectory", {"render", "earth", "--set", "earth.color=."}, 3, "{here}/: is a directory; expected an image file"},
-    {"MapIsADevice", {"render", "earth", "--set", "earth.color=/dev/zero"}, 3, "/dev/zero: is no regular file; expected an image file"},
+    {"NoMap",
+     {"render", "earth", "--set", "earth.color=none.jpg"},
+     3,
+     "scene earth: objects.earth.color: {here}/none.jpg: no such file; expected an image"},
+    {"MapIsADirectory",
+     {"render", "earth", "--set", "earth.color=."},
+     3,
+     "scene earth: objects.earth.color: {here}/: is a directory; expected an image file"},
+    {"MapIsADevice",
+     {"render", "earth", "--set", "earth.color=/dev/zero"},
+     3,
+     "scene earth: objects.earth.color: /dev/zero: is no regular file; expected an image file"},
     {"NoDirectory", {"render", "earth", "-o", "none/earth.png"}, 4, "none/earth.png: cannot write (there is no directory none)"},
     {"OutputIsADirectory", {"render", "earth", "-o", ".."}, 4, "..: is a directory; expected a file name"},
     {"FullDisk", {"render", "earth", "--size", "8x8", "-o", "/dev/full"}, 4, "/dev/full: cannot write (No space left on device)"},
@@ -215,7 +253,8 @@ TEST_F(Cli, AFileThatIsNoImageIsBadInput) {
   std::ofstream(directory / "map.png") << "no picture";
   const Outcome o = run({"render", "earth", "--set", "earth.color=map.png"});
   EXPECT_EQ(o.exit_code, 3);
-  EXPECT_TRUE(o.err.starts_with("halfspace: " + (directory / "map.png").string() + ": is no image that can be read; expected PNG, "))
+  EXPECT_TRUE(o.err.starts_with("halfspace: scene earth: objects.earth.color: " + (directory / "map.png").string() +
+                                ": is no image that can be read; expected PNG, "))
       << o.err;
   EXPECT_EQ(lines_of(o.err), 1);
 }
@@ -249,6 +288,24 @@ TEST_F(Cli, ThreadsDoNotChangeTheFile) {
   EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "7.png"));
 }
 
+TEST_F(Cli, ShadingOverridesEveryObject) {
+  // Two objects, one of them with a rate of its own.
+  std::ofstream(directory / "s.json") << R"({"version": 1, "lights": {"l": {"direction": [1, 1, 1]}},
+    "objects": {"a": {"latitudes": 8, "longitudes": 16, "position": [-1.1, 0, 0]},
+                "b": {"latitudes": 8, "longitudes": 16, "position": [1.1, 0, 0], "shading": "gouraud"}}})";
+  std::vector<std::string> pictures;
+  for (const char* rate : {"none", "flat", "provoking", "gouraud", "phong"}) {
+    const std::string out = std::string(rate) + ".png", again = std::string(rate) + "-set.png";
+    EXPECT_EQ(run({"render", "s.json", "--size", "64x36", "--shading", rate, "-o", out}).exit_code, 0);
+    const std::string set = std::string("shading=") + rate;
+    EXPECT_EQ(run({"render", "s.json", "--size", "64x36", "--set", "a." + set, "--set", "b." + set, "-o", again}).exit_code, 0);
+    EXPECT_EQ(text_of(directory / out), text_of(directory / again)) << rate;
+    pictures.push_back(text_of(directory / out));
+  }
+  std::ranges::sort(pictures);
+  EXPECT_EQ(std::ranges::adjacent_find(pictures), pictures.end()) << "five different pictures";
+}
+
 TEST_F(Cli, AColorMapIsUsed) {
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "map.png"}).exit_code, 0);
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "again.png", "--set", "earth.color=map.png"}).exit_code, 0);
@@ -272,7 +329,7 @@ TEST_F(Cli, Info) {
 }
 
 TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
-  for (const char* command : {"render", "list", "info", "completion"}) {
+  for (const char* command : {"render", "convert-normal", "list", "info", "completion"}) {
     const Outcome o = run({command, "--help"});
     EXPECT_EQ(o.exit_code, 0);
     EXPECT_LE(lines_of(o.out), 24);
@@ -309,7 +366,7 @@ TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
                               (root / "out").string() + " 2>&1; " HALFSPACE_PROGRAM " render earth --size 8x8 -o " +
                               (directory / "e.png").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
-  EXPECT_EQ(lines_of(text_of(root / "out")), 4);
+  EXPECT_EQ(lines_of(text_of(root / "out")), 5);
 }
 
 TEST_F(Cli, ASceneFileTellsItsErrors) {
@@ -321,7 +378,7 @@ TEST_F(Cli, ASceneFileTellsItsErrors) {
 
 TEST_F(Cli, ListTellsScenesAndKeys) {
   const Outcome scenes = run({"list"});
-  EXPECT_EQ(lines_of(scenes.out), 4);
+  EXPECT_EQ(lines_of(scenes.out), 5);
   EXPECT_NE(scenes.out.find("\nmoon "), std::string::npos);
   const Outcome keys = run({"list", "moon"});
   EXPECT_NE(keys.out.find("height_scale"), std::string::npos);
@@ -332,7 +389,7 @@ TEST_F(Cli, ListTellsScenesAndKeys) {
 
 TEST_F(Cli, CompletionScriptsAreRight) {
   for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
-  EXPECT_EQ(run({"completion", "words"}).out, "render\nlist\ninfo\ncompletion\n");
+  EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nlist\ninfo\ncompletion\n");
   std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
 halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
 compopt() { :; }
@@ -400,8 +457,83 @@ TEST_F(Cli, AFullStandardOutputIsTold) {
   EXPECT_EQ(text_of(root / "err"), "halfspace: standard output: cannot write\n");
 }
 
-// Interrupted at many moments, the program ends at once and leaves either the whole picture or nothing.
+// ---- streams ---------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, APipeThatNoOneReadsIsTold) {
+  ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0666), 0);
+  const Outcome o = run({"render", "earth", "--size", "8x8", "-o", "pipe"});
+  EXPECT_EQ(o.exit_code, 4);
+  EXPECT_EQ(o.err, "halfspace: pipe: no one reads from it; expected a program that does, or a file name\n");
+}
+
+// More than a pipe holds at once: the program waits for its reader.
+TEST_F(Cli, APipeThatSomeoneReadsGetsThePicture) {
+  EXPECT_EQ(run({"render", "earth", "--size", "640x360", "-o", "file.png"}).exit_code, 0);
+  ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0666), 0);
+  const std::string reader = "(sleep 0.3; cat) < " + (directory / "pipe").string() + " > " + (directory / "copy.png").string() + " &";
+  ASSERT_EQ(std::system(reader.c_str()), 0);
+  EXPECT_EQ(run({"render", "earth", "--size", "640x360", "-o", "pipe"}).exit_code, 0);
+  for (int i = 0; i < 100 && text_of(directory / "copy.png").size() < text_of(directory / "file.png").size(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_GT(text_of(directory / "file.png").size(), 65536u);
+  EXPECT_EQ(text_of(directory / "copy.png"), text_of(directory / "file.png"));
+}
+
+// A picture on standard output, into a file or a pipe, is that picture alone; the report goes to standard error.
+TEST_F(Cli, ReportsStayOutOfThePicture) {
+  EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "file.png"}).exit_code, 0);
+  const Outcome o = run({"render", "earth", "--size", "64x36", "-o", "/dev/stdout", "--stats=json"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(o.out, text_of(directory / "file.png"));
+  EXPECT_EQ(nlohmann::json::parse(o.err).at("width"), 64);
+  const std::string piped =
+      HALFSPACE_PROGRAM " render earth --size 64x36 -o /dev/stdout --stats 2> /dev/null | cat > " + (directory / "piped.png").string();
+  EXPECT_EQ(std::system(piped.c_str()), 0);
+  EXPECT_EQ(text_of(directory / "piped.png"), o.out);
+}
+
+// ---- convert-normal --------------------------------------------------------------------------------------------
+
+TEST_F(Cli, ConvertNormalMakesAMap) {
+  EXPECT_EQ(run({"render", "earth", "--size", "64x32", "-o", "heights.png"}).exit_code, 0);
+  for (const char* edges : {"repeat", "clamp", "sphere"}) {
+    const Outcome o = run({"convert-normal", "heights.png", "-o", "normal.png", "--strength", "4", "--edges", edges});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(o.out + o.err, "");
+  }
+  const std::string map = text_of(directory / "normal.png");
+  EXPECT_EQ(map.find("sRGB"), std::string::npos) << "normals are no colours";
+  EXPECT_EQ(run({"convert-normal", "normal.png", "-o", "again.png"}).exit_code, 0) << "what was written can be read";
+}
+
+// On a terminal a bar fills, fits the line, and is gone at the end and after an interrupt (util-linux's script plays the terminal).
+TEST_F(Cli, ProgressIsABarOnATerminal) {
+  if (std::system("script --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "script (util-linux) is absent";
+  const auto shown = [&](const std::string& command) {
+    const std::string line =
+        "cd " + directory.string() + " && script -qc '" + command + "' /dev/null < /dev/null > " + (root / "out").string();
+    (void)!std::system(line.c_str());
+    return text_of(root / "out");
+  };
+  const std::string frames = HALFSPACE_PROGRAM " render earth --size 16x9 -o e.png --frames 0..";
+  const std::string wide = shown("stty cols 80; " + frames + "3");
+  EXPECT_NE(wide.find("\r\033[K[..............................] 0/4"), std::string::npos) << wide;
+  EXPECT_NE(wide.find("\r\033[K[###############...............] 2/4  0:00 left"), std::string::npos) << wide;
+  EXPECT_TRUE(wide.ends_with("\r\033[K")) << wide;
+  std::istringstream narrow(shown("stty cols 24; " + frames + "3"));
+  int lines = 0;
+  for (std::string line; std::getline(narrow, line, '\r'); ++lines) EXPECT_LT(line.size(), 24u + 3u) << "with the three codes of clearing";
+  EXPECT_GT(lines, 4);
+  const std::string stopped = shown("stty cols 80; timeout --foreground -s INT 0.5 " + frames + "999999");
+  EXPECT_NE(stopped.find("/1000000  "), std::string::npos);
+  EXPECT_TRUE(stopped.ends_with("\r\033[K")) << stopped;
+}
+
+// Interrupted at many moments, the program ends at once and leaves either the whole picture or nothing. A process ends in a
+// few milliseconds here; the median of the tries bears a machine that is busy with other things.
 TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
+  std::vector<double> times_ms;
   for (const int signal : {SIGINT, SIGTERM}) {
     for (int delay_ms = 5; delay_ms < 400; delay_ms += 30) {
       const pid_t child = start({"render", "earth", "--size", "1920x1080"});
@@ -409,7 +541,8 @@ TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
       ::kill(child, signal);
       const auto sent = std::chrono::steady_clock::now();
       const Outcome o = finish(child);
-      EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::milliseconds(1000));
+      times_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - sent).count());
+      EXPECT_LT(times_ms.back(), 1000);
       EXPECT_TRUE(o.signal == signal || o.exit_code == 0);
       const std::vector<std::string> left = files();
       if (o.exit_code == 0) {
@@ -421,6 +554,8 @@ TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
       }
     }
   }
+  std::ranges::sort(times_ms);
+  EXPECT_LT(times_ms[times_ms.size() / 2], SANITIZED ? 1000 : 100);
 }
 
 }  // namespace

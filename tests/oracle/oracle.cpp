@@ -121,9 +121,7 @@ void Framebuffer::set_color(std::size_t attachment, const Sample& s, glm::vec4 v
     switch (color_formats_[attachment]) {
       case ColorFormat::none: break;
       case ColorFormat::rgba8: write(bytes, i, encode_unorm8(value[k])); break;
-      case ColorFormat::srgb8a8:
-        write(bytes, i, k == 3 ? encode_unorm8(value[k]) : static_cast<uint8_t>(linear_to_srgb(value[k])));
-        break;
+      case ColorFormat::srgb8a8: write(bytes, i, k == 3 ? encode_unorm8(value[k]) : static_cast<uint8_t>(linear_to_srgb(value[k]))); break;
       case ColorFormat::rgba16f: write(bytes, i, encode_half(value[k])); break;
       case ColorFormat::rgba32f: write(bytes, i, value[k]); break;
     }
@@ -504,8 +502,8 @@ float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTrian
 enum class Fate { drawn, degenerate, wrong_face, no_sample };
 
 // Face, order of corners and depth of a triangle whose corners are given as submitted.
-std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format,
-                                                     int samples, const std::array<Corner, 3>& submitted, std::size_t provoking,
+std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format, int samples,
+                                                     const std::array<Corner, 3>& submitted, std::size_t provoking,
                                                      std::optional<bool> faces_front = {}) {
   WindowTriangle t;
   t.corner = submitted;
@@ -750,7 +748,17 @@ Surface point_surface(const WindowTriangle& t) {
   const bool from_top = t.origin == PointOrigin::upper_left;
   const int64_t height = from_top ? t.low.y - t.high.y : t.high.y - t.low.y;
   Surface s{};
-  s.lanes = {f(t.low.x), f(from_top ? t.high.y : t.low.y), f(t.high.x - t.low.x), 0.0f, 0.0f, f(height), f((t.high.x - t.low.x) * height), 0.0f, 0.0f, 0.0f, 0.0f};
+  s.lanes = {f(t.low.x),
+             f(from_top ? t.high.y : t.low.y),
+             f(t.high.x - t.low.x),
+             0.0f,
+             0.0f,
+             f(height),
+             f((t.high.x - t.low.x) * height),
+             0.0f,
+             0.0f,
+             0.0f,
+             0.0f};
   const int exponent = std::max(std::ilogb(t.corner[0].inv_w), -127);
   s.lanes.q0 = s.lanes.q1 = s.lanes.q2 = std::ldexp(t.corner[0].inv_w, -exponent);
   s.lanes.q_unscale = exponent == -127 ? 0.0f : std::ldexp(1.0f, exponent);
@@ -968,7 +976,8 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
     return c;
   };
   std::vector<WindowTriangle> halves;
-  for (const std::array<Corner, 3>& half : {std::array{moved(a, -1), moved(b, -1), moved(b, 1)}, {moved(a, -1), moved(b, 1), moved(a, 1)}}) {
+  for (const std::array<Corner, 3>& half :
+       {std::array{moved(a, -1), moved(b, -1), moved(b, 1)}, {moved(a, -1), moved(b, 1), moved(a, 1)}}) {
     auto [fate, piece] =
         make_window_triangle(state, allowed_pixels(target_, state), target_.depth_format(), target_.samples(), half, 0, front);
     piece.flat = flat;
@@ -1031,7 +1040,8 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
   std::vector<Corner> corners;
   std::vector<int> vertices{0, 1, 2};
   bool corners_are_cut = false;
-  if (beyond_any || std::any_of(v.begin(), v.end(), [&](const ShadedVertex* s) { return needs_clip(transform, state.depth, s->pos_clip); })) {
+  if (beyond_any ||
+      std::any_of(v.begin(), v.end(), [&](const ShadedVertex* s) { return needs_clip(transform, state.depth, s->pos_clip); })) {
     Polygon polygon;
     for (std::size_t i = 0; i < (line ? 2 : 3); ++i) {
       const glm::vec4& p = v[i]->pos_clip;
@@ -1128,7 +1138,9 @@ void Renderer::draw_sample(const DrawState& state, const ShaderFacts& facts, con
                            const FragmentResult& result) {
   if (!result.keep) return;
   const auto samples = static_cast<float>(target_.samples());
-  if (state.alpha_to_coverage && facts.has_fragment && samples > 1.0f && !(result.colors[0].w * samples >= static_cast<float>(s.number) + 0.5f)) return;
+  if (state.alpha_to_coverage && facts.has_fragment && samples > 1.0f &&
+      !(result.colors[0].w * samples >= static_cast<float>(s.number) + 0.5f))
+    return;
   double z = target_.depth_value(tested_depth(t, state.depth, position_of(s, target_.samples())));
   if (facts.writes_depth) {
     const float low = std::min(state.depth.range_near, state.depth.range_far),

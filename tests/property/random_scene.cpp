@@ -395,7 +395,7 @@ SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, 
     }
   }
   state.instances = random.pick({1u, 1u, 2u, 3u, 7u, 0u});
-  if (kComponents<A> > 4 && random.once_in(2)) {
+  if (kComponents < A >> 4 && random.once_in(2)) {
     input.instance_components = static_cast<std::size_t>(random.between(1, static_cast<int>(kComponents<A>) - 4));
     input.divisor = random.pick({1u, 2u, 5u});
     input.instances = random_rows<A>(std::vector<glm::vec4>(state.instances / input.divisor + 1), random);
@@ -440,7 +440,8 @@ SceneDraw operations_draw(const S& shader, const char* name, const Scene& scene,
 
 SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
   const float value = random.real(0.05f, 0.4f);
-  if (scene.color.format == ColorFormat::none || random.once_in(12)) return operations_draw(DepthShader{matrix}, "DepthShader", scene, g, state, random);
+  if (scene.color.format == ColorFormat::none || random.once_in(12))
+    return operations_draw(DepthShader{matrix}, "DepthShader", scene, g, state, random);
   switch (random.below(10)) {
     case 0: return operations_draw(ColorShader{matrix, 1.0f}, "ColorShader", scene, g, state, random);
     case 1: return operations_draw(CutoutShader<false>{value}, "CutoutShader", scene, g, state, random);
@@ -506,7 +507,8 @@ SceneDraw random_lines(const Scene& scene, const Geometry& g, const DrawState& s
   }
 }
 
-SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix,
+                      Random& random) {
   if (theme == Theme::lines) return random_lines(scene, g, state, random);
   if (theme == Theme::points) return random_points(scene, g, state, random);
   if (theme == Theme::operations || theme == Theme::samples) return random_operations(scene, g, state, matrix, random);

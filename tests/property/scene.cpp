@@ -104,7 +104,7 @@ void lay_out_vertices(const float* rows, std::size_t count, int components, Vert
   const auto stride = static_cast<int32_t>(n + gap);
   view.streams[0] = {memory.buffers[0].data(), stride, static_cast<int32_t>(first_part), count};
   view.stream_count = 1;
-  if (first_part < n)
+  if (first_part < n && count > 0)
     view.streams[static_cast<std::size_t>(view.stream_count++)] = {memory.buffers[0].data() + first_part, stride,
                                                                    static_cast<int32_t>(n - first_part), count};
 }
@@ -124,10 +124,10 @@ void lay_out_instances(const float* rows, std::size_t count, int components, std
   }
   const std::size_t n = count * static_cast<std::size_t>(components);
   memory.buffers.emplace_back(rows, rows + n);
-  view.streams[static_cast<std::size_t>(streams)] = per_instance(
-      {memory.buffers.back().data() + (static_cast<std::size_t>(components) - instance_components), static_cast<int32_t>(components),
-       static_cast<int32_t>(instance_components), count},
-      divisor);
+  view.streams[static_cast<std::size_t>(streams)] =
+      per_instance({memory.buffers.back().data() + (static_cast<std::size_t>(components) - instance_components),
+                    static_cast<int32_t>(components), static_cast<int32_t>(instance_components), count},
+                   divisor);
   view.stream_count = streams + 1;
   view.has_instance_streams = true;
   view.instance_count = count * divisor;
@@ -249,8 +249,9 @@ std::string describe(const Scene& s) {
         << d.state.instances << " instances, base vertex " << d.state.base_vertex << "), cull " << static_cast<int>(d.state.cull)
         << (d.state.front == Winding::clockwise ? " cw" : " ccw") << ", depth "
         << (z.test ? kCompareNames[static_cast<int>(z.compare)] : "off") << (z.write ? "" : " (no write)") << (z.clamp ? " clamp" : "")
-        << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far
-        << ", polygon mode " << static_cast<int>(d.state.polygon_mode) << ", line width " << d.state.line_width << (d.state.blend ? ", blend" : "") << (d.state.stencil ? ", stencil" : "") << (d.state.color_mask.all() ? "" : ", mask")
+        << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far << ", polygon mode "
+        << static_cast<int>(d.state.polygon_mode) << ", line width " << d.state.line_width << (d.state.blend ? ", blend" : "")
+        << (d.state.stencil ? ", stencil" : "") << (d.state.color_mask.all() ? "" : ", mask")
         << (d.state.sample_shading ? ", shaded by sample" : "") << (d.state.alpha_to_coverage ? ", alpha to coverage" : "");
     if (d.state.offset.slope != 0 || d.state.offset.constant != 0) out << ", offset";
     for (const auto& r : {d.state.viewport, d.state.scissor}) {

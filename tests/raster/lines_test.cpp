@@ -31,7 +31,8 @@ constexpr int kCenter = 128;
 Point center(int x, int y) { return {x * 256 + kCenter, y * 256 + kCenter}; }
 
 TEST(Lines, FromCentreToCentreLeaveTheLastPixelOut) {
-  for (const auto& [a, b] : {std::pair{Point{2, 3}, Point{9, 3}}, {Point{9, 3}, Point{2, 3}}, {Point{4, 2}, Point{4, 11}}, {Point{3, 3}, Point{8, 8}}}) {
+  for (const auto& [a, b] :
+       {std::pair{Point{2, 3}, Point{9, 3}}, {Point{9, 3}, Point{2, 3}}, {Point{4, 2}, Point{4, 11}}, {Point{3, 3}, Point{8, 8}}}) {
     const Image<glm::vec4> image = draw_lines({center(a.x, a.y), center(b.x, b.y)}, {.topology = Topology::lines});
     EXPECT_EQ(total(image), std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)));
     EXPECT_EQ(pixel(image, a.x, a.y).x, 1.0f);
@@ -51,7 +52,8 @@ TEST(Lines, StripsAndLoopsMeetOnce) {
 
 TEST(Lines, WideOnesAreWideAlongTheShorterAxis) {
   for (const int width : {1, 2, 3, 6}) {
-    const Image<glm::vec4> image = draw_lines({center(3, 8), center(9, 8)}, {.topology = Topology::lines, .line_width = static_cast<float>(width)});
+    const Image<glm::vec4> image =
+        draw_lines({center(3, 8), center(9, 8)}, {.topology = Topology::lines, .line_width = static_cast<float>(width)});
     EXPECT_EQ(total(image), 6 * width);
     const int below = (width - 1) / 2 + (width % 2 == 0 ? 1 : 0);  // (w − 1)/2 px down; a centre in the middle goes down too
     EXPECT_EQ(pixel(image, 5, 8 - below).x, 1.0f) << width;
@@ -126,12 +128,12 @@ TEST(Lines, PolygonModes) {
   EXPECT_EQ(total(culled), 0);
 }
 
-// The plane x = 3 px by one distance, y = 5 px by the other.
+// The plane x = 3.25 px by one distance, y = 5 px by the other.
 struct TwoDistances : ConstantShader {
   template <class R>
   PerVertex<R, 2> vertex(const Attributes<R>& in, Varyings<R>&) const {
     const R x = (in.position.x + R(1.0f)) * R(8.0f), y = (in.position.y + R(1.0f)) * R(8.0f);
-    return {in.position, R(1.0f), {x - R(3.0f), R(5.0f) - y}};
+    return {in.position, R(1.0f), {x - R(3.25f), R(5.0f) - y}};
   }
 };
 

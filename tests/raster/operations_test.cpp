@@ -66,8 +66,9 @@ TEST(Operations, BlendFactorsByHand) {
     ColorTarget target = rgba32f_target(image);
     target.clear_value = dst;
     Pass pass(3, 3, target, {});
-    pass.draw(ConstantShader{src}, vertices(stream(p)),
-              {.blend = BlendState{BlendEquation::add, c.factor, BlendFactor::zero, BlendEquation::add, c.factor, BlendFactor::zero, constant}});
+    pass.draw(
+        ConstantShader{src}, vertices(stream(p)),
+        {.blend = BlendState{BlendEquation::add, c.factor, BlendFactor::zero, BlendEquation::add, c.factor, BlendFactor::zero, constant}});
     pass.run(one_worker());
     EXPECT_EQ(image.at(1, 1), c.expected) << static_cast<int>(c.factor);
   }
@@ -130,9 +131,9 @@ TEST(Operations, StencilTellsApartWhatBecameOfASample) {
   const StencilFace mark{.pass = StencilOp::replace, .reference = 5};
   pass.draw(ConstantShader{}, vertices(stream(far)), {.scissor = top, .depth = {.test = false}, .stencil = StencilState{mark, mark}});
   StencilFace count = marked;
-  count.fail = StencilOp::invert;                  // ~5 = 250
-  count.depth_fail = StencilOp::increment_clamp;   // 8
-  count.pass = StencilOp::decrement_wrap;          // 6
+  count.fail = StencilOp::invert;                 // ~5 = 250
+  count.depth_fail = StencilOp::increment_clamp;  // 8
+  count.pass = StencilOp::decrement_wrap;         // 6
   pass.draw(ConstantShader{}, vertices(stream(far)), {.stencil = StencilState{count, count}});
   pass.run(one_worker());
   EXPECT_EQ(pixel(depth, 6, 6) & 0xff, 250u);

@@ -105,7 +105,8 @@ struct BallShader {
   SpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.color = in.color;
     const R r(0.5f);
-    return {vec2<R>(in.position.x - r, in.position.y - r), vec2<R>(in.position.x + r, in.position.y + r), in.position.z, in.position.w > R(0.0f)};
+    return {vec2<R>(in.position.x - r, in.position.y - r), vec2<R>(in.position.x + r, in.position.y + r), in.position.z,
+            in.position.w > R(0.0f)};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const {

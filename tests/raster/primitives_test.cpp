@@ -84,10 +84,11 @@ TEST(Primitives, ProvokingVertices) {
 TEST(Primitives, RestartBeginsAnewAndLeavesNoTriangleBetween) {
   const std::vector<glm::vec4> p = zigzag(), c = numbered(p.size());
   const std::vector<uint32_t> list{0xffffffffu, 0, 1, 2, 3, 0xffffffffu, 0xffffffffu, 6, 7, 0xffffffffu, 6, 7, 8, 9};
-  const Drawing d = draw_strip(Indices(std::span(list), p.size(), PrimitiveRestart::on), {.topology = Topology::triangle_strip}, stream(p),
-                               stream(c));
+  const Drawing d =
+      draw_strip(Indices(std::span(list), p.size(), PrimitiveRestart::on), {.topology = Topology::triangle_strip}, stream(p), stream(c));
   EXPECT_EQ(d.statistics.primitives_in, 4u);
   EXPECT_EQ(d.statistics.vertices_shaded, 8u);
+  EXPECT_EQ(d.statistics.vertices_in, 10u);
   for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(d.image, x, 8).w, x < 8 || x >= 24 ? 1.0f : 0.0f) << x;
   const std::vector<uint16_t> narrow{0, 1, 2, 0xffff, 2, 1, 3};  // restarts work in lists too
   const Drawing e = draw_strip(Indices(std::span(narrow), p.size(), PrimitiveRestart::on), {}, stream(p), stream(c));

@@ -428,6 +428,7 @@ TEST(Statistics, OneTriangleOverFourTiles) {
   Image<glm::vec4> image(128, 128);
   const PassStatistics s = draw(image, ConstantShader{}, kFullScreen);
   PassStatistics want;
+  want.vertices_in = 3;
   want.vertices_shaded = 3;
   want.primitives_in = 1;
   want.triangles_binned = 1;

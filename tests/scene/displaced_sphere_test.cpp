@@ -112,6 +112,24 @@ TEST(DisplacedSphere, VerticesLieOnTheSurfaceWithItsNormals) {
   }
 }
 
+// The tangent is P'u's direction; the bitangent is what of −P'v is at right angles to it. Tolerances as above: central
+// differences to 1e-6 over |P'u| = 2πr·sin πv, and roundings to float.
+TEST(DisplacedSphere, TangentsAreTheDirectionsOfItsMap) {
+  const int latitudes = 24, longitudes = 48;
+  const Mesh m = displaced_uv_sphere(latitudes, longitudes, kRadius, rough_field(), kScale, kZero, kWorkers);
+  for (std::size_t i = 0; i < m.positions.size(); ++i) {
+    if (at_pole(m, i)) continue;
+    const auto [u, v] = place(m, i, latitudes, longitudes);
+    const double h = 1e-5, tolerance = 4e-7 + 1e-6 / std::sin(kPi * v);
+    const glm::dvec3 along_u = glm::normalize(surface(u + h, v) - surface(u - h, v));
+    const glm::dvec3 up = surface(u, v - h) - surface(u, v + h);
+    const glm::dvec3 tangent(m.tangents[i].x, m.tangents[i].y, m.tangents[i].z);
+    const glm::dvec3 bitangent = static_cast<double>(m.tangents[i].w) * glm::cross(glm::dvec3(m.normals[i]), tangent);
+    EXPECT_LT(glm::length(tangent - along_u), tolerance);
+    EXPECT_LT(glm::length(bitangent - glm::normalize(up - glm::dot(up, along_u) * along_u)), 2 * tolerance);
+  }
+}
+
 // Every triangle is seen from outside as uv_sphere's is.
 TEST(DisplacedSphere, TrianglesFaceOutward) {
   const Mesh m = displaced_uv_sphere(48, 96, kRadius, rough_field(), kScale, kZero, kWorkers);

@@ -52,7 +52,7 @@ TEST_P(EarthAgainstRays, ShowsTheMapWhereItBelongs) {
   SceneAssets assets(workers);
   const PreparedScene prepared = assets.prepare(scene, kSize, kSize);
   ASSERT_EQ(prepared.draws.size(), 1u);
-  const auto& shader = std::get<BlinnPhong>(prepared.draws.front().shader);
+  const LitSurface& shader = surface_of(prepared.draws.front());
   Image<glm::vec4> image(kSize, kSize);
   render(prepared, image, workers);
 
@@ -70,7 +70,8 @@ TEST_P(EarthAgainstRays, ShowsTheMapWhereItBelongs) {
       const glm::dvec3 hit = eye + ray * (-b - std::sqrt(disc));
       const double u = std::atan2(-hit.z, hit.x) / (2 * kPi), v = std::acos(std::clamp(hit.y, -1.0, 1.0)) / kPi;
       if (hit.x * hit.x + hit.z * hit.z < 0.0009) continue;  // the fan of triangles round the pole: 1.4 bands of 1/128
-      const vec4<double> texel = shader.map->sample_level(shader.sampler, vec2<double>(u < 0 ? u + 1 : u, v), 0.0);
+      const vec4<double> texel =
+          shader.factors[kColor].map->sample_level(shader.factors[kColor].sampler, vec2<double>(u < 0 ? u + 1 : u, v), 0.0);
       const glm::vec4 shown = image.at(x, kSize - 1 - y);
       for (int k = 0; k < 3; ++k) {
         const double d = std::abs(texel[k] - static_cast<double>(shown[k]));

@@ -125,24 +125,6 @@ TEST(Moon, SilhouetteOfTheDisplacedLiesBetweenItsHeights) {
   EXPECT_LT(inside, between * 9 / 10);
 }
 
-TEST(DisplacedSphereShader, TiltsByTheSlopes) {
-  // Against the frame written out at (u, v), in double; the shader has the same from n alone.
-  for (int i = 1; i < 20; ++i) {
-    for (int j = 0; j < 20; ++j) {
-      const double v = i / 20.0, u = j / 20.0 + 0.013;
-      const double s = std::sin(kPi * v), c = std::cos(kPi * v), su = std::sin(2 * kPi * u), cu = std::cos(2 * kPi * u);
-      const glm::dvec3 n(s * cu, c, -s * su), east(-su, 0, -cu), north(-c * cu, s, c * su);
-      const glm::dvec3 slope(0.3 - 0.02 * i, 0.04 * j - 0.4, 1.02);
-      const glm::dvec3 want = n * slope.z - east * slope.x - north * slope.y;
-      const vec3<double> got = DisplacedSphere::tilted<double>(n, slope);
-      EXPECT_LT(glm::length(got - want), 1e-14);
-      const vec3<float> single = DisplacedSphere::tilted<float>(glm::vec3(n), glm::vec3(slope));
-      EXPECT_LT(glm::length(glm::dvec3(single) - want), 1e-6);  // n rounded to float, over a ring of at least 0.15
-    }
-  }
-  EXPECT_EQ(DisplacedSphere::tilted<float>({0, 1, 0}, {0.5f, 0.5f, 1}), glm::vec3(0, 1, 0)) << "a pole has no east";
-}
-
 TEST(Moon, NormalsByPixelShowOnACoarseMeshWhatAFineMeshShows) {
   const auto picture = [](int sectors, const char* normals) {
     return picture_of(moon_with({"moon.longitudes=" + std::to_string(sectors), "moon.latitudes=" + std::to_string(sectors / 2),
@@ -174,15 +156,15 @@ TEST(PreparedScene, DrawsNoMoreThanAsked) {
   EXPECT_TRUE(assets.prepare(parsed(R"({"version": 1, "objects": {"a": {"visible": false, "color": "none.png"}}})"), 8, 8).draws.empty())
       << "what is not seen is not read";
   const PreparedScene plain = assets.prepare(parsed(R"({"version": 1, "objects": {"a": {"color": 0.5}}})"), 8, 8);
-  EXPECT_EQ(std::get<BlinnPhong>(plain.draws.at(0).shader).map, nullptr);
-  EXPECT_TRUE(std::get<BlinnPhong>(plain.draws.at(0).shader).lights.empty());
+  EXPECT_EQ(surface_of(plain.draws.at(0)).factors[kColor].map, nullptr);
+  EXPECT_TRUE(surface_of(plain.draws.at(0)).lights.empty());
 }
 
 TEST(PreparedScene, AssetsAreKeptWhileTheyAreWanted) {
   const Workers workers(1);
   SceneAssets assets(workers);
   SceneDescription scene = moon_with({"textures.surface.width=64", "textures.relief.width=64"});
-  const auto map_of = [](const PreparedScene& p) { return std::get<DisplacedSphere>(p.draws.front().shader).map; };
+  const auto map_of = [](const PreparedScene& p) { return surface_of(p.draws.front()).factors[kColor].map; };
   const PreparedScene first = assets.prepare(scene, 32, 32);
   scene.objects.front().second.placement.rotation.y += 10;
   const PreparedScene second = assets.prepare(scene, 32, 32);
@@ -192,6 +174,67 @@ TEST(PreparedScene, AssetsAreKeptWhileTheyAreWanted) {
   const PreparedScene third = assets.prepare(scene, 32, 32);
   EXPECT_EQ(map_of(third), map_of(first));
   EXPECT_NE(third.draws.front().vertices.streams[0].data, first.draws.front().vertices.streams[0].data);
+}
+
+// Copies share mesh and texture; each has a transform of its own.
+TEST(PreparedScene, InstancesShareMeshAndTexture) {
+  const Workers workers(1);
+  SceneAssets assets(workers);
+  const PreparedScene p = assets.prepare(parsed(R"({"version": 1, "textures": {"t": {"source": "checkerboard", "width": 64}},
+    "objects": {"a": {"shape": "cube", "color": "t", "instances": [{}, {"position": [2, 0, 0]}, {"position": [4, 0, 0]}]}}})"),
+                                         8, 8);
+  ASSERT_EQ(p.draws.size(), 3u);
+  const LitSurface& first = surface_of(p.draws[0]);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const LitSurface& copy = surface_of(p.draws[i]);
+    EXPECT_EQ(copy.factors[kColor].map, first.factors[kColor].map);
+    EXPECT_NE(copy.world_from_object, first.world_from_object);
+    EXPECT_EQ(p.draws[i].indices, p.draws[0].indices);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(p.draws[i].vertices.streams[k].data, p.draws[0].vertices.streams[k].data);
+  }
+}
+
+// A camera that comes nearer: without a word on what is to come the map grows on the way, with it it does not.
+TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
+  const Workers workers(1);
+  const SceneFile scene = SceneFile::parse(R"({"version": 1, "cameras": {"c": {"position": [0, 0, 9]}},
+    "textures": {"t": {"source": "rock_color"}}, "objects": {"a": {"shape": "icosphere", "level": 1, "color": "t"}},
+    "animations": {"dolly": {"target": "c.position", "rate": [0, 0, -7]}}})",
+                                           "test.json", {});
+  const auto width_at = [&](SceneAssets& assets, double seconds) {
+    const PreparedScene p = assets.prepare(scene.at(seconds), 480, 270);
+    return surface_of(p.draws[0]).factors[kColor].map->width();
+  };
+  SceneAssets alone(workers), together(workers);
+  EXPECT_LT(width_at(alone, 0), width_at(alone, 1));
+  together.expect(scene.at(0), 480, 270);
+  together.expect(scene.at(1), 480, 270);
+  EXPECT_EQ(width_at(together, 0), width_at(alone, 1));
+  EXPECT_EQ(width_at(together, 1), width_at(alone, 1));
+}
+
+// Every shape and every map that tiles can be drawn, displaced or not.
+TEST(PreparedScene, EveryShapeAndPatternIsDrawn) {
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  for (const char* shape : {"uv_sphere", "icosphere", "plane", "cube", "cylinder", "cone", "torus", "torus_knot"}) {
+    for (const char* height : {"0", "\"bark\""}) {
+      const PreparedScene p = assets.prepare(
+          parsed(
+              std::string(R"({"version": 1, "textures": {"bark": {"source": "bark_height", "width": 64}}, "objects": {"a": {"shape": ")") +
+              shape + R"(", "height_scale": 0.1, "height": )" + height + "}}}"),
+          8, 8);
+      EXPECT_EQ(p.draws.size(), 1u) << shape;
+    }
+  }
+  for (const char* source :
+       {"checkerboard", "grass_color", "bark_color", "bricks_color", "facade_color", "facade_specular", "facade_emissive", "rock_color"}) {
+    const PreparedScene p =
+        assets.prepare(parsed(std::string(R"({"version": 1, "textures": {"t": {"width": 64, "source": ")") + source +
+                              R"("}}, "objects": {"a": {"shape": "plane", "tiles_u": 2, "tiles_v": 3, "color": "t"}}})"),
+                       8, 8);
+    EXPECT_EQ(surface_of(p.draws.at(0)).factors[kColor].map->width(), 64) << source;
+  }
 }
 
 TEST(PreparedScene, InstancesAndMirrorsAreDrawnRight) {
@@ -275,8 +318,14 @@ TEST(PreparedScene, RotationsAreDegreesAboutTheAxes) {
 TEST(PreparedScene, WhatCannotBeUsedIsToldInOneLine) {
   EXPECT_THROW(moon_with({"moon.height_scale=2.5"}), InputError) << "2.5 can turn the sphere inside out";
   EXPECT_EQ(error_of(moon_with({"moon.height=surface"})), "objects.moon.height: is a map of colours; expected a map of heights");
-  EXPECT_EQ(error_of(moon_with({"moon.color=relief"})), "objects.moon.color: moon_height is a map of heights; expected a map of colours");
-  EXPECT_EQ(error_of(moon_with({"moon.color=/none.png"})), "/none.png: no such file; expected an image");
+  EXPECT_EQ(error_of(moon_with({"moon.color=relief"})), "objects.moon.color: is a map of heights; expected a map of colours");
+  EXPECT_EQ(error_of(moon_with({"moon.normal_map=surface"})), "objects.moon.normal_map: is a map of colours; expected a map of numbers");
+  EXPECT_EQ(error_of(moon_with({"moon.normal=map"})),
+            "objects.moon.normal: is map, and normal_map is none; expected a texture or an image file as normal_map");
+  EXPECT_EQ(error_of(moon_with({"moon.normal=bump"})),
+            "objects.moon.normal: is bump, and bump_map is none; expected a texture or an image file as bump_map");
+  EXPECT_EQ(error_of(moon_with({"moon.color=/none.png"})), "objects.moon.color: /none.png: no such file; expected an image");
+  EXPECT_EQ(error_of(moon_with({"moon.height=/none.png"})), "objects.moon.height: /none.png: no such file; expected an image");
   EXPECT_EQ(error_of(parsed(R"({"version": 1, "textures": {"t": {}}, "objects": {"a": {"color": "t"}}})")),
             "textures.t.file: missing; expected an image file");
 }

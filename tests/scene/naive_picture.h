@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/check.h"
 #include "core/srgb.h"
-#include "raster/naive.h"
 #include "scene/prepared_scene.h"
 
 namespace halfspace {
@@ -20,17 +20,32 @@ inline Image<glm::u8vec4> picture_of(const SceneDescription& scene, int width, i
   return picture;
 }
 
-/// Linear colour, top row first.
+/// Where the double twin has its vertices: by its own double computation, or where float arithmetic puts them, so that all fall
+/// on the same 1/256 px and what is compared is shading alone.
+enum class Positions { in_r, as_rendered };
+
+/// The scene by the naive pipeline in R, float or double: linear colour, top row first. In naive_picture.cpp, for all
+/// shaders of scenes are compiled there.
+template <class R>
+Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height, Positions positions = Positions::in_r);
+
 template <class R>
 Image<vec4<R>> naive_picture(const SceneDescription& scene, int width, int height) {
   const Workers workers(2);
   SceneAssets assets(workers);
-  const PreparedScene prepared = assets.prepare(scene, width, height);
-  NaiveTarget<R> target(width, height, vec4<R>(prepared.clear_color), R(0));
-  for (const PreparedDraw& draw : prepared.draws) {
-    std::visit([&](const auto& shader) { draw_naive(target, shader, draw.vertices, *draw.indices, draw.state); }, draw.shader);
-  }
-  return target.color;
+  return naive_picture<R>(assets.prepare(scene, width, height), width, height);
+}
+
+/// What the draw's shader knows of its surface; of a draw that is one.
+inline const LitSurface& surface_of(const PreparedDraw& draw) {
+  const LitSurface* surface = nullptr;
+  std::visit(
+      [&](const auto& shader) {
+        if constexpr (std::is_base_of_v<LitSurface, std::decay_t<decltype(shader)>>) surface = &shader;
+      },
+      draw.shader);
+  HS_CHECK(surface != nullptr);
+  return *surface;
 }
 
 inline int largest_difference(glm::u8vec4 a, glm::u8vec4 b) {

@@ -71,7 +71,7 @@ std::string another_value(const Field& field) {
     case KeyType::file: return "other.png";
     case KeyType::map: return "#804020";
     case KeyType::numbers: return now.is_array() ? vector(now) : number(now.get<double>());
-    case KeyType::keyframes: return "[[0, 1], [1, 2]]";
+    case KeyType::keyframes: return !now.empty() && now[0][1].is_array() ? "[[0, [0, 0, 1]], [1, [0, 2, 0]]]" : "[[0, 1], [1, 2]]";
     case KeyType::text: return "";
   }
   return "";
@@ -91,7 +91,7 @@ TEST_P(EveryScene, EveryKeyCanBeSetPrintedAndReadBack) {
       ASSERT_EQ(error_of([&] { scene.set(path + "=" + value); }), "no error") << path << "=" << value;
       SceneDescription set = scene.description();
       const Json want = value_of(find_key(set, path, "").field);
-      if (name != "camera" && name != "material") {
+      if (field.key->type != KeyType::text || name == "title") {
         EXPECT_NE(want, value_of(field)) << path << "=" << value;
       }
       const SceneFile again = scene_of(scene.print());
@@ -149,6 +149,20 @@ TEST(SceneFile, ObjectsOverrideTheirMaterial) {
   EXPECT_EQ(scene.description().objects[0].second.surface.diffuse.linear, glm::dvec3(0.5));
 }
 
+// A printed scene leaves to a material what is the material's: set there, it reaches the object.
+TEST(SceneFile, PrintedObjectsFollowTheirMaterial) {
+  const SceneFile scene = scene_of(R"({"version": 1, "materials": {"m": {"shininess": 7, "diffuse": 0.5}},
+    "objects": {"a": {"material": "m", "shininess": 9, "specular": 0.25}, "b": {}}})");
+  SceneFile again = scene_of(scene.print());
+  again.set(std::vector<std::string>{"m.diffuse=0.75", "m.shininess=3", "m.specular=1"});
+  const SurfaceDescription& a = again.description().objects[0].second.surface;
+  EXPECT_EQ(a.diffuse.linear, glm::dvec3(0.75)) << "the material's";
+  EXPECT_EQ(a.shininess, 9.0) << "the object's own";
+  EXPECT_EQ(a.specular.linear, glm::dvec3(0.25)) << "the object's own";
+  EXPECT_NE(scene.print().find("\"b\": {\n      \"shape\": \"uv_sphere\""), std::string::npos);
+  EXPECT_EQ(again.description().objects[1].second.surface.shininess, 32.0) << "without a material every key is told";
+}
+
 TEST(SceneFile, KindsHaveTheirOwnKeys) {
   SceneFile scene = scene_of(R"({"version": 1, "objects": {"floor": {"shape": "plane", "size": 4}}})");
   EXPECT_EQ(scene.print().find("latitudes"), std::string::npos);
@@ -171,6 +185,42 @@ TEST(SceneFile, InstancesAreSetByNumber) {
   scene.set("a.instances.1.scale=2,2,2");
   EXPECT_EQ(scene.description().objects[0].second.instances[1].scale, glm::dvec3(2.0));
   EXPECT_EQ(scene.description().objects[0].second.instances[0].position, glm::dvec3(1, 2, 3));
+}
+
+// Each instance has a transform of its own, and each key of it an animation of its own.
+TEST(SceneFile, InstancesMoveByThemselves) {
+  const SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {"instances": [{}, {"rotation": [0, 10, 0]}]}}, "animations": {
+    "first": {"target": "objects.a.instances.0.position", "rate": [1, 0, 0]},
+    "second": {"target": "a.instances.1.rotation", "rate": [0, 90, 0]},
+    "both": {"target": "a.rotation", "rate": [0, 0, 5]}}})");
+  const SceneDescription later = scene.at(2);
+  const ObjectDescription& a = later.objects[0].second;
+  EXPECT_EQ(a.instances[0].position, glm::dvec3(2, 0, 0));
+  EXPECT_EQ(a.instances[0].rotation, glm::dvec3(0));
+  EXPECT_EQ(a.instances[1].rotation, glm::dvec3(0, 190, 0));
+  EXPECT_EQ(a.placement.rotation, glm::dvec3(0, 0, 10));
+  EXPECT_EQ(scene.description().objects[0].second.instances[1].rotation, glm::dvec3(0, 10, 0)) << "the start stays";
+}
+
+// What many copies together ask for is refused before memory is asked for it.
+TEST(SceneFile, TooMuchInAllIsRefused) {
+  const auto scene_with = [](const std::string& object, int copies) {
+    std::string text = R"({"version": 1, "objects": {"a": {)" + object + R"("instances": [{})";
+    for (int i = 1; i < copies; ++i) text += ", {}";
+    return text + "]}}}";
+  };
+  EXPECT_EQ(error_of([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 52)); }),
+            "test.json: objects: have 34078824 vertices with all their instances; expected at most 33554432 (2^25): fewer instances or "
+            "coarser shapes");
+  EXPECT_EQ(error_of([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 51)); }), "no error");
+  EXPECT_EQ(error_of([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, "visible": false, )", 4096)); }), "no error");
+  std::string text = R"({"version": 1, "objects": {)";
+  for (int i = 0; i < 17; ++i) {
+    const std::string list = scene_with(R"("shape": "plane", )", 4096);
+    text += std::string(i == 0 ? "" : ", ") + "\"p" + std::to_string(i) +
+            "\": " + list.substr(list.find("{\"shape"), list.find("]}") + 2 - list.find("{\"shape"));
+  }
+  EXPECT_EQ(error_of([&] { scene_of(text + "}}"); }), "test.json: objects: are 69632 with all their instances; expected at most 65536");
 }
 
 // ---- errors: file, path, what is wrong, what would be right ----------------------------------------------------
@@ -220,6 +270,10 @@ const Wrong kWrong[] = {
      "test.json: lights.l.direction: is zero; expected a direction"},
     {"Attenuation", R"({"version": 1, "lights": {"l": {"type": "point", "attenuation": [0, 0, 0]}}})",
      "test.json: lights.l.attenuation: is zero; expected one term of at least 1e-06"},
+    {"Cone", R"({"version": 1, "lights": {"l": {"type": "spot", "inner": 40}}})",
+     "test.json: lights.l.inner: 40 is more than outer; expected at most 30"},
+    {"ShadingRate", R"({"version": 1, "objects": {"a": {"shading": "gourad"}}})",
+     "test.json: objects.a.shading: \"gourad\" is no choice; did you mean 'gouraud'?"},
     {"Word", R"({"version": 1, "objects": {"camera": {}}})",
      "test.json: objects.camera: is a word of the file itself; expected another name"},
     {"Texture", R"({"version": 1, "textures": {"ground": {}}, "objects": {"a": {"color": "gruond"}}})",
@@ -228,6 +282,17 @@ const Wrong kWrong[] = {
      "test.json: textures.t.width: expected 0 or an even number, got 7"},
     {"Vertices", R"({"version": 1, "objects": {"a": {"latitudes": 8192, "longitudes": 16384}}})",
      "test.json: objects.a.longitudes: more than 2^23 vertices; expected fewer latitudes or longitudes"},
+    {"PatternWidth", R"({"version": 1, "textures": {"t": {"source": "rock_color", "width": 4098}}})",
+     "test.json: textures.t.width: expected at most 4096 of a map that tiles, got 4098"},
+    {"TorusTube", R"({"version": 1, "objects": {"a": {"shape": "torus", "tube": 2}}})",
+     "test.json: objects.a.tube: 2 fills the ring; expected less than radius, 1"},
+    {"TorusBands", R"({"version": 1, "objects": {"a": {"shape": "torus", "latitudes": 2}}})",
+     "test.json: objects.a.latitudes: 2 make no tube; expected at least 3"},
+    {"InsideOut", R"({"version": 1, "textures": {"h": {"source": "rock_height"}}, "objects": {"a": {"shape": "cube", "height": "h",
+     "height_scale": 2}}})",
+     "test.json: objects.a.height_scale: 2 can turn the surface inside out; expected less than 1"},
+    {"Level", R"({"version": 1, "objects": {"a": {"shape": "icosphere", "level": 9}}})",
+     "test.json: objects.a.level: expected a whole number from 0 to 8, got 9"},
     {"TargetThatStands", R"({"version": 1, "materials": {"m": {}}, "animations": {"t": {"target": "m.shininess"}}})",
      "test.json: animations.t.target: m.shininess cannot change in time; expected a key of an object, a light, a camera or the background"},
     {"OrbitOfANumber", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "orbit", "target": "a.radius"}}})",

@@ -5,80 +5,15 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <numbers>
 #include <set>
 #include <string>
 
+#include "scene/mesh_checks.h"
+
 namespace halfspace {
 namespace {
-
-using Bits = std::array<uint32_t, 3>;
-
-Bits bits_of(const glm::vec3& p) {
-  Bits b;
-  std::memcpy(b.data(), &p, sizeof b);
-  return b;
-}
-
-struct Corner {
-  glm::vec3 position, normal, tangent;
-  glm::vec2 uv;
-};
-
-Corner corner(const Mesh& m, std::size_t i) {
-  const uint32_t v = m.indices[i];
-  return {m.positions[v], m.normals[v], glm::vec3(m.tangents[v].x, m.tangents[v].y, m.tangents[v].z), m.uvs[v]};
-}
-
-void expect_sound(const Mesh& m) {
-  ASSERT_EQ(m.normals.size(), m.positions.size());
-  ASSERT_EQ(m.tangents.size(), m.positions.size());
-  ASSERT_EQ(m.uvs.size(), m.positions.size());
-  ASSERT_EQ(m.indices.size() % 3, 0u);
-  std::set<uint32_t> used(m.indices.begin(), m.indices.end());
-  EXPECT_EQ(used.size(), m.positions.size()) << "no vertex is unused";
-  EXPECT_LT(*used.rbegin(), m.positions.size());
-  for (std::size_t v = 0; v < m.positions.size(); ++v) {
-    EXPECT_NEAR(glm::length(m.normals[v]), 1, 1e-6);
-    const glm::vec3 t(m.tangents[v].x, m.tangents[v].y, m.tangents[v].z);
-    EXPECT_NEAR(glm::length(t), 1, 1e-6);
-    EXPECT_NEAR(glm::dot(t, m.normals[v]), 0, 1e-6);
-    EXPECT_EQ(m.tangents[v].w, 1.0f);
-  }
-}
-
-// Seen from outside, every triangle is counter-clockwise and has an area; the texture is not mirrored on it, and its
-// tangent points along u, cross(normal, tangent) along −v.
-void expect_outward(const Mesh& m) {
-  for (std::size_t i = 0; i < m.indices.size(); i += 3) {
-    const Corner a = corner(m, i), b = corner(m, i + 1), c = corner(m, i + 2);
-    const glm::vec3 face = glm::cross(b.position - a.position, c.position - a.position);
-    EXPECT_GT(glm::dot(face, face), 0.0f) << "triangle " << i / 3 << " is degenerate";
-    EXPECT_GT(glm::dot(face, a.normal + b.normal + c.normal), 0.0f) << "triangle " << i / 3 << " faces inwards";
-    // t grows downwards in the picture, so a counter-clockwise triangle is clockwise in (u, t).
-    const glm::vec2 e = b.uv - a.uv, f = c.uv - a.uv;
-    const float uv_area = e.x * f.y - e.y * f.x;
-    EXPECT_LT(uv_area, 0.0f) << "triangle " << i / 3 << " shows its texture mirrored";
-    const glm::vec3 along_u = ((b.position - a.position) * f.y - (c.position - a.position) * e.y) / uv_area;
-    const glm::vec3 along_v = ((c.position - a.position) * e.x - (b.position - a.position) * f.x) / uv_area;
-    EXPECT_GT(glm::dot(along_u, a.tangent + b.tangent + c.tangent), 0.0f);
-    EXPECT_LT(glm::dot(along_v, glm::cross(a.normal, a.tangent)), 0.0f);
-  }
-}
-
-// By position (bit for bit), every edge is used once in each direction: closed, and wound alike everywhere.
-void expect_closed(const Mesh& m) {
-  std::map<std::pair<Bits, Bits>, int> edges;
-  for (std::size_t i = 0; i < m.indices.size(); i += 3) {
-    for (std::size_t k = 0; k < 3; ++k) ++edges[{bits_of(corner(m, i + k).position), bits_of(corner(m, i + (k + 1) % 3).position)}];
-  }
-  for (const auto& [edge, count] : edges) {
-    EXPECT_EQ(count, 1);
-    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
-  }
-}
 
 class UvSphere : public testing::TestWithParam<std::pair<int, int>> {};
 
@@ -179,6 +114,46 @@ TEST(Plane, FacesUpWithItsTextureReadFromAbove) {
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
     EXPECT_EQ(m.normals[i], glm::vec3(0, 1, 0));
     EXPECT_EQ(m.positions[i], glm::vec3(4 * m.uvs[i].x - 2, 0, 4 * m.uvs[i].y - 2));
+  }
+}
+
+// ---- tangents --------------------------------------------------------------------------------------------------
+
+// On flat faces position is linear in (u, v): ∂P/∂u and ∂P/∂v of a triangle are those of its face, but for the rounding of
+// positions and coordinates to float (some 1e-7 of an edge).
+void expect_tangents_of_flat_faces(const Mesh& m) {
+  for (std::size_t i = 0; i < m.indices.size(); i += 3) {
+    const Corner a = corner(m, i), b = corner(m, i + 1), c = corner(m, i + 2);
+    const glm::dvec3 p(b.position - a.position), q(c.position - a.position);
+    const glm::dvec2 e(b.uv - a.uv), f(c.uv - a.uv);
+    const double area = e.x * f.y - e.y * f.x;
+    const glm::dvec3 along_u = glm::normalize((p * f.y - q * e.y) / area), along_v = glm::normalize((q * e.x - p * f.x) / area);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LT(glm::length(tangent_of(m, m.indices[i + k]) - along_u), 1e-6);
+      EXPECT_LT(glm::length(bitangent_of(m, m.indices[i + k]) + along_v), 1e-6);
+    }
+  }
+}
+
+TEST(Tangents, OfFlatFacesAreTheDirectionsOfTheirMap) {
+  expect_tangents_of_flat_faces(plane(4.0f));
+  expect_tangents_of_flat_faces(cube(3.0f));
+}
+
+// Central differences over h = 1e-6 err by (2πh)²/6 and by 1e-16/h; a vertex is rounded to float. The poles have no ∂P/∂u:
+// their tangent is that of their longitude, a unit vector (IsSoundClosedAndOutward).
+TEST(Tangents, OfUvSphereAreTheDirectionsOfItsMap) {
+  const Mesh m = uv_sphere(12, 24, 2.0f);
+  const auto sphere = [](double u, double v) {
+    const double a = 2 * std::numbers::pi * u, b = std::numbers::pi * v;
+    return 2.0 * glm::dvec3(std::sin(b) * std::cos(a), std::cos(b), -std::sin(b) * std::sin(a));
+  };
+  for (std::size_t i = 0; i < m.positions.size(); ++i) {
+    const double u = static_cast<double>(m.uvs[i].x), v = static_cast<double>(m.uvs[i].y), h = 1e-6;
+    if (v != 0.0 && v != 1.0) {
+      EXPECT_LT(glm::length(tangent_of(m, i) - glm::normalize(sphere(u + h, v) - sphere(u - h, v))), 1e-6);
+    }
+    EXPECT_LT(glm::length(bitangent_of(m, i) + glm::normalize(sphere(u, v + h) - sphere(u, v - h))), 1e-6);
   }
 }
 

@@ -1,65 +1,155 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Light at a point: closed forms, in double where nothing but the formula counts, and the guards in float.
 #include "shading/lighting.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 namespace halfspace {
 namespace {
 
-vec3<float> lit(const Light& light, const Reflectance& surface, const glm::vec3& n, const glm::vec3& v, const glm::vec3& p = {}) {
-  return blinn_phong<float>(std::vector<Light>{light}, surface, glm::vec3(1.0f), n, v, p);
+constexpr double kPi = std::numbers::pi;
+
+template <class R>
+Illumination<R> at(const Light& light, LightModel model, double shininess, const vec3<R>& n, const vec3<R>& v,
+                   const vec3<R>& position = vec3<R>(R(0))) {
+  return illuminate<R>(std::vector<Light>{light}, model, static_cast<R>(shininess), {position, n, v});
 }
 
+glm::dvec3 direction(double degrees) { return {std::sin(degrees * kPi / 180), 0, std::cos(degrees * kPi / 180)}; }
+
+const glm::dvec3 kUp(0, 0, 1);
+
 TEST(Lighting, LambertsCosine) {
-  for (const float degrees : {0.0f, 30.0f, 60.0f, 89.0f, 90.0f, 120.0f}) {
-    const float a = degrees * 3.14159265f / 180.0f;
-    const Light light{.place_ew = {std::sin(a), 0, std::cos(a)}, .color = {1, 2, 3}};
-    const vec3<float> c = lit(light, {}, {0, 0, 1}, {0, 0, 1});
-    const float want = std::max(std::cos(a), 0.0f);
-    EXPECT_EQ(c.x, std::max(light.place_ew.z, 0.0f));
-    EXPECT_NEAR(c.y, 2 * want, 1e-6);
-    EXPECT_NEAR(c.z, 3 * want, 1e-6);
+  for (const double degrees : {0.0, 30.0, 60.0, 89.0, 90.0, 120.0, 180.0}) {
+    Light light;
+    light.diffuse = {1, 2, 3};
+    const vec3<double> d = at<double>(light, LightModel::lambert, 1, direction(degrees), kUp).diffuse;
+    const double want = std::max(std::cos(degrees * kPi / 180), 0.0);
+    EXPECT_NEAR(d.x, want, 1e-15);
+    EXPECT_NEAR(d.y, 2 * want, 1e-15);
+    EXPECT_NEAR(d.z, 3 * want, 1e-15);
   }
 }
 
 TEST(Lighting, AttenuationOfAPointLight) {
-  const Light light{.is_point = true, .place_ew = {0, 0, 4}, .attenuation = {0.2f, 0.1f, 0.1f}};
-  // Straight above, 4 units away: 1 / (0.2 + 0.4 + 1.6).
-  EXPECT_NEAR(lit(light, {}, {0, 0, 1}, {0, 0, 1}).x, 1.0f / 2.2f, 1e-7);
+  Light light{.type = LightType::point, .place_ew = {0, 0, 4}};
+  light.attenuation = {0.2f, 0.1f, 0.1f};
+  // Straight above, 4 units away: 1 / (0.2 + 0.4 + 1.6). The terms are floats: 1e-7 of each.
+  const Illumination<double> i = at<double>(light, LightModel::phong, 1, kUp, kUp);
+  EXPECT_NEAR(i.diffuse.x, 1 / 2.2, 1e-7);
+  EXPECT_NEAR(i.specular.x, 1 / 2.2, 1e-7) << "the highlight fades alike";
+  light.attenuation = {0, 0, 1};
+  EXPECT_EQ(at<double>(light, LightModel::lambert, 1, kUp, kUp).diffuse.x, 1.0 / 16) << "physical";
 }
 
-TEST(Lighting, TheHighlightPeaksHalfWay) {
-  const Reflectance mirror{.diffuse = glm::vec3(0.0f), .specular = glm::vec3(0.5f), .shininess = 50.0f};
-  const Light light{.place_ew = {0.6f, 0, 0.8f}};
-  // The eye in the mirror direction: h = n, the highlight is the factor itself.
-  EXPECT_NEAR(lit(light, mirror, {0, 0, 1}, {-0.6f, 0, 0.8f}).x, 0.5f, 1e-6);
-  // h at angle t from n: cos^50 t. Light and eye in one direction, 10° off the normal.
-  const float t = 10.0f * 3.14159265f / 180.0f;
-  const glm::vec3 d(std::sin(t), 0, std::cos(t));
-  EXPECT_NEAR(lit({.place_ew = d}, mirror, {0, 0, 1}, d).x, 0.5 * std::pow(std::cos(10.0 * 3.14159265358979 / 180.0), 50.0), 2e-6);
+TEST(Lighting, SpotIsFullWithinDarkWithoutAndSmoothBetween) {
+  Light spot{.type = LightType::spot, .place_ew = {0, 0, 2}};
+  const double inner = std::cos(20 * kPi / 180), outer = std::cos(30 * kPi / 180);
+  spot.cos_outer = static_cast<float>(outer);
+  spot.cone_scale = static_cast<float>(1 / (inner - outer));
+  const auto strength = [&](double degrees) {
+    const glm::dvec3 d = direction(degrees);
+    return light_at<double>(spot, {2 * d.x / d.z, 0, 0}).strength;
+  };
+  for (const double degrees : {0.0, 10.0, 19.9}) EXPECT_EQ(strength(degrees), 1.0) << degrees;
+  for (const double degrees : {30.1, 60.0, 89.0}) EXPECT_EQ(strength(degrees), 0.0) << degrees;
+  EXPECT_EQ(light_at<double>(spot, {1, 0, 5}).strength, 0.0) << "behind it";
+  for (double degrees = 20.5; degrees < 30; degrees += 0.5) {
+    const double t = (std::cos(degrees * kPi / 180) - outer) / (inner - outer);
+    EXPECT_NEAR(strength(degrees), t * t * (3 - 2 * t), 3e-6) << degrees;  // cos_outer is a float: 6e-8 of 0.07 = 1e-6 of t, slope 1.5
+  }
+  // No step at either edge: a tenth of a degree on is t = 0.012 or less, and a smoothstep's end rises by 3 t^2 = 4.3e-4.
+  EXPECT_LT(1 - strength(20.1), 5e-4);
+  EXPECT_LT(strength(29.9), 5e-4);
 }
 
-TEST(Lighting, NoHighlightFromBehind) {
-  const Reflectance mirror{.diffuse = glm::vec3(0.0f), .specular = glm::vec3(1.0f), .shininess = 0.0f};
-  EXPECT_EQ(lit({.place_ew = {0.1f, 0, -0.995f}}, mirror, {0, 0, 1}, {0, 0, 1}).x, 0.0f);
-  EXPECT_EQ(lit({.place_ew = {0, 0, 1}}, mirror, {0, 0, 1}, {0, 0, 1}).x, 1.0f) << "pow(1, 0)";
+TEST(Lighting, HighlightsPeakWhereTheyShould) {
+  // The eye turns round a surface lit at 40°: Phong's highlight peaks in the mirror direction with the value 1, Blinn's at
+  // the same place, for there h = n; off it by t, they are cos^s of t and of t/2.
+  const glm::dvec3 l = direction(40);
+  Light light;
+  light.place_ew = glm::vec3(l);
+  const double s = 50;
+  for (double degrees = -80; degrees <= 80; degrees += 5) {
+    const glm::dvec3 v = direction(degrees);
+    const double off = std::abs(degrees + 40) * kPi / 180;
+    const double phong = at<double>(light, LightModel::phong, s, kUp, v).specular.x;
+    const double blinn = at<double>(light, LightModel::blinn_phong, s, kUp, v).specular.x;
+    // l is rounded to float: its length by 6e-8, 50 times that after the power; its angle by as much, times the slope of
+    // cos^50, at most 4.3.
+    EXPECT_NEAR(phong, std::pow(std::max(std::cos(off), 0.0), s), 3.3e-6) << degrees;
+    EXPECT_NEAR(blinn, std::pow(std::cos(off / 2), s), 3.3e-6) << degrees;
+  }
 }
 
-TEST(Lighting, NeverNaN) {
-  const glm::vec3 zero(0.0f);
-  for (const float shininess : {0.0f, 1.0f, 1e5f}) {
-    const Reflectance s{.ambient = glm::vec3(0.1f), .specular = glm::vec3(1.0f), .shininess = shininess};
-    for (const Light& light : {Light{}, Light{.is_point = true, .place_ew = zero}}) {  // the point light on the surface itself
-      for (const glm::vec3& n : {zero, glm::vec3(0, 0, 1)}) {
-        for (const glm::vec3& v : {zero, glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
-          const vec3<float> c = lit(light, s, n, v);
-          EXPECT_TRUE(std::isfinite(c.x)) << shininess;
+TEST(Lighting, NoHighlightFromBehindNorWithoutAModel) {
+  for (const LightModel model : {LightModel::phong, LightModel::blinn_phong}) {
+    for (const double shininess : {0.0, 1.0, 50.0}) {
+      for (double degrees = 91; degrees < 270; degrees += 7) {
+        Light light;
+        light.place_ew = glm::vec3(direction(degrees));
+        for (double eye = -80; eye <= 80; eye += 10) {
+          EXPECT_EQ(at<double>(light, model, shininess, kUp, direction(eye)).specular.x, 0.0);
         }
       }
     }
+    EXPECT_EQ(at<double>(Light{}, model, 0, kUp, kUp).specular.x, 1.0) << "pow(1, 0)";
+    EXPECT_EQ(at<double>(Light{}, model, 0, kUp, direction(180)).specular.x, 1.0) << "pow(0, 0)";
+  }
+  EXPECT_EQ(at<double>(Light{}, LightModel::lambert, 10, kUp, kUp).specular.x, 0.0);
+}
+
+// All that may come in, each with each: no result is a NaN, none is negative, no highlight beyond what arrives.
+template <class R>
+void check_guards() {
+  const R nan = std::numeric_limits<R>::quiet_NaN(), tiny = R(1e-30), zero(0), one(1);
+  const std::vector<vec3<R>> vectors{{zero, zero, one}, {zero, zero, -one},     {zero, zero, zero}, {nan, nan, nan},
+                                     {nan, zero, one},  {R(0.6), zero, R(0.8)}, {one, zero, zero},  {tiny, tiny, tiny}};
+  std::vector<double> exponents{0, 1e-38, 1e-6, 0.5, 1, 2, 1e5};
+  for (double e = 1e-3; e < 1e5; e *= 3.3) exponents.push_back(e);
+  std::vector<Light> lights{Light{}, {.place_ew = {0, 0, -1}}, {.place_ew = {0, 0, 0}}};
+  for (const LightType type : {LightType::point, LightType::spot}) {
+    for (const glm::vec3& place : {glm::vec3(0.0f), glm::vec3(0, 0, 1e-20f), glm::vec3(0, 1, 2), glm::vec3(1e9f, 0, 0)}) {
+      for (const glm::vec3& attenuation : {glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0.2f, 0.1f, 0.1f)}) {
+        Light light{.type = type, .place_ew = place};
+        light.attenuation = attenuation;
+        lights.push_back(light);
+      }
+    }
+  }
+  int checked = 0;
+  for (const Light& light : lights) {
+    for (const LightModel model : {LightModel::lambert, LightModel::phong, LightModel::blinn_phong}) {
+      for (const double exponent : exponents) {
+        for (const vec3<R>& n : vectors) {
+          for (const vec3<R>& v : vectors) {
+            const Illumination<R> i = at<R>(light, model, exponent, n, v);
+            const R most = R(1) / R(kLeastAttenuation) * R(1.0001);
+            ASSERT_TRUE(i.diffuse.x >= R(0) && i.diffuse.x <= most) << exponent;
+            ASSERT_TRUE(i.specular.x >= R(0) && i.specular.x <= most) << exponent;
+            ++checked;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(checked, 90000);
+}
+
+TEST(Lighting, NeverNaNInFloat) { check_guards<float>(); }
+TEST(Lighting, NeverNaNInDouble) { check_guards<double>(); }
+
+TEST(Lighting, ZeroNormalsAreDark) {
+  for (const LightModel model : {LightModel::phong, LightModel::blinn_phong}) {
+    const Illumination<float> i = at<float>(Light{}, model, 0, glm::vec3(0.0f), glm::vec3(0, 0, 1));
+    EXPECT_EQ(i.diffuse, glm::vec3(0.0f));
+    EXPECT_EQ(i.specular, glm::vec3(0.0f));
   }
 }
 
@@ -68,13 +158,15 @@ TEST(Lighting, NormalizeOrZero) {
   EXPECT_EQ(normalize_or_zero(glm::vec3(0, 3, 0)), glm::vec3(0, 1, 0));
 }
 
-TEST(Lighting, LightsAddUp) {
-  const Light a{.place_ew = {0, 0, 1}, .color = {1, 0, 0}}, b{.place_ew = {0, 0, 1}, .color = {0, 1, 0}};
-  const vec3<float> c =
-      blinn_phong<float>(std::vector<Light>{a, b}, {}, glm::vec3(0.5f), glm::vec3(0, 0, 1), glm::vec3(0, 0, 1), glm::vec3(0.0f));
-  EXPECT_EQ(c, glm::vec3(0.5f, 0.5f, 0));
-  EXPECT_EQ(blinn_phong<float>({}, {.ambient = glm::vec3(0.25f)}, glm::vec3(0.5f), glm::vec3(0, 0, 1), glm::vec3(0, 0, 1), glm::vec3(0.0f)),
-            glm::vec3(0.125f));
+TEST(Lighting, LightsAddUpAndNoneIsDark) {
+  Light a, b;
+  a.diffuse = a.specular = {1, 0, 0};
+  b.diffuse = b.specular = {0, 0.5f, 0};
+  const SurfacePoint<float> p{glm::vec3(0.0f), glm::vec3(0, 0, 1), glm::vec3(0, 0, 1)};
+  const Illumination<float> both = illuminate<float>(std::vector<Light>{a, b}, LightModel::phong, 3.0f, p);
+  EXPECT_EQ(both.diffuse, glm::vec3(1, 0.5f, 0));
+  EXPECT_EQ(both.specular, glm::vec3(1, 0.5f, 0));
+  EXPECT_EQ(illuminate<float>({}, LightModel::phong, 3.0f, p).diffuse, glm::vec3(0.0f));
 }
 
 }  // namespace

@@ -30,10 +30,10 @@ constexpr rlim_t kAddressSpace = rlim_t{6} << 30;  // 2^28 pixels of 16 bytes, a
 void limit_this_process(rlim_t cpu_seconds) {
   const rlimit cpu = {cpu_seconds, cpu_seconds};
   ::setrlimit(RLIMIT_CPU, &cpu);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes of addresses
-  const rlimit memory = {kAddressSpace, kAddressSpace};
-  ::setrlimit(RLIMIT_AS, &memory);
-#endif
+  if (!HALFSPACE_SANITIZED) {  // a sanitizer reserves terabytes of addresses
+    const rlimit memory = {kAddressSpace, kAddressSpace};
+    ::setrlimit(RLIMIT_AS, &memory);
+  }
   const rlimit core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &core);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

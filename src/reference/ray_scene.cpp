@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/ray_scene.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/check.h"
+#include "core/float_mode.h"
+
+namespace halfspace {
+
+namespace {
+
+struct DeviceDeleter {
+  void operator()(RTCDevice d) const { rtcReleaseDevice(d); }
+};
+struct SceneDeleter {
+  void operator()(RTCScene s) const { rtcReleaseScene(s); }
+};
+
+RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float near, float far) {
+  RTCRay ray{};
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.tnear = near;
+  ray.tfar = far;
+  ray.mask = ~0u;
+  return ray;
+}
+
+void intersect(RTCScene scene, RTCRayHit& query) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(scene, &query);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &query);
+#endif
+}
+
+bool is_occluded(RTCScene scene, RTCRay& ray) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(scene, &ray);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
+#endif
+  return ray.tfar < 0.0f;  // Embree sets −inf
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+  struct Placed {
+    std::vector<glm::dvec3> positions_ew;
+    std::shared_ptr<const Indices> indices;
+  };
+  std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter> device;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter> scene;
+  std::vector<Placed> placed;  // by mesh
+};
+
+RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only) : impl_(std::make_unique<Impl>()) {
+  impl_->device.reset(rtcNewDevice("threads=1"));  // trees are built by this thread alone: the same tree every time
+  if (impl_->device == nullptr) throw InputError("Embree cannot start on this machine");
+  impl_->scene.reset(rtcNewScene(impl_->device.get()));
+  rtcSetSceneFlags(impl_->scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(impl_->scene.get(), RTC_BUILD_QUALITY_HIGH);
+  impl_->placed.resize(meshes.size());
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const PlacedMesh& mesh = meshes[m];
+    if (casters_only && !mesh.casts_shadow) continue;
+    Impl::Placed& placed = impl_->placed[m];
+    placed.indices = mesh.indices;
+    for (const glm::vec3& p : mesh.mesh->positions)
+      placed.positions_ew.push_back(glm::dvec3(mesh.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye_ws);
+    const RTCGeometry geometry = rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const std::size_t triangles = mesh.indices->size() / 3;
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), placed.positions_ew.size()));
+    for (const glm::dvec3& p : placed.positions_ew)
+      for (int k = 0; k < 3; ++k) *vertices++ = static_cast<float>(p[k]);
+    auto* indices = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), triangles));
+    for (std::size_t i = 0; i < 3 * triangles; ++i) *indices++ = (*mesh.indices)[i];
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(impl_->scene.get(), geometry, static_cast<unsigned>(m));
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(impl_->scene.get());
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+std::optional<RayHit> RayScene::nearest(const glm::vec3& origin_ew, const glm::vec3& direction_ws, float near, float far) const {
+  RTCRayHit query{};
+  query.ray = make_ray(origin_ew, direction_ws, near, far);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  intersect(impl_->scene.get(), query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const Impl::Placed& placed = impl_->placed[query.hit.geomID];
+  std::array<glm::dvec3, 3> corner;
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = placed.positions_ew[(*placed.indices)[3 * std::size_t{query.hit.primID} + k]];
+  const double u = static_cast<double>(query.hit.u), v = static_cast<double>(query.hit.v);
+  const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+  return RayHit{static_cast<int>(query.hit.geomID),
+                query.hit.primID,
+                query.ray.tfar,
+                {1.0 - u - v, u, v},
+                corner[0] * (1.0 - u - v) + corner[1] * u + corner[2] * v,
+                normal / std::max(glm::length(normal), 1e-300)};
+}
+
+bool RayScene::occluded(const glm::vec3& origin_ew, const glm::vec3& direction_ws, float near, float far) const {
+  RTCRay ray = make_ray(origin_ew, direction_ws, near, far);
+  return is_occluded(impl_->scene.get(), ray);
+}
+
+}  // namespace halfspace

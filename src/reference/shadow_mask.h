@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws, instead of colour, what validation asks of each pixel: which triangle is seen, how it stands to one light, and what
+// the light's shadow map says.
+#pragma once
+
+#include "shading/contract.h"
+#include "shading/lighting.h"
+
+namespace halfspace {
+
+/// Colour: (share of the light that arrives by the map, 1 without one; shading normal · light, 1 + mesh, triangle).
+struct ShadowMask {
+  glm::mat4 clip_from_object;
+  glm::mat4 world_from_object;   ///< to the world's axes round the eye
+  glm::mat3 normal_from_object;  ///< inverse transpose
+  glm::vec3 to_eye_ws{0.0f};     ///< orthographic: unit vector towards the eye; else 0
+  Light light;
+  float mesh = 0.0f;
+
+  template <class R>
+  struct Attributes {
+    vec3<R> position_os, normal_os;
+    R triangle;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> position_ew, normal_ws;
+    Flat<R> triangle;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    const vec4<R> position_os(in.position_os, R(1));
+    out.position_ew = vec3<R>(world_from_object * position_os);
+    out.normal_ws = normal_from_object * in.normal_os;
+    out.triangle.value = in.triangle;
+    return clip_from_object * position_os;
+  }
+
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec3<R> v_ws = to_eye_ws == glm::vec3(0.0f) ? normalize_or_zero(-in.position_ew) : vec3<R>(to_eye_ws);
+    const vec3<R> face_ws = face_towards(cross(px.ddx(&Varyings<R>::position_ew), px.ddy(&Varyings<R>::position_ew)), v_ws);
+    const vec3<R> n_ws = normalize_or_zero(in.normal_ws) * select(px.front_facing, R(1), R(-1));
+    const vec3<R> l_ws = light_at(light, in.position_ew).l_ws;
+    const ShadowReceiver<R> receiver{in.position_ew, face_ws, n_ws, l_ws, px.x, px.y};
+    const R arriving = light.shadow == nullptr ? R(1) : light_arriving(*light.shadow, receiver);
+    return {vec4<R>(arriving, dot(n_ws, l_ws), R(mesh + 1.0f), in.triangle.value)};
+  }
+};
+
+}  // namespace halfspace

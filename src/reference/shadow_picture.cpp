@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The rasterizer's side of a validation.
+#include <chrono>
+#include <vector>
+
+#include "raster/pass.h"
+#include "reference/pixel_truth.h"
+#include "reference/shadow_mask.h"
+#include "scene/mesh.h"
+
+namespace halfspace {
+
+namespace {
+
+// A mesh with three vertices of its own for each triangle, which all know its number.
+struct Loose {
+  std::vector<glm::vec3> positions, normals;
+  std::vector<float> triangles;
+};
+
+Loose loosened(const PlacedMesh& placed) {
+  Loose out;
+  const Indices& indices = *placed.indices;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    out.positions.push_back(placed.mesh->positions[indices[i]]);
+    out.normals.push_back(placed.mesh->normals[indices[i]]);
+    out.triangles.push_back(static_cast<float>(i / 3));
+  }
+  return out;
+}
+
+ShadowMask mask_of(const PlacedMesh& placed, const View& view) {
+  ShadowMask s;
+  glm::dmat4 world = placed.world_from_object;
+  s.clip_from_object = glm::mat4(view.clip_from_world * world);
+  world[3] -= glm::dvec4(view.eye_ws, 0.0);
+  s.world_from_object = glm::mat4(world);
+  s.normal_from_object = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world))));
+  s.to_eye_ws = glm::vec3(view.to_eye_ws);
+  return s;
+}
+
+}  // namespace
+
+ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, int width, int height, bool with_shadow,
+                                  const Workers& workers) {
+  const PreparedScene& scene = *choice.scene;
+  const PreparedLight& light = scene.lights[choice.index];
+  ShadowPicture out{Image<glm::vec4>(width, height), Image<float>(width, height), 0.0};
+  DepthTarget depth = d32f_target(out.depth);
+  depth.clear_value = 0.0f;
+  Pass pass(width, height, rgba32f_target(out.mask), depth);
+  std::vector<Loose> meshes;
+  meshes.reserve(scene.meshes.size());  // the pass points into them
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const PlacedMesh& placed = scene.meshes[m];
+    const Loose& loose = meshes.emplace_back(loosened(placed));
+    ShadowMask shader = mask_of(placed, view);
+    shader.light = light.light;
+    if (!with_shadow || !placed.receives_shadow) shader.light.shadow = nullptr;
+    shader.mesh = static_cast<float>(m);
+    DrawState state;
+    state.cull = placed.two_sided ? CullMode::none : CullMode::back;
+    if (glm::determinant(glm::dmat3(placed.world_from_object)) < 0) state.front = Winding::clockwise;
+    state.depth.clip = ClipDepth::zero_to_one;
+    state.depth.compare = CompareOp::greater;
+    pass.draw(shader, vertices(stream(loose.positions), stream(loose.normals), stream(loose.triangles)), state);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  pass.run(workers);
+  out.draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return out;
+}
+
+}  // namespace halfspace

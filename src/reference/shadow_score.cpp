@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/shadow_score.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/trig_double.h"
+#include "scene/camera.h"
+#include "shading/shadow_bias.h"
+
+namespace halfspace {
+
+namespace {
+
+enum class PixelKind : uint8_t { nothing, sides_differ, compared };
+
+struct Pixels {
+  Image<PixelKind> kind;
+  Image<std::optional<RayHit>> hits;
+};
+
+// Width of a texel at a place, in the world: of the view that a look-up there would use.
+double texel_at(const Shadow& shadow, const glm::dvec3& position_ew) {
+  for (const ShadowView& view : shadow.views) {
+    const ShadowPlace<float> p = place_on(view, glm::vec3(position_ew));
+    if (holds(view, p, filter_reach(shadow.settings))) return static_cast<double>(view.texel_per_w * p.w);
+  }
+  return 0.0;
+}
+
+// Finds how far from a place, in the light's plane, the light's picture changes: where the surface ends as the light sees it,
+// or is lit where the place is not. In texels, to the next step; more than the last one counts as beyond.
+class EdgeFinder {
+ public:
+  EdgeFinder(const RayScene& rays, const RayScene& casters, const RayLight& light) : rays_(rays), casters_(casters), light_(light) {}
+
+  double distance(const RayHit& hit, const glm::dvec3& face_normal_ws, bool lit, double texel, double radius) const {
+    const bool directional = light_.light.type == LightType::directional;
+    const glm::dvec3 axis =
+        directional ? glm::dvec3(light_.light.place_ew) : unit_or_zero(glm::dvec3(light_.light.place_ew) - hit.position_ew);
+    const glm::dvec3 right = unit_or_zero(glm::cross(std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), axis));
+    const glm::dvec3 up = glm::cross(axis, right);
+    const double lean = glm::dot(face_normal_ws, axis);
+    for (const double step : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0}) {
+      const double r = (radius + step) * texel;
+      for (int k = 0; k < 16; ++k) {
+        const SinCosDouble a = sincos_turns(k / 16.0);
+        const glm::dvec3 aside = (right * a.cos + up * a.sin) * r;
+        // The surface goes on along its plane, give or take the step's own length.
+        const double along = std::abs(lean) > 1e-3 ? -glm::dot(face_normal_ws, aside) / lean : 0.0;
+        const glm::dvec3 start = hit.position_ew + aside + axis * (along + 2.0 * r);
+        const auto there = rays_.nearest(glm::vec3(start), glm::vec3(-axis), 0.0f, static_cast<float>(4.0 * r));
+        if (!there) return step;
+        if ((light_truth(casters_, light_, there->position_ew, there->face_normal_ws, 0).share > 0.5f) != lit) return step;
+      }
+    }
+    return 1e9;
+  }
+
+ private:
+  const RayScene& rays_;
+  const RayScene& casters_;
+  RayLight light_;
+};
+
+// Do two neighbouring pixels show one surface without a step?
+bool is_continuous(const RayHit& a, const RayHit& b) {
+  if (a.mesh != b.mesh) return false;
+  const glm::dvec3 way = b.position_ew - a.position_ew;
+  const double length = glm::length(way);
+  return std::abs(glm::dot(way, a.face_normal_ws)) <= 0.3 * length && std::abs(glm::dot(way, b.face_normal_ws)) <= 0.3 * length;
+}
+
+// Pixels at whose right or lower side the picture passes 1/2 on one surface.
+std::vector<glm::ivec2> edge_pixels(const Image<float>& light, const Pixels& pixels) {
+  std::vector<glm::ivec2> edges;
+  const auto differ = [&](int x, int y, int x1, int y1) {
+    return pixels.kind.at(x1, y1) == PixelKind::compared && (light.at(x, y) > 0.5f) != (light.at(x1, y1) > 0.5f) &&
+           is_continuous(*pixels.hits.at(x, y), *pixels.hits.at(x1, y1));
+  };
+  for (int y = 0; y + 1 < light.height(); ++y) {
+    for (int x = 0; x + 1 < light.width(); ++x) {
+      if (pixels.kind.at(x, y) == PixelKind::compared && (differ(x, y, x + 1, y) || differ(x, y, x, y + 1))) edges.emplace_back(x, y);
+    }
+  }
+  return edges;
+}
+
+// From each pixel of `from` the distance to the nearest of `to`.
+EdgeDistance edge_distance(const std::vector<glm::ivec2>& from, const std::vector<glm::ivec2>& to, int width, int height) {
+  if (from.empty() || to.empty()) return {};
+  Image<uint8_t> marked(width, height);
+  for (const glm::ivec2& p : to) marked.at(p.x, p.y) = 1;
+  std::vector<double> distances;
+  for (const glm::ivec2& p : from) {
+    double best = 1e18;
+    for (int r = 0; r * r <= best && r < std::max(width, height); ++r) {  // squares of growing size round p
+      for (int y = std::max(0, p.y - r); y <= std::min(height - 1, p.y + r); ++y) {
+        const bool whole_row = std::abs(y - p.y) == r;
+        for (int x = p.x - r; x <= p.x + r; x += whole_row ? 1 : std::max(1, 2 * r)) {
+          if (x >= 0 && x < width && marked.at(x, y) != 0) best = std::min(best, std::pow(x - p.x, 2) + std::pow(y - p.y, 2));
+        }
+      }
+    }
+    distances.push_back(std::sqrt(best));
+  }
+  std::ranges::sort(distances);
+  double sum = 0.0;
+  for (const double d : distances) sum += d;
+  const auto n = distances.size();
+  return {sum / static_cast<double>(n), distances[(n - 1) * 95 / 100], distances.back()};
+}
+
+void add(DistanceShares& shares, double distance, double weight) {
+  (distance <= 1.0 ? shares.within_1 : distance <= 3.0 ? shares.from_1_to_3 : shares.beyond_3) += weight;
+}
+
+void divide(DistanceShares& s, int64_t count) {
+  for (double* share : {&s.within_1, &s.from_1_to_3, &s.beyond_3}) *share /= static_cast<double>(std::max<int64_t>(count, 1));
+}
+
+// The shares of false pixels. Of very many only each n-th is looked at, and counts n times.
+void score_false_pixels(ShadowComparison& c, const Pixels& pixels, const Shadow& shadow, const EdgeFinder& edges, const Workers& workers) {
+  constexpr std::size_t kMost = 4000;
+  std::vector<glm::ivec2> wrong;
+  for (int y = 0; y < c.map.height(); ++y) {
+    for (int x = 0; x < c.map.width(); ++x) {
+      if (pixels.kind.at(x, y) == PixelKind::compared && std::abs(c.map.at(x, y) - c.truth.at(x, y)) > 0.5f) wrong.emplace_back(x, y);
+    }
+  }
+  const std::size_t stride = wrong.size() / kMost + 1, count = (wrong.size() + stride - 1) / stride;
+  std::vector<double> distances(count);
+  const double radius = static_cast<double>(filter_reach(shadow.settings)) - 0.5;
+  workers.for_each(static_cast<int>(count), [&](int i) {
+    const glm::ivec2 p = wrong[static_cast<std::size_t>(i) * stride];
+    const RayHit& hit = *pixels.hits.at(p.x, p.y);
+    const double texel = texel_at(shadow, hit.position_ew);
+    distances[static_cast<std::size_t>(i)] =
+        texel > 0.0 ? edges.distance(hit, hit.face_normal_ws, c.truth.at(p.x, p.y) > 0.5f, texel, radius) : 1e9;
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::ivec2 p = wrong[i * stride];
+    const auto weight = static_cast<double>(std::min(stride, wrong.size() - i * stride));
+    add(c.truth.at(p.x, p.y) > 0.5f ? c.score.false_shadow : c.score.false_light, distances[i], weight);
+  }
+  divide(c.score.false_shadow, c.score.lit);
+  divide(c.score.false_light, c.score.shadowed);
+}
+
+void score_means(ShadowComparison& c, const Pixels& pixels) {
+  double penumbra_sum = 0.0, sum = 0.0;
+  int64_t penumbra = 0, compared = 0, differ = 0;
+  for (int y = 0; y < c.map.height(); ++y) {
+    for (int x = 0; x < c.map.width(); ++x) {
+      differ += pixels.kind.at(x, y) == PixelKind::sides_differ;
+      if (pixels.kind.at(x, y) != PixelKind::compared) continue;
+      ++compared;
+      const auto truth = static_cast<double>(c.truth.at(x, y)), error = std::abs(static_cast<double>(c.map.at(x, y)) - truth);
+      ++(truth > 0.5 ? c.score.lit : c.score.shadowed);
+      sum += error;
+      if (truth <= 0.0 || truth >= 1.0) continue;
+      ++penumbra;
+      penumbra_sum += error;
+    }
+  }
+  c.score.sides_differ = static_cast<double>(differ) / static_cast<double>(std::max<int64_t>(1, differ + compared));
+  c.score.error = sum / static_cast<double>(std::max<int64_t>(1, compared));
+  c.score.penumbra_error = penumbra_sum / static_cast<double>(std::max<int64_t>(1, penumbra));
+}
+
+double median_draw_ms(const LightChoice& light, const View& view, int width, int height, bool with_shadow, const Workers& workers) {
+  std::array<double, 3> ms;
+  for (double& m : ms) m = draw_shadow_picture(light, view, width, height, with_shadow, workers).draw_ms;
+  std::ranges::sort(ms);
+  return ms[1];
+}
+
+}  // namespace
+
+ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays, const RayScene& casters, int width, int height,
+                                int rays_per_pixel, const Workers& workers) {
+  const PreparedLight& light = choice.scene->lights[choice.index];
+  const View& view = choice.scene->view;
+  static const Shadow kNone;
+  const Shadow& shadow = light.light.shadow == nullptr ? kNone : *light.light.shadow;
+  const RayLight ray_light{light.light, static_cast<double>(shadow.settings.light_radius),
+                           shadow.settings.light_radius > 0.0f ? rays_per_pixel : 1};
+  const ShadowPicture picture = draw_shadow_picture(choice, view, width, height, true, workers);
+  ShadowComparison out{Image<float>(width, height), Image<float>(width, height), {}};
+  Pixels pixels{Image<PixelKind>(width, height), primary_hits(rays, view, width, height, workers)};
+  std::vector<float> errors(static_cast<std::size_t>(height));
+  workers.for_each(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      out.map.at(x, y) = out.truth.at(x, y) = -1.0f;
+      const glm::vec4& mask = picture.mask.at(x, y);
+      const std::optional<RayHit>& hit = pixels.hits.at(x, y);
+      // Pixels at silhouettes may show different surfaces; compare_visibility tells how many.
+      if (!hit || static_cast<float>(hit->mesh + 1) != mask.z || !choice.scene->meshes[static_cast<std::size_t>(hit->mesh)].receives_shadow)
+        continue;
+      const Arriving<double> arriving = light_at<double>(light.light, hit->position_ew);
+      const PictureRay ray = picture_ray(view, width, height, x + 0.5, y + 0.5);
+      const double side = glm::dot(hit->face_normal_ws, glm::dvec3(ray.direction_ws)) < 0.0 ? 1.0 : -1.0;
+      const double face_l = side * glm::dot(hit->face_normal_ws, arriving.l_ws);
+      if ((face_l > 0.0) != (mask.y > 0.0f)) {
+        pixels.kind.at(x, y) = PixelKind::sides_differ;
+        continue;
+      }
+      pixels.kind.at(x, y) = PixelKind::compared;
+      out.map.at(x, y) = out.truth.at(x, y) = 0.0f;
+      if (face_l <= 0.0) continue;
+      const LightTruth truth = light_truth(casters, ray_light, hit->position_ew, hit->face_normal_ws,
+                                           static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x));
+      out.truth.at(x, y) = truth.share;
+      out.map.at(x, y) = mask.x;
+      errors[static_cast<std::size_t>(y)] = std::max(errors[static_cast<std::size_t>(y)], truth.standard_error);
+    }
+  });
+  ShadowScore& s = out.score;
+  s.light = light.name;
+  s.truth_error = static_cast<double>(*std::ranges::max_element(errors));
+  score_means(out, pixels);
+  score_false_pixels(out, pixels, shadow, EdgeFinder(rays, casters, {ray_light.light, 0.0, 1}), workers);
+  s.edge_px = edge_distance(edge_pixels(out.map, pixels), edge_pixels(out.truth, pixels), width, height);
+  s.map_ms = light.map_ms;
+  s.lookup_ms = std::max(
+      0.0, median_draw_ms(choice, view, width, height, true, workers) - median_draw_ms(choice, view, width, height, false, workers));
+  return out;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shadow maps of a scene: for each light that casts, views that hold what the picture shows of the receivers, and the depth of
+// the casters in each. In: placed meshes and lights. Out: PreparedLight::shadow.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "core/trig_double.h"
+#include "scene/camera.h"
+#include "scene/preparation.h"
+#include "scene/shadow_views.h"
+#include "shading/depth_only.h"
+#include "shading/shadow_bias.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+// A light's maps: what its shadow points to.
+struct ShadowMaps {
+  std::vector<Image<float>> depths;
+  std::vector<Image<glm::vec4>> moments;
+  std::vector<ShadowView> views;
+};
+
+// What a mesh spans.
+struct Extent {
+  const PlacedMesh* mesh;
+  Box box_ws;
+};
+
+// Bounds of the mesh's vertices along the columns of a rotation.
+Box bounds_along(const PlacedMesh& placed, const glm::dmat3& axes) {
+  const glm::dmat3 turn = glm::transpose(axes) * glm::dmat3(placed.world_from_object);
+  const glm::dvec3 shift = glm::transpose(axes) * glm::dvec3(placed.world_from_object[3]);
+  Box box;
+  for (const glm::vec3& p : placed.mesh->positions) box.add(turn * glm::dvec3(p) + shift);
+  return box;
+}
+
+Box common(const Box& a, const Box& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
+
+Box joined(Box a, const Box& b) {
+  if (!b.empty()) {
+    a.add(b.low);
+    a.add(b.high);
+  }
+  return a;
+}
+
+bool is_moment_filter(ShadowFilter f) { return f == ShadowFilter::vsm || f == ShadowFilter::moments; }
+
+ShadowSettings settings_of(const ShadowDescription& d, const LightDescription& light) {
+  ShadowSettings s;
+  s.filter = static_cast<ShadowFilter>(static_cast<int>(d.method) - 1);
+  s.bias = d.bias;
+  s.constant = static_cast<float>(d.constant);
+  s.slope = static_cast<float>(d.slope);
+  s.max_slope = static_cast<float>(d.max_slope);
+  s.radius = static_cast<float>(d.radius);
+  if (light.type == LightType::directional) {
+    const SinCosDouble half = sincos_radians(std::min(light.size, 45.0) * kRadiansPerDegree);
+    s.light_radius = static_cast<float>(half.sin / half.cos);
+  } else {
+    s.light_radius = static_cast<float>(light.size);
+  }
+  return s;
+}
+
+ShadowView to_shading(const LightView& v, int size, const glm::dvec3& eye_ws) {
+  glm::dmat4 world_from_ew(1.0);
+  world_from_ew[3] = glm::dvec4(eye_ws, 1.0);
+  const glm::dmat4 clip_from_ew = v.clip_from_world * world_from_ew;
+  ShadowView s;
+  s.clip_from_ew = glm::mat4(clip_from_ew);
+  s.clip_plane_from_ew = glm::mat4(glm::transpose(glm::inverse(clip_from_ew)));
+  s.texel_per_w = static_cast<float>(v.texel_per_w);
+  s.depth_per_unit = static_cast<float>(v.depth_per_unit);
+  s.perspective = v.perspective;
+  s.near = static_cast<float>(v.near);
+  s.far = static_cast<float>(v.far);
+  s.size = size;
+  return s;
+}
+
+// Draws the meshes' depth as it is seen from a light, or from the eye.
+PassStatistics draw_depth(const glm::dmat4& clip_from_world, const std::vector<PlacedMesh>& meshes, bool casters_only, ShadowFaces faces,
+                          Image<float>& depth, const Workers& workers) {
+  DepthTarget target = d32f_target(depth);
+  target.clear_value = 0.0f;
+  Pass pass(depth.width(), depth.height(), {}, target);
+  for (const PlacedMesh& m : meshes) {
+    if (casters_only && !m.casts_shadow) continue;
+    DrawState state;
+    state.cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
+                 : faces == ShadowFaces::front             ? CullMode::back
+                                                           : CullMode::front;
+    if (glm::determinant(glm::dmat3(m.world_from_object)) < 0) state.front = Winding::clockwise;
+    state.depth.clip = ClipDepth::zero_to_one;
+    state.depth.compare = CompareOp::greater;
+    pass.draw_depth(DepthOnly{glm::mat4(clip_from_world * m.world_from_object)}, vertices(stream(m.mesh->positions)), *m.indices, state);
+  }
+  return pass.run(workers);
+}
+
+// Means of the powers 1 to 4 of the linear depth over squares of 2·radius + 1 texels; beyond the edge counts the edge.
+Image<glm::vec4> filtered_moments(const ShadowView& view, const Image<float>& depth, int radius, const Workers& workers) {
+  const int size = depth.width();
+  Image<glm::vec4> rows(size, size), out(size, size);
+  const auto linear = [&](float z) {
+    if (!view.perspective) return 1.0f - z;
+    const float b = -view.near / (view.far - view.near);  // z = depth_per_unit / w + b
+    return (view.depth_per_unit / (z - b) - view.near) / (view.far - view.near);
+  };
+  const float share = 1.0f / static_cast<float>(2 * radius + 1);
+  workers.for_each(size, [&](int row) {
+    for (int x = 0; x < size; ++x) {
+      glm::vec4 sum(0.0f);
+      for (int k = -radius; k <= radius; ++k) {
+        const float d = linear(depth.at(std::clamp(x + k, 0, size - 1), row));
+        sum += glm::vec4(d, d * d, d * d * d, d * d * d * d);
+      }
+      rows.at(x, row) = sum * share;
+    }
+  });
+  workers.for_each(size, [&](int row) {
+    for (int x = 0; x < size; ++x) {
+      glm::vec4 sum(0.0f);
+      for (int k = -radius; k <= radius; ++k) sum += rows.at(x, std::clamp(row + k, 0, size - 1));
+      out.at(x, row) = sum * share;
+    }
+  });
+  return out;
+}
+
+// Finds a light's views.
+class ViewFinder {
+ public:
+  ViewFinder(const View& view, const std::vector<PlacedMesh>& meshes, int size, double margin)
+      : frustum_(frustum_corners(view.clip_from_world)), eye_ws_(view.eye_ws), forward_ws_(view.forward_ws), size_(size), margin_(margin) {
+    for (const PlacedMesh& m : meshes) {
+      const Box box = bounds_along(m, glm::dmat3(1.0));
+      if (m.casts_shadow) casters_.push_back({&m, box});
+      if (m.receives_shadow && !common_corners(frustum_, box).empty()) receivers_.push_back({&m, box});
+    }
+  }
+
+  bool nothing_received() const { return receivers_.empty(); }
+
+  std::vector<LightView> directional(const glm::dvec3& to_light_ws, int cascades, double growth) const {
+    const glm::dmat3 axes = light_axes(to_light_ws);
+    std::vector<Box> receivers, casters;
+    for (const Extent& r : receivers_) receivers.push_back(bounds_along(*r.mesh, axes));
+    for (const Extent& c : casters_) casters.push_back(bounds_along(*c.mesh, axes));
+    const auto view_of = [&](const std::array<glm::dvec3, 8>& part) -> std::optional<LightView> {
+      Box seen;
+      for (std::size_t i = 0; i < receivers_.size(); ++i) {
+        Box in_view;
+        for (const glm::dvec3& p : common_corners(part, receivers_[i].box_ws)) in_view.add(glm::transpose(axes) * p);
+        if (!in_view.empty()) seen = joined(seen, common(in_view, receivers[i]));
+      }
+      if (seen.empty()) return std::nullopt;
+      Box above;
+      for (const Box& c : casters) {
+        const Box over = common(c, seen);
+        if (over.low.x <= over.high.x && over.low.y <= over.high.y) above = joined(above, c);
+      }
+      return directional_view(axes, seen, above.empty() ? seen : above, size_, margin_);
+    };
+    std::vector<LightView> views;
+    if (cascades == 1) {
+      if (const auto view = view_of(frustum_)) views.push_back(*view);
+      return views;
+    }
+    const auto [near, far] = seen_distances();
+    const std::vector<double> splits = cascade_splits(near, far, cascades, growth);
+    for (int i = 0; i < cascades; ++i) {
+      const auto share = [&](int k) { return share_at(splits[static_cast<std::size_t>(k)]); };
+      if (const auto view = view_of(frustum_slice(frustum_, share(i), share(i + 1)))) views.push_back(*view);
+    }
+    return views;
+  }
+
+  std::vector<LightView> spot(const glm::dvec3& position, const glm::dvec3& forward, double angle) const {
+    const glm::dvec3 axis = unit_or_zero(forward);
+    double near = 1e300, far = 0.0;
+    for (const Extent& e : casters_)
+      for (const glm::dvec3& c : corners_of(e.box_ws)) near = std::min(near, glm::dot(c - position, axis));
+    for (const Extent& e : receivers_)
+      for (const glm::dvec3& c : corners_of(e.box_ws)) far = std::max(far, glm::dot(c - position, axis));
+    if (far <= 0.0) return {};
+    return {spot_view(position, axis, angle, near_end(near, far), far * 1.001, size_, margin_)};
+  }
+
+  std::vector<LightView> cube(const glm::dvec3& position) const {
+    double near = 1e300, far = 0.0;
+    // Distances along the faces' axes: the largest component's.
+    for (const Extent& e : casters_) {
+      const glm::dvec3 gap = glm::max(glm::max(e.box_ws.low - position, position - e.box_ws.high), glm::dvec3(0.0));
+      near = std::min(near, std::max({gap.x, gap.y, gap.z}));
+    }
+    for (const Extent& e : receivers_) {
+      const glm::dvec3 reach = glm::max(glm::abs(e.box_ws.low - position), glm::abs(e.box_ws.high - position));
+      far = std::max({far, reach.x, reach.y, reach.z});
+    }
+    std::vector<LightView> views;
+    for (const LightView& view : cube_views(position, near_end(near, far), far * 1.001, size_, margin_)) {
+      const auto seen = frustum_corners(view.clip_from_world);
+      const auto sees = [&](const Extent& e) { return !common_corners(seen, e.box_ws).empty(); };
+      if (std::ranges::any_of(receivers_, sees) && std::ranges::any_of(casters_, sees)) views.push_back(view);
+    }
+    return views;
+  }
+
+ private:
+  // A little before the nearest caster; a thousandth of the way where the light stands among them.
+  static double near_end(double nearest, double far) { return std::max(std::min(0.9 * nearest, 0.5 * far), 1e-3 * far); }
+
+  // Distances along the view's axis between which the picture shows receivers.
+  std::pair<double, double> seen_distances() const {
+    double near = 1e300, far = 0.0;
+    for (const Extent& r : receivers_) {
+      for (const glm::dvec3& p : common_corners(frustum_, r.box_ws)) {
+        near = std::min(near, distance_to(p));
+        far = std::max(far, distance_to(p));
+      }
+    }
+    return {std::max(near, 1e-3 * far), far};
+  }
+  double distance_to(const glm::dvec3& p_ws) const { return glm::dot(p_ws - eye_ws_, forward_ws_); }
+  // Where a distance lies between the frustum's ends.
+  double share_at(double distance) const {
+    const double near = distance_to(frustum_[0]), far = distance_to(frustum_[4]);
+    return std::clamp((distance - near) / (far - near), 0.0, 1.0);
+  }
+
+  std::array<glm::dvec3, 8> frustum_;
+  glm::dvec3 eye_ws_, forward_ws_;
+  int size_;
+  double margin_;
+  std::vector<Extent> casters_, receivers_;
+};
+
+std::vector<LightView> views_of(const LightDescription& light, const ShadowDescription& shadow, const ViewFinder& finder) {
+  switch (light.type) {
+    case LightType::directional: return finder.directional(light.direction, shadow.cascades, shadow.cascade_growth);
+    case LightType::spot: return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree);
+    case LightType::point: break;
+  }
+  return finder.cube(light.position);
+}
+
+// Places of receivers that the picture shows, and the width of a pixel there: from a coarse picture of their depth.
+struct SeenPlace {
+  glm::dvec3 position_ew;
+  double pixel;
+};
+std::vector<SeenPlace> seen_places(const View& view, const std::vector<PlacedMesh>& meshes, const Workers& workers) {
+  constexpr int kWidth = 96, kHeight = 54;
+  Image<float> depth(kWidth, kHeight);
+  draw_depth(view.clip_from_world, meshes, false, ShadowFaces::front, depth, workers);
+  const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
+  std::vector<SeenPlace> places;
+  for (int row = 0; row < kHeight; ++row) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (depth.at(x, row) == 0.0f) continue;
+      const glm::dvec4 p = world_from_clip * glm::dvec4((x + 0.5) / kWidth * 2.0 - 1.0, 1.0 - (row + 0.5) / kHeight * 2.0,
+                                                        static_cast<double>(depth.at(x, row)), 1.0);
+      const glm::dvec3 position_ew = glm::dvec3(p) / p.w - view.eye_ws;
+      const double spanned =
+          view.to_eye_ws == glm::dvec3(0.0)
+              ? 2.0 * view.tan_y * glm::dot(position_ew, view.forward_ws)
+              : 2.0 / glm::length(glm::dvec3(view.clip_from_world[0][1], view.clip_from_world[1][1], view.clip_from_world[2][1]));
+      places.push_back({position_ew, spanned / view.height_px});
+    }
+  }
+  return places;
+}
+
+// What a texel spans, in pixels, on all but a twentieth of the places; 0 where no view holds any.
+double footprint_of(const std::vector<ShadowView>& views, const std::vector<SeenPlace>& places, float margin) {
+  std::vector<double> footprints;
+  for (const SeenPlace& place : places) {
+    for (const ShadowView& view : views) {
+      const ShadowPlace<float> p = place_on(view, glm::vec3(place.position_ew));
+      if (!holds(view, p, margin)) continue;
+      footprints.push_back(static_cast<double>(view.texel_per_w * p.w) / place.pixel);
+      break;
+    }
+  }
+  if (footprints.empty()) return 0.0;
+  const auto nth = footprints.begin() + static_cast<std::ptrdiff_t>((footprints.size() - 1) * 95 / 100);
+  std::ranges::nth_element(footprints, nth);
+  return *nth;
+}
+
+}  // namespace
+
+std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const {
+  // Half a texel more than the filter asks: rounding must not push a point on a face's edge out of both faces.
+  const ViewFinder finder(view_, out_.meshes, size, static_cast<double>(filter_reach(settings)) + 0.5);
+  return finder.nothing_received() ? std::vector<LightView>{} : views_of(light, scene_.shadow, finder);
+}
+
+int ScenePreparation::shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const {
+  if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
+  const std::vector<SeenPlace> places = seen_places(view_, out_.meshes, assets_.workers_);
+  int size = 256;
+  for (; size < kMostShadowTexels; size *= 2) {
+    std::vector<ShadowView> views;
+    for (const LightView& view : shadow_views(light, settings, size)) views.push_back(to_shading(view, size, view_.eye_ws));
+    if (footprint_of(views, places, filter_reach(settings)) <= scene_.shadow.footprint) break;
+  }
+  return size;
+}
+
+void ScenePreparation::add_shadows() {
+  const ShadowDescription& d = scene_.shadow;
+  if (d.method == ShadowMethod::none) return;
+  for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+    const LightDescription& l = out_.lights[i].description;
+    if (!l.shadow) continue;
+    const auto start = std::chrono::steady_clock::now();
+    Shadow& shadow = shadows_[i];
+    shadow.settings = settings_of(d, l);
+    const int size = shadow_resolution(l, shadow.settings);
+    const std::vector<LightView> views = shadow_views(l, shadow.settings, size);
+    const auto maps = std::make_shared<ShadowMaps>();
+    for (const LightView& view : views) {
+      maps->views.push_back(to_shading(view, size, view_.eye_ws));
+      ShadowView& s = maps->views.back();
+      Image<float>& depth = maps->depths.emplace_back(size, size);
+      out_.shadow_statistics += draw_depth(view.clip_from_world, out_.meshes, true, d.faces, depth, assets_.workers_);
+      s.depth = depth.data();
+      if (!is_moment_filter(shadow.settings.filter)) continue;
+      s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(d.radius)), assets_.workers_)).data();
+    }
+    shadow.views = maps->views;
+    out_.assets.push_back(maps);
+    out_.lights[i].map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// EnvironmentMap's look-up, compiled once for all shaders. Lanes do not touch each other: where they fall on different
+// images, each image is asked in turn and a lane keeps what its own said.
+#include "shading/environment.h"
+
+#include <algorithm>
+#include <bit>
+#include <numbers>
+
+#include "core/lane_math.h"
+
+namespace halfspace {
+
+namespace {
+
+template <class R>
+HS_INLINE R inverse_pi() {
+  if constexpr (std::is_same_v<R, double>)
+    return std::numbers::inv_pi;
+  else
+    return R(std::numbers::inv_pi_v<float>);
+}
+
+// Levels are chosen by EnvironmentMap; within one there is nothing but bilinear.
+constexpr Sampler kSampler{.mag = Filter::bilinear, .min = Filter::bilinear, .wrap_s = Wrap::repeat, .wrap_t = Wrap::clamp};
+
+// A vector in the coordinates of the face on which d lies: along s, along t, and outwards.
+template <class R>
+struct OnFace {
+  R s, t, out;
+};
+template <class R>
+struct Face {
+  MaskOf<R> is_x, is_y;
+  R sign;
+
+  HS_INLINE OnFace<R> operator()(const vec3<R>& v) const {
+    const R x = sign * v.x, y = sign * v.y, z = sign * v.z;
+    return {select(is_x, -z, select(is_y, v.x, x)), select(is_y, z, -v.y), select(is_x, x, select(is_y, y, z))};
+  }
+};
+
+}  // namespace
+
+template <class R>
+EnvironmentMap::Place<R> EnvironmentMap::place_on_cube(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+  Face<R> face;
+  face.is_x = abs(d.x) >= abs(d.y) && abs(d.x) >= abs(d.z);
+  face.is_y = !face.is_x && abs(d.y) >= abs(d.z);
+  const MaskOf<R> negative = select(face.is_x, d.x, select(face.is_y, d.y, d.z)) < R(0.0f);
+  face.sign = select(negative, R(-1.0f), R(1.0f));
+  const OnFace<R> at = face(d), x = face(dx), y = face(dy);
+  const R inverse = R(1.0f) / at.out, s = at.s * inverse, t = at.t * inverse;
+  const R half_inverse = R(0.5f) * inverse;  // faces are 2 wide
+  const vec2<R> dst_dx((x.s - s * x.out) * half_inverse, (x.t - t * x.out) * half_inverse);
+  const vec2<R> dst_dy((y.s - s * y.out) * half_inverse, (y.t - t * y.out) * half_inverse);
+  const IntOf<R> axis = select(face.is_x, IntOf<R>(0), select(face.is_y, IntOf<R>(2), IntOf<R>(4)));
+  return {axis + select(negative, IntOf<R>(1), IntOf<R>(0)), vec2<R>(fma(s, R(0.5f), R(0.5f)), fma(t, R(0.5f), R(0.5f))),
+          halfspace::level_of_detail(width(), height(), dst_dx, dst_dy)};
+}
+
+// The angle that a step of the direction turns it by is |d × step| / |d|².
+template <class R>
+EnvironmentMap::Place<R> EnvironmentMap::place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+  const auto squared = [](const vec3<R>& v) { return dot(v, v); };
+  const R turn2 = max(squared(cross(d, dx)), squared(cross(d, dy))) / (squared(d) * squared(d));
+  const R texels = R(std::max(0.5f * static_cast<float>(width()), static_cast<float>(height()))) * inverse_pi<R>();  // per radian
+  const R u = fma(atan2(d.x, d.z), R(0.5f) * inverse_pi<R>(), R(0.5f));
+  const R v = atan2(sqrt(fma(d.x, d.x, d.z * d.z)), d.y) * inverse_pi<R>();
+  return {IntOf<R>(0), vec2<R>(u, v), R(0.5f) * log2(turn2 * (texels * texels))};
+}
+
+template <class R>
+EnvironmentMap::Place<R> EnvironmentMap::place(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+  return layout_ == EnvironmentLayout::cube ? place_on_cube(d, dx, dy) : place_on_panorama(d, dx, dy);
+}
+
+template <class R>
+vec4<R> EnvironmentMap::fetch(const Place<R>& at, IntOf<R> level) const {
+  const IntOf<R> index = level * IntOf<R>(faces()) + at.face;
+  vec4<R> light(R(0.0f));
+  for (uint32_t left = bits(MaskOf<R>(true)); left != 0;) {
+    const int32_t first = lane(index, std::countr_zero(left));
+    const MaskOf<R> here = index == IntOf<R>(first);
+    const Texture2D& texture = images_[static_cast<std::size_t>(first)];
+    const auto inside = [](R coordinate, int whole) {  // of a border one texel wide on both sides
+      return fma(coordinate, R(static_cast<float>(whole - 2)), R(1.0f)) / R(static_cast<float>(whole));
+    };
+    const bool cube = layout_ == EnvironmentLayout::cube;
+    const vec2<R> uv(cube ? inside(at.st.x, texture.width()) : at.st.x, inside(at.st.y, texture.height()));
+    light = select(here, texture.sample_level<R>(kSampler, uv, R(0.0f)), light);
+    left &= ~bits(here);
+  }
+  return light;
+}
+
+template <Number R>
+vec3<R> EnvironmentMap::sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const {
+  const Place<R> at = place(d_ms, dx_ms, dy_ms);
+  const R held = clamp(at.lod, 0.0f, R(static_cast<float>(levels_ - 1)));
+  const R whole = floor(held), fraction = held - whole;
+  const IntOf<R> level = truncate_to_int(whole);
+  const vec4<R> light = fetch(at, level);
+  if (none(fraction > R(0.0f))) return vec3<R>(light);
+  return vec3<R>(detail::lerp(light, fetch(at, min(level + 1, IntOf<R>(levels_ - 1))), fraction));
+}
+
+template <Number R>
+R EnvironmentMap::level_of_detail(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const {
+  return place(d_ms, dx_ms, dy_ms).lod;
+}
+
+template vec3<float> EnvironmentMap::sample(const vec3<float>&, const vec3<float>&, const vec3<float>&) const;
+template vec3<double> EnvironmentMap::sample(const vec3<double>&, const vec3<double>&, const vec3<double>&) const;
+template vec3<RealN<4>> EnvironmentMap::sample(const vec3<RealN<4>>&, const vec3<RealN<4>>&, const vec3<RealN<4>>&) const;
+template vec3<RealN<8>> EnvironmentMap::sample(const vec3<RealN<8>>&, const vec3<RealN<8>>&, const vec3<RealN<8>>&) const;
+template vec3<RealN<16>> EnvironmentMap::sample(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
+template float EnvironmentMap::level_of_detail(const vec3<float>&, const vec3<float>&, const vec3<float>&) const;
+template double EnvironmentMap::level_of_detail(const vec3<double>&, const vec3<double>&, const vec3<double>&) const;
+template RealN<4> EnvironmentMap::level_of_detail(const vec3<RealN<4>>&, const vec3<RealN<4>>&, const vec3<RealN<4>>&) const;
+template RealN<8> EnvironmentMap::level_of_detail(const vec3<RealN<8>>&, const vec3<RealN<8>>&, const vec3<RealN<8>>&) const;
+template RealN<16> EnvironmentMap::level_of_detail(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
+
+}  // namespace halfspace

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// EnvironmentMap's levels: averaged, low-passed towards a panorama's poles, and given their borders.
+#include <algorithm>
+
+#include "core/check.h"
+#include "core/trig_double.h"
+#include "shading/environment.h"
+
+namespace halfspace {
+
+namespace {
+
+// ---- texels in linear light --------------------------------------------------------------------------------------------
+
+glm::dvec3 light_of(const glm::u8vec4& t) { return {kSrgbToLinear[t.x], kSrgbToLinear[t.y], kSrgbToLinear[t.z]}; }
+glm::dvec3 light_of(const glm::vec4& t) { return glm::dvec3(t); }
+
+void set_light(glm::u8vec4& t, const glm::dvec3& v) { t = glm::u8vec4(linear_to_srgb(v.x), linear_to_srgb(v.y), linear_to_srgb(v.z), 255); }
+void set_light(glm::vec4& t, const glm::dvec3& v) { t = glm::vec4(glm::vec3(v), 1.0f); }
+
+// A constant stays itself: a double's error is lost when the mean is rounded to a float or a code.
+template <class Texel, class... More>
+Texel mean(const Texel& a, const More&... more) {
+  Texel t;
+  set_light(t, (light_of(a) + ... + light_of(more)) / (1.0 + sizeof...(more)));
+  return t;
+}
+
+template <class Texel>
+std::vector<Image<Texel>> levels_of(const Image<Texel>& base, TexelFormat format) {
+  HS_CHECK_OP(std::min(base.width(), base.height()), >=, 1);
+  std::vector<Image<Texel>> levels = mip_chain(base, format);
+  levels.insert(levels.begin(), base);
+  return levels;
+}
+
+// As texture of one level.
+Texture2D one_level(const Image<glm::u8vec4>& image, TexelFormat format) { return Texture2D(std::span(&image, 1), format); }
+Texture2D one_level(const Image<glm::vec4>& image, TexelFormat format) { return Texture2D(std::span(&image, 1), format); }
+
+// ---- panoramas ---------------------------------------------------------------------------------------------------------
+
+int wrapped(int x, int width) { return (x % width + width) % width; }
+
+// Each row averaged over the width on the sphere that a texel has beside the equator.
+template <class Texel>
+Image<Texel> low_passed(const Image<Texel>& level) {
+  const int width = level.width(), height = level.height();
+  Image<Texel> out(width, height);
+  for (int row = 0; row < height; ++row) {
+    const double sine = sincos_turns((row + 0.5) / (2.0 * height)).sin;
+    const double span = std::clamp(width / (2.0 * height * sine), 1.0, static_cast<double>(width));
+    const int whole = static_cast<int>((span - 1.0) / 2.0);  // texels on either side that count in full
+    const double part = (span - 1.0) / 2.0 - whole;          // of the next on either side
+    for (int x = 0; x < width; ++x) {
+      const auto at = [&](int i) { return light_of(level.at(wrapped(x + i, width), row)); };
+      glm::dvec3 sum = part * (at(-whole - 1) + at(whole + 1));
+      for (int i = -whole; i <= whole; ++i) sum += at(i);
+      set_light(out.at(x, row), sum / span);
+    }
+  }
+  return out;
+}
+
+// With the rows beyond the poles.
+template <class Texel>
+Image<Texel> bordered(const Image<Texel>& level) {
+  const int width = level.width(), height = level.height();
+  Image<Texel> out(width, height + 2);
+  for (int row = 0; row < height; ++row) std::copy(level.row(row).begin(), level.row(row).end(), out.row(row + 1).begin());
+  for (int x = 0; x < width; ++x) {  // half a turn on; between two texels where the width is odd
+    const int a = (x + width / 2) % width, b = (x + (width + 1) / 2) % width;
+    out.at(x, 0) = mean(level.at(a, 0), level.at(b, 0));
+    out.at(x, height + 1) = mean(level.at(a, height - 1), level.at(b, height - 1));
+  }
+  return out;
+}
+
+// ---- cubes -------------------------------------------------------------------------------------------------------------
+
+template <class Texel>
+using Faces = std::array<Image<Texel>, 6>;
+
+// The texel of another face that lies beside texel (x, y), which is one step beyond an edge of this face.
+template <class Texel>
+const Texel& beyond_edge(const Faces<Texel>& faces, int face, int x, int y) {
+  const int n = faces[0].width();
+  const auto held = [n](int i) { return std::clamp((2 * i + 1.0) / n - 1.0, -1.0, 1.0); };
+  glm::dvec3 d = cube_direction(face, held(x), held(y));  // on the edge; then over it by half a texel
+  d[face / 2] *= 1.0 - 1.0 / n;
+  for (int other = 0; other < 6; ++other) {
+    const double sign = other % 2 == 0 ? 1.0 : -1.0;
+    if (other / 2 == face / 2 || d[other / 2] != sign) continue;
+    const glm::dvec3 s = cube_direction(other, 1, 0) - cube_direction(other, 0, 0),
+                     t = cube_direction(other, 0, 1) - cube_direction(other, 0, 0);
+    const auto index = [n](double at) { return std::clamp(static_cast<int>((at + 1.0) / 2.0 * n), 0, n - 1); };
+    return faces[static_cast<std::size_t>(other)].at(index(glm::dot(d, s)), index(glm::dot(d, t)));
+  }
+  return faces[static_cast<std::size_t>(face)].at(0, 0);  // not reached: the point lies on another face
+}
+
+template <class Texel>
+Image<Texel> bordered(const Faces<Texel>& faces, int face) {
+  const Image<Texel>& middle = faces[static_cast<std::size_t>(face)];
+  const int n = middle.width();
+  Image<Texel> out(n + 2, n + 2);
+  for (int y = 0; y < n; ++y) std::copy(middle.row(y).begin(), middle.row(y).end(), out.row(y + 1).begin() + 1);
+  for (int i = 0; i < n; ++i) {
+    out.at(i + 1, 0) = beyond_edge(faces, face, i, -1);
+    out.at(i + 1, n + 1) = beyond_edge(faces, face, i, n);
+    out.at(0, i + 1) = beyond_edge(faces, face, -1, i);
+    out.at(n + 1, i + 1) = beyond_edge(faces, face, n, i);
+  }
+  for (const int x : {0, n + 1}) {
+    for (const int y : {0, n + 1}) {
+      const int in_x = std::clamp(x, 1, n), in_y = std::clamp(y, 1, n);
+      out.at(x, y) = mean(out.at(in_x, in_y), out.at(x, in_y), out.at(in_x, y));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+glm::dvec3 cube_direction(int face, double s, double t) {
+  switch (face) {
+    case 0: return {1, -t, -s};
+    case 1: return {-1, -t, s};
+    case 2: return {s, 1, t};
+    case 3: return {s, -1, -t};
+    case 4: return {s, -t, 1};
+    default: return {-s, -t, -1};
+  }
+}
+
+template <class Texel>
+EnvironmentMap::EnvironmentMap(const Image<Texel>& panorama, TexelFormat format) : layout_(EnvironmentLayout::panorama) {
+  for (const Image<Texel>& level : levels_of(panorama, format)) {
+    images_.push_back(one_level(bordered(levels_ == 0 ? level : low_passed(level)), format));
+    ++levels_;
+  }
+}
+
+template <class Texel>
+EnvironmentMap::EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format) : layout_(EnvironmentLayout::cube) {
+  std::array<std::vector<Image<Texel>>, 6> chains;
+  for (std::size_t f = 0; f < 6; ++f) {
+    HS_CHECK_OP(faces[f].width(), ==, faces[0].width());
+    HS_CHECK_OP(faces[f].height(), ==, faces[0].width());
+    chains[f] = levels_of(faces[f], format);
+  }
+  for (std::size_t level = 0; level < chains[0].size(); ++level) {
+    Faces<Texel> whole;
+    for (std::size_t f = 0; f < 6; ++f) whole[f] = std::move(chains[f][level]);
+    for (int f = 0; f < 6; ++f) images_.push_back(one_level(bordered(whole, f), format));
+    ++levels_;
+  }
+}
+
+template EnvironmentMap::EnvironmentMap(const Image<glm::u8vec4>&, TexelFormat);
+template EnvironmentMap::EnvironmentMap(const Image<glm::vec4>&, TexelFormat);
+template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::u8vec4>, 6>&, TexelFormat);
+template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::vec4>, 6>&, TexelFormat);
+
+}  // namespace halfspace

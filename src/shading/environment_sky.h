@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// An environment as background, drawn as one triangle that covers the target behind everything. A night sky has stars of its
+// own before its map, as sharp as the picture (star_sky.h); they go down at its horizon.
+#pragma once
+
+#include "shading/contract.h"
+#include "shading/environment.h"
+#include "shading/star_sky.h"
+
+namespace halfspace {
+
+struct EnvironmentSky {
+  glm::vec3 forward_ws{0, 0, -1};  ///< unit vector
+  glm::vec3 right_ws{1, 0, 0};     ///< unit vector times the tangent of half the horizontal field of view
+  glm::vec3 up_ws{0, 1, 0};        ///< unit vector times the tangent of half the vertical field of view
+  EnvironmentBlend environment;
+  StarSky first_stars{.density = 0.0f}, second_stars{.density = 0.0f};  ///< of either environment; density 0: none
+
+  template <class R>
+  struct Attributes {
+    vec2<R> corner;  ///< NDC
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> ray_ws;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.ray_ws = forward_ws + right_ws * in.corner.x + up_ws * in.corner.y;
+    return vec4<R>(in.corner, R(0), R(1));  // reversed Z: 0 is farthest
+  }
+
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    vec3<R> light = environment.light(in.ray_ws, px.ddx(&Varyings<R>::ray_ws), px.ddy(&Varyings<R>::ray_ws));
+    const float weight = environment.weight;
+    if (first_stars.density > 0.0f && weight < 1.0f) light += star_light(first_stars, environment.first, in.ray_ws) * R(1.0f - weight);
+    if (second_stars.density > 0.0f && weight > 0.0f) light += star_light(second_stars, environment.second, in.ray_ws) * R(weight);
+    return {vec4<R>(light, R(1))};
+  }
+
+  /// The light of an environment's stars from direction d_ws: dimmed by the air below 12 degrees.
+  template <class R>
+  static vec3<R> star_light(const StarSky& stars, const Environment& sky, const vec3<R>& d_ws) {
+    const vec3<R> d_ms = sky.map_from_world * d_ws;
+    const vec3<R> d = d_ms * (R(1) / sqrt(dot(d_ms, d_ms)));
+    return stars.star_light(d) * (clamp(d.y * R(5.0f), 0.0f, 1.0f) * R(sky.brightness));
+  }
+};
+
+}  // namespace halfspace

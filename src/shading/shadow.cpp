@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/shadow.h"
+
+#include "shading/shadow_lookup.h"
+
+namespace halfspace {
+
+template float light_arriving(const Shadow&, const ShadowReceiver<float>&);
+template double light_arriving(const Shadow&, const ShadowReceiver<double>&);
+#if HALFSPACE_LANES > 1
+template Real light_arriving(const Shadow&, const ShadowReceiver<Real>&);
+#endif
+
+}  // namespace halfspace

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The share of one light that arrives at a point: what a surface's shader asks of a shadow map.
+#pragma once
+
+#include "shading/shadow_map.h"
+
+namespace halfspace {
+
+/// 0 (in shadow) … 1 (lit). Of several views the first counts that holds the point with all texels that the filter asks.
+/// Outside of all views, and behind the light, a point is lit.
+template <class R>
+R light_arriving(const Shadow& shadow, const ShadowReceiver<R>& at);
+
+extern template float light_arriving(const Shadow&, const ShadowReceiver<float>&);
+extern template double light_arriving(const Shadow&, const ShadowReceiver<double>&);
+#if HALFSPACE_LANES > 1
+extern template Real light_arriving(const Shadow&, const ShadowReceiver<Real>&);
+#endif
+
+}  // namespace halfspace

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The share of a light that arrives at a place of its map, by comparing depths and averaging.
+#pragma once
+
+#include <array>
+
+#include "shading/shadow_moments.h"
+#include "shading/shadow_view.h"
+
+namespace halfspace {
+
+namespace detail {
+
+/// N points spread evenly over the unit disk: r = sqrt((i + 1/2)/N), each turned by the golden angle from the one before.
+/// H. Vogel, "A better way to construct the sunflower head", Mathematical Biosciences 44 (1979).
+template <int N>
+const std::array<glm::vec2, N>& vogel_disk() {
+  static const std::array<glm::vec2, N> points = [] {
+    std::array<glm::vec2, N> p;
+    for (int i = 0; i < N; ++i) {
+      const SinCos<float> angle = sin_cos(2.39996323f * static_cast<float>(i));
+      p[static_cast<std::size_t>(i)] = sqrt((static_cast<float>(i) + 0.5f) / N) * glm::vec2(angle.cos, angle.sin);
+    }
+    return p;
+  }();
+  return points;
+}
+
+/// A fraction of a turn by pixel that neighbours do not share: interleaved gradient noise (Jimenez, SIGGRAPH course 2014).
+template <class R>
+HS_INLINE R pixel_turn(R x_px, R y_px) {
+  const R a = x_px * R(0.06711056f) + y_px * R(0.00583715f);
+  const R b = R(52.9829189f) * (a - floor(a));
+  return b - floor(b);
+}
+
+template <class R>
+struct Turn {
+  R cos, sin;
+  HS_INLINE vec2<R> operator()(const glm::vec2& p) const { return {cos * p.x - sin * p.y, sin * p.x + cos * p.y}; }
+};
+template <class R>
+HS_INLINE Turn<R> turn_of(const ShadowReceiver<R>& at) {
+  const SinCos<R> a = sin_cos(pixel_turn(at.x_px, at.y_px) * R(6.28318531f));
+  return {a.cos, a.sin};
+}
+
+}  // namespace detail
+
+/// By the texel that holds the place.
+template <class R>
+HS_INLINE R hard_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
+  return lit_by_texel(view, p, truncate_to_int(floor(p.x)), truncate_to_int(floor(p.y)));
+}
+
+/// The mean over a square of `width` x `width` texels round the place: whole texels count 1, those at the square's border by
+/// their part within it. width 1 is bilinear comparison.
+template <class R>
+HS_INLINE R box_shadow(const ShadowView& view, const ShadowPlace<R>& p, int width) {
+  const R left = p.x - R(0.5f * static_cast<float>(width)), low = p.y - R(0.5f * static_cast<float>(width));
+  const R left_texel = floor(left), low_texel = floor(low);
+  const R fx = left - left_texel, fy = low - low_texel;
+  const IntOf<R> i0 = truncate_to_int(left_texel), j0 = truncate_to_int(low_texel);
+  R sum(0);
+  for (int j = 0; j <= width; ++j) {
+    R row(0);
+    for (int i = 0; i <= width; ++i) {
+      const R weight = i == 0 ? R(1) - fx : i == width ? fx : R(1);
+      row = fma(weight, lit_by_texel(view, p, IntOf<R>(i0 + i), IntOf<R>(j0 + j)), row);
+    }
+    sum = fma(j == 0 ? R(1) - fy : j == width ? fy : R(1), row, sum);
+  }
+  return sum * R(1.0f / static_cast<float>(width * width));
+}
+
+/// The mean of nine texels, all alike: the plain form of pcf3, as the day and night's original has it.
+template <class R>
+HS_INLINE R nine_texels(const ShadowView& view, const ShadowPlace<R>& p) {
+  const IntOf<R> i = truncate_to_int(floor(p.x)), j = truncate_to_int(floor(p.y));
+  R sum(0);
+  for (int dj = -1; dj <= 1; ++dj) {
+    for (int di = -1; di <= 1; ++di) sum += lit_by_texel(view, p, IntOf<R>(i + di), IntOf<R>(j + dj));
+  }
+  return sum * R(1.0f / 9.0f);
+}
+
+/// The mean of N texels on a disk of `radius` texels.
+template <int N, class R>
+HS_INLINE R disk_shadow(const ShadowView& view, const ShadowPlace<R>& p, R radius, const detail::Turn<R>& turn) {
+  R sum(0);
+  for (const glm::vec2& point : detail::vogel_disk<N>()) {
+    const vec2<R> d = turn(point) * radius;
+    sum += lit_by_texel(view, p, truncate_to_int(floor(p.x + d.x)), truncate_to_int(floor(p.y + d.y)));
+  }
+  return sum * R(1.0f / N);
+}
+
+/// The radius, in texels, of the penumbra that an occluder at the given depth throws at the place, by similar triangles.
+/// Directional: tan · Δz, with Δz = Δdepth / depth_per_unit. Perspective: radius · (1/w_occluder − 1/w) on the plane w = 1, and
+/// depth is depth_per_unit/w + constant: the same formula.
+template <class R>
+HS_INLINE R penumbra_texels(const ShadowView& view, float light_radius, const ShadowPlace<R>& p, R occluder_depth) {
+  return (occluder_depth - p.depth) * R(light_radius / (view.depth_per_unit * view.texel_per_w));
+}
+
+/// Finds what stands in the way, how far off it is, and so how wide the penumbra is; then averages over that width.
+template <class R>
+HS_INLINE R pcss_shadow(const ShadowView& view, const ShadowPlace<R>& p, float light_radius, const detail::Turn<R>& turn) {
+  constexpr int kTaps = 32;
+  const R widest = clamp(penumbra_texels(view, light_radius, p, R(1)), R(0.5f), R(kMaxPenumbra));
+  R count(0), sum(0);
+  for (const glm::vec2& point : detail::vogel_disk<kTaps>()) {
+    const vec2<R> d = turn(point) * widest;
+    const IntOf<R> i = truncate_to_int(floor(p.x + d.x)), j = truncate_to_int(floor(p.y + d.y));
+    const R blocks = R(1) - lit_by_texel(view, p, i, j);
+    count += blocks;
+    sum = fma(blocks, map_depth<R>(view, i, j), sum);
+  }
+  const MaskOf<R> blocked = count > R(0);
+  if (none(blocked)) return R(1);
+  const R mean_depth = select(blocked, sum / count, R(1));
+  const R radius = clamp(penumbra_texels(view, light_radius, p, mean_depth), R(0.5f), R(kMaxPenumbra));
+  return select(blocked, disk_shadow<kTaps>(view, p, radius, turn), R(1));
+}
+
+/// The share of light at a place by the settings' filter.
+template <class R>
+HS_INLINE R filtered_shadow(const ShadowView& view, const ShadowSettings& s, const ShadowPlace<R>& p, const ShadowReceiver<R>& at) {
+  switch (s.filter) {
+    case ShadowFilter::hard: return hard_shadow(view, p);
+    case ShadowFilter::bilinear: return box_shadow(view, p, 1);
+    case ShadowFilter::pcf3: return s.bias == ShadowBias::original ? nine_texels(view, p) : box_shadow(view, p, 3);
+    case ShadowFilter::pcf5: return box_shadow(view, p, 5);
+    case ShadowFilter::pcf7: return box_shadow(view, p, 7);
+    case ShadowFilter::vogel: return disk_shadow<16>(view, p, R(s.radius), detail::turn_of(at));
+    case ShadowFilter::pcss: return pcss_shadow(view, p, s.light_radius, detail::turn_of(at));
+    case ShadowFilter::vsm: return chebyshev_shadow(view, p);
+    case ShadowFilter::moments: return four_moment_shadow(view, p);
+  }
+  return R(1);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The body of light_arriving (shading/shadow.h). Compiled once, in shadow.cpp: shaders call it, and do not grow by it.
+#pragma once
+
+#include "shading/shadow.h"
+#include "shading/shadow_bias.h"
+#include "shading/shadow_filter.h"
+
+namespace halfspace {
+
+template <class R>
+R light_arriving(const Shadow& shadow, const ShadowReceiver<R>& at) {
+  R light(1);
+  MaskOf<R> open = light == R(1);
+  const float margin = filter_reach(shadow.settings);
+  for (const ShadowView& view : shadow.views) {
+    const ShadowPlace<R> p = biased_place(view, shadow.settings, at);
+    const MaskOf<R> here = open && holds(view, p, margin);
+    if (none(here)) continue;
+    light = select(here, filtered_shadow(view, shadow.settings, p, at), light);
+    open = open && !here;
+    if (none(open)) break;
+  }
+  return light;
+}
+
+}  // namespace halfspace

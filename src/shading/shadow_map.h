@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a light sees: the depth of the nearest surface, on a grid of texels, and how a point of the world is found on it.
+//
+//   receiver (point, normal) ─ shadow_view.h: the view that holds it → place: texel, depth, slope of its plane
+//                            ─ shadow_bias.h: the same place, moved so that a surface does not shade itself
+//                            ─ shadow_filter.h: share of the light that arrives
+//
+// Depth is reversed (1 nearest to the light, 0 farthest, cleared to 0), so where nothing was drawn nothing shades.
+// L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/image.h"
+#include "core/vec.h"
+
+namespace halfspace {
+
+/// How the light that arrives is found from the map. docs/shadows.md tells what each costs and how wrong it is.
+enum class ShadowFilter : uint8_t {
+  hard,      ///< the nearest texel
+  bilinear,  ///< four texels, compared and then mixed
+  pcf3,      ///< the mean over a square of 3 x 3 texels round the point (Reeves, Salesin and Cook, SIGGRAPH 1987)
+  pcf5,
+  pcf7,
+  vogel,   ///< 16 texels on a sunflower's disk, turned by pixel
+  pcss,    ///< a disk as wide as the penumbra (Fernando, "Percentage-closer soft shadows", SIGGRAPH sketches 2005)
+  vsm,     ///< two filtered moments and Chebyshev's bound (Donnelly and Lauritzen, I3D 2006)
+  moments  ///< four filtered moments (Peters and Klein, "Moment shadow mapping", I3D 2015)
+};
+
+/// How a point is kept from lying in its own shadow.
+enum class ShadowBias : uint8_t {
+  none,
+  constant,        ///< towards the light by a number of texels
+  slope,           ///< and by the depth that a texel spans on the surface
+  angle,           ///< by the angle between normal and light, as the Earth's original
+  normal_offset,   ///< along the normal
+  receiver_plane,  ///< each texel is compared with the triangle's plane at its middle
+  adaptive,        ///< the same with the shading normal's plane, and a distance of its own (Dou et al., JCGT 3(4), 2014)
+  automatic,       ///< what was measured best: docs/shadows.md
+  original         ///< 0.0005 of the depth range, as the day and night's original
+};
+
+/// The widest penumbra that pcss looks for, and the bias of `automatic`; texels.
+inline constexpr float kMaxPenumbra = 64.0f;
+inline constexpr float kAutomaticOffset = 0.5f, kAutomaticConstant = 0.1f;
+
+/// How a shadow is looked up; the same for all views of a light.
+struct ShadowSettings {
+  ShadowFilter filter = ShadowFilter::pcf3;
+  ShadowBias bias = ShadowBias::automatic;
+  float constant = 1.0f;    ///< texels
+  float slope = 1.0f;       ///< factor of the depth that a texel spans
+  float max_slope = 16.0f;  ///< largest tangent of the light's angle that is believed
+  float radius = 2.0f;      ///< texels; of vogel's disk and of the moments' filter
+  /// Half the light's width: the tangent of half its angle (directional), or its radius in world units (point, spot). For pcss.
+  float light_radius = 0.0f;
+};
+
+/// One picture taken from a light. Positions come with the world's axes and the eye as origin (_ew, see Light).
+struct ShadowView {
+  glm::mat4 clip_from_ew{1.0f};        ///< clip depth in [0, w], reversed
+  glm::mat4 clip_plane_from_ew{1.0f};  ///< its inverse transpose: takes planes where the other takes points
+  float texel_per_w = 1.0f;            ///< world width of a texel where clip w is 1; it grows with w
+  float depth_per_unit = 1.0f;         ///< window depth per world unit along the view's axis where w is 1; it falls with w²
+  bool perspective = false;            ///< w is the distance along the axis, in units; else w is 1
+  float near = 0.0f, far = 1.0f;       ///< units along the axis from the light
+  int size = 0;                        ///< texels a side
+  const float* depth = nullptr;        ///< size² reversed window depths, top row first; not owned
+  const glm::vec4* moments = nullptr;  ///< size² filtered powers 1 to 4 of the linear depth (0 near, 1 far); for vsm and moments
+};
+
+/// The shadows of one light: one view, up to four cascades (finest first), or the six of a point light. A point that no view
+/// holds is lit.
+struct Shadow {
+  std::span<const ShadowView> views;  ///< not owned; empty: the light casts none
+  ShadowSettings settings;
+};
+
+/// What is asked: a point on a surface. All unit vectors.
+template <class R>
+struct ShadowReceiver {
+  vec3<R> position_ew;
+  vec3<R> face_normal_ws;     ///< of the triangle, on the side of the light
+  vec3<R> shading_normal_ws;  ///< as the light is computed with
+  vec3<R> to_light_ws;
+  R x_px, y_px;  ///< window coordinates; turn vogel's and pcss's disk
+};
+
+}  // namespace halfspace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where a point lies on a shadow map.
+#pragma once
+
+#include "core/lane_math.h"
+#include "shading/shadow_map.h"
+
+namespace halfspace {
+
+/// A point on a view. Texel coordinates count from the lower left corner; texel i spans [i, i + 1].
+template <class R>
+struct ShadowPlace {
+  R x, y;                ///< texels
+  R depth;               ///< reversed window depth
+  R w;                   ///< clip w: distance along the axis, or 1
+  R depth_dx, depth_dy;  ///< change of depth per texel on the plane that the texels are compared with; 0: no plane
+};
+
+/// The window depth that one texel's width spans along the view's axis, at clip w. (z = a/w + b in perspective.)
+template <class R>
+HS_INLINE R depth_of_texel(const ShadowView& view, R w) {
+  return R(view.texel_per_w * view.depth_per_unit) / w;
+}
+
+template <class R>
+HS_INLINE ShadowPlace<R> place_on(const ShadowView& view, const vec3<R>& position_ew) {
+  const vec4<R> p = view.clip_from_ew * vec4<R>(position_ew, R(1));
+  const R inverse = R(1) / p.w;
+  const R half(0.5f * static_cast<float>(view.size));
+  return {fma(p.x * inverse, half, half), fma(p.y * inverse, half, half), p.z * inverse, p.w, R(0), R(0)};
+}
+
+/// Does the view show the point, with `margin` texels of picture around it?
+template <class R>
+HS_INLINE MaskOf<R> holds(const ShadowView& view, const ShadowPlace<R>& p, float margin) {
+  const R low(margin), high(static_cast<float>(view.size) - margin);
+  return p.w > R(0) && p.x >= low && p.x <= high && p.y >= low && p.y <= high && p.depth <= R(1);
+}
+
+/// Gives the place the plane through position_ew with the given normal. A plane stays one in window space, so the slope is
+/// the same at every texel. Slopes beyond max_slope texels of depth per texel are held to it.
+template <class R>
+HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_ew, const vec3<R>& normal_ws, float max_slope, ShadowPlace<R>& p) {
+  const vec4<R> plane = view.clip_plane_from_ew * vec4<R>(normal_ws, -dot(normal_ws, position_ew));
+  const R per_texel(2.0f / static_cast<float>(view.size));
+  const R limit = depth_of_texel(view, p.w) * R(max_slope);
+  const R scale = select(plane.z != R(0), -per_texel / plane.z, R(0));
+  p.depth_dx = clamp(plane.x * scale, -limit, limit);
+  p.depth_dy = clamp(plane.y * scale, -limit, limit);
+}
+
+/// Depth of texel (i, j); beyond the map's edge that of the nearest texel.
+template <class R>
+HS_INLINE R map_depth(const ShadowView& view, IntOf<R> i, IntOf<R> j) {
+  const IntOf<R> last(view.size - 1);
+  const IntOf<R> column = min(max(i, IntOf<R>(0)), last), row = last - min(max(j, IntOf<R>(0)), last);
+  return R(gather(view.depth, IntOf<R>(row * IntOf<R>(view.size) + column)));
+}
+
+/// 1 where the light reaches the place as far as texel (i, j) tells, else 0.
+template <class R>
+HS_INLINE R lit_by_texel(const ShadowView& view, const ShadowPlace<R>& p, IntOf<R> i, IntOf<R> j) {
+  const R dx = to_real<R>(i) + R(0.5f) - p.x, dy = to_real<R>(j) + R(0.5f) - p.y;
+  const R depth = fma(p.depth_dy, dy, fma(p.depth_dx, dx, p.depth));
+  return select(depth >= map_depth<R>(view, i, j), R(1), R(0));
+}
+
+}  // namespace halfspace

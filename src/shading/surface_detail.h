@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Normals by pixel, finer than the vertices': from a normal map, from a map of heights, from the slopes of a displaced sphere.
+// All results have any length; where a map says nothing, they are the normal that went in.
+#pragma once
+
+#include "shading/lit_surface.h"
+#include "shading/pixel.h"
+
+namespace halfspace {
+
+/// A normal map in tangent space: x along the tangent, y along the bitangent, which points where the map's image goes up,
+/// each coded as 2c − 1 (as in glTF 2.0). n_ws and tangent_ws are used as they were interpolated, not made unit vectors
+/// (the convention of M. Mikkelsen's MikkTSpace, which tools that bake such maps go by); `side` is ±1, mirroring included.
+template <class R>
+HS_INLINE vec3<R> normal_from_map(const DetailMap& detail, const MapPlace<R>& at, const vec3<R>& n_ws, const vec3<R>& tangent_ws, R side) {
+  const vec3<R> code(detail.map->sample(detail.sampler, at.uv, at.duv_dx, at.duv_dy));
+  const R tilt(2.0f * detail.strength), up(detail.flip_green ? -2.0f * detail.strength : 2.0f * detail.strength);
+  const R x = (code.x - R(0.5f)) * tilt, y = (code.y - R(0.5f)) * up, z = max(R(2) * code.z - R(1), R(0));
+  const vec3<R> n = tangent_ws * x + cross(n_ws, tangent_ws) * (side * y) + n_ws * z;
+  return select(dot(n, n) > R(0), n, n_ws);
+}
+
+/// The change of height along a step to the right and up.
+template <class R>
+struct HeightSteps {
+  R right, up;
+};
+
+/// From a map that holds (∂h/∂u, ∂h/∂v): the slope of the filtered heights.
+template <class R>
+HS_INLINE HeightSteps<R> height_steps(const DetailMap& detail, const MapPlace<R>& at) {
+  const vec4<R> slope = detail.map->sample(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
+  const R s(detail.strength);
+  return {s * fma(slope.x, at.duv_dx.x, slope.y * at.duv_dx.y), s * fma(slope.x, at.duv_dy.x, slope.y * at.duv_dy.y)};
+}
+
+/// From a map that holds h: differences within the 2x2 quad, as GLSL's dFdx and dFdy take them. All four pixels have one
+/// value, which shows as blocks. uv_of tells the coordinates of varyings.
+template <class V, class R, class F>
+HS_INLINE HeightSteps<R> height_differences(const DetailMap& detail, const Pixel<R>& px, const MapPlace<R>& at, const F& uv_of) {
+  std::array<R, 3> h;
+  for (int k = 0; k < 3; ++k) {
+    const vec2<R> uv = uv_of(px.template at_quad<V>(k & 1, k >> 1));
+    h[static_cast<std::size_t>(k)] = detail.map->sample(detail.sampler, uv, at.duv_dx, at.duv_dy).x;
+  }
+  const R s(detail.strength);
+  return {s * (h[1] - h[0]), s * (h[2] - h[0])};
+}
+
+/// The normal of a surface that heights raise along its unit normal n, where steps to the right and up move the position by
+/// dp_dx and dp_dy: n − ∇h, with the gradient within the surface
+///
+///   ∇h = (h_x · (p_y × n) + h_y · (n × p_x)) / (p_x · (p_y × n))
+///
+/// M. Mikkelsen, "Bump mapping unparametrized surfaces on the GPU", 2010. A surface seen edge-on keeps n.
+template <class R>
+HS_INLINE vec3<R> normal_from_heights(const vec3<R>& n, const HeightSteps<R>& h, const vec3<R>& dp_dx, const vec3<R>& dp_dy) {
+  const vec3<R> right = cross(dp_dy, n), up = cross(n, dp_dx);
+  const R determinant = dot(dp_dx, right);
+  const R inverse = select(determinant == R(0), R(0), R(1) / determinant);
+  return n - (right * h.right + up * h.up) * inverse;
+}
+
+/// The displaced sphere's normal where the sphere's unit normal is n, y towards the north pole, and slope is
+/// (∂g/∂east, ∂g/∂north, 1 + g/r): n·(1 + g/r) − east·∂g/∂east − north·∂g/∂north (scene/height_field.h derives it). At the
+/// poles themselves, which have no east, n.
+template <class R>
+HS_INLINE vec3<R> normal_from_slopes(const vec3<R>& n, const vec3<R>& slope) {
+  const R ring = sqrt(fma(n.x, n.x, n.z * n.z));
+  const R inverse = select(ring > R(0), R(1) / ring, R(0));
+  const vec3<R> east(n.z * inverse, R(0), -n.x * inverse);
+  const vec3<R> north(-n.y * n.x * inverse, ring, -n.y * n.z * inverse);
+  return n * slope.z - east * slope.x - north * slope.y;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light that is encoded twice: must not compile, and the message must name: Encoded.
+#include "shading/tone.h"
+
+using namespace halfspace;
+
+auto codes(const DisplayLight<float>& light) { return encode_srgb(encode_srgb(light)); }

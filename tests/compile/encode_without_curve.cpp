@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of a scene that is encoded without a tone curve: must not compile, and the message must name: SceneLight.
+#include "shading/tone.h"
+
+using namespace halfspace;
+
+auto codes(const SceneLight<float>& light) { return encode_srgb(light); }

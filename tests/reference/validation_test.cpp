@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shadow maps against rays, on small pictures of the shipped scenes.
+#include "reference/validation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+#include "scene/scene_file.h"
+
+namespace halfspace {
+namespace {
+
+const Workers& workers() {
+  static const Workers team(2);
+  return team;
+}
+
+Validation validated(const std::string& name, const std::vector<std::string>& settings, int width = 240, int height = 135) {
+  SceneFile scene = SceneFile::open(name);
+  scene.set(settings);
+  SceneAssets assets(workers());
+  return validate(name, scene.at(0.0), {width, height, 64}, assets, workers());
+}
+
+ShadowScore score(const std::vector<std::string>& settings) { return validated("shadow-plane", settings).lights.at(0).score; }
+
+TEST(Validation, TrianglesSeenAreThoseThatRaysSee) {
+  const VisibilityScore v = validated("shadow-plane", {}).visibility;
+  EXPECT_GT(v.pixels, 10000);
+  EXPECT_EQ(v.unexplained, 0);
+  EXPECT_EQ(v.pixels, v.same + v.near_edge + v.depth_tie);
+  // Triangles of the sphere are some 2 px wide there: a point lies within 1/256 px of an edge with a probability of about 1 %.
+  EXPECT_LT(static_cast<double>(v.near_edge + v.depth_tie), 0.01 * static_cast<double>(v.pixels));
+}
+
+TEST(Validation, AutomaticBiasIsRightBeyondATexelOfTheEdge) {
+  const ShadowScore s = score({});
+  EXPECT_GT(s.lit, 5000);
+  EXPECT_GT(s.shadowed, 1000);
+  EXPECT_LE(s.false_shadow.from_1_to_3 + s.false_shadow.beyond_3, 1e-4);  // what the project promises of its scenes
+  EXPECT_LE(s.false_light.from_1_to_3 + s.false_light.beyond_3, 1e-3);
+  EXPECT_LT(s.edge_px.mean, 0.5);
+}
+
+TEST(Validation, WithoutABiasItIsAcneAndTooMuchIsLeak) {
+  const ShadowScore none = score({"shadow.bias=none", "shadow.method=hard"});
+  EXPECT_GT(none.false_shadow.beyond_3, 0.1);
+  const ShadowScore much = score({"shadow.bias=constant", "shadow.constant=400", "shadow.method=hard"});
+  EXPECT_GT(much.false_light.from_1_to_3 + much.false_light.beyond_3, 0.01);
+  EXPECT_LT(much.false_shadow.beyond_3, 1e-3);
+}
+
+TEST(Validation, WithoutAMethodNothingIsShadedAndNoMapIsMade) {
+  const Validation v = validated("shadow-plane", {"shadow.method=none"});
+  EXPECT_EQ(v.lights.at(0).score.resolution, 0);
+  EXPECT_GT(v.lights[0].score.false_light.within_1 + v.lights[0].score.false_light.from_1_to_3 + v.lights[0].score.false_light.beyond_3,
+            0.1);
+}
+
+// A ball of radius 1 high over a plane under a light straight above: the shadow is a disk, and of a light that spans an angle the
+// penumbra is a ring whose light follows from the areas of two disks.
+TEST(LightTruth, PenumbraOfAnEdgeIsTheAreaOfACutDisk) {
+  // A half plane at height 2 over the ground: light at x is the part of the disk beyond the edge.
+  Mesh edge;
+  edge.positions = {{-50, 2, -50}, {0, 2, -50}, {0, 2, 50}, {-50, 2, 50}};
+  edge.indices = {0, 2, 1, 0, 3, 2};
+  const std::vector<PlacedMesh> meshes{
+      {"edge", &edge, std::make_shared<const Indices>(edge.indices, edge.positions.size()), glm::dmat4(1.0), true, true, true}};
+  const RayScene casters(meshes, glm::dvec3(0.0), true);
+  RayLight light{{}, 0.05, 4096};
+  light.light.place_ew = {0, 1, 0};
+  for (double x = -0.12; x <= 0.12; x += 0.02) {
+    const LightTruth t = light_truth(casters, light, {x, 0, 0}, {0, 1, 0}, 1);
+    const double c = std::clamp(x / 0.1, -1.0, 1.0);
+    const double expected = 0.5 + (c * std::sqrt(1 - c * c) + std::asin(c)) / std::numbers::pi;
+    EXPECT_NEAR(t.share, expected, 3.0 * std::max(1e-3, static_cast<double>(t.standard_error))) << x;
+  }
+}
+
+TEST(Validation, ReportsAreWhatTheyShouldBe) {
+  const Validation v = validated("shadow-plane", {}, 64, 36);
+  const Json rows = Json::parse(json_report(v));
+  ASSERT_EQ(rows.size(), 1u);
+  for (const char* key :
+       {"scene", "light", "method", "bias", "resolution", "false_shadow", "false_light", "edge_px", "map_ms", "lookup_ms"})
+    EXPECT_TRUE(rows[0].contains(key)) << key;
+  EXPECT_EQ(rows[0]["bias"], "auto");
+  EXPECT_EQ(rows[0]["resolution"], 2048);
+  EXPECT_NE(text_report(v).find("unexplained"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// No more than needed: what a scene's fragments cost, as a table, counted by a naive twin whose number type counts texture
+// look-ups and lights.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/parallel.h"
+#include "scene/prepared_scene.h"
+#include "scene/scene_file.h"
+
+namespace halfspace {
+
+// What stands for R in the counting twin: a double.
+struct Counted {
+  double value;
+
+  Counted() = default;
+  Counted(double v) : value(v) {}
+  Counted(float v) : value(static_cast<double>(v)) {}
+  Counted(int v) : value(v) {}
+  explicit Counted(int64_t v) : value(static_cast<double>(v)) {}
+  explicit operator double() const { return value; }
+
+  friend Counted operator+(Counted a, Counted b) { return a.value + b.value; }
+  friend Counted operator-(Counted a, Counted b) { return a.value - b.value; }
+  friend Counted operator*(Counted a, Counted b) { return a.value * b.value; }
+  friend Counted operator/(Counted a, Counted b) { return a.value / b.value; }
+  friend Counted operator-(Counted a) { return -a.value; }
+  Counted& operator+=(Counted b) { return *this = *this + b; }
+  Counted& operator-=(Counted b) { return *this = *this - b; }
+  Counted& operator*=(Counted b) { return *this = *this * b; }
+  Counted& operator/=(Counted b) { return *this = *this / b; }
+  friend bool operator<(Counted a, Counted b) { return a.value < b.value; }
+  friend bool operator>(Counted a, Counted b) { return a.value > b.value; }
+  friend bool operator<=(Counted a, Counted b) { return a.value <= b.value; }
+  friend bool operator>=(Counted a, Counted b) { return a.value >= b.value; }
+  friend bool operator==(Counted a, Counted b) { return a.value == b.value; }
+  friend bool operator!=(Counted a, Counted b) { return a.value != b.value; }
+};
+
+template <>
+inline constexpr bool kIsLanes<Counted> = true;  // "a type of its own that stands for R"
+template <>
+struct LaneTraits<Counted> : LaneTraits<float> {};
+
+inline Counted select(bool m, Counted a, Counted b) { return m ? a : b; }
+inline Counted sqrt(Counted a) { return std::sqrt(a.value); }
+inline Counted floor(Counted a) { return std::floor(a.value); }
+inline Counted fma(Counted a, Counted b, Counted c) { return std::fma(a.value, b.value, c.value); }
+inline Counted min(Counted a, Counted b) { return a < b ? a : b; }
+inline Counted max(Counted a, Counted b) { return a > b ? a : b; }
+inline Counted pow(Counted a, Counted b) { return pow(a.value, b.value); }
+
+}  // namespace halfspace
+
+template <>
+struct std::numeric_limits<halfspace::Counted> : std::numeric_limits<double> {};
+
+#include "raster/naive.h"
+
+namespace halfspace {
+
+namespace {
+
+// Of one stage: how often it ran, and what it did.
+struct Stage {
+  int runs = 0, fetches = 0, lights = 0, shadows = 0;
+  double fetches_each() const { return static_cast<double>(fetches) / runs; }
+  double lights_each() const { return static_cast<double>(lights) / runs; }
+};
+struct Counts {
+  Stage vertex, primitive, fragment;
+  Stage* now = nullptr;
+};
+Counts counts;
+
+}  // namespace
+
+template <>
+vec4<Counted> Texture2D::sample<Counted>(const Sampler& sampler, const vec2<Counted>& uv, const vec2<Counted>& duv_dx,
+                                         const vec2<Counted>& duv_dy) const {
+  ++counts.now->fetches;
+  const auto plain = [](const vec2<Counted>& v) { return vec2<double>(v.x.value, v.y.value); };
+  const vec4<double> c = sample<double>(sampler, plain(uv), plain(duv_dx), plain(duv_dy));
+  return {c.x, c.y, c.z, c.w};
+}
+
+template <>
+Counted light_arriving<Counted>(const Shadow&, const ShadowReceiver<Counted>&) {
+  ++counts.now->shadows;
+  return 1;
+}
+
+template <>
+Arriving<Counted> light_at<Counted>(const Light& light, const vec3<Counted>& position_ew) {
+  ++counts.now->lights;
+  const Arriving<double> a = light_at<double>(light, {position_ew.x.value, position_ew.y.value, position_ew.z.value});
+  return {{a.l_ws.x, a.l_ws.y, a.l_ws.z}, a.strength};
+}
+
+namespace {
+
+// S, telling what stage runs.
+template <class S>
+struct Counting : S {
+  template <class R>
+  using V = typename S::template Varyings<R>;
+
+  template <class R>
+  vec4<R> vertex(const typename S::template Attributes<R>& in, V<R>& out) const {
+    enter(counts.vertex);
+    return S::vertex(in, out);
+  }
+  template <class R>
+  requires HasPrimitive<S>
+  typename S::template Primitive<R> primitive(const V<R>& v0, const V<R>& v1, const V<R>& v2) const {
+    enter(counts.primitive);
+    return S::primitive(v0, v1, v2);
+  }
+  template <class R>
+  requires(!HasPrimitive<S>) Fragment<R> fragment(const V<R>& in, const Pixel<R>& px)
+  const {
+    enter(counts.fragment);
+    return S::fragment(in, px);
+  }
+  template <class R>
+  requires HasPrimitive<S> Fragment<R> fragment(const V<R>& in, const PrimitiveOf<S, R>& face, const Pixel<R>& px)
+  const {
+    enter(counts.fragment);
+    return S::fragment(in, face, px);
+  }
+
+ private:
+  static void enter(Stage& stage) {
+    counts.now = &stage;
+    ++stage.runs;
+  }
+};
+
+// Varyings that are interpolated: flat ones cost a fragment nothing.
+template <class S>
+int interpolated() {
+  int n = 0;
+  for (const Interpolation i : kInterpolations<typename S::template Varyings<float>>) n += i != Interpolation::flat;
+  return n;
+}
+
+struct Cost {
+  double fetches, lights, vertex_lights, face_lights;
+  std::set<int> varyings;  // of the scene's draws
+};
+
+Cost cost_of(const char* scene_name, const std::vector<std::string>& settings) {
+  constexpr int kWidth = 96, kHeight = 54;
+  SceneFile file = SceneFile::open(scene_name);
+  file.set(settings);
+  const Workers workers(1);
+  SceneAssets assets(workers);
+  const PreparedScene scene = assets.prepare(file.description(), kWidth, kHeight);
+  counts = {};
+  Cost cost{};
+  NaiveTarget<Counted> target(kWidth, kHeight, vec4<Counted>(Counted(0)), Counted(0));
+  for (const PreparedDraw& draw : scene.draws) {
+    std::visit(
+        [&]<class S>(const S& shader) {
+          if constexpr (std::is_base_of_v<LitSurface, S>) {
+            draw_naive(target, Counting<S>{shader}, draw.vertices, *draw.indices, draw.state);
+            cost.varyings.insert(interpolated<S>());
+          }
+        },
+        draw.shader);
+  }
+  EXPECT_GT(counts.fragment.runs, 1000);
+  cost.fetches = counts.fragment.fetches_each();
+  cost.lights = counts.fragment.lights_each();
+  cost.vertex_lights = counts.vertex.lights_each();
+  cost.face_lights = counts.primitive.runs == 0 ? 0 : counts.primitive.lights_each();
+  EXPECT_EQ(counts.vertex.fetches + counts.primitive.fetches, 0) << "maps are read by pixel";
+  EXPECT_EQ(counts.vertex.shadows + counts.primitive.shadows + counts.fragment.shadows, 0) << "none of these scenes has shadows";
+  return cost;
+}
+
+struct Row {
+  const char* scene;
+  std::vector<std::string> settings;
+  int fetches, varyings, lights;           // a fragment needs
+  int vertex_lights = 0, face_lights = 0;  // a vertex, a triangle
+};
+
+// position 3, normal 3, tangent 3, uv 2; light by vertex: diffuse 3, specular 3
+const std::vector<Row> kTable{
+    // the texture counts for colour and highlight, and is read once
+    {"three-lights", {}, 1, 8, 3},
+    // colour and normal map
+    {"earth", {}, 2, 11, 1},
+    // colour and slopes
+    {"earth", {"earth.normal=bump"}, 2, 8, 1},
+    // colour and three heights
+    {"earth", {"earth.normal=bump", "earth.bump_method=difference"}, 4, 8, 1},
+    {"earth", {"earth.normal=none"}, 1, 8, 1},
+    {"earth", {"earth.normal=none", "earth.textured=false"}, 0, 6, 1},
+    {"earth", {"earth.shading=gouraud"}, 1, 8, 0, 1},
+    {"earth", {"earth.shading=provoking"}, 1, 2, 0, 1},
+    {"earth", {"earth.shading=flat"}, 1, 2, 0, 0, 1},
+    {"earth", {"earth.shading=none"}, 1, 2, 0},
+    {"earth", {"earth.shading=none", "earth.textured=false"}, 0, 0, 0},
+    {"earth", {"earth.shading=gouraud", "earth.textured=false"}, 0, 3, 0, 1},
+    // colour and slopes of a displaced sphere, by its position
+    {"moon", {}, 2, 5, 1},
+};
+
+TEST(Cost, IsWhatTheSceneNeeds) {
+  for (const Row& row : kTable) {
+    std::string name = row.scene;
+    for (const std::string& s : row.settings) name += " " + s;
+    const Cost cost = cost_of(row.scene, row.settings);
+    EXPECT_EQ(cost.fetches, row.fetches) << name;
+    EXPECT_EQ(cost.varyings, std::set<int>{row.varyings}) << name;
+    EXPECT_EQ(cost.lights, row.lights) << name;
+    EXPECT_EQ(cost.vertex_lights, row.vertex_lights) << name;
+    EXPECT_EQ(cost.face_lights, row.face_lights) << name;
+  }
+}
+
+}  // namespace
+}  // namespace halfspace
