@@ -39,37 +39,41 @@ struct TileEdges {
   bool outside = false;  ///< no sample of the tile is inside
 };
 
-inline TileEdges tile_edges(const Draw& draw, const Triangle& t, const SampleGrid& grid, int tile_size) {
-  TileEdges r{};
-  if (t.is(kSprite)) return r;  // its bounds say all
-  const int64_t x = grid.x_sub(), y = grid.y_sub();
-  const bool small = t.is(kSmall);
+/// Edge i of r, with `offset` added to its function; shift: kSubPixelBits or, where all is small, 0.
+HS_INLINE void put_edge(const Edge& edge, int64_t offset, int32_t bias, int shift, const SampleGrid& grid, int tile_size, std::size_t i,
+                        TileEdges& r) {
   const int64_t last = tile_size - 1;
-  const bool cell = (grid.cell.x | grid.cell.y) != 0;
-  const auto put = [&](std::size_t i, const Edge& edge, int64_t offset, int32_t bias) {
-    const int64_t shift = small ? 0 : kSubPixelBits;
-    const int64_t step_x = -(int64_t{edge.ey} * kSubPixels) >> shift;
-    const int64_t step_y = (int64_t{edge.ex} * kSubPixels) >> shift;
-    r.bias[i] = bias;
-    const int64_t e = (edge.at(x, y) + offset - bias) >> shift;
-    int64_t corner = e;
-    if (cell) corner += step_x * grid.cell.x + step_y * grid.cell.y;
-    const int64_t low = corner + std::min<int64_t>(0, step_x * last) + std::min<int64_t>(0, step_y * last);
-    const int64_t high = corner + std::max<int64_t>(0, step_x * last) + std::max<int64_t>(0, step_y * last);
-    if (high < 0) r.outside = true;
-    const bool drop = low >= 0 && !small;
-    r.e[i] = drop || high < 0 ? 0 : static_cast<int32_t>(e);
-    r.step_x[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_x);
-    r.step_y[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_y);
-  };
-  if (t.is(kLine)) {
-    const std::array<BandEdge, 2> band = band_edges(t, line_pixels(draw.state.line_width));
-    for (std::size_t i = 0; i < 2; ++i) put(i, band[i].edge, band[i].offset, band[i].bias);
-    return r;
-  }
+  const int64_t step_x = -(int64_t{edge.ey} * kSubPixels) >> shift;
+  const int64_t step_y = (int64_t{edge.ex} * kSubPixels) >> shift;
+  r.bias[i] = bias;
+  const int64_t e = (edge.at(grid.x_sub(), grid.y_sub()) + offset - bias) >> shift;
+  int64_t corner = e;
+  if ((grid.cell.x | grid.cell.y) != 0) corner += step_x * grid.cell.x + step_y * grid.cell.y;
+  const int64_t low = corner + std::min<int64_t>(0, step_x * last) + std::min<int64_t>(0, step_y * last);
+  const int64_t high = corner + std::max<int64_t>(0, step_x * last) + std::max<int64_t>(0, step_y * last);
+  if (high < 0) r.outside = true;
+  const bool drop = low >= 0 && shift != 0;
+  r.e[i] = drop || high < 0 ? 0 : static_cast<int32_t>(e);
+  r.step_x[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_x);
+  r.step_y[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_y);
+}
+
+/// Of a point, whose bounds say all, or of a line.
+__attribute__((noinline)) inline TileEdges rare_edges(const Draw& draw, const Triangle& t, const SampleGrid& grid, int tile_size) {
+  TileEdges r{};
+  if (t.is(kSprite)) return r;
+  const std::array<BandEdge, 2> band = band_edges(t, line_pixels(draw.state.line_width));
+  for (std::size_t i = 0; i < 2; ++i) put_edge(band[i].edge, band[i].offset, band[i].bias, kSubPixelBits, grid, tile_size, i, r);
+  return r;
+}
+
+inline TileEdges tile_edges(const Draw& draw, const Triangle& t, const SampleGrid& grid, int tile_size) {
+  if (t.is(kSprite | kLine)) return rare_edges(draw, t, grid, tile_size);
+  TileEdges r;
+  const int shift = t.is(kSmall) ? 0 : kSubPixelBits;
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge edge = edge_of(t, i);
-    put(i, edge, 0, fill_bias(edge));
+    put_edge(edge, 0, fill_bias(edge), shift, grid, tile_size, i, r);
   }
   return r;
 }
