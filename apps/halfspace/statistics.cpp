@@ -14,7 +14,8 @@ struct Count {
   uint64_t PassStatistics::*member;
 };
 
-constexpr Count kCounts[] = {{"vertices_shaded", &PassStatistics::vertices_shaded},
+constexpr Count kCounts[] = {{"vertices_in", &PassStatistics::vertices_in},
+                             {"vertices_shaded", &PassStatistics::vertices_shaded},
                              {"primitives_in", &PassStatistics::primitives_in},
                              {"culled_non_finite", &PassStatistics::culled_non_finite},
                              {"culled_outside", &PassStatistics::culled_outside},
@@ -29,7 +30,8 @@ constexpr Count kCounts[] = {{"vertices_shaded", &PassStatistics::vertices_shade
                              {"fragments_shaded", &PassStatistics::fragments_shaded},
                              {"tiles_touched", &PassStatistics::tiles_touched},
                              {"flushes", &PassStatistics::flushes}};
-static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts), "a count is missing in this table");
+static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts) + sizeof(PassStatistics::queries),
+              "a count is missing in this table");
 
 }  // namespace
 

@@ -12,7 +12,13 @@ namespace {
 constexpr double kMinW = 0x1p-96;  // as the vertex stage's
 
 // Distance-like value of a point to each plane: inside where ≥ 0. In the order in which planes are met.
-double plane_distance(int plane, const Viewport& v, const DepthState& depth, const glm::dvec4& p) {
+double plane_distance(int plane, const Viewport& v, const DepthState& depth, const ClipDistances& user, const ClipCorner& corner) {
+  const glm::dvec4& p = corner.pos_clip;
+  if (plane >= kFixedPlanes) {
+    const auto of = [&](std::size_t i) { return static_cast<double>(user.vertex[i][plane - kFixedPlanes]); };
+    if (corner.vertex >= 0) return of(static_cast<std::size_t>(corner.vertex));
+    return corner.weights.x * of(0) + corner.weights.y * of(1) + corner.weights.z * of(2);
+  }
   switch (plane) {
     case 0: return p.w - kMinW;
     case 1: return depth.clip == ClipDepth::negative_one_to_one ? p.z + p.w : p.z;
@@ -43,11 +49,11 @@ ClipCorner cut_at_min_w(const ClipCorner& inside, const ClipCorner& outside) {
   return c;
 }
 
-void clip_plane(int plane, const Viewport& v, const DepthState& depth, ClipPolygon& polygon) {
+void clip_plane(int plane, const Viewport& v, const DepthState& depth, const ClipDistances& user, ClipPolygon& polygon) {
   std::array<double, kMaxCorners> d;
   bool all_inside = true;
   for (int i = 0; i < polygon.count; ++i) {
-    d[static_cast<std::size_t>(i)] = plane_distance(plane, v, depth, polygon.corners[static_cast<std::size_t>(i)].pos_clip);
+    d[static_cast<std::size_t>(i)] = plane_distance(plane, v, depth, user, polygon.corners[static_cast<std::size_t>(i)]);
     all_inside &= d[static_cast<std::size_t>(i)] >= 0;
   }
   if (all_inside) return;
@@ -80,19 +86,55 @@ int32_t snap(double ndc, float half, float center) {
 
 }  // namespace
 
-ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip) {
+namespace {
+
+ClipPolygon whole_polygon(const std::array<glm::vec4, 3>& pos_clip, int count) {
   ClipPolygon polygon;
-  polygon.count = 3;
-  for (std::size_t i = 0; i < 3; ++i) {
+  polygon.count = count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     polygon.corners[i] = {glm::dvec4(pos_clip[i]), glm::dvec3(i == 0, i == 1, i == 2), static_cast<int>(i)};
   }
-  for (int plane = 0; plane < kClipPlanes && polygon.count != 0; ++plane) {
+  return polygon;
+}
+
+// Calls f for every plane that counts.
+template <class F>
+void for_each_plane(const DepthState& depth, const ClipDistances& distances, F f) {
+  for (int plane = 0; plane < kFixedPlanes + distances.count; ++plane) {
     const bool near_or_far = plane == 1 || plane == 2;
     if (near_or_far && depth.clamp) continue;
-    clip_plane(plane, viewport, depth, polygon);
+    f(plane);
   }
+}
+
+}  // namespace
+
+ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip,
+                          const ClipDistances& distances) {
+  ClipPolygon polygon = whole_polygon(pos_clip, 3);
+  for_each_plane(depth, distances, [&](int plane) {
+    if (polygon.count != 0) clip_plane(plane, viewport, depth, distances, polygon);
+  });
   if (polygon.count < 3) polygon.count = 0;
   return polygon;
+}
+
+ClipPolygon clip_line(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip,
+                      const ClipDistances& distances) {
+  ClipPolygon line = whole_polygon(pos_clip, 2);
+  for_each_plane(depth, distances, [&](int plane) {
+    if (line.count == 0) return;
+    ClipCorner &a = line.corners[0], &b = line.corners[1];
+    const double da = plane_distance(plane, viewport, depth, distances, a), db = plane_distance(plane, viewport, depth, distances, b);
+    if (!(da >= 0) && !(db >= 0)) {
+      line.count = 0;
+    } else if (!(da >= 0)) {
+      a = plane == 0 ? cut_at_min_w(b, a) : cut(b, db, a, da);
+    } else if (!(db >= 0)) {
+      b = plane == 0 ? cut_at_min_w(a, b) : cut(a, da, b, db);
+    }
+  });
+  return line;
 }
 
 ScreenVertex project_corner(const Viewport& v, const glm::dvec4& p) {

@@ -16,10 +16,11 @@
 namespace halfspace {
 
 /// A triangle cut by n planes has at most 3 + n corners in exact arithmetic; rounding can bend an edge, and cut it twice.
-inline constexpr int kClipPlanes = 7;
+inline constexpr int kFixedPlanes = 7;
+inline constexpr int kClipPlanes = kFixedPlanes + 8;
 inline constexpr int kMaxCorners = 3 + 2 * kClipPlanes;
-/// Triangles of the fan that a clipped triangle becomes, at the most.
-inline constexpr int kMaxPieces = kMaxCorners - 2;
+/// Corners of what is left of a triangle cut by the fixed planes and that many clip distances.
+constexpr int most_corners(int clip_distances) { return 3 + 2 * (kFixedPlanes + clip_distances); }
 
 struct ClipCorner {
   glm::dvec4 pos_clip;
@@ -32,8 +33,19 @@ struct ClipPolygon {
   int count = 0;  ///< 0: nothing is left
 };
 
+/// The clip distances of a primitive's vertices: `count` of each.
+struct ClipDistances {
+  std::array<const float*, 3> vertex{};
+  int count = 0;
+};
+
 /// pos_clip finite. The polygon keeps the triangle's orientation.
-ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip);
+ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip,
+                          const ClipDistances& distances = {});
+
+/// The same of a line between the first two vertices: two corners, or none.
+ClipPolygon clip_line(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip,
+                      const ClipDistances& distances);
 
 /// The corner in window coordinates, snapped. Like a vertex's, its depth (and its varyings) stay those of the place before
 /// snapping, at most 1/512 px away in x and in y.

@@ -4,8 +4,11 @@
 // test, which is on). Nothing here is global; every draw carries its own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+
+#include <glm/glm.hpp>
 
 namespace halfspace {
 
@@ -22,6 +25,18 @@ constexpr Rect intersect(const Rect& a, const Rect& b) {
   const int y1 = a.y + a.height < b.y + b.height ? a.y + a.height : b.y + b.height;
   return {x0, y0, x1 - x0, y1 - y0};
 }
+
+/// How indices make primitives (OpenGL 4.6, section 10.1). Of a strip every other triangle has its first two vertices swapped,
+/// so that all face one way.
+enum class Topology : uint8_t { triangles, triangle_strip, triangle_fan, points, lines, line_strip, line_loop };
+constexpr bool is_lines(Topology t) { return t == Topology::lines || t == Topology::line_strip || t == Topology::line_loop; }
+
+/// What is drawn of a triangle: its inside, its outline or its vertices (glPolygonMode). The outline of a triangle that is clipped is
+/// that of what is left of it.
+enum class PolygonMode : uint8_t { fill, line, point };
+
+/// Where a point's coordinate (0, 0) lies (GL_POINT_SPRITE_COORD_ORIGIN).
+enum class PointOrigin : uint8_t { upper_left, lower_left };
 
 enum class CompareOp : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class CullMode : uint8_t { none, front, back, front_and_back };
@@ -48,7 +63,7 @@ struct DepthState {
   float range_far = 1.0f;
 };
 
-/// Polygon offset, added to a triangle's window depth: o = slope·m + constant·r, then clamped (OpenGL 4.6, section
+/// Polygon offset, added to a filled triangle's window depth: o = slope·m + constant·r, then clamped (OpenGL 4.6, section
 /// 14.6.5), with m = max(|dz/dx|, |dz/dy|) and r the smallest step of the depth format (for D32F 2^(e−23), e the
 /// exponent of the largest |z| of the triangle). Positive moves away from the eye under the OpenGL convention and
 /// towards it under reversed Z.
@@ -68,20 +83,72 @@ enum class BlendFactor : uint8_t {
   src_alpha,
   one_minus_src_alpha,
   dst_alpha,
-  one_minus_dst_alpha
+  one_minus_dst_alpha,
+  constant_color,
+  one_minus_constant_color,
+  constant_alpha,
+  one_minus_constant_alpha,
+  src_alpha_saturate,
+  src1_color,  ///< this and the next three: of the fragment function's second colour (dual source blending)
+  one_minus_src1_color,
+  src1_alpha,
+  one_minus_src1_alpha
 };
 enum class BlendEquation : uint8_t { add, subtract, reverse_subtract, min, max };
 
-/// result = src·source + dst·destination, channel by channel (OpenGL 4.6, section 17.3.6). Alpha has its own factors.
+/// result = src·source + dst·destination, channel by channel (OpenGL 4.6, section 17.3.6). Alpha has its own factors. Colours
+/// are linear: what is stored as sRGB is decoded first.
 struct BlendState {
   BlendEquation color_equation = BlendEquation::add;
   BlendFactor source_color = BlendFactor::src_alpha, destination_color = BlendFactor::one_minus_src_alpha;
   BlendEquation alpha_equation = BlendEquation::add;
   BlendFactor source_alpha = BlendFactor::one, destination_alpha = BlendFactor::one_minus_src_alpha;
+  glm::vec4 constant = glm::vec4(0.0f);  ///< glBlendColor
+};
+
+/// Which channels are written.
+struct ColorMask {
+  bool r = true, g = true, b = true, a = true;
+  bool all() const { return r && g && b && a; }
+  bool operator[](int k) const { return k == 0 ? r : k == 1 ? g : k == 2 ? b : a; }
+};
+
+/// Colour attachments of a pass, at the most.
+inline constexpr int kMaxColorTargets = 4;
+
+/// How one colour attachment takes a fragment's colour.
+struct AttachmentState {
+  std::optional<BlendState> blend{};  ///< default: replace
+  ColorMask mask{};
+};
+
+enum class StencilOp : uint8_t { keep, zero, replace, increment_clamp, decrement_clamp, invert, increment_wrap, decrement_wrap };
+
+/// The stencil test of one face (OpenGL 4.6, section 17.3.3): passes where (reference & read_mask) compares as asked with
+/// (stored & read_mask).
+struct StencilFace {
+  CompareOp compare = CompareOp::always;
+  StencilOp fail = StencilOp::keep;        ///< done where the stencil test fails
+  StencilOp depth_fail = StencilOp::keep;  ///< where it passes and the depth test fails
+  StencilOp pass = StencilOp::keep;        ///< where both pass
+  uint8_t reference = 0;
+  uint8_t read_mask = 0xff;
+  uint8_t write_mask = 0xff;
+};
+/// Points and lines are front faces.
+struct StencilState {
+  StencilFace front{}, back{};
 };
 
 /// Everything that a draw sets besides its shader and vertices.
 struct DrawState {
+  Topology topology = Topology::triangles;
+  int32_t base_vertex = 0;  ///< added to every index
+  uint32_t instances = 1;   ///< the draw is repeated this many times; see VertexId and per_instance()
+  float point_size = 1.0f;  ///< px, where the vertex function gives none: the side of the square that a point covers
+  PointOrigin point_origin = PointOrigin::upper_left;
+  float line_width = 1.0f;  ///< px, at most 4096; with one sample a pixel the nearest whole number, with several a rectangle
+  PolygonMode polygon_mode = PolygonMode::fill;
   std::optional<Rect> viewport{};  ///< default: the whole target
   std::optional<Rect> scissor{};   ///< default: no scissor test
   CullMode cull = CullMode::none;
@@ -89,7 +156,19 @@ struct DrawState {
   ProvokingVertex provoking = ProvokingVertex::last;
   DepthState depth{};
   DepthOffset offset{};
-  std::optional<BlendState> blend{};  ///< default: replace
+  std::optional<StencilState> stencil{};  ///< default: no stencil test
+  bool sample_shading = false;            ///< the fragment function runs for every sample, at its place, not for every pixel
+  bool alpha_to_coverage = false;         ///< with several samples: the first colour's alpha says how many of them are drawn
+  uint32_t sample_mask = 0xffffffffu;     ///< with several samples: those that may be drawn, as bits
+  std::optional<BlendState> blend{};      ///< default: replace
+  ColorMask color_mask{};
+  std::array<std::optional<AttachmentState>, kMaxColorTargets> attachments{};  ///< where given, instead of blend and color_mask
+  std::optional<uint32_t> query{};  ///< an occlusion query: samples that pass are counted in PassStatistics::queries[query]
 };
+
+/// Are there points among what is drawn?
+constexpr bool draws_points(const DrawState& s) {
+  return s.topology == Topology::points || (!is_lines(s.topology) && s.polygon_mode == PolygonMode::point);
+}
 
 }  // namespace halfspace

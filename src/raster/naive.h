@@ -50,7 +50,7 @@ Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t i
       in[c++] = static_cast<R>(stream.data[index * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)]);
   }
   Vertex<R, V> v{};
-  v.pos_clip = shader.vertex(from_components<A, R>(in), v.varyings);
+  v.pos_clip = call_vertex<S, R>(shader, from_components<A, R>(in), {static_cast<int32_t>(index), 0}, v.varyings);
   return v;
 }
 

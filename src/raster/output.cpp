@@ -45,19 +45,38 @@ void store_halves(uint16_t* p, Int h, uint32_t lanes) {
   }
 }
 
-Real factor(BlendFactor f, const PacketColor& src, const PacketColor& dst, std::size_t k) {
+// What the factors are made of. Of fixed-point targets the last two are still to be clamped.
+struct BlendSources {
+  const PacketColor &src, &dst, &src1;
+  const glm::vec4& constant;
+  bool fixed_point;
+
+  Real held(Real x) const { return fixed_point ? clamp(x, Real(0.0f), Real(1.0f)) : x; }
+};
+
+Real factor(BlendFactor f, const BlendSources& s, std::size_t k) {
   const Real one(1.0f);
+  const auto constant = [&](std::size_t i) { return s.held(Real(s.constant[static_cast<int>(i)])); };
   switch (f) {
     case BlendFactor::zero: return Real(0.0f);
     case BlendFactor::one: return one;
-    case BlendFactor::src_color: return src[k];
-    case BlendFactor::one_minus_src_color: return one - src[k];
-    case BlendFactor::dst_color: return dst[k];
-    case BlendFactor::one_minus_dst_color: return one - dst[k];
-    case BlendFactor::src_alpha: return src[3];
-    case BlendFactor::one_minus_src_alpha: return one - src[3];
-    case BlendFactor::dst_alpha: return dst[3];
-    case BlendFactor::one_minus_dst_alpha: return one - dst[3];
+    case BlendFactor::src_color: return s.src[k];
+    case BlendFactor::one_minus_src_color: return one - s.src[k];
+    case BlendFactor::dst_color: return s.dst[k];
+    case BlendFactor::one_minus_dst_color: return one - s.dst[k];
+    case BlendFactor::src_alpha: return s.src[3];
+    case BlendFactor::one_minus_src_alpha: return one - s.src[3];
+    case BlendFactor::dst_alpha: return s.dst[3];
+    case BlendFactor::one_minus_dst_alpha: return one - s.dst[3];
+    case BlendFactor::constant_color: return constant(k);
+    case BlendFactor::one_minus_constant_color: return one - constant(k);
+    case BlendFactor::constant_alpha: return constant(3);
+    case BlendFactor::one_minus_constant_alpha: return one - constant(3);
+    case BlendFactor::src_alpha_saturate: return k == 3 ? one : min(s.src[3], one - s.dst[3]);
+    case BlendFactor::src1_color: return s.held(s.src1[k]);
+    case BlendFactor::one_minus_src1_color: return one - s.held(s.src1[k]);
+    case BlendFactor::src1_alpha: return s.held(s.src1[3]);
+    case BlendFactor::one_minus_src1_alpha: return one - s.held(s.src1[3]);
   }
   return one;
 }
@@ -75,22 +94,29 @@ Real combine(BlendEquation e, Real src, Real src_factor, Real dst, Real dst_fact
 
 bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
 
-PacketColor blend_colors(const BlendState& s, const PacketColor& src, const PacketColor& dst) {
+PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
   PacketColor out;
   for (std::size_t k = 0; k < 4; ++k) {
     const bool alpha = k == 3;
     const BlendFactor sf = alpha ? s.source_alpha : s.source_color;
     const BlendFactor df = alpha ? s.destination_alpha : s.destination_color;
-    out[k] = combine(alpha ? s.alpha_equation : s.color_equation, src[k], factor(sf, src, dst, k), dst[k], factor(df, src, dst, k));
+    out[k] = combine(alpha ? s.alpha_equation : s.color_equation, from.src[k], factor(sf, from, k), from.dst[k], factor(df, from, k));
   }
   return out;
 }
 
-void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c) {
+void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
   Int packed(0);
   for (int k = 0; k < 4; ++k) packed = packed | encode8(buffer.format, c[static_cast<std::size_t>(k)], k == 3) << (8 * k);
   int32_t* pixels = plane<int32_t>(buffer, 0) + first;
-  store(pixels, select(mask, packed, load<Int>(pixels)));
+  const Int old = load<Int>(pixels);
+  if (!channels.all()) {
+    uint32_t kept = 0;
+    for (int k = 0; k < 4; ++k) kept |= channels[k] ? 0u : 0xffu << (8 * k);
+    const Int keep(static_cast<int32_t>(kept));
+    packed = (old & keep) | (packed & ~keep);
+  }
+  store(pixels, select(mask, packed, old));
 }
 
 }  // namespace
@@ -109,20 +135,24 @@ PacketColor read_color(const ColorBuffer& buffer, int packet) {
   return c;
 }
 
-void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const BlendState* blend) {
+void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1,
+                 const AttachmentState& state) {
   PacketColor c = src;
-  if (blend != nullptr) {
-    if (is_fixed_point(buffer.format)) {  // OpenGL 4.6, section 17.3.6: clamped before blending
+  if (state.blend) {
+    const bool fixed_point = is_fixed_point(buffer.format);
+    if (fixed_point) {  // OpenGL 4.6, section 17.3.6: clamped before blending
       for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
     }
-    c = blend_colors(*blend, c, read_color(buffer, packet));
+    const PacketColor dst = read_color(buffer, packet);
+    c = blend_colors(*state.blend, {c, dst, src1, state.blend->constant, fixed_point});
   }
   const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
   if (is_fixed_point(buffer.format)) {
-    write_packed(buffer, first, mask, c);
+    write_packed(buffer, first, mask, c, state.mask);
     return;
   }
   for (int k = 0; k < 4; ++k) {
+    if (!state.mask[k]) continue;
     const Real value = c[static_cast<std::size_t>(k)];
     if (buffer.format == ColorFormat::rgba16f) {
       store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(value)), bits(mask));
@@ -131,6 +161,11 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
       store(to, select(mask, value, load<Real>(to)));
     }
   }
+}
+
+bool uses_second_source(const BlendState& blend) {
+  const auto second = [](BlendFactor f) { return f >= BlendFactor::src1_color && f <= BlendFactor::one_minus_src1_alpha; };
+  return second(blend.source_color) || second(blend.destination_color) || second(blend.source_alpha) || second(blend.destination_alpha);
 }
 
 }  // namespace halfspace

@@ -14,7 +14,11 @@ using PacketColor = std::array<Real, 4>;
 /// The packet's colours, decoded to linear floats.
 PacketColor read_color(const ColorBuffer& buffer, int packet);
 
-/// Writes src where mask says: blended with what is there if blend is given, else replacing it.
-void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const BlendState* blend);
+/// Writes the channels that the state names of src where mask says: blended with what is there if the state blends, else
+/// replacing it. src1 is the second colour of dual source blending (any, where no factor asks for it).
+void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1, const AttachmentState& state);
+
+/// Does a factor ask for the second colour?
+bool uses_second_source(const BlendState& blend);
 
 }  // namespace halfspace

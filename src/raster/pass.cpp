@@ -4,8 +4,9 @@
 #include <algorithm>
 
 #include "core/float_mode.h"
+#include "raster/assembly.h"
 #include "raster/bin.h"
-#include "raster/clip.h"
+#include "raster/primitive_setup.h"
 #include "raster/setup.h"
 
 namespace halfspace {
@@ -14,10 +15,10 @@ namespace {
 
 constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
 constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
+// Bytes of a tile's memory, so that it stays in the cache next to the core (L2).
+constexpr int kTileBudget = 160 << 10;
 // Chunks that go through setup between two looks at the budget.
 constexpr std::size_t kWave = 32;
-
-static_assert(std::size_t{4096} * kMaxPieces <= kMaxTrianglesPerChunk, "a chunk's triangles are counted in 16 bits");
 
 std::size_t bytes_of(const Chunk& c) {
   return c.triangles.capacity() * sizeof(Triangle) + c.bin_triangles.capacity() * sizeof(uint16_t) +
@@ -37,26 +38,42 @@ void check_rect(const Rect& r, int smallest) {
 
 }  // namespace
 
-Pass::Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options)
-    : color_(color), depth_(depth), options_(options) {
+Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options)
+    : colors_(colors.begin(), colors.end()), depth_(depth), options_(options) {
   HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize);
   HS_CHECK(options.tile_size == 8 || options.tile_size == 16 || options.tile_size == 32 || options.tile_size == 64);
   HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= 4096);
-  HS_CHECK(color.data != nullptr || color.format == ColorFormat::none || (color.load != LoadOp::load && color.store == StoreOp::dont_care));
+  HS_CHECK(options.samples == 1 || options.samples == 2 || options.samples == 4 || options.samples == 8);
+  HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets});
+  for (const ColorTarget& c : colors) {
+    HS_CHECK(c.data != nullptr || c.format == ColorFormat::none || (c.load != LoadOp::load && c.store == StoreOp::dont_care));
+    has_color_ |= c.format != ColorFormat::none;
+  }
   HS_CHECK(depth.data != nullptr || depth.format == DepthFormat::none || (depth.load != LoadOp::load && depth.store == StoreOp::dont_care));
   frame_.width = width;
   frame_.height = height;
-  frame_.tile_size = options.tile_size;
-  frame_.tiles_x = (width + options.tile_size - 1) / options.tile_size;
-  frame_.tiles_y = (height + options.tile_size - 1) / options.tile_size;
-  frame_.depth_format = depth.format;
+  frame_.samples = options.samples;
+  frame_.samples_at = sample_span(options.samples);
+  frame_.tile_size = tile_size();
+  frame_.tiles_x = (width + frame_.tile_size - 1) / frame_.tile_size;
+  frame_.tiles_y = (height + frame_.tile_size - 1) / frame_.tile_size;
+  frame_.depth_format = depth_part(depth.format);
+}
+
+int Pass::tile_size() const {
+  int sample_bytes = 9;  // depth, triangle, stencil
+  for (const ColorTarget& c : colors_) sample_bytes += bytes_per_pixel(c.format);
+  int size = std::min(options_.tile_size, largest_tile(options_.samples));
+  while (size > kBlockSize && sample_bytes * options_.samples * size * size > kTileBudget) size /= 2;
+  return size;
 }
 
 void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> shader, const VertexView& vertices,
                     std::shared_ptr<const Indices> indices, const DrawState& state) {
   const FloatMode mode;  // the viewport transform is computed here, not in a task
-  HS_CHECK_OP(std::size_t{indices->end_vertex()}, <=, vertices.vertex_count);
-  HS_CHECK(kernels.fragment != nullptr || color_.format == ColorFormat::none);
+  HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0);
+  HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count));
+  HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count);
   HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
   Draw d;
   d.kernels = kernels;
@@ -64,6 +81,7 @@ void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> sh
   d.vertices = vertices;
   d.indices = std::move(indices);
   d.state = state;
+  count_primitives(d);
   const Rect whole{0, 0, frame_.width, frame_.height};
   const Rect viewport = state.viewport.value_or(whole);
   check_rect(viewport, 1);
@@ -76,10 +94,28 @@ void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> sh
   d.bounds = to_bounds(bounds);
   d.depth_low = std::min(state.depth.range_near, state.depth.range_far);
   d.depth_high = std::max(state.depth.range_near, state.depth.range_far);
+  d.shades_samples = frame_.samples > 1 && (state.sample_shading || options_.supersample);
+  d.sample_mask = frame_.samples == 1 ? 1u : state.sample_mask & ((1u << frame_.samples) - 1);
+  const bool replaces = resolve_attachments(d);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
-  const bool defers = options_.defer && !state.blend && (!decides_visibility || kernels.visibility != nullptr);
-  d.deferred = defers || kernels.fragment == nullptr;  // without colour there is nothing to blend or to shade at once
+  const bool covers_by_alpha = state.alpha_to_coverage && frame_.samples > 1;
+  const bool defers = options_.defer && replaces && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
+  d.deferred = defers || !has_color_;  // without colour there is nothing to blend or to shade at once
   frame_.draws.push_back(std::move(d));
+}
+
+bool Pass::resolve_attachments(Draw& d) const {
+  bool replaces = true;
+  for (std::size_t i = 0; i < colors_.size(); ++i) {
+    AttachmentState& a = d.attachments[i];
+    a = d.state.attachments[i].value_or(AttachmentState{d.state.blend, d.state.color_mask});
+    if (a.blend && uses_second_source(*a.blend)) HS_CHECK(d.kernels.color_count > 1 && colors_.size() == 1);
+    if (colors_[i].format == ColorFormat::none) continue;
+    const bool has_color = d.kernels.fragment != nullptr && static_cast<int>(i) < d.kernels.color_count;
+    replaces &= has_color && !a.blend && a.mask.all();
+    d.writes_color |= has_color && (a.mask.r || a.mask.g || a.mask.b || a.mask.a);
+  }
+  return replaces;
 }
 
 void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) {
@@ -91,7 +127,8 @@ void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) 
   for (std::size_t d = 0; d < frame_.draws.size(); ++d) {
     const Draw& draw = frame_.draws[d];
     allocate_vertices(draw, frame_.shaded[d]);
-    const std::size_t count = draw.indices->used_count();
+    const std::size_t count = draw.indices->used_count() * draw.state.instances;
+    statistics.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
     statistics.vertices_shaded += count;
     for (std::size_t b = 0; b < count; b += kVerticesPerTask) tasks.push_back({d, b, std::min(count, b + kVerticesPerTask)});
   }
@@ -103,18 +140,24 @@ void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) 
 
 std::vector<std::vector<Segment>> Pass::split_into_chunks() const {
   std::vector<std::vector<Segment>> chunks;
-  uint32_t room = 0;
+  uint32_t room = 0;     // for primitives in the last chunk
+  uint32_t records = 0;  // for what they may become
   for (uint32_t d = 0; d < frame_.draws.size(); ++d) {
-    const uint32_t count = frame_.draws[d].triangle_count();
-    for (uint32_t first = 0; first < count;) {
-      if (room == 0) {
-        chunks.emplace_back();
-        room = options_.chunk_triangles;
+    const Draw& draw = frame_.draws[d];
+    const uint32_t each = most_records(draw, frame_.samples);
+    for (uint32_t instance = 0; instance < draw.state.instances; ++instance) {
+      for (uint32_t first = 0; first < draw.primitive_count;) {
+        if (room == 0 || records < each) {
+          chunks.emplace_back();
+          room = options_.chunk_triangles;
+          records = kMaxTrianglesPerChunk;
+        }
+        const uint32_t n = std::min({room, records / each, draw.primitive_count - first});
+        chunks.back().push_back({d, instance, first, n});
+        first += n;
+        room -= n;
+        records -= n * each;
       }
-      const uint32_t n = std::min(room, count - first);
-      chunks.back().push_back({d, first, n});
-      first += n;
-      room -= n;
     }
   }
   return chunks;
@@ -122,6 +165,9 @@ std::vector<std::vector<Segment>> Pass::split_into_chunks() const {
 
 PassStatistics Pass::run(const Workers& workers) {
   PassStatistics statistics;
+  for (const Draw& d : frame_.draws) {
+    if (d.state.query) statistics.queries.resize(std::max(statistics.queries.size(), std::size_t{*d.state.query} + 1));
+  }
   run_vertex_stage(workers, statistics);
   const std::vector<std::vector<Segment>> work = split_into_chunks();
   bool first_round = true;
@@ -152,93 +198,13 @@ PassStatistics Pass::run(const Workers& workers) {
       keep_between_flushes();
       ++statistics.flushes;
     }
-    run_tiles(workers, first_round, last_round, statistics);
+    run_tiles(workers, {first_round, last_round}, statistics);
     first_round = false;
   } while (next < work.size());
   frame_.draws.clear();
   frame_.shaded.clear();
   frame_.chunks.clear();
   return statistics;
-}
-
-void Pass::keep_between_flushes() {
-  const std::size_t pixels = static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height);
-  if (color_.format != ColorFormat::none && color_.data == nullptr && color_spill_.empty()) {
-    color_spill_.resize(pixels * static_cast<std::size_t>(bytes_per_pixel(color_.format)));
-  }
-  if (depth_.format != DepthFormat::none && depth_.data == nullptr && depth_spill_.empty()) depth_spill_.resize(pixels * sizeof(float));
-}
-
-void Pass::run_tiles(const Workers& workers, bool first, bool last, PassStatistics& statistics) {
-  const int tiles = frame_.tiles_x * frame_.tiles_y;
-  std::vector<PassStatistics> by_tile(static_cast<std::size_t>(tiles));
-  workers.for_each(tiles, [&](int i) { run_tile(i, first, last, by_tile[static_cast<std::size_t>(i)]); });
-  for (const PassStatistics& s : by_tile) statistics += s;
-}
-
-void Pass::run_tile(int index, bool first, bool last, PassStatistics& statistics) const {
-  const int tile_x = index % frame_.tiles_x, tile_y = index / frame_.tiles_x;
-  const bool drawn =
-      std::any_of(frame_.chunks.begin(), frame_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
-  if (drawn) ++statistics.tiles_touched;
-  // Between flushes a target lives in its image, or in the spill where it has none.
-  ColorTarget color = color_;
-  DepthTarget depth = depth_;
-  if (color.data == nullptr && !color_spill_.empty()) color.data = const_cast<std::byte*>(color_spill_.data());
-  if (depth.data == nullptr && !depth_spill_.empty()) depth.data = const_cast<std::byte*>(depth_spill_.data());
-  if (!first) color.load = depth.load = LoadOp::load;
-  if (!last) color.store = depth.store = StoreOp::store;
-  const auto clears = [](const auto& target) { return target.load == LoadOp::clear && target.format != decltype(target.format)::none; };
-  const bool changes_color = drawn || clears(color), changes_depth = drawn || clears(depth);
-  if (!changes_color && !changes_depth && !(last && post_kernel_ != nullptr)) return;
-
-  Tile tile;
-  tile.size = frame_.tile_size;
-  tile.x0 = tile_x * tile.size;
-  tile.y0 = tile_y * tile.size;
-  tile.width = std::min(tile.size, frame_.width - tile.x0);
-  tile.height = std::min(tile.size, frame_.height - tile.y0);
-  load_color(color, frame_.width, frame_.height, tile);
-  load_depth(depth, frame_.width, frame_.height, tile);
-  if (drawn) draw_tile(tile, tile_x, tile_y, statistics);
-  // What was neither cleared nor drawn stays as it is in its image; under LoadOp::dont_care the tile does not know it.
-  if (changes_color) store_color(color, frame_.width, frame_.height, tile, tile.color);
-  if (changes_depth) store_depth(depth, frame_.width, frame_.height, tile);
-  if (!last || post_kernel_ == nullptr) return;
-  ColorBuffer finished;
-  finished.format = post_target_.format;
-  for (int p = 0; p < kPackets; ++p) {
-    if (packet_x(p) >= tile.width || packet_y(p) >= tile.height) continue;
-    PacketColor c = read_color(tile.color, p);
-    post_kernel_(post_function_.get(), Int(tile.x0 + packet_x(p)) + lane_x(), Int(tile.y0 + packet_y(p)) + lane_y(), c);
-    write_color(finished, p, Mask(true), c, nullptr);
-  }
-  store_color(post_target_, frame_.width, frame_.height, tile, finished);
-}
-
-void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
-  const bool shades = color_.format != ColorFormat::none;
-  bool waiting = false;  // there are visible pixels not shaded yet
-  CoverageList list;
-  tile.id.fill(kNoTriangle);
-  for (uint32_t c = 0; c < frame_.chunks.size(); ++c) {
-    const Chunk& chunk = frame_.chunks[c];
-    for (const uint16_t t : bin_of(chunk, tile_x, tile_y)) {
-      const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
-      const VisibilityMode mode = visibility_mode(draw);
-      if (mode == VisibilityMode::deferred) {
-        rasterize(frame_, c, t, mode, tile, nullptr, statistics);
-        waiting = true;
-        continue;
-      }
-      if (waiting && shades) shade_deferred(frame_, tile, statistics);
-      waiting = false;
-      list.count = 0;
-      rasterize(frame_, c, t, mode, tile, &list, statistics);
-      if (list.count != 0) shade_immediate(frame_, triangle_id(c, t), mode, list, tile, statistics);
-    }
-  }
-  if (waiting && shades) shade_deferred(frame_, tile, statistics);
 }
 
 }  // namespace halfspace

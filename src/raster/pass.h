@@ -8,8 +8,10 @@
 //   PassStatistics statistics = pass.run(workers);
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "core/parallel.h"
 #include "raster/output.h"
@@ -19,10 +21,12 @@
 
 namespace halfspace {
 
-/// How a pass does its work. None of these changes a pixel.
+/// How many samples a pixel has, and how a pass does its work. But for the samples, none of these changes a pixel.
 struct PassOptions {
-  int tile_size = kMaxTileSize;                     ///< 8, 16, 32 or 64 px
-  uint32_t chunk_triangles = 4096;                  ///< submitted triangles per setup task, 1 … 4096
+  int samples = 1;                  ///< 1, 2, 4 or 8, at the standard positions; their mean is stored (of depth and stencil the first)
+  bool supersample = false;         ///< every draw is shaded for each sample, as by DrawState::sample_shading
+  int tile_size = kMaxTileSize;     ///< 8, 16, 32 or 64 px; smaller where samples and attachments need the room
+  uint32_t chunk_triangles = 4096;  ///< submitted primitives per setup task, 1 … 4096
   std::size_t bin_budget = std::size_t{256} << 20;  ///< bytes of set-up triangles and bins before the tiles are flushed
   bool defer = true;                                ///< false: shade every fragment at once, in order
 };
@@ -52,6 +56,11 @@ ShaderKernels kernels_of() {
   ShaderKernels k;
   k.vertex = vertex_kernel<S, true>;
   k.position = vertex_kernel<S, false>;
+  k.uses_centroid = kUsesCentroid<V>;
+  k.gives_point_size = kGivesPointSize<S>;
+  k.gives_sprite = kGivesSprite<S>;
+  static_assert(kClipDistances<S> <= kMostClipDistances);
+  k.clip_distance_count = static_cast<int>(kClipDistances<S>);
   k.varying_count = static_cast<int>(kComponents<V>);
   k.interpolations = kInterpolations<V>.data();
   if constexpr (HasPrimitive<S>) {
@@ -59,7 +68,9 @@ ShaderKernels kernels_of() {
     k.primitive_count = static_cast<int>(kComponents<typename S::template Primitive<float>>);
   }
   if constexpr (HasFragmentFunction<S>) {
+    static_assert(kColors<S> <= kMaxColorTargets);
     k.fragment = fragment_kernel<S>;
+    k.color_count = static_cast<int>(kColors<S>);
     k.discards = kDiscards<S>;
     k.writes_depth = kWritesDepth<S>;
   }
@@ -71,10 +82,16 @@ ShaderKernels kernels_of() {
 class Pass {
  public:
   /// width, height: 1 … 16384 px, the size of every target. Targets' images must outlive the pass.
-  Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {});
+  /// Up to kMaxColorTargets colours: the fragment function's n-th goes to the n-th, which keeps what it has where there is none.
+  template <class Colors>
+  requires std::convertible_to<const Colors&, std::span<const ColorTarget>> Pass(int width, int height, const Colors& colors,
+                                                                                 const DepthTarget& depth, const PassOptions& options = {})
+      : Pass(std::span<const ColorTarget>(colors), width, height, depth, options) {}
+  Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {})
+      : Pass(std::span(&color, 1), width, height, depth, options) {}
 
-  /// Adds a draw of a triangle list. The shader is copied; the vertices' and indices' memory, and whatever the shader
-  /// points to, must stay unchanged until run() returns. Indices beyond a multiple of 3 are ignored, as GL does.
+  /// Adds a draw. The shader is copied; the vertices' and indices' memory, and whatever the shader points to, must stay
+  /// unchanged until run() returns. Indices that make no whole primitive are ignored, as GL does.
   template <class S>
   void draw(const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
     if constexpr (require_shader<S>()) add(shader, vertices, std::shared_ptr<const Indices>(std::shared_ptr<void>(), &indices), state);
@@ -85,13 +102,13 @@ class Pass {
     if constexpr (require_shader<S>())
       add(shader, vertices, std::make_shared<const Indices>(Indices::sequential(vertices.vertex_count)), state);
   }
-  /// Draws depth alone; the pass must have no colour target.
+  /// Draws depth alone (and stencil); no colour changes.
   template <DepthOnlyShader S>
   void draw_depth(const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
     add(shader, vertices, std::shared_ptr<const Indices>(std::shared_ptr<void>(), &indices), state);
   }
 
-  /// Sends the finished colour of every pixel through function into another target of the same size.
+  /// Sends the finished first colour of every pixel through function into another target of the same size.
   template <class F>
   void post(const F& function, const ColorTarget& target) {
     post_function_ = std::make_shared<const F>(function);
@@ -103,6 +120,8 @@ class Pass {
   PassStatistics run(const Workers& workers);
 
  private:
+  Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options);
+
   template <class S>
   void add(const S& shader, const VertexView& vertices, std::shared_ptr<const Indices> indices, const DrawState& state) {
     HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<typename S::template Attributes<float>>));
@@ -113,19 +132,30 @@ class Pass {
 
   void run_vertex_stage(const Workers& workers, PassStatistics& statistics);
   std::vector<std::vector<Segment>> split_into_chunks() const;
-  void run_tiles(const Workers& workers, bool first, bool last, PassStatistics& statistics);
-  void run_tile(int index, bool first, bool last, PassStatistics& statistics) const;
+  // The tiles run once, or several times where the bins outgrow their budget.
+  struct Round {
+    bool first, last;
+  };
+  int tile_size() const;
+  // Fills d.attachments and d.writes_color. Does the draw replace all colours of a pixel?
+  bool resolve_attachments(Draw& d) const;
+  void run_tiles(const Workers& workers, Round round, PassStatistics& statistics);
+  void run_tile(int index, Round round, PassStatistics& statistics) const;
+  void run_post_step(const Tile& tile) const;
   void draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
   void keep_between_flushes();
 
   Frame frame_;
-  ColorTarget color_;
+  std::vector<ColorTarget> colors_;
+  bool has_color_ = false;
   DepthTarget depth_;
   PassOptions options_;
   std::shared_ptr<const void> post_function_;
   PostKernel post_kernel_ = nullptr;
   ColorTarget post_target_;
-  std::vector<std::byte> color_spill_, depth_spill_;  ///< hold a target that has no image, from flush to flush
+  // Hold from flush to flush what no image can: a target without one, or several samples.
+  std::vector<std::vector<std::byte>> color_spills_;
+  std::vector<std::byte> depth_spill_;
 };
 
 }  // namespace halfspace

@@ -26,7 +26,8 @@ class SegmentPrimitives {
   // Rows of the varyings of triangle i's vertices as submitted; call for rising i.
   std::array<const float*, 3> rows(uint32_t i) {
     const Triangle& t = chunk_.triangles[i];
-    const std::array<uint32_t, 3> vertex = t.is(kClipped) ? source(i) : submitted_order(t, draw_.state);
+    const bool is_piece = t.is(kClipped | kLine);
+    const std::array<uint32_t, 3> vertex = is_piece ? source(i) : submitted_order(t, draw_.state);
     std::array<const float*, 3> r;
     for (std::size_t k = 0; k < 3; ++k) {
       r[k] = shaded_.varyings.get() + std::size_t{vertex[k]} * static_cast<std::size_t>(shaded_.varying_count);

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Setup. In: a chunk's segments of index lists, and the shaded vertices. Out: Chunk::triangles (culled, clipped where
-// needed, wound counter-clockwise, with their depth coefficients), clip vertices and statistics.
+// needed, wound counter-clockwise, with their depth coefficients; points and lines too), clip vertices and statistics.
 #pragma once
-
-#include <optional>
 
 #include "raster/stages.h"
 
 namespace halfspace {
-
-enum class Cull : uint8_t { none, degenerate, face, no_sample };
-
-/// The triangle of three snapped vertices, or why there is none. flags and vertex of the result are left to the caller
-/// but for front, small and provoking; `provoking` is the provoking vertex's place among v.
-Cull set_up_triangle(const Draw& draw, DepthFormat format, const std::array<const ScreenVertex*, 3>& v,
-                     const std::array<uint32_t, 3>& index, uint32_t provoking, Triangle& out);
-
-/// The pixels whose centres lie in the triangle's box, cut to bounds.
-PixelBounds pixel_bounds(const Triangle& t, const PixelBounds& bounds);
 
 /// Fills chunk.triangles from chunk.segments.
 void set_up_chunk(const Frame& frame, Chunk& chunk);

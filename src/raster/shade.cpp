@@ -3,23 +3,53 @@
 
 #include <algorithm>
 
+#include "raster/centroid.h"
 #include "raster/output.h"
+#include "raster/sprite.h"
 
 namespace halfspace {
 
-TriangleSource find_triangle(const Frame& frame, TriangleId id) {
+namespace {
+
+// The vertices of what is clipped, a point or a line.
+void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, const Draw& draw, TriangleSource& s) {
+  const Triangle& t = *s.triangle;
+  for (std::size_t i = 0; i < (t.is(kLine) ? 2u : 3u); ++i) {
+    if (t.is(kClipped)) {
+      const ClipVertex& v = chunk.clip_vertices[t.vertex[i]];
+      s.vertex[i] = &v.screen;
+      s.varyings[i] = chunk.clip_varyings.data() + v.first_varying;
+    } else {
+      const ShadedVertices& shaded = frame.shaded[segment.draw];
+      s.vertex[i] = &shaded.screen[t.vertex[i]];
+      s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
+    }
+  }
+  if (t.is(kSprite)) {
+    s.corners = sprite_corners(t, *s.vertex[0], draw.state.point_origin);
+    for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
+  }
+  if (t.is(kLine)) {  // the third corner lies beside the first and has its values
+    s.corners[2] = {t.x[2], t.y[2], s.vertex[0]->z, s.vertex[0]->inv_w};
+    s.vertex[2] = &s.corners[2];
+    s.varyings[2] = s.varyings[0];
+    s.z_low = std::clamp(t.z0, draw.depth_low, draw.depth_high);
+  }
+}
+
+}  // namespace
+
+void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
   const Chunk& chunk = frame.chunks[id >> 16];
   const uint32_t index = id & 0xffff;
   const Triangle& t = chunk.triangles[index];
   const Segment& segment = chunk.segments[t.segment()];
   const Draw& draw = frame.draws[segment.draw];
-  TriangleSource s{&t, {}, {}, nullptr, nullptr};
-  if (t.is(kClipped)) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const ClipVertex& v = chunk.clip_vertices[t.vertex[i]];
-      s.vertex[i] = &v.screen;
-      s.varyings[i] = chunk.clip_varyings.data() + v.first_varying;
-    }
+  s.triangle = &t;
+  s.primitive = nullptr;
+  s.z_low = draw.depth_low;
+  if (t.is(kClipped | kSprite | kLine)) {
+    find_rare(frame, chunk, segment, draw, s);
   } else {
     const ShadedVertices& shaded = frame.shaded[segment.draw];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -32,7 +62,15 @@ TriangleSource find_triangle(const Frame& frame, TriangleId id) {
     const std::size_t row = index - segment.first_triangle;
     s.primitive = chunk.primitives.data() + segment.first_primitive + row * static_cast<std::size_t>(draw.kernels.primitive_count);
   }
-  return s;
+}
+
+void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile) {
+  const PacketColor& second = out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);
+  for (int n = 0; n < std::min(tile.color_count, draw.kernels.color_count); ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    if (tile.color[at].format == ColorFormat::none) continue;
+    write_color(tile.color[at], packet, mask, out.packet_color(at, i), second, draw.attachments[at]);
+  }
 }
 
 namespace {
@@ -42,46 +80,73 @@ const Draw& draw_of(const Frame& frame, TriangleId id) {
   return frame.draws[chunk.segments[chunk.triangles[id & 0xffff].segment()].draw];
 }
 
-const BlendState* blend_of(const Draw& draw) { return draw.state.blend ? &*draw.state.blend : nullptr; }
-
 // One packet's pixels of one draw.
 struct Work {
   const Draw* draw;
   PacketMask packet;
 };
 
+// Which of the pixels that wait are shaded: those of draws that are shaded for each sample, or the others.
+enum class Share : uint8_t { per_pixel, per_sample };
+
+// The triangles of a cell of pixels that wait, and where they go.
+struct Job {
+  const TriangleId* ids;  // by packet of the tile's room
+  SampleCell cell;
+  SamplePosition position;
+  Share share;
+};
+
+bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
+
 // The pixels that wait, packet by packet; a packet that shows several draws appears once for each.
-int list_work(const Frame& frame, const Tile& tile, std::array<Work, kMaxTilePixels>& work) {
+int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<Work, kMaxTilePixels>& work) {
   int count = 0;
-  for (int p = 0; p < kPackets; ++p) {
-    const TriangleId* ids = &tile.id[static_cast<std::size_t>(p) * kLanes];
+  const bool whole = tile.size == kMaxTileSize;
+  const int shift = packet_shift(job.cell);
+  for (int pixels = 0; pixels < kPackets; ++pixels) {
+    if (!whole && !is_in_cell(tile, pixels)) continue;
+    const int p = pixels + shift;
+    const TriangleId* ids = job.ids + static_cast<std::size_t>(p) * kLanes;
     const Int packet_ids = load<Int>(ids);
     uint32_t rest = bits(packet_ids != Int(std::bit_cast<int32_t>(kNoTriangle)));
     const int first = count;
     while (rest != 0) {
       const TriangleId id = ids[std::countr_zero(rest)];
       const uint32_t same = bits(packet_ids == Int(std::bit_cast<int32_t>(id)));
+      rest &= ~same;
       const Draw* draw = &draw_of(frame, id);
+      if (draw->shades_samples != (job.share == Share::per_sample)) continue;
       int i = first;
       while (i < count && work[static_cast<std::size_t>(i)].draw != draw) ++i;
       if (i == count) work[static_cast<std::size_t>(count++)] = {draw, {static_cast<uint16_t>(p), 0}};
       Work& w = work[static_cast<std::size_t>(i)];
       w.packet.lanes = static_cast<uint16_t>(w.packet.lanes | same);
-      rest &= ~same;
     }
   }
   return count;
 }
 
-}  // namespace
+// Writes what was shaded once for a pixel to all its samples that show the triangle it was shaded for.
+void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, const PacketMask& packet, const TriangleId* ids,
+                   Tile& tile) {
+  const Int shaded = load<Int>(ids + static_cast<std::size_t>(packet.packet) * kLanes);
+  for (int s = 0; s < tile.samples; ++s) {
+    const int sample_packet = packet.packet + packet_shift(sample_cell(tile.samples, s, tile.size));
+    const Mask shows = load<Int>(&tile.id[static_cast<std::size_t>(sample_packet) * kLanes]) == shaded;
+    const Mask mask = shows & mask_from_bits<Mask>(packet.lanes);
+    if (any(mask)) write_colors(draw, out, i, sample_packet, mask, tile);
+  }
+}
 
-void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics) {
+void run_job(const Frame& frame, Tile& tile, const Job& job, PassStatistics& statistics) {
   std::array<Work, kMaxTilePixels> work;
-  const int count = list_work(frame, tile, work);
+  const int count = list_work(frame, tile, job, work);
   // By draw, so that each shader runs on full batches; pixels are independent, so the order makes no difference.
   std::stable_sort(work.begin(), work.begin() + count, [](const Work& a, const Work& b) { return a.draw < b.draw; });
   FragmentOutput out;
   std::array<PacketMask, kFragmentBatch> packets;
+  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
   for (int begin = 0; begin < count;) {
     const Draw& draw = *work[static_cast<std::size_t>(begin)].draw;
     int n = 0;
@@ -90,47 +155,72 @@ void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics) 
       statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[static_cast<std::size_t>(n)].lanes));
       ++n;
     }
-    draw.kernels.fragment(draw.shader.get(), {&frame, tile.x0, tile.y0, tile.id.data(), kNoTriangle, packets.data(), n, &out});
+    const bool looks_inside = draw.kernels.uses_centroid && tile.samples > 1 && job.share == Share::per_pixel;
+    for (std::size_t i = 0; looks_inside && i < static_cast<std::size_t>(n); ++i) {
+      const int p = packets[i].packet;
+      find_centroids(frame, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
+    }
+    draw.kernels.fragment(draw.shader.get(), {&frame, tile.x0 - job.cell.x, tile.y0 - job.cell.y, job.position, job.ids, kNoTriangle,
+                                              packets.data(), n, looks_inside ? centroids.data() : nullptr, &out});
     for (int i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const PacketColor color{out.color[4 * at], out.color[4 * at + 1], out.color[4 * at + 2], out.color[4 * at + 3]};
-      write_color(tile.color, packets[at].packet, mask_from_bits<Mask>(packets[at].lanes), color, blend_of(draw));
+      if (job.share == Share::per_pixel && tile.samples > 1) {
+        write_samples(draw, out, at, packets[at], job.ids, tile);
+      } else {
+        write_colors(draw, out, at, packets[at].packet, mask_from_bits<Mask>(packets[at].lanes), tile);
+      }
     }
     begin += n;
   }
-  tile.id.fill(kNoTriangle);
 }
 
-void shade_immediate(const Frame& frame, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
-                     PassStatistics& statistics) {
-  const Draw& draw = draw_of(frame, id);
-  const DepthState& state = draw.state.depth;
-  FragmentOutput out;
-  for (int begin = 0; begin < list.count; begin += kFragmentBatch) {
-    const PacketMask* packets = &list.packets[static_cast<std::size_t>(begin)];
-    const int n = std::min(kFragmentBatch, list.count - begin);
-    draw.kernels.fragment(draw.shader.get(), {&frame, tile.x0, tile.y0, nullptr, id, packets, n, &out});
-    for (int i = 0; i < n; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const int packet = packets[i].packet;
-      statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[i].lanes));
-      Mask mask = mask_from_bits<Mask>(packets[i].lanes);
-      if (mode != VisibilityMode::early) {
-        Real z(0.0f);
-        if (mode == VisibilityMode::cover_only) {
-          z = depth_value(tile.depth_format, clamp(out.depth[at], Real(draw.depth_low), Real(draw.depth_high)));
-          mask = depth_test(state, tile, packet, z, mask);
-        } else {
-          z = load<Real>(&list.depth[static_cast<std::size_t>(packet) * kLanes]);
-        }
-        mask = mask & mask_from_bits<Mask>(out.keep[at]);
-        statistics.samples_passed += static_cast<uint64_t>(std::popcount(bits(mask)));
-        write_depth(state, tile, packet, z, mask);
+constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
+
+// Takes from the samples of each pixel one triangle that is still to be shaded, by its first sample; false if there is none.
+// taken: the samples whose triangle has had its turn, as bits.
+bool next_layer(const Frame& frame, const Tile& tile, std::array<uint8_t, kMaxTilePixels>& taken,
+                std::array<TriangleId, kMaxTilePixels>& layer) {
+  bool found = false;
+  for (int packet = 0; packet < kPackets; ++packet) {
+    if (!is_in_cell(tile, packet)) continue;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const auto pixel = static_cast<std::size_t>(packet * kLanes + lane);
+      layer[pixel] = kNoTriangle;
+      for (int s = 0; s < tile.samples; ++s) {
+        if ((taken[pixel] >> s & 1) != 0) continue;
+        const auto shift = static_cast<std::size_t>(packet_shift(sample_cell(tile.samples, s, tile.size))) * kLanes;
+        const TriangleId id = tile.id[pixel + shift];
+        const bool waits = id != kNoTriangle && (layer[pixel] == kNoTriangle ? !draw_of(frame, id).shades_samples : id == layer[pixel]);
+        if (waits) layer[pixel] = id;
+        if (waits || id == kNoTriangle) taken[pixel] = static_cast<uint8_t>(taken[pixel] | 1 << s);
       }
-      const PacketColor color{out.color[4 * at], out.color[4 * at + 1], out.color[4 * at + 2], out.color[4 * at + 3]};
-      if (tile.color.format != ColorFormat::none) write_color(tile.color, packet, mask, color, blend_of(draw));
+      found |= layer[pixel] != kNoTriangle;
     }
   }
+  return found;
+}
+
+void shade_deferred_samples(const Frame& frame, Tile& tile, PassStatistics& statistics) {
+  for (int s = 0; s < tile.samples; ++s) {
+    run_job(frame, tile, {tile.id.data(), sample_cell(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample},
+            statistics);
+  }
+  std::array<uint8_t, kMaxTilePixels> taken{};
+  std::array<TriangleId, kMaxTilePixels> layer;
+  while (next_layer(frame, tile, taken, layer)) {
+    run_job(frame, tile, {layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, statistics);
+  }
+}
+
+}  // namespace
+
+void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics) {
+  if (tile.samples == 1) {
+    run_job(frame, tile, {tile.id.data(), {0, 0}, kPixelCenter, Share::per_pixel}, statistics);
+  } else {
+    shade_deferred_samples(frame, tile, statistics);
+  }
+  tile.id.fill(kNoTriangle);
 }
 
 }  // namespace halfspace

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 
+#include "raster/output.h"
 #include "raster/tile.h"
 #include "raster/visibility.h"
 #include "shading/contract.h"
@@ -19,18 +20,24 @@ inline constexpr int kFragmentBatch = 16;
 
 /// Colours, and where the shader decides them keep masks and depths, of a batch.
 struct FragmentOutput {
-  alignas(64) std::array<Real, 4 * kFragmentBatch> color;  ///< r, g, b, a of packet i from 4·i
-  alignas(64) std::array<Real, kFragmentBatch> depth;      ///< if the shader writes depth
-  std::array<uint16_t, kFragmentBatch> keep;               ///< bit a lane; if the shader discards
+  alignas(64) std::array<PacketColor, kFragmentBatch * kMaxColorTargets> color;  ///< see packet_color()
+  alignas(64) std::array<Real, kFragmentBatch> depth;                            ///< if the shader writes depth
+  std::array<uint16_t, kFragmentBatch> keep;                                     ///< bit a lane; if the shader discards
+
+  /// The n-th colour of packet i.
+  PacketColor& packet_color(std::size_t n, std::size_t i) { return color[n * kFragmentBatch + i]; }
+  const PacketColor& packet_color(std::size_t n, std::size_t i) const { return color[n * kFragmentBatch + i]; }
 };
 
 struct FragmentBatch {
   const Frame* frame;
-  int tile_x0, tile_y0;   ///< window coordinates of the tile
-  const TriangleId* ids;  ///< the tile's triangle of each pixel, or null: uniform_id everywhere
+  int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's room
+  SamplePosition position;  ///< where in their pixels the shader looks
+  const TriangleId* ids;    ///< the tile's triangle of each pixel, or null: uniform_id everywhere
   TriangleId uniform_id;
   const PacketMask* packets;
-  int count;  ///< ≤ kFragmentBatch
+  int count;                        ///< ≤ kFragmentBatch
+  const SamplePosition* centroids;  ///< where centroid varyings are looked up, a row of W for each packet; or null: at position
   FragmentOutput* out;
 };
 
@@ -38,18 +45,23 @@ struct FragmentBatch {
 struct TriangleSource {
   const Triangle* triangle;
   std::array<const ScreenVertex*, 3> vertex;
+  std::array<ScreenVertex, 3> corners;  ///< what vertex points to, of points and lines
   std::array<const float*, 3> varyings;
   const float* flat_varyings;  ///< the provoking vertex's row
   const float* primitive;      ///< the primitive stage's row, or null
+  float z_low;                 ///< the least depth in the window
 };
-TriangleSource find_triangle(const Frame& frame, TriangleId id);
+void find_triangle(const Frame& frame, TriangleId id, TriangleSource& out);
 
 /// Shades all pixels of the tile that wait for it, and writes their colours.
 void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
 
-/// Shades one triangle's packets now: late depth test where needed, blending, colour write.
-void shade_immediate(const Frame& frame, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
+/// Shades one triangle's packets now: late tests where needed, blending, colour write.
+void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      PassStatistics& statistics);
+
+/// Writes all colours of packet i of a batch to the tile's packet where mask says.
+void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile);
 
 namespace detail {
 
@@ -110,7 +122,8 @@ struct PacketTriangles {
 /// values; the others to the lanes of m.
 template <class V, bool first, std::size_t N, std::size_t P>
 HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketTriangles<N, P>& out) {
-  const TriangleSource source = find_triangle(frame, id);
+  TriangleSource source;
+  find_triangle(frame, id, source);
   const TriangleScalars<N> s = triangle_scalars<V>(source);
   const auto put = [=](Real& to, float value) {
     if constexpr (first) {
@@ -143,7 +156,7 @@ HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketT
   put(out.z0, tri.z0);
   put(out.z_edge1, tri.z_edge1);
   put(out.z_edge2, tri.z_edge2);
-  put(out.z_low, draw.depth_low);
+  put(out.z_low, source.z_low);
   put(out.z_high, clamp(tri.z_max, draw.depth_low, draw.depth_high));
   put(out.zx0, static_cast<float>(tri.x[0]));
   put(out.zy0, static_cast<float>(tri.y[0]));
@@ -184,23 +197,37 @@ HS_INLINE void gather_triangles(const FragmentBatch& batch, PacketMask packet, P
 
 /// Sets up the Pixel of a packet and interpolates its varyings.
 template <class S, std::size_t N, std::size_t P>
-HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const PacketTriangles<N, P>& t, Pixel<Real>& px) {
+HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const SamplePosition& at, const SamplePosition* centroids,
+                                                           const PacketTriangles<N, P>& t, Pixel<Real>& px) {
   using V = typename S::template Varyings<Real>;
   const Int ix = lane_x() + x, iy = lane_y() + y;
-  const Real x_sub = to_real<Real>(ix * kSubPixels + kSubPixels / 2);
-  const Real y_sub = to_real<Real>(iy * kSubPixels + kSubPixels / 2);
+  const Real x_sub = to_real<Real>(ix * kSubPixels + at.x);
+  const Real y_sub = to_real<Real>(iy * kSubPixels + at.y);
   px.dx = x_sub - t.lanes.x0;
   px.dy = y_sub - t.lanes.y0;
   px.triangle = &t.lanes;
   px.component_lanes = &t.components;
   px.weights = weights_at(t.lanes, px.dx, px.dy);
-  px.x = to_real<Real>(ix) + Real(0.5f);
-  px.y = to_real<Real>(iy) + Real(0.5f);
+  px.x = x_sub * Real(1.0f / kSubPixels);
+  px.y = y_sub * Real(1.0f / kSubPixels);
   px.quad_x = to_real<Real>(ix & Int(1));
   px.quad_y = to_real<Real>(iy & Int(1));
   px.z = packet_depth(t, x_sub, y_sub);
   px.inv_w = px.weights.denominator / t.lanes.area * t.lanes.q_unscale;
   px.front_facing = t.front;
+  if constexpr (kUsesCentroid<typename S::template Varyings<float>>) {
+    if (centroids != nullptr) {
+      Int cx{}, cy{};
+      for (int i = 0; i < kLanes; ++i) {
+        set_lane(cx, i, centroids[i].x);
+        set_lane(cy, i, centroids[i].y);
+      }
+      const Weights<Real> inside =
+          weights_at(t.lanes, to_real<Real>(ix * kSubPixels + cx) - t.lanes.x0, to_real<Real>(iy * kSubPixels + cy) - t.lanes.y0);
+      return interpolate_all<V>(px.weights, inside, t.components, std::make_index_sequence<N>());
+    }
+  }
+  (void)centroids;
   return interpolate_all<V>(px.weights, t.components, std::make_index_sequence<N>());
 }
 
@@ -217,12 +244,16 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     PacketTriangles<n, p> triangles;
     gather_triangles<F>(batch, packet, triangles);
     Pixel<Real> px;
-    const V in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), triangles, px);
+    const V in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), batch.position,
+                                 batch.centroids == nullptr ? nullptr : batch.centroids + i * kLanes, triangles, px);
     P face{};
     if constexpr (p != 0) face = from_components<P, Real>(triangles.primitive);
     const auto fragment = call_fragment<S, Real>(s, in, face, px);
     const auto at = static_cast<std::size_t>(i);
-    for (int k = 0; k < 4; ++k) batch.out->color[4 * at + static_cast<std::size_t>(k)] = fragment.color[k];
+    for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
+      const vec4<Real>& color = nth_color(fragment.color, n_color);
+      batch.out->packet_color(n_color, at) = {color.x, color.y, color.z, color.w};
+    }
     if constexpr (kDiscards<S>) batch.out->keep[at] = static_cast<uint16_t>(bits(fragment.keep));
     if constexpr (kWritesDepth<S>) batch.out->depth[at] = fragment.depth;
   }
@@ -235,7 +266,7 @@ HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityPacket& pa
   PacketTriangles<kComponents<V>, 0> triangles;
   merge_triangle<F, true>(*packet.frame, packet.id, Mask(true), triangles);
   Pixel<Real> px;
-  const V in = begin_packet<S>(packet.x, packet.y, triangles, px);
+  const V in = begin_packet<S>(packet.x, packet.y, packet.position, packet.centroids, triangles, px);
   const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
   store(packet.depth, v.depth);
   *packet.lanes &= bits(v.keep);

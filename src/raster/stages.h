@@ -41,20 +41,36 @@ struct ScreenVertex {
   float inv_w;   ///< 1 / w_clip
 };
 
+/// The pixels of a line along its longer axis, half open, cut to 0 … 2^15.
+struct LineRange {
+  int first, end;
+  uint32_t packed() const { return static_cast<uint32_t>(first) | static_cast<uint32_t>(end) << 16; }
+  static LineRange unpack(uint32_t p) { return {static_cast<int>(p & 0xffff), static_cast<int>(p >> 16)}; }
+};
+
+/// What a point covers: samples with x0 ≤ x < x1 and y0 ≤ y < y1, in 24.8 fixed point, held to ±2^28.
+struct SpriteRect {
+  int32_t x0, y0, x1, y1;
+};
+
 using Outcode = uint8_t;
 inline constexpr Outcode kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 8, kOutNear = 16, kOutFar = 32;
 inline constexpr Outcode kOutGuard = 64;       ///< beyond the guard band, or w too small: no window position
 inline constexpr Outcode kOutNonFinite = 128;  ///< a NaN or Inf among x, y, z, w
-inline constexpr Outcode kOutView = 63;        ///< the six planes of the view volume
+inline constexpr Outcode kOutNeedsClip = kOutNear | kOutFar | kOutGuard;
+inline constexpr Outcode kOutView = 63;  ///< the six planes of the view volume
 
-/// The vertices of one draw, indexed by (vertex index − first).
+/// The vertices of one draw. A vertex's slot, by which all later stages know it, is (index − first) + instance · count.
 struct ShadedVertices {
   uint32_t first = 0;
-  uint32_t count = 0;
+  uint32_t count = 0;                      ///< slots of an instance
   int varying_count = 0;                   ///< floats per vertex in varyings
   std::unique_ptr<ScreenVertex[]> screen;  ///< uninitialized where no index refers to it
   std::unique_ptr<Outcode[]> outcodes;
   std::unique_ptr<float[]> varyings;
+  std::unique_ptr<SpriteRect[]> sprites;  ///< of points alone
+  int clip_distance_count = 0;            ///< floats per vertex in clip_distances
+  std::unique_ptr<float[]> clip_distances;
 };
 
 // ---- the viewport transform ------------------------------------------------------------------------------------
@@ -65,6 +81,11 @@ struct Viewport {
   float center_x, center_y;                                ///< px
   float depth_scale, depth_bias;                           ///< window depth = z/w · scale + bias
   float guard_left, guard_right, guard_bottom, guard_top;  ///< x ≥ guard_left·w, x ≤ guard_right·w, …
+};
+
+/// The least and the largest coordinate, x or y, of any sample in its pixel, in 1/256 px.
+struct SampleSpan {
+  int low = kSubPixels / 2, high = kSubPixels / 2;
 };
 
 /// The pixels a draw may touch, half open.
@@ -79,9 +100,14 @@ inline constexpr uint32_t kFrontFacing = 1;     ///< the triangle faces front
 inline constexpr uint32_t kClipped = 2;         ///< vertex[] index the chunk's clip vertices
 inline constexpr uint32_t kSmall = 4;           ///< every edge function fits in int32 without a shift
 inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: which of vertex[] is the provoking vertex
+inline constexpr uint32_t kSprite = 32;         ///< a point: see Triangle
+inline constexpr uint32_t kLine = 64;           ///< a line: see Triangle
 inline constexpr uint32_t kSegmentShift = 8;    ///< the rest: which segment of the chunk
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
+/// A point (kSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
+/// A line (kLine, with one sample a pixel) has its ends as vertices 0 and 1, that of smaller depth first, and a third corner beside
+/// the first so that E1 and the area are the products along the line that interpolation needs; vertex[2] is its LineRange.
 struct Triangle {
   std::array<int32_t, 3> x, y;  ///< snapped, 24.8
   float z0;                     ///< depth at vertex 0, offset included
@@ -107,10 +133,10 @@ struct ClipSource {
   std::array<uint32_t, 3> vertex;
 };
 
-/// A run of consecutive triangles of one draw.
+/// A run of consecutive primitives of one instance of a draw.
 struct Segment {
-  uint32_t draw;
-  uint32_t first, count;         ///< triangles of the draw's index list
+  uint32_t draw, instance;
+  uint32_t first, count;         ///< primitives of the draw's index list
   uint32_t first_triangle = 0;   ///< written by setup: where its triangles start in Chunk::triangles
   uint32_t first_primitive = 0;  ///< written by the primitive stage: where its values start in Chunk::primitives
 };
@@ -156,8 +182,19 @@ struct ShaderKernels {
   int varying_count = 0;                          ///< floats per vertex
   int primitive_count = 0;                        ///< floats per triangle
   const Interpolation* interpolations = nullptr;  ///< varying_count entries
+  bool uses_centroid = false;                     ///< some varying does
+  bool gives_point_size = false;                  ///< the vertex function does
+  bool gives_sprite = false;                      ///< and bounds of points
+  int clip_distance_count = 0;                    ///< and clip distances
+  int color_count = 1;                            ///< colours that the fragment function returns
   bool discards = false;
   bool writes_depth = false;
+};
+
+/// Where a list, strip or fan begins after a primitive restart.
+struct IndexRun {
+  uint32_t first_primitive;  ///< primitives of the draw before it
+  uint32_t first_index;      ///< its place in the index list
 };
 
 /// A draw as the pass keeps it: its arguments, and what follows from them once for all triangles.
@@ -172,9 +209,14 @@ struct Draw {
   PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
   float depth_low = 0.0f;  ///< depth range in order
   float depth_high = 1.0f;
-  bool deferred = false;  ///< shaded after visibility, once per visible pixel; else at once, in order
+  bool deferred = false;        ///< shaded after visibility, once per visible pixel: replaces all colours; else shaded at once, in order
+  bool writes_color = false;    ///< some channel of some attachment
+  bool shades_samples = false;  ///< the fragment function runs for each sample, not for each pixel
+  uint32_t sample_mask = 1;     ///< samples that may be drawn
+  std::array<AttachmentState, kMaxColorTargets> attachments{};
 
-  uint32_t triangle_count() const { return static_cast<uint32_t>(indices->size() / 3); }
+  uint32_t primitive_count = 0;  ///< of one instance
+  std::vector<IndexRun> runs;    ///< those with a primitive in them; empty where no index is a restart
 };
 
 /// Everything the stages after the vertex stage read.
@@ -185,7 +227,9 @@ struct Frame {
   int width = 0, height = 0;  ///< target, px
   int tile_size = 64;
   int tiles_x = 0, tiles_y = 0;
-  DepthFormat depth_format = DepthFormat::none;
+  DepthFormat depth_format = DepthFormat::none;  ///< without its stencil
+  int samples = 1;                               ///< of a pixel
+  SampleSpan samples_at{};
 };
 
 }  // namespace halfspace

@@ -4,6 +4,7 @@
 namespace halfspace {
 
 PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
+  vertices_in += o.vertices_in;
   vertices_shaded += o.vertices_shaded;
   primitives_in += o.primitives_in;
   culled_non_finite += o.culled_non_finite;
@@ -19,7 +20,13 @@ PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   fragments_shaded += o.fragments_shaded;
   tiles_touched += o.tiles_touched;
   flushes += o.flushes;
+  for (std::size_t i = 0; i < o.queries.size(); ++i) add_to_query(i, o.queries[i]);
   return *this;
+}
+
+void PassStatistics::add_to_query(std::size_t query, uint64_t samples) {
+  if (queries.size() <= query) queries.resize(query + 1);
+  queries[query] += samples;
 }
 
 }  // namespace halfspace

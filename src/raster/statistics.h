@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace halfspace {
 
 /// What a pass did. Every count is exact, and the same for any number of threads and any lane width.
 struct PassStatistics {
+  uint64_t vertices_in = 0;        ///< indices submitted, in all instances; restarts are none
   uint64_t vertices_shaded = 0;    ///< distinct vertices referenced, per draw
   uint64_t primitives_in = 0;      ///< triangles submitted
   uint64_t culled_non_finite = 0;  ///< a position with NaN or Inf
@@ -22,6 +24,11 @@ struct PassStatistics {
   uint64_t fragments_shaded = 0;   ///< runs of the fragment function, masked lanes not counted
   uint64_t tiles_touched = 0;      ///< tiles that any triangle reached
   uint64_t flushes = 0;            ///< times the bins outgrew their budget before the end of the pass
+
+  /// Occlusion queries: the samples that passed all tests, of the draws whose DrawState::query was this number.
+  std::vector<uint64_t> queries;
+  bool any_passed(std::size_t query) const { return queries[query] != 0; }
+  void add_to_query(std::size_t query, uint64_t samples);
 
   PassStatistics& operator+=(const PassStatistics& o);
   friend bool operator==(const PassStatistics&, const PassStatistics&) = default;

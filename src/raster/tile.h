@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/lanes.h"
+#include "raster/sample_pattern.h"
 #include "raster/stages.h"
 
 namespace halfspace {
@@ -38,6 +39,11 @@ constexpr int packet_y(int p) {
   return i / kPixelsPerBlock / kBlocksPerRow * kBlockSize + block_y(i % kPixelsPerBlock);
 }
 
+/// How many packets after that of sample 0 the packet of another sample's cell lies.
+constexpr int packet_shift(const SampleCell& cell) {
+  return (cell.y / kBlockSize * kBlocksPerRow + cell.x / kBlockSize) * kPacketsPerBlock;
+}
+
 /// The lanes' places in their packet.
 HS_INLINE Int lane_x() {
   Int r{};
@@ -63,18 +69,23 @@ struct ColorBuffer {
   alignas(64) std::array<std::byte, kMaxTilePixels * 16> bytes;
 };
 
-/// One task's workspace. About 100 KB: it lives on the stack of the task that owns the tile.
+/// One task's workspace: it lives on the stack of the task that owns the tile. With one attachment some 100 KB of it are used.
+/// With several samples a pixel all arrays hold one cell a sample (see raster/sample_pattern.h).
 struct Tile {
   int x0 = 0, y0 = 0;         ///< window coordinates of its lower left pixel
   int width = 0, height = 0;  ///< pixels inside the target
   int size = kMaxTileSize;
-  DepthFormat depth_format = DepthFormat::none;
+  int samples = 1;
+  DepthFormat depth_format = DepthFormat::none;  ///< without its stencil
+  bool has_stencil = false;
 
   /// Depth values as the format holds them: d32f the depth itself, d16 and d24 the code (a whole number; exact in float).
   alignas(64) std::array<float, kMaxTilePixels> depth;
   /// The visible triangle of each pixel not shaded yet, or kNoTriangle.
   alignas(64) std::array<TriangleId, kMaxTilePixels> id;
-  ColorBuffer color;
+  alignas(64) std::array<uint8_t, kMaxTilePixels> stencil;
+  std::array<ColorBuffer, kMaxColorTargets> color;
+  int color_count = 0;
 
   /// Bounds of the depth values in each block: never narrower than the values.
   std::array<float, kBlocks> block_min, block_max;
@@ -95,11 +106,17 @@ HS_INLINE R depth_value(DepthFormat format, R z) {
   return z;
 }
 
+/// What an image holds of pixels with several samples.
+enum class Samples : uint8_t {
+  one,  ///< one value a pixel: loaded into all samples, stored from sample 0
+  all   ///< an image for each sample, one after the other
+};
+
 // Between tile and image. Images hold the top row first, tiles the bottom row: rows are turned round here.
-void load_color(const ColorTarget& target, int target_width, int target_height, Tile& tile);
-void load_depth(const DepthTarget& target, int target_width, int target_height, Tile& tile);
-void store_color(const ColorTarget& target, int target_width, int target_height, const Tile& tile, const ColorBuffer& color);
-void store_depth(const DepthTarget& target, int target_width, int target_height, const Tile& tile);
+void load_color(const ColorTarget& target, int target_width, int target_height, Samples held, const Tile& tile, ColorBuffer& color);
+void load_depth(const DepthTarget& target, int target_width, int target_height, Samples held, Tile& tile);
+void store_color(const ColorTarget& target, int target_width, int target_height, Samples held, const Tile& tile, const ColorBuffer& color);
+void store_depth(const DepthTarget& target, int target_width, int target_height, Samples held, const Tile& tile);
 
 /// Makes a block's depth bounds exact.
 void refresh_block_bounds(Tile& tile, int block);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/vertex_stage.h"
 
+#include "raster/sprite.h"
+
 namespace halfspace {
 
 namespace {
@@ -85,30 +87,62 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.first = draw.indices->first_vertex();
   out.count = draw.indices->end_vertex() - out.first;
   out.varying_count = draw.kernels.varying_count;
-  const std::size_t n = out.count;
+  const std::size_t n = out.count * std::size_t{draw.state.instances};
+  HS_CHECK_OP(n, <, std::size_t{1} << 32);
   out.screen.reset(new ScreenVertex[n]);  // not make_unique: rows that no index uses need no initialization
   out.outcodes.reset(new Outcode[n]);
   out.varyings.reset(new float[n * static_cast<std::size_t>(out.varying_count)]);
+  out.clip_distance_count = draw.kernels.clip_distance_count;
+  if (out.clip_distance_count != 0) out.clip_distances.reset(new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
+  if (draws_points(draw.state)) out.sprites.reset(new SpriteRect[n]);
 }
 
 void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
   alignas(64) std::array<float, 4 * kVertexBatch> clip{};
   std::array<ScreenVertex, kVertexBatch> screen;
   std::array<Outcode, kVertexBatch> outcodes;
+  alignas(64) std::array<float, kMostExtraRows * kVertexBatch> extra;
+  std::array<SpriteRect, kVertexBatch> sprites;
   const std::span<const uint32_t> used = draw.indices->used();
-  for (std::size_t b = begin; b < end; b += kVertexBatch) {
-    const int count = static_cast<int>(std::min<std::size_t>(kVertexBatch, end - b));
-    const uint32_t first = out.first + static_cast<uint32_t>(b);
-    const uint32_t* ids = used.empty() ? nullptr : used.data() + b;
-    draw.kernels.vertex(draw.shader.get(), {&draw.vertices, ids, first, count, out.first, out.varyings.get(), clip.data()});
+  const std::size_t per_instance = draw.indices->used_count();
+  VertexView instance_view;
+  for (std::size_t b = begin; b < end;) {
+    const auto instance = static_cast<uint32_t>(b / per_instance);
+    const std::size_t local = b % per_instance;
+    const int count = static_cast<int>(std::min<std::size_t>(kVertexBatch, std::min(end - b, per_instance - local)));
+    b += static_cast<std::size_t>(count);
+    const VertexView* view = &draw.vertices;
+    if (view->has_instance_streams) {
+      instance_view = at_instance(draw.vertices, instance);
+      view = &instance_view;
+    }
+    const uint32_t slot_base = out.first - instance * out.count;
+    const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
+    draw.kernels.vertex(draw.shader.get(), {view, ids, out.first + static_cast<uint32_t>(local), count, slot_base, draw.state.base_vertex,
+                                            static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
+    if (out.clip_distances) {
+      for (int i = 0; i < count; ++i) {
+        const uint32_t slot = (ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base;
+        for (int k = 0; k < out.clip_distance_count; ++k) {
+          const std::size_t at = std::size_t{slot} * static_cast<std::size_t>(out.clip_distance_count) + static_cast<std::size_t>(k);
+          out.clip_distances[at] = extra[static_cast<std::size_t>((k + 1) * kVertexBatch + i)];
+        }
+      }
+    }
     if (ids == nullptr) {
-      project(draw, clip.data(), count, out.screen.get() + b, out.outcodes.get() + b);
+      const std::size_t slot = std::size_t{instance} * out.count + local;
+      ScreenVertex* to = out.screen.get() + slot;
+      Outcode* codes = out.outcodes.get() + slot;
+      project(draw, clip.data(), count, to, codes);
+      if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, to, codes, out.sprites.get() + slot);
       continue;
     }
     project(draw, clip.data(), count, screen.data(), outcodes.data());
+    if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
     for (int i = 0; i < count; ++i) {
-      out.screen[ids[i] - out.first] = screen[static_cast<std::size_t>(i)];
-      out.outcodes[ids[i] - out.first] = outcodes[static_cast<std::size_t>(i)];
+      if (out.sprites) out.sprites[ids[i] - slot_base] = sprites[static_cast<std::size_t>(i)];
+      out.screen[ids[i] - slot_base] = screen[static_cast<std::size_t>(i)];
+      out.outcodes[ids[i] - slot_base] = outcodes[static_cast<std::size_t>(i)];
     }
   }
 }

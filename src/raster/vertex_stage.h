@@ -18,15 +18,20 @@ struct VertexBatch {
   const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
   uint32_t first;
   int count;
-  uint32_t slot_base;  ///< varyings of vertex i go to row i − slot_base
-  float* varyings;     ///< null for the position kernel
-  float* clip;         ///< out: x, y, z, w of clip space as four rows of kVertexBatch
+  uint32_t slot_base;   ///< varyings of vertex i go to row i − slot_base (modulo 2^32)
+  int32_t base_vertex;  ///< index + base_vertex is the row of the streams
+  int32_t instance;     ///< all vertices are of this one
+  float* varyings;      ///< null for the position kernel
+  float* clip;          ///< out: x, y, z, w of clip space as four rows of kVertexBatch
+  float* extra;         ///< out, or null: rows of the point size and the clip distances, or a sprite's low x, low y, high x, high y
 };
+inline constexpr int kMostClipDistances = 8;
+inline constexpr int kMostExtraRows = 1 + kMostClipDistances;
 
 /// The transform of a draw's clip space to the window. viewport in pixels; depth range as in DepthState.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
 
-/// Shades vertices [begin, end) of the list of vertices that the draw's indices use.
+/// Shades vertices [begin, end) of the list of vertices that the draw's indices use, instance after instance.
 void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out);
 
 /// Allocates out for all the vertices that the draw uses.
@@ -47,6 +52,18 @@ HS_INLINE A load_attributes(const VertexView& view, Int ids) {
   return from_components<A, Real>(components);
 }
 
+template <std::size_t N>
+HS_INLINE void store_extra(const PerVertex<Real, N>& v, float* rows) {
+  store(rows, v.point_size);
+  for (std::size_t i = 0; i < N; ++i) store(rows + (i + 1) * kVertexBatch, v.clip_distance[i]);
+}
+HS_INLINE void store_extra(const SpriteVertex<Real>& v, float* rows) {
+  store(rows, v.low.x);
+  store(rows + kVertexBatch, v.low.y);
+  store(rows + 2 * kVertexBatch, v.high.x);
+  store(rows + 3 * kVertexBatch, v.high.y);
+}
+
 template <class S, bool with_varyings>
 HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
   using Attributes = typename S::template Attributes<Real>;
@@ -59,8 +76,13 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
     const Int ids =
         batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index) : lane_index + static_cast<int32_t>(batch.first);
     Varyings out;
-    const vec4<Real> clip = s.vertex(load_attributes<Attributes>(*batch.vertices, ids), out);
+    const VertexId<Real> id{ids + batch.base_vertex, batch.instance};
+    const auto vertex = call_vertex<S, Real>(s, load_attributes<Attributes>(*batch.vertices, id.vertex), id, out);
+    const vec4<Real> clip = position_of(vertex);
     for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
+    if constexpr (with_varyings && !std::is_same_v<std::remove_const_t<decltype(vertex)>, vec4<Real>>) {
+      if (batch.extra != nullptr) store_extra(vertex, batch.extra + begin);
+    }
     if constexpr (with_varyings && n != 0) {
       std::array<float, n* static_cast<std::size_t>(kLanes)> rows;
       store(rows.data(), to_components<Real>(out));

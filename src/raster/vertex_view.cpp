@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/vertex_view.h"
 
-#include <algorithm>
+#include <limits>
 
 namespace halfspace {
 
@@ -13,24 +13,36 @@ Indices Indices::sequential(std::size_t vertex_count) {
   return i;
 }
 
-Indices::Indices(std::span<const uint32_t> list, std::size_t vertex_count) : wide_(list.data()), size_(list.size()) {
-  scan(list, vertex_count);
+Indices::Indices(std::span<const uint32_t> list, std::size_t vertex_count, PrimitiveRestart restart)
+    : wide_(list.data()), size_(list.size()) {
+  scan(list, vertex_count, restart);
 }
 
-Indices::Indices(std::span<const uint16_t> list, std::size_t vertex_count) : narrow_(list.data()), size_(list.size()) {
-  scan(list, vertex_count);
+Indices::Indices(std::span<const uint16_t> list, std::size_t vertex_count, PrimitiveRestart restart)
+    : narrow_(list.data()), size_(list.size()) {
+  scan(list, vertex_count, restart);
 }
 
 template <class T>
-void Indices::scan(std::span<const T> list, std::size_t vertex_count) {
-  if (list.empty()) return;
-  const auto [low, high] = std::minmax_element(list.begin(), list.end());
-  HS_CHECK_OP(*high, <, vertex_count);
-  first_ = *low;
-  end_ = static_cast<uint32_t>(*high) + 1;
+void Indices::scan(std::span<const T> list, std::size_t vertex_count, PrimitiveRestart restart) {
+  const auto is_restart = [restart](T i) { return restart == PrimitiveRestart::on && i == std::numeric_limits<T>::max(); };
+  T low = std::numeric_limits<T>::max(), high = 0;
+  for (std::size_t place = 0; place < list.size(); ++place) {
+    if (is_restart(list[place])) {
+      restarts_.push_back(static_cast<uint32_t>(place));
+      continue;
+    }
+    low = std::min(low, list[place]);
+    high = std::max(high, list[place]);
+  }
+  if (restarts_.size() == list.size()) return;
+  HS_CHECK_OP(high, <, vertex_count);
+  first_ = low;
+  end_ = static_cast<uint32_t>(high) + 1;
   std::vector<bool> seen(end_ - first_);
   std::size_t distinct = 0;
   for (const T i : list) {
+    if (is_restart(i)) continue;
     if (!seen[i - first_]) ++distinct;
     seen[i - first_] = true;
   }
@@ -39,6 +51,17 @@ void Indices::scan(std::span<const T> list, std::size_t vertex_count) {
   for (uint32_t i = 0; i < seen.size(); ++i) {
     if (seen[i]) used_.push_back(first_ + i);
   }
+}
+
+VertexView at_instance(const VertexView& view, uint32_t instance) {
+  VertexView v = view;
+  for (int i = 0; i < v.stream_count; ++i) {
+    VertexStream& s = v.streams[static_cast<std::size_t>(i)];
+    if (s.divisor == 0) continue;
+    s.data += static_cast<std::size_t>(instance / s.divisor) * static_cast<std::size_t>(s.stride);
+    s.stride = 0;
+  }
+  return v;
 }
 
 }  // namespace halfspace

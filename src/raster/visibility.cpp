@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <bit>
 
+#include "raster/centroid.h"
 #include "raster/compare.h"
-#include "raster/edge.h"
-#include "raster/setup.h"
+#include "raster/primitive_setup.h"
+#include "raster/stencil.h"
+#include "raster/tile_edges.h"
 
 namespace halfspace {
 
@@ -30,91 +32,6 @@ bool tests_depth(const DepthState& state, const Tile& tile) { return state.test 
 // Writes after which a block's bounds are made exact again before they are asked: a refresh costs about one packet.
 constexpr uint8_t kRefreshAfter = 8;
 
-// A triangle's edge functions at the tile's first sample and their steps from pixel to pixel. For a small triangle in
-// full (1/256 px)²; for others shifted down by kSubPixelBits, which keeps their sign and makes the steps whole numbers.
-// The fill rule's bias is taken off. An edge that the whole tile is inside of is zero throughout.
-struct TileEdges {
-  std::array<int32_t, 3> e, step_x, step_y;
-  std::array<int32_t, 3> bias;
-  bool outside = false;  ///< no sample of the tile is inside
-};
-
-TileEdges tile_edges(const Triangle& t, const Tile& tile) {
-  TileEdges r;
-  constexpr int half = kSubPixels / 2;
-  const int64_t x = int64_t{tile.x0} * kSubPixels + half;
-  const int64_t y = int64_t{tile.y0} * kSubPixels + half;
-  const bool small = t.is(kSmall);
-  const int64_t last = tile.size - 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Edge edge = edge_of(t, i);
-    const int64_t shift = small ? 0 : kSubPixelBits;
-    const int64_t step_x = -(int64_t{edge.ey} * kSubPixels) >> shift;
-    const int64_t step_y = (int64_t{edge.ex} * kSubPixels) >> shift;
-    r.bias[i] = fill_bias(edge);
-    const int64_t e = (edge.at(x, y) - r.bias[i]) >> shift;
-    const int64_t low = e + std::min<int64_t>(0, step_x * last) + std::min<int64_t>(0, step_y * last);
-    const int64_t high = e + std::max<int64_t>(0, step_x * last) + std::max<int64_t>(0, step_y * last);
-    if (high < 0) r.outside = true;
-    const bool drop = low >= 0 && !small;
-    r.e[i] = drop || high < 0 ? 0 : static_cast<int32_t>(e);
-    r.step_x[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_x);
-    r.step_y[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_y);
-  }
-  return r;
-}
-
-// The depth of a triangle at the pixels of packets.
-template <bool small>
-class DepthPlane {
- public:
-  DepthPlane(const Triangle& t, const TileEdges& edges, const Draw& draw, const Tile& tile)
-      : z0_(t.z0),
-        z_edge1_(t.z_edge1),
-        z_edge2_(t.z_edge2),
-        low_(draw.depth_low),
-        high_(std::clamp(t.z_max, draw.depth_low, draw.depth_high)),
-        format_(tile.depth_format) {
-    if constexpr (small) {
-      bias1_ = edges.bias[1];
-      bias2_ = edges.bias[2];
-    } else {
-      e1x_ = static_cast<float>(t.x[1] - t.x[0]);
-      e1y_ = static_cast<float>(t.y[1] - t.y[0]);
-      e2x_ = static_cast<float>(t.x[2] - t.x[0]);
-      e2y_ = static_cast<float>(t.y[2] - t.y[0]);
-      dx_ = static_cast<float>(tile.x0 * kSubPixels + kSubPixels / 2 - t.x[0]);
-      dy_ = static_cast<float>(tile.y0 * kSubPixels + kSubPixels / 2 - t.y[0]);
-    }
-  }
-
-  // e1, e2: the biased edge values of the packet's pixels (small triangles); x, y: their place in the tile.
-  HS_INLINE Real at(Int e1, Int e2, Int x, Int y) const {
-    Real w1, w2;
-    if constexpr (small) {
-      w1 = to_real<Real>(e1 + bias1_);
-      w2 = to_real<Real>(e2 + bias2_);
-    } else {
-      const Real dx = Real(dx_) + to_real<Real>(x * kSubPixels);
-      const Real dy = Real(dy_) + to_real<Real>(y * kSubPixels);
-      w1 = difference_of_products(dx, Real(e2y_), dy, Real(e2x_));
-      w2 = difference_of_products(Real(e1x_), dy, Real(e1y_), dx);
-    }
-    const Real z = fma(w1, Real(z_edge1_), fma(w2, Real(z_edge2_), Real(z0_)));
-    return depth_value(format_, clamp(z, Real(low_), Real(high_)));
-  }
-
-  // Bounds of what at() gives.
-  float low() const { return depth_value(format_, std::clamp(z0_, low_, high_)); }
-  float high() const { return depth_value(format_, high_); }
-
- private:
-  float z0_, z_edge1_, z_edge2_, low_, high_;
-  DepthFormat format_;
-  int32_t bias1_ = 0, bias2_ = 0;
-  float e1x_ = 0, e1y_ = 0, e2x_ = 0, e2y_ = 0, dx_ = 0, dy_ = 0;
-};
-
 void widen_bounds(CompareOp op, Tile& tile, int block, float low, float high) {
   // What passes LESS only lowers the values, what passes GREATER only raises them.
   const bool lowers = op == CompareOp::less || op == CompareOp::less_equal;
@@ -135,35 +52,49 @@ struct Context {
   Tile& tile;
   CoverageList* list;
   PassStatistics& statistics;
-  bool tests;        ///< there is a depth test
-  bool writes;       ///< and it writes
-  bool asks_shader;  ///< the shader's visibility function decides
-  float low, high;   ///< bounds of the triangle's depth
+  const StencilFace* stencil;  // null: no stencil test here
+  bool tests;                  // there is a depth test here
+  bool writes;                 // and it writes
+  bool asks_shader;            // the shader's visibility function decides
+  bool rejects;                // blocks whose depths no sample can pass are passed over
+  bool is_rare;                // the shader or the stencil has a say
+  SampleGrid grid;             // which sample of the pixels
+  float low, high;             // bounds of the triangle's depth
 };
 
 // The shader's say on a packet: narrows mask, replaces z.
 void ask_shader(const Context& c, int packet, Real& z, Mask& mask) {
   alignas(64) std::array<float, kLanes> depth;
   uint32_t lanes = bits(mask);
+  const SamplePosition at = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
+  const int x = c.grid.x0 + packet_x(packet), y = c.grid.y0 + packet_y(packet);
+  std::array<SamplePosition, kLanes> centroids;
+  const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
+  if (looks_inside) find_centroids(c.frame, x, y, nullptr, c.id, centroids.data());
   c.draw.kernels.visibility(c.draw.shader.get(),
-                            {&c.frame, c.id, c.tile.x0 + packet_x(packet), c.tile.y0 + packet_y(packet), depth.data(), &lanes});
+                            {&c.frame, c.id, x, y, at, looks_inside ? centroids.data() : nullptr, depth.data(), &lanes});
   const Real shader_z = clamp(load<Real>(depth.data()), Real(c.draw.depth_low), Real(c.draw.depth_high));
   if (c.draw.kernels.writes_depth) z = depth_value(c.tile.depth_format, shader_z);
   mask = mask & mask_from_bits<Mask>(lanes);
 }
 
-void visit_packet(const Context& c, int packet, Mask mask, Real z) {
-  c.statistics.samples_tested += static_cast<uint64_t>(std::popcount(bits(mask)));
-  Tile& tile = c.tile;
-  const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
-  if (c.mode == VisibilityMode::cover_only) {
-    c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
-    return;
+// Both tests; the stencil remembers what became of each sample.
+Mask test_with_stencil(const Context& c, int packet, Real z, Mask mask) {
+  const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
+  Mask passed = stencil_passed;
+  if (c.tests) {
+    passed = passed & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
   }
-  if (c.asks_shader) ask_shader(c, packet, z, mask);
-  if (c.tests) mask = mask & compare(c.draw.state.depth.compare, z, load<Real>(&tile.depth[first]));
+  update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
+  return passed;
+}
+
+// What becomes of the lanes that passed.
+HS_INLINE void finish_packet(const Context& c, int packet, Mask mask, Real z) {
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
+  Tile& tile = c.tile;
+  const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
   if (c.writes && c.mode != VisibilityMode::test_only) {
     store(&tile.depth[first], select(mask, z, load<Real>(&tile.depth[first])));
   }
@@ -177,7 +108,29 @@ void visit_packet(const Context& c, int packet, Mask mask, Real z) {
   c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
 }
 
-// Pixels of the tile, half open.
+// Where the shader or the stencil has a say.
+__attribute__((noinline)) void visit_rare_packet(const Context& c, int packet, Mask mask, Real z) {
+  if (c.mode == VisibilityMode::cover_only) {
+    c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
+    return;
+  }
+  if (c.asks_shader) ask_shader(c, packet, z, mask);
+  if (c.stencil != nullptr) {
+    mask = test_with_stencil(c, packet, z, mask);
+  } else if (c.tests) {
+    mask = mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+  }
+  finish_packet(c, packet, mask, z);
+}
+
+void visit_packet(const Context& c, int packet, Mask mask, Real z) {
+  c.statistics.samples_tested += static_cast<uint64_t>(std::popcount(bits(mask)));
+  if (c.is_rare) return visit_rare_packet(c, packet, mask, z);
+  if (c.tests) mask = mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+  finish_packet(c, packet, mask, z);
+}
+
+// Pixels of the tile's room, half open.
 struct TileRect {
   int x0, y0, x1, y1;
 };
@@ -186,7 +139,7 @@ template <bool small>
 void visit_block(const Context& c, const TileEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool cut, int block_x0,
                  int block_y0) {
   const int block = block_y0 / kBlockSize * kBlocksPerRow + block_x0 / kBlockSize;
-  if (c.tests && !c.asks_shader && c.mode != VisibilityMode::cover_only) {
+  if (c.rejects) {
     const auto b = static_cast<std::size_t>(block);
     if (c.tile.block_writes[b] >= kRefreshAfter) refresh_block_bounds(c.tile, block);
     if (never_passes(c.draw.state.depth.compare, c.low, c.high, c.tile.block_min[b], c.tile.block_max[b])) return;
@@ -220,9 +173,8 @@ bool misses_block(const TileEdges& edges, int x, int y) {
 }
 
 template <bool small>
-void visit_triangle(const Context& context, const TileEdges& edges, const TileRect& rect, bool cut) {
-  Context c = context;
-  const DepthPlane<small> plane(c.triangle, edges, c.draw, c.tile);
+void visit_triangle(Context& c, const TileEdges& edges, const TileRect& rect, bool cut) {
+  const DepthPlane<small> plane(c.triangle, edges, c.draw, c.grid, c.tile.depth_format);
   const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
   c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : plane.low();
   c.high = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_high) : plane.high();
@@ -238,43 +190,70 @@ void visit_triangle(const Context& context, const TileEdges& edges, const TileRe
 
 VisibilityMode visibility_mode(const Draw& draw) {
   if (draw.deferred) return VisibilityMode::deferred;
+  if (draw.kernels.fragment == nullptr) return VisibilityMode::early;
   if (draw.kernels.writes_depth) return VisibilityMode::cover_only;
-  if (draw.kernels.discards) return VisibilityMode::test_only;
+  if (draw.kernels.discards || draw.state.alpha_to_coverage) return VisibilityMode::test_only;
   return VisibilityMode::early;
 }
+
+namespace {
+
+void rasterize_sample(Context& c) {
+  const Triangle& t = c.triangle;
+  const Tile& tile = c.tile;
+  const PixelBounds& allowed = c.draw.bounds;
+  const PixelBounds b = pixel_bounds(c.draw, t,
+                                     {std::max(allowed.x0, tile.x0), std::max(allowed.y0, tile.y0),
+                                      std::min(allowed.x1, tile.x0 + tile.width), std::min(allowed.y1, tile.y0 + tile.height)},
+                                     c.grid.position);
+  if (b.empty()) return;
+  const TileEdges edges = tile_edges(c.draw, t, c.grid, tile.size);
+  if (edges.outside) return;
+  // Only where the bounds cut the tile can a covered pixel lie outside of them; and a cell has others beside it.
+  const bool cut = t.is(kSprite | kLine) || tile.size != kMaxTileSize || allowed.x0 > tile.x0 || allowed.y0 > tile.y0 ||
+                   allowed.x1 < tile.x0 + tile.size || allowed.y1 < tile.y0 + tile.size;
+  const TileRect rect{b.x0 - c.grid.x0, b.y0 - c.grid.y0, b.x1 - c.grid.x0, b.y1 - c.grid.y0};
+  if (t.is(kSmall)) {
+    visit_triangle<true>(c, edges, rect, cut);
+  } else {
+    visit_triangle<false>(c, edges, rect, cut);
+  }
+}
+
+}  // namespace
 
 void rasterize(const Frame& frame, uint32_t chunk, uint32_t index, VisibilityMode mode, Tile& tile, CoverageList* list,
                PassStatistics& statistics) {
   const Chunk& source = frame.chunks[chunk];
   const Triangle& t = source.triangles[index];
   const Draw& draw = frame.draws[source.segments[t.segment()].draw];
-  const PixelBounds& allowed = draw.bounds;
-  const PixelBounds b = pixel_bounds(t, {std::max(allowed.x0, tile.x0), std::max(allowed.y0, tile.y0),
-                                         std::min(allowed.x1, tile.x0 + tile.width), std::min(allowed.y1, tile.y0 + tile.height)});
-  if (b.empty()) return;
-  const TileEdges edges = tile_edges(t, tile);
-  if (edges.outside) return;
-  // Only where the bounds cut the tile can a covered pixel lie outside of them.
-  const bool cut = allowed.x0 > tile.x0 || allowed.y0 > tile.y0 || allowed.x1 < tile.x0 + tile.size || allowed.y1 < tile.y0 + tile.size;
-  const TileRect rect{b.x0 - tile.x0, b.y0 - tile.y0, b.x1 - tile.x0, b.y1 - tile.y0};
-  const bool tests = tests_depth(draw.state.depth, tile);
-  const Context c{frame,
-                  draw,
-                  t,
-                  triangle_id(chunk, index),
-                  mode,
-                  tile,
-                  list,
-                  statistics,
-                  tests,
-                  tests && draw.state.depth.write,
-                  mode == VisibilityMode::deferred && draw.kernels.visibility != nullptr,
-                  0.0f,
-                  1.0f};
-  if (t.is(kSmall)) {
-    visit_triangle<true>(c, edges, rect, cut);
-  } else {
-    visit_triangle<false>(c, edges, rect, cut);
+  const StencilFace* stencil = stencil_face(draw.state, tile, t.is(kFrontFacing));
+  // A stencil value changes with what becomes of the sample: where the shader speaks later, so do both tests.
+  const bool late = mode == VisibilityMode::test_only && stencil != nullptr;
+  const bool tests = !late && tests_depth(draw.state.depth, tile);
+  const bool asks_shader = mode == VisibilityMode::deferred && draw.kernels.visibility != nullptr;
+  const bool counts_failures = stencil != nullptr && (stencil->fail != StencilOp::keep || stencil->depth_fail != StencilOp::keep);
+  Context c{frame,
+            draw,
+            t,
+            triangle_id(chunk, index),
+            mode,
+            tile,
+            list,
+            statistics,
+            late ? nullptr : stencil,
+            tests,
+            tests && draw.state.depth.write,
+            asks_shader,
+            tests && !asks_shader && !counts_failures && mode != VisibilityMode::cover_only,
+            asks_shader || mode == VisibilityMode::cover_only || (stencil != nullptr && !late),
+            SampleGrid(tile, 0),
+            0.0f,
+            1.0f};
+  for (int s = 0; s < tile.samples; ++s) {
+    if (s != 0) c.grid = SampleGrid(tile, s);
+    if ((draw.sample_mask >> s & 1) != 0) rasterize_sample(c);
+    if (list != nullptr) list->sample_end[static_cast<std::size_t>(s)] = list->count;
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Visibility. In: one triangle and one tile. Out, for deferred draws: the tile's depth and visible triangle; for
-// immediate draws: the packets to shade now, in the order of the tile.
+// immediate draws: the packets to shade now, sample after sample.
 //
 // Coverage is exact: edge functions in whole numbers (raster/edge.h). Depth is z0 + E1·z_edge1 + E2·z_edge2 with
 // non-negative terms, so it keeps its relative accuracy: E exact for small triangles, else a difference of products.
@@ -15,6 +15,7 @@ namespace halfspace {
 struct CoverageList {
   std::array<PacketMask, kPackets> packets;
   int count = 0;
+  std::array<int, kMaxSamples> sample_end;  ///< where each sample's packets end
   /// Depth of the covered pixels, as Tile::depth holds it; valid where a mask has its bit.
   alignas(64) std::array<float, kMaxTilePixels> depth;
 };
@@ -44,9 +45,11 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
 struct VisibilityPacket {
   const Frame* frame;
   TriangleId id;
-  int x, y;         ///< window coordinates of the packet's lowest corner
-  float* depth;     ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
-  uint32_t* lanes;  ///< in and out: bits of the covered lanes, then of those kept
+  int x, y;                         ///< window coordinates of the packet's lowest corner
+  SamplePosition position;          ///< where in their pixels the shader looks
+  const SamplePosition* centroids;  ///< as in FragmentBatch
+  float* depth;                     ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
+  uint32_t* lanes;                  ///< in and out: bits of the covered lanes, then of those kept
 };
 
 }  // namespace halfspace

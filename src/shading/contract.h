@@ -9,20 +9,50 @@
 //
 // and, where it wants them,
 //
+//   template <class R> vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const;
+//     a vertex function that is told which vertex of which instance it makes.
 //   template <class R> struct Primitive { … };       one value a triangle, and the function that makes it, run once
 //   template <class R> Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const;
 //     per surviving triangle; fragment then takes (const Varyings<R>&, const Primitive<R>&, const Pixel<R>&).
+//   PerVertex<R> or PerVertex<R, N> as what vertex returns: a point size and N clip distances beside the position; or
+//   SpriteVertex<R>: the rectangle that a point covers, for shaders that know the bounds of what they draw in it.
 //   template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;
 //     the keep mask and depth that fragment will return, without its colour: lets a shader that discards or writes
 //     depth be shaded once per visible pixel like an opaque one.
 //
 // R is float, double or lanes; float and glm::vec3 are uniform, R and vec3<R> vary from pixel to pixel. What fragment
-// returns says what it does: Fragment (colour only), DiscardingFragment, DepthFragment.
+// returns says what it does: Fragment (colour only), DiscardingFragment, DepthFragment; or Fragments<R, N>,
+// DiscardingFragments<R, N>, DepthFragments<R, N> with a colour for each of N attachments.
 #pragma once
+
+#include <array>
 
 #include "shading/pixel.h"
 
 namespace halfspace {
+
+/// Which vertex a vertex function makes.
+template <class R>
+struct VertexId {
+  IntOf<R> vertex;   ///< its row in the streams: the index plus DrawState::base_vertex
+  int32_t instance;  ///< 0 … DrawState::instances − 1
+};
+
+/// What a vertex function returns that says more than the position in clip space.
+template <class R, std::size_t clip_distances = 0>
+struct PerVertex {
+  vec4<R> position;
+  R point_size{1.0f};                             ///< px; where points are drawn
+  std::array<R, clip_distances> clip_distance{};  ///< at most 8: what lies where one of them is negative is cut away
+};
+
+/// What a vertex function of points returns that sets their bounds itself: pixels whose samples lie in the rectangle are drawn.
+template <class R>
+struct SpriteVertex {
+  vec2<R> low, high;  ///< normalized device coordinates (x/w, y/w) of its corners
+  R depth;            ///< z/w, for the test unless the shader writes depth; clipped at near and far
+  MaskOf<R> drawn;    ///< false: there is nothing to draw
+};
 
 /// Colour only: linear, straight alpha.
 template <class R>
@@ -41,6 +71,23 @@ struct DiscardingFragment {
 template <class R>
 struct DepthFragment {
   vec4<R> color;
+  MaskOf<R> keep;
+  R depth;
+};
+
+/// The same with N colours: one an attachment, or the two sources of dual source blending.
+template <class R, std::size_t N>
+struct Fragments {
+  std::array<vec4<R>, N> color;
+};
+template <class R, std::size_t N>
+struct DiscardingFragments {
+  std::array<vec4<R>, N> color;
+  MaskOf<R> keep;
+};
+template <class R, std::size_t N>
+struct DepthFragments {
+  std::array<vec4<R>, N> color;
   MaskOf<R> keep;
   R depth;
 };
@@ -64,11 +111,33 @@ template <class S>
 concept HasPrimitive = requires {
   typename S::template Primitive<float>;
 };
+namespace detail {
+template <class T>
+inline constexpr std::size_t kClipDistancesIn = 0;
+template <class R, std::size_t N>
+inline constexpr std::size_t kClipDistancesIn<PerVertex<R, N>> = N;
+template <class T>
+inline constexpr bool kIsPerVertex = false;
+template <class R, std::size_t N>
+inline constexpr bool kIsPerVertex<PerVertex<R, N>> = true;
+template <class T>
+inline constexpr bool kIsSpriteVertex = std::is_same_v<T, SpriteVertex<float>>;
+}  // namespace detail
+template <class T>
+concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsSpriteVertex<T>;
+
 template <class S>
-concept HasVertexFunction = requires(const S& s, const typename S::template Attributes<float>& in,
-                                     typename S::template Varyings<float>& out) {
-  { s.vertex(in, out) } -> std::same_as<vec4<float>>;
+concept HasPlainVertexFunction = requires(const S& s, const typename S::template Attributes<float>& in,
+                                          typename S::template Varyings<float>& out) {
+  { s.vertex(in, out) } -> VertexResult;
 };
+template <class S>
+concept HasVertexIdFunction = requires(const S& s, const typename S::template Attributes<float>& in, const VertexId<float>& id,
+                                       typename S::template Varyings<float>& out) {
+  { s.vertex(in, id, out) } -> VertexResult;
+};
+template <class S>
+concept HasVertexFunction = HasPlainVertexFunction<S> || HasVertexIdFunction<S>;
 template <class S>
 concept HasPrimitiveFunction = requires(const S& s, const typename S::template Varyings<float>& v) {
   { s.primitive(v, v, v) } -> std::same_as<typename S::template Primitive<float>>;
@@ -129,6 +198,17 @@ consteval bool require_shader() {
   return Shader<S>;
 }
 
+/// Calls the shader's vertex function, with the vertex's number where it asks for it.
+template <class S, class R>
+HS_INLINE auto call_vertex(const S& s, const typename S::template Attributes<R>& in, const VertexId<R>& id,
+                           typename S::template Varyings<R>& out) {
+  if constexpr (HasVertexIdFunction<S>) {
+    return s.vertex(in, id, out);
+  } else {
+    return s.vertex(in, out);
+  }
+}
+
 /// Calls the shader's fragment function, with its primitive's value where it has one.
 template <class S, class R, class P>
 HS_INLINE auto call_fragment(const S& s, const typename S::template Varyings<R>& in, const P& face, const Pixel<R>& px) {
@@ -155,10 +235,28 @@ template <class R>
 inline constexpr bool kIsDiscarding<DiscardingFragment<R>> = true;
 template <class R>
 inline constexpr bool kIsDiscarding<DepthFragment<R>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsDiscarding<DiscardingFragments<R, N>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsDiscarding<DepthFragments<R, N>> = true;
 template <class F>
 inline constexpr bool kHasDepth = false;
 template <class R>
 inline constexpr bool kHasDepth<DepthFragment<R>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kHasDepth<DepthFragments<R, N>> = true;
+template <class C>
+inline constexpr std::size_t kColorsIn = 1;
+template <class C, std::size_t N>
+inline constexpr std::size_t kColorsIn<std::array<C, N>> = N;
+template <class R>
+HS_INLINE const vec4<R>& nth_color(const vec4<R>& color, std::size_t) {
+  return color;
+}
+template <class R, std::size_t N>
+HS_INLINE const vec4<R>& nth_color(const std::array<vec4<R>, N>& colors, std::size_t n) {
+  return colors[n];
+}
 }  // namespace detail
 
 /// The shader's per-triangle value, or an empty struct.
@@ -169,6 +267,37 @@ template <class S>
 using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), std::declval<const typename S::template Varyings<float>&>(),
                                                     std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
 
+template <class S>
+using VertexOf =
+    decltype(call_vertex<S, float>(std::declval<const S&>(), std::declval<const typename S::template Attributes<float>&>(),
+                                   std::declval<const VertexId<float>&>(), std::declval<typename S::template Varyings<float>&>()));
+/// Clip distances that the vertex function gives.
+template <class S>
+inline constexpr std::size_t kClipDistances = detail::kClipDistancesIn<VertexOf<S>>;
+/// Does it give a point size?
+template <class S>
+inline constexpr bool kGivesPointSize = detail::kIsPerVertex<VertexOf<S>>;
+/// Does it give the bounds of a sprite?
+template <class S>
+inline constexpr bool kGivesSprite = detail::kIsSpriteVertex<VertexOf<S>>;
+
+/// The position in what a vertex function returned; that of a sprite is its depth at w = 1, or at w = −1 if it is not drawn.
+template <class R>
+HS_INLINE vec4<R> position_of(const vec4<R>& v) {
+  return v;
+}
+template <class R, std::size_t N>
+HS_INLINE vec4<R> position_of(const PerVertex<R, N>& v) {
+  return v.position;
+}
+template <class R>
+HS_INLINE vec4<R> position_of(const SpriteVertex<R>& v) {
+  return vec4<R>(R(0.0f), R(0.0f), v.depth, select(v.drawn, R(1.0f), R(-1.0f)));
+}
+
+/// How many colours does the shader return?
+template <class S>
+inline constexpr std::size_t kColors = detail::kColorsIn<decltype(FragmentOf<S>::color)>;
 /// May the shader drop a fragment?
 template <class S>
 inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;

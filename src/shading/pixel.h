@@ -93,6 +93,16 @@ HS_INLINE V interpolate_all(const Weights<R>& w, const ComponentLanes<R, sizeof.
   return from_components<V, R>(out);
 }
 
+/// The same with the centroid components at weights of their own.
+template <class V, class R, std::size_t... I>
+HS_INLINE V interpolate_all(const Weights<R>& w, const Weights<R>& centroid, const ComponentLanes<R, sizeof...(I)>& c,
+                            std::index_sequence<I...>) {
+  constexpr auto modes = kInterpolations<V>;
+  std::array<R, sizeof...(I)> out{
+      interpolate<modes[I]>(modes[I] == Interpolation::centroid ? centroid : w, c.value0[I], c.delta1[I], c.delta2[I])...};
+  return from_components<V, R>(out);
+}
+
 /// What a fragment shader is told of its pixel, lane by lane.
 template <class R>
 struct Pixel {
@@ -111,6 +121,10 @@ struct Pixel {
   HS_INLINE F ddy(F V::*member) const {
     return derivative(member, dx, triangle->e1x, triangle->e2x, R(-256));
   }
+
+  /// Where in a point's square the pixel lies: 0 to 1 from left to right and from the top to the bottom, or the bottom to the
+  /// top (DrawState::point_origin). Of points alone.
+  HS_INLINE vec2<R> point_coord() const { return {dx / triangle->e1x, dy / triangle->e2y}; }
 
   /// The varyings V at pixel (i, j) of the 2x2 quad that holds this pixel (i, j in {0, 1}; quads start at even window
   /// coordinates), by the same triangle, which need not cover it. For differences of computed values, as dFdx takes.

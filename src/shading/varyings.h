@@ -32,7 +32,14 @@ struct Absent {};
 template <bool present, class T, int tag>
 using MemberIf = std::conditional_t<present, T, Absent<tag>>;
 
-enum class Interpolation : uint8_t { smooth, flat, linear };
+/// A smooth varying that is looked up inside of the triangle where it covers a pixel in part and the pixel is shaded once for
+/// several samples: at the first covered sample instead of the centre (GLSL: centroid).
+template <class T>
+struct Centroid {
+  T value;
+};
+
+enum class Interpolation : uint8_t { smooth, flat, linear, centroid };
 
 namespace detail {
 
@@ -61,6 +68,11 @@ template <int tag>
 struct FieldTraits<Absent<tag>> {
   static constexpr std::size_t components = 0;
   static constexpr Interpolation interpolation = Interpolation::flat;
+};
+
+template <class T>
+struct FieldTraits<Centroid<T>> : FieldTraits<T> {
+  static constexpr Interpolation interpolation = Interpolation::centroid;
 };
 
 template <class T>
@@ -93,13 +105,22 @@ inline constexpr std::size_t kComponents = detail::TupleTraits<detail::FieldsOf<
 template <class V>
 inline constexpr auto kInterpolations = detail::TupleTraits<detail::FieldsOf<V>>::interpolations();
 
+/// Is one of them looked up at the centroid?
+template <class V>
+inline constexpr bool kUsesCentroid = [] {
+  for (const Interpolation i : kInterpolations<V>) {
+    if (i == Interpolation::centroid) return true;
+  }
+  return false;
+}();
+
 /// The components of t as an array of R, in order of declaration.
 template <class R, class T>
 HS_INLINE std::array<R, kComponents<T>> to_components(const T& t) {
   std::array<R, kComponents<T>> a;
   if constexpr (kComponents<T> != 0) {
     static_assert(sizeof(T) == sizeof(a),
-                  "the members of attributes and varyings are R, vec2<R>, vec3<R>, vec4<R>, Flat or Linear of these");
+                  "the members of attributes and varyings are R, vec2<R>, vec3<R>, vec4<R>, Flat, Linear or Centroid of these");
     std::memcpy(&a, &t, sizeof a);
   }
   return a;

@@ -61,6 +61,19 @@ void link(GLuint program) {
 
 // ---- state ---------------------------------------------------------------------------------------------------------
 
+GLenum gl(Topology t) {
+  switch (t) {
+    case Topology::triangles: return GL_TRIANGLES;
+    case Topology::triangle_strip: return GL_TRIANGLE_STRIP;
+    case Topology::triangle_fan: return GL_TRIANGLE_FAN;
+    case Topology::points: return GL_POINTS;
+    case Topology::lines: return GL_LINES;
+    case Topology::line_strip: return GL_LINE_STRIP;
+    case Topology::line_loop: return GL_LINE_LOOP;
+  }
+  return GL_TRIANGLES;
+}
+
 void enable(GLenum what, bool on) { (on ? glEnable : glDisable)(what); }
 
 GLenum gl(CompareOp op) {
@@ -68,11 +81,21 @@ GLenum gl(CompareOp op) {
   return k[static_cast<std::size_t>(op)];
 }
 GLenum gl(BlendFactor f) {
-  constexpr std::array<GLenum, 10> k{GL_ZERO,      GL_ONE,
-                                     GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR,
-                                     GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR,
-                                     GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA,
-                                     GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA};
+  constexpr std::array<GLenum, 15> k{GL_ZERO,
+                                     GL_ONE,
+                                     GL_SRC_COLOR,
+                                     GL_ONE_MINUS_SRC_COLOR,
+                                     GL_DST_COLOR,
+                                     GL_ONE_MINUS_DST_COLOR,
+                                     GL_SRC_ALPHA,
+                                     GL_ONE_MINUS_SRC_ALPHA,
+                                     GL_DST_ALPHA,
+                                     GL_ONE_MINUS_DST_ALPHA,
+                                     GL_CONSTANT_COLOR,
+                                     GL_ONE_MINUS_CONSTANT_COLOR,
+                                     GL_CONSTANT_ALPHA,
+                                     GL_ONE_MINUS_CONSTANT_ALPHA,
+                                     GL_SRC_ALPHA_SATURATE};
   return k[static_cast<std::size_t>(f)];
 }
 GLenum gl(BlendEquation e) {
@@ -101,6 +124,13 @@ void set_state(const DrawState& s, const TargetSpec& target) {
   set_depth_state(s.depth);
   enable(GL_POLYGON_OFFSET_FILL, s.offset.slope != 0.0f || s.offset.constant != 0.0f);
   glPolygonOffsetClamp(s.offset.slope, s.offset.constant, s.offset.clamp);
+  glPointSize(s.point_size);
+  glLineWidth(s.line_width);
+  glPolygonMode(GL_FRONT_AND_BACK, s.polygon_mode == PolygonMode::fill   ? GL_FILL
+                                   : s.polygon_mode == PolygonMode::line ? GL_LINE
+                                                                         : GL_POINT);
+  glColorMask(s.color_mask.r, s.color_mask.g, s.color_mask.b, s.color_mask.a);
+  if (s.blend) glBlendColor(s.blend->constant.x, s.blend->constant.y, s.blend->constant.z, s.blend->constant.w);
   enable(GL_BLEND, s.blend.has_value());
   if (s.blend) {
     glBlendEquationSeparate(gl(s.blend->color_equation), gl(s.blend->alpha_equation));
@@ -141,7 +171,7 @@ void run(const MesaDraw& draw, const TargetSpec& target) {
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(draw.indices.size() * sizeof(uint32_t)), draw.indices.data(),
                GL_STATIC_DRAW);
   set_state(draw.state, target);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(draw.indices.size()), GL_UNSIGNED_INT, nullptr);
+  glDrawElements(gl(draw.state.topology), static_cast<GLsizei>(draw.indices.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 void attach(const GlTexture& texture, GLenum attachment, GLenum format, const TargetSpec& target) {
@@ -153,6 +183,7 @@ void attach(const GlTexture& texture, GLenum attachment, GLenum format, const Ta
 void clear(const TargetSpec& target) {
   glDisable(GL_SCISSOR_TEST);
   glDepthMask(GL_TRUE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glClearColor(target.clear_color.x, target.clear_color.y, target.clear_color.z, target.clear_color.w);
   glClearDepth(static_cast<double>(target.clear_depth));
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

@@ -232,6 +232,9 @@ std::vector<BlendCase> blend_cases() {
           {"reverse_subtract", {E::reverse_subtract, F::src_alpha, F::one, E::max, F::one, F::one}},
           {"min", {E::min, F::one, F::one, E::max, F::one, F::one}},
           {"max", {E::max, F::one, F::one, E::max, F::one, F::one}},
+          {"constant_color", {E::add, F::constant_color, F::one_minus_constant_color, E::add, F::one, F::one, {0.25f, 0.5f, 0.75f, 0.5f}}},
+          {"constant_alpha", {E::add, F::constant_alpha, F::one_minus_constant_alpha, E::add, F::one, F::one, {0.0f, 0.0f, 0.0f, 0.375f}}},
+          {"saturate", {E::add, F::src_alpha_saturate, F::one, E::add, F::src_alpha_saturate, F::one}},
           {"destination_alpha", {E::add, F::one_minus_dst_alpha, F::dst_alpha, E::add, F::one, F::one}}};
 }
 

@@ -28,7 +28,7 @@ glm::u8vec4 truth_codes(const glm::dvec4& color, ColorFormat format) {
 
 namespace {
 
-double factor(BlendFactor f, const glm::dvec4& src, const glm::dvec4& dst, int k) {
+double factor(BlendFactor f, const glm::dvec4& src, const glm::dvec4& dst, const glm::dvec4& constant, int k) {
   switch (f) {
     case BlendFactor::zero: return 0.0;
     case BlendFactor::one: return 1.0;
@@ -39,7 +39,12 @@ double factor(BlendFactor f, const glm::dvec4& src, const glm::dvec4& dst, int k
     case BlendFactor::src_alpha: return src.w;
     case BlendFactor::one_minus_src_alpha: return 1.0 - src.w;
     case BlendFactor::dst_alpha: return dst.w;
-    default: return 1.0 - dst.w;
+    case BlendFactor::one_minus_dst_alpha: return 1.0 - dst.w;
+    case BlendFactor::constant_color: return constant[k];
+    case BlendFactor::one_minus_constant_color: return 1.0 - constant[k];
+    case BlendFactor::constant_alpha: return constant.w;
+    case BlendFactor::one_minus_constant_alpha: return 1.0 - constant.w;
+    default: return k == 3 ? 1.0 : std::min(src.w, 1.0 - dst.w);  // src_alpha_saturate; no twin has a second source
   }
 }
 
@@ -56,7 +61,7 @@ double equation(BlendEquation e, double s, double s_factor, double d, double d_f
 }  // namespace
 
 glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& held, const BlendState& b, ColorFormat format) {
-  const glm::dvec4 src = glm::clamp(source, 0.0, 1.0);
+  const glm::dvec4 src = glm::clamp(source, 0.0, 1.0), constant = glm::clamp(glm::dvec4(b.constant), 0.0, 1.0);
   glm::dvec4 dst, out;
   for (int k = 0; k < 4; ++k) {
     const double code = held[k] / 255.0;
@@ -64,9 +69,10 @@ glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& held, const
     dst[k] = !srgb ? code : code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
   }
   for (int k = 0; k < 4; ++k) {
-    out[k] =
-        k < 3 ? equation(b.color_equation, src[k], factor(b.source_color, src, dst, k), dst[k], factor(b.destination_color, src, dst, k))
-              : equation(b.alpha_equation, src[k], factor(b.source_alpha, src, dst, k), dst[k], factor(b.destination_alpha, src, dst, k));
+    out[k] = k < 3 ? equation(b.color_equation, src[k], factor(b.source_color, src, dst, constant, k), dst[k],
+                              factor(b.destination_color, src, dst, constant, k))
+                   : equation(b.alpha_equation, src[k], factor(b.source_alpha, src, dst, constant, k), dst[k],
+                              factor(b.destination_alpha, src, dst, constant, k));
   }
   return truth_codes(out, format);
 }

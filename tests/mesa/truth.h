@@ -91,7 +91,7 @@ class TruthDrawOf final : public TruthDraw {
         row[c++] = stream.data[i * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)];
     }
     V out{};
-    pos_clip_.push_back(shader_.vertex(from_components<A, float>(row), out));
+    pos_clip_.push_back(call_vertex<S, float>(shader_, from_components<A, float>(row), {}, out));
     varyings_.push_back(to_components<float>(out));
   }
 

@@ -46,8 +46,6 @@ uint16_t encode_half(float x) {
   return static_cast<uint16_t>(sign | ((static_cast<uint32_t>(exponent + 14) << 10) + mantissa));
 }
 
-int depth_bytes_per_pixel(DepthFormat f) { return f == DepthFormat::none ? 0 : f == DepthFormat::d16 ? 2 : 4; }
-
 template <class T>
 T read(const std::vector<std::byte>& bytes, std::size_t index) {
   T t;
@@ -61,83 +59,145 @@ void write(std::vector<std::byte>& bytes, std::size_t index, T t) {
 
 }  // namespace
 
-Framebuffer::Framebuffer(int width, int height, ColorFormat color, DepthFormat depth)
-    : width_(width), height_(height), color_format_(color), depth_format_(depth) {
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  color_bytes.resize(pixels * static_cast<std::size_t>(bytes_per_pixel(color)));
-  depth_bytes.resize(pixels * static_cast<std::size_t>(depth_bytes_per_pixel(depth)));
+Framebuffer::Framebuffer(int width, int height, std::vector<ColorFormat> colors, DepthFormat depth, int samples)
+    : width_(width), height_(height), samples_(samples), color_formats_(std::move(colors)), depth_format_(depth) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(samples);
+  for (const ColorFormat f : color_formats_) color_bytes.emplace_back(pixels * static_cast<std::size_t>(bytes_per_pixel(f)));
+  depth_bytes.resize(pixels * static_cast<std::size_t>(bytes_per_pixel(depth)));
 }
 
-std::size_t Framebuffer::pixel(int x, int y) const {
-  return static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+std::size_t Framebuffer::pixel(const Sample& s) const {
+  const int row = s.number * height_ + (height_ - 1 - s.y);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(s.x);
 }
 
-void Framebuffer::clear_color(glm::vec4 value) {
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) set_color(x, y, value);
+namespace {
+
+// Calls f for every sample of a framebuffer.
+template <class F>
+void for_each_sample(const Framebuffer& b, F f) {
+  for (int y = 0; y < b.height(); ++y) {
+    for (int x = 0; x < b.width(); ++x) {
+      for (int s = 0; s < b.samples(); ++s) f(Sample{x, y, s});
+    }
   }
 }
 
-void Framebuffer::clear_depth(float value) {
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) set_depth(x, y, depth_value(hold(value, 0.0f, 1.0f)));
-  }
+}  // namespace
+
+void Framebuffer::clear_color(std::size_t attachment, glm::vec4 value) {
+  for_each_sample(*this, [&](const Sample& s) { set_color(attachment, s, value); });
 }
 
-glm::vec4 Framebuffer::color(int x, int y) const {
+void Framebuffer::clear_depth(float value, uint8_t stencil_value) {
+  for_each_sample(*this, [&](const Sample& s) {
+    set_depth(s, depth_value(hold(value, 0.0f, 1.0f)));
+    set_stencil(s, stencil_value);
+  });
+}
+
+glm::vec4 Framebuffer::color(std::size_t attachment, const Sample& s) const {
   glm::vec4 c(0.0f);
+  const std::vector<std::byte>& bytes = color_bytes[attachment];
   for (int k = 0; k < 4; ++k) {
-    const std::size_t i = pixel(x, y) * 4 + static_cast<std::size_t>(k);
-    switch (color_format_) {
+    const std::size_t i = pixel(s) * 4 + static_cast<std::size_t>(k);
+    switch (color_formats_[attachment]) {
       case ColorFormat::none: break;
-      case ColorFormat::rgba8: c[k] = static_cast<float>(read<uint8_t>(color_bytes, i)) / 255.0f; break;
+      case ColorFormat::rgba8: c[k] = static_cast<float>(read<uint8_t>(bytes, i)) / 255.0f; break;
       case ColorFormat::srgb8a8:
-        c[k] = k == 3 ? static_cast<float>(read<uint8_t>(color_bytes, i)) / 255.0f : kSrgbToLinear[read<uint8_t>(color_bytes, i)];
+        c[k] = k == 3 ? static_cast<float>(read<uint8_t>(bytes, i)) / 255.0f : kSrgbToLinear[read<uint8_t>(bytes, i)];
         break;
-      case ColorFormat::rgba16f: c[k] = decode_half(read<uint16_t>(color_bytes, i)); break;
-      case ColorFormat::rgba32f: c[k] = read<float>(color_bytes, i); break;
+      case ColorFormat::rgba16f: c[k] = decode_half(read<uint16_t>(bytes, i)); break;
+      case ColorFormat::rgba32f: c[k] = read<float>(bytes, i); break;
     }
   }
   return c;
 }
 
-void Framebuffer::set_color(int x, int y, glm::vec4 value) {
+void Framebuffer::set_color(std::size_t attachment, const Sample& s, glm::vec4 value) {
+  std::vector<std::byte>& bytes = color_bytes[attachment];
   for (int k = 0; k < 4; ++k) {
-    const std::size_t i = pixel(x, y) * 4 + static_cast<std::size_t>(k);
-    switch (color_format_) {
+    const std::size_t i = pixel(s) * 4 + static_cast<std::size_t>(k);
+    switch (color_formats_[attachment]) {
       case ColorFormat::none: break;
-      case ColorFormat::rgba8: write(color_bytes, i, encode_unorm8(value[k])); break;
-      case ColorFormat::srgb8a8:
-        write(color_bytes, i, k == 3 ? encode_unorm8(value[k]) : static_cast<uint8_t>(linear_to_srgb(value[k])));
-        break;
-      case ColorFormat::rgba16f: write(color_bytes, i, encode_half(value[k])); break;
-      case ColorFormat::rgba32f: write(color_bytes, i, value[k]); break;
+      case ColorFormat::rgba8: write(bytes, i, encode_unorm8(value[k])); break;
+      case ColorFormat::srgb8a8: write(bytes, i, k == 3 ? encode_unorm8(value[k]) : static_cast<uint8_t>(linear_to_srgb(value[k]))); break;
+      case ColorFormat::rgba16f: write(bytes, i, encode_half(value[k])); break;
+      case ColorFormat::rgba32f: write(bytes, i, value[k]); break;
     }
   }
 }
 
-double Framebuffer::depth(int x, int y) const {
+double Framebuffer::depth(const Sample& s) const {
+  const std::size_t i = pixel(s);
   switch (depth_format_) {
     case DepthFormat::none: break;
-    case DepthFormat::d16: return read<uint16_t>(depth_bytes, pixel(x, y));
-    case DepthFormat::d24: return read<uint32_t>(depth_bytes, pixel(x, y));
-    case DepthFormat::d32f: return static_cast<double>(read<float>(depth_bytes, pixel(x, y)));
+    case DepthFormat::d16: return read<uint16_t>(depth_bytes, i);
+    case DepthFormat::d24: return read<uint32_t>(depth_bytes, i);
+    case DepthFormat::d32f: return static_cast<double>(read<float>(depth_bytes, i));
+    case DepthFormat::d24s8: return read<uint32_t>(depth_bytes, i) / 256;
+    case DepthFormat::d32fs8: return static_cast<double>(read<float>(depth_bytes, 2 * i));
   }
   return 0.0;
 }
 
-void Framebuffer::set_depth(int x, int y, double value) {
+void Framebuffer::set_depth(const Sample& s, double value) {
+  const std::size_t i = pixel(s);
   switch (depth_format_) {
     case DepthFormat::none: break;
-    case DepthFormat::d16: write(depth_bytes, pixel(x, y), static_cast<uint16_t>(value)); break;
-    case DepthFormat::d24: write(depth_bytes, pixel(x, y), static_cast<uint32_t>(value)); break;
-    case DepthFormat::d32f: write(depth_bytes, pixel(x, y), static_cast<float>(value)); break;
+    case DepthFormat::d16: write(depth_bytes, i, static_cast<uint16_t>(value)); break;
+    case DepthFormat::d24: write(depth_bytes, i, static_cast<uint32_t>(value)); break;
+    case DepthFormat::d32f: write(depth_bytes, i, static_cast<float>(value)); break;
+    case DepthFormat::d24s8: write(depth_bytes, i, static_cast<uint32_t>(value) * 256 + stencil(s)); break;
+    case DepthFormat::d32fs8: write(depth_bytes, 2 * i, static_cast<float>(value)); break;
   }
+}
+
+uint8_t Framebuffer::stencil(const Sample& s) const {
+  if (depth_format_ == DepthFormat::d24s8) return read<uint8_t>(depth_bytes, 4 * pixel(s));  // little endian: the low byte
+  if (depth_format_ == DepthFormat::d32fs8) return read<uint8_t>(depth_bytes, 8 * pixel(s) + 4);
+  return 0;
+}
+
+void Framebuffer::set_stencil(const Sample& s, uint8_t value) {
+  if (depth_format_ == DepthFormat::d24s8) write(depth_bytes, 4 * pixel(s), value);
+  if (depth_format_ == DepthFormat::d32fs8) write(depth_bytes, 8 * pixel(s) + 4, value);
+}
+
+Framebuffer Framebuffer::resolved() const {
+  if (samples_ == 1) return *this;
+  Framebuffer to(width_, height_, color_formats_, depth_format_);
+  for_each_sample(to, [&](const Sample& pixel) {
+    for (std::size_t a = 0; a < color_formats_.size(); ++a) {
+      std::vector<glm::vec4> c;
+      for (int s = 0; s < samples_; ++s) c.push_back(color(a, {pixel.x, pixel.y, s}));
+      while (c.size() > 1) {  // neighbours two by two
+        for (std::size_t i = 0; i < c.size() / 2; ++i) c[i] = c[2 * i] + c[2 * i + 1];
+        c.resize(c.size() / 2);
+      }
+      to.set_color(a, pixel, c[0] * (1.0f / static_cast<float>(samples_)));
+    }
+    to.set_depth(pixel, depth(pixel));
+    to.set_stencil(pixel, stencil(pixel));
+  });
+  return to;
+}
+
+Point center_of(int x, int y) { return {int64_t{x} * 256 + 128, int64_t{y} * 256 + 128}; }
+
+Point position_of(const Sample& s, int samples) {
+  // In 1/16 px, from the Vulkan specification's table of standard sample locations.
+  static const std::vector<std::pair<int, int>> two{{12, 12}, {4, 4}}, four{{6, 2}, {14, 6}, {2, 10}, {10, 14}},
+      eight{{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
+  if (samples == 1) return center_of(s.x, s.y);
+  const auto [x, y] = (samples == 2 ? two : samples == 4 ? four : eight)[static_cast<std::size_t>(s.number)];
+  return {int64_t{s.x} * 256 + x * 16, int64_t{s.y} * 256 + y * 16};
 }
 
 double Framebuffer::depth_value(float z) const {
   switch (depth_format_) {
     case DepthFormat::d16: return std::nearbyint(static_cast<double>(z) * 65535.0);  // the products are exact
+    case DepthFormat::d24s8:
     case DepthFormat::d24: return std::nearbyint(static_cast<double>(z) * 16777215.0);
     default: return static_cast<double>(z);
   }
@@ -245,8 +305,13 @@ using Polygon = std::vector<ClipPoint>;
 // Inside is a·x + b·y + c·z + d·w + k ≥ 0.
 struct Plane {
   double a, b, c, d, k;
+  std::optional<std::array<double, 3>> by_vertex{};  // a clip distance: what it is at the triangle's vertices
 
-  double operator()(const ClipPoint& q) const { return a * q.p[0] + b * q.p[1] + c * q.p[2] + d * q.p[3] + k; }
+  double operator()(const ClipPoint& q) const {
+    if (!by_vertex) return a * q.p[0] + b * q.p[1] + c * q.p[2] + d * q.p[3] + k;
+    if (q.vertex >= 0) return (*by_vertex)[static_cast<std::size_t>(q.vertex)];
+    return q.weight[0] * (*by_vertex)[0] + q.weight[1] * (*by_vertex)[1] + q.weight[2] * (*by_vertex)[2];
+  }
 };
 
 // In the order in which they cut.
@@ -301,6 +366,15 @@ Polygon cut(const Plane& plane, bool is_least_w, const Polygon& polygon) {
   return kept;
 }
 
+// Of a line between two points what lies inside: two points or none.
+Polygon cut_line(const Plane& plane, bool is_least_w, const Polygon& line) {
+  if (line.empty()) return {};
+  const bool in0 = plane(line[0]) >= 0, in1 = plane(line[1]) >= 0;
+  const auto meeting = [&](const ClipPoint& in, const ClipPoint& out) { return is_least_w ? meet_least_w(in, out) : meet(plane, in, out); };
+  if (!in0 && !in1) return {};
+  return {in0 ? line[0] : meeting(line[1], line[0]), in1 ? line[1] : meeting(line[0], line[1])};
+}
+
 int64_t snap_corner(double ndc, float half, float center) {
   return std::llrint((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0);
 }
@@ -348,12 +422,25 @@ Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
   return b;
 }
 
-// The pixels whose centres lie in the closed bounding box.
-Box covered_box(const WindowTriangle& t) {
+// The pixels with a sample in the closed bounding box, as far as the samples' own box tells.
+Box covered_box(const WindowTriangle& t, int samples) {
+  if (t.is_line) {
+    const int64_t margin = t.width / 2 + 3;
+    const auto [xl, xh] = std::minmax(t.from.x, t.to.x);
+    const auto [yl, yh] = std::minmax(t.from.y, t.to.y);
+    return {xl / 256 - margin, yl / 256 - margin, xh / 256 + margin, yh / 256 + margin};
+  }
+  if (t.is_point) return {t.low.x / 256 - 2, t.low.y / 256 - 2, t.high.x / 256 + 2, t.high.y / 256 + 2};
+  double low = 256.0, high = 0.0;
+  for (int s = 0; s < samples; ++s) {
+    const Point p = position_of({0, 0, s}, samples);
+    low = std::fmin(low, static_cast<double>(std::min(p.x, p.y)));
+    high = std::fmax(high, static_cast<double>(std::max(p.x, p.y)));
+  }
   const auto [xl, xh] = std::minmax({t.corner[0].x, t.corner[1].x, t.corner[2].x});
   const auto [yl, yh] = std::minmax({t.corner[0].y, t.corner[1].y, t.corner[2].y});
-  const auto first = [](int64_t v) { return static_cast<int64_t>(std::ceil((static_cast<double>(v) - 128.0) / 256.0)); };
-  const auto last = [](int64_t v) { return static_cast<int64_t>(std::floor((static_cast<double>(v) - 128.0) / 256.0)); };
+  const auto first = [&](int64_t v) { return static_cast<int64_t>(std::ceil((static_cast<double>(v) - high) / 256.0)); };
+  const auto last = [&](int64_t v) { return static_cast<int64_t>(std::floor((static_cast<double>(v) - low) / 256.0)); };
   return {first(xl), first(yl), last(xh) + 1, last(yh) + 1};
 }
 
@@ -401,7 +488,7 @@ float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTrian
   }
   double unit = 1.0 / 16777215.0;
   if (format == DepthFormat::d16) unit = 1.0 / 65535.0;
-  if (format == DepthFormat::d32f || format == DepthFormat::none) {
+  if (format == DepthFormat::d32f || format == DepthFormat::d32fs8 || format == DepthFormat::none) {
     float largest = 0.0f;
     for (const Corner& c : t.corner) largest = std::fmax(largest, std::fabs(c.z));
     unit = std::ldexp(1.0, largest > 0.0f ? std::ilogb(largest) - 23 : -149);
@@ -415,8 +502,9 @@ float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTrian
 enum class Fate { drawn, degenerate, wrong_face, no_sample };
 
 // Face, order of corners and depth of a triangle whose corners are given as submitted.
-std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format,
-                                                     const std::array<Corner, 3>& submitted, std::size_t provoking) {
+std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format, int samples,
+                                                     const std::array<Corner, 3>& submitted, std::size_t provoking,
+                                                     std::optional<bool> faces_front = {}) {
   WindowTriangle t;
   t.corner = submitted;
   t.flat = submitted[provoking].varyings;
@@ -425,8 +513,9 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   if (t.area == 0) return {Fate::degenerate, t};
   const bool counter_clockwise = t.area > 0;
   t.front = counter_clockwise == (state.front == Winding::counter_clockwise);
-  if (culls_face(state.cull, t.front)) return {Fate::wrong_face, t};
-  if (intersect(covered_box(t), allowed).empty()) return {Fate::no_sample, t};
+  if (faces_front) t.front = *faces_front;
+  if (!faces_front && culls_face(state.cull, t.front)) return {Fate::wrong_face, t};
+  if (intersect(covered_box(t, samples), allowed).empty()) return {Fate::no_sample, t};
   if (!counter_clockwise) {
     std::swap(c[1], c[2]);
     t.area = -t.area;
@@ -436,7 +525,7 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   std::rotate(c.begin(), nearest, c.end());
   const double dz1 = static_cast<double>(c[1].z) - static_cast<double>(c[0].z);
   const double dz2 = static_cast<double>(c[2].z) - static_cast<double>(c[0].z);
-  const float offset = polygon_offset(state.offset, format, t, dz1, dz2);
+  const float offset = faces_front ? 0.0f : polygon_offset(state.offset, format, t, dz1, dz2);
   t.z0 = c[0].z + offset;
   t.z_max = std::max({c[0].z, c[1].z, c[2].z}) + offset;
   t.z_step1 = static_cast<float>(dz1 / static_cast<double>(t.area));
@@ -446,13 +535,73 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
 
 // ---- a pixel of a triangle -----------------------------------------------------------------------------------------
 
-// Is the pixel's centre inside? A centre on an edge belongs to the side where the point lies that is a hair to the right of
+// ---- lines: the diamond-exit rule as it is written (OpenGL 4.6, section 14.5.1) --------------------------------------
+
+__extension__ typedef __int128 Wide;
+struct WidePoint {
+  Wide x, y;
+};
+
+// Does the segment meet the open diamond |x| + |y| < h? Each of its four sides leaves an open interval of the segment.
+bool meets_diamond(const WidePoint& a, const WidePoint& b, Wide h) {
+  Wide low_n = -1, low_d = 1, high_n = 2, high_d = 1;
+  for (const auto& [sx, sy] : {std::pair{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}) {
+    const Wide fa = sx * a.x + sy * a.y - h, fb = sx * b.x + sy * b.y - h;
+    if (fa >= 0 && fb >= 0) return false;
+    if (fa < 0 && fb < 0) continue;
+    const Wide n = fa >= 0 ? fa : -fa, d = fa >= 0 ? fa - fb : fb - fa;
+    if (fa >= 0 && n * low_d > low_n * d) {
+      low_n = n;
+      low_d = d;
+    }
+    if (fa < 0 && n * high_d < high_n * d) {
+      high_n = n;
+      high_d = d;
+    }
+  }
+  return low_n * high_d < high_n * low_d;
+}
+
+// Does the line, one pixel wide, produce the pixel? Both ends are moved by (-e, -e^2).
+bool produces(const Point& from, const Point& to, int64_t x, int64_t y) {
+  const bool near_by = std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)}) < int64_t{1} << 19;
+  const int bits = near_by ? 40 : 34;
+  const auto moved = [&](const Point& p) {
+    return WidePoint{(Wide{p.x - (x * 256 + 128)} << bits) - (Wide{1} << (bits / 2)), (Wide{p.y - (y * 256 + 128)} << bits) - 1};
+  };
+  const WidePoint a = moved(from), b = moved(to);
+  const Wide h = Wide{128} << bits;
+  const auto size = [](Wide v) { return v < 0 ? -v : v; };
+  const bool ends_in_it = size(b.x) + size(b.y) < h;
+  return !ends_in_it && meets_diamond(a, b, h);
+}
+
+bool line_covers(const WindowTriangle& t, int64_t x, int64_t y) {
+  const int64_t dx = t.to.x - t.from.x, dy = t.to.y - t.from.y;
+  const bool y_major = std::abs(dy) > std::abs(dx);
+  // Far from the line there is nothing to ask.
+  const auto along = static_cast<double>(y_major ? y * 256 + 128 - t.from.y : x * 256 + 128 - t.from.x);
+  const double slope = static_cast<double>(y_major ? dx : dy) / static_cast<double>(y_major ? dy : dx);
+  const double across = static_cast<double>(y_major ? x * 256 + 128 - t.from.x : y * 256 + 128 - t.from.y) - slope * along;
+  if (std::fabs(across) > 128.0 * t.width + 512.0) return false;
+  const int64_t shift = 128 * (t.width - 1);
+  const Point from = y_major ? Point{t.from.x - shift, t.from.y} : Point{t.from.x, t.from.y - shift};
+  const Point to = y_major ? Point{t.to.x - shift, t.to.y} : Point{t.to.x, t.to.y - shift};
+  for (int k = 0; k < t.width; ++k) {
+    if (produces(from, to, y_major ? x - k : x, y_major ? y : y - k)) return true;
+  }
+  return false;
+}
+
+// Is the point inside? One on an edge belongs to the side where the point lies that is a hair to the right of
 // it and, less than that, above it.
-bool covers(const WindowTriangle& t, int64_t x, int64_t y) {
+bool covers(const WindowTriangle& t, const Point& at) {
+  if (t.is_line) return line_covers(t, at.x >> 8, at.y >> 8);
+  if (t.is_point) return at.x >= t.low.x && at.x < t.high.x && at.y >= t.low.y && at.y < t.high.y;
   for (std::size_t i = 0; i < 3; ++i) {
     const Corner& a = t.corner[i];
     const Corner& b = t.corner[(i + 1) % 3];
-    const int64_t e = cross(b.x - a.x, b.y - a.y, x - a.x, y - a.y);
+    const int64_t e = cross(b.x - a.x, b.y - a.y, at.x - a.x, at.y - a.y);
     const int64_t to_right = -(b.y - a.y), upwards = b.x - a.x;  // how e changes
     const bool inside = e != 0 ? e > 0 : to_right != 0 ? to_right > 0 : upwards > 0;
     if (!inside) return false;
@@ -467,8 +616,6 @@ float determinant(float a, float b, float c, float d) {
   return std::fma(a, b, -product) + lost;
 }
 
-constexpr int64_t center_of(int pixel) { return int64_t{pixel} * 256 + 128; }
-
 // Extent of a triangle up to which its edge functions are exact whole numbers in the depth sum.
 constexpr int64_t kExactExtent = 63 * 256;
 
@@ -479,34 +626,37 @@ bool is_small(const WindowTriangle& t) {
 }
 
 float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, float e2) {
-  const float low = std::min(state.range_near, state.range_far), high = std::max(state.range_near, state.range_far);
+  const float high = std::max(state.range_near, state.range_far);
+  float low = std::min(state.range_near, state.range_far);
+  if (t.is_line) low = hold(t.z0, low, high);
   return hold(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, hold(t.z_max, low, high));
 }
 
-// The two determinants E1 = d × e2 and E2 = e1 × d in floats, d from corner 0 to the pixel's centre.
-std::pair<float, float> float_determinants(const WindowTriangle& t, int x, int y) {
+// The two determinants E1 = d × e2 and E2 = e1 × d in floats, d from corner 0 to the point.
+std::pair<float, float> float_determinants(const WindowTriangle& t, const Point& at) {
   const auto& c = t.corner;
   const auto f = [](int64_t v) { return static_cast<float>(v); };
-  const float dx = f(center_of(x) - c[0].x), dy = f(center_of(y) - c[0].y);
+  const float dx = f(at.x - c[0].x), dy = f(at.y - c[0].y);
   return {determinant(dx, f(c[2].y - c[0].y), dy, f(c[2].x - c[0].x)), determinant(f(c[1].x - c[0].x), dy, f(c[1].y - c[0].y), dx)};
 }
 
 // The window depth that is tested.
-float tested_depth(const WindowTriangle& t, const DepthState& state, int x, int y) {
-  if (is_small(t)) {
+float tested_depth(const WindowTriangle& t, const DepthState& state, const Point& at) {
+  if (t.is_point) return depth_sum(t, state, 0.0f, 0.0f);
+  if (!t.is_line && is_small(t)) {
     const auto& c = t.corner;
-    const int64_t dx = center_of(x) - c[0].x, dy = center_of(y) - c[0].y;
+    const int64_t dx = at.x - c[0].x, dy = at.y - c[0].y;
     const int64_t e1 = cross(dx, dy, c[2].x - c[0].x, c[2].y - c[0].y);
     const int64_t e2 = cross(c[1].x - c[0].x, c[1].y - c[0].y, dx, dy);
     return depth_sum(t, state, static_cast<float>(e1), static_cast<float>(e2));
   }
-  const auto [e1, e2] = float_determinants(t, x, y);
+  const auto [e1, e2] = float_determinants(t, at);
   return depth_sum(t, state, e1, e2);
 }
 
 // ---- blending --------------------------------------------------------------------------------------------------------
 
-float blend_factor(BlendFactor f, const glm::vec4& src, const glm::vec4& dst, int k) {
+float blend_factor(BlendFactor f, const glm::vec4& src, const glm::vec4& src1, const glm::vec4& dst, const glm::vec4& constant, int k) {
   switch (f) {
     case BlendFactor::zero: return 0.0f;
     case BlendFactor::one: return 1.0f;
@@ -518,6 +668,15 @@ float blend_factor(BlendFactor f, const glm::vec4& src, const glm::vec4& dst, in
     case BlendFactor::one_minus_src_alpha: return 1.0f - src.w;
     case BlendFactor::dst_alpha: return dst.w;
     case BlendFactor::one_minus_dst_alpha: return 1.0f - dst.w;
+    case BlendFactor::constant_color: return constant[k];
+    case BlendFactor::one_minus_constant_color: return 1.0f - constant[k];
+    case BlendFactor::constant_alpha: return constant.w;
+    case BlendFactor::one_minus_constant_alpha: return 1.0f - constant.w;
+    case BlendFactor::src_alpha_saturate: return k == 3 ? 1.0f : src.w < 1.0f - dst.w ? src.w : 1.0f - dst.w;
+    case BlendFactor::src1_color: return src1[k];
+    case BlendFactor::one_minus_src1_color: return 1.0f - src1[k];
+    case BlendFactor::src1_alpha: return src1.w;
+    case BlendFactor::one_minus_src1_alpha: return 1.0f - src1.w;
   }
   return 0.0f;
 }
@@ -534,22 +693,85 @@ float blend_channel(BlendEquation equation, float s, float s_factor, float d, fl
   return 0.0f;
 }
 
-glm::vec4 blend(const BlendState& b, const glm::vec4& src, const glm::vec4& dst) {
+glm::vec4 blend(const BlendState& b, const glm::vec4& src, const glm::vec4& src1, const glm::vec4& dst, const glm::vec4& constant) {
   glm::vec4 out;
   for (int k = 0; k < 4; ++k) {
     const bool alpha = k == 3;
-    const float s = blend_factor(alpha ? b.source_alpha : b.source_color, src, dst, k);
-    const float d = blend_factor(alpha ? b.destination_alpha : b.destination_color, src, dst, k);
+    const float s = blend_factor(alpha ? b.source_alpha : b.source_color, src, src1, dst, constant, k);
+    const float d = blend_factor(alpha ? b.destination_alpha : b.destination_color, src, src1, dst, constant, k);
     out[k] = blend_channel(alpha ? b.alpha_equation : b.color_equation, src[k], s, dst[k], d);
   }
   return out;
+}
+
+// ---- tests -----------------------------------------------------------------------------------------------------------
+
+template <class T>
+bool compares(CompareOp op, T a, T b) {
+  switch (op) {
+    case CompareOp::never: return false;
+    case CompareOp::less: return a < b;
+    case CompareOp::equal: return a == b;
+    case CompareOp::less_equal: return a <= b;
+    case CompareOp::greater: return a > b;
+    case CompareOp::not_equal: return a != b;
+    case CompareOp::greater_equal: return a >= b;
+    case CompareOp::always: return true;
+  }
+  return false;
+}
+
+uint8_t stencil_result(const StencilFace& f, StencilOp op, uint8_t stored) {
+  int v = stored;
+  switch (op) {
+    case StencilOp::keep: break;
+    case StencilOp::zero: v = 0; break;
+    case StencilOp::replace: v = f.reference; break;
+    case StencilOp::increment_clamp: v = std::min(stored + 1, 255); break;
+    case StencilOp::decrement_clamp: v = std::max(stored - 1, 0); break;
+    case StencilOp::invert: v = 255 - stored; break;
+    case StencilOp::increment_wrap: v = (stored + 1) % 256; break;
+    case StencilOp::decrement_wrap: v = (stored + 255) % 256; break;
+  }
+  return static_cast<uint8_t>((stored & ~f.write_mask) | (v & f.write_mask));
 }
 
 }  // namespace
 
 // ---- interpolation -----------------------------------------------------------------------------------------------------
 
+namespace {
+
+// The plane in which corner 1 lies one step of s and corner 2 one step of t away from where the point coordinate is (0, 0).
+Surface point_surface(const WindowTriangle& t) {
+  const auto f = [](int64_t v) { return static_cast<float>(v); };
+  const bool from_top = t.origin == PointOrigin::upper_left;
+  const int64_t height = from_top ? t.low.y - t.high.y : t.high.y - t.low.y;
+  Surface s{};
+  s.lanes = {f(t.low.x),
+             f(from_top ? t.high.y : t.low.y),
+             f(t.high.x - t.low.x),
+             0.0f,
+             0.0f,
+             f(height),
+             f((t.high.x - t.low.x) * height),
+             0.0f,
+             0.0f,
+             0.0f,
+             0.0f};
+  const int exponent = std::max(std::ilogb(t.corner[0].inv_w), -127);
+  s.lanes.q0 = s.lanes.q1 = s.lanes.q2 = std::ldexp(t.corner[0].inv_w, -exponent);
+  s.lanes.q_unscale = exponent == -127 ? 0.0f : std::ldexp(1.0f, exponent);
+  s.value0 = t.corner[0].varyings;
+  s.delta1.assign(s.value0.size(), 0.0f);
+  s.delta2 = s.delta1;
+  return s;
+}
+
+}  // namespace
+
 Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations) {
+  if (t.is_point) return point_surface(t);
   std::array<const Corner*, 3> c{&t.corner[0], &t.corner[1], &t.corner[2]};
   const auto farthest = std::min_element(c.begin(), c.end(), [](const Corner* a, const Corner* b) { return a->inv_w < b->inv_w; });
   std::rotate(c.begin(), farthest, c.end());
@@ -594,11 +816,11 @@ std::array<float, 3> share(const std::array<float, 3>& n) {
 
 }  // namespace
 
-SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, int x, int y) {
+SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, const Point& at) {
   const TriangleLanes<float>& l = s.lanes;
   SurfacePoint p{};
-  p.dx = static_cast<float>(center_of(x)) - l.x0;
-  p.dy = static_cast<float>(center_of(y)) - l.y0;
+  p.dx = static_cast<float>(at.x) - l.x0;
+  p.dy = static_cast<float>(at.y) - l.y0;
   const float e0 = determinant(l.e1x - p.dx, l.e2y - p.dy, l.e1y - p.dy, l.e2x - p.dx);
   const float e1 = determinant(p.dx, l.e2y, p.dy, l.e2x);
   const float e2 = determinant(l.e1x, p.dy, l.e1y, p.dx);
@@ -607,7 +829,7 @@ SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const Dept
   p.weights = {perspective[1], perspective[2], linear[1], linear[2], perspective[0]};
   p.inv_w = p.weights.denominator / l.area * l.q_unscale;
   // Shaders are told the depth by float determinants, also for triangles whose tested depth is by whole numbers.
-  const auto [z1, z2] = float_determinants(t, x, y);
+  const auto [z1, z2] = t.is_point ? std::pair{0.0f, 0.0f} : float_determinants(t, at);
   p.z = depth_sum(t, state, z1, z2);
   return p;
 }
@@ -619,55 +841,253 @@ float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, 
   return std::fma(w2, s.delta2[i], std::fma(w1, s.delta1[i], s.value0[i]));
 }
 
+// ---- primitives ----------------------------------------------------------------------------------------------------------
+
+std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, bool restart, const DrawState& state) {
+  std::vector<std::array<uint32_t, 3>> out;
+  std::vector<uint32_t> run;
+  const auto finish_run = [&] {
+    if (state.topology == Topology::points) {
+      for (const uint32_t i : run) out.push_back({i, i, i});
+      run.clear();
+      return;
+    }
+    if (is_lines(state.topology)) {
+      const std::size_t step = state.topology == Topology::lines ? 2 : 1;
+      for (std::size_t i = 0; i + 2 <= run.size(); i += step) out.push_back({run[i], run[i + 1], run[i + 1]});
+      if (state.topology == Topology::line_loop && run.size() > 1) out.push_back({run.back(), run[0], run[0]});
+      run.clear();
+      return;
+    }
+    const std::size_t step = state.topology == Topology::triangles ? 3 : 1;
+    for (std::size_t i = 0; i + 3 <= run.size(); i += step) {
+      std::array<uint32_t, 3> t{run[i], run[i + 1], run[i + 2]};  // table 13.2: first and last vertex provoke, but in a fan
+      if (state.topology == Topology::triangle_fan) t = {run[i + 1], run[i + 2], run[0]};
+      const bool turned = state.topology == Topology::triangle_strip && i % 2 == 1;
+      if (state.provoking == ProvokingVertex::first) {
+        if (turned) std::swap(t[1], t[2]);
+      } else {
+        if (state.topology == Topology::triangle_fan) t = {run[0], run[i + 1], run[i + 2]};
+        if (turned) std::swap(t[0], t[1]);
+      }
+      out.push_back(t);
+    }
+    run.clear();
+  };
+  for (const uint32_t i : indices) {
+    if (restart && i == kRestart) {
+      finish_run();
+    } else {
+      run.push_back(i);
+    }
+  }
+  finish_run();
+  return out;
+}
+
 // ---- the loops -----------------------------------------------------------------------------------------------------------
+
+std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, const ShadedVertex& v) {
+  ++counts_.primitives_in;
+  const glm::vec4& p = v.pos_clip;
+  if (!is_finite(p)) {
+    ++counts_.culled_non_finite;
+    return {};
+  }
+  const float inv_w = 1.0f / p.w;
+  const bool beyond = std::any_of(v.clip_distances.begin(), v.clip_distances.end(), [](float d) { return !(d >= 0.0f); });
+  if (beyond || !(inv_w > 0.0f && inv_w <= 1.0f / kLeastW) || (!state.depth.clamp && (beyond_near(state.depth, p) || beyond_far(p)))) {
+    ++counts_.culled_outside;
+    return {};
+  }
+  const Transform f = make_transform(state.viewport.value_or(Rect{0, 0, target_.width(), target_.height()}), state.depth);
+  const auto place = [](double ndc, float half, float center) {
+    return std::llrint(std::fmin(std::fmax((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0, -0x1p28), 0x1p28));
+  };
+  WindowTriangle t;
+  t.is_point = t.front = true;
+  t.origin = state.point_origin;
+  Corner& c = t.corner[0];
+  c.varyings = v.varyings;
+  c.inv_w = inv_w;
+  c.z = hold(std::fma(p.z * c.inv_w, f.z_scale, f.z_bias), -1e30f, 1e30f);
+  t.z0 = t.z_max = c.z;
+  if (v.has_bounds) {
+    const auto number = [](float x) { return static_cast<double>(x); };
+    t.low = {place(number(v.low.x), f.half_width, f.center_x), place(number(v.low.y), f.half_height, f.center_y)};
+    t.high = {place(number(v.high.x), f.half_width, f.center_x), place(number(v.high.y), f.half_height, f.center_y)};
+  } else {
+    const bool near_by = !needs_clip(f, {.clamp = true}, p);
+    const auto x = static_cast<double>(p.x) / static_cast<double>(p.w), y = static_cast<double>(p.y) / static_cast<double>(p.w);
+    c.x = near_by ? snap(p.x, p.w, f.half_width, f.center_x) : place(x, f.half_width, f.center_x);
+    c.y = near_by ? snap(p.y, p.w, f.half_height, f.center_y) : place(y, f.half_height, f.center_y);
+    const int64_t side = std::llrint(std::fmin(std::fmax(static_cast<double>(v.point_size) * 256.0, 0.0), 0x1p28));
+    t.low = {c.x - side / 2, c.y - side / 2};
+    t.high = {t.low.x + side, t.low.y + side};
+  }
+  if (t.low.x >= t.high.x || t.low.y >= t.high.y) {
+    ++counts_.culled_degenerate;
+    return {};
+  }
+  // Some pixel whose samples' box meets the rectangle must be allowed.
+  const Box allowed = allowed_pixels(target_, state);
+  WindowTriangle closed = t;
+  closed.is_point = false;
+  closed.corner[0] = {t.low.x, t.low.y, 0, 0, {}};
+  closed.corner[1] = closed.corner[2] = {t.high.x - 1, t.high.y - 1, 0, 0, {}};
+  if (intersect(covered_box(closed, target_.samples()), allowed).empty()) {
+    ++counts_.culled_no_sample;
+    return {};
+  }
+  ++counts_.triangles;
+  return {t};
+}
+
+// A line: one of the diamond-exit rule, or with several samples a pixel the two halves of a rectangle.
+std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const Corner& a, const Corner& b, const std::vector<float>& flat,
+                                                  bool front) {
+  const int64_t dx = b.x - a.x, dy = b.y - a.y;
+  if (dx == 0 && dy == 0) return {};
+  if (target_.samples() == 1) {
+    WindowTriangle t;
+    t.is_line = true;
+    t.from = {a.x, a.y};
+    t.to = {b.x, b.y};
+    t.width = static_cast<int>(std::nearbyint(hold(state.line_width, 1.0f, 4096.0f)));
+    t.front = front;
+    t.flat = flat;
+    const bool swap = b.z < a.z;
+    const Corner &near = swap ? b : a, &far = swap ? a : b;
+    t.corner = {near, far, near};
+    t.corner[2].x = near.x - (far.y - near.y);
+    t.corner[2].y = near.y + (far.x - near.x);
+    t.area = dx * dx + dy * dy;
+    t.z0 = near.z;
+    t.z_max = far.z;
+    t.z_step1 = static_cast<float>((static_cast<double>(far.z) - static_cast<double>(near.z)) / static_cast<double>(t.area));
+    return {t};
+  }
+  const auto length = std::sqrt(static_cast<double>(dx) * static_cast<double>(dx) + static_cast<double>(dy) * static_cast<double>(dy));
+  const double scale = static_cast<double>(hold(state.line_width, 0.0f, 4096.0f)) * 128.0 / length;
+  const int64_t nx = std::llrint(static_cast<double>(-dy) * scale), ny = std::llrint(static_cast<double>(dx) * scale);
+  const auto moved = [&](Corner c, int64_t by) {
+    c.x += by * nx;
+    c.y += by * ny;
+    return c;
+  };
+  std::vector<WindowTriangle> halves;
+  for (const std::array<Corner, 3>& half :
+       {std::array{moved(a, -1), moved(b, -1), moved(b, 1)}, {moved(a, -1), moved(b, 1), moved(a, 1)}}) {
+    auto [fate, piece] =
+        make_window_triangle(state, allowed_pixels(target_, state), target_.depth_format(), target_.samples(), half, 0, front);
+    piece.flat = flat;
+    if (fate == Fate::drawn) halves.push_back(std::move(piece));
+  }
+  return halves;
+}
+
+// The lines or points that a polygon is drawn as.
+std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, const std::vector<Corner>& corners,
+                                                     const std::vector<int>& vertex, const std::array<const ShadedVertex*, 3>& v,
+                                                     const std::vector<float>& flat) {
+  int64_t area = 0;
+  for (std::size_t i = 2; i < corners.size(); ++i) area += turn(corners[0], corners[i - 1], corners[i]);
+  const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
+  if (area == 0) ++counts_.culled_degenerate;
+  if (area != 0 && culls_face(state.cull, front)) ++counts_.culled_face;
+  if (area == 0 || culls_face(state.cull, front)) return {};
+  std::vector<WindowTriangle> out;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (state.polygon_mode == PolygonMode::line) {
+      for (WindowTriangle& t : window_line(state, corners[i], corners[(i + 1) % corners.size()], flat, front)) out.push_back(std::move(t));
+    } else if (vertex[i] >= 0) {
+      ShadedVertex point = *v[static_cast<std::size_t>(vertex[i])];
+      point.clip_distances.clear();
+      const Counts before = counts_;
+      std::vector<WindowTriangle> one = window_points(state, point);
+      counts_ = before;
+      for (WindowTriangle& t : one) {
+        t.front = front;
+        t.corner[0].varyings = corners[i].varyings;
+        out.push_back(std::move(t));
+      }
+    }
+  }
+  return out;
+}
 
 std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, const ShaderFacts& facts,
                                                        const std::array<const ShadedVertex*, 3>& v) {
   ++counts_.primitives_in;
+  const bool line = is_lines(state.topology);
+  counts_.has_lines |= line || state.polygon_mode != PolygonMode::fill;
   if (!std::all_of(v.begin(), v.end(), [](const ShadedVertex* s) { return is_finite(s->pos_clip); })) {
     ++counts_.culled_non_finite;
     return {};
   }
-  if (all_outside(state.depth, v)) {
+  bool beyond_all = false, beyond_any = false;  // of a clip distance
+  for (std::size_t k = 0; k < v[0]->clip_distances.size(); ++k) {
+    const auto beyond = [k](const ShadedVertex* s) { return !(s->clip_distances[k] >= 0.0f); };
+    beyond_all |= std::all_of(v.begin(), v.end(), beyond);
+    beyond_any |= std::any_of(v.begin(), v.end(), beyond);
+  }
+  if (all_outside(state.depth, v) || beyond_all) {
     ++counts_.culled_outside;
     return {};
   }
   const Transform transform = make_transform(state.viewport.value_or(Rect{0, 0, target_.width(), target_.height()}), state.depth);
   const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   std::vector<Corner> corners;
+  std::vector<int> vertices{0, 1, 2};
   bool corners_are_cut = false;
-  if (std::any_of(v.begin(), v.end(), [&](const ShadedVertex* s) { return needs_clip(transform, state.depth, s->pos_clip); })) {
+  if (beyond_any ||
+      std::any_of(v.begin(), v.end(), [&](const ShadedVertex* s) { return needs_clip(transform, state.depth, s->pos_clip); })) {
     Polygon polygon;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < (line ? 2 : 3); ++i) {
       const glm::vec4& p = v[i]->pos_clip;
       polygon.push_back({{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), static_cast<double>(p.w)},
                          {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0},
                          static_cast<int>(i)});
     }
-    const std::vector<Plane> planes = clip_planes(transform, state.depth);
-    for (const Plane& plane : planes) polygon = cut(plane, &plane == planes.data(), polygon);
-    if (polygon.size() < 3) {
+    std::vector<Plane> planes = clip_planes(transform, state.depth);
+    for (std::size_t k = 0; k < v[0]->clip_distances.size(); ++k) {
+      const auto of = [&](std::size_t i) { return static_cast<double>(v[i]->clip_distances[k]); };
+      planes.push_back({0, 0, 0, 0, 0, std::array{of(0), of(1), of(2)}});
+    }
+    for (const Plane& plane : planes) {
+      polygon = line ? cut_line(plane, &plane == planes.data(), polygon) : cut(plane, &plane == planes.data(), polygon);
+    }
+    if (polygon.size() < (line ? 2u : 3u)) {
       ++counts_.culled_outside;
       return {};
     }
     ++counts_.clipped;
     corners_are_cut = true;
-    for (const ClipPoint& c : polygon) corners.push_back(clip_corner(transform, c, v, facts, provoking));
-    for (Corner& c : corners) {  // all corners carry the provoking vertex's flat values
-      for (std::size_t i = 0; i < c.varyings.size(); ++i) {
-        if (facts.interpolations[i] == Interpolation::flat) c.varyings[i] = v[provoking]->varyings[i];
-      }
+    vertices.clear();
+    for (const ClipPoint& c : polygon) {
+      corners.push_back(clip_corner(transform, c, v, facts, provoking));
+      vertices.push_back(c.vertex);
     }
   } else {
-    for (const ShadedVertex* s : v) corners.push_back(project(transform, *s));
+    for (std::size_t i = 0; i < (line ? 2 : 3); ++i) corners.push_back(project(transform, *v[i]));
   }
+  const std::vector<float>& flat = v[provoking]->varyings;
+  if (line || state.polygon_mode != PolygonMode::fill || corners_are_cut) {  // all corners carry the provoking vertex's flat values
+    for (Corner& c : corners) {
+      for (std::size_t i = 0; i < c.varyings.size(); ++i) {
+        if (facts.interpolations[i] == Interpolation::flat) c.varyings[i] = flat[i];
+      }
+    }
+  }
+  if (line) return window_line(state, corners[0], corners[1], flat, true);
+  if (state.polygon_mode != PolygonMode::fill) return window_outline(state, corners, vertices, v, flat);
 
   const Box allowed = allowed_pixels(target_, state);
   const bool clipped = corners.size() != 3 || corners_are_cut;
   std::vector<WindowTriangle> pieces;
   Fate last = Fate::drawn;
   for (const std::array<Corner, 3>& c : clipped ? fan(corners) : std::vector<std::array<Corner, 3>>{{corners[0], corners[1], corners[2]}}) {
-    auto [fate, piece] = make_window_triangle(state, allowed, target_.depth_format(), c, clipped ? 0 : provoking);
+    auto [fate, piece] = make_window_triangle(state, allowed, target_.depth_format(), target_.samples(), c, clipped ? 0 : provoking);
     if (fate == Fate::drawn) pieces.push_back(std::move(piece));
     last = fate;
   }
@@ -682,56 +1102,97 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
 
 void Renderer::rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade) {
   const Surface surface = make_surface(t, facts.interpolations);
-  const Box box = intersect(covered_box(t), allowed_pixels(target_, state));
+  const Box box = intersect(covered_box(t, target_.samples()), allowed_pixels(target_, state));
   for (int64_t y = box.y0; y < box.y1; ++y) {
     for (int64_t x = box.x0; x < box.x1; ++x) {
-      const int px = static_cast<int>(x), py = static_cast<int>(y);
-      if (covers(t, center_of(px), center_of(py))) draw_fragment(state, facts, t, surface, px, py, shade);
+      draw_pixel(state, facts, t, surface, static_cast<int>(x), static_cast<int>(y), shade);
     }
   }
 }
 
-void Renderer::draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x,
-                             int y, const FragmentFunction& shade) {
-  double z = target_.depth_value(tested_depth(t, state.depth, x, y));
-  if (!facts.writes_depth && !depth_passes(state, x, y, z)) return;
-  const FragmentResult result = shade(t, surface, x, y);
+void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
+                          const FragmentFunction& shade) {
+  std::optional<FragmentResult> of_pixel;
+  Point centroid = center_of(x, y);  // unless a sample is not covered: then the first that is
+  std::vector<Point> covered;
+  for (int i = 0; i < target_.samples(); ++i) {
+    const Point p = position_of({x, y, i}, target_.samples());
+    if (covers(t, p)) covered.push_back(p);
+  }
+  if (!covered.empty() && covered.size() < static_cast<std::size_t>(target_.samples())) centroid = covered[0];
+  for (int i = 0; i < target_.samples(); ++i) {
+    const Sample s{x, y, i};
+    if (!covers(t, position_of(s, target_.samples()))) continue;
+    if (target_.samples() > 1 && (state.sample_mask >> i) % 2 == 0) continue;
+    if (state.sample_shading || supersample_) {
+      const Point at = position_of(s, target_.samples());
+      draw_sample(state, facts, t, s, shade(t, surface, at, at));
+    } else {
+      if (!of_pixel) of_pixel = shade(t, surface, center_of(x, y), centroid);
+      draw_sample(state, facts, t, s, *of_pixel);
+    }
+  }
+}
+
+void Renderer::draw_sample(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Sample& s,
+                           const FragmentResult& result) {
   if (!result.keep) return;
+  const auto samples = static_cast<float>(target_.samples());
+  if (state.alpha_to_coverage && facts.has_fragment && samples > 1.0f &&
+      !(result.colors[0].w * samples >= static_cast<float>(s.number) + 0.5f))
+    return;
+  double z = target_.depth_value(tested_depth(t, state.depth, position_of(s, target_.samples())));
   if (facts.writes_depth) {
     const float low = std::min(state.depth.range_near, state.depth.range_far),
                 high = std::max(state.depth.range_near, state.depth.range_far);
     z = target_.depth_value(hold(result.depth, low, high));
-    if (!depth_passes(state, x, y, z)) return;
   }
+  if (!tests_pass(state, t.front, s, z)) return;
   ++counts_.samples_passed;
-  if (state.depth.test && state.depth.write) target_.set_depth(x, y, z);
-  if (facts.has_fragment) write_color(state, x, y, result.color);
+  if (state.query) counts_.queries[*state.query] += 1;
+  if (state.depth.test && state.depth.write) target_.set_depth(s, z);
+  if (facts.has_fragment) write_colors(state, s, result.colors);
 }
 
-bool Renderer::depth_passes(const DrawState& state, int x, int y, double z) const {
-  if (!state.depth.test || target_.depth_format() == DepthFormat::none) return true;
-  const double stored = target_.depth(x, y);
-  switch (state.depth.compare) {
-    case CompareOp::never: return false;
-    case CompareOp::less: return z < stored;
-    case CompareOp::equal: return z == stored;
-    case CompareOp::less_equal: return z <= stored;
-    case CompareOp::greater: return z > stored;
-    case CompareOp::not_equal: return z != stored;
-    case CompareOp::greater_equal: return z >= stored;
-    case CompareOp::always: return true;
-  }
-  return false;
+bool Renderer::depth_passes(const DrawState& state, const Sample& s, double z) const {
+  return !state.depth.test || target_.depth_format() == DepthFormat::none || compares(state.depth.compare, z, target_.depth(s));
 }
 
-void Renderer::write_color(const DrawState& state, int x, int y, glm::vec4 color) {
-  if (target_.color_format() == ColorFormat::none) return;
-  if (state.blend) {
-    const bool fixed_point = target_.color_format() == ColorFormat::rgba8 || target_.color_format() == ColorFormat::srgb8a8;
-    for (int k = 0; fixed_point && k < 4; ++k) color[k] = hold(color[k], 0.0f, 1.0f);
-    color = blend(*state.blend, color, target_.color(x, y));
+// Stencil, then depth; the stencil remembers what became of the sample.
+bool Renderer::tests_pass(const DrawState& state, bool front, const Sample& s, double z) {
+  if (!state.stencil || !has_stencil(target_.depth_format())) return depth_passes(state, s, z);
+  const StencilFace& f = front ? state.stencil->front : state.stencil->back;
+  const uint8_t stored = target_.stencil(s);
+  const bool stencil_passes = compares(f.compare, f.reference & f.read_mask, stored & f.read_mask);
+  const bool passes = stencil_passes && depth_passes(state, s, z);
+  target_.set_stencil(s, stencil_result(f, !stencil_passes ? f.fail : passes ? f.pass : f.depth_fail, stored));
+  return passes;
+}
+
+void Renderer::write_colors(const DrawState& state, const Sample& s, const std::vector<glm::vec4>& colors) {
+  const glm::vec4 none(0.0f);
+  for (std::size_t i = 0; i < std::min(colors.size(), target_.color_formats().size()); ++i) {
+    const ColorFormat format = target_.color_formats()[i];
+    if (format == ColorFormat::none) continue;
+    const bool own = state.attachments[i].has_value();
+    const std::optional<BlendState>& blending = own ? state.attachments[i]->blend : state.blend;
+    const ColorMask mask = own ? state.attachments[i]->mask : state.color_mask;
+    const glm::vec4 before = target_.color(i, s);
+    glm::vec4 color = colors[i];
+    if (blending) {
+      const auto in_range = [&](glm::vec4 c) {
+        const bool fixed_point = format == ColorFormat::rgba8 || format == ColorFormat::srgb8a8;
+        for (int k = 0; fixed_point && k < 4; ++k) c[k] = hold(c[k], 0.0f, 1.0f);
+        return c;
+      };
+      color = blend(*blending, in_range(color), in_range(colors.size() > 1 ? colors[1] : none), before, in_range(blending->constant));
+    }
+    const std::array<bool, 4> written{mask.r, mask.g, mask.b, mask.a};
+    for (int k = 0; k < 4; ++k) {
+      if (!written[static_cast<std::size_t>(k)]) color[k] = before[k];
+    }
+    target_.set_color(i, s, color);
   }
-  target_.set_color(x, y, color);
 }
 
 }  // namespace halfspace::oracle

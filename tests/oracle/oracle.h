@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -33,43 +34,70 @@ struct Counts {
   uint64_t clipped = 0;
   uint64_t triangles = 0;  ///< triangles of which some sample may be drawn
   uint64_t samples_passed = 0;
+  bool has_lines = false;  ///< then what lines leave no sample is not counted as the pass does
+  std::map<uint32_t, uint64_t> queries;
 };
 
-/// Colour and depth images in the targets' formats and layout (top row first), read and written by window coordinates.
+/// A sample of a pixel.
+struct Sample {
+  int x = 0, y = 0;  ///< the pixel, in window coordinates
+  int number = 0;
+};
+
+/// Colour and depth images in the targets' formats and layout (top row first), read and written by window coordinates; with
+/// several samples an image for each, one after the other.
 class Framebuffer {
  public:
-  Framebuffer(int width, int height, ColorFormat color, DepthFormat depth);
+  Framebuffer(int width, int height, std::vector<ColorFormat> colors, DepthFormat depth, int samples = 1);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  ColorFormat color_format() const { return color_format_; }
+  int samples() const { return samples_; }
+  const std::vector<ColorFormat>& color_formats() const { return color_formats_; }
   DepthFormat depth_format() const { return depth_format_; }
 
-  void clear_color(glm::vec4 value);
-  void clear_depth(float value);
+  void clear_color(std::size_t attachment, glm::vec4 value);
+  void clear_depth(float value, uint8_t stencil);
 
-  /// The pixel's colour, decoded.
-  glm::vec4 color(int x, int y) const;
-  void set_color(int x, int y, glm::vec4 value);
-  /// The pixel's depth as the format holds it: a code, or for d32f the depth itself.
-  double depth(int x, int y) const;
-  void set_depth(int x, int y, double value);
+  /// A sample's colour, decoded.
+  glm::vec4 color(std::size_t attachment, const Sample& s) const;
+  void set_color(std::size_t attachment, const Sample& s, glm::vec4 value);
+  /// A sample's depth as the format holds it: a code, or for floats the depth itself.
+  double depth(const Sample& s) const;
+  void set_depth(const Sample& s, double value);
+  uint8_t stencil(const Sample& s) const;
+  void set_stencil(const Sample& s, uint8_t value);
   /// What the format holds for a window depth in [0, 1].
   double depth_value(float z) const;
+  /// One sample a pixel: the mean of the colours, depth and stencil of the first.
+  Framebuffer resolved() const;
 
-  std::vector<std::byte> color_bytes, depth_bytes;
+  std::vector<std::vector<std::byte>> color_bytes;
+  std::vector<std::byte> depth_bytes;
 
  private:
-  std::size_t pixel(int x, int y) const;
+  std::size_t pixel(const Sample& s) const;
 
-  int width_, height_;
-  ColorFormat color_format_;
+  int width_, height_, samples_;
+  std::vector<ColorFormat> color_formats_;
   DepthFormat depth_format_;
 };
+
+/// A point of the window in 1/256 px.
+struct Point {
+  int64_t x = 0, y = 0;
+};
+Point center_of(int x, int y);
+/// Where a sample lies, by the standard positions for that many samples.
+Point position_of(const Sample& s, int samples);
 
 /// A vertex after the vertex function.
 struct ShadedVertex {
   glm::vec4 pos_clip{};
+  float point_size = 1.0f;
+  std::vector<float> clip_distances;
+  bool has_bounds = false;  ///< low and high, in normalized device coordinates, instead of a size
+  glm::vec2 low{}, high{};
   std::vector<float> varyings;
 };
 
@@ -89,11 +117,18 @@ struct WindowTriangle {
   int64_t area = 0;                ///< twice the area, (1/256 px)²
   float z0 = 0, z_max = 0;         ///< smallest and largest depth, offset included
   float z_step1 = 0, z_step2 = 0;  ///< depth per unit of E1 and E2
+
+  bool is_line = false;  ///< then one from `from` to `to`, so many pixels wide, and corner 2 lies beside corner 0
+  Point from, to;
+  int width = 1;
+  bool is_point = false;  ///< then a rectangle, of which corner 0 is the point and low … high (half open) the extent
+  Point low, high;
+  PointOrigin origin = PointOrigin::upper_left;
 };
 
 /// What the fragment function answered.
 struct FragmentResult {
-  glm::vec4 color{};
+  std::vector<glm::vec4> colors;
   bool keep = true;
   float depth = 0.0f;
 };
@@ -120,43 +155,71 @@ struct SurfacePoint {
 };
 
 Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations);
-SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, int x, int y);
+SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, const Point& at);
 float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, std::size_t component);
+
+/// What a draw reads. A vertex's attributes are its row's; their last instance_components come from the instance's row.
+template <class S>
+struct Input {
+  using Row = typename S::template Attributes<float>;
+  std::vector<Row> vertices;
+  std::vector<uint32_t> indices;
+  bool restart = false;  ///< the index kRestart ends a primitive
+  std::size_t instance_components = 0;
+  std::vector<Row> instances;
+  uint32_t divisor = 1;
+};
+inline constexpr uint32_t kRestart = 0xffffffffu;
+
+/// The triangles that indices make, each with its provoking vertex first or last as the state says.
+std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, bool restart, const DrawState& state);
 
 class Renderer {
  public:
   /// Draws into the framebuffer, which must outlive the renderer.
-  explicit Renderer(Framebuffer& target) : target_(target) {}
+  explicit Renderer(Framebuffer& target, bool supersample = false) : target_(target), supersample_(supersample) {}
 
-  /// indices.size() / 3 triangles.
   template <class S>
-  void draw(const S& shader, const std::vector<typename S::template Attributes<float>>& vertices, const std::vector<uint32_t>& indices,
-            const DrawState& state);
+  void draw(const S& shader, const Input<S>& input, const DrawState& state);
 
   const Counts& counts() const { return counts_; }
 
  private:
-  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, int x, int y)>;
+  template <class S>
+  void draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance);
 
-  // A submitted triangle's pieces in the window: none if culled, several if clipped.
+  // at: where the pixel is looked at; centroid: where its centroid varyings are
+  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Point& at, const Point& centroid)>;
+
+  // A submitted point in the window, or none.
+  std::vector<WindowTriangle> window_points(const DrawState& state, const ShadedVertex& v);
+  // A submitted triangle's pieces in the window (of a line the third vertex is the second): none if culled, several if clipped.
   std::vector<WindowTriangle> window_triangles(const DrawState& state, const ShaderFacts& facts,
                                                const std::array<const ShadedVertex*, 3>& v);
+  std::vector<WindowTriangle> window_line(const DrawState& state, const Corner& a, const Corner& b, const std::vector<float>& flat,
+                                          bool front);
+  std::vector<WindowTriangle> window_outline(const DrawState& state, const std::vector<Corner>& corners, const std::vector<int>& vertex,
+                                             const std::array<const ShadedVertex*, 3>& v, const std::vector<float>& flat);
   void rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade);
-  void draw_fragment(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
-                     const FragmentFunction& shade);
-  bool depth_passes(const DrawState& state, int x, int y, double z) const;
-  void write_color(const DrawState& state, int x, int y, glm::vec4 color);
+  void draw_pixel(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
+                  const FragmentFunction& shade);
+  void draw_sample(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Sample& s,
+                   const FragmentResult& result);
+  bool depth_passes(const DrawState& state, const Sample& s, double z) const;
+  bool tests_pass(const DrawState& state, bool front, const Sample& s, double z);
+  void write_colors(const DrawState& state, const Sample& s, const std::vector<glm::vec4>& colors);
 
   Framebuffer& target_;
+  bool supersample_;
   Counts counts_;
 };
 
 /// Every pixel of `from` sent through the function (as Pass::post does) into a new framebuffer without depth.
 template <class F>
 Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format) {
-  Framebuffer to(from.width(), from.height(), format, DepthFormat::none);
+  Framebuffer to(from.width(), from.height(), {format}, DepthFormat::none);
   for (int y = 0; y < from.height(); ++y) {
-    for (int x = 0; x < from.width(); ++x) to.set_color(x, y, function(from.color(x, y)));
+    for (int x = 0; x < from.width(); ++x) to.set_color(0, {x, y, 0}, function(from.color(0, {x, y, 0})));
   }
   return to;
 }
@@ -164,6 +227,20 @@ Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format)
 // ---- the part that calls the shader ----------------------------------------------------------------------------
 
 namespace detail {
+
+inline void take_vertex(const glm::vec4& v, ShadedVertex& out) { out.pos_clip = v; }
+template <std::size_t N>
+void take_vertex(const PerVertex<float, N>& v, ShadedVertex& out) {
+  out.pos_clip = v.position;
+  out.point_size = v.point_size;
+  out.clip_distances.assign(v.clip_distance.begin(), v.clip_distance.end());
+}
+inline void take_vertex(const SpriteVertex<float>& v, ShadedVertex& out) {
+  out.pos_clip = {0.0f, 0.0f, v.depth, v.drawn ? 1.0f : -1.0f};
+  out.has_bounds = true;
+  out.low = v.low;
+  out.high = v.high;
+}
 
 template <class T>
 std::vector<float> components_of(const T& t) {
@@ -180,21 +257,22 @@ T struct_of(const std::vector<float>& components) {
 
 template <class S>
 FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, const WindowTriangle& t, const Surface& s,
-                           const DepthState& state, int x, int y) {
+                           const DepthState& state, const Point& at, const Point& centroid) {
   using V = typename S::template Varyings<float>;
   constexpr std::size_t n = kComponents<V>;
-  const SurfacePoint p = surface_point(s, t, state, x, y);
+  const SurfacePoint p = surface_point(s, t, state, at), inside = surface_point(s, t, state, centroid);
   ComponentLanes<float, n> components{};
   std::array<float, n> values{};
   for (std::size_t i = 0; i < n; ++i) {
     components.value0[i] = s.value0[i];
     components.delta1[i] = s.delta1[i];
     components.delta2[i] = s.delta2[i];
-    values[i] = component_at(s, p, kInterpolations<V>[i], i);
+    const Interpolation mode = kInterpolations<V>[i];
+    values[i] = component_at(s, mode == Interpolation::centroid ? inside : p, mode, i);
   }
   Pixel<float> px;
-  px.x = static_cast<float>(x) + 0.5f;
-  px.y = static_cast<float>(y) + 0.5f;
+  px.x = static_cast<float>(at.x) / 256.0f;
+  px.y = static_cast<float>(at.y) / 256.0f;
   px.z = p.z;
   px.inv_w = p.inv_w;
   px.front_facing = t.front;
@@ -203,12 +281,12 @@ FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, c
   px.weights = p.weights;
   px.dx = p.dx;
   px.dy = p.dy;
-  px.quad_x = static_cast<float>(x % 2);
-  px.quad_y = static_cast<float>(y % 2);
+  px.quad_x = static_cast<float>(at.x / 256 % 2);
+  px.quad_y = static_cast<float>(at.y / 256 % 2);
   FragmentResult result;
   if constexpr (HasFragmentFunction<S>) {
     const auto fragment = call_fragment<S, float>(shader, from_components<V, float>(values), face, px);
-    result.color = fragment.color;
+    for (std::size_t i = 0; i < kColors<S>; ++i) result.colors.push_back(halfspace::detail::nth_color(fragment.color, i));
     if constexpr (kDiscards<S>) result.keep = fragment.keep;
     if constexpr (kWritesDepth<S>) result.depth = fragment.depth;
   }
@@ -227,31 +305,42 @@ ShaderFacts facts_of() {
 }  // namespace detail
 
 template <class S>
-void Renderer::draw(const S& shader, const std::vector<typename S::template Attributes<float>>& vertices,
-                    const std::vector<uint32_t>& indices, const DrawState& state) {
+void Renderer::draw(const S& shader, const Input<S>& input, const DrawState& state) {
+  for (uint32_t instance = 0; instance < state.instances; ++instance) draw_instance(shader, input, state, instance);
+}
+
+template <class S>
+void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance) {
   using V = typename S::template Varyings<float>;
   using P = PrimitiveOf<S, float>;
   const ShaderFacts facts = detail::facts_of<S>();
-  std::vector<ShadedVertex> shaded(vertices.size());
-  std::vector<bool> done(vertices.size());
-  for (const uint32_t i : indices) {
-    if (done[i]) continue;
-    done[i] = true;
+  std::map<uint32_t, ShadedVertex> shaded;
+  for (const uint32_t i : input.indices) {
+    if ((input.restart && i == kRestart) || shaded.contains(i)) continue;
     ++counts_.vertices_shaded;
+    const auto row = static_cast<uint32_t>(static_cast<int64_t>(i) + state.base_vertex);
+    auto attributes = detail::components_of(input.vertices[row]);
+    for (std::size_t k = attributes.size() - input.instance_components; k < attributes.size(); ++k) {
+      attributes[k] = detail::components_of(input.instances[instance / input.divisor])[k];
+    }
     V out{};
-    shaded[i].pos_clip = shader.vertex(vertices[i], out);
+    const VertexId<float> id{static_cast<int32_t>(row), static_cast<int32_t>(instance)};
+    const auto vertex = call_vertex<S, float>(shader, detail::struct_of<typename Input<S>::Row>(attributes), id, out);
+    shaded[i].point_size = state.point_size;
+    detail::take_vertex(vertex, shaded[i]);
     shaded[i].varyings = detail::components_of(out);
   }
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    const std::array<const ShadedVertex*, 3> v{&shaded[indices[i]], &shaded[indices[i + 1]], &shaded[indices[i + 2]]};
+  for (const auto& [a, b, c] : assemble(input.indices, input.restart, state)) {
+    const std::array<const ShadedVertex*, 3> v{&shaded[a], &shaded[b], &shaded[c]};
     P face{};
     if constexpr (HasPrimitive<S>) {
       face = shader.primitive(detail::struct_of<V>(v[0]->varyings), detail::struct_of<V>(v[1]->varyings),
                               detail::struct_of<V>(v[2]->varyings));
     }
-    for (const WindowTriangle& t : window_triangles(state, facts, v)) {
-      rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, int x, int y) {
-        return detail::call_shader(shader, face, triangle, surface, state.depth, x, y);
+    const bool points = state.topology == Topology::points;
+    for (const WindowTriangle& t : points ? window_points(state, *v[0]) : window_triangles(state, facts, v)) {
+      rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Point& at, const Point& centroid) {
+        return detail::call_shader(shader, face, triangle, surface, state.depth, at, centroid);
       });
     }
   }

@@ -217,7 +217,7 @@ void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& rand
 
 namespace {
 
-constexpr int kCompareOps = 8, kBlendFactors = 10, kBlendEquations = 5;
+constexpr int kCompareOps = 8, kBlendFactors = 15, kBlendEquations = 5, kStencilOps = 8;
 
 Rect random_rect(int width, int height, Random& random) {
   const int x = random.between(-width / 4, width * 3 / 4);
@@ -237,7 +237,56 @@ BlendState random_blend(Random& random) {
   b.alpha_equation = equation();
   b.source_alpha = factor();
   b.destination_alpha = factor();
+  b.constant = {random.real(-0.2f, 1.2f), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
   return b;
+}
+
+ColorMask random_mask(Random& random) {
+  ColorMask m;
+  m.r = !random.once_in(3);
+  m.g = !random.once_in(3);
+  m.b = !random.once_in(3);
+  m.a = !random.once_in(3);
+  return m;
+}
+
+StencilFace random_stencil_face(Random& random) {
+  const auto op = [&] { return static_cast<StencilOp>(random.below(kStencilOps)); };
+  StencilFace f;
+  if (!random.once_in(3)) f.compare = static_cast<CompareOp>(random.below(kCompareOps));
+  if (!random.once_in(3)) f.fail = op();
+  if (!random.once_in(3)) f.depth_fail = op();
+  if (!random.once_in(4)) f.pass = op();
+  f.reference = static_cast<uint8_t>(random.pick({0, 1, 2, 127, 128, 255}));
+  f.read_mask = static_cast<uint8_t>(random.pick({255, 255, 1, 0xf0, 0}));
+  f.write_mask = static_cast<uint8_t>(random.pick({255, 255, 1, 0x3c, 0}));
+  return f;
+}
+
+// What comes after coverage: stencil, masks, a state for each attachment, dual sources, samples, queries.
+void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawState& s) {
+  if (!random.once_in(3)) {
+    s.stencil.emplace();
+    s.stencil->front = random_stencil_face(random);
+    s.stencil->back = random.once_in(2) ? s.stencil->front : random_stencil_face(random);
+  }
+  if (random.once_in(3)) s.color_mask = random_mask(random);
+  for (std::size_t i = 0; i <= scene.more_colors.size(); ++i) {
+    if (!random.once_in(5)) continue;
+    s.attachments[i].emplace();
+    s.attachments[i]->mask = random_mask(random);
+    if (random.once_in(2)) s.attachments[i]->blend = random_blend(random);
+  }
+  if (dual_sources && scene.more_colors.empty() && random.once_in(2)) {
+    s.blend = random_blend(random);
+    s.blend->source_color = random.pick({BlendFactor::src1_color, BlendFactor::one_minus_src1_alpha});
+    s.blend->destination_color = random.pick({BlendFactor::one_minus_src1_color, BlendFactor::src1_alpha});
+    s.blend->destination_alpha = random.pick({BlendFactor::one_minus_src1_color, BlendFactor::src1_alpha});
+  }
+  if (random.once_in(4)) s.sample_shading = true;
+  if (random.once_in(5)) s.alpha_to_coverage = true;
+  if (random.once_in(5)) s.sample_mask = random.bits();
+  if (random.once_in(3)) s.query = static_cast<uint32_t>(random.below(3));
 }
 
 // Mostly a test that something can pass against the cleared depth.
@@ -296,26 +345,69 @@ glm::mat4 random_matrix(Random& random) {
 
 // Fills the images that the pass loads. Floats are finite and not too large, depths in [0, 1].
 void fill_images(Scene& s, Random& random) {
-  oracle::Framebuffer f(s.width, s.height, s.color.format, s.depth.format);
+  std::vector<ColorFormat> formats{s.color.format};
+  for (const ColorTarget& c : s.more_colors) formats.push_back(c.format);
+  oracle::Framebuffer f(s.width, s.height, formats, s.depth.format);
   for (int y = 0; y < s.height; ++y) {
     for (int x = 0; x < s.width; ++x) {
-      f.set_color(x, y, glm::vec4{random.real(0, 1), random.real(0, 1), random.real(0, 2), random.real(0, 1)});
-      f.set_depth(x, y, f.depth_value(random.real(0, 1)));
+      for (std::size_t i = 0; i < formats.size(); ++i) {
+        f.set_color(i, {x, y, 0}, glm::vec4{random.real(0, 1), random.real(0, 1), random.real(0, 2), random.real(0, 1)});
+      }
+      f.set_depth({x, y, 0}, f.depth_value(random.real(0, 1)));
+      f.set_stencil({x, y, 0}, static_cast<uint8_t>(random.below(256)));
     }
   }
-  s.color_before = f.color_bytes;
+  s.color_before = f.color_bytes[0];
+  s.more_before.assign(f.color_bytes.begin() + 1, f.color_bytes.end());
   s.depth_before = f.depth_bytes;
+}
+
+// Positions, and numbers for all other attributes.
+template <class A>
+std::vector<A> random_rows(const std::vector<glm::vec4>& positions, Random& random) {
+  std::vector<A> rows;
+  for (const glm::vec4& p : positions) {
+    std::array<float, kComponents<A>> row{};
+    for (std::size_t k = 0; k < row.size(); ++k) row[k] = k < 4 ? p[static_cast<int>(k)] : random.real(-0.5f, 1.5f);
+    rows.push_back(from_components<A, float>(row));
+  }
+  return rows;
+}
+
+// Strips, fans, restarts, instances and a base vertex.
+template <class S>
+SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, DrawState state, Random& random) {
+  using A = typename S::template Attributes<float>;
+  oracle::Input<S> input;
+  input.vertices = random_rows<A>(g.positions, random);
+  input.indices = g.indices;
+  state.topology = random.pick({Topology::triangles, Topology::triangle_strip, Topology::triangle_fan});
+  input.restart = random.once_in(2);
+  for (std::size_t i = 0; input.restart && i < input.indices.size(); ++i) {
+    if (random.once_in(random.pick({2, 5, 20}))) input.indices[i] = oracle::kRestart;
+  }
+  if (!input.vertices.empty() && random.once_in(3)) {  // some rows before those that are used, or none but by a negative base
+    state.base_vertex = random.pick({1, 5, -3});
+    const auto extra = static_cast<std::size_t>(std::max(state.base_vertex, 0));
+    input.vertices.insert(input.vertices.begin(), extra, input.vertices.front());
+    for (uint32_t& i : input.indices) {
+      if (state.base_vertex < 0 && !(input.restart && i == oracle::kRestart)) i += 3;
+    }
+  }
+  state.instances = random.pick({1u, 1u, 2u, 3u, 7u, 0u});
+  if (kComponents < A >> 4 && random.once_in(2)) {
+    input.instance_components = static_cast<std::size_t>(random.between(1, static_cast<int>(kComponents<A>) - 4));
+    input.divisor = random.pick({1u, 2u, 5u});
+    input.instances = random_rows<A>(std::vector<glm::vec4>(state.instances / input.divisor + 1), random);
+  }
+  const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
+  return make_draw(shader, name, input, state, vertex_layout, random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
 }
 
 template <class S>
 SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, const DrawState& state, Random& random) {
   using A = typename S::template Attributes<float>;
-  std::vector<A> rows;
-  for (const glm::vec4& p : g.positions) {
-    std::array<float, kComponents<A>> row{};
-    for (std::size_t k = 0; k < row.size(); ++k) row[k] = k < 4 ? p[static_cast<int>(k)] : random.real(-0.5f, 1.5f);
-    rows.push_back(from_components<A, float>(row));
-  }
+  std::vector<A> rows = random_rows<A>(g.positions, random);
   const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
   if (HasFragmentFunction<S> && random.once_in(4)) {  // without an index list: vertices are repeated, and one or two may be left over
     std::vector<A> repeated;
@@ -329,7 +421,98 @@ SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, cons
                    random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
 }
 
-SceneDraw random_draw(Theme theme, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+SceneDraw random_primitives(bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  if (depth_only) return primitives_draw(DepthShader{matrix}, "DepthShader", g, state, random);
+  switch (random.below(4)) {
+    case 0: return primitives_draw(MixedShader{}, "MixedShader", g, state, random);
+    case 1: return primitives_draw(FaceShader{}, "FaceShader", g, state, random);
+    default: return primitives_draw(InstanceShader{}, "InstanceShader", g, state, random);
+  }
+}
+
+template <class S>
+SceneDraw operations_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
+  bool dual_sources = false;
+  if constexpr (HasFragmentFunction<S>) dual_sources = kColors<S> > 1;
+  add_operations(scene, dual_sources, random, state);
+  return shader_draw(shader, name, g, state, random);
+}
+
+SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
+  const float value = random.real(0.05f, 0.4f);
+  if (scene.color.format == ColorFormat::none || random.once_in(12))
+    return operations_draw(DepthShader{matrix}, "DepthShader", scene, g, state, random);
+  switch (random.below(10)) {
+    case 0: return operations_draw(ColorShader{matrix, 1.0f}, "ColorShader", scene, g, state, random);
+    case 1: return operations_draw(CutoutShader<false>{value}, "CutoutShader", scene, g, state, random);
+    case 2: return operations_draw(CutoutShader<true>{value}, "CutoutShader with visibility", scene, g, state, random);
+    case 3: return operations_draw(BumpShader<false>{value}, "BumpShader", scene, g, state, random);
+    case 4: return operations_draw(BumpShader<true>{value}, "BumpShader with visibility", scene, g, state, random);
+    case 5: return operations_draw(DerivativeShader{}, "DerivativeShader", scene, g, state, random);
+    case 6: return operations_draw(PixelShader{matrix, glm::vec4{value, 1, 1, 0.75f}}, "PixelShader", scene, g, state, random);
+    case 7: return operations_draw(ManyColorsShader<2>{value}, "ManyColorsShader<2>", scene, g, state, random);
+    default: return operations_draw(ManyColorsShader<4>{value}, "ManyColorsShader<4>", scene, g, state, random);
+  }
+}
+
+// Points of all sizes, by state and by shader, and sprites that give their bounds.
+template <class S>
+SceneDraw points_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
+  state.topology = Topology::points;
+  state.point_size = random.pick({1.0f, 1.0f, 3.7f, 16.0f, 90.5f, 4096.0f});
+  if (random.once_in(2)) state.point_origin = PointOrigin::lower_left;
+  if (random.once_in(2)) state.cull = CullMode::none;
+  if (random.once_in(3)) add_operations(scene, false, random, state);
+  return shader_draw(shader, name, g, state, random);
+}
+
+SceneDraw random_points(const Scene& scene, const Geometry& g, const DrawState& state, Random& random) {
+  const float size = random.pick({2.0f, 15.0f, 60.0f, 4096.0f, -1.0f});
+  if (scene.color.format == ColorFormat::none) return points_draw(DepthShader{}, "DepthShader", scene, g, state, random);
+  switch (random.below(7)) {
+    case 0: return points_draw(MixedShader{}, "MixedShader", scene, g, state, random);
+    case 1: return points_draw(FaceCutoutShader{}, "FaceCutoutShader", scene, g, state, random);
+    case 2: return points_draw(DerivativeShader{}, "DerivativeShader", scene, g, state, random);
+    case 3: return points_draw(PointShader<false>{size}, "PointShader", scene, g, state, random);
+    case 4: return points_draw(PointShader<true>{size}, "PointShader with visibility", scene, g, state, random);
+    case 5: return points_draw(BoundsShader<false>{random.real(0.01f, 1.5f)}, "BoundsShader", scene, g, state, random);
+    default: return points_draw(BoundsShader<true>{random.real(0.01f, 1.5f)}, "BoundsShader with visibility", scene, g, state, random);
+  }
+}
+
+// Lines, outlines and clip distances.
+template <class S>
+SceneDraw lines_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
+  if (random.once_in(2)) {
+    state.topology = random.pick({Topology::lines, Topology::line_strip, Topology::line_loop});
+  } else if (!random.once_in(3)) {
+    state.polygon_mode = random.pick({PolygonMode::line, PolygonMode::line, PolygonMode::point});
+  }
+  state.line_width = random.pick({1.0f, 1.0f, 1.0f, 1.6f, 3.0f, 4.0f, 11.3f});
+  state.point_size = random.pick({1.0f, 5.0f, 20.0f});
+  if (random.once_in(4)) add_operations(scene, false, random, state);
+  return shader_draw(shader, name, g, state, random);
+}
+
+SceneDraw random_lines(const Scene& scene, const Geometry& g, const DrawState& state, Random& random) {
+  if (scene.color.format == ColorFormat::none) return lines_draw(DepthShader{}, "DepthShader", scene, g, state, random);
+  switch (random.below(7)) {
+    case 0: return lines_draw(MixedShader{}, "MixedShader", scene, g, state, random);
+    case 1: return lines_draw(FaceShader{}, "FaceShader", scene, g, state, random);
+    case 2: return lines_draw(DerivativeShader{}, "DerivativeShader", scene, g, state, random);
+    case 3: return lines_draw(CutoutShader<true>{0.2f}, "CutoutShader with visibility", scene, g, state, random);
+    case 4: return lines_draw(ClipShader<1>{}, "ClipShader<1>", scene, g, state, random);
+    case 5: return lines_draw(ClipShader<8>{}, "ClipShader<8>", scene, g, state, random);
+    default: return lines_draw(PixelShader{}, "PixelShader", scene, g, state, random);
+  }
+}
+
+SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix,
+                      Random& random) {
+  if (theme == Theme::lines) return random_lines(scene, g, state, random);
+  if (theme == Theme::points) return random_points(scene, g, state, random);
+  if (theme == Theme::operations || theme == Theme::samples) return random_operations(scene, g, state, matrix, random);
+  if (theme == Theme::primitives && !random.once_in(4)) return random_primitives(depth_only, g, state, matrix, random);
   if (depth_only) return shader_draw(DepthShader{matrix}, "DepthShader", g, state, random);
   const bool themed = !random.once_in(3);
   const float value = random.real(0.05f, 0.4f);
@@ -351,6 +534,22 @@ SceneDraw random_draw(Theme theme, bool depth_only, const Geometry& g, const Dra
   }
 }
 
+// Stencil, more colours, more samples.
+void add_attachments(Theme theme, bool depth_only, Random& random, Scene& s) {
+  s.depth.format = random.pick({DepthFormat::d24s8, DepthFormat::d32fs8, DepthFormat::d32fs8, DepthFormat::d24});
+  s.depth.stencil_clear_value = static_cast<uint8_t>(random.pick({0, 0, 1, 128, 255}));
+  for (int i = depth_only ? 0 : random.pick({0, 0, 1, 3}); i > 0; --i) {
+    ColorTarget c;
+    c.format = random.pick({ColorFormat::none, ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+    c.clear_value = {random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
+    s.more_colors.push_back(c);
+  }
+  if (theme != Theme::operations) {
+    s.samples = random.pick({2, 4, 4, 8});
+    s.supersample = random.once_in(6);
+  }
+}
+
 }  // namespace
 
 Scene random_scene(Theme theme, uint64_t seed) {
@@ -366,9 +565,12 @@ Scene random_scene(Theme theme, uint64_t seed) {
   s.depth.format = random.pick({DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16, DepthFormat::none});
   s.color.clear_value = {random.real(0, 1), random.real(0, 1), random.real(-0.5f, 1.5f), random.real(0, 1)};
   s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});
+  const bool many_points = (theme == Theme::points || theme == Theme::lines) && random.once_in(theme == Theme::points ? 2 : 4);
+  if (theme == Theme::operations || theme == Theme::samples || many_points) add_attachments(theme, depth_only, random, s);
   if (random.once_in(4)) {
     fill_images(s, random);
     s.color.load = s.depth.load = LoadOp::load;
+    for (ColorTarget& c : s.more_colors) c.load = LoadOp::load;
   }
   if (!depth_only && random.once_in(4)) {
     s.post_format = random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
@@ -393,7 +595,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
       state.offset = {};
       state.depth.compare = random.pick({CompareOp::equal, CompareOp::equal, CompareOp::not_equal, CompareOp::greater_equal});
     }
-    s.draws.push_back(random_draw(theme, depth_only, g, state, matrix, random));
+    s.draws.push_back(random_draw(theme, s, depth_only, g, state, matrix, random));
   }
   return s;
 }

@@ -9,10 +9,12 @@
 namespace halfspace {
 
 /// What a scene is mostly made of.
-enum class Theme { opaque, blended, discarding, depth_writing, faces, clipped, many_draws };
-inline constexpr Theme kThemes[] = {Theme::opaque, Theme::blended, Theme::discarding, Theme::depth_writing,
-                                    Theme::faces,  Theme::clipped, Theme::many_draws};
-inline constexpr const char* kThemeNames[] = {"Opaque", "Blended", "Discarding", "DepthWriting", "Faces", "Clipped", "ManyDraws"};
+enum class Theme { opaque, blended, discarding, depth_writing, faces, clipped, many_draws, primitives, operations, samples, points, lines };
+inline constexpr Theme kThemes[] = {Theme::opaque,     Theme::blended, Theme::discarding, Theme::depth_writing,
+                                    Theme::faces,      Theme::clipped, Theme::many_draws, Theme::primitives,
+                                    Theme::operations, Theme::samples, Theme::points,     Theme::lines};
+inline constexpr const char* kThemeNames[] = {"Opaque",    "Blended",    "Discarding", "DepthWriting", "Faces",  "Clipped",
+                                              "ManyDraws", "Primitives", "Operations", "Samples",      "Points", "Lines"};
 
 /// The scene of a seed: the same on every machine and compiler.
 Scene random_scene(Theme theme, uint64_t seed);

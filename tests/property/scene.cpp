@@ -10,12 +10,10 @@ namespace halfspace {
 namespace {
 
 constexpr const char* kColorNames[] = {"none", "rgba8", "srgb8a8", "rgba16f", "rgba32f"};
-constexpr const char* kDepthNames[] = {"none", "d16", "d24", "d32f"};
+constexpr const char* kDepthNames[] = {"none", "d16", "d24", "d32f", "d24s8", "d32fs8"};
 constexpr const char* kCompareNames[] = {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
 
 std::size_t pixels_of(const Scene& s) { return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height); }
-
-std::size_t depth_pixel_bytes(DepthFormat f) { return f == DepthFormat::none ? 0 : f == DepthFormat::d16 ? 2 : 4; }
 
 // A component's value, for messages and to find the worst pixel.
 double value_at(const std::vector<std::byte>& bytes, std::size_t index, std::size_t size, bool is_float) {
@@ -111,14 +109,39 @@ void lay_out_vertices(const float* rows, std::size_t count, int components, Vert
                                                                    static_cast<int32_t>(n - first_part), count};
 }
 
-void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, IndexLayout layout, DrawMemory& memory) {
+void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
+                       DrawMemory& memory) {
+  if (instance_components == 0) return;
+  // The vertices' streams lose their last components; what is left of them keeps its place.
+  VertexView& view = memory.view;
+  std::size_t rest = static_cast<std::size_t>(components) - instance_components;
+  int streams = 0;
+  for (int i = 0; i < view.stream_count; ++i) {
+    VertexStream& s = view.streams[static_cast<std::size_t>(i)];
+    s.components = std::min(s.components, static_cast<int32_t>(rest));
+    rest -= static_cast<std::size_t>(s.components);
+    if (s.components != 0) ++streams;
+  }
+  const std::size_t n = count * static_cast<std::size_t>(components);
+  memory.buffers.emplace_back(rows, rows + n);
+  view.streams[static_cast<std::size_t>(streams)] =
+      per_instance({memory.buffers.back().data() + (static_cast<std::size_t>(components) - instance_components),
+                    static_cast<int32_t>(components), static_cast<int32_t>(instance_components), count},
+                   divisor);
+  view.stream_count = streams + 1;
+  view.has_instance_streams = true;
+  view.instance_count = count * divisor;
+}
+
+void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, bool restart, IndexLayout layout, DrawMemory& memory) {
   if (layout == IndexLayout::none) return;
+  const PrimitiveRestart mode = restart ? PrimitiveRestart::on : PrimitiveRestart::off;
   if (layout == IndexLayout::narrow) {
     for (const uint32_t i : list) memory.narrow.push_back(static_cast<uint16_t>(i));
-    memory.indices.emplace(std::span<const uint16_t>(memory.narrow), vertex_count);
+    memory.indices.emplace(std::span<const uint16_t>(memory.narrow), vertex_count, mode);
   } else {
     memory.wide = list;
-    memory.indices.emplace(std::span<const uint32_t>(memory.wide), vertex_count);
+    memory.indices.emplace(std::span<const uint32_t>(memory.wide), vertex_count, mode);
   }
 }
 
@@ -140,11 +163,22 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   }
   if (scene.has_depth_image) {
     p.depth = scene.depth_before;
-    p.depth.resize(pixels_of(scene) * depth_pixel_bytes(depth.format));
+    p.depth.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(depth.format)));
     depth.data = p.depth.data();
     depth.store = StoreOp::store;
   }
-  Pass pass(scene.width, scene.height, color, depth, options);
+  std::vector<ColorTarget> colors{color};
+  p.more = scene.more_before;
+  p.more.resize(scene.more_colors.size());
+  for (std::size_t i = 0; i < scene.more_colors.size(); ++i) {
+    colors.push_back(scene.more_colors[i]);
+    p.more[i].resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(colors.back().format)));
+    colors.back().data = p.more[i].data();
+  }
+  PassOptions all_options = options;
+  all_options.samples = scene.samples;
+  all_options.supersample = scene.supersample;
+  Pass pass(scene.width, scene.height, colors, depth, all_options);
   if (scene.post_format != ColorFormat::none) {
     p.post.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(scene.post_format)));
     pass.post(Curve{}, {.format = scene.post_format, .data = p.post.data()});
@@ -155,26 +189,46 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
 }
 
 OracleResult run_oracle(const Scene& scene) {
-  oracle::Framebuffer target(scene.width, scene.height, scene.color.format, scene.depth.format);
-  if (!scene.color_before.empty()) target.color_bytes = scene.color_before;
-  if (!scene.depth_before.empty()) target.depth_bytes = scene.depth_before;
-  if (scene.color.load == LoadOp::clear) target.clear_color(scene.color.clear_value);
-  if (scene.depth.load == LoadOp::clear) target.clear_depth(scene.depth.clear_value);
-  oracle::Renderer renderer(target);
+  std::vector<ColorTarget> colors{scene.color};
+  colors.insert(colors.end(), scene.more_colors.begin(), scene.more_colors.end());
+  std::vector<ColorFormat> formats;
+  for (const ColorTarget& c : colors) formats.push_back(c.format);
+  oracle::Framebuffer target(scene.width, scene.height, formats, scene.depth.format, scene.samples);
+  const auto fill = [&](std::vector<std::byte>& bytes, const std::vector<std::byte>& before) {  // every sample the pixel's value
+    for (std::size_t i = 0; !before.empty() && i < bytes.size(); ++i) bytes[i] = before[i % before.size()];
+  };
+  fill(target.depth_bytes, scene.depth_before);
+  if (scene.depth.load == LoadOp::clear) target.clear_depth(scene.depth.clear_value, scene.depth.stencil_clear_value);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (colors[i].load == LoadOp::clear) {
+      target.clear_color(i, colors[i].clear_value);
+    } else {
+      fill(target.color_bytes[i], i == 0 ? scene.color_before : scene.more_before[i - 1]);
+    }
+  }
+  oracle::Renderer renderer(target, scene.supersample);
   for (const SceneDraw& d : scene.draws) d.reference(renderer);
   OracleResult r;
   r.counts = renderer.counts();
-  if (scene.post_format != ColorFormat::none) r.pictures.post = oracle::post(target, Curve{}, scene.post_format).color_bytes;
-  if (scene.has_color_image) r.pictures.color = target.color_bytes;
-  if (scene.has_depth_image) r.pictures.depth = target.depth_bytes;
+  const oracle::Framebuffer seen = target.resolved();
+  if (scene.post_format != ColorFormat::none) r.pictures.post = oracle::post(seen, Curve{}, scene.post_format).color_bytes[0];
+  if (scene.has_color_image) r.pictures.color = seen.color_bytes[0];
+  if (scene.has_depth_image) r.pictures.depth = seen.depth_bytes;
+  r.pictures.more.assign(seen.color_bytes.begin() + 1, seen.color_bytes.end());
   return r;
 }
 
 std::string difference(const Scene& scene, const Pictures& expected, const Pictures& actual) {
-  return compare_color("colour", scene, scene.color.format, expected.color, actual.color) +
-         compare("depth", scene, expected.depth, actual.depth, 1, depth_pixel_bytes(scene.depth.format),
-                 scene.depth.format == DepthFormat::d32f) +
-         compare_color("post", scene, scene.post_format, expected.post, actual.post);
+  const bool two_words = scene.depth.format == DepthFormat::d32fs8;
+  const std::size_t depth_bytes = two_words ? 4 : static_cast<std::size_t>(bytes_per_pixel(scene.depth.format));
+  std::string out = compare_color("colour", scene, scene.color.format, expected.color, actual.color) +
+                    compare("depth", scene, expected.depth, actual.depth, two_words ? 2 : 1, depth_bytes,
+                            scene.depth.format == DepthFormat::d32f || two_words) +
+                    compare_color("post", scene, scene.post_format, expected.post, actual.post);
+  for (std::size_t i = 0; i < scene.more_colors.size(); ++i) {
+    out += compare_color("further colour", scene, scene.more_colors[i].format, expected.more[i], actual.more[i]);
+  }
+  return out;
 }
 
 std::string describe(const PassOptions& o, int threads) {
@@ -187,14 +241,18 @@ std::string describe(const PassOptions& o, int threads) {
 std::string describe(const Scene& s) {
   std::ostringstream out;
   out << s.width << 'x' << s.height << ' ' << kColorNames[static_cast<int>(s.color.format)] << ' '
-      << kDepthNames[static_cast<int>(s.depth.format)] << '\n';
+      << kDepthNames[static_cast<int>(s.depth.format)] << ", " << 1 + s.more_colors.size() << " colours, " << s.samples << " samples"
+      << (s.supersample ? ", supersampled" : "") << '\n';
   for (const SceneDraw& d : s.draws) {
     const DepthState& z = d.state.depth;
-    out << "  " << d.shader << ", " << d.triangles << " triangles, cull " << static_cast<int>(d.state.cull)
+    out << "  " << d.shader << ", " << d.triangles << " triangles (topology " << static_cast<int>(d.state.topology) << ", "
+        << d.state.instances << " instances, base vertex " << d.state.base_vertex << "), cull " << static_cast<int>(d.state.cull)
         << (d.state.front == Winding::clockwise ? " cw" : " ccw") << ", depth "
         << (z.test ? kCompareNames[static_cast<int>(z.compare)] : "off") << (z.write ? "" : " (no write)") << (z.clamp ? " clamp" : "")
-        << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far
-        << (d.state.blend ? ", blend" : "");
+        << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far << ", polygon mode "
+        << static_cast<int>(d.state.polygon_mode) << ", line width " << d.state.line_width << (d.state.blend ? ", blend" : "")
+        << (d.state.stencil ? ", stencil" : "") << (d.state.color_mask.all() ? "" : ", mask")
+        << (d.state.sample_shading ? ", shaded by sample" : "") << (d.state.alpha_to_coverage ? ", alpha to coverage" : "");
     if (d.state.offset.slope != 0 || d.state.offset.constant != 0) out << ", offset";
     for (const auto& r : {d.state.viewport, d.state.scissor}) {
       if (r) out << " [" << r->x << ' ' << r->y << ' ' << r->width << 'x' << r->height << ']';

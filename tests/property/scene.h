@@ -27,9 +27,13 @@ struct SceneDraw {
 
 struct Scene {
   int width = 1, height = 1;
+  int samples = 1;
+  bool supersample = false;
   ColorTarget color;  ///< data is filled in by run_pass
   DepthTarget depth;
+  std::vector<ColorTarget> more_colors;               ///< attachments 1, 2 and 3; they have images
   std::vector<std::byte> color_before, depth_before;  ///< what the images hold before the pass
+  std::vector<std::vector<std::byte>> more_before;
   std::vector<SceneDraw> draws;
   bool has_color_image = true;  ///< else the colour is seen through the post step alone
   bool has_depth_image = true;
@@ -39,6 +43,7 @@ struct Scene {
 /// What is seen of a scene afterwards.
 struct Pictures {
   std::vector<std::byte> color, depth, post;
+  std::vector<std::vector<std::byte>> more;
   friend bool operator==(const Pictures&, const Pictures&) = default;
 };
 
@@ -69,8 +74,14 @@ enum class IndexLayout { none, narrow, wide };
 
 /// The draw of a shader; `none` needs indices 0, 1, 2, ….
 template <class S>
+SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Input<S>& input, const DrawState& state,
+                    VertexLayout vertex_layout, IndexLayout index_layout);
+template <class S>
 SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typename S::template Attributes<float>> vertex_rows,
-                    std::vector<uint32_t> index_list, const DrawState& state, VertexLayout vertex_layout, IndexLayout index_layout);
+                    std::vector<uint32_t> index_list, const DrawState& state, VertexLayout vertex_layout, IndexLayout index_layout) {
+  return make_draw(shader, name, oracle::Input<S>{std::move(vertex_rows), std::move(index_list), false, 0, {}, 1}, state, vertex_layout,
+                   index_layout);
+}
 
 // ---- the part that knows the shader ------------------------------------------------------------------------------
 
@@ -87,22 +98,28 @@ struct DrawMemory {
 
 /// Lays rows of `components` floats out as streams.
 void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory);
-void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, IndexLayout layout, DrawMemory& memory);
+void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, bool restart, IndexLayout layout, DrawMemory& memory);
+/// The last `instance_components` of each vertex come from rows of `components` floats instead, one for `divisor` instances.
+void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
+                       DrawMemory& memory);
 
 }  // namespace detail
 
 template <class S>
-SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typename S::template Attributes<float>> vertex_rows,
-                    std::vector<uint32_t> index_list, const DrawState& state, VertexLayout vertex_layout, IndexLayout index_layout) {
-  using A = typename S::template Attributes<float>;
+SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Input<S>& input, const DrawState& state,
+                    VertexLayout vertex_layout, IndexLayout index_layout) {
+  constexpr auto components = static_cast<int>(kComponents<typename S::template Attributes<float>>);
   const auto memory = std::make_shared<detail::DrawMemory>();
-  detail::lay_out_vertices(reinterpret_cast<const float*>(vertex_rows.data()), vertex_rows.size(), static_cast<int>(kComponents<A>),
-                           vertex_layout, *memory);
-  detail::lay_out_indices(index_list, vertex_rows.size(), index_layout, *memory);
+  detail::lay_out_vertices(reinterpret_cast<const float*>(input.vertices.data()), input.vertices.size(), components, vertex_layout,
+                           *memory);
+  detail::lay_out_instances(reinterpret_cast<const float*>(input.instances.data()), input.instances.size(), components,
+                            input.instance_components, input.divisor, *memory);
+  const std::size_t indexable = input.vertices.size() + static_cast<std::size_t>(-std::min(state.base_vertex, 0));
+  detail::lay_out_indices(input.indices, indexable, input.restart, index_layout, *memory);
   SceneDraw d;
   d.state = state;
   d.shader = name;
-  d.triangles = index_list.size() / 3;
+  d.triangles = oracle::assemble(input.indices, input.restart, state).size() * state.instances;
   d.submit = [memory, shader, state](Pass& pass) {
     if constexpr (HasFragmentFunction<S>) {
       if (memory->indices) {
@@ -114,9 +131,7 @@ SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typena
       pass.draw_depth(shader, memory->view, *memory->indices, state);
     }
   };
-  d.reference = [rows = std::move(vertex_rows), list = std::move(index_list), shader, state](oracle::Renderer& r) {
-    r.draw(shader, rows, list, state);
-  };
+  d.reference = [input, shader, state](oracle::Renderer& r) { r.draw(shader, input, state); };
   return d;
 }
 

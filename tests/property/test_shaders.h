@@ -145,21 +145,23 @@ struct CutoutShader {
     vec2<R> uv;
     Flat<R> id;
     Linear<R> fade;
+    Centroid<vec2<R>> inside;
   };
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.uv = vec2<R>(in.a.x, in.a.y);
     out.id.value = in.a.z;
     out.fade.value = in.a.w;
+    out.inside.value = out.uv;
     return in.position;
   }
   template <class R>
   MaskOf<R> keeps(const Varyings<R>& in, const Pixel<R>& px) const {
-    return (abs(in.uv.x * in.uv.y) > R(threshold)) & (px.z + in.fade.value * R(0.5f) < R(0.95f));
+    return (abs(in.uv.x * in.inside.value.y) > R(threshold)) & (px.z + in.fade.value * R(0.5f) < R(0.95f));
   }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {held(vec4<R>(in.uv.x, in.uv.y, in.id.value, in.fade.value), 8.0f), keeps(in, px)};
+    return {held(vec4<R>(in.uv.x, in.inside.value.y, in.id.value, in.fade.value), 8.0f), keeps(in, px)};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
@@ -264,6 +266,178 @@ struct FaceCutoutShader {
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
     return {in.uv.x > in.uv.y, px.z};
+  }
+};
+
+/// Moves by the number of the instance, and shows that of the vertex.
+struct InstanceShader {
+  glm::vec2 step{0.1f, -0.05f};
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec3<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+    Flat<R> number;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    out.color = in.color;
+    out.number.value = to_real<R>(id.vertex & IntOf<R>(7)) * R(0.125f);
+    const auto n = static_cast<float>(id.instance);
+    vec4<R> p = in.position;
+    p.x = p.x + p.w * R(step.x * n);
+    p.y = p.y + p.w * R(step.y * n);
+    return p;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {held(vec4<R>(in.color, in.number.value), 8.0f)};
+  }
+};
+
+/// N colours, one of which may be the other source of blending; discards in stripes.
+template <std::size_t N>
+struct ManyColorsShader {
+  float width = 0.2f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> a;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.a = in.a;
+    return in.position;
+  }
+  template <class R>
+  DiscardingFragments<R, N> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    DiscardingFragments<R, N> out;
+    for (std::size_t i = 0; i < N; ++i) {
+      const R n(static_cast<float>(i) * 0.25f);
+      out.color[i] = held(vec4<R>(in.a.x + n, in.a.y * n, in.a.z, in.a.w - n), 8.0f);
+    }
+    out.keep = keeps(in, px);
+    return out;
+  }
+  template <class R>
+  MaskOf<R> keeps(const Varyings<R>& in, const Pixel<R>&) const {
+    return abs(in.a.x - R(0.5f)) > R(width);
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {keeps(in, px), px.z};
+  }
+};
+
+/// Points of a size from an attribute, cut to a disc by the point coordinate.
+template <bool has_visibility>
+struct PointShader {
+  float size = 10.0f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+    Linear<R> fade;
+  };
+  template <class R>
+  PerVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = vec3<R>(in.a.x, in.a.y, in.a.z);
+    out.fade.value = in.a.w;
+    return {in.position, in.a.w * R(size), {}};
+  }
+  template <class R>
+  MaskOf<R> keeps(const Pixel<R>& px) const {
+    const vec2<R> c = px.point_coord();
+    const R x = c.x - R(0.5f), y = c.y - R(0.4f);
+    return x * x + y * y < R(0.25f);
+  }
+  template <class R>
+  DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec2<R> c = px.point_coord();
+    return {held(vec4<R>(c.x, c.y, in.color.z * px.inv_w, in.fade.value + in.color.x), 8.0f), keeps(px)};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const requires has_visibility {
+    return {keeps(px), px.z};
+  }
+};
+
+/// Sprites that say what rectangle they cover, with a depth by pixel.
+template <bool has_visibility>
+struct BoundsShader {
+  float size = 0.1f;
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> a;
+  };
+  template <class R>
+  SpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.a = in.a;
+    const vec2<R> center(clamp(in.position.x, R(-9.0f), R(9.0f)), clamp(in.position.y, R(-9.0f), R(9.0f)));
+    const R left = in.a.x * R(size), right = in.a.y * R(size), up = in.a.z * R(size);
+    return {vec2<R>(center.x - left, center.y - up), vec2<R>(center.x + right, center.y + up), in.a.w, in.a.x < R(1.3f)};
+  }
+  template <class R>
+  Visibility<R> decide(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec2<R> c = px.point_coord();
+    return {c.x + c.y > R(0.3f), px.z + R(0.2f) * (c.x - c.y * in.a.z)};
+  }
+  template <class R>
+  DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const Visibility<R> v = decide(in, px);
+    return {held(vec4<R>(in.a.x, in.a.y, px.point_coord().x, v.depth), 8.0f), v.keep, v.depth};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
+    return decide(in, px);
+  }
+};
+
+/// N clip distances.
+template <std::size_t N>
+struct ClipShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> a;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> a;
+    Flat<R> id;
+    Linear<R> ramp;
+  };
+  template <class R>
+  PerVertex<R, N> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.a = in.a;
+    out.id.value = in.a.x;
+    out.ramp.value = in.a.y;
+    PerVertex<R, N> v{in.position, R(4.0f), {}};
+    for (std::size_t i = 0; i < N; ++i) {
+      const R turn(static_cast<float>(i) * 0.125f);
+      v.clip_distance[i] = in.a.x - turn * in.a.y + (in.a.z + R(0.4f)) * (R(1.0f) - turn);
+    }
+    return v;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {held(vec4<R>(in.a.x, in.a.y + in.id.value, in.ramp.value, in.a.w), 8.0f)};
   }
 };
 

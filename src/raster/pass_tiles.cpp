@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The part of a pass that works on tiles: load or clear, draw, resolve, post step, store.
+#include <algorithm>
+
+#include "raster/bin.h"
+#include "raster/pass.h"
+#include "raster/resolve.h"
+
+namespace halfspace {
+
+void Pass::keep_between_flushes() {
+  const std::size_t samples =
+      static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height) * static_cast<std::size_t>(frame_.samples);
+  const auto spill = [&](const auto& target, std::vector<std::byte>& bytes) {
+    const bool is_image_enough = target.data != nullptr && frame_.samples == 1;
+    if (!is_image_enough) bytes.resize(samples * static_cast<std::size_t>(bytes_per_pixel(target.format)));
+  };
+  color_spills_.resize(colors_.size());
+  for (std::size_t i = 0; i < colors_.size(); ++i) spill(colors_[i], color_spills_[i]);
+  spill(depth_, depth_spill_);
+}
+
+void Pass::run_tiles(const Workers& workers, Round round, PassStatistics& statistics) {
+  const int tiles = frame_.tiles_x * frame_.tiles_y;
+  std::vector<PassStatistics> by_tile(static_cast<std::size_t>(tiles));
+  workers.for_each(tiles, [&](int i) { run_tile(i, round, by_tile[static_cast<std::size_t>(i)]); });
+  for (const PassStatistics& s : by_tile) statistics += s;
+}
+
+namespace {
+
+// A target between flushes: in its image, or in the spill where it has none or holds several samples.
+template <class Target>
+Target between_flushes(Target target, const std::vector<std::byte>& spill) {
+  if (!spill.empty()) target.data = const_cast<std::byte*>(spill.data());
+  target.load = LoadOp::load;
+  target.store = StoreOp::store;
+  return target;
+}
+
+}  // namespace
+
+void Pass::run_tile(int index, Round round, PassStatistics& statistics) const {
+  const int tile_x = index % frame_.tiles_x, tile_y = index / frame_.tiles_x;
+  const bool drawn =
+      std::any_of(frame_.chunks.begin(), frame_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
+  if (drawn) ++statistics.tiles_touched;
+  // What was neither cleared nor drawn stays as it is in its image (several samples go through the spill and back); under
+  // LoadOp::dont_care the tile does not know it.
+  const bool spills = frame_.samples > 1 && !(round.first && round.last);
+  const auto changes = [&](const auto& target) {
+    return drawn || spills || (round.first && target.load == LoadOp::clear && bytes_per_pixel(target.format) != 0);
+  };
+  const bool changes_color = std::any_of(colors_.begin(), colors_.end(), changes), changes_depth = changes(depth_);
+  if (!changes_color && !changes_depth && !(round.last && post_kernel_ != nullptr)) return;
+
+  Tile tile;
+  tile.size = frame_.tile_size;
+  tile.samples = frame_.samples;
+  tile.color_count = static_cast<int>(colors_.size());
+  tile.x0 = tile_x * tile.size;
+  tile.y0 = tile_y * tile.size;
+  tile.width = std::min(tile.size, frame_.width - tile.x0);
+  tile.height = std::min(tile.size, frame_.height - tile.y0);
+  const int width = frame_.width, height = frame_.height;
+  const Samples kept = frame_.samples > 1 ? Samples::all : Samples::one;
+  for (std::size_t i = 0; i < colors_.size(); ++i) {
+    if (round.first) load_color(colors_[i], width, height, Samples::one, tile, tile.color[i]);
+    if (!round.first) load_color(between_flushes(colors_[i], color_spills_[i]), width, height, kept, tile, tile.color[i]);
+  }
+  if (round.first) load_depth(depth_, width, height, Samples::one, tile);
+  if (!round.first) load_depth(between_flushes(depth_, depth_spill_), width, height, kept, tile);
+  if (drawn) draw_tile(tile, tile_x, tile_y, statistics);
+  for (std::size_t i = 0; changes_color && i < colors_.size(); ++i) {
+    if (round.last) {
+      resolve_color(tile, tile.color[i]);
+      store_color(colors_[i], width, height, Samples::one, tile, tile.color[i]);
+    } else {
+      store_color(between_flushes(colors_[i], color_spills_[i]), width, height, kept, tile, tile.color[i]);
+    }
+  }
+  if (changes_depth && round.last) store_depth(depth_, width, height, Samples::one, tile);
+  if (changes_depth && !round.last) store_depth(between_flushes(depth_, depth_spill_), width, height, kept, tile);
+  if (round.last && post_kernel_ != nullptr) run_post_step(tile);
+}
+
+void Pass::run_post_step(const Tile& tile) const {
+  ColorBuffer finished;
+  finished.format = post_target_.format;
+  for (int p = 0; p < kPackets; ++p) {
+    if (packet_x(p) >= tile.width || packet_y(p) >= tile.height) continue;
+    PacketColor c = read_color(tile.color[0], p);
+    post_kernel_(post_function_.get(), Int(tile.x0 + packet_x(p)) + lane_x(), Int(tile.y0 + packet_y(p)) + lane_y(), c);
+    write_color(finished, p, Mask(true), c, c, {});
+  }
+  store_color(post_target_, frame_.width, frame_.height, Samples::one, tile, finished);
+}
+
+void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
+  bool waiting = false;  // there are visible pixels not shaded yet
+  CoverageList list;
+  tile.id.fill(kNoTriangle);
+  for (uint32_t c = 0; c < frame_.chunks.size(); ++c) {
+    const Chunk& chunk = frame_.chunks[c];
+    for (const uint16_t t : bin_of(chunk, tile_x, tile_y)) {
+      const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
+      const VisibilityMode mode = visibility_mode(draw);
+      const uint64_t passed_before = statistics.samples_passed;
+      if (mode == VisibilityMode::deferred) {
+        rasterize(frame_, c, t, mode, tile, nullptr, statistics);
+        waiting = true;
+      } else if (mode == VisibilityMode::early && !draw.writes_color) {  // what waits keeps its colour
+        list.count = 0;
+        rasterize(frame_, c, t, mode, tile, &list, statistics);
+      } else {
+        if (waiting && has_color_) shade_deferred(frame_, tile, statistics);
+        waiting = false;
+        list.count = 0;
+        rasterize(frame_, c, t, mode, tile, &list, statistics);
+        if (list.count != 0) shade_immediate(frame_, draw, triangle_id(c, t), mode, list, tile, statistics);
+      }
+      if (draw.state.query) statistics.add_to_query(*draw.state.query, statistics.samples_passed - passed_before);
+    }
+  }
+  if (waiting && has_color_) shade_deferred(frame_, tile, statistics);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lines, outlines and clip distances by hand. (What lines cover is compared with the rule as it is written in tests/property.)
+#include "raster/raster_test.h"
+
+namespace halfspace {
+
+namespace {
+
+using namespace raster_test;
+
+// Pixels are counted: one added for every fragment.
+Image<glm::vec4> draw_lines(const std::vector<Point>& points, DrawState state, const PassOptions& options = {}) {
+  std::vector<glm::vec4> p;
+  for (const Point& at : points) p.push_back(clip_position(at, 16, 16));
+  Image<glm::vec4> image(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), {}, options);
+  state.blend = kAdd;
+  pass.draw(ConstantShader{}, vertices(stream(p)), state);
+  pass.run(one_worker());
+  return image;
+}
+
+int total(const Image<glm::vec4>& image) {
+  float sum = 0.0f;
+  for (int i = 0; i < 256; ++i) sum += image.data()[i].x;
+  return static_cast<int>(sum);
+}
+
+constexpr int kCenter = 128;
+Point center(int x, int y) { return {x * 256 + kCenter, y * 256 + kCenter}; }
+
+TEST(Lines, FromCentreToCentreLeaveTheLastPixelOut) {
+  for (const auto& [a, b] :
+       {std::pair{Point{2, 3}, Point{9, 3}}, {Point{9, 3}, Point{2, 3}}, {Point{4, 2}, Point{4, 11}}, {Point{3, 3}, Point{8, 8}}}) {
+    const Image<glm::vec4> image = draw_lines({center(a.x, a.y), center(b.x, b.y)}, {.topology = Topology::lines});
+    EXPECT_EQ(total(image), std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)));
+    EXPECT_EQ(pixel(image, a.x, a.y).x, 1.0f);
+    EXPECT_EQ(pixel(image, b.x, b.y).x, 0.0f);
+  }
+}
+
+// Because a line leaves out the diamond it ends in, a strip draws no pixel twice at its joints, and a loop closes.
+TEST(Lines, StripsAndLoopsMeetOnce) {
+  const std::vector<Point> square{center(2, 2), center(12, 2), center(12, 9), center(2, 9)};
+  const Image<glm::vec4> strip = draw_lines(square, {.topology = Topology::line_strip});
+  EXPECT_EQ(total(strip), 10 + 7 + 10);
+  const Image<glm::vec4> loop = draw_lines(square, {.topology = Topology::line_loop});
+  EXPECT_EQ(total(loop), 2 * (10 + 7));
+  for (int i = 0; i < 256; ++i) EXPECT_LE(loop.data()[i].x, 1.0f);
+}
+
+TEST(Lines, WideOnesAreWideAlongTheShorterAxis) {
+  for (const int width : {1, 2, 3, 6}) {
+    const Image<glm::vec4> image =
+        draw_lines({center(3, 8), center(9, 8)}, {.topology = Topology::lines, .line_width = static_cast<float>(width)});
+    EXPECT_EQ(total(image), 6 * width);
+    const int below = (width - 1) / 2 + (width % 2 == 0 ? 1 : 0);  // (w − 1)/2 px down; a centre in the middle goes down too
+    EXPECT_EQ(pixel(image, 5, 8 - below).x, 1.0f) << width;
+    EXPECT_EQ(pixel(image, 5, 8 - below - 1).x, 0.0f) << width;
+    EXPECT_EQ(pixel(image, 5, 8 - below + width).x, 0.0f) << width;
+  }
+}
+
+// With several samples a line is a rectangle, here one on whole pixels.
+TEST(Lines, WithSamplesAreRectangles) {
+  const Image<glm::vec4> image =
+      draw_lines({{2 * 256, 8 * 256}, {10 * 256, 8 * 256}}, {.topology = Topology::lines, .line_width = 4.0f}, {.samples = 4});
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) EXPECT_EQ(pixel(image, x, y).x, x >= 2 && x < 10 && y >= 6 && y < 10 ? 1.0f : 0.0f) << x << ' ' << y;
+  }
+}
+
+struct RampShader : ConstantShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    R value;
+  };
+  template <class R>
+  struct Varyings {
+    R smooth;
+    Linear<R> linear;
+    Flat<R> flat;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out = {in.value, {in.value}, {in.value}};
+    return in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {vec4<R>(in.smooth, in.linear.value, in.flat.value, px.z)};
+  }
+};
+
+// OpenGL 4.6, equations 14.5 and 14.6: t along the line; with w of 1 and 3 the perspective one is (t/3)/((1 − t) + t/3).
+TEST(Lines, InterpolateAlongTheLine) {
+  const glm::vec4 a = clip_position(center(1, 5), 16, 16), b = clip_position(center(13, 5), 16, 16, 0.5f);
+  const std::vector<glm::vec4> p{a, b * 3.0f};
+  const std::vector<float> values{0.0f, 1.0f};
+  for (const ProvokingVertex provoking : {ProvokingVertex::first, ProvokingVertex::last}) {
+    Image<glm::vec4> image(16, 16);
+    Pass pass(16, 16, rgba32f_target(image), {.format = DepthFormat::d32f});
+    pass.draw(RampShader{}, vertices(stream(p), stream(values)), {.topology = Topology::lines, .line_width = 3.0f, .provoking = provoking});
+    pass.run(one_worker());
+    for (int x = 1; x < 13; ++x) {
+      for (int y = 4; y <= 6; ++y) {
+        const float t = static_cast<float>(x - 1) / 12.0f;
+        EXPECT_NEAR(pixel(image, x, y).x, (t / 3) / ((1 - t) + t / 3), 3e-7f);  // the bound of shading/pixel.h
+        EXPECT_NEAR(pixel(image, x, y).y, t, 3e-7f);
+        EXPECT_EQ(pixel(image, x, y).z, provoking == ProvokingVertex::first ? 0.0f : 1.0f);
+        EXPECT_NEAR(pixel(image, x, y).w, 0.5f + 0.25f * t, 1e-7f);
+      }
+    }
+  }
+}
+
+TEST(Lines, PolygonModes) {
+  const std::vector<Point> triangle{center(2, 2), center(12, 2), center(2, 12)};
+  const Image<glm::vec4> outline = draw_lines(triangle, {.polygon_mode = PolygonMode::line});
+  EXPECT_EQ(total(outline), 30);  // three sides of ten pixels
+  EXPECT_EQ(pixel(outline, 4, 4).x, 0.0f);
+  EXPECT_EQ(pixel(outline, 7, 2).x, 1.0f);
+  const Image<glm::vec4> corners = draw_lines(triangle, {.point_size = 2.0f, .polygon_mode = PolygonMode::point});
+  EXPECT_EQ(total(corners), 12);
+  const Image<glm::vec4> culled = draw_lines(triangle, {.polygon_mode = PolygonMode::line, .cull = CullMode::front});
+  EXPECT_EQ(total(culled), 0);
+}
+
+// The plane x = 3.25 px by one distance, y = 5 px by the other.
+struct TwoDistances : ConstantShader {
+  template <class R>
+  PerVertex<R, 2> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    const R x = (in.position.x + R(1.0f)) * R(8.0f), y = (in.position.y + R(1.0f)) * R(8.0f);
+    return {in.position, R(1.0f), {x - R(3.25f), R(5.0f) - y}};
+  }
+};
+
+TEST(Lines, ClipDistancesCutTrianglesLinesAndPoints) {
+  const std::vector<glm::vec4> whole{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+  Image<glm::vec4> image(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), {});
+  pass.draw(TwoDistances{}, vertices(stream(whole)), {.blend = kAdd});
+  EXPECT_EQ(pass.run(one_worker()).clipped, 1u);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) EXPECT_EQ(pixel(image, x, y).x, x >= 3 && y < 5 ? 1.0f : 0.0f) << x << ' ' << y;
+  }
+  const std::vector<glm::vec4> line{clip_position(center(0, 2), 16, 16), clip_position(center(15, 2), 16, 16)};
+  Image<glm::vec4> lines(16, 16);
+  Pass line_pass(16, 16, rgba32f_target(lines), {});
+  line_pass.draw(TwoDistances{}, vertices(stream(line)), {.topology = Topology::lines});
+  line_pass.run(one_worker());
+  for (int x = 0; x < 16; ++x) EXPECT_EQ(pixel(lines, x, 2).x, x >= 3 && x < 15 ? 1.0f : 0.0f) << x;
+  Image<glm::vec4> points(16, 16);
+  Pass point_pass(16, 16, rgba32f_target(points), {});
+  point_pass.draw(TwoDistances{}, vertices(stream(line)), {.topology = Topology::points});
+  EXPECT_EQ(point_pass.run(one_worker()).samples_passed, 1u);
+}
+
+}  // namespace
+
+}  // namespace halfspace

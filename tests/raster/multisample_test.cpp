@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Several samples a pixel: where they lie, how they are shaded, masked and resolved.
+#include "raster/raster_test.h"
+
+namespace halfspace {
+
+namespace {
+
+using namespace raster_test;
+
+// In 1/16 px from the lower left corner (Vulkan 1.3, standard sample locations).
+const std::vector<std::vector<Point>> kStandard{
+    {{12, 12}, {4, 4}}, {{6, 2}, {14, 6}, {2, 10}, {10, 14}}, {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}}};
+
+std::vector<glm::vec4> square(const Point& low, const Point& high) {
+  std::vector<glm::vec4> p;
+  for (const Point& c : {low, Point{high.x, low.y}, high, low, high, Point{low.x, high.y}}) p.push_back(clip_position(c, 16, 16));
+  return p;
+}
+
+// A square just round one sample of one pixel covers 1/n of it, and a square beside it nothing.
+TEST(Multisample, SamplesLieAtTheStandardPositions) {
+  for (std::size_t pattern = 0; pattern < kStandard.size(); ++pattern) {
+    const auto n = static_cast<int>(kStandard[pattern].size());
+    for (int s = 0; s < n; ++s) {
+      const Point at = kStandard[pattern][static_cast<std::size_t>(s)];
+      const Point low{(5 * 16 + at.x) * 16, (7 * 16 + at.y) * 16};
+      const std::vector<glm::vec4> p = square(low, {low.x + 1, low.y + 1});
+      Image<glm::vec4> image(16, 16);
+      Pass pass(16, 16, rgba32f_target(image), {}, {.samples = n});
+      pass.draw(ConstantShader{}, vertices(stream(p)), {.sample_mask = 1u << s});
+      EXPECT_EQ(pass.run(one_worker()).samples_passed, 1u);
+      EXPECT_EQ(pixel(image, 5, 7).x, 1.0f / static_cast<float>(n)) << n << " samples, number " << s;
+      const std::vector<glm::vec4> beside = square({low.x + 1, low.y + 1}, {low.x + 2, low.y + 2});
+      Pass other(16, 16, rgba32f_target(image), {}, {.samples = n});
+      other.draw(ConstantShader{}, vertices(stream(beside)));
+      EXPECT_EQ(other.run(one_worker()).samples_passed, 0u);
+    }
+  }
+}
+
+TEST(Multisample, DeferredPixelsAreShadedOncePerPrimitive) {
+  for (const int n : {2, 4, 8}) {
+    Image<glm::vec4> image(16, 16);
+    const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});  // two triangles
+    Pass pass(16, 16, rgba32f_target(image), {.format = DepthFormat::d32f}, {.samples = n});
+    for (int layer = 0; layer < 3; ++layer) pass.draw(ConstantShader{}, vertices(stream(p)), {.depth = {.compare = CompareOp::always}});
+    const PassStatistics s = pass.run(one_worker());
+    EXPECT_EQ(s.samples_passed, static_cast<uint64_t>(3 * n * 256));
+    // The diagonal's 16 pixels show both triangles, but for the pattern of 2, whose samples lie on the diagonal.
+    EXPECT_EQ(s.fragments_shaded, n == 2 ? 256u : 256u + 16u);
+    Pass each(16, 16, rgba32f_target(image), {}, {.samples = n, .supersample = true});
+    each.draw(ConstantShader{}, vertices(stream(p)));
+    EXPECT_EQ(each.run(one_worker()).fragments_shaded, static_cast<uint64_t>(n * 256));
+    for (int i = 0; i < 256; ++i) EXPECT_EQ(image.data()[i], glm::vec4(1.0f));
+  }
+}
+
+// The window position as a colour: what per-sample shading sees, and what per-pixel shading does.
+struct PositionShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+  };
+  template <class R>
+  struct Varyings {
+    Linear<vec2<R>> ndc;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.ndc.value = vec2<R>(in.position.x, in.position.y);
+    return in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {vec4<R>(px.x, px.y, in.ndc.value.x, in.ndc.value.y)};
+  }
+};
+
+TEST(Multisample, ShadingByPixelAndBySample) {
+  const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
+  for (std::size_t pattern = 0; pattern < kStandard.size(); ++pattern) {
+    for (std::size_t s = 0; s < kStandard[pattern].size(); ++s) {
+      for (const bool by_sample : {false, true}) {
+        Image<glm::vec4> image(16, 16);
+        Pass pass(16, 16, rgba32f_target(image), {}, {.samples = static_cast<int>(kStandard[pattern].size())});
+        pass.draw(PositionShader{}, vertices(stream(p)), {.sample_shading = by_sample, .sample_mask = 1u << s});
+        pass.run(one_worker());
+        const glm::vec4 c = pixel(image, 3, 9) * static_cast<float>(kStandard[pattern].size());
+        const Point at = by_sample ? kStandard[pattern][s] : Point{8, 8};
+        const float x = 3.0f + static_cast<float>(at.x) / 16.0f, y = 9.0f + static_cast<float>(at.y) / 16.0f;
+        EXPECT_EQ(c.x, x);
+        EXPECT_EQ(c.y, y);
+        EXPECT_NEAR(c.z, x / 8.0f - 1.0f, 3e-7f);  // interpolation errs below 3e-7 of the largest value
+        EXPECT_NEAR(c.w, y / 8.0f - 1.0f, 3e-7f);
+      }
+    }
+  }
+}
+
+// 4.6, section 17.3.1: alpha 0 covers nothing, alpha 1 everything, and more alpha never less.
+TEST(Multisample, AlphaToCoverageIsMonotonic) {
+  const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
+  for (const int n : {2, 4, 8}) {
+    float before = 0.0f;
+    for (int step = 0; step <= 32; ++step) {
+      const float alpha = static_cast<float>(step) / 32.0f;
+      Image<glm::vec4> image(16, 16);
+      Pass pass(16, 16, rgba32f_target(image), {.format = DepthFormat::d32f}, {.samples = n});
+      pass.draw(ConstantShader{glm::vec4(1.0f, 1.0f, 1.0f, alpha)}, vertices(stream(p)), {.alpha_to_coverage = true});
+      pass.run(one_worker());
+      const float covered = image.at(7, 7).x;
+      EXPECT_GE(covered, before);
+      EXPECT_NEAR(covered, alpha, 0.5f / static_cast<float>(n));  // to the nearest number of samples
+      if (step == 0 || step == 32) {
+        EXPECT_EQ(covered, alpha);
+      }
+      before = covered;
+    }
+  }
+}
+
+// Over a background of 1, an edge must show at least n + 1 different values along its way (VK-GL-CTS asks this of multisample).
+TEST(Multisample, EdgesShowAllShadesAndSharedEdgesNone) {
+  for (const int n : {2, 4, 8}) {
+    Image<glm::vec4> image(64, 64);
+    std::vector<glm::vec4> p;
+    const Point a{100, 0}, b{64 * 256, 0}, c{64 * 256, 64 * 256}, d{7 * 256, 64 * 256};
+    for (const Point& corner : {a, b, c, a, c, d}) p.push_back(clip_position(corner, 64, 64));
+    Pass pass(64, 64, rgba32f_target(image), {}, {.samples = n});
+    pass.draw(ConstantShader{}, vertices(stream(p)), {.blend = kAdd});
+    pass.run(one_worker());
+    std::vector<bool> seen(static_cast<std::size_t>(n) + 1);
+    for (int i = 0; i < 64 * 64; ++i) {
+      const float samples = image.data()[i].x * static_cast<float>(n);
+      ASSERT_LE(samples, static_cast<float>(n));  // the shared edge draws no sample twice
+      seen[static_cast<std::size_t>(samples)] = true;
+    }
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), true), n + 1);
+    for (int x = 20; x < 64; ++x) EXPECT_EQ(pixel(image, x, x).x, 1.0f) << x;  // nor is one left out near it
+  }
+}
+
+TEST(Multisample, ResolveIsTheMeanInLinearLight) {
+  Image<glm::u8vec4> image(16, 16);
+  const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
+  Pass pass(16, 16, srgb8a8_target(image), {}, {.samples = 2});
+  pass.draw(ConstantShader{}, vertices(stream(p)), {.sample_mask = 2});
+  pass.run(one_worker());
+  EXPECT_EQ(image.at(4, 4), (glm::u8vec4{188, 188, 188, 128}));  // the code of 0.5, and 127.5 up
+}
+
+}  // namespace
+
+}  // namespace halfspace

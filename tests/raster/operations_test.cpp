@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Colour masks, blend factors, stencil, several attachments and occlusion queries, by values worked out by hand.
+#include "raster/raster_test.h"
+
+namespace halfspace {
+
+namespace {
+
+using namespace raster_test;
+
+// A triangle over the whole of any target, at a window depth in [0, 1].
+std::vector<glm::vec4> whole(float depth) {
+  const float z = 2.0f * depth - 1.0f;
+  return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}};
+}
+
+// N colours: (n, 0.25, 0.5, 0.75) for the n-th.
+template <std::size_t N>
+struct NumberedColors {
+  std::array<glm::vec4, N> colors{};
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+  };
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return in.position;
+  }
+  template <class R>
+  Fragments<R, N> fragment(const Varyings<R>&, const Pixel<R>&) const {
+    Fragments<R, N> out;
+    for (std::size_t i = 0; i < N; ++i) out.color[i] = vec4<R>(R(colors[i].x), R(colors[i].y), R(colors[i].z), R(colors[i].w));
+    return out;
+  }
+};
+
+TEST(Operations, ColorMaskKeepsChannelsAlsoUnderDeferredDraws) {
+  Image<glm::u8vec4> image(9, 5);
+  const std::vector<glm::vec4> p = whole(0.5f);
+  Pass pass(9, 5, rgba8_target(image), {});
+  pass.draw(ConstantShader{glm::vec4(0.2f, 0.4f, 0.6f, 0.8f)}, vertices(stream(p)));
+  pass.draw(ConstantShader{glm::vec4(1.0f)}, vertices(stream(p)), {.color_mask = {false, true, false, true}});
+  pass.run(one_worker());
+  for (int i = 0; i < 45; ++i) EXPECT_EQ(image.data()[i], (glm::u8vec4{51, 255, 153, 255}));
+}
+
+TEST(Operations, BlendFactorsByHand) {
+  const glm::vec4 src{0.5f, 0.25f, 1.0f, 0.5f}, dst{0.25f, 0.5f, 0.75f, 0.25f}, constant{0.5f, 0.0f, 1.0f, 0.75f};
+  struct Case {
+    BlendFactor factor;
+    glm::vec4 expected;  // of src · factor
+  };
+  const Case cases[] = {{BlendFactor::constant_color, {0.25f, 0.0f, 1.0f, 0.375f}},
+                        {BlendFactor::one_minus_constant_color, {0.25f, 0.25f, 0.0f, 0.125f}},
+                        {BlendFactor::constant_alpha, src * 0.75f},
+                        {BlendFactor::one_minus_constant_alpha, src * 0.25f},
+                        {BlendFactor::src_alpha_saturate, {0.25f, 0.125f, 0.5f, 0.5f}},  // min(0.5, 1 − 0.25); alpha: 1
+                        {BlendFactor::dst_color, src * dst},
+                        {BlendFactor::one_minus_dst_alpha, src * 0.75f}};
+  const std::vector<glm::vec4> p = whole(0.5f);
+  for (const Case& c : cases) {
+    Image<glm::vec4> image(3, 3);
+    ColorTarget target = rgba32f_target(image);
+    target.clear_value = dst;
+    Pass pass(3, 3, target, {});
+    pass.draw(
+        ConstantShader{src}, vertices(stream(p)),
+        {.blend = BlendState{BlendEquation::add, c.factor, BlendFactor::zero, BlendEquation::add, c.factor, BlendFactor::zero, constant}});
+    pass.run(one_worker());
+    EXPECT_EQ(image.at(1, 1), c.expected) << static_cast<int>(c.factor);
+  }
+}
+
+// OpenGL 4.6, section 17.3.9: what is stored as sRGB is blended as light. Half of white over black is the code of 0.5.
+TEST(Operations, SrgbIsBlendedInLinearLight) {
+  Image<glm::u8vec4> image(3, 3);
+  const std::vector<glm::vec4> p = whole(0.5f);
+  Pass pass(3, 3, srgb8a8_target(image), {});
+  pass.draw(ConstantShader{glm::vec4(1.0f, 1.0f, 1.0f, 0.5f)}, vertices(stream(p)), {.blend = BlendState{}});
+  pass.run(one_worker());
+  EXPECT_EQ(image.at(1, 1), (glm::u8vec4{188, 188, 188, 128}));  // 255·encode(0.5) = 187.5…
+}
+
+TEST(Operations, DualSourceBlending) {
+  Image<glm::vec4> image(3, 3);
+  ColorTarget target = rgba32f_target(image);
+  target.clear_value = {0.5f, 0.5f, 0.5f, 0.5f};
+  const std::vector<glm::vec4> p = whole(0.5f);
+  Pass pass(3, 3, target, {});
+  // A colour and a transmission for each channel, as coloured glass has them.
+  pass.draw(NumberedColors<2>{{glm::vec4{0.125f, 0, 0, 1}, glm::vec4{0.5f, 0.25f, 0, 0}}}, vertices(stream(p)),
+            {.blend = BlendState{BlendEquation::add, BlendFactor::one, BlendFactor::src1_color, BlendEquation::add, BlendFactor::one,
+                                 BlendFactor::one_minus_src1_alpha}});
+  pass.run(one_worker());
+  EXPECT_EQ(image.at(1, 1), (glm::vec4{0.375f, 0.125f, 0.0f, 1.5f}));
+}
+
+TEST(Operations, EachAttachmentHasItsFormatBlendingAndMask) {
+  Image<glm::vec4> a(20, 9), c(20, 9);
+  Image<glm::u8vec4> b(20, 9), d(20, 9);
+  std::array<ColorTarget, 4> targets{rgba32f_target(a), rgba8_target(b), rgba32f_target(c), srgb8a8_target(d)};
+  targets[2].clear_value = {1, 2, 3, 4};
+  targets[3].clear_value = glm::vec4(1.0f);
+  const std::vector<glm::vec4> p = whole(0.5f);
+  Pass pass(20, 9, targets, {});
+  const NumberedColors<3> shader{{glm::vec4{0, 0.25f, 0.5f, 1}, glm::vec4{1, 0, 0.2f, 1}, glm::vec4{2, 2, 2, 2}}};
+  DrawState state;
+  state.attachments[2] = AttachmentState{.blend = kAdd, .mask = {true, true, true, false}};
+  pass.draw(shader, vertices(stream(p)), state);
+  pass.run(one_worker());
+  EXPECT_EQ(a.at(19, 8), (glm::vec4{0, 0.25f, 0.5f, 1}));
+  EXPECT_EQ(b.at(19, 8), (glm::u8vec4{255, 0, 51, 255}));
+  EXPECT_EQ(c.at(19, 8), (glm::vec4{3, 4, 5, 4}));
+  EXPECT_EQ(d.at(19, 8), (glm::u8vec4{255, 255, 255, 255}));  // the shader has no fourth colour
+}
+
+// Counting by stencil: what fails, what fails the depth test and what passes leave three different marks.
+TEST(Operations, StencilTellsApartWhatBecameOfASample) {
+  Image<uint32_t> depth(8, 8);
+  Image<glm::vec4> image(8, 8);
+  DepthTarget target = d24s8_target(depth);
+  target.stencil_clear_value = 7;
+  Pass pass(8, 8, rgba32f_target(image), target);
+  const std::vector<glm::vec4> near = whole(0.25f), far = whole(0.75f);
+  const Rect left{0, 0, 4, 8}, top{0, 4, 8, 4};
+  pass.draw(ConstantShader{}, vertices(stream(near)), {.scissor = left});
+  const StencilFace marked{.compare = CompareOp::equal, .reference = 7};
+  const StencilFace mark{.pass = StencilOp::replace, .reference = 5};
+  pass.draw(ConstantShader{}, vertices(stream(far)), {.scissor = top, .depth = {.test = false}, .stencil = StencilState{mark, mark}});
+  StencilFace count = marked;
+  count.fail = StencilOp::invert;                 // ~5 = 250
+  count.depth_fail = StencilOp::increment_clamp;  // 8
+  count.pass = StencilOp::decrement_wrap;         // 6
+  pass.draw(ConstantShader{}, vertices(stream(far)), {.stencil = StencilState{count, count}});
+  pass.run(one_worker());
+  EXPECT_EQ(pixel(depth, 6, 6) & 0xff, 250u);
+  EXPECT_EQ(pixel(depth, 1, 6) & 0xff, 250u);
+  EXPECT_EQ(pixel(depth, 1, 1) & 0xff, 8u);
+  EXPECT_EQ(pixel(depth, 6, 1) & 0xff, 6u);
+  EXPECT_EQ(pixel(depth, 6, 1) >> 8, 12582911u);  // 0.75 · (2^24 − 1), to the nearest even
+  EXPECT_EQ(pixel(depth, 1, 1) >> 8, 4194304u);
+}
+
+TEST(Operations, StencilFacesAndMasksAreSeparate) {
+  Image<DepthStencil> depth(8, 8);
+  Image<glm::vec4> image(8, 8);
+  Pass pass(8, 8, rgba32f_target(image), d32fs8_target(depth));
+  std::vector<glm::vec4> front = whole(0.5f), back = front;
+  std::swap(back[1], back[2]);
+  const StencilState state{.front = {.pass = StencilOp::replace, .reference = 0xff, .write_mask = 0x0f},
+                           .back = {.pass = StencilOp::replace, .reference = 0xa5, .write_mask = 0xf0}};
+  pass.draw(ConstantShader{}, vertices(stream(front)), {.stencil = state});
+  pass.draw(ConstantShader{}, vertices(stream(back)), {.scissor = Rect{0, 0, 4, 8}, .depth = {.test = false}, .stencil = state});
+  pass.run(one_worker());
+  EXPECT_EQ(pixel(depth, 6, 1), (DepthStencil{0.5f, 0x0f}));
+  EXPECT_EQ(pixel(depth, 1, 1), (DepthStencil{0.5f, 0xaf}));
+}
+
+TEST(Operations, QueriesCountWhatPasses) {
+  for (const bool defer : {true, false}) {
+    Image<glm::vec4> image(100, 70);
+    Pass pass(100, 70, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = defer});
+    const std::vector<glm::vec4> near = whole(0.25f), middle = whole(0.5f), far = whole(0.75f);
+    pass.draw(ConstantShader{}, vertices(stream(middle)), {.scissor = Rect{3, 5, 80, 40}, .query = 0});
+    pass.draw(ConstantShader{}, vertices(stream(far)), {.scissor = Rect{0, 0, 50, 70}, .query = 1});
+    pass.draw(ConstantShader{}, vertices(stream(far)), {.scissor = Rect{10, 10, 20, 20}, .query = 2});
+    pass.draw(ConstantShader{}, vertices(stream(near)), {.scissor = Rect{0, 0, 7, 3}, .query = 0});  // a query may cover several
+    const PassStatistics s = pass.run(one_worker());
+    ASSERT_EQ(s.queries.size(), 3u);
+    EXPECT_EQ(s.queries[0], 80u * 40 + 7 * 3);
+    EXPECT_EQ(s.queries[1], 50u * 70 - 47 * 40);
+    EXPECT_EQ(s.queries[2], 0u);
+    EXPECT_TRUE(s.any_passed(1));
+    EXPECT_FALSE(s.any_passed(2));
+  }
+}
+
+// Depth alone first, then colour where the depth is equal: every pixel is shaded once, and the order of draws is no matter.
+TEST(Operations, DepthFirstShadesEveryPixelOnce) {
+  Image<glm::vec4> image(64, 64);
+  Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = false});
+  const std::vector<glm::vec4> near = whole(0.25f), far = whole(0.75f);
+  for (const auto* p : {&far, &near}) pass.draw(ConstantShader{}, vertices(stream(*p)), {.color_mask = {false, false, false, false}});
+  const DepthState equal{.write = false, .compare = CompareOp::equal};
+  pass.draw(ConstantShader{glm::vec4(2.0f)}, vertices(stream(far)), {.depth = equal});
+  pass.draw(ConstantShader{glm::vec4(1.0f)}, vertices(stream(near)), {.depth = equal});
+  const PassStatistics s = pass.run(one_worker());
+  EXPECT_EQ(s.fragments_shaded, 64u * 64);
+  EXPECT_EQ(image.at(10, 10), glm::vec4(1.0f));
+}
+
+}  // namespace
+
+}  // namespace halfspace

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Strips, fans, restarts, base vertex and instances, by values known by hand.
+#include "raster/raster_test.h"
+
+namespace halfspace {
+
+namespace {
+
+using namespace raster_test;
+
+glm::vec4 red_at(float red) { return {red, 0.0f, 0.0f, 1.0f}; }
+
+// Corners of a 32x16 px picture: a strip over it as a zigzag of columns 8 px wide, lower corner first.
+std::vector<glm::vec4> zigzag() {
+  std::vector<glm::vec4> p;
+  for (int i = 0; i < 10; ++i) p.push_back(clip_position({256 * 8 * (i / 2), i % 2 == 0 ? 0 : 256 * 16}, 32, 16));
+  return p;
+}
+
+struct Drawing {
+  Image<glm::vec4> image{32, 16};
+  PassStatistics statistics;
+};
+
+template <class... Streams>
+Drawing draw_strip(const Indices& indices, DrawState state, const Streams&... streams) {
+  Drawing d;
+  Pass pass(32, 16, rgba32f_target(d.image), {});
+  pass.draw(FlatColorShader{}, vertices(streams...), indices, state);
+  d.statistics = pass.run(one_worker());
+  return d;
+}
+
+std::vector<glm::vec4> numbered(std::size_t n) {
+  std::vector<glm::vec4> c;
+  for (std::size_t i = 0; i < n; ++i) c.push_back(red_at(static_cast<float>(i)));
+  return c;
+}
+
+TEST(Primitives, AStripCoversEveryPixelOnceAndFacesOneWay) {
+  const std::vector<glm::vec4> p = zigzag();
+  std::vector<uint32_t> list(p.size());
+  for (uint32_t i = 0; i < list.size(); ++i) list[i] = i;
+  Image<glm::vec4> image(32, 16);
+  // Lower, upper, next lower: clockwise.
+  const PassStatistics s =
+      count_coverage(image, p, list, {.topology = Topology::triangle_strip, .cull = CullMode::back, .front = Winding::clockwise});
+  EXPECT_EQ(s.primitives_in, 8u);
+  EXPECT_EQ(s.culled_face, 0u);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(image, x, y).x, 1.0f) << x << ' ' << y;
+  }
+}
+
+// OpenGL 4.6, table 13.2: of triangle i of a strip the vertex i provokes under the first-vertex convention, else i + 2; of
+// triangle i of a fan i + 1, else i + 2 (counted from 0).
+TEST(Primitives, ProvokingVertices) {
+  const std::vector<glm::vec4> p = zigzag(), c = numbered(p.size());
+  const Indices all = Indices::sequential(p.size());
+  const Drawing first = draw_strip(all, {.topology = Topology::triangle_strip, .provoking = ProvokingVertex::first}, stream(p), stream(c));
+  const Drawing last = draw_strip(all, {.topology = Topology::triangle_strip}, stream(p), stream(c));
+  for (int column = 0; column < 4; ++column) {  // lower left: an even triangle, upper right: an odd one
+    const int even = 2 * column, x = 8 * column;
+    EXPECT_EQ(pixel(first.image, x, 1).x, static_cast<float>(even));
+    EXPECT_EQ(pixel(first.image, x + 7, 14).x, static_cast<float>(even + 1));
+    EXPECT_EQ(pixel(last.image, x, 1).x, static_cast<float>(even + 2));
+    EXPECT_EQ(pixel(last.image, x + 7, 14).x, static_cast<float>(even + 3));
+  }
+  std::vector<glm::vec4> square;
+  for (const Point corner : {Point{0, 0}, Point{32 * 256, 0}, Point{32 * 256, 16 * 256}, Point{0, 16 * 256}}) {
+    square.push_back(clip_position(corner, 32, 16));
+  }
+  const Indices four = Indices::sequential(4);
+  const Drawing fan_first =
+      draw_strip(four, {.topology = Topology::triangle_fan, .provoking = ProvokingVertex::first}, stream(square), stream(numbered(4)));
+  const Drawing fan_last = draw_strip(four, {.topology = Topology::triangle_fan}, stream(square), stream(numbered(4)));
+  EXPECT_EQ(pixel(fan_first.image, 30, 1).x, 1.0f);
+  EXPECT_EQ(pixel(fan_first.image, 1, 14).x, 2.0f);
+  EXPECT_EQ(pixel(fan_last.image, 30, 1).x, 2.0f);
+  EXPECT_EQ(pixel(fan_last.image, 1, 14).x, 3.0f);
+}
+
+TEST(Primitives, RestartBeginsAnewAndLeavesNoTriangleBetween) {
+  const std::vector<glm::vec4> p = zigzag(), c = numbered(p.size());
+  const std::vector<uint32_t> list{0xffffffffu, 0, 1, 2, 3, 0xffffffffu, 0xffffffffu, 6, 7, 0xffffffffu, 6, 7, 8, 9};
+  const Drawing d =
+      draw_strip(Indices(std::span(list), p.size(), PrimitiveRestart::on), {.topology = Topology::triangle_strip}, stream(p), stream(c));
+  EXPECT_EQ(d.statistics.primitives_in, 4u);
+  EXPECT_EQ(d.statistics.vertices_shaded, 8u);
+  EXPECT_EQ(d.statistics.vertices_in, 10u);
+  for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(d.image, x, 8).w, x < 8 || x >= 24 ? 1.0f : 0.0f) << x;
+  const std::vector<uint16_t> narrow{0, 1, 2, 0xffff, 2, 1, 3};  // restarts work in lists too
+  const Drawing e = draw_strip(Indices(std::span(narrow), p.size(), PrimitiveRestart::on), {}, stream(p), stream(c));
+  EXPECT_EQ(e.statistics.primitives_in, 2u);
+}
+
+TEST(Primitives, BaseVertexIsAddedToEveryIndex) {
+  const std::vector<glm::vec4> p = zigzag(), c = numbered(p.size());
+  const std::vector<uint32_t> list{0, 1, 2, 3};
+  const Indices indices(list, p.size());
+  const Drawing d = draw_strip(indices, {.topology = Topology::triangle_strip, .base_vertex = 4}, stream(p), stream(c));
+  for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(d.image, x, 8).w, x >= 16 && x < 24 ? 1.0f : 0.0f) << x;
+  EXPECT_EQ(pixel(d.image, 16, 1).x, 6.0f);  // triangle 4, 5, 6: the last provokes
+}
+
+// Every instance draws one column: its number moves it, and every second one has a colour of its own.
+struct ColumnShader : FlatColorShader {
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    out.color.value = vec4<R>(in.color.x, to_real<R>(id.vertex), R(static_cast<float>(id.instance)), R(1.0f));
+    vec4<R> p = in.position;
+    p.x = p.x + R(0.5f * static_cast<float>(id.instance));
+    return p;
+  }
+};
+
+TEST(Primitives, InstancesKnowTheirNumberAndReadTheirRow) {
+  const std::vector<glm::vec4> p = zigzag(), c{red_at(10.0f), red_at(20.0f)};
+  const std::vector<uint32_t> list{0, 1, 2, 3};
+  const Indices indices(list, p.size());
+  for (const uint32_t chunk : {1u, 3u, 4096u}) {
+    Image<glm::vec4> image(32, 16);
+    Pass pass(32, 16, rgba32f_target(image), {}, {.chunk_triangles = chunk});
+    pass.draw(ColumnShader{}, vertices(stream(p), per_instance(stream(c), 2)), indices,
+              {.topology = Topology::triangle_strip, .instances = 4});
+    EXPECT_EQ(pass.run(one_worker()).vertices_shaded, 16u);
+    for (int x = 0; x < 32; ++x) {
+      const int instance = x / 8;
+      EXPECT_EQ(pixel(image, x, 1).x, instance < 2 ? 10.0f : 20.0f) << x;
+      EXPECT_EQ(pixel(image, x, 15).y, 3.0f) << x;
+      EXPECT_EQ(pixel(image, x, 1).z, static_cast<float>(instance)) << x;
+    }
+  }
+}
+
+}  // namespace
+
+}  // namespace halfspace
