@@ -37,6 +37,7 @@ class Points final : public Workload {
     const glm::dmat4 projection = workload_projection(size, 0.5, 10.0);
     shader_ = {.clip_from_world = glm::mat4(projection * look_at({0, 0, kEyeZ}, {0, 0, 0}, {0, 1, 0})),
                .eye_ws = {0.0f, 0.0f, static_cast<float>(kEyeZ)},
+               .half_size = 0.5f * glm::vec2(size.width, size.height),
                .size_at_w1 = static_cast<float>(kRadius * size.height / kTanHalfAngle),
                .depth_a = static_cast<float>(projection[2][2]),
                .depth_b = static_cast<float>(projection[3][2]),

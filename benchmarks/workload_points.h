@@ -10,6 +10,7 @@ namespace halfspace {
 struct PointShader {
   glm::mat4 clip_from_world;
   glm::vec3 eye_ws;
+  glm::vec2 half_size;     ///< of the picture, px
   float size_at_w1;        ///< px; of a sphere where clip w is 1
   float depth_a, depth_b;  ///< clip z = a·z + b of eye-space z
   float radius;
@@ -22,6 +23,7 @@ struct PointShader {
   template <class R>
   struct Varyings {
     Flat<vec3<R>> center_es, base;
+    Flat<vec3<R>> disk;  ///< its centre in the window, and 1 over its radius; px
   };
 
   template <class R>
@@ -29,7 +31,10 @@ struct PointShader {
     out.center_es.value = in.position_ws - eye_ws;
     out.base.value = glm::vec3(0.5f) + in.position_ws * 0.5f;
     const vec4<R> clip = clip_from_world * vec4<R>(in.position_ws, R(1));
-    return {clip, R(size_at_w1) / clip.w, {}};
+    const R inverse = R(1) / clip.w, size = R(size_at_w1) * inverse;
+    const R half_width(half_size.x), half_height(half_size.y);
+    out.disk.value = {fma(clip.x * inverse, half_width, half_width), fma(clip.y * inverse, half_height, half_height), R(2) / size};
+    return {clip, size, {}};
   }
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
@@ -52,8 +57,10 @@ struct PointShader {
   };
   template <class R>
   HS_INLINE Bump<R> bump_at(const Varyings<R>& in, const Pixel<R>& px) const {
-    const vec2<R> coord = px.point_coord();
-    const R dx = R(2) * coord.x - R(1), dy = R(1) - R(2) * coord.y, squared = dx * dx + dy * dy;
+    // 2·coord − 1, y up, by the definition of the point coordinate (OpenGL 4.6, section 14.4.1): px.point_coord() counts from the
+    // centre's place on the grid of 1/256 px, which is coarse for points as small as these.
+    const vec3<R>& disk = in.disk.value;
+    const R dx = (px.x - disk.x) * disk.z, dy = (px.y - disk.y) * disk.z, squared = dx * dx + dy * dy;
     const vec3<R> n(dx, dy, sqrt(max(R(1) - squared, R(0))));
     return {n, in.center_es.value + n * radius, squared <= R(1)};
   }
