@@ -20,5 +20,11 @@ std::unique_ptr<Workload> prepare_shadow_200k(WorkloadSize size, WorkloadAssets&
 std::unique_ptr<Workload> prepare_points_100k(WorkloadSize size, WorkloadAssets& assets);
 std::unique_ptr<Workload> prepare_hdr_200k(WorkloadSize size, WorkloadAssets& assets);
 std::unique_ptr<Workload> prepare_tonemap(WorkloadSize size, WorkloadAssets& assets);
+std::unique_ptr<Workload> prepare_draws_10k(WorkloadSize size, WorkloadAssets& assets);
+std::unique_ptr<Workload> prepare_blend_10(WorkloadSize size, WorkloadAssets& assets);
+std::unique_ptr<Workload> prepare_alpha_test(WorkloadSize size, WorkloadAssets& assets);
+std::unique_ptr<Workload> prepare_aniso_floor(WorkloadSize size, WorkloadAssets& assets);
+std::unique_ptr<Workload> prepare_near_clip(WorkloadSize size, WorkloadAssets& assets);
+std::unique_ptr<Workload> prepare_depth_prepass(WorkloadSize size, WorkloadAssets& assets);
 
 }  // namespace halfspace
