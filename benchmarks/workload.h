@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A workload: one fixed picture that is drawn again and again. Every renderer that is compared draws it by the same formulas
-// (docs/workloads.md).
+// (docs/performance.md).
 #pragma once
 
 #include <memory>

@@ -61,7 +61,7 @@ void expect_color(const Image<glm::u8vec4>& image, int x, int row, const dvec3& 
 TEST(WorkloadFormulas, Layers) {
   for (const std::string_view name : {"layers_b2f", "layers_f2b"}) {
     const Image<glm::u8vec4> image = drawn(name, kSize);
-    for (int row = 0; row < kSize.height; ++row) {
+    for (int row = 0; row < kSize.height && !HasFatalFailure(); ++row) {
       for (int x = 0; x < kSize.width; ++x) {
         const dvec3 p = 2.0 * ray_of(x, row, dvec3(0), {0, 0, -1}), n{0, 0, 1};
         const dvec3 l = glm::normalize(dvec3(0.5, 0.5, 0) - p), r = glm::reflect(-l, n);
@@ -89,7 +89,7 @@ TEST(WorkloadFormulas, SpherePhongAndHdr) {
   const auto tone = [](const dvec3& c) { return glm::pow(0.8 * c / (1.0 + 0.8 * c), dvec3(1 / 2.2)); };
   const dvec3 eye(0, 0.8, 2.7);
   int judged = 0;
-  for (int row = 0; row < kSize.height; ++row) {
+  for (int row = 0; row < kSize.height && !HasFatalFailure(); ++row) {
     for (int x = 0; x < kSize.width; ++x) {
       const std::optional<dvec3> p = on_sphere(eye, ray_of(x, row, eye, dvec3(0)));
       if (!p) continue;
@@ -111,7 +111,7 @@ TEST(WorkloadFormulas, Shadow) {
   const Image<glm::u8vec4> image = drawn("shadow_200k", kSize);
   const dvec3 eye(0, 1.5, 4.5), l = glm::normalize(dvec3(0.5, 1.0, 0.3));
   int in_shadow = 0, lit = 0, dark_side = 0;
-  for (int row = 0; row < kSize.height; ++row) {
+  for (int row = 0; row < kSize.height && !HasFatalFailure(); ++row) {
     for (int x = 0; x < kSize.width; ++x) {
       const dvec3 ray = ray_of(x, row, eye, {0, -0.3, 0});
       if (const std::optional<dvec3> p = on_sphere(eye, ray)) {
