@@ -126,7 +126,10 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   program.name("halfspace-bench");
   set_common_options(program);
   BenchArguments args;
-  program.add_option("--only", args.only, "These workloads alone (--list names them all)")->type_name("NAME,...")->delimiter(',');
+  program.add_option("--only", args.only, "These workloads alone (--list names them all)")
+      ->type_name("NAME,")
+      ->allow_extra_args(false)
+      ->delimiter(',');
   program.add_option("--size", args.size, "Size of the pictures (default: 1920x1080)")->type_name("WxH");
   program.add_option("--threads", args.threads, "Threads, the main one counted (default: one a core)")->type_name("N");
   program.add_option("--seconds", args.seconds, "Time for each workload; 0: one frame of each (default: 1)")->type_name("S");

@@ -59,7 +59,8 @@ INSTANTIATE_TEST_SUITE_P(All, BenchMistake,
                                          Mistake{"--threads 0", "--threads is '0'; expected 1 to 1024"},
                                          Mistake{"--seconds -1", "--seconds is '-1'; expected 0 to 3600, for example 2.5"},
                                          Mistake{"--sise 4x4", "unknown option '--sise'; did you mean '--size'?"},
-                                         Mistake{"fill", "unexpected argument 'fill'; see 'halfspace-bench --help'"}));
+                                         Mistake{"--only fill tiny_1m", "unexpected argument 'tiny_1m'; see 'halfspace-bench --help'"},
+                    Mistake{"fill", "unexpected argument 'fill'; see 'halfspace-bench --help'"}));
 
 TEST(BenchCli, HelpFitsAScreenAndEndsInTwoExamples) {
   const Outcome outcome = bench("--help");
@@ -88,6 +89,12 @@ TEST(BenchCli, JsonIsALineAWorkload) {
     EXPECT_LE(row.at("ms"), row.at("ms_max"));
     EXPECT_GE(row.at("cpu_ms"), 0.0);
   }
+}
+
+TEST(BenchCli, EveryRoundCountsAFrame) {
+  const Outcome outcome = bench("--only fill --size 16x16 --threads 1 --seconds 0.01 --json");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_GE(nlohmann::json::parse(outcome.text).at("frames"), 5);  // five rounds, a frame at least in each
 }
 
 TEST(BenchCli, PicturesAreWrittenWhereAsked) {
