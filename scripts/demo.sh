@@ -16,7 +16,16 @@ if ! { cmake --preset release -B "$build" -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPAC
 fi
 
 mkdir -p out
-for scene in $("$build/bin/halfspace" list --names); do
-  "$build/bin/halfspace" render "$scene" -o "out/$scene.png"
-  echo "$PWD/out/$scene.png"
-done
+# picture NAME SCENE OPTIONS...
+picture() {
+  "$build/bin/halfspace" render "$2" -o "out/$1.png" "${@:3}"
+  echo "$PWD/out/$1.png"
+}
+for scene in $("$build/bin/halfspace" list --names); do picture "$scene" "$scene"; done
+picture day-night-noon day-night --set time.hours=12
+picture day-night-dusk day-night --set time.hours=17.5
+picture day-night-midnight day-night --set time.hours=0
+picture three-lights-from-green three-lights --camera green_light
+picture three-lights-mirror three-lights --camera mirror
+picture moon-terminator moon --camera terminator
+for rate in flat gouraud; do picture "earth-$rate" earth --shading "$rate" --set earth.latitudes=24 --set earth.longitudes=48; done
