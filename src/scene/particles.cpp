@@ -79,7 +79,7 @@ Placed in_ball(const ParticlesDescription& p, int i) {
 }
 
 Placed in_galaxy(const ParticlesDescription& p, int i) {
-  constexpr double kArms = 3.0, kWound = 1.3, kSpread = 0.16, kThickness = 0.06;
+  constexpr double kArms = 3.0, kWound = 0.9, kSpread = 0.1, kThickness = 0.06;
   Draws draws(i);
   const auto middle = [&] { return draws.next() + draws.next() + draws.next() - 1.5; };  // a bell round 0
   const double out = draws.next(), turns = (i % 3) / kArms + kWound * out * out + kSpread * middle();
@@ -93,7 +93,8 @@ Placed in_galaxy(const ParticlesDescription& p, int i) {
 
 double particle_radius(const ParticlesDescription& p) {
   if (p.radius > 0.0) return p.radius;
-  return 0.2 * p.orbit_radius * cube_root(12.0 / std::max(p.count, 1));
+  const double part = p.arrangement == ParticleArrangement::galaxy ? 0.08 : 0.2;
+  return part * p.orbit_radius * cube_root(12.0 / std::max(p.count, 1));
 }
 
 Particles make_particles(const ParticlesDescription& p) {

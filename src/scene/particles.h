@@ -22,7 +22,7 @@ struct Particles {
 };
 
 /// The radius of generated spheres: p.radius, or where that is 0 a fifth of p.orbit_radius for 12 spheres, and for more or fewer
-/// what keeps the volume of all.
+/// what keeps the volume of all; in a galaxy, which is flat, less than half as much.
 double particle_radius(const ParticlesDescription& p);
 
 /// p.count spheres as p.arrangement says, the same on every machine; all turned by p.angle from x to z:

@@ -153,15 +153,15 @@ double entry(const glm::dvec3& c, double r, int x, int row, double& squared) {
 
 class ParticlePictures : public ImageFixture {};
 
-// The flaw of a size from the centre alone: an ellipse is longer than the circle by 1/cos of the angle, whose part of it that
-// the circle misses is near 1 − cos.
+// The flaw of a size from the centre alone: far off, an ellipse is longer than the circle by 1/cos of the angle, so that the circle
+// misses 1 − cos of it; and a near sphere's ellipse lies farther out than its centre, so that the circle is too much elsewhere.
 TEST_F(ParticlePictures, SilhouetteByOffAxisAngle) {
   const struct {
     double degrees, least, most;  // the original's wrong pixels, in parts of the sphere's
-  } cases[] = {{0, 0.0, 0.03}, {15, 0.02, 0.06}, {30, 0.12, 0.16}, {45, 0.27, 0.33}};
+  } cases[] = {{0, 0.0, 0.03}, {15, 0.034, 0.08}, {30, 0.134, 0.19}, {45, 0.293, 0.37}};
   for (const auto& c : cases) {
     const double angle = c.degrees * std::acos(-1.0) / 180.0, r = 0.5;
-    const glm::dvec3 center = 4.0 * glm::dvec3(std::sin(angle), 0.0, -std::cos(angle));
+    const glm::dvec3 center = 3.0 * glm::dvec3(std::sin(angle), 0.0, -std::cos(angle));
     char row[200];
     std::snprintf(row, sizeof row, "%.17g,0,%.17g,%g\n", center.x, center.z, r);
     const std::filesystem::path csv = put("one.csv", row);
@@ -218,7 +218,7 @@ TEST_F(ParticlePictures, ExactSpheresMeetWhereTheyShould) {
           id = static_cast<int>(i) + 1;
         }
       }
-      if (close_call || second - best < 1e-5) continue;  // depths of 4 with float centres
+      if (close_call || (id != 0 && second - best < 1e-5)) continue;  // depths of 4 with float centres
       ++compared;
       shown += id != 0 ? 1 : 0;
       ASSERT_EQ(image.at(x, y).x, static_cast<float>(id)) << x << ' ' << y;
@@ -276,7 +276,9 @@ TEST_F(ParticlePictures, AreLitByPhong) {
     const glm::dvec3 l = glm::normalize(glm::dvec3(2, 0, 0) - point), own(0.5, 0.25, 1), lamp(0.9, 0.8, 0.7);
     const double n_l = glm::dot(n, l), r_v = glm::dot(2.0 * n_l * n - l, v);
     const glm::dvec3 expected = own * (0.1 + n_l * lamp) + 0.4 * std::pow(r_v, 5.0) * lamp;
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(seen[k]), expected[k], 2e-6) << sprite;  // some float roundings
+    // Some float roundings; the original's square, of 120 px, is placed to 1/512 px, and its normals are off by twice that part.
+    const double most = std::string(sprite) == "exact" ? 2e-6 : 2.0 / 512 / 120 * 2;
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(seen[k]), expected[k], most) << sprite;
   }
 }
 
