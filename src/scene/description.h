@@ -228,6 +228,27 @@ struct ShadowDescription {
   double cascade_growth = 0.75;  ///< 0: cascades of even depth, 1: each a constant times the one before
 };
 
+enum class ParticleSprite : uint8_t { original, exact };
+enum class ParticleArrangement : uint8_t { helix, grid, ball, galaxy };
+
+/// Spheres drawn as points (scene/particles.h, shading/sphere_sprite.h).
+struct ParticlesDescription {
+  ParticleSprite sprite = ParticleSprite::original;
+  int count = 0;  ///< of generated ones; 0: none
+  ParticleArrangement arrangement = ParticleArrangement::helix;
+  FilePath file;        ///< instead of generated ones
+  double radius = 0.0;  ///< 0: by their number
+  double orbit_radius = 1.5;
+  double height = 6.0;
+  double angle = 0.0;        ///< radians
+  double point_scale = 0.0;  ///< px; 0: the picture's width
+  Color color{glm::dvec3(1.0)};
+  Color ambient{glm::dvec3(1.0)};
+  Color diffuse{glm::dvec3(1.0)};
+  Color specular{glm::dvec3(0.0)};
+  double shininess = 32.0;
+};
+
 enum class AnimationType : uint8_t { rate, orbit, wave, keyframes };
 enum class Easing : uint8_t { linear, smooth, step };
 
@@ -239,7 +260,7 @@ struct AnimationDescription {
   glm::dvec3 center{0.0};  ///< orbit: center + a·cos φ + b·sin φ, φ = 2π(t / period + phase)
   glm::dvec3 a{1, 0, 0};
   glm::dvec3 b{0, 0, -1};
-  Numbers mean{0.0};     ///< wave: mean + swing·cos φ, held to the key's range
+  Numbers mean{0.0};  ///< wave: mean + swing·cos φ, held to the key's range
   Numbers swing{1.0};
   double period = 10.0;  ///< seconds
   double phase = 0.0;    ///< turns
@@ -278,6 +299,7 @@ struct SceneDescription {
   ReflectionsDescription reflections;
   PostDescription post;
   ShadowDescription shadow;
+  ParticlesDescription particles;
   Playback animation;
   TimeOfDay time;
 };
@@ -296,6 +318,7 @@ Section section_of(BackgroundDescription&);
 Section section_of(ReflectionsDescription&);
 Section section_of(PostDescription&);
 Section section_of(ShadowDescription&);
+Section section_of(ParticlesDescription&);
 Section section_of(AnimationDescription&);
 Section section_of(Playback&);
 Section section_of(TimeOfDay&);
@@ -319,6 +342,7 @@ void for_each_single(Scene& scene, F&& visit) {
   visit("reflections", "What surfaces with a reflection mirror", scene.reflections);
   visit("post", "How light becomes codes; linear files (.exr, .hdr) are written before it", scene.post);
   visit("shadow", "How lights' shadows are found", scene.shadow);
+  visit("particles", "Spheres drawn as points", scene.particles);
   visit("animation", "All animations together", scene.animation);
   visit("time", "The time of day", scene.time);
 }

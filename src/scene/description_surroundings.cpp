@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tables of keys, continued from description.cpp: what surrounds a scene, and how it is shown.
-#include "scene/description.h"
+// The tables of keys, continued from description.cpp: particles, what surrounds a scene, and how it is shown.
+#include "scene/particles.h"
 
 namespace halfspace {
 
@@ -29,6 +29,39 @@ template <>
 struct ChoiceNames<DisplayEncoding> {
   static constexpr std::array<std::string_view, 2> names{"srgb", "gamma"};
 };
+
+template <>
+struct ChoiceNames<ParticleSprite> {
+  static constexpr std::array<std::string_view, 2> names{"original", "exact"};
+};
+template <>
+struct ChoiceNames<ParticleArrangement> {
+  static constexpr std::array<std::string_view, 4> names{"helix", "grid", "ball", "galaxy"};
+};
+
+Section section_of(ParticlesDescription& p) {
+  using T = ParticlesDescription;
+  static const std::vector<Key> keys{
+      key<&T::sprite>("sprite", "A circle sized by the centre alone, or the sphere as it projects"),
+      key<&T::count>("count", "How many spheres are generated; 0: none", {.low = 0, .high = kMostParticles}),
+      key<&T::arrangement>("arrangement", "Where generated spheres are"),
+      key<&T::file>("file", "File of rows x,y,z[,radius[,r,g,b]] (.csv), instead of generated spheres"),
+      key<&T::radius>("radius", "Radius of the spheres; 0: a fifth of orbit_radius for 12, smaller for more",
+                      {.unit = "units", .low = 0, .high = 1e6}),
+      key<&T::orbit_radius>("orbit_radius", "Radius of the helix, the ball or the galaxy; half the edge of the grid",
+                            {.unit = "units", .low = 1e-6, .high = 1e6}),
+      key<&T::height>("height", "From the helix's lowest sphere to its highest", {.unit = "units", .low = 0, .high = 1e6}),
+      key<&T::angle>("angle", "Turn of what is generated about the y axis, from x to z", {.unit = "radians"}),
+      key<&T::point_scale>("point_scale", "What radius / distance is multiplied by for a point's size; 0: the picture's width",
+                           {.unit = "px", .low = 0, .high = 1e6, .only = "original"}),
+      key<&T::color>("color", "Factor of the spheres' own colours", {.low = 0}),
+      key<&T::ambient>("ambient", "Factor of the ambient light", {.low = 0}),
+      key<&T::diffuse>("diffuse", "Factor of the light that is sent back every way", {.low = 0}),
+      key<&T::specular>("specular", "Factor of the highlight, by the reflected ray", {.low = 0}),
+      key<&T::shininess>("shininess", "Exponent of the highlight: larger is smaller and sharper", {.low = 0, .high = 1e5}),
+  };
+  return {{keys, &p}};
+}
 
 Section section_of(EnvironmentDescription& e) {
   using T = EnvironmentDescription;

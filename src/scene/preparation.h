@@ -2,7 +2,7 @@
 //
 // The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
 // prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp,
-// prepare_background.cpp.
+// prepare_background.cpp, prepare_particles.cpp.
 // Included by these alone.
 #pragma once
 
@@ -133,6 +133,10 @@ class ScenePreparation {
   void add_shadows();
   std::vector<LightView> shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const;
   int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
+
+  // prepare_particles.cpp
+  void add_particles();
+  SphereSprites sphere_sprites() const;
 
   // prepare_background.cpp
   void add_background();

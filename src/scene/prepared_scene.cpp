@@ -71,6 +71,7 @@ PreparedScene ScenePreparation::prepare() {
   for (const auto& [name, object] : scene_.objects) {
     if (object.visible) add_object("objects." + name, object);
   }
+  add_particles();
   add_background();
   add_shadows();
   return std::move(out_);

@@ -18,6 +18,7 @@
 #include "scene/view.h"
 #include "shading/environment_sky.h"
 #include "shading/shadow_map.h"
+#include "shading/sphere_sprite.h"
 #include "shading/star_sky.h"
 #include "shading/surface_shader.h"
 
@@ -32,7 +33,7 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
-                                 StarSky, EnvironmentSky>;
+                                 SphereSprite<false>, SphereSprite<true>, StarSky, EnvironmentSky>;
 
 /// One draw. std::visit on the shader gives its type back.
 struct PreparedDraw {

@@ -15,7 +15,7 @@ struct View {
   glm::dvec3 forward_ws, right_ws, up_ws;  ///< unit vectors
   double tan_x, tan_y;                     ///< of half the field of view
   double near;
-  int height_px;
+  int width_px, height_px;
 };
 
 /// The view of a camera on a picture of width x height px; reversed Z.
