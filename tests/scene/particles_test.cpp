@@ -260,25 +260,57 @@ TEST(Particles, SamePixelsForAnyNumberOfThreads) {
   }
 }
 
-// Phong's formula in double at the pixel in the middle of a sphere, for a light beside the eye.
+// The classic sprite's depth is a cone's: a wall half a unit behind the centre cuts its circle at half the radius, whatever that is.
+TEST_F(ParticlePictures, OriginalsAreAsDeepAsACone) {
+  const std::filesystem::path csv = put("one.csv", "0,0,-3,1.4,1,0,0\n");
+  const Image<glm::vec4> image = picture_of(scene_of(csv, "original", R"(, "objects": { "wall": { "shape": "plane", "size": 60,
+      "position": [0, 0, -3.5], "rotation": [90, 0, 0], "shading": "none", "color": [0, 1, 0] } })"));
+  const double radius = 0.5 * kWidth / kTanX * 1.4 / 3.0;
+  int red = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double from_middle = std::hypot(x + 0.5 - kWidth / 2, y + 0.5 - kHeight / 2) / radius;
+      if (std::fabs(from_middle - 0.5) < 1e-3) continue;  // the square is placed to 1/256 px, and 70 px wide either way
+      red += from_middle < 0.5 ? 1 : 0;
+      ASSERT_EQ(image.at(x, y), from_middle < 0.5 ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1)) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(red, 1000);
+}
+
+// Phong's formula in double, for a light beside and above the eye: at the middle of a sphere, and to the right and below of it.
 TEST_F(ParticlePictures, AreLitByPhong) {
   const std::filesystem::path csv = put("one.csv", "0,0,-3,1,0.5,0.25,1\n");
-  const std::string light = R"(, "lights": { "lamp": { "type": "point", "position": [2, 0, 0], "color": [0.9, 0.8, 0.7] } })";
+  const std::string light = R"(, "lights": { "lamp": { "type": "point", "position": [2, 1, 0], "color": [0.9, 0.8, 0.7] } })";
+  const glm::dvec3 center(0, 0, -3), lamp(0.9, 0.8, 0.7), lamp_ws(2, 1, 0), own(0.5, 0.25, 1);
+  const double radius_px = 0.5 * 361 / kTanY / 3.0;  // of the original's circle; 641 px wide, so that a pixel is in the middle
   for (const char* sprite : {"original", "exact"}) {
+    const bool exact = std::string(sprite) == "exact";
     SceneDescription scene = scene_of(csv, sprite, light);
-    scene.head.ambient = Color{glm::dvec3(1.0)};
     scene.particles.ambient = Color{glm::dvec3(0.1)};
     scene.particles.specular = Color{glm::dvec3(0.4)};
     scene.particles.shininess = 5.0;
-    const glm::vec4 seen = picture_of(scene, 1, 641, 361).at(320, 180);
-    // The exact sprite's point is the sphere's at z = -2, the original's its centre.
-    const glm::dvec3 point(0, 0, std::string(sprite) == "exact" ? -2.0 : -3.0), n(0, 0, 1), v(0, 0, 1);
-    const glm::dvec3 l = glm::normalize(glm::dvec3(2, 0, 0) - point), own(0.5, 0.25, 1), lamp(0.9, 0.8, 0.7);
-    const double n_l = glm::dot(n, l), r_v = glm::dot(2.0 * n_l * n - l, v);
-    const glm::dvec3 expected = own * (0.1 + n_l * lamp) + 0.4 * std::pow(r_v, 5.0) * lamp;
-    // Some float roundings; the original's square, of 120 px, is placed to 1/512 px, and its normals are off by twice that part.
-    const double most = std::string(sprite) == "exact" ? 2e-6 : 2.0 / 512 / 120 * 2;
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(seen[k]), expected[k], most) << sprite;
+    const Image<glm::vec4> image = picture_of(scene, 1, 641, 361);
+    for (const glm::ivec2 px : {glm::ivec2(0, 0), glm::ivec2(12, 7), glm::ivec2(-20, -15)}) {  // from the middle, down
+      // The original takes light and eye from the centre.
+      glm::dvec3 n(px.x / radius_px, -px.y / radius_px, 0), point = center;
+      n.z = std::sqrt(1.0 - glm::dot(n, n));
+      if (exact) {
+        const glm::dvec3 d(px.x * 2 * kTanY / 361, -px.y * 2 * kTanY / 361, -1);
+        const double a = glm::dot(d, d), b = glm::dot(d, center);
+        point = d * ((b - std::sqrt(b * b - a * (9.0 - 1.0))) / a);
+        n = point - center;
+      }
+      const glm::dvec3 l = glm::normalize(lamp_ws - point), v = glm::normalize(-point);
+      const double n_l = glm::dot(n, l), r_v = glm::dot(2.0 * n_l * n - l, v);
+      const glm::dvec3 expected =
+          own * (0.1 + std::max(n_l, 0.0) * lamp) + (n_l > 0 ? 0.4 * std::pow(std::max(r_v, 0.0), 5.0) : 0.0) * lamp;
+      const glm::vec4 seen = image.at(320 + px.x, 180 + px.y);
+      // Some float roundings; the original's square is placed to 1/512 px, and its normals are off by twice that part of its
+      // radius, its highlight by five times that.
+      const double most = exact ? 5e-6 : 2.0 / 512 / radius_px * 7;
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(seen[k]), expected[k], most) << sprite << ' ' << px.x;
+    }
   }
 }
 
