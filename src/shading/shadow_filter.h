@@ -104,24 +104,39 @@ HS_INLINE R penumbra_texels(const ShadowView& view, float light_radius, const Sh
   return (occluder_depth - p.depth) * R(light_radius / (view.depth_per_unit * view.texel_per_w));
 }
 
-/// Finds what stands in the way, how far off it is, and so how wide the penumbra is; then averages over that width.
+/// The share of a light with a size. First a search for what stands in the way, which tells how wide the penumbra can be (as
+/// in percentage-closer soft shadows); then each texel in that width is projected back onto the light from the place: it hides
+/// the light where it lies within the light's cone at its own depth, and of the light's area the more the nearer it is
+/// (Guennebaud, Barthe and Paulin, "Real-time soft shadow mapping by backprojection", EGSR 2006). Texels behind each other are
+/// taken as beside each other.
 template <class R>
-HS_INLINE R pcss_shadow(const ShadowView& view, const ShadowPlace<R>& p, float light_radius, const detail::Turn<R>& turn) {
-  constexpr int kTaps = 32;
-  const R widest = clamp(penumbra_texels(view, light_radius, p, R(1)), R(0.5f), R(kMaxPenumbra));
-  R count(0), sum(0);
-  for (const glm::vec2& point : detail::vogel_disk<kTaps>()) {
-    const vec2<R> d = turn(point) * widest;
+HS_INLINE R soft_shadow(const ShadowView& view, const ShadowPlace<R>& p, float light_radius, const detail::Turn<R>& turn) {
+  constexpr int kSearched = 64, kProjected = 128;
+  constexpr float kLeast = 0.5f;  // texels: below, one texel hides all
+  // Of a texel d away from the place: 1 if it lies nearer to the light, and the radius of the light's cone at its depth.
+  struct Tap {
+    R blocks, cone;
+  };
+  const auto tap_at = [&](const vec2<R>& d) {
     const IntOf<R> i = truncate_to_int(floor(p.x + d.x)), j = truncate_to_int(floor(p.y + d.y));
-    const R blocks = R(1) - lit_by_texel(view, p, i, j);
-    count += blocks;
-    sum = fma(blocks, map_depth<R>(view, i, j), sum);
+    return Tap{R(1) - lit_by_texel(view, p, i, j), max(penumbra_texels(view, light_radius, p, map_depth<R>(view, i, j)), R(kLeast))};
+  };
+  const R searched = clamp(penumbra_texels(view, light_radius, p, R(1)), R(kLeast), R(kMaxPenumbra));
+  R widest(0);
+  for (const glm::vec2& point : detail::vogel_disk<kSearched>()) {
+    const Tap tap = tap_at(turn(point) * searched);
+    widest = max(widest, tap.blocks * tap.cone);
   }
-  const MaskOf<R> blocked = count > R(0);
-  if (none(blocked)) return R(1);
-  const R mean_depth = select(blocked, sum / count, R(1));
-  const R radius = clamp(penumbra_texels(view, light_radius, p, mean_depth), R(0.5f), R(kMaxPenumbra));
-  return select(blocked, disk_shadow<kTaps>(view, p, radius, turn), R(1));
+  widest = min(widest, searched);
+  if (none(widest > R(0))) return R(1);
+  R hidden(0);
+  for (const glm::vec2& point : detail::vogel_disk<kProjected>()) {
+    const vec2<R> d = turn(point) * widest;
+    const Tap tap = tap_at(d);
+    const R cone2 = tap.cone * tap.cone;
+    hidden += tap.blocks * select(dot(d, d) <= cone2, widest * widest / cone2, R(0));
+  }
+  return max(R(1) - hidden * R(1.0f / kProjected), R(0));
 }
 
 /// The share of light at a place by the settings' filter.
@@ -134,7 +149,7 @@ HS_INLINE R filtered_shadow(const ShadowView& view, const ShadowSettings& s, con
     case ShadowFilter::pcf5: return box_shadow(view, p, 5);
     case ShadowFilter::pcf7: return box_shadow(view, p, 7);
     case ShadowFilter::vogel: return disk_shadow<16>(view, p, R(s.radius), detail::turn_of(at));
-    case ShadowFilter::pcss: return pcss_shadow(view, p, s.light_radius, detail::turn_of(at));
+    case ShadowFilter::pcss: return soft_shadow(view, p, s.light_radius, detail::turn_of(at));
     case ShadowFilter::vsm: return chebyshev_shadow(view, p);
     case ShadowFilter::moments: return four_moment_shadow(view, p);
   }

@@ -26,7 +26,7 @@ enum class ShadowFilter : uint8_t {
   pcf5,
   pcf7,
   vogel,   ///< 16 texels on a sunflower's disk, turned by pixel
-  pcss,    ///< a disk as wide as the penumbra (Fernando, "Percentage-closer soft shadows", SIGGRAPH sketches 2005)
+  pcss,    ///< of a light with a size: a blocker search (Fernando, SIGGRAPH sketches 2005), then texels projected onto the light
   vsm,     ///< two filtered moments and Chebyshev's bound (Donnelly and Lauritzen, I3D 2006)
   moments  ///< four filtered moments (Peters and Klein, "Moment shadow mapping", I3D 2015)
 };

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// clear, fill: how fast pixels leave a tile.
+#include <algorithm>
+
+#include "families.h"
+#include "workload_canvas.h"
+#include "workload_constant.h"
+
+namespace halfspace {
+
+namespace {
+
+class Clear final : public Workload {
+ public:
+  explicit Clear(WorkloadSize size) : canvas_(size) {}
+  void frame(const Workers& workers) override { canvas_.pass().run(workers); }
+  WorkloadPicture picture() const override { return canvas_.picture(); }
+  WorkloadTruth truth() const override { return canvas_.truth(); }
+
+ private:
+  Canvas canvas_;
+};
+
+// One quad over the whole picture, of which nothing was wanted before: neither cleared nor loaded. No depth.
+class Fill final : public Workload {
+ public:
+  explicit Fill(WorkloadSize size) : color_(size.width, size.height) {}
+  void frame(const Workers& workers) override {
+    ColorTarget target = rgba8_target(color_);
+    target.load = LoadOp::dont_care;
+    Pass pass(color_.width(), color_.height(), target, {});
+    pass.draw(shader_, vertices(stream(std::span<const glm::vec3>(kQuad))), indices_, kState);
+    pass.run(workers);
+  }
+  WorkloadPicture picture() const override { return {&color_, nullptr}; }
+  WorkloadTruth truth() const override {
+    return {color_.width(), color_.height(), vec4<double>(glm::dvec4(shader_.color)), 1.0};  // the closed form
+  }
+
+ private:
+  static constexpr std::array<glm::vec3, 4> kQuad{{{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}}};
+  static constexpr std::array<uint32_t, 6> kTriangles{0, 1, 2, 2, 1, 3};  // of the strip
+  static constexpr DrawState kState{.depth = {.test = false, .write = false}};
+  Image<glm::u8vec4> color_;
+  ConstantShader shader_{{0.25f, 0.50f, 0.75f, 1.0f}};
+  Indices indices_{std::span<const uint32_t>(kTriangles), kQuad.size()};
+};
+
+}  // namespace
+
+std::unique_ptr<Workload> prepare_clear(WorkloadSize size, WorkloadAssets&) { return std::make_unique<Clear>(size); }
+std::unique_ptr<Workload> prepare_fill(WorkloadSize size, WorkloadAssets&) { return std::make_unique<Fill>(size); }
+
+}  // namespace halfspace

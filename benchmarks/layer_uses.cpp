@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// blend_10, alpha_test: the ten quads transparent, and with holes.
+#include "families.h"
+#include "layer_mesh.h"
+#include "workload_assets.h"
+
+namespace halfspace {
+
+namespace {
+
+// All ten reach the picture: over each other, back to front.
+class Blend final : public Workload {
+ public:
+  explicit Blend(WorkloadSize size)
+      : canvas_(size), mesh_(layer_mesh(size, false)), indices_(Indices::sequential(mesh_.size())), shader_{layer_shader(size)} {}
+
+  void frame(const Workers& workers) override {
+    Pass pass = canvas_.pass();
+    pass.draw(shader_, vertices(stream(mesh_)), indices_, state());
+    pass.run(workers);
+  }
+  WorkloadPicture picture() const override { return canvas_.picture(); }
+
+  // The naive pipeline, which does not blend, a layer at a time; then c = a·source + (1 − a)·c, the source held to [0, 1].
+  WorkloadTruth truth() const override {
+    WorkloadTruth target = canvas_.truth();
+    for (std::size_t first = 0; first < mesh_.size(); first += kLayerVertices) {
+      const std::span<const LayerMesh::value_type> quad(&mesh_[first], kLayerVertices);
+      WorkloadTruth layer = canvas_.truth();
+      draw_naive(layer, shader_, vertices(stream(quad)), Indices::sequential(quad.size()), workload_state());
+      for (std::size_t i = 0; i < target.color.texels().size(); ++i) {
+        if (layer.depth.data()[i] == 1.0) continue;
+        vec4<double>& to = target.color.data()[i];
+        to = vec4<double>(0.5 * (glm::min(vec3<double>(layer.color.data()[i]), 1.0) + vec3<double>(to)), 1.0);
+      }
+    }
+    return target;
+  }
+
+ private:
+  static DrawState state() {
+    DrawState state = workload_state();
+    state.blend = BlendState{};
+    state.depth.write = false;
+    return state;
+  }
+
+  Canvas canvas_;
+  LayerMesh mesh_;
+  Indices indices_;
+  BlendedLayerShader shader_;
+};
+
+struct PerforatedParts {
+  LayerMesh mesh;
+  std::shared_ptr<const Texture2D> texture;
+};
+
+}  // namespace
+
+std::unique_ptr<Workload> prepare_blend_10(WorkloadSize size, WorkloadAssets&) { return std::make_unique<Blend>(size); }
+
+std::unique_ptr<Workload> prepare_alpha_test(WorkloadSize size, WorkloadAssets& assets) {
+  auto parts = std::make_shared<const PerforatedParts>(PerforatedParts{layer_mesh(size, true), assets.checker()});
+  const PerforatedLayerShader shader{layer_shader(size), parts->texture.get()};
+  return std::make_unique<SingleDraw<PerforatedLayerShader>>(size, shader, vertices(stream(parts->mesh)),
+                                                             Indices::sequential(parts->mesh.size()), workload_state(), parts);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The sphere workloads' meshes and camera, for all that draw them.
+#pragma once
+
+#include "workload_assets.h"
+#include "workload_canvas.h"
+#include "workload_sphere.h"
+
+namespace halfspace {
+
+struct SphereDetail {
+  int rows, columns;
+};
+inline constexpr SphereDetail k20k{51, 200}, k200k{201, 500}, k2m{501, 2000};  // 20,000, 200,000, 2,000,000 triangles
+
+/// The uniforms of the camera at (0, 0.8, 2.7) that looks at the middle.
+inline SphereUniforms sphere_uniforms(WorkloadSize size, const Texture2D& texture) {
+  const glm::dmat4 view = look_at({0.0, 0.8, 2.7}, {0, 0, 0}, {0, 1, 0});
+  return {.clip_from_world = glm::mat4(workload_projection(size, 0.5, 10.0) * view), .texture = &texture};
+}
+
+/// Mesh and texture of a sphere workload, kept alive together.
+struct SphereAssets {
+  std::shared_ptr<const SphereMesh> mesh;
+  std::shared_ptr<const Texture2D> texture;
+
+  SphereAssets(SphereDetail detail, WorkloadAssets& assets) : mesh(assets.sphere(detail.rows, detail.columns)), texture(assets.checker()) {}
+  VertexView vertex_view() const { return vertices(stream(mesh->vertices)); }
+  Indices indices() const { return {mesh->indices, mesh->vertices.size()}; }
+};
+
+}  // namespace halfspace

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shading/contract.h"
+#include "workload_shading.h"
+
+namespace halfspace {
+
+/// Light from one direction by Blinn, shadowed by the plain mean of 3 x 3 comparisons with a depth map. The formula fixes filter
+/// and bias, so the map is read here and not by shading/shadow.h, whose filters do more.
+struct ShadowedShader {
+  glm::mat4 clip_from_world, light_from_world;
+  const float* map;  ///< kMapSize² window depths, top row first
+  glm::vec3 eye_ws, to_light_ws;
+  glm::vec3 base;
+
+  static constexpr int kMapSize = 2048;
+  static constexpr float kBias = 0.004f;
+
+  template <class R>
+  struct Attributes {
+    vec3<R> position_ws, normal_ws;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> position_ws, normal_ws;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.position_ws = in.position_ws;
+    out.normal_ws = in.normal_ws;
+    return clip_from_world * vec4<R>(in.position_ws, R(1));
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    const WorkloadLight<R> light = blinn_phong(in.normal_ws, vec3<R>(to_light_ws), unit(eye_ws - in.position_ws));
+    const R seen = visible(in.position_ws), ambient(0.08f);
+    return {lit(vec3<R>(base), WorkloadLight<R>{ambient + seen * (light.diffuse - ambient), seen * light.specular})};
+  }
+
+  /// The share of nine texels round the point that lie no nearer to the light than it.
+  template <class R>
+  HS_INLINE R visible(const vec3<R>& position_ws) const {
+    const vec4<R> q = light_from_world * vec4<R>(position_ws, R(1));
+    const R scale(0.5f * kMapSize), inverse = R(1) / q.w;
+    const IntOf<R> i = truncate_to_int(floor(q.x * inverse * scale + scale)), j = truncate_to_int(floor(q.y * inverse * scale + scale));
+    const R depth = R(0.5f) * (q.z * inverse) + R(0.5f - kBias);
+    const IntOf<R> first(0), last(kMapSize - 1);
+    R sum(0);
+    for (int dj = -1; dj <= 1; ++dj) {
+      const IntOf<R> row = last - min(max(IntOf<R>(j + dj), first), last);
+      for (int di = -1; di <= 1; ++di) {
+        const IntOf<R> column = min(max(IntOf<R>(i + di), first), last);
+        sum += select(depth <= R(gather(map, IntOf<R>(row * kMapSize + column))), R(1), R(0));
+      }
+    }
+    return sum * R(1.0f / 9.0f);
+  }
+};
+
+}  // namespace halfspace

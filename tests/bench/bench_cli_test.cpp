@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// halfspace-bench as its users meet it. CMake gives its place as HALFSPACE_BENCH_PROGRAM.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace halfspace {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code;
+  std::string text;  // both streams
+};
+
+Outcome bench(const std::string& arguments) {
+  std::FILE* pipe = ::popen((std::string(HALFSPACE_BENCH_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return {-1, ""};
+  Outcome outcome{};
+  std::array<char, 4096> part;
+  for (std::size_t n = 0; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) outcome.text.append(part.data(), n);
+  const int status = ::pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Mistake {
+  std::string arguments, message;
+};
+class BenchMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(BenchMistake, IsToldInOneLine) {
+  const Outcome outcome = bench(GetParam().arguments);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.text, "halfspace-bench: " + GetParam().message + "\n");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BenchMistake,
+                         testing::Values(Mistake{"--only fil", "--only: unknown workload 'fil'; did you mean 'fill'?"},
+                                         Mistake{"--size 0x4", "--size is '0x4'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+                                         Mistake{"--threads 0", "--threads is '0'; expected 1 to 1024"},
+                                         Mistake{"--seconds -1", "--seconds is '-1'; expected 0 to 3600, for example 2.5"},
+                                         Mistake{"--sise 4x4", "unknown option '--sise'; did you mean '--size'?"},
+                                         Mistake{"fill", "unexpected argument 'fill'; see 'halfspace-bench --help'"}));
+
+TEST(BenchCli, HelpFitsAScreenAndEndsInTwoExamples) {
+  const Outcome outcome = bench("--help");
+  EXPECT_EQ(outcome.exit_code, 0);
+  const std::vector<std::string> lines = lines_of(outcome.text);
+  ASSERT_GE(lines.size(), 3u);
+  EXPECT_LE(lines.size(), 24u);
+  for (const std::string& line : lines) EXPECT_LE(line.size(), 100u) << line;
+  EXPECT_TRUE(lines[lines.size() - 2].starts_with("  halfspace-bench ")) << outcome.text;
+  EXPECT_TRUE(lines[lines.size() - 1].starts_with("  halfspace-bench ")) << outcome.text;
+}
+
+TEST(BenchCli, JsonIsALineAWorkload) {
+  const Outcome outcome = bench("--only layers_f2b,fill --size 64x32 --threads 2 --seconds 0 --json");
+  EXPECT_EQ(outcome.exit_code, 0);
+  const std::vector<std::string> lines = lines_of(outcome.text);
+  ASSERT_EQ(lines.size(), 2u) << outcome.text;
+  EXPECT_EQ(nlohmann::json::parse(lines[0]).at("workload"), "fill");  // the table's order
+  for (const std::string& line : lines) {
+    const nlohmann::json row = nlohmann::json::parse(line);
+    EXPECT_EQ(row.at("size"), "64x32");
+    EXPECT_EQ(row.at("threads"), 2);
+    EXPECT_EQ(row.at("frames"), 1);
+    EXPECT_GT(row.at("ms"), 0.0);
+    EXPECT_LE(row.at("ms_min"), row.at("ms"));
+    EXPECT_LE(row.at("ms"), row.at("ms_max"));
+    EXPECT_GE(row.at("cpu_ms"), 0.0);
+  }
+}
+
+TEST(BenchCli, PicturesAreWrittenWhereAsked) {
+  std::string name = (fs::temp_directory_path() / "halfspace-bench-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(name.data()), nullptr);
+  const Outcome outcome = bench("--only fill,layers_f2b --size 64x32 --seconds 0 --out " + name + "/new");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_TRUE(fs::exists(fs::path(name) / "new/fill.png"));
+  EXPECT_TRUE(fs::exists(fs::path(name) / "new/layers_f2b.png"));
+  EXPECT_TRUE(fs::exists(fs::path(name) / "new/layers_f2b.depth.exr"));
+  EXPECT_FALSE(fs::exists(fs::path(name) / "new/fill.depth.exr"));
+  fs::remove_all(name);
+  EXPECT_EQ(bench("--only fill --size 4x4 --seconds 0 --out /dev/null/x").exit_code, 4);
+}
+
+TEST(BenchCli, ListNamesAll) {
+  const Outcome outcome = bench("--list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(lines_of(outcome.text).size(), 24u);
+}
+
+}  // namespace
+
+}  // namespace halfspace

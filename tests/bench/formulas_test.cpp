@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The workloads draw what their formulas say: rays and closed forms in double, written here a second time and apart from the
+// workloads' shaders, which the naive pipeline of workloads_test.cpp shares with them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "workload.h"
+#include "workload_assets.h"
+
+namespace halfspace {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr WorkloadSize kSize{640, 480};
+const double kTan = std::tan(std::numbers::pi / 8);
+
+Image<glm::u8vec4> drawn(std::string_view name, WorkloadSize size) {
+  WorkloadAssets assets;
+  const auto kind = std::ranges::find(workloads(), name, &WorkloadKind::name);
+  const std::unique_ptr<Workload> workload = kind->prepare(size, assets);
+  workload->frame(Workers(1));
+  return *workload->picture().color;
+}
+
+// The ray of a pixel: a camera at `eye` that looks at `center`. Not of unit length.
+dvec3 ray_of(int x, int row, const dvec3& eye, const dvec3& center) {
+  const dvec3 ahead = glm::normalize(center - eye), right = glm::normalize(glm::cross(ahead, dvec3(0, 1, 0))),
+              up = glm::cross(right, ahead);
+  const double s = (2 * (x + 0.5) / kSize.width - 1) * kSize.width / kSize.height, t = 1 - 2 * (row + 0.5) / kSize.height;
+  return ahead + kTan * (s * right + t * up);
+}
+
+// Where a ray first meets the unit sphere.
+std::optional<dvec3> on_sphere(const dvec3& from, const dvec3& along) {
+  const double a = glm::dot(along, along), b = glm::dot(from, along), c = glm::dot(from, from) - 1, d = b * b - a * c;
+  if (d < 0 || -b - std::sqrt(d) < 0) return std::nullopt;
+  return from + along * ((-b - std::sqrt(d)) / a);
+}
+
+double positive(double x) { return std::max(x, 0.0); }
+
+dvec3 blinn(const dvec3& base, const dvec3& n, const dvec3& l, const dvec3& v, double visible) {
+  const double specular = 0.4 * std::pow(positive(glm::dot(n, glm::normalize(l + v))), 48);
+  return base * (0.08 + visible * 0.8 * positive(glm::dot(n, l))) + visible * specular;
+}
+
+void expect_color(const Image<glm::u8vec4>& image, int x, int row, const dvec3& expected) {
+  for (int k = 0; k < 3; ++k)
+    ASSERT_NEAR(image.at(x, row)[k] / 255.0, std::clamp(expected[k], 0.0, 1.0), 1.0 / 255) << x << ' ' << row << " channel " << k;
+}
+
+// The nearest of the ten hides the others, in either order.
+TEST(WorkloadFormulas, Layers) {
+  for (const std::string_view name : {"layers_b2f", "layers_f2b"}) {
+    const Image<glm::u8vec4> image = drawn(name, kSize);
+    for (int row = 0; row < kSize.height && !HasFatalFailure(); ++row) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const dvec3 p = 2.0 * ray_of(x, row, dvec3(0), {0, 0, -1}), n{0, 0, 1};
+        const dvec3 l = glm::normalize(dvec3(0.5, 0.5, 0) - p), r = glm::reflect(-l, n);
+        const double shine = 0.3 * std::pow(positive(glm::dot(r, glm::normalize(-p))), 32);
+        expect_color(image, x, row, dvec3(0.1, 0.5, 1.0) * (0.1 + 0.7 * positive(glm::dot(n, l))) + shine);
+      }
+    }
+  }
+}
+
+// The checker's colour at a point of the sphere; nothing within 16 texels of another square, where the filter mixes them (a pixel
+// spans up to 7 texels where the sphere is seen from ahead).
+std::optional<dvec3> checker(const dvec3& p) {
+  const double turn = std::atan2(p.z, p.x) / (2 * std::numbers::pi);
+  const double x = 2048 * (turn - std::floor(turn)), y = 1024 * std::acos(p.y) / std::numbers::pi;
+  const auto inside = [](double at) { return std::abs(std::fmod(at, 64) - 32) < 16; };
+  if (!inside(x) || !inside(y)) return std::nullopt;
+  const bool light = ((static_cast<int>(x / 64) + static_cast<int>(y / 64)) & 1) != 0;
+  return light ? dvec3(230.0 / 255) : dvec3(40.0 / 255, 90.0 / 255, 160.0 / 255);
+}
+
+// The mesh of two million triangles lies within 5e-6 of the sphere, that of 200,000 within 4e-5: far less than a code.
+TEST(WorkloadFormulas, SpherePhongAndHdr) {
+  const Image<glm::u8vec4> phong = drawn("sphere_phong_2m", kSize), hdr = drawn("hdr_200k", kSize);
+  const auto tone = [](const dvec3& c) { return glm::pow(0.8 * c / (1.0 + 0.8 * c), dvec3(1 / 2.2)); };
+  const dvec3 eye(0, 0.8, 2.7);
+  int judged = 0;
+  for (int row = 0; row < kSize.height && !HasFatalFailure(); ++row) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const std::optional<dvec3> p = on_sphere(eye, ray_of(x, row, eye, dvec3(0)));
+      if (!p) continue;
+      const dvec3 v = glm::normalize(eye - *p);
+      const std::optional<dvec3> base = checker(*p);
+      if (!base || glm::dot(v, *p) < 0.5) continue;  // the footprint grows towards the rim
+      const dvec3 color = blinn(*base, *p, glm::normalize(dvec3(2, 3, 4) - *p), v, 1.0);
+      expect_color(phong, x, row, color);
+      expect_color(hdr, x, row, tone(8.0 * color));
+      ++judged;
+    }
+  }
+  EXPECT_GT(judged, 10'000);
+  expect_color(phong, 0, 0, {0.10, 0.20, 0.30});
+  expect_color(hdr, 0, 0, tone({0.4, 0.6, 1.5}));
+}
+
+TEST(WorkloadFormulas, Shadow) {
+  const Image<glm::u8vec4> image = drawn("shadow_200k", kSize);
+  const dvec3 eye(0, 1.5, 4.5), l = glm::normalize(dvec3(0.5, 1.0, 0.3));
+  int in_shadow = 0, lit = 0, dark_side = 0;
+  for (int row = 0; row < kSize.height && !HasFatalFailure(); ++row) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const dvec3 ray = ray_of(x, row, eye, {0, -0.3, 0});
+      if (const std::optional<dvec3> p = on_sphere(eye, ray)) {
+        const dvec3 v = glm::normalize(eye - *p);
+        const double n_l = glm::dot(*p, l);
+        if (glm::dot(*p, v) < 0.1 || std::abs(n_l) < 0.15) continue;  // the rim; where bias and filter decide
+        expect_color(image, x, row, blinn({0.8, 0.3, 0.2}, *p, l, v, n_l > 0 ? 1 : 0));
+        dark_side += n_l < 0 ? 1 : 0;
+        continue;
+      }
+      const dvec3 p = eye + ray * (-2.5 / ray.y);
+      const double reach = std::max(std::abs(p.x), std::abs(p.z));
+      if (ray.y >= 0 || reach > 4.05) {
+        expect_color(image, x, row, {0.10, 0.20, 0.30});
+      } else if (reach < 3.95) {
+        const double off = glm::length(p - l * glm::dot(p, l)) - 1;  // of the light's ray from the sphere
+        if (std::abs(off) < 0.02) continue;                          // 12 texels of the map: the edge
+        expect_color(image, x, row, blinn(dvec3(0.6), {0, 1, 0}, l, glm::normalize(eye - p), off > 0 ? 1 : 0));
+        ++(off > 0 ? lit : in_shadow);
+      }
+    }
+  }
+  EXPECT_GT(in_shadow, 3000);
+  EXPECT_GT(lit, 30'000);
+  EXPECT_GT(dark_side, 3000);
+}
+
+// A million triangles of 1 px² side by side cover a million pixels. On the grid of 1/256 px two owned edges against one that is
+// not add half an edge of 362 steps to an area of 362²/2, 0.3%; and the places of 1357 columns within a pixel are not quite even.
+TEST(WorkloadFormulas, Tiny) {
+  const Image<glm::u8vec4> image = drawn("tiny_1m", {1920, 1080});
+  const auto covered = std::ranges::count(image.texels(), glm::u8vec4(229, 153, 26, 255));  // the float 0.9 is below 229.5/255
+  const auto background = std::ranges::count(image.texels(), glm::u8vec4(26, 51, 77, 255));
+  EXPECT_EQ(covered + background, 1920 * 1080);
+  EXPECT_NEAR(static_cast<double>(covered), 1e6, 1e4);
+}
+
+}  // namespace
+
+}  // namespace halfspace
