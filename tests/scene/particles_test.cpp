@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The particles of a scene: where they are, their file, and their pictures against spheres in double.
+// The particles of a scene: where they are, and their file.
 #include "scene/particles.h"
 
 #include <cmath>
 
 #include "image_fixture.h"
-#include "scene/prepared_scene.h"
 #include "scene/scene_file.h"
 
 namespace halfspace {
@@ -118,168 +117,6 @@ TEST_F(ParticleFiles, ErrorsTellFileLineAndWhatWouldBeRight) {
             (directory / "none.csv").string() + ": no such file; expected a .csv file of spheres");
   EXPECT_EQ(input_error([&] { read_particles(directory, {}); }),
             directory.string() + ": is no regular file; expected a .csv file of spheres");
-}
-
-// ---- pictures --------------------------------------------------------------------------------------------------
-
-constexpr int kWidth = 640, kHeight = 360;
-const double kTanY = std::tan(50.0 * std::acos(-1.0) / 180.0), kTanX = kTanY * kWidth / kHeight;
-
-// Spheres in a scene whose camera is at the origin and looks along -z, 100 degrees high. Their light is ambient alone.
-SceneDescription scene_of(const std::filesystem::path& csv, const std::string& sprite, const std::string& more = "") {
-  return SceneFile::parse(R"({ "version": 1, "ambient": 1,
-      "cameras": { "main": { "position": [0, 0, 0], "target": [0, 0, -1], "fov": 100, "near": 0.1, "far": 100 } },
-      "particles": { "sprite": ")" +
-                              sprite + R"(", "file": ")" + csv.string() + "\" }" + more + "}",
-                          "test", {})
-      .description();
-}
-
-Image<glm::vec4> picture_of(const SceneDescription& scene, int threads = 2, int width = kWidth, int height = kHeight) {
-  const Workers workers(threads);
-  SceneAssets assets(workers);
-  Image<glm::vec4> image(width, height);
-  render(assets.prepare(scene, width, height), image, workers);
-  return image;
-}
-
-// The depth along z at which the ray of a pixel enters a sphere, in double, or 0. squared: of the half chord, in radii.
-double entry(const glm::dvec3& c, double r, int x, int row, double& squared) {
-  const glm::dvec3 d((2 * (x + 0.5) / kWidth - 1) * kTanX, (1 - 2 * (row + 0.5) / kHeight) * kTanY, -1.0);
-  const double a = glm::dot(d, d), b = glm::dot(d, c), discriminant = b * b - a * (glm::dot(c, c) - r * r);
-  squared = discriminant / (a * r * r);
-  return discriminant > 0.0 ? (b - std::sqrt(discriminant)) / a : 0.0;
-}
-
-class ParticlePictures : public ImageFixture {};
-
-// The flaw of a size from the centre alone: far off, an ellipse is longer than the circle by 1/cos of the angle, so that the circle
-// misses 1 − cos of it; and a near sphere's ellipse lies farther out than its centre, so that the circle is too much elsewhere.
-TEST_F(ParticlePictures, SilhouetteByOffAxisAngle) {
-  const struct {
-    double degrees, least, most;  // the original's wrong pixels, in parts of the sphere's
-  } cases[] = {{0, 0.0, 0.03}, {15, 0.034, 0.08}, {30, 0.134, 0.19}, {45, 0.293, 0.37}};
-  for (const auto& c : cases) {
-    const double angle = c.degrees * std::acos(-1.0) / 180.0, r = 0.5;
-    const glm::dvec3 center = 3.0 * glm::dvec3(std::sin(angle), 0.0, -std::cos(angle));
-    char row[200];
-    std::snprintf(row, sizeof row, "%.17g,0,%.17g,%g\n", center.x, center.z, r);
-    const std::filesystem::path csv = put("one.csv", row);
-    const Image<glm::vec4> original = picture_of(scene_of(csv, "original")), exact = picture_of(scene_of(csv, "exact"));
-    int inside = 0, original_wrong = 0, exact_wrong = 0;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        double squared = 0.0;
-        const bool truth = entry(center, r, x, y, squared) > 0.0;
-        inside += truth ? 1 : 0;
-        original_wrong += (original.at(x, y).x > 0.0f) != truth ? 1 : 0;
-        // The centre is rounded to float, so that a rim moves by some 1e-7 of the distance: 1e-5 of the squared chord.
-        if (std::fabs(squared) > 1e-5) exact_wrong += (exact.at(x, y).x > 0.0f) != truth ? 1 : 0;
-      }
-    }
-    ASSERT_GT(inside, 1500);
-    const double wrong = static_cast<double>(original_wrong) / inside;
-    RecordProperty("original_wrong_at_" + std::to_string(static_cast<int>(c.degrees)), std::to_string(wrong));
-    EXPECT_GE(wrong, c.least) << c.degrees;
-    EXPECT_LE(wrong, c.most) << c.degrees;
-    EXPECT_EQ(exact_wrong, 0) << c.degrees;
-  }
-}
-
-// Spheres that pierce each other, some of them cut by the near plane: each pixel shows the one that is nearest in double.
-TEST_F(ParticlePictures, ExactSpheresMeetWhereTheyShould) {
-  std::vector<std::pair<glm::dvec3, double>> spheres;
-  std::string rows;
-  for (int i = 0; i < 40; ++i) {
-    const auto part = [&](int k) { return ((i * 37 + k * 101) % 97) / 97.0; };
-    const bool near_one = i % 8 == 0;
-    const double z = near_one ? 0.2 + 0.1 * part(0) : 2.0 + 2.0 * part(0), r = near_one ? 0.15 : 0.3 + 0.6 * part(1);
-    const glm::dvec3 c(2.0 * kTanX * (part(2) - 0.5) * z * 0.9, 2.0 * kTanY * (part(3) - 0.5) * z * 0.9, -z);
-    spheres.emplace_back(c, r);
-    char row[200];
-    std::snprintf(row, sizeof row, "%.17g,%.17g,%.17g,%.17g,%d,0,0\n", c.x, c.y, c.z, r, i + 1);
-    rows += row;
-  }
-  const Image<glm::vec4> image = picture_of(scene_of(put("many.csv", rows), "exact"));
-  int compared = 0, shown = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      double best = 1e9, second = 1e9;
-      int id = 0;
-      bool close_call = false;
-      for (std::size_t i = 0; i < spheres.size(); ++i) {
-        double squared = 0.0;
-        const double t = entry(spheres[i].first, spheres[i].second, x, y, squared);
-        close_call |= std::fabs(squared) < 1e-5 || std::fabs(t - 0.1) < 1e-6;
-        if (t < 0.1) continue;
-        second = std::min(second, std::max(t, best));
-        if (t < best) {
-          best = t;
-          id = static_cast<int>(i) + 1;
-        }
-      }
-      if (close_call || (id != 0 && second - best < 1e-5)) continue;  // depths of 4 with float centres
-      ++compared;
-      shown += id != 0 ? 1 : 0;
-      ASSERT_EQ(image.at(x, y).x, static_cast<float>(id)) << x << ' ' << y;
-    }
-  }
-  EXPECT_GT(compared, kWidth * kHeight * 95 / 100);
-  EXPECT_GT(shown, kWidth * kHeight / 4);
-}
-
-// A wall at z = -3 stands before the middle of a sphere, which shows where its surface is nearer.
-TEST_F(ParticlePictures, SpheresPierceMeshes) {
-  const glm::dvec3 center(0.7, 0.2, -3.4);
-  const std::filesystem::path csv = put("one.csv", "0.7,0.2,-3.4,0.9,1,0,0\n");
-  const Image<glm::vec4> image = picture_of(scene_of(csv, "exact", R"(, "objects": { "wall": { "shape": "plane", "size": 60,
-      "position": [0, 0, -3], "rotation": [90, 0, 0], "shading": "none", "color": [0, 1, 0] } })"));
-  int red = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      double squared = 0.0;
-      const double t = entry(center, 0.9, x, y, squared);
-      if (std::fabs(t - 3.0) < 1e-5) continue;  // roundings of depths at 3 with a float centre
-      const bool sphere = t > 0.0 && t < 3.0;
-      red += sphere ? 1 : 0;
-      ASSERT_EQ(image.at(x, y), sphere ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1)) << x << ' ' << y;
-    }
-  }
-  EXPECT_GT(red, 1000);
-}
-
-TEST(Particles, SamePixelsForAnyNumberOfThreads) {
-  for (const char* sprite : {"original", "exact"}) {
-    SceneFile file = SceneFile::open("particles");
-    file.set(std::vector<std::string>{"particles.count=3000", "particles.arrangement=ball", std::string("particles.sprite=") + sprite});
-    const Image<glm::vec4> one = picture_of(file.description(), 1, 320, 180);
-    for (const int threads : {2, 7}) {
-      const Image<glm::vec4> image = picture_of(file.description(), threads, 320, 180);
-      for (int i = 0; i < 320 * 180; ++i) ASSERT_EQ(one.data()[i], image.data()[i]) << sprite << ' ' << threads << ": " << i;
-    }
-  }
-}
-
-// Phong's formula in double at the pixel in the middle of a sphere, for a light beside the eye.
-TEST_F(ParticlePictures, AreLitByPhong) {
-  const std::filesystem::path csv = put("one.csv", "0,0,-3,1,0.5,0.25,1\n");
-  const std::string light = R"(, "lights": { "lamp": { "type": "point", "position": [2, 0, 0], "color": [0.9, 0.8, 0.7] } })";
-  for (const char* sprite : {"original", "exact"}) {
-    SceneDescription scene = scene_of(csv, sprite, light);
-    scene.head.ambient = Color{glm::dvec3(1.0)};
-    scene.particles.ambient = Color{glm::dvec3(0.1)};
-    scene.particles.specular = Color{glm::dvec3(0.4)};
-    scene.particles.shininess = 5.0;
-    const glm::vec4 seen = picture_of(scene, 1, 641, 361).at(320, 180);
-    // The exact sprite's point is the sphere's at z = -2, the original's its centre.
-    const glm::dvec3 point(0, 0, std::string(sprite) == "exact" ? -2.0 : -3.0), n(0, 0, 1), v(0, 0, 1);
-    const glm::dvec3 l = glm::normalize(glm::dvec3(2, 0, 0) - point), own(0.5, 0.25, 1), lamp(0.9, 0.8, 0.7);
-    const double n_l = glm::dot(n, l), r_v = glm::dot(2.0 * n_l * n - l, v);
-    const glm::dvec3 expected = own * (0.1 + n_l * lamp) + 0.4 * std::pow(r_v, 5.0) * lamp;
-    // Some float roundings; the original's square, of 120 px, is placed to 1/512 px, and its normals are off by twice that part.
-    const double most = std::string(sprite) == "exact" ? 2e-6 : 2.0 / 512 / 120 * 2;
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(seen[k]), expected[k], most) << sprite;
-  }
 }
 
 TEST(Particles, KeysOfTheOtherSpriteAreRefused) {

@@ -188,6 +188,38 @@ TEST(SphereLens, BoundsHoldTheSphereAndLittleMore) {
   EXPECT_GT(whole, 30);
 }
 
+// Of a sphere that the near plane cuts: the largest and the least x/z of what lies beyond the plane, by trying round its circle.
+TEST(SphereLens, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
+  const SphereLens lens = lens_for(true);
+  Numbers random(4);
+  int at_the_plane = 0;
+  for (int i = 0; i < 500; ++i) {
+    const float r = static_cast<float>(std::exp2(random.next(-2.0, 1.0)));
+    const auto rd = static_cast<double>(r);
+    const glm::vec3 c(random.next(-1.2, 1.2) * rd, 0.0, kNear + random.next(-0.9, 0.99) * rd);
+    const double cx = static_cast<double>(c.x), down = kNear - static_cast<double>(c.z), chord = std::sqrt(rd * rd - down * down);
+    const double plane_low = (cx - chord) / kNear, plane_high = (cx + chord) / kNear;
+    double low = plane_low, high = plane_high;
+    for (int k = 0; k < 40000; ++k) {
+      const double angle = 2.0 * std::acos(-1.0) * k / 40000.0, z = static_cast<double>(c.z) + rd * std::cos(angle);
+      if (z < kNear) continue;
+      low = std::min(low, (cx + rd * std::sin(angle)) / z);
+      high = std::max(high, (cx + rd * std::sin(angle)) / z);
+    }
+    at_the_plane += (low == plane_low ? 1 : 0) + (high == plane_high ? 1 : 0);
+    const SphereSpan<float> s = lens.span(c, r, 0);
+    // Held, and by little: an eighth of a pixel, and where the eye is all but on the surface what the tangent's length is uncertain by.
+    const double eye = std::fabs(static_cast<double>(glm::dot(c, c)) / (rd * rd) - 1.0);
+    const auto most = [&](double end) { return 0.26 / kWidth + std::fabs(end) * (1e-4 + 1e-6 / eye); };
+    EXPECT_LE(static_cast<double>(s.low), low / kHalf.x) << i;
+    EXPECT_GE(static_cast<double>(s.high), high / kHalf.x) << i;
+    EXPECT_LE(low / kHalf.x - static_cast<double>(s.low), most(low / kHalf.x)) << i << ": " << eye;
+    EXPECT_LE(static_cast<double>(s.high) - high / kHalf.x, most(high / kHalf.x)) << i << ": " << eye;
+  }
+  EXPECT_GT(at_the_plane, 100);
+  EXPECT_LT(at_the_plane, 900);
+}
+
 TEST(SphereLens, NothingToDrawOutsideOfDepth) {
   const SphereLens lens = lens_for(true);
   EXPECT_TRUE(lens.in_depth(glm::vec3(0, 0, 5), 1.0f));
