@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which views a light needs for what a picture shows. In: a camera's view, placed meshes, a light. Out: its views, none where
+// nothing in the picture receives its shadow.
+#pragma once
+
+#include <vector>
+
+#include "scene/prepared_scene.h"
+#include "scene/shadow_views.h"
+#include "scene/view.h"
+
+namespace halfspace {
+
+/// size: texels of a view; margin: texels round it that a filter needs. Of a directional light as many as there are cascades
+/// that show anything, of a spot one, of a point light those of six that show a receiver and a caster.
+std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const LightDescription& light,
+                                    const ShadowDescription& shadow, int size, double margin);
+
+}  // namespace halfspace
