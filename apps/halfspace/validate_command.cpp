@@ -69,7 +69,7 @@ void add_validate_command(CLI::App& program) {
   command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->type_name("");
   command->add_flag("--json", args->json, "Report as JSON: one object per light");
   command->add_option("-o,--output", args->out, "Write pictures: map, truth, difference")->type_name("DIR");
-  command->add_flag("--table", args->table, "Every bias and filter, one at a time, on four scenes: CSV");
+  command->add_flag("--table", args->table, "Every bias and filter on four scenes, as CSV");
   command->add_flag("--full", args->full, "With --table: every combination (hours)");
   add_set_option(command, args->set);
   command->add_option("--size", args->size, "Pixels (default 960x540)")->type_name("WxH");

@@ -202,6 +202,13 @@ const Mistake kMistakes[] = {
      2,
      "--size is 'bogus'; expected WxH with 1 to 16384 each, for example 1920x1080"},
     {"ListUnknown", {"list", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
+    {"ValidateNothing", {"validate"}, 2, "SCENE is required, or --table; see 'halfspace validate --help'"},
+    {"ValidateBoth", {"validate", "earth", "--table"}, 2, "--table has scenes of its own; expected no SCENE"},
+    {"ValidateFull", {"validate", "earth", "--full"}, 2, "--full is for the table; expected --table too"},
+    {"ValidateNowhere",
+     {"validate", "shadow-plane", "--size", "16x9", "-o", "/proc/none"},
+     4,
+     "/proc/none: cannot make the directory (No such file or directory)"},
     {"NormalWithoutOutput", {"convert-normal", "a.png"}, 2, "--output is required; see 'halfspace convert-normal --help'"},
     {"NormalFormat", {"convert-normal", "a.png", "-o", "n.jpg"}, 2, "-o is 'n.jpg'; expected a name that ends in .png"},
     {"NormalStrength",
@@ -326,7 +333,7 @@ TEST_F(Cli, Info) {
 }
 
 TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
-  for (const char* command : {"render", "convert-normal", "list", "info", "completion"}) {
+  for (const char* command : {"render", "convert-normal", "validate", "list", "info", "completion"}) {
     const Outcome o = run({command, "--help"});
     EXPECT_EQ(o.exit_code, 0);
     EXPECT_LE(lines_of(o.out), 24);
