@@ -126,7 +126,9 @@ void render_picture(const RenderJob& job, double seconds, const std::filesystem:
                     RenderReport& report) {
   const auto start = std::chrono::steady_clock::now();
   Image<Pixel> picture(job.size.width, job.size.height);
-  report.counts += render(prepare(job, seconds, assets), picture, workers);
+  const PreparedScene scene = prepare(job, seconds, assets);
+  report.counts += scene.shadow_statistics;
+  report.counts += render(scene, picture, workers);
   const double render_ms = milliseconds_since(start);
   write_picture(path, picture);
   report.render_ms += render_ms;

@@ -60,11 +60,7 @@ ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, i
     shader.light = light.light;
     if (!with_shadow || !placed.receives_shadow) shader.light.shadow = nullptr;
     shader.mesh = static_cast<float>(m);
-    DrawState state;
-    state.cull = placed.two_sided ? CullMode::none : CullMode::back;
-    if (glm::determinant(glm::dmat3(placed.world_from_object)) < 0) state.front = Winding::clockwise;
-    state.depth.clip = ClipDepth::zero_to_one;
-    state.depth.compare = CompareOp::greater;
+    const DrawState state = opaque_state(placed.two_sided ? CullMode::none : CullMode::back, placed.mirrored());
     pass.draw(shader, vertices(stream(loose.positions), stream(loose.normals), stream(loose.triangles)), state);
   }
   const auto start = std::chrono::steady_clock::now();

@@ -132,7 +132,8 @@ void score_false_pixels(ShadowComparison& c, const Pixels& pixels, const Shadow&
   }
   const std::size_t stride = wrong.size() / kMost + 1, count = (wrong.size() + stride - 1) / stride;
   std::vector<double> distances(count);
-  const double radius = static_cast<double>(filter_reach(shadow.settings)) - 0.5;
+  // A soft shadow is held against a soft truth: beyond 1/2 its filter's width excuses nothing.
+  const double radius = shadow.settings.filter == ShadowFilter::pcss ? 0.0 : static_cast<double>(filter_reach(shadow.settings)) - 0.5;
   workers.for_each(static_cast<int>(count), [&](int i) {
     const glm::ivec2 p = wrong[static_cast<std::size_t>(i) * stride];
     const RayHit& hit = *pixels.hits.at(p.x, p.y);

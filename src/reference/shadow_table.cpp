@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/shadow_table.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 #include <numbers>
 
 #include "core/trig_double.h"
@@ -71,10 +71,10 @@ std::vector<TableRow> shadow_table(bool full, const ValidationOptions& options, 
     for (const Variant& v : variants(full)) {
       SceneFile varied = file;
       varied.set(std::vector<std::string>{"shadow.bias=" + std::string(v.bias), "shadow.method=" + std::string(v.filter),
-                  "shadow.resolution=" + std::to_string(v.resolution)});
+                                          "shadow.resolution=" + std::to_string(v.resolution)});
       SceneDescription scene = varied.at(0.0);
       LightDescription& light = scene.lights.front().second;
-      light.size = v.filter == std::string_view("pcss") ? light.size : 0.0;
+      light.size = 0.0;
       if (v.angle >= 0.0) lean(light, v.angle);
       Validation result = validate(place.name, scene, options, assets, workers);
       rows.push_back({v.factor, v.angle >= 0.0 ? v.angle : place.angle, std::move(result.lights.front().score)});
@@ -91,10 +91,10 @@ std::string csv_header() {
 
 std::string csv_line(const TableRow& row) {
   const ShadowScore& s = row.score;
-  return fmt::format("{},{},{},{},{},{},{:g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g},{:.6g},{:.4g},{:.4g}\n", row.factor,
-                     s.scene, s.light, s.method, s.bias, s.resolution, row.angle, s.false_shadow.within_1, s.false_shadow.from_1_to_3,
-                     s.false_shadow.beyond_3, s.false_light.within_1, s.false_light.from_1_to_3, s.false_light.beyond_3, s.edge_px.mean,
-                     s.edge_px.p95, s.edge_px.max, s.error, s.map_ms, s.lookup_ms);
+  return fmt::format("{},{},{},{},{},{},{:g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g},{:.6g},{:.4g},{:.4g}\n",
+                     row.factor, s.scene, s.light, s.method, s.bias, s.resolution, row.angle, s.false_shadow.within_1,
+                     s.false_shadow.from_1_to_3, s.false_shadow.beyond_3, s.false_light.within_1, s.false_light.from_1_to_3,
+                     s.false_light.beyond_3, s.edge_px.mean, s.edge_px.p95, s.edge_px.max, s.error, s.map_ms, s.lookup_ms);
 }
 
 }  // namespace halfspace

@@ -232,7 +232,8 @@ Section section_of(ShadowDescription& s) {
   static const std::vector<Key> keys{
       key<&T::method>("method", "How the map is filtered; none: no shadows, and no cost"),
       key<&T::bias>("bias", "How a surface is kept out of its own shadow"),
-      key<&T::resolution>("resolution", "Width of a map; 0: as footprint asks", {.unit = "texels", .low = 0, .high = kMostShadowTexels}),
+      key<&T::resolution>("resolution", "Width of a map, from 256 on; 0: as footprint asks",
+                          {.unit = "texels", .low = 0, .high = kMostShadowTexels}),
       key<&T::footprint>("footprint", "With resolution 0: what a texel spans at most on 95 % of the picture",
                          {.unit = "px", .low = 0.1, .high = 100}),
       key<&T::constant>("constant", "Constant part of the bias", {.unit = "texels", .low = 0, .high = 1000}),

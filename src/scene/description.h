@@ -211,8 +211,8 @@ enum class ShadowMethod : uint8_t { none, hard, bilinear, pcf3, pcf5, pcf7, voge
 /// Which faces of a closed surface are drawn into shadow maps, as the light sees them.
 enum class ShadowFaces : uint8_t { front, back, both };
 
-/// The widest shadow map, texels.
-inline constexpr int kMostShadowTexels = 8192;
+/// The narrowest and widest shadow map, texels. Narrower ones have no room for what the widest filter looks at on all sides.
+inline constexpr int kLeastShadowTexels = 256, kMostShadowTexels = 8192;
 
 struct ShadowDescription {
   ShadowMethod method = ShadowMethod::none;

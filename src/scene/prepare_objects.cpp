@@ -13,15 +13,6 @@ namespace {
 
 bool is_displaced(const ObjectDescription& o) { return is_map(o.height); }
 
-DrawState state_of(const LitSurface& s) {
-  DrawState state;
-  state.cull = s.two_sided ? CullMode::none : CullMode::back;
-  if (s.handedness < 0) state.front = Winding::clockwise;
-  state.depth.clip = ClipDepth::zero_to_one;
-  state.depth.compare = CompareOp::greater;
-  return state;
-}
-
 }  // namespace
 
 std::vector<glm::dmat4> places_of(const ObjectDescription& o) {
@@ -80,7 +71,8 @@ VertexView view_of(const Mesh& m) {
 template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none>
 PreparedDraw draw_of(const LitSurface& surface, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices) {
   using S = SurfaceShader<rate, mapped, detail>;
-  return {S{surface}, view_of<S>(mesh.mesh), indices, state_of(surface)};
+  return {S{surface}, view_of<S>(mesh.mesh), indices,
+          opaque_state(surface.two_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f)};
 }
 
 // The variant of the shader that carries what the surface needs, and no more.
@@ -137,7 +129,7 @@ void ScenePreparation::add_object(const std::string& path, const ObjectDescripti
   for (const glm::dmat4& world : places_of(o)) {
     place(surface, world);
     out_.draws.push_back(draw_of(surface, o.surface.shading, detail, *mesh, indices));
-    out_.meshes.push_back({path, &mesh->mesh, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow});
+    out_.meshes.push_back({&mesh->mesh, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow});
   }
 }
 

@@ -30,6 +30,8 @@ bool is_moment_filter(ShadowFilter f) { return f == ShadowFilter::vsm || f == Sh
 
 ShadowSettings settings_of(const ShadowDescription& d, const LightDescription& light) {
   ShadowSettings s;
+  static_assert(static_cast<int>(ShadowMethod::hard) == static_cast<int>(ShadowFilter::hard) + 1 &&
+                static_cast<int>(ShadowMethod::moments) == static_cast<int>(ShadowFilter::moments) + 1);
   s.filter = static_cast<ShadowFilter>(static_cast<int>(d.method) - 1);
   s.bias = d.bias;
   s.constant = static_cast<float>(d.constant);
@@ -37,7 +39,7 @@ ShadowSettings settings_of(const ShadowDescription& d, const LightDescription& l
   s.max_slope = static_cast<float>(d.max_slope);
   s.radius = static_cast<float>(d.radius);
   if (light.type == LightType::directional) {
-    const SinCosDouble half = sincos_radians(std::min(light.size, 45.0) * kRadiansPerDegree);
+    const SinCosDouble half = sincos_radians(light.size * kRadiansPerDegree);
     s.light_radius = static_cast<float>(half.sin / half.cos);
   } else {
     s.light_radius = static_cast<float>(light.size);
@@ -69,14 +71,11 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, const std::vector<P
   Pass pass(depth.width(), depth.height(), {}, target);
   for (const PlacedMesh& m : meshes) {
     if (casters_only && !m.casts_shadow) continue;
-    DrawState state;
-    state.cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
-                 : faces == ShadowFaces::front             ? CullMode::back
-                                                           : CullMode::front;
-    if (glm::determinant(glm::dmat3(m.world_from_object)) < 0) state.front = Winding::clockwise;
-    state.depth.clip = ClipDepth::zero_to_one;
-    state.depth.compare = CompareOp::greater;
-    pass.draw_depth(DepthOnly{glm::mat4(clip_from_world * m.world_from_object)}, vertices(stream(m.mesh->positions)), *m.indices, state);
+    const CullMode cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
+                          : faces == ShadowFaces::front             ? CullMode::back
+                                                                    : CullMode::front;
+    pass.draw_depth(DepthOnly{glm::mat4(clip_from_world * m.world_from_object)}, vertices(stream(m.mesh->positions)), *m.indices,
+                    opaque_state(cull, m.mirrored()));
   }
   return pass.run(workers);
 }

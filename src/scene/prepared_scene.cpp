@@ -47,6 +47,15 @@ glm::dvec3 ambient_of(const SceneDescription& scene) {
 
 }  // namespace
 
+DrawState opaque_state(CullMode cull, bool mirrored) {
+  DrawState state;
+  state.cull = cull;
+  if (mirrored) state.front = Winding::clockwise;
+  state.depth.clip = ClipDepth::zero_to_one;
+  state.depth.compare = CompareOp::greater;
+  return state;
+}
+
 ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height)
     : assets_(assets), scene_(scene), view_(make_view(camera(), width, height)), ambient_(ambient_of(scene)) {
   out_.view = view_;

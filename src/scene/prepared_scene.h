@@ -43,16 +43,20 @@ struct PreparedDraw {
   DrawState state;  ///< reversed Z: clear depth to 0
 };
 
+/// What opaque surfaces of scenes are drawn with: reversed Z, the nearest wins. mirrored: the object's transform turns windings.
+DrawState opaque_state(CullMode cull, bool mirrored);
+
 /// Adds it to a pass.
 void add_draw(Pass& pass, const PreparedDraw& draw);
 
 /// A mesh and its place: what shadow maps and rays are made from.
 struct PlacedMesh {
-  std::string object;
   const Mesh* mesh;
   std::shared_ptr<const Indices> indices;
   glm::dmat4 world_from_object;
   bool two_sided, casts_shadow, receives_shadow;
+
+  bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };
 
 /// A light as this picture has it.

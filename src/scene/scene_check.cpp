@@ -38,6 +38,15 @@ void check(const LightDescription& l, const std::string& where) {
   }
   if (l.type == LightType::spot && l.inner > l.outer)
     fail(where + ".inner", number_text(l.inner) + " is more than outer; expected at most " + number_text(l.outer));
+  if (l.type == LightType::directional && l.size > 45.0)
+    fail(where + ".size", number_text(l.size) + " degrees are no directional light; expected at most 45");
+}
+
+void check(const ShadowDescription& s, const std::string& where) {
+  if (s.resolution != 0 && s.resolution < kLeastShadowTexels) {
+    fail(where + ".resolution",
+         "expected 0, or from " + std::to_string(kLeastShadowTexels) + " on (filters look that far), got " + std::to_string(s.resolution));
+  }
 }
 
 void check(const TextureDescription& t, const std::string& where) {
@@ -143,6 +152,7 @@ void check_scene(SceneDescription& scene, const std::string& source) {
       }
     }
   });
+  check(scene.shadow, source + ": shadow");
   check_total(scene.objects, source);
 }
 

@@ -12,6 +12,8 @@ namespace halfspace {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+// Degrees from the axis: beyond, one plane's texels grow too wide at its border (from 90 on it is no plane), and faces are better.
+constexpr double kWidestSpot = 60.0;
 
 // What a mesh spans.
 struct Extent {
@@ -154,7 +156,9 @@ std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMe
   if (finder.nothing_received()) return {};
   switch (light.type) {
     case LightType::directional: return finder.directional(light.direction, shadow.cascades, shadow.cascade_growth);
-    case LightType::spot: return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree);
+    case LightType::spot:
+      if (light.outer > kWidestSpot) break;
+      return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree);
     case LightType::point: break;
   }
   return finder.cube(light.position);

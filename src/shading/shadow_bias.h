@@ -5,8 +5,6 @@
 // the surface's depth where the map took its own.
 #pragma once
 
-#include <algorithm>
-
 #include "shading/shadow_view.h"
 
 namespace halfspace {
@@ -19,30 +17,31 @@ inline float filter_reach(const ShadowSettings& s) {
     case ShadowFilter::pcf3: return 2.0f;
     case ShadowFilter::pcf5: return 3.0f;
     case ShadowFilter::pcf7: return 4.0f;
-    case ShadowFilter::pcss: return std::max(s.radius, kMaxPenumbra) + 0.5f;
+    case ShadowFilter::pcss: return kMaxPenumbra + 0.5f;
     default: return s.radius + 0.5f;
   }
+}
+
+/// The place of the receiver lifted along its face's normal by `texels` times the sine of the light's angle.
+template <class R>
+HS_INLINE ShadowPlace<R> lifted_place(const ShadowView& view, const ShadowReceiver<R>& at, R cosine, float texels, float max_slope,
+                                      bool plane) {
+  const R w = place_on(view, at.position_ew).w;
+  const R step = R(texels * view.texel_per_w) * w * sqrt(R(1) - cosine * cosine);
+  const vec3<R> lifted_ew = at.position_ew + at.face_normal_ws * step;
+  ShadowPlace<R> p = place_on(view, lifted_ew);
+  if (plane) set_plane(view, lifted_ew, at.face_normal_ws, max_slope, p);
+  return p;
 }
 
 /// Where the receiver lies on the view, moved by the bias that the settings ask for.
 template <class R>
 HS_INLINE ShadowPlace<R> biased_place(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
-  const float reach = filter_reach(s);
   const R cosine = clamp(dot(at.face_normal_ws, at.to_light_ws), R(0), R(1));
-  const R sine = sqrt(R(1) - cosine * cosine);
-  const R tangent = min(sine / max(cosine, R(1e-6f)), R(s.max_slope));
-
-  if (s.bias == ShadowBias::normal_offset || s.bias == ShadowBias::automatic) {
-    // A step h along the normal lifts a point over its plane by h/cos against the light; the texel needs reach·tan.
-    const ShadowPlace<R> there = place_on(view, at.position_ew);
-    const float texels = s.bias == ShadowBias::automatic ? kAutomaticOffset : s.constant * reach;
-    const R step = R(texels * view.texel_per_w) * there.w * sine;
-    const vec3<R> lifted_ew = at.position_ew + at.face_normal_ws * step;
-    ShadowPlace<R> p = place_on(view, lifted_ew);
-    if (s.bias == ShadowBias::automatic) {
-      set_plane(view, lifted_ew, at.face_normal_ws, s.max_slope, p);
-      p.depth += depth_of_texel(view, p.w) * R(kAutomaticConstant);
-    }
+  if (s.bias == ShadowBias::normal_offset) return lifted_place(view, at, cosine, s.constant * filter_reach(s), s.max_slope, false);
+  if (s.bias == ShadowBias::automatic) {
+    ShadowPlace<R> p = lifted_place(view, at, cosine, kAutomaticOffset, s.max_slope, true);
+    p.depth += depth_of_texel(view, p.w) * R(kAutomaticConstant);
     return p;
   }
 
@@ -50,14 +49,18 @@ HS_INLINE ShadowPlace<R> biased_place(const ShadowView& view, const ShadowSettin
   const R texel = depth_of_texel(view, p.w);
   switch (s.bias) {
     case ShadowBias::constant: p.depth += texel * R(s.constant); break;
-    case ShadowBias::slope: p.depth += texel * (R(s.slope * reach) * tangent + R(s.constant)); break;
+    case ShadowBias::slope: {
+      const R tangent = min(sqrt(R(1) - cosine * cosine) / max(cosine, R(1e-6f)), R(s.max_slope));
+      p.depth += texel * (R(s.slope * filter_reach(s)) * tangent + R(s.constant));
+      break;
+    }
     case ShadowBias::angle: p.depth += texel * max(R(s.slope) * (R(1) - cosine), R(s.constant)); break;
     case ShadowBias::original: p.depth += R(0.0005f); break;
     case ShadowBias::receiver_plane:
       set_plane(view, at.position_ew, at.face_normal_ws, s.max_slope, p);
       p.depth += texel * R(s.constant);
       break;
-    case ShadowBias::adaptive:
+    case ShadowBias::adaptive:  // a ten-thousandth of the view's length, besides the plane
       set_plane(view, at.position_ew, at.shading_normal_ws, s.max_slope, p);
       p.depth += R((view.far - view.near) * 1e-4f * view.depth_per_unit) / (p.w * p.w);
       break;

@@ -15,9 +15,8 @@ struct World {
     glm::dmat4 below(1.0), above(1.0);
     below[3].y = -1.5;
     above[3].y = 0.5;
-    meshes.push_back(
-        {"ground", &ground, std::make_shared<const Indices>(ground.indices, ground.positions.size()), below, true, true, true});
-    meshes.push_back({"ball", &ball, std::make_shared<const Indices>(ball.indices, ball.positions.size()), above, false, true, true});
+    meshes.push_back({&ground, std::make_shared<const Indices>(ground.indices, ground.positions.size()), below, true, true, true});
+    meshes.push_back({&ball, std::make_shared<const Indices>(ball.indices, ball.positions.size()), above, false, true, true});
   }
 };
 

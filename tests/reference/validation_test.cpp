@@ -46,6 +46,27 @@ TEST(Validation, AutomaticBiasIsRightBeyondATexelOfTheEdge) {
   EXPECT_LT(s.edge_px.mean, 0.5);
 }
 
+// The sphere and its shadow by every kind of light: what lies beyond a texel of the edge is right.
+TEST(Validation, EveryKindOfLightIsRightBeyondATexelOfTheEdge) {
+  const std::string spot = "lamp.type=spot", towards = "lamp.direction=-3.5,6.4,3.5", inner = "lamp.inner=10";
+  const std::vector<std::vector<std::string>> kinds{{"lamp.type=directional", towards},
+                                                    {"lamp.type=directional", towards, "shadow.cascades=4"},
+                                                    {"lamp.position=0.4,0.2,2.5"},  // the sphere beside it, over several faces of the cube
+                                                    {spot, towards, inner, "lamp.outer=40"},
+                                                    {spot, towards, inner, "lamp.outer=60"},
+                                                    {spot, towards, inner, "lamp.outer=95"},  // wider than any plane
+                                                    {spot, towards, inner, "lamp.outer=179"},
+                                                    {"shadow.resolution=0"}};
+  for (const auto& settings : kinds) {
+    const ShadowScore s = score(settings);
+    std::string name;
+    for (const std::string& setting : settings) name += setting + " ";
+    EXPECT_GT(s.shadowed, 300) << name;
+    EXPECT_LE(s.false_shadow.from_1_to_3 + s.false_shadow.beyond_3, 2e-4) << name;  // a pixel or two of some 10,000
+    EXPECT_LE(s.false_light.from_1_to_3 + s.false_light.beyond_3, 1e-3) << name;
+  }
+}
+
 TEST(Validation, WithoutABiasItIsAcneAndTooMuchIsLeak) {
   const ShadowScore none = score({"shadow.bias=none", "shadow.method=hard"});
   EXPECT_GT(none.false_shadow.beyond_3, 0.1);
@@ -69,7 +90,7 @@ TEST(LightTruth, PenumbraOfAnEdgeIsTheAreaOfACutDisk) {
   edge.positions = {{-50, 2, -50}, {0, 2, -50}, {0, 2, 50}, {-50, 2, 50}};
   edge.indices = {0, 2, 1, 0, 3, 2};
   const std::vector<PlacedMesh> meshes{
-      {"edge", &edge, std::make_shared<const Indices>(edge.indices, edge.positions.size()), glm::dmat4(1.0), true, true, true}};
+      {&edge, std::make_shared<const Indices>(edge.indices, edge.positions.size()), glm::dmat4(1.0), true, true, true}};
   const RayScene casters(meshes, glm::dvec3(0.0), true);
   RayLight light{{}, 0.05, 4096};
   light.light.place_ew = {0, 1, 0};

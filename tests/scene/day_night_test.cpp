@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/parallel.h"
-#include "scene/prepared_scene.h"
+#include "naive_picture.h"
 #include "scene/scene_file.h"
 
 namespace halfspace {
@@ -22,10 +21,7 @@ SceneDescription at_hour(double hours, double seconds = 0.0) {
 
 // Mean luminance (Rec. 709) of the light before exposure.
 double mean_luminance(const SceneDescription& description) {
-  const Workers workers(2);
-  SceneAssets assets(workers);
-  Image<glm::vec4> light(160, 90);
-  render(assets.prepare(description, light.width(), light.height()), light, workers);
+  const Image<glm::vec4> light = light_of(description, 160, 90);
   double sum = 0.0;
   for (const glm::vec4& t : light.texels()) sum += glm::dot(glm::dvec3(t), glm::dvec3(0.2126, 0.7152, 0.0722));
   return sum / static_cast<double>(light.texels().size());
@@ -75,16 +71,9 @@ class EveryPicture : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPicture, HasTheSamePixelsForAnyThreads) {
   const SceneDescription scene = SceneFile::open(GetParam()).at(0.5);
-  const auto picture = [&](int threads) {
-    const Workers workers(threads);
-    SceneAssets assets(workers);
-    Image<glm::u8vec4> image(96, 54);
-    render(assets.prepare(scene, image.width(), image.height()), image, workers);
-    return image;
-  };
-  const Image<glm::u8vec4> one = picture(1);
-  EXPECT_EQ(picture(2), one);
-  EXPECT_EQ(picture(7), one);
+  const Image<glm::u8vec4> one = picture_of(scene, 96, 54, 1);
+  EXPECT_EQ(picture_of(scene, 96, 54, 2), one);
+  EXPECT_EQ(picture_of(scene, 96, 54, 7), one);
 }
 
 std::vector<std::string> names() {

@@ -52,14 +52,6 @@ SceneDescription bright_scene(const std::vector<std::string>& settings = {}) {
   return scene.description();
 }
 
-Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height) {
-  const Workers workers(2);
-  SceneAssets assets(workers);
-  Image<glm::vec4> picture(width, height);
-  render(assets.prepare(scene, width, height), picture, workers);
-  return picture;
-}
-
 // ---- the average -------------------------------------------------------------------------------------------------------
 
 TEST(AutoExposure, IsTheLogAverageSummedInDouble) {

@@ -28,17 +28,6 @@ std::string error_of(const std::vector<std::string>& settings) {
   });
 }
 
-Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height, SceneAssets& assets, const Workers& workers) {
-  Image<glm::vec4> picture(width, height);
-  render(assets.prepare(scene, width, height), picture, workers);
-  return picture;
-}
-Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height) {
-  const Workers workers(2);
-  SceneAssets assets(workers);
-  return light_of(scene, width, height, assets, workers);
-}
-
 const EnvironmentSky& sky_of(const PreparedScene& scene) { return std::get<EnvironmentSky>(scene.draws.back().shader); }
 
 TEST(EnvironmentScene, IsWithinOneCodeOfDoublePrecision) {

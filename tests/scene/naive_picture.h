@@ -20,6 +20,18 @@ inline Image<glm::u8vec4> picture_of(const SceneDescription& scene, int width, i
   return picture;
 }
 
+/// The same as linear numbers, before exposure.
+inline Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height, SceneAssets& assets, const Workers& workers) {
+  Image<glm::vec4> picture(width, height);
+  render(assets.prepare(scene, width, height), picture, workers);
+  return picture;
+}
+inline Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height) {
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  return light_of(scene, width, height, assets, workers);
+}
+
 /// Where the double twin has its vertices: by its own double computation, or where float arithmetic puts them, so that all fall
 /// on the same 1/256 px and what is compared is shading alone.
 enum class Positions { in_r, as_rendered };

@@ -116,14 +116,6 @@ SceneDescription sky_with(const std::vector<std::string>& settings) {
   return scene.description();
 }
 
-Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height) {
-  const Workers workers(2);
-  SceneAssets assets(workers);
-  Image<glm::vec4> picture(width, height);
-  render(assets.prepare(scene, width, height), picture, workers);
-  return picture;
-}
-
 TEST(ProceduralSky, TheSunStandsWhereItsKeySays) {
   for (const char* rotation : {"day.rotation=0,0,0", "day.rotation=0,70,0"}) {
     const Image<glm::vec4> image = light_of(sky_with({rotation}), 65, 65);
