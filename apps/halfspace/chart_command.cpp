@@ -53,21 +53,34 @@ void chart_command(const ChartArguments& args) {
   std::cout << (folder / "index.html").string() << '\n';
 }
 
+// Their names, in lines of less than 80 characters.
+std::string study_lines() {
+  std::string text;
+  std::size_t width = 80;
+  for (const StudyEntry& s : studies()) {
+    if (width + s.name.size() + 1 >= 76) {
+      text += "\n ";
+      width = 1;
+    }
+    text += " " + std::string(s.name);
+    width += s.name.size() + 1;
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_chart_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("chart", "Measure error against time, as charts");
   const auto args = std::make_shared<ChartArguments>();
-  std::string names;
-  for (const StudyEntry& s : studies()) names += (names.empty() ? "" : ", ") + std::string(s.name);
-  command->add_option("STUDY", args->study, "all, or one of " + names)->required()->type_name("");
+  command->add_option("STUDY", args->study, "all, or one of those below")->required()->type_name("");
   command->add_option("-o,--output", args->out, "Folder (default charts)")->type_name("DIR");
   command->add_flag("--quick", args->quick, "Small pictures: to see that it works");
   command->add_option("--threads", args->threads, "Default: one per core")->type_name("N");
-  command->footer(
-      "Examples:\n"
-      "  halfspace chart all -o charts\n"
-      "  halfspace chart shading_rate --quick");
+  command->footer("Studies:" + study_lines() +
+                  "\nExamples:\n"
+                  "  halfspace chart all -o charts\n"
+                  "  halfspace chart shading_rate --quick");
   command->callback([args] { chart_command(*args); });
 }
 

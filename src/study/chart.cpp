@@ -29,6 +29,16 @@ Axis axis_of(const std::vector<double>& values) {
   return {low - margin, high + margin};
 }
 
+// Where an axis of less than 2.5 powers of ten has its numbers: 1, 2 and 5 times each power. A longer one has the powers.
+std::string ticks_of(const char* name, const Axis& axis) {
+  if (axis.high - axis.low >= 2.5) return fmt::format("set format {} '10^{{%L}}'\n", name);
+  std::string list;
+  for (int power = static_cast<int>(std::floor(axis.low)); power <= axis.high; ++power) {
+    for (const int factor : {1, 2, 5}) list += fmt::format("{0}'{1:g}' {1:g}", list.empty() ? "" : ", ", factor * std::pow(10.0, power));
+  }
+  return fmt::format("set {}tics ({})\n", name, list);
+}
+
 // For gnuplot's strings in single quotes.
 std::string quoted(const std::string& text) {
   std::string out = "'";
@@ -116,8 +126,9 @@ std::string frame_lines(const Plot& plot) {
   const Study& s = plot.study;
   const auto share = [](double pixels, int whole) { return fmt::format("{:.5f}", pixels / whole); };
   return "set lmargin at screen " + share(kLeft, kWidth) + "\nset rmargin at screen " + share(kRight, kWidth) + "\nset bmargin at screen " +
-         share(kBottom, kHeight) + "\nset tmargin at screen " + share(kTop, kHeight) +
-         "\nset logscale xy\nset format xy '10^{%L}'\nset mxtics 10\nset mytics 10\nset grid xtics ytics linecolor rgb faint linewidth "
+         share(kBottom, kHeight) + "\nset tmargin at screen " + share(kTop, kHeight) + "\nset logscale xy\nset mxtics 10\nset mytics 10\n" +
+         ticks_of("x", plot.x) + ticks_of("y", plot.y) +
+         "set grid xtics ytics linecolor rgb faint linewidth "
          "0.5\n" +
          fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", std::pow(10.0, plot.x.low), std::pow(10.0, plot.x.high),
                      std::pow(10.0, plot.y.low), std::pow(10.0, plot.y.high)) +
@@ -143,8 +154,8 @@ std::string terminal_lines(const std::string& terminal, const std::string& file,
 std::string chart_script(const Study& study, const std::vector<bool>& on_front) {
   const Plot plot = make_plot(study);
   const std::string drawing = frame_lines(plot) + label_lines(plot) + plot_command(plot) + "unset output\n";
-  return data_blocks(plot, on_front) + terminal_lines("svg", study.name + ".svg", "#222222", "#c8c8c8", "#ffffff") + drawing +
-         terminal_lines("svg", study.name + "-dark.svg", "#e6e6e6", "#4a4a4a", "#16181c") + drawing +
+  return "set encoding utf8\n" + data_blocks(plot, on_front) + terminal_lines("svg", study.name + ".svg", "#222222", "#c8c8c8", "#ffffff") +
+         drawing + terminal_lines("svg", study.name + "-dark.svg", "#e6e6e6", "#4a4a4a", "#16181c") + drawing +
          terminal_lines("pngcairo", study.name + ".png", "#222222", "#c8c8c8", "#ffffff") + drawing;
 }
 

@@ -56,18 +56,26 @@ void judge_picture(Variant& variant, const Image<glm::vec4>& light, const Image<
 }
 
 SphereTruth sphere_truth(const LitSphere& sphere, const View& view) {
-  SphereTruth out{Image<glm::vec4>(view.width_px, view.height_px), 0.0};
+  SphereTruth out{Image<glm::vec4>(view.width_px, view.height_px), Image<double>(view.width_px, view.height_px), 0.0};
   for (int y = 0; y < view.height_px; ++y) {
     for (int x = 0; x < view.width_px; ++x) {
       const double light = light_along<double>(sphere, view, x + 0.5, y + 0.5);
       const long double finer = light_along<long double>(sphere, view, x + 0.5L, y + 0.5L);
       out.error = std::max(out.error, static_cast<double>(std::abs(finer - static_cast<long double>(light))));
+      out.exact.at(x, y) = light;
       out.light.at(x, y) = glm::vec4(glm::vec3(static_cast<float>(light)), 1.0f);
     }
   }
-  // Pictures hold floats: of light up to 2 they keep 2^-24.
-  out.error = std::max(out.error, 0x1p-24);
   return out;
+}
+
+double rms_error(const Image<glm::vec4>& light, const Image<double>& truth) {
+  double squares = 0.0;
+  for (std::size_t i = 0; i < truth.texels().size(); ++i) {
+    const double e = static_cast<double>(light.data()[i].x) - truth.data()[i];
+    squares += e * e;
+  }
+  return std::sqrt(squares / static_cast<double>(truth.texels().size()));
 }
 
 double deepest_chord(const Mesh& mesh, double radius) {

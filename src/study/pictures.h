@@ -36,13 +36,16 @@ struct LitSphere {
   glm::dvec3 towards_light_ws{1.0, 1.0, 1.5};
 };
 
-/// Its exact light at the pixels' centres, black around it, by a ray each; in double. `error`: the largest difference of a pixel
-/// that long double tells otherwise.
+/// Its exact light at the pixels' centres, black around it, by a ray each.
 struct SphereTruth {
-  Image<glm::vec4> light;
-  double error;
+  Image<glm::vec4> light;  ///< to be seen
+  Image<double> exact;     ///< to be measured from
+  double error;            ///< the largest difference of a pixel to long double
 };
 SphereTruth sphere_truth(const LitSphere& sphere, const View& view);
+
+/// The root of the mean square of what red differs by from the truth.
+double rms_error(const Image<glm::vec4>& light, const Image<double>& truth);
 
 /// How far the planes of a sphere's triangles lie below the sphere at the most, in units.
 double deepest_chord(const Mesh& mesh, double radius);

@@ -103,10 +103,10 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
   const std::vector<glm::vec2> uvs{uv(-wide, near), uv(wide, near), uv(wide, far), uv(-wide, far)};
   const std::vector<uint32_t> list{0, 1, 2, 0, 2, 3};
   const Indices indices(list, positions.size());
-  // The upper edge is 0.02 of the height below the horizon: the view is moved down accordingly.
+  // The upper edge is 0.02 of the height below the horizon: the view is moved up accordingly.
   const double aspect = static_cast<double>(width) / height;
   glm::dmat4 moved(1.0);
-  moved[2][1] = -(1.0 + 2.0 * 0.02);
+  moved[3][1] = 1.0 + 2.0 * 0.02;
   const glm::dmat4 clip = moved * perspective_reversed(2.0 * std::atan(kTan), aspect, 0.1, std::numeric_limits<double>::infinity());
   DrawState state;
   state.depth = {.test = false, .clip = ClipDepth::zero_to_one};
