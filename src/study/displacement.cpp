@@ -12,7 +12,7 @@ namespace {
 
 SceneDescription moon(int latitudes, const char* normals, bool quick) {
   SceneFile file = SceneFile::open("moon");
-  // The maps are the same for all variants; the relief is so coarse that the truth's mesh shows all of it, four times over.
+  // The maps are the same for all variants; the relief is so coarse that the truth's mesh shows all of it, six times over.
   const int width = quick ? 512 : 2048, relief = quick ? 128 : 512;
   file.set(std::vector<std::string>{fmt::format("moon.latitudes={}", latitudes), fmt::format("moon.longitudes={}", 2 * latitudes),
                                     fmt::format("moon.normals={}", normals), "shadow.method=none", "background.type=color",
@@ -23,15 +23,14 @@ SceneDescription moon(int latitudes, const char* normals, bool quick) {
 }  // namespace
 
 Study study_displacement(const StudyOptions& options, const Workers& workers) {
-  const int width = options.quick ? 160 : 960, height = options.quick ? 90 : 540, finest = options.quick ? 256 : 1024;
+  const int width = options.quick ? 160 : 960, height = options.quick ? 90 : 540, finest = options.quick ? 256 : 1536;
   Study study{
       .name = "displacement",
       .title = "Displacement: the Moon's levels",
       .setting = fmt::format("The Moon without shadows, {}x{}; labels are bands of latitude", width, height),
       .error_name = "mean error of linear light over the picture",
       .time_name = "frame",
-      .truth = {fmt::format("the same at {} bands, normals by pixel", finest), 0.0,
-                "a third of the difference to half as many bands: errors fall by the square"},
+      .truth = {fmt::format("the same at {} bands, normals by pixel", finest), 0.0, "a third of the step from half as many bands"},
   };
   SceneAssets assets(workers);
   Image<glm::vec4> truth(width, height), half(width, height);

@@ -59,8 +59,7 @@ Study study_normals(const StudyOptions& options, const Workers& workers) {
       .setting = fmt::format("The Earth's relief in grey under a low sun, {}x{}; displaced: bands of latitude", width, height),
       .error_name = "mean error of linear light over the picture",
       .time_name = "frame",
-      .truth = {fmt::format("displaced at {} bands, normals by pixel", finest), 0.0,
-                "a third of the difference to half as many bands: errors fall by the square"},
+      .truth = {fmt::format("displaced at {} bands, normals by pixel", finest), 0.0, "a third of the step from half as many bands"},
   };
   SceneAssets assets(workers);
   Image<glm::vec4> truth(width, height), half(width, height);

@@ -90,7 +90,7 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
       .setting = fmt::format("A chequered plane from 1 unit above, {}x{}; 512x512 texels a tile, sRGB", width, height),
       .error_name = "RMS error of linear light over the picture",
       .time_name = "frame",
-      .truth = {"the mean of 1,024 bilinear look-ups a pixel, in double", truth.error, "RMS of half the difference of its halves",
+      .truth = {"the mean of 1,024 bilinear look-ups a pixel, in double", truth.error, "RMS of half its halves' difference",
                 codes_of(truth.mean)},
   };
   // A quad in eye space (y up, −z ahead) from the picture's lower edge to the horizon, u = x, v = −z in tiles.

@@ -125,10 +125,11 @@ TEST(Stability, GouraudHighlights) {
 
 TEST(Stability, MinificationOfAChequer) {
   const Study study = study_texture_filter({.quick = true}, Workers(2));
-  // Beyond 16 texels to 1 the ratio is cut, near the horizon alone; elsewhere a probe is wider than its box (docs/accuracy.md).
+  // A probe is a trilinear look-up, wider than the box that it stands for: at each edge of a square it errs by some tenth of the
+  // contrast over a pixel. (docs/accuracy.md has every filter, at 960x540.)
   judge({16, "minification aliasing",
          "a chequered plane to the horizon; nearest texel against 16x anisotropic, truth of 1,024 look-ups a pixel", "RMS error of light"},
-        variant(study, "nearest").error, 0.15, variant(study, "16x").error, 0.08);
+        variant(study, "nearest").error, 0.15, variant(study, "16x").error, 0.02);
 }
 
 // ---- spheres as points --------------------------------------------------------------------------------------------------
@@ -145,24 +146,29 @@ SceneDescription one_sphere(const char* sprite, double distance, double degrees)
   return parsed(text);
 }
 
-// What a picture's coverage lacks of, or has beyond, the sphere's, over what either covers: 1 − IoU. Pixels within 1e-4 of the rim
-// (of the squared half chord) may be either.
-double coverage_error(const SceneDescription& scene, bool nothing = false) {
+// What coverage lacks of, or has beyond, the sphere's, over what either covers: 1 − IoU. seen(x, y) tells it. Pixels within 1e-4 of
+// the rim (of the squared half chord) may be either.
+template <class Seen>
+double coverage_error(const SceneDescription& scene, const Seen& seen) {
   const View view = make_view(scene.cameras.front().second, kWidth, kHeight);
-  const Image<glm::vec4> picture = light_of(scene, kWidth, kHeight);
   int either = 0, differ = 0;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const glm::dvec3 d = glm::normalize(view.forward_ws + view.right_ws * (view.tan_x * (2 * (x + 0.5) / kWidth - 1)) +
                                           view.up_ws * (view.tan_y * (1 - 2 * (y + 0.5) / kHeight)));
       const double b = glm::dot(view.eye_ws, d), chord = b * b - glm::dot(view.eye_ws, view.eye_ws) + 1.0;
-      const bool truth = chord > 0.0 && b < 0.0, seen = !nothing && picture.at(x, y).x > 0.0f;
-      either += truth || seen;
-      differ += truth != seen && std::abs(chord) > 1e-4;
+      const bool truth = chord > 0.0 && b < 0.0;
+      either += truth || seen(x, y);
+      differ += truth != seen(x, y) && std::abs(chord) > 1e-4;
     }
   }
   EXPECT_GT(either, 100);
   return static_cast<double>(differ) / either;
+}
+
+double coverage_error(const SceneDescription& scene) {
+  const Image<glm::vec4> picture = light_of(scene, kWidth, kHeight);
+  return coverage_error(scene, [&](int x, int y) { return picture.at(x, y).x > 0.0f; });
 }
 
 TEST(Stability, SpritesWhoseCentreIsOutside) {
@@ -170,7 +176,8 @@ TEST(Stability, SpritesWhoseCentreIsOutside) {
   double plain = 1.0, ours = 0.0;
   for (const double degrees : {50.0, 60.0, -50.0, -60.0}) {
     const SceneDescription scene = one_sphere("exact", 3.0, degrees);
-    plain = std::min(plain, coverage_error(scene, true));  // OpenGL 4.6 clips points by their centre: nothing is drawn
+    plain = std::min(plain,
+                     coverage_error(scene, [](int, int) { return false; }));  // OpenGL 4.6 clips points by their centre: nothing is drawn
     ours = std::max(ours, coverage_error(scene));
   }
   judge({18, "sphere sprites cut when the centre leaves the picture",
@@ -188,16 +195,15 @@ TEST(Stability, SpritesOfAnySize) {
   // From 1.02 radii the sphere spans 157 degrees: its sprite is 1,553 px high in a picture of 180; from 1.0005 it is 10,000.
   double ours = 0.0;
   for (const double distance : {1.02, 1.005, 1.0005}) ours = std::max(ours, coverage_error(one_sphere("exact", distance, 75.0)));
-  // A limit of 255 px, as hardware has it: the sphere covers the half of the picture that the point does not reach.
-  const auto limited = [] {
-    const SceneDescription scene = one_sphere("exact", 1.0005, 75.0);
-    const View view = make_view(scene.cameras.front().second, kWidth, kHeight);
-    const double f = kHeight / (2.0 * view.tan_y), centre_px = 0.5 * kWidth - f * std::tan(75.0 * std::numbers::pi / 180.0);
-    return centre_px + 127.5 < 0.0 ? 1.0 : 0.0;  // the point's square ends left of the picture
-  }();
+  // A limit of 255 px, as hardware has it: a square round the centre's place, which is far left of the picture.
+  const SceneDescription near = one_sphere("exact", 1.0005, 75.0);
+  const double px_per_tan = kHeight / (2.0 * make_view(near.cameras.front().second, kWidth, kHeight).tan_y);
+  const double centre = 0.5 * kWidth - px_per_tan * std::tan(75.0 * std::numbers::pi / 180.0);
+  const double limited =
+      coverage_error(near, [&](int x, int y) { return std::abs(x + 0.5 - centre) < 127.5 && std::abs(y + 0.5 - 0.5 * kHeight) < 127.5; });
   judge({19, "point size limits, perspective ellipse", "1.0005 radii from a sphere of 10,000 px; a limit of 255 px against none",
          "1 − IoU with the sphere"},
-        limited, 1.0, ours, 0.0);
+        limited, 0.9, ours, 0.0);
 }
 
 // ---- transforms ---------------------------------------------------------------------------------------------------------

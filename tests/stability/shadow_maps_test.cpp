@@ -52,7 +52,7 @@ TEST(Stability, PeterPanning) {
     return beyond_a_texel(compared("shadow-contact", settings).score.false_light);
   };
   // The bias in texels is the promise: no more than a pixel in a thousand of the shadow is lit beyond one texel of its edge.
-  judge({2, "peter-panning", "things that stand on a plane; a constant bias that is free of acne at 2% of the depth against auto",
+  judge({2, "peter-panning", "things that stand on a plane; a constant bias of 100 texels against auto",
          "share of shadowed pixels falsely lit beyond a texel of the edge"},
         leak({"shadow.bias=constant", "shadow.constant=100", "shadow.method=hard"}), 0.01, leak({}), 1e-3);
 }
@@ -97,7 +97,7 @@ TEST(Stability, LightLeaks) {
 
 TEST(Stability, LightLeaksOfMoments) {
   const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), moments = most_light_in_shadow(compared(two_plates("moments")));
-  // Four moments hold two depths exactly; what is left is the bias of the moments, some per cent (Peters and Klein 2015).
+  // Four moments hold two depths exactly (Peters and Klein 2015); what is left is what keeps their equations solvable, some 1e-5.
   judge({3, "light leaks", "the same; variance (two moments) against four moments", "most light in full shadow"}, vsm, 0.02, moments,
         0.5 * vsm);
 }
