@@ -36,6 +36,7 @@ step dev               "sanitized dev -DCMAKE_CXX_COMPILER=g++"
 step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=address,undefined"
 step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
+step off-costs         "scripts/off_costs.sh"
 step mutate            "scripts/mutate.sh"
 
 if [ "${1:-}" = list ]; then
