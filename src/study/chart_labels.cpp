@@ -9,7 +9,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kHeight = 14.0;  // of a line of text
+constexpr double kHeight = 15.0;  // of a line of text
 constexpr double kPoint = 5.0;    // radius of a point
 
 double overlap(const Box& a, const Box& b) {

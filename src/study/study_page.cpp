@@ -26,7 +26,7 @@ constexpr const char* kHead = R"html(<!DOCTYPE html>
 @media (prefers-color-scheme: dark) { :root { --ink: #e6e6e6; --ground: #16181c; --faint: #3a3d44; --front: #25301f; } }
 body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--ground); max-width: 1060px; margin: 2em auto; padding: 0 1em; }
 img { max-width: 100%; } table { border-collapse: collapse; font-size: 13px; }
-th, td { padding: 2px 10px; text-align: right; border-bottom: 1px solid var(--faint); } th:first-child, td:first-child { text-align: left; }
+th, td { padding: 2px 10px; text-align: right; border-bottom: 1px solid var(--faint); } th:first-child, td:first-child { text-align: left; white-space: nowrap; } .table { overflow-x: auto; }
 tr.front { background: var(--front); } .pictures { display: flex; flex-wrap: wrap; gap: 10px; } figure { margin: 0; width: 200px; }
 figcaption { font-size: 12px; } figure img { width: 200px; image-rendering: pixelated; } nav a { margin-right: 1em; }
 </style></head><body>
@@ -45,7 +45,7 @@ std::string text_at(const Json& json, const char* key) { return escaped(json.at(
 std::string number_of(const Json& json) { return fmt::format("{:.4g}", json.get<double>()); }
 
 std::string table(const Json& study) {
-  std::string html = "<table><tr><th>variant</th>";
+  std::string html = "<div class=\"table\"><table><tr><th>variant</th>";
   const Json& rows = study.at("variants");
   for (const auto& [name, value] : rows.at(0).at("parameters").items()) html += "<th>" + escaped(name) + "</th>";
   html += "<th>error</th>";
@@ -61,7 +61,7 @@ std::string table(const Json& study) {
     html += "<td>" + number_of(ms.at("median")) + "</td><td>" + number_of(ms.at("low")) + " … " + number_of(ms.at("high")) + "</td><td>" +
             number_of(ms.at("runs")) + "</td></tr>\n";
   }
-  return html + "</table>\n";
+  return html + "</table></div>\n";
 }
 
 std::string figure(const Json& file, const std::string& caption) {
