@@ -115,8 +115,9 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
   std::fill_n(white.data(), white.texels().size(), glm::vec4(1.0f));
   for (const double ratio : {1e2, 1e4, 1e6, 1e9}) {
     const Pairs pairs = make_pairs(size, ratio);
-    for (const auto& [name, format] :
+    for (const auto& [name, kind] :
          {std::pair("d16", DepthFormat::d16), std::pair("d24", DepthFormat::d24), std::pair("d32f", DepthFormat::d32f)}) {
+      const DepthFormat format = kind;  // a lambda cannot keep what is bound
       for (const bool reversed : {false, true}) {
         if (reversed && format != DepthFormat::d32f) continue;  // reversing whole numbers changes nothing
         const double angle = std::numbers::pi / 2.0, far = 0.1 * ratio;
