@@ -79,6 +79,12 @@ fault "tone: light that is NaN passes" src/shading/tone.h 'return clamp(x, 0.0f,
 fault "tone: white point not squared" src/shading/tone.h 'x / R(white * white)' 'x / R(white)'
 fault "tone: curves not held to 1" src/shading/tone.h 'c[k] = clamp(c[k], 0.0f, 1.0f);' 'c[k] = max(c[k], R(0.0f));'
 fault "dithering: thresholds repeat" src/shading/tone.h 'bit(y, 2, 0)' 'bit(y, 1, 0)'
+fault "differences: one code counts as above" src/scene/image_difference.cpp 'e > 1.0 / 255.0' 'e >= 1.0 / 255.0'
+fault "differences: percentile a rank too low" src/scene/image_difference.cpp 'std::ceil(0.999 * count)) - 1' 'std::ceil(0.999 * count)) - 2'
+fault "differences: alpha never counts" src/scene/image_difference.cpp 'is_opaque(a) && is_opaque(b) ? 3 : 4' 'is_opaque(a) || is_opaque(b) ? 3 : 4'
+fault "similarity: the sign of the covariance is lost" src/scene/image_difference.cpp '(2.0 * covariance + c2)' '(2.0 * std::abs(covariance) + c2)'
+fault "studies: the front keeps what is beaten" src/study/study.cpp '(error(b) < error(a) || b.time.median_ms < a.time.median_ms)' 'error(b) < error(a)'
+fault "studies: coverage upside down" src/study/polygon_area.cpp 'share.at(x, height - 1 - y)' 'share.at(x, y)'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done

@@ -64,6 +64,10 @@ TEST(Stability, WildLight) {
         for (const ToneOn on : {ToneOn::channel, ToneOn::luminance}) {
           const auto rgb = tone_map(SceneLight<float>{{x, 0.2f, x}}, {exposure, curve, on, 4.0f}).rgb;
           for (int k = 0; k < 3; ++k) ours += !(rgb[k] >= 0.0f && rgb[k] <= 1.0f);
+          if (on == ToneOn::luminance) continue;
+          // NaN and negative light are dark, infinite light is as bright as the curve goes, unless nothing is exposed.
+          if (!(x > 0.0f)) ours += rgb.x != 0.0f;
+          if (x == kInf) ours += rgb.x != (exposure > 0.0f ? 1.0f : 0.0f);
         }
         const float c = tone_curve(curve, x * exposure, 4.0f);
         plain += !(c >= 0.0f && c <= 1.0f);
@@ -71,7 +75,8 @@ TEST(Stability, WildLight) {
     }
   }
   judge({20, "tone mapping of NaN, infinite and negative light",
-         "NaN, ±infinity, −1, 3e38 at exposures 0 to 1e9, five curves; the curve alone against tone_map", "results outside of [0, 1]"},
+         "NaN, ±infinity, −1, 3e38 at exposures 0 to 1e9, five curves; the curve alone against tone_map",
+         "results outside of [0, 1]; ours: also NaN that is not 0, infinity that is not 1"},
         plain, 50, ours, 0);
 }
 
@@ -105,6 +110,7 @@ TEST(Stability, PowersAndNormals) {
         for (const LightModel model : {LightModel::phong, LightModel::blinn_phong}) {
           const auto lit = illuminate<float>(std::span(&light, 1), model, shininess, {{0, 0, 0}, n, v});
           ours += !(lit.specular.x >= 0.0f && lit.specular.x <= 1.0f && lit.diffuse.x >= 0.0f);
+          if (!(n.z > 0.0f)) ours += lit.specular.x != 0.0f;  // the light stands behind, or the normal says nothing
         }
         // The usual shader: half vector and normal made unit vectors, the power by exp2 and log2.
         const glm::vec3 h = glm::normalize(glm::vec3(0, 0, 1) + v);
@@ -121,7 +127,7 @@ TEST(Stability, PowersAndNormals) {
   EXPECT_LE(worst, 1.2 * 0x1p-23) << "1.2 ulp, at exponents to 1e5";
   judge({23, "specular pow(0, 0), huge exponents, NaN normals",
          "exponents 0 to 1e5, normals and directions of no length and NaN; unit vectors and exp2(n log2 c) against illuminate",
-         "highlights outside of [0, 1]"},
+         "highlights outside of [0, 1]; ours: also those of light from behind"},
         plain, 30, ours, 0);
 }
 
