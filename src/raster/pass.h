@@ -141,6 +141,7 @@ class Pass {
   bool resolve_attachments(Draw& d) const;
   void run_tiles(const Workers& workers, Round round, PassStatistics& statistics);
   void run_tile(int index, Round round, PassStatistics& statistics) const;
+  void clear_images(const Tile& tile) const;
   void run_post_step(const Tile& tile) const;
   void draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
   void keep_between_flushes();

@@ -2,6 +2,7 @@
 //
 // The part of a pass that works on tiles: load or clear, draw, resolve, post step, store.
 #include <algorithm>
+#include <optional>
 
 #include "raster/bin.h"
 #include "raster/pass.h"
@@ -65,6 +66,7 @@ void Pass::run_tile(int index, Round round, PassStatistics& statistics) const {
   tile.height = std::min(tile.size, frame_.height - tile.y0);
   const int width = frame_.width, height = frame_.height;
   const Samples kept = frame_.samples > 1 ? Samples::all : Samples::one;
+  if (!drawn && !spills && round.first && round.last && post_kernel_ == nullptr) return clear_images(tile);
   for (std::size_t i = 0; i < colors_.size(); ++i) {
     if (round.first) load_color(colors_[i], width, height, Samples::one, tile, tile.color[i]);
     if (!round.first) load_color(between_flushes(colors_[i], color_spills_[i]), width, height, kept, tile, tile.color[i]);
@@ -85,6 +87,14 @@ void Pass::run_tile(int index, Round round, PassStatistics& statistics) const {
   if (round.last && post_kernel_ != nullptr) run_post_step(tile);
 }
 
+void Pass::clear_images(const Tile& tile) const {
+  for (const ColorTarget& c : colors_) {
+    const glm::vec4& v = c.clear_value;
+    if (c.load == LoadOp::clear) fill_color(c, frame_.width, frame_.height, tile, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
+  }
+  if (depth_.load == LoadOp::clear) fill_depth(depth_, frame_.width, frame_.height, tile);
+}
+
 void Pass::run_post_step(const Tile& tile) const {
   ColorBuffer finished;
   finished.format = post_target_.format;
@@ -101,24 +111,25 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
   bool waiting = false;  // there are visible pixels not shaded yet
   CoverageList list;
   tile.id.fill(kNoTriangle);
+  std::optional<DrawInTile> here;
   for (uint32_t c = 0; c < frame_.chunks.size(); ++c) {
     const Chunk& chunk = frame_.chunks[c];
     for (const uint16_t t : bin_of(chunk, tile_x, tile_y)) {
       const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
-      const VisibilityMode mode = visibility_mode(draw);
+      if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
+      const VisibilityMode mode = here->mode;
       const uint64_t passed_before = statistics.samples_passed;
-      if (mode == VisibilityMode::deferred) {
-        rasterize(frame_, c, t, mode, tile, nullptr, statistics);
-        waiting = true;
-      } else if (mode == VisibilityMode::early && !draw.writes_color) {  // what waits keeps its colour
-        list.count = 0;
-        rasterize(frame_, c, t, mode, tile, &list, statistics);
+      if (mode == VisibilityMode::deferred || mode == VisibilityMode::depth_only) {
+        rasterize(*here, c, t, nullptr, statistics);
+        waiting |= mode == VisibilityMode::deferred;
       } else {
-        if (waiting && has_color_) shade_deferred(frame_, tile, statistics);
-        waiting = false;
+        // Without colours there is nothing to wait for: what waits keeps its own.
+        const bool shades = mode != VisibilityMode::early || draw.writes_color;
+        if (shades && waiting && has_color_) shade_deferred(frame_, tile, statistics);
+        if (shades) waiting = false;
         list.count = 0;
-        rasterize(frame_, c, t, mode, tile, &list, statistics);
-        if (list.count != 0) shade_immediate(frame_, draw, triangle_id(c, t), mode, list, tile, statistics);
+        rasterize(*here, c, t, &list, statistics);
+        if (shades && list.count != 0) shade_immediate(frame_, draw, triangle_id(c, t), mode, list, tile, statistics);
       }
       if (draw.state.query) statistics.add_to_query(*draw.state.query, statistics.samples_passed - passed_before);
     }
