@@ -2,10 +2,10 @@
 #include "raster/shade.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "raster/centroid.h"
 #include "raster/output.h"
+#include "raster/lane_order.h"
 #include "raster/sprite.h"
 
 namespace halfspace {
@@ -101,21 +101,13 @@ bool copy_records(const Frame& frame, const TriangleId* ids, uint32_t lanes, Rec
   return true;
 }
 
-// Moves v[1] (where one) or v[2] (where two) to the front, going round.
-template <class T>
-void rotate_lanes(Mask one, Mask two, std::array<T, 3>& v) {
-  const std::array<T, 3> from = v;
-  for (std::size_t i = 0; i < 3; ++i) v[i] = select(two, from[(i + 2) % 3], select(one, from[(i + 1) % 3], from[i]));
-}
-
 }  // namespace
 
 bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front, TriangleRows& rows) {
   const Draw& draw = draw_of(frame, ids[std::countr_zero(lanes)]);
   const ShadedVertices& shaded = frame.shaded[static_cast<std::size_t>(&draw - frame.draws.data())];
-  const std::size_t floats = std::size_t{shaded.count} * draw.state.instances * static_cast<std::size_t>(std::max(4, shaded.varying_count));
   Records r;
-  if (floats > std::size_t{std::numeric_limits<int32_t>::max()} || !copy_records(frame, ids, lanes, r, rows)) return false;
+  if (!can_gather(shaded, draw) || !copy_records(frame, ids, lanes, r, rows)) return false;
   rows.varyings = shaded.varyings.get();
   rows.provoking_row = load<Int>(r.provoking.data());
   front = load<Int>(r.front.data()) != Int(0);
@@ -162,6 +154,19 @@ Real packet_depth(const Pixel<Real>& px) {
     z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(source.z_low), Real(z_high)), z);
   }
   return z;
+}
+
+void constant_colors(const Draw& draw, FragmentOutput& out) {
+  draw.kernels.fragment(draw.shader.get(), {.frame = nullptr,
+                                            .tile_x0 = 0,
+                                            .tile_y0 = 0,
+                                            .position = {},
+                                            .ids = nullptr,
+                                            .uniform_id = kNoTriangle,
+                                            .packets = nullptr,
+                                            .count = 1,
+                                            .centroids = nullptr,
+                                            .out = &out});
 }
 
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile) {

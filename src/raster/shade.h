@@ -77,6 +77,9 @@ Real packet_depth(const Pixel<Real>& px);
 /// Shades all pixels of the tile that wait for it, and writes their colours.
 void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
 
+/// The colours of a draw whose shader is constant.
+void constant_colors(const Draw& draw, FragmentOutput& out);
+
 /// Shades one triangle's packets now: late tests where needed, blending, colour write.
 void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      PassStatistics& statistics);
@@ -140,6 +143,7 @@ HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
 /// Everything a packet needs of its triangles, lane by lane. P: components of the primitive stage's struct.
 template <std::size_t N, std::size_t P>
 struct PacketTriangles {
+  TriangleId only = kNoTriangle;  ///< where all lanes show one triangle, that
   TriangleLanes<Real> lanes;
   ComponentLanes<Real, N> components;
   std::array<Real, P> primitive;
@@ -201,11 +205,12 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
 /// Triangles of a packet from which on they are gathered, not merged one by one: a merge costs as much as a third of a gather.
 inline constexpr int kGatherFrom = 3;
 
-/// The triangles of a packet: one, few or many.
+/// The triangles of a packet: one, few or many. t.only is the one that t holds already, if it holds one alone.
 template <class V, std::size_t N, std::size_t P>
 HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, PacketTriangles<N, P>& t) {
   if (batch.ids == nullptr) {
-    merge_triangle<V, true>(*batch.frame, batch.uniform_id, Mask(true), t);
+    if (t.only != batch.uniform_id) merge_triangle<V, true>(*batch.frame, batch.uniform_id, Mask(true), t);
+    t.only = batch.uniform_id;
     return;
   }
   const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
@@ -215,6 +220,8 @@ HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, Pac
   const auto showing = [&](TriangleId id) { return packet_ids == Int(std::bit_cast<int32_t>(id)); };
   int triangles = 0;
   for (; rest != 0 && triangles < kGatherFrom; ++triangles) rest &= ~bits(showing(next()));
+  if (triangles == 1 && t.only == ids[std::countr_zero(static_cast<uint32_t>(packet.lanes))]) return;
+  t.only = kNoTriangle;
   if (triangles == kGatherFrom) {
     TriangleRows rows;
     if (gather_rows(*batch.frame, ids, packet.lanes, t.lanes, t.front, rows)) return gather_components<V>(rows, t);
@@ -222,6 +229,7 @@ HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, Pac
   rest = packet.lanes;
   TriangleId id = next();
   merge_triangle<V, true>(*batch.frame, id, Mask(true), t);
+  if (triangles == 1) t.only = id;
   for (rest &= ~bits(showing(id)); rest != 0; rest &= ~bits(showing(id))) {
     id = next();
     merge_triangle<V, false>(*batch.frame, id, showing(id), t);
@@ -272,9 +280,19 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
   constexpr std::size_t n = kComponents<V>;
   constexpr std::size_t p = HasPrimitive<S> ? kComponents<P> : 0;
   const S& s = *static_cast<const S*>(shader);
+  if constexpr (kIsConstant<S>) {
+    const auto fragment = s.fragment(V{});
+    for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
+      const vec4<Real>& color = nth_color(fragment.color, n_color);
+      for (int i = 0; i < batch.count; ++i) {
+        batch.out->packet_color(n_color, static_cast<std::size_t>(i)) = {color.x, color.y, color.z, color.w};
+      }
+    }
+    return;
+  }
+  PacketTriangles<n, p> triangles;
   for (int i = 0; i < batch.count; ++i) {
     const PacketMask packet = batch.packets[i];
-    PacketTriangles<n, p> triangles;
     find_triangles<F>(batch, packet, triangles);
     const PacketTriangleIds ids{batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes,
                                 batch.uniform_id, packet.lanes};

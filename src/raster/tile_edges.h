@@ -102,12 +102,13 @@ class DepthPlane {
     }
   }
 
-  // e1, e2: the biased edge values of the packet's samples (small triangles); x, y: the packet's place in the tile's room.
-  HS_INLINE Real at(Int e1, Int e2, int x, int y) const {
+  // x, y: the packet's place in the tile's room; edges: its BlockEdges.
+  template <class E>
+  HS_INLINE Real at(const E& edges, int x, int y) const {
     Real w1, w2;
     if constexpr (small) {
-      w1 = to_real<Real>(e1 + bias1_);
-      w2 = to_real<Real>(e2 + bias2_);
+      w1 = to_real<Real>(edges.values(1, x, y) + bias1_);
+      w2 = to_real<Real>(edges.values(2, x, y) + bias2_);
     } else {
       const Real dx = to_real<Real>(lane_x() * kSubPixels + (dx_ + x * kSubPixels));
       const Real dy = to_real<Real>(lane_y() * kSubPixels + (dy_ + y * kSubPixels));

@@ -4,39 +4,17 @@
 #include <algorithm>
 #include <bit>
 
+#include "raster/block_edges.h"
 #include "raster/centroid.h"
 #include "raster/compare.h"
 #include "raster/primitive_setup.h"
 #include "raster/stencil.h"
-#include "raster/tile_edges.h"
 
 namespace halfspace {
 
 namespace {
 
-// Can no value in [low, high] pass against any stored value in [block_min, block_max]?
-bool never_passes(CompareOp op, float low, float high, float block_min, float block_max) {
-  switch (op) {
-    case CompareOp::never: return true;
-    case CompareOp::less: return low >= block_max;
-    case CompareOp::less_equal: return low > block_max;
-    case CompareOp::greater: return high <= block_min;
-    case CompareOp::greater_equal: return high < block_min;
-    case CompareOp::equal: return high < block_min || low > block_max;
-    default: return false;
-  }
-}
-
 bool tests_depth(const DepthState& state, const Tile& tile) { return state.test && tile.depth_format != DepthFormat::none; }
-
-// Writes after which a block's bounds are made exact again before they are asked: a refresh costs about one packet.
-constexpr uint8_t kRefreshAfter = 8;
-
-bool spans_at_most(const Triangle& t, int pixels) {
-  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  return x_high - x_low <= pixels * kSubPixels && y_high - y_low <= pixels * kSubPixels;
-}
 
 // Everything that the packets of one triangle share.
 struct Context {
@@ -129,63 +107,15 @@ void visit_packet(const Context& c, int packet, Mask mask, Real z) {
   finish_packet(c, packet, mask, z);
 }
 
-// Pixels of the tile's room, half open.
-struct TileRect {
-  int x0, y0, x1, y1;
-};
-Mask inside(const TileRect& r, int packet_x, int packet_y) {
-  const Int x = lane_x() + packet_x, y = lane_y() + packet_y;
-  return (x >= Int(r.x0)) & (x < Int(r.x1)) & (y >= Int(r.y0)) & (y < Int(r.y1));
-}
-
-// A triangle's edges as its blocks and packets ask for them.
-struct BlockEdges {
-  explicit BlockEdges(const TileEdges& edges) : at(edges) {
-    constexpr int32_t last = kBlockSize - 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      lanes[i] = lane_x() * at.step_x[i] + lane_y() * at.step_y[i];
-      rise[i] = std::max(0, at.step_x[i] * last) + std::max(0, at.step_y[i] * last);
-      fall[i] = std::min(0, at.step_x[i] * last) + std::min(0, at.step_y[i] * last);
-    }
-  }
-  int32_t value(std::size_t i, int x, int y) const { return at.e[i] + at.step_x[i] * x + at.step_y[i] * y; }
-
-  const TileEdges& at;
-  std::array<Int, 3> lanes;            // what is added from a packet's corner to its pixels
-  std::array<int32_t, 3> rise, fall;  // from a block's corner to the largest and the least value in it
-};
-
-enum class BlockCoverage : uint8_t { none, some, whole };
-
-BlockCoverage block_coverage(const BlockEdges& edges, int x, int y) {
-  bool whole = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int32_t e = edges.value(i, x, y);
-    if (e + edges.rise[i] < 0) return BlockCoverage::none;
-    whole &= e + edges.fall[i] >= 0;
-  }
-  return whole ? BlockCoverage::whole : BlockCoverage::some;
-}
-
 template <bool small>
-void visit_block(const Context& c, const BlockEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool whole, int block_x0,
-                 int block_y0) {
-  const int block = block_y0 / kBlockSize * kBlocksPerRow + block_x0 / kBlockSize;
-  if (c.rejects) {
-    const auto b = static_cast<std::size_t>(block);
-    if (c.tile.block_writes[b] >= kRefreshAfter) refresh_block_bounds(c.tile, block);
-    if (never_passes(c.draw.state.depth.compare, c.low, c.high, c.tile.block_min[b], c.tile.block_max[b])) return;
-  }
-  for (int p = 0; p < kPacketsPerBlock; ++p) {
-    const int packet = block * kPacketsPerBlock + p;
+void visit_block(const Context& c, const BlockEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool whole, int block) {
+  if (c.rejects && test_block(c.draw.state.depth.compare, c.tile, block, c.low, c.high) == BlockTest::none_passes) return;
+  for (int packet = block * kPacketsPerBlock; packet < (block + 1) * kPacketsPerBlock; ++packet) {
     const int x = packet_x(packet), y = packet_y(packet);
     if (x >= rect.x1 || y >= rect.y1 || x + kPacketWidth <= rect.x0 || y + kPacketHeight <= rect.y0) continue;
-    std::array<Int, 3> e;
-    for (std::size_t i = 0; i < 3; ++i) e[i] = edges.lanes[i] + edges.value(i, x, y);
-    Mask mask = whole ? Mask(true) : (e[0] | e[1] | e[2]) >= Int(0);
+    Mask mask = whole ? Mask(true) : edges.inside(x, y);
     if (c.cut) mask = mask & inside(rect, x, y);
-    if (none(mask)) continue;
-    visit_packet(c, packet, mask, plane.at(e[1], e[2], x, y));
+    if (any(mask)) visit_packet(c, packet, mask, plane.at(edges, x, y));
   }
   if (c.writes && c.mode != VisibilityMode::cover_only) {
     widen_block_bounds(c.asks_shader ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
@@ -203,7 +133,8 @@ void visit_triangle(Context& c, const TileEdges& tile_edges, const TileRect& rec
   for (int y = rect.y0 & mask; y < rect.y1; y += kBlockSize) {
     for (int x = rect.x0 & mask; x < rect.x1; x += kBlockSize) {
       const BlockCoverage coverage = block_coverage(edges, x, y);
-      if (coverage != BlockCoverage::none) visit_block<small>(c, edges, plane, rect, coverage == BlockCoverage::whole, x, y);
+      const int block = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
+      if (coverage != BlockCoverage::none) visit_block<small>(c, edges, plane, rect, coverage == BlockCoverage::whole, block);
     }
   }
 }
@@ -218,7 +149,7 @@ VisibilityMode visibility_mode(const Draw& draw) {
   return VisibilityMode::early;
 }
 
-DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, Tile& t)
+DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, const Tile& t)
     : frame(f),
       draw(d),
       mode(m),
@@ -258,11 +189,9 @@ void rasterize_sample(Context& c, const PixelBounds& b) {
 
 }  // namespace
 
-void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics) {
+void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, Tile& tile, CoverageList* list, PassStatistics& statistics) {
   const Triangle& t = d.frame.chunks[chunk].triangles[index];
-  if (d.is_plain && t.is(kSmall) && !t.is(kSprite) && spans_at_most(t, kSmallSpan)) {
-    return rasterize_small(d, t, triangle_id(chunk, index), statistics);
-  }
+  if (d.is_plain) return rasterize_plain(d, t, triangle_id(chunk, index), tile, statistics);
   const StencilFace* stencil = stencil_face(d.draw.state, d.tile, t.is(kFrontFacing));
   // A stencil value changes with what becomes of the sample: where the shader speaks later, so do both tests.
   const bool late = d.mode == VisibilityMode::test_only && stencil != nullptr;
@@ -273,7 +202,7 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
             t,
             triangle_id(chunk, index),
             d.mode,
-            d.tile,
+            tile,
             list,
             statistics,
             late ? nullptr : stencil,
