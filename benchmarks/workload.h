@@ -4,6 +4,7 @@
 // (docs/performance.md).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -45,7 +46,7 @@ class WorkloadAssets;
 struct WorkloadKind {
   std::string_view name;
   std::string_view what;  ///< one line
-  std::unique_ptr<Workload> (*prepare)(WorkloadSize size, WorkloadAssets& assets);
+  std::function<std::unique_ptr<Workload>(WorkloadSize size, WorkloadAssets& assets)> prepare;
 };
 
 /// All workloads, in the order in which tables show them.

@@ -17,7 +17,7 @@ std::unique_ptr<Workload> at(WorkloadSize size, WorkloadAssets& assets) {
   return prepare(detail, size, assets);
 }
 
-constexpr std::array kWorkloads{
+const std::array kWorkloads{
     WorkloadKind{"clear", "colour and depth cleared, nothing drawn", prepare_clear},
     WorkloadKind{"fill", "one quad of one colour over the whole picture", prepare_fill},
     WorkloadKind{"layers_b2f", "10 quads over the whole picture, Phong by pixel, back to front", prepare_layers_b2f},
