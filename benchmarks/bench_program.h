@@ -10,6 +10,7 @@
 #include <string>
 
 #include "halfspace/command_line.h"
+#include "sweeps.h"
 #include "workload.h"
 
 namespace halfspace {
@@ -20,8 +21,9 @@ struct BenchProgram {
   std::string what;                            ///< one line
   std::function<void(CLI::App&)> add_options;  ///< its own options; may be empty
   std::function<void(int threads)> start;      ///< called once, before anything is prepared; may be empty
-  /// Which workloads it draws, after start.
+  /// Which workloads it draws, and which series of them.
   std::function<std::span<const WorkloadKind>()> kinds;
+  std::function<std::span<const Sweep>()> sweeps;
   /// What the lines of --json begin with: who drew.
   std::function<nlohmann::ordered_json()> identity;
 };

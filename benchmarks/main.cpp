@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
                             .add_options = {},
                             .start = {},
                             .kinds = [] { return workloads(); },
+                            .sweeps = [] { return sweeps(); },
                             .identity =
                                 [] {
                                   return nlohmann::ordered_json{{"program", "halfspace"}, {"arch", HALFSPACE_ARCH}, {"lanes", kLanes}};

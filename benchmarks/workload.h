@@ -7,7 +7,7 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "core/image.h"
 #include "core/parallel.h"
@@ -44,8 +44,8 @@ class WorkloadAssets;
 
 /// A workload by name.
 struct WorkloadKind {
-  std::string_view name;
-  std::string_view what;  ///< one line
+  std::string name;
+  std::string what;  ///< one line
   std::function<std::unique_ptr<Workload>(WorkloadSize size, WorkloadAssets& assets)> prepare;
 };
 

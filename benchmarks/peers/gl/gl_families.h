@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each file of OpenGL workloads gives to the table in gl_workload.cpp.
+// What each file of OpenGL workloads gives to the tables in gl_workload.cpp.
 #pragma once
 
 #include <memory>
 
+#include "gl_workload.h"
 #include "sphere_camera.h"
-#include "workload.h"
 
 namespace halfspace::gl {
 
-std::unique_ptr<Workload> clear(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
-std::unique_ptr<Workload> fill(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
-std::unique_ptr<Workload> tiny(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
-std::unique_ptr<Workload> draws(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
+using Made = std::unique_ptr<Workload>;
+
+Made clear(const GlInput& in);
+Made fill(const GlInput& in);
+Made triangles(const GlInput& in, int count, double area);
+Made draws(const GlInput& in);
 
 enum class Layers { plain, blended, perforated, prepass };
-std::unique_ptr<Workload> layers(std::string_view name, WorkloadSize size, WorkloadAssets& assets, Layers kind, bool front_to_back);
+Made layers(const GlInput& in, Layers kind, bool front_to_back, int count);
 
 enum class Light { pixel, vertex, flat };
-std::unique_ptr<Workload> sphere(std::string_view name, WorkloadSize size, WorkloadAssets& assets, Light light, SphereDetail detail);
-std::unique_ptr<Workload> near_clip(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
-std::unique_ptr<Workload> hdr(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
-std::unique_ptr<Workload> tonemap(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
+Made sphere(const GlInput& in, Light light, SphereDetail detail);
+Made multisampled_sphere(const GlInput& in);
+Made near_clip(const GlInput& in);
+Made hdr(const GlInput& in);
+Made tonemap(const GlInput& in);
 
-std::unique_ptr<Workload> shadow(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
-std::unique_ptr<Workload> points(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
-std::unique_ptr<Workload> floor(std::string_view name, WorkloadSize size, WorkloadAssets& assets);
+Made shadow(const GlInput& in);
+Made points(const GlInput& in);
+Made floor(const GlInput& in);
+Made varyings(const GlInput& in, int count);
 
 }  // namespace halfspace::gl

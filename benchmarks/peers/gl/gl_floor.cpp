@@ -27,11 +27,11 @@ void main() { result = texture(map, uv); }
 
 class Floor final : public GlWorkload {
  public:
-  Floor(std::string_view name, WorkloadSize size, WorkloadAssets& assets)
-      : GlWorkload(name, size, assets),
-        texture_(*assets.checker(), GL_REPEAT, 16.0f),
+  explicit Floor(const GlInput& in)
+      : GlWorkload(in),
+        texture_(*in.assets.checker(), GL_REPEAT, 16.0f),
         mesh_(floats_of(std::span<const glm::vec3>(kFloor)), {3}, kRoundTriangles) {
-    program_.set("clip_from_world", floor_camera(size));
+    program_.set("clip_from_world", floor_camera(in.size));
   }
   void draw() override {
     begin();
@@ -48,8 +48,6 @@ class Floor final : public GlWorkload {
 
 }  // namespace
 
-std::unique_ptr<Workload> floor(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Floor>(name, size, assets);
-}
+Made floor(const GlInput& in) { return std::make_unique<Floor>(in); }
 
 }  // namespace halfspace::gl

@@ -58,15 +58,15 @@ std::string shared_by(Layers kind) {
 
 class LayerWorkload final : public GlWorkload {
  public:
-  LayerWorkload(std::string_view name, WorkloadSize size, WorkloadAssets& assets, Layers kind, bool front_to_back)
-      : GlWorkload(name, size, assets),
+  LayerWorkload(const GlInput& in, Layers kind, bool front_to_back, int count)
+      : GlWorkload(in),
         kind_(kind),
         program_(shared_by(kind), kVertex, kFragment),
-        mesh_(floats_of(std::span<const LayerMesh::value_type>(layer_mesh(size, front_to_back))), {3, 3, 3}) {
-    const LayerShader shader = layer_shader(size);
+        mesh_(floats_of(std::span<const LayerMesh::value_type>(layer_mesh(in.size, front_to_back, count))), {3, 3, 3}) {
+    const LayerShader shader = layer_shader(in.size);
     program_.set("clip_from_eye", shader.clip_from_eye);
     program_.set("light_es", shader.light_es);
-    if (kind == Layers::perforated) texture_.emplace(*assets.checker(), GL_REPEAT);
+    if (kind == Layers::perforated) texture_.emplace(*in.assets.checker(), GL_REPEAT);
     if (kind == Layers::prepass) {
       depth_program_.emplace(shared_by(kind), kVertex, kNothing);
       depth_program_->set("clip_from_eye", shader.clip_from_eye);
@@ -102,8 +102,8 @@ class LayerWorkload final : public GlWorkload {
 
 }  // namespace
 
-std::unique_ptr<Workload> layers(std::string_view name, WorkloadSize size, WorkloadAssets& assets, Layers kind, bool front_to_back) {
-  return std::make_unique<LayerWorkload>(name, size, assets, kind, front_to_back);
+Made layers(const GlInput& in, Layers kind, bool front_to_back, int count) {
+  return std::make_unique<LayerWorkload>(in, kind, front_to_back, count);
 }
 
 }  // namespace halfspace::gl

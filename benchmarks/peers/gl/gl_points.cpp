@@ -41,9 +41,8 @@ void main() {
 
 class Points final : public GlWorkload {
  public:
-  Points(std::string_view name, WorkloadSize size, WorkloadAssets& assets)
-      : GlWorkload(name, size, assets), mesh_(floats_of(std::span<const glm::vec3>(point_cloud())), {3}) {
-    const PointShader shader = point_shader(size);
+  explicit Points(const GlInput& in) : GlWorkload(in), mesh_(floats_of(std::span<const glm::vec3>(point_cloud())), {3}) {
+    const PointShader shader = point_shader(in.size);
     program_.set("clip_from_world", shader.clip_from_world);
     program_.set("eye_ws", shader.eye_ws);
     program_.set("size_at_w1", shader.size_at_w1);
@@ -66,8 +65,6 @@ class Points final : public GlWorkload {
 
 }  // namespace
 
-std::unique_ptr<Workload> points(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Points>(name, size, assets);
-}
+Made points(const GlInput& in) { return std::make_unique<Points>(in); }
 
 }  // namespace halfspace::gl

@@ -54,8 +54,7 @@ void main() {
 
 class Shadowed final : public GlWorkload {
  public:
-  Shadowed(std::string_view name, WorkloadSize size, WorkloadAssets& assets)
-      : Shadowed(name, size, assets, *assets.sphere(k200k.rows, k200k.columns), shadow_cameras(size)) {}
+  explicit Shadowed(const GlInput& in) : Shadowed(in, *in.assets.sphere(k200k.rows, k200k.columns), shadow_cameras(in.size)) {}
 
   void draw() override {
     map_.bind();
@@ -71,8 +70,8 @@ class Shadowed final : public GlWorkload {
   }
 
  private:
-  Shadowed(std::string_view name, WorkloadSize size, WorkloadAssets& assets, const SphereMesh& mesh, const ShadowCameras& cameras)
-      : GlWorkload(name, size, assets),
+  Shadowed(const GlInput& in, const SphereMesh& mesh, const ShadowCameras& cameras)
+      : GlWorkload(in),
         map_({ShadowedShader::kMapSize, ShadowedShader::kMapSize}, 0, true),
         sphere_(floats_of(std::span<const SphereVertex>(mesh.vertices)), {3, 3, 2}, mesh.indices),
         plane_(floats_of(std::span<const PlaneVertex>(kShadowPlane)), {3, 3}, kRoundTriangles) {
@@ -91,8 +90,6 @@ class Shadowed final : public GlWorkload {
 
 }  // namespace
 
-std::unique_ptr<Workload> shadow(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Shadowed>(name, size, assets);
-}
+Made shadow(const GlInput& in) { return std::make_unique<Shadowed>(in); }
 
 }  // namespace halfspace::gl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// clear, fill, tiny_1m, draws_10k: one colour a draw, positions in normalized device coordinates.
+// clear, fill, tiny_1m, draws_10k, the series triangle_size: one colour a draw, positions in normalized device coordinates.
 #include "gl_families.h"
 #include "gl_workload.h"
 #include "workload_geometry.h"
@@ -27,8 +27,7 @@ class Clear final : public GlWorkload {
 
 class Fill final : public GlWorkload {
  public:
-  Fill(std::string_view name, WorkloadSize size, WorkloadAssets& assets)
-      : GlWorkload(name, size, assets, false), mesh_(floats_of(std::span<const glm::vec3>(kFullQuad)), {3}) {
+  explicit Fill(const GlInput& in) : GlWorkload(in, false), mesh_(floats_of(std::span<const glm::vec3>(kFullQuad)), {3}) {
     program_.set("color", kFillColor);
   }
   void draw() override {
@@ -42,10 +41,10 @@ class Fill final : public GlWorkload {
   GlMesh mesh_;
 };
 
-class Tiny final : public GlWorkload {
+class Triangles final : public GlWorkload {
  public:
-  Tiny(std::string_view name, WorkloadSize size, WorkloadAssets& assets)
-      : GlWorkload(name, size, assets), mesh_(floats_of(std::span<const glm::vec3>(tiny_triangles(size, 1'000'000))), {3}) {
+  Triangles(const GlInput& in, int count, double area)
+      : GlWorkload(in), mesh_(floats_of(std::span<const glm::vec3>(tiny_triangles(in.size, count, area))), {3}) {
     program_.set("color", kTinyColor);
   }
   void draw() override {
@@ -63,8 +62,8 @@ class Tiny final : public GlWorkload {
 // All corners lie in one buffer, of which each draw takes four; the colour is a uniform, set before each draw.
 class Draws final : public GlWorkload {
  public:
-  Draws(std::string_view name, WorkloadSize size, WorkloadAssets& assets)
-      : GlWorkload(name, size, assets), quads_(grid_of_quads()), mesh_(floats_of(std::span<const glm::vec3>(corners_of(quads_))), {3}) {
+  explicit Draws(const GlInput& in)
+      : GlWorkload(in), quads_(grid_of_quads()), mesh_(floats_of(std::span<const glm::vec3>(corners_of(quads_))), {3}) {
     color_ = program_.location("color");
   }
   void draw() override {
@@ -93,17 +92,9 @@ class Draws final : public GlWorkload {
 
 }  // namespace
 
-std::unique_ptr<Workload> clear(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Clear>(name, size, assets);
-}
-std::unique_ptr<Workload> fill(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Fill>(name, size, assets);
-}
-std::unique_ptr<Workload> tiny(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Tiny>(name, size, assets);
-}
-std::unique_ptr<Workload> draws(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Draws>(name, size, assets);
-}
+Made clear(const GlInput& in) { return std::make_unique<Clear>(in); }
+Made fill(const GlInput& in) { return std::make_unique<Fill>(in); }
+Made triangles(const GlInput& in, int count, double area) { return std::make_unique<Triangles>(in, count, area); }
+Made draws(const GlInput& in) { return std::make_unique<Draws>(in); }
 
 }  // namespace halfspace::gl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// sphere_phong, sphere_gouraud, sphere_flat, near_clip; hdr_200k and tonemap, which draw the sphere into half floats.
+// sphere_phong, sphere_gouraud, sphere_flat, near_clip, msaa4_200k; hdr_200k and tonemap, which draw the sphere into half floats.
 #include "gl_families.h"
 #include "gl_workload.h"
 #include "glsl_light.h"
@@ -83,9 +83,8 @@ class SphereDrawing {
 
 class Sphere final : public GlWorkload {
  public:
-  Sphere(std::string_view name, WorkloadSize size, WorkloadAssets& assets, const SphereUniforms& uniforms, Light light, SphereDetail detail,
-         bool culled)
-      : GlWorkload(name, size, assets), drawing_(uniforms, *assets.sphere(detail.rows, detail.columns), light), culled_(culled) {}
+  Sphere(const GlInput& in, const SphereUniforms& uniforms, Light light, SphereDetail detail, bool culled)
+      : GlWorkload(in), drawing_(uniforms, *in.assets.sphere(detail.rows, detail.columns), light), culled_(culled) {}
   void draw() override {
     begin();
     if (!culled_) glDisable(GL_CULL_FACE);
@@ -95,6 +94,25 @@ class Sphere final : public GlWorkload {
  private:
   SphereDrawing drawing_;
   bool culled_;
+};
+
+// Four samples a pixel, which are averaged into the picture.
+class MultisampledSphere final : public GlWorkload {
+ public:
+  explicit MultisampledSphere(const GlInput& in)
+      : GlWorkload(in, false),
+        samples_(in.size, GL_RGBA8, true, 4),
+        drawing_(sphere_uniforms(in.size, *in.assets.checker()), *in.assets.sphere(k200k.rows, k200k.columns), Light::pixel) {}
+  void draw() override {
+    samples_.bind();
+    samples_.clear(kBackground);
+    drawing_.draw();
+    samples_.resolve_into(target());
+  }
+
+ private:
+  GlTarget samples_;
+  SphereDrawing drawing_;
 };
 
 constexpr std::string_view kFullVertex = R"(
@@ -114,10 +132,10 @@ void main() {
 
 class Hdr final : public GlWorkload {
  public:
-  Hdr(std::string_view name, WorkloadSize size, WorkloadAssets& assets, bool tone_alone)
-      : GlWorkload(name, size, assets, false),
-        light_(size, GL_RGBA16F, true),
-        drawing_(sphere_uniforms(size, *assets.checker()), *assets.sphere(k200k.rows, k200k.columns), Light::pixel, true),
+  Hdr(const GlInput& in, bool tone_alone)
+      : GlWorkload(in, false),
+        light_(in.size, GL_RGBA16F, true),
+        drawing_(sphere_uniforms(in.size, *in.assets.checker()), *in.assets.sphere(k200k.rows, k200k.columns), Light::pixel, true),
         empty_(std::array<float, 3>{}, {1}),
         tone_alone_(tone_alone) {
     draw_light();
@@ -145,17 +163,14 @@ class Hdr final : public GlWorkload {
 
 }  // namespace
 
-std::unique_ptr<Workload> sphere(std::string_view name, WorkloadSize size, WorkloadAssets& assets, Light light, SphereDetail detail) {
-  return std::make_unique<Sphere>(name, size, assets, sphere_uniforms(size, *assets.checker()), light, detail, true);
+Made sphere(const GlInput& in, Light light, SphereDetail detail) {
+  return std::make_unique<Sphere>(in, sphere_uniforms(in.size, *in.assets.checker()), light, detail, true);
 }
-std::unique_ptr<Workload> near_clip(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Sphere>(name, size, assets, near_clip_uniforms(size, *assets.checker()), Light::pixel, k200k, false);
+Made multisampled_sphere(const GlInput& in) { return std::make_unique<MultisampledSphere>(in); }
+Made near_clip(const GlInput& in) {
+  return std::make_unique<Sphere>(in, near_clip_uniforms(in.size, *in.assets.checker()), Light::pixel, k200k, false);
 }
-std::unique_ptr<Workload> hdr(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Hdr>(name, size, assets, false);
-}
-std::unique_ptr<Workload> tonemap(std::string_view name, WorkloadSize size, WorkloadAssets& assets) {
-  return std::make_unique<Hdr>(name, size, assets, true);
-}
+Made hdr(const GlInput& in) { return std::make_unique<Hdr>(in, false); }
+Made tonemap(const GlInput& in) { return std::make_unique<Hdr>(in, true); }
 
 }  // namespace halfspace::gl

@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
                                 },
                             .start = [&](int threads) { context.emplace(drivers.at(driver), threads); },
                             .kinds = [] { return gl_workloads(); },
+                            .sweeps = [] { return gl_sweeps(); },
                             .identity =
                                 [&] {
                                   return nlohmann::ordered_json{{"program", driver}, {"renderer", context->description()}};
