@@ -134,24 +134,104 @@ def names_of(command):
     return [line.split()[0] for line in subprocess.run([command, "--list"], capture_output=True, text=True, check=True).stdout.splitlines()]
 
 
+def check_pictures(runners, names, sizes, truths):
+    """Every program's pictures against double precision. Slow the first time: the truths are kept."""
+    rows = []
+    progress = Progress(len(sizes) * len(runners))
+    for size in sizes:
+        for r in runners:
+            drawn = [name for name in names if r.draws(name)]
+            got = r.run("--only", ",".join(drawn), "--size", size, "--seconds", "0", "--check", str(truths)) or []
+            rows += [{"contender": r.key, "workload": line["workload"], "size": size, **line["picture"]} for line in got]
+            progress.step(f"pictures {size} {r.key}")
+    return rows
+
+
+def measure_limits(program, threads, quick):
+    seconds = "0.01" if quick else "0.05"
+    rows = []
+    for n in dict.fromkeys((1, threads)):
+        out = subprocess.run([program, "--threads", str(n), "--seconds", seconds, "--json"], capture_output=True, text=True, check=True)
+        rows += [json.loads(line) for line in out.stdout.splitlines()]
+    return rows
+
+
+def sweep_points(command, sweep):
+    out = subprocess.run([command, "--sweep", sweep, "--list"], capture_output=True, text=True, check=True).stdout
+    return [line.split()[0] for line in out.splitlines()]
+
+
+def measure_sweeps(runners, args, progress_of):
+    """Series of one number each; rows have "x". Those of triangles and varyings run on one thread, which tells a cost most plainly."""
+    rows = []
+    program = args.native / "halfspace-bench"
+    rounds = 1 if args.quick else 3
+    for sweep in ("triangle_size", "triangle_count", "overdraw", "varyings"):
+        chosen = [r for r in runners if r.key in ("halfspace native 1", "llvmpipe 1") or (sweep == "triangle_count" and r.key == "Embree 1")]
+        everyone = [Contender(r.key, r.command, r.threads) for r in chosen]
+        points = sweep_points(program, sweep)
+        if args.quick:  # the largest take long to prepare
+            points = [p for p in points if p not in ("triangle_count=3200000", "triangle_count=10000000")]
+        progress = progress_of(len(points) * rounds * len(everyone))
+        got = measure_rounds(everyone, points, ["1920x1080"], rounds, args.seconds, ("--sweep", sweep), progress)
+        rows += [{"sweep": sweep, "x": float(row["workload"].split("=")[1]), **row} for row in got]
+    return rows
+
+
+def measure_threads(runners, args, progress_of):
+    """1 to twice as many threads as there are cores."""
+    rows = []
+    names = ["layers_b2f", "sphere_phong_20k", "sphere_phong_2m", "shadow_200k", "tiny_1m"]
+    counts = sorted({1, 2, 3, 4, args.threads, args.threads + 1, 2 * args.threads} | {2**k for k in range(8) if 2**k <= args.threads})
+    rounds = 1 if args.quick else 3
+    everyone = [
+        Contender(f"{kind} {n}", r.command, n) for n in counts for kind in ("halfspace native", "llvmpipe") for r in runners if r.key == f"{kind} 1"
+    ]
+    progress = progress_of(len(names) * rounds * len(everyone))
+    got = measure_rounds(everyone, names, ["1920x1080"], rounds, args.seconds, progress=progress)
+    return [{"sweep": "threads", "x": row["threads"], **row} for row in got]
+
+
+def measure_sizes(runners, args, progress_of):
+    """Square pictures of 256 to 8192 pixels a side."""
+    sides = [256, 512, 1024, 2048] + ([] if args.quick else [4096, 8192])
+    names = ["clear", "fill", "layers_f2b", "sphere_phong_20k", "tonemap"]
+    chosen = [r for r in runners if r.key in ("halfspace native 1", "llvmpipe 1")]
+    rounds = 1 if args.quick else 3
+    progress = progress_of(len(names) * len(sides) * rounds * len(chosen))
+    got = measure_rounds(chosen, names, [f"{side}x{side}" for side in sides], rounds, args.seconds, progress=progress)
+    return [{"sweep": "picture_size", "x": int(row["size"].split("x")[0]), **row} for row in got]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--native", type=Path, required=True, help="folder of the native build's programs")
     parser.add_argument("--v3", type=Path, required=True, help="folder of the x86-64-v3 build's programs")
     parser.add_argument("--out", type=Path, required=True, help="the JSON file to write")
+    parser.add_argument("--truths", type=Path, required=True, help="folder of pictures in double precision, made where absent")
     parser.add_argument("--only", default="", help="these workloads alone, by comma")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--sizes", default="1920x1080,512x512")
-    parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--seconds", type=float, default=0.5, help="of each program in each round")
+    parser.add_argument("--rounds", type=int)
+    parser.add_argument("--seconds", type=float, help="of each program in each round")
+    parser.add_argument("--no-sweeps", action="store_true", help="the workloads alone, no series")
+    parser.add_argument("--quick", action="store_true", help="fewer rounds, shorter, the largest left out")
     args = parser.parse_args()
+    args.rounds = args.rounds or (1 if args.quick else 5)
+    args.seconds = args.seconds or (0.1 if args.quick else 0.5)
 
     runners = contenders(args)
     names = args.only.split(",") if args.only else names_of(args.native / "halfspace-bench")
     sizes = args.sizes.split(",")
+    results = {"machine": machine(), "threads": args.threads, "rounds": args.rounds, "seconds": args.seconds, "quick": args.quick}
+    results["pictures"] = check_pictures(runners, names, sizes, args.truths)
+    results["limits"] = measure_limits(args.native / "halfspace-limits", args.threads, args.quick)
     progress = Progress(len(sizes) * args.rounds * sum(r.draws(name) for r in runners for name in names))
-    results = {"machine": machine(), "threads": args.threads}
     results["workloads"] = measure_rounds(runners, names, sizes, args.rounds, args.seconds, progress=progress)
+    results["sweeps"] = []
+    if not args.no_sweeps:
+        for measure in (measure_sweeps, measure_threads, measure_sizes):
+            results["sweeps"] += measure(runners, args, Progress)
     results["machine"]["load_after"] = os.getloadavg()[0]
     args.out.parent.mkdir(parents=True, exist_ok=True)
     args.out.write_text(json.dumps(results, indent=1) + "\n")
