@@ -13,17 +13,16 @@ DOCUMENTS = ["README.md", "docs/performance.md"]
 CHARTS = Path("docs/benchmark")
 
 
-def renew(path, sections):
+MARKED = re.compile(r"<!-- benchmark: (\w+) -->\n.*?<!-- /benchmark -->", flags=re.DOTALL)
+
+
+def marked_sections(text):
+    return MARKED.findall(text)
+
+
+def renewed(text, sections):
     """Replaces what stands between <!-- benchmark: NAME --> and <!-- /benchmark -->."""
-
-    def section(match):
-        name = match.group(1)
-        if name not in sections:
-            sys.exit(f"{path}: no section '{name}'; expected one of {', '.join(sections)}")
-        return f"<!-- benchmark: {name} -->\n{sections[name]}\n<!-- /benchmark -->"
-
-    text = path.read_text()
-    path.write_text(re.sub(r"<!-- benchmark: (\w+) -->\n.*?<!-- /benchmark -->", section, text, flags=re.DOTALL))
+    return MARKED.sub(lambda m: f"<!-- benchmark: {m.group(1)} -->\n{sections[m.group(1)]}\n<!-- /benchmark -->", text)
 
 
 def main():
@@ -40,7 +39,7 @@ def main():
     (args.out / "tables.md").write_text("\n\n".join(sections[name] for name in shown) + "\n")
     if args.docs:
         for name in DOCUMENTS:
-            renew(Path(name), sections)
+            Path(name).write_text(renewed(Path(name).read_text(), sections))
     try:
         import bench_charts
     except ImportError:

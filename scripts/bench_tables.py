@@ -5,7 +5,7 @@ import math
 # The workloads that peers are compared by; the others are ours alone, and no part of the mean.
 COMPARED = ["clear", "fill", "layers_b2f", "layers_f2b", *(f"sphere_{k}_{n}" for k in ("phong", "gouraud", "flat") for n in ("20k", "200k", "2m")),
             "tiny_1m", "shadow_200k", "points_100k", "hdr_200k", "tonemap"]
-TRIANGLES = {"20k": 20_000, "200k": 200_000, "2m": 2_000_000, "1m": 1_000_000}
+TRIANGLES = {"200k": 200_000, "2m": 2_000_000, "1m": 1_000_000}
 
 # Floating-point operations of one shaded pixel, counted by hand in the shader's source (a fused multiply-add is two, a division or a root
 # one): 50 for the weights of a pixel, 4 a varying, 50 for derivatives of a texture coordinate, 120 for a trilinear look-up, 105 for
@@ -115,20 +115,34 @@ def picture(results, workload, size):
     return f"{off('halfspace native 1')} / {off('llvmpipe 1')}"
 
 
+def covered_pixels(results, workload, size):
+    return results.pictures.get(("halfspace native 1", workload, size), {}).get("covered")
+
+
+def flops(workload):
+    """Of a shaded pixel; None where triangles are most of the work, or the workload is not counted."""
+    return None if workload.endswith("_2m") else next((count for key, count in FLOPS.items() if workload.startswith(key)), None)
+
+
 def resource(results, workload, size, threads):
     """(what binds by this model, the rate reached, the limit, its unit); None where there is no model."""
-    ms = results.ms(f"halfspace native {threads}", workload, size)
-    covered = results.pictures.get(("halfspace native 1", workload, size), {}).get("covered")
+    ms, covered = results.ms(f"halfspace native {threads}", workload, size), covered_pixels(results, workload, size)
     width, height = map(int, size.split("x"))
     if not ms or not covered:
         return None
     if workload in BYTES:
-        name = f"memset {size}"
-        return (f"{BYTES[workload]} bytes a pixel leave the tile; memset", 1e-6 * BYTES[workload] * width * height / ms, results.limits.get((name, threads)), "GB/s")
-    kind = next((k for k in FLOPS if workload.startswith(k)), None)
-    if not kind or workload.endswith("_2m"):
-        return None
-    return (f"{FLOPS[kind]} operations a shaded pixel; multiply-adds", 1e-6 * FLOPS[kind] * covered / ms, results.limits.get(("fma", threads)), "GFLOP/s")
+        return (f"{BYTES[workload]} bytes a pixel leave the tile; memset", 1e-6 * BYTES[workload] * width * height / ms,
+                results.limits.get((f"memset {size}", threads)), "GB/s")
+    count = flops(workload)
+    return (f"{count} operations a shaded pixel; multiply-adds", 1e-6 * count * covered / ms, results.limits.get(("fma", threads)), "GFLOP/s") if count else None
+
+
+def intensity(results, workload, size, threads):
+    """(operations a byte that leaves the tile, GFLOP/s reached); None where operations are not counted."""
+    ms, covered, count = results.ms(f"halfspace native {threads}", workload, size), covered_pixels(results, workload, size), flops(workload)
+    width, height = map(int, size.split("x"))
+    written = {"tonemap": 4, "hdr_200k": 16}.get(workload, 8) * width * height
+    return (count * covered / written, 1e-6 * count * covered / ms) if ms and covered and count else None
 
 
 def resource_table(results, size):
@@ -137,15 +151,15 @@ def resource_table(results, size):
     clock = results.limits.get(("clock", 1), 0)
     for w in results.names:
         ms = results.ms(f"halfspace native {n}", w, size)
-        triangles = next((count for key, count in TRIANGLES.items() if w.endswith("_" + key)), None)
-        per_triangle = f"{ms * 1e6 * clock * n / triangles:.0f}" if ms and triangles and w != "points_100k" else "–"
+        triangles = next((count for key, count in TRIANGLES.items() if w.endswith("_" + key) and w.startswith(("sphere", "tiny"))), None)
+        cycles = f"{ms * 1e6 * clock * n / triangles:.0f}" if ms and triangles else "–"
         found = resource(results, w, size, n)
         if found and found[2]:
             what, reached, limit, unit = found
-            rows.append([w, what, f"{reached:.1f} {unit}", f"{limit:.1f} {unit}", f"{100 * reached / limit:.0f}%", per_triangle])
-        elif per_triangle != "–":
-            rows.append([w, "triangles", "–", "–", "–", per_triangle])
-    return table([f"{size}, {n} threads, native", "resource", "reached", "limit", "share", "core cycles a triangle"], rows)
+            rows.append([w, what, f"{reached:.1f} {unit}", f"{limit:.1f} {unit}", f"{100 * reached / limit:.0f}%", cycles])
+        elif triangles:
+            rows.append([w, "triangles", "–", "–", "–", cycles])
+    return table([f"{size}, {n} threads, native", "resource", "reached", "limit", "share", "core cycles a triangle of the mesh"], rows)
 
 
 def limit_table(results):
@@ -176,14 +190,19 @@ def sweep_series(results, sweep):
 
 
 def growth_table(results):
+    """What a triangle and a pixel cost as there are more of them. The exponent is that of the fit of cost to number: 1 where each costs the same."""
     rows = []
     for (who, _), points in sweep_series(results, "triangle_count").items():
-        costs = [f"{1e6 * ms / x:.1f}" for x, ms in points if x in (1e4, 1e5, 1e6, 1e7)]
-        rows.append([who, "ns a triangle, 10^4, 10^5, 10^6, 10^7", ", ".join(costs), number(slope([p for p in points if p[0] >= 1e5]))])
+        decades = [p for p in points if p[0] in (1e4, 1e5, 1e6, 1e7)]
+        mean = ", ".join(f"{1e6 * ms / x:.1f}" for x, ms in decades)
+        further = ", ".join(f"{1e6 * (b[1] - a[1]) / (b[0] - a[0]):.1f}" for a, b in zip(decades, decades[1:]))
+        rows.append([who, "ns a triangle at 10^4, 10^5, 10^6, 10^7", mean, number(slope([p for p in points if p[0] >= 1e5]))])
+        rows.append([who, "ns a further triangle between them", further, ""])
     for (who, workload), points in sweep_series(results, "picture_size").items():
-        costs = [f"{1e6 * ms / x**2:.2f}" for x, ms in points if x >= 512]
-        rows.append([f"{who}, {workload}", "ns a pixel, 512² and twice the side each", ", ".join(costs), number(slope([(x * x, ms) for x, ms in points if x >= 512]))])
-    return table(["one thread", "cost", "values", "exponent of the fit (1: cost a unit stays)"], rows)
+        large = [(x, ms) for x, ms in points if x >= 512]
+        costs = ", ".join(f"{1e6 * ms / x**2:.2f}" for x, ms in large)
+        rows.append([f"{who}, {workload}", f"ns a pixel at {', '.join(str(int(x)) + '²' for x, _ in large)}", costs, number(slope([(x * x, ms) for x, ms in large]))])
+    return table(["one thread", "cost", "values", "exponent"], rows)
 
 
 def sections(results):
