@@ -3,7 +3,7 @@
 # and charts. What is not there (Chromium's SwiftShader, Embree) is left out with a message.
 #
 #   scripts/bench.sh [--quick] [--docs] [--out DIR] [ARGUMENT...]
-#     --quick   a few minutes instead of an hour and more: one short round
+#     --quick   a few minutes instead of about an hour: one short round
 #     --docs    also renews the tables of docs/performance.md and README.md, and the charts in docs/benchmark
 #     --out     where results go (default: build/bench/results)
 #   Further arguments go to scripts/bench_measure.py: --only, --threads, --sizes, --rounds, --seconds, --no-sweeps.

@@ -88,6 +88,9 @@ def by_workload(results, folder, sweep, label, value, x_label, log_x, log_y):
                           color=f"C{workloads.index(workload)}", label=workload)
         axes.set_title(program)
         finish(axes, x_label, label, log_x, log_y)
+        places = sorted({x for points in series.values() for x, _ in points})
+        axes.set_xticks(places, [f"{x:g}" for x in places])
+        axes.minorticks_off()
     save(figure, folder, sweep)
 
 

@@ -4,6 +4,7 @@
 import argparse
 import json
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -46,8 +47,10 @@ def main():
         print("bench_report.py: no charts, matplotlib is missing (Debian: python3-matplotlib)", file=sys.stderr)
     else:
         bench_charts.draw_all(results, args.out)
-        if args.docs:
-            bench_charts.draw_all(results, CHARTS)
+        if args.docs:  # PNG alone: the pages show those
+            CHARTS.mkdir(parents=True, exist_ok=True)
+            for chart in args.out.glob("*.png"):
+                shutil.copy(chart, CHARTS)
     print(f"{args.out}/tables.md")
 
 

@@ -69,10 +69,10 @@ def table(head, rows):
 
 
 def source_line(results):
-    m = results.raw["machine"]
-    kind = ", a quick run" if results.raw["quick"] else ""
-    return (f"From the run of {m['date']} ({m['cpu']}, {m['cores']} cores, {m['system']}, {m['compiler']}, commit {m['commit']}; load {m['load_before']:.1f} "
-            f"before and {m['load_after']:.1f} after{kind}): {results.raw['rounds']} interleaved rounds of {results.raw['seconds']} s; the median of the rounds' medians.")
+    m, raw = results.raw["machine"], results.raw
+    rounds = f"{raw['rounds']} interleaved rounds of {raw['seconds']} s; the median of the rounds' medians" if raw["rounds"] > 1 else f"one round of {raw['seconds']} s"
+    busy = f" **Other work ran beside it (load {m['load_before']:.1f} before it began): the figures are no measure of the programs.**" if m["load_before"] > 1 else ""
+    return f"From the run of {m['date']}: {m['cpu']}, {m['cores']} cores, {m['system']}, {m['compiler']}, commit {m['commit']}; {rounds}.{busy}"
 
 
 def time_table(results, size):
