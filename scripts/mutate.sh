@@ -48,7 +48,7 @@ fault "scissor ignored inside a packet" src/raster/visibility.cpp 'if (cut) mask
 fault "blending before the pixels that wait are shaded" src/raster/pass_tiles.cpp 'if (waiting && has_color_) shade_deferred(frame_, tile, statistics);
         waiting = false;' 'waiting = waiting;'
 fault "flush forgets the depth" src/raster/pass_tiles.cpp 'if (!round.first) load_depth(between_flushes(depth_, depth_spill_), width, height, kept, tile);' 'if (!round.first) load_depth(depth_, width, height, kept, tile);'
-fault "stencil: increments wrap where they should be held" src/raster/stencil.cpp 'select(value == most, most, value + Int(1))' '(value + Int(1)) & most'
+fault "stencil: increments wrap where they should be held" src/raster/stencil.cpp 'min(value + Int(1), most)' '(value + Int(1)) & most'
 fault "stencil: rejected blocks forget what failed" src/raster/visibility.cpp 'tests && !asks_shader && !counts_failures &&' 'tests && !asks_shader &&'
 fault "colour mask: deferred draws forget what they keep" src/raster/pass.cpp '!a.blend && a.mask.all()' '!a.blend'
 fault "samples: resolved without their mean in light" src/raster/resolve.cpp 'x = x * share;' 'x = x * share * share;'

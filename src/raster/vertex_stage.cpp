@@ -89,12 +89,12 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.varying_count = draw.kernels.varying_count;
   const std::size_t n = out.count * std::size_t{draw.state.instances};
   HS_CHECK_OP(n, <, std::size_t{1} << 32);
-  out.screen.reset(new ScreenVertex[n]);  // not make_unique: rows that no index uses need no initialization
-  out.outcodes.reset(new Outcode[n]);
-  out.varyings.reset(new float[n * static_cast<std::size_t>(out.varying_count)]);
+  out.screen.reset(n);
+  out.outcodes.reset(n);
+  out.varyings.reset(n * static_cast<std::size_t>(out.varying_count));
   out.clip_distance_count = draw.kernels.clip_distance_count;
-  if (out.clip_distance_count != 0) out.clip_distances.reset(new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
-  if (draws_points(draw.state)) out.sprites.reset(new SpriteRect[n]);
+  out.clip_distances.reset(out.clip_distance_count == 0 ? nullptr : new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
+  out.sprites.reset(draws_points(draw.state) ? new SpriteRect[n] : nullptr);
 }
 
 void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
