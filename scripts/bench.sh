@@ -30,7 +30,7 @@ build() {
   cmake --build "build/bench/$1" --target "${@:3}" >> "build/bench/$1.log" || { tail -20 "build/bench/$1.log" >&2; exit 1; }
 }
 mkdir -p build/bench
-echo "bench.sh: building (native and x86-64-v3)" >&2
+[ ! -t 2 ] || echo "bench.sh: building (native and x86-64-v3)" >&2
 build native native benchmarks
 build v3 x86-64-v3 halfspace-bench
 

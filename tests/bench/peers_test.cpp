@@ -83,6 +83,14 @@ TEST(BenchEmbree, DrawsTheSamePictures) {
   }
 }
 
+TEST(BenchGl, SaysWhichDriversThereAre) {
+  const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
+  if (program.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built";
+  const Outcome outcome = test::run_program(program, "--driver llvm --only fill");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.text, "halfspace-bench-gl: --driver is 'llvm'; expected llvmpipe, swiftshader or softpipe\n");
+}
+
 TEST(BenchPeers, HaveTheSeriesOfHalfspace) {
   for (const std::string program : {HALFSPACE_BENCH_GL_PROGRAM, HALFSPACE_BENCH_EMBREE_PROGRAM}) {
     if (program.empty()) continue;

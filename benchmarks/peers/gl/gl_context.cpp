@@ -86,7 +86,8 @@ void GlContext::open() {
   if (extensions == nullptr || std::string_view(extensions).find("EGL_MESA_platform_surfaceless") == std::string_view::npos)
     absent("EGL has no surfaceless platform; install libegl-mesa0");
   display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (!eglInitialize(display_, nullptr, nullptr)) absent("Mesa's surfaceless display does not open; install libgl1-mesa-dri");
+  if (!eglInitialize(display_, nullptr, nullptr))
+    absent("Mesa's surfaceless display does not open; install libgl1-mesa-dri, for SwiftShader libvulkan1");
   eglBindAPI(EGL_OPENGL_API);
   const std::array<EGLint, 5> want_config{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;

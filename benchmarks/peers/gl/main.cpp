@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // halfspace-bench-gl: the workloads drawn by a software OpenGL.
+#include <map>
 #include <optional>
 
 #include "bench_program.h"
@@ -20,11 +21,14 @@ int run(int argc, char** argv) {
                             .what = "Draws the workloads of the benchmark with a software OpenGL and measures their frames",
                             .add_options =
                                 [&](CLI::App& program) {
-                                  program.add_option("--driver", driver, "llvmpipe (default), swiftshader or softpipe")
-                                      ->check(CLI::IsMember(drivers))
-                                      ->type_name("NAME");
+                                  program.add_option("--driver", driver, "llvmpipe (default), swiftshader or softpipe")->type_name("NAME");
                                 },
-                            .start = [&](int threads) { context.emplace(drivers.at(driver), threads); },
+                            .start =
+                                [&](int threads) {
+                                  if (!drivers.contains(driver))
+                                    throw UsageError("--driver is '" + driver + "'; expected llvmpipe, swiftshader or softpipe");
+                                  context.emplace(drivers.at(driver), threads);
+                                },
                             .kinds = [] { return gl_workloads(); },
                             .sweeps = [] { return gl_sweeps(); },
                             .identity =
