@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "conformance/geometry.h"
+#include "conformance/groups.h"
+#include "core/trig_double.h"
+
+namespace halfspace::conformance {
+
+namespace {
+
+struct Named {
+  const char* name;
+  Topology topology;
+  float width = 1.0f;  ///< of lines
+};
+constexpr Named kTriangles[] = {
+    {"triangles", Topology::triangles}, {"triangle_strip", Topology::triangle_strip}, {"triangle_fan", Topology::triangle_fan}};
+constexpr Named kLines[] = {{"lines", Topology::lines}, {"line_strip", Topology::line_strip}, {"line_loop", Topology::line_loop}};
+constexpr Named kWideLines[] = {
+    {"lines_wide", Topology::lines, 5.0f}, {"line_strip_wide", Topology::line_strip, 5.0f}, {"line_loop_wide", Topology::line_loop, 5.0f}};
+
+std::string samples_suffix(int samples) { return samples == 1 ? "" : "_samples_" + std::to_string(samples); }
+
+// Mesa's llvmpipe knows 1 and 4 samples.
+const char* mesa_lacks(int samples) { return samples == 2 || samples == 8 ? "llvmpipe has 1 or 4 samples" : nullptr; }
+
+// Fragments add up in a float target, so that what is drawn twice shows.
+Drawing counting(const glm::vec4& color) {
+  Drawing d;
+  d.state.blend = kAdd;
+  d.state.depth.test = false;
+  for (Vertex& v : d.vertices) v.color = color;
+  return d;
+}
+
+// ---- fill rules ----------------------------------------------------------------------------------------------------
+
+enum class Quads { basic_quad, basic_quad_reverse, clipped_full, clipped_partly, projected };
+constexpr const char* kQuadNames[] = {"basic_quad", "basic_quad_reverse", "clipped_full", "clipped_partly", "projected"};
+
+// Rotated squares side by side, or one that reaches beyond the window.
+Picture quads_picture(Quads quads, int samples) {
+  Picture p;
+  p.width = p.height = 64;
+  p.samples = samples;
+  p.colors = {ColorFormat::rgba32f};
+  Drawing d = counting(glm::vec4(1.0f));
+  const bool beyond = quads == Quads::clipped_full || quads == Quads::clipped_partly;
+  const int cells = beyond ? 1 : 4;
+  for (int cell = 0; cell < cells * cells; ++cell) {
+    const double size = 64.0 / cells, turn = 0.1 + 0.37 * cell;
+    const double radius = quads == Quads::clipped_full ? 200.0 : quads == Quads::clipped_partly ? 45.0 : 7.7;
+    std::array<Vertex, 4> corners;
+    for (int i = 0; i < 4; ++i) {
+      const double angle = turn + 1.5707963267948966 * (quads == Quads::basic_quad_reverse ? 3 - i : i);
+      const double x = size * (cell % cells + 0.5) + radius * sincos_radians(angle).cos,
+                   y = size * (cell / cells + 0.5) + radius * sincos_radians(angle).sin;
+      const float w = quads == Quads::projected ? (i % 2 == 0 ? 0.5f : 4.0f) : 1.0f;
+      corners[static_cast<std::size_t>(i)] = {clip_at(p, std::round(x * 256.0) / 256.0, std::round(y * 256.0) / 256.0, 0.0f, w)};
+    }
+    add_quad(d, corners);
+  }
+  p.draws.push_back(std::move(d));
+  return p;
+}
+
+std::string quads_once(const Picture& p, const Seen& seen) {
+  std::vector<Region> regions;
+  const std::vector<Vertex>& v = p.draws[0].vertices;
+  for (std::size_t i = 0; i < v.size(); i += 4) {
+    std::array<glm::dvec2, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = window_of(p, v[i + k].pos_clip);
+    regions.push_back(polygon(corners));
+  }
+  return expect_red(p, seen, regions);
+}
+
+// ---- primitives ----------------------------------------------------------------------------------------------------
+
+Picture primitives_picture(const Named& kind, PolygonMode mode, float point_size, int samples) {
+  Picture p;
+  p.samples = samples;
+  p.colors = {ColorFormat::rgba32f};
+  Drawing d = counting(glm::vec4(1.0f));
+  d.state.topology = kind.topology;
+  d.state.line_width = kind.width;
+  d.state.polygon_mode = mode;
+  d.state.point_size = point_size;
+  d.vertices = kind.topology == Topology::triangle_fan ? scattered(p, 6, 11) : scattered(p, 12, 5);
+  for (Vertex& v : d.vertices) v.color = glm::vec4(1.0f);
+  p.draws.push_back(std::move(d));
+  return p;
+}
+
+// What fills: triangles and points (squares round the vertex).
+std::string filled(const Picture& p, const Seen& seen) {
+  const Drawing& d = p.draws[0];
+  std::vector<Region> regions;
+  for (const Assembled& a : assembled(d)) {
+    std::array<glm::dvec2, 3> c;
+    for (std::size_t k = 0; k < 3; ++k) c[k] = window_of(p, d.vertices[a.vertex[k]].pos_clip);
+    if (d.state.topology == Topology::points) {
+      const double r = 0.5 * static_cast<double>(d.state.point_size);
+      const std::array<glm::dvec2, 4> square{c[0] + glm::dvec2(-r, -r), c[0] + glm::dvec2(r, -r), c[0] + glm::dvec2(r, r),
+                                             c[0] + glm::dvec2(-r, r)};
+      regions.push_back(polygon(square));
+    } else {
+      regions.push_back(polygon(c));
+    }
+  }
+  return expect_red(p, seen, regions);
+}
+
+// Of a line of one sample and width w each column (row) between its ends holds w pixels, none further than (w + 1)/2 from it.
+std::string thin_lines(const Picture& p, const Seen& seen) {
+  const Drawing& d = p.draws[0];
+  const double width = static_cast<double>(d.state.line_width);
+  struct Line {
+    glm::dvec2 from, to;
+    bool y_major;
+  };
+  std::vector<Line> lines;
+  for (const Assembled& a : assembled(d)) {
+    const glm::dvec2 from = window_of(p, d.vertices[a.vertex[0]].pos_clip), to = window_of(p, d.vertices[a.vertex[1]].pos_clip);
+    lines.push_back({from, to, std::fabs(to.y - from.y) > std::fabs(to.x - from.x)});
+  }
+  return for_each_pixel(seen, [&](int x, int y) -> std::string {
+    double low = 0, high = 0;
+    for (const Line& l : lines) {
+      const int major = l.y_major ? 1 : 0;
+      const glm::dvec2 at(x + 0.5, y + 0.5), e = l.to - l.from;
+      const double t = (at[major] - l.from[major]) / e[major];
+      const double off = std::fabs(l.from[1 - major] + t * e[1 - major] - at[1 - major]), end = 1.0 / std::fabs(e[major]);
+      if (t > end && t < 1.0 - end && off < 0.5 * width - kMargin) low += 1;
+      if (t > -end && t < 1.0 + end && off < 0.5 * width + kMargin + 1.0 * end) high += 1;
+    }
+    const double red = static_cast<double>(seen.color(x, y).x);
+    if (red >= low && red <= high) return {};
+    return "drawn " + std::to_string(red) + " times, expected " + std::to_string(low) + " to " + std::to_string(high);
+  });
+}
+
+// ---- colours: interpolation, culling, flat shading -----------------------------------------------------------------
+
+// Triangles or lines side by side, each with its own colours.
+Picture colored(const Named& kind, bool projected, ColorMode mode, int samples = 1) {
+  Picture p;
+  p.samples = samples;
+  Drawing d;
+  d.mode = mode;
+  d.state.topology = kind.topology;
+  d.state.line_width = kind.width;
+  d.vertices = kind.topology == Topology::triangles ? zigzag(p, 9, projected) : zigzag(p, 7, projected);
+  if (kind.topology == Topology::triangle_fan) {  // round a first vertex at the bottom
+    d.vertices.assign(1, {clip_at(p, 16, 1, 0.0f, projected ? 2.0f : 1.0f), color_number(20)});
+    for (int i = 0; i < 6; ++i) {
+      const double angle = 0.3 + 0.5 * i;
+      const double x = std::round((16 + 14 * sincos_radians(angle).cos) * 256) / 256,
+                   y = std::round((2 + 27 * sincos_radians(angle).sin) * 256) / 256;
+      d.vertices.push_back({clip_at(p, x, y, 0.0f, projected && i % 2 == 0 ? 0.5f : 1.0f), color_number(i)});
+    }
+  }
+  if (is_lines(kind.topology) && kind.topology != Topology::line_strip) d.vertices.pop_back();
+  p.draws.push_back(std::move(d));
+  return p;
+}
+
+// In the inside of exactly one triangle its colour is that of the interpolation; where triangles are culled nothing is.
+std::string triangle_colors(const Picture& p, const Seen& seen) {
+  const Drawing& d = p.draws[0];
+  struct Shown {
+    Weighed triangle;
+    std::array<glm::vec4, 3> colors;
+  };
+  std::vector<Shown> shown;
+  for (const Assembled& a : assembled(d)) {
+    std::array<glm::vec4, 3> at, colors;
+    std::array<glm::dvec2, 3> w;
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k] = d.vertices[a.vertex[k]].pos_clip;
+      w[k] = window_of(p, at[k]);
+      colors[k] = d.vertices[d.mode == kFlat ? a.provoking : a.vertex[k]].color;
+    }
+    const double area = (w[1].x - w[0].x) * (w[2].y - w[0].y) - (w[1].y - w[0].y) * (w[2].x - w[0].x);
+    if (is_culled(d.state.cull, (area > 0) == (d.state.front == Winding::counter_clockwise))) continue;
+    if (d.mode == kLinear) {  // the same point of the window with w = 1
+      for (glm::vec4& c : at) c = glm::vec4(glm::vec3(c) / c.w, 1.0f);
+    }
+    shown.push_back({weigh(p, d.state.depth, at).value(), colors});
+  }
+  return for_each_pixel(seen, [&](int x, int y) -> std::string {
+    const glm::dvec2 at(x + 0.5, y + 0.5);
+    const double around = p.samples == 1 ? kMargin : 0.75;  // with samples the whole pixel must lie inside, or outside
+    glm::dvec4 expected(p.clear_color);
+    for (const Shown& s : shown) {
+      const Where w = where(s.triangle.region, at, around);
+      if (w == Where::unsure) return {};
+      if (w == Where::inside) expected = s.triangle.color(s.colors, at);  // they do not overlap, or the last is in front
+    }
+    return expect_near(expected, seen.color(x, y), kHalfCode);
+  });
+}
+
+// Every pixel of a line shows the colour of a provoking vertex, or nothing.
+std::string provoking_colors(const Picture& p, const Seen& seen) {
+  const Drawing& d = p.draws[0];
+  const std::vector<Assembled> lines = assembled(d);
+  return for_each_pixel(seen, [&](int x, int y) -> std::string {
+    const glm::vec4 got = seen.color(x, y);
+    if (got == p.clear_color) return {};
+    for (const Assembled& a : lines) {
+      if (expect_near(glm::dvec4(d.vertices[a.provoking].color), got, kHalfCode).empty()) return {};
+    }
+    return "a colour of no provoking vertex";
+  });
+}
+
+// Every colour of a line lies between the smallest and the largest of its vertices' in each channel; of a wide one as much beyond them as
+// its corners lie beyond its ends (w/2 px, and half a pixel).
+std::string colors_in_range(const Picture& p, const Seen& seen) {
+  const Drawing& d = p.draws[0];
+  glm::vec4 low(1.0f), high(0.0f);
+  for (const Vertex& v : d.vertices) low = glm::min(low, v.color), high = glm::max(high, v.color);
+  if (d.state.line_width > 1.0f) {
+    constexpr float kShortest = 20.0f;  // px, of the lines of a zigzag
+    const glm::vec4 beyond = (high - low) * (0.5f * d.state.line_width + 0.5f) / kShortest;
+    low -= beyond;
+    high += beyond;
+  }
+  return for_each_pixel(seen, [&](int x, int y) -> std::string {
+    const glm::vec4 got = seen.color(x, y), half(static_cast<float>(kHalfCode));
+    const bool in_range = glm::all(glm::lessThanEqual(low - half, got)) && glm::all(glm::lessThanEqual(got, high + half));
+    return got == p.clear_color || in_range ? "" : "a colour beyond the vertices'";
+  });
+}
+
+}  // namespace
+
+Cases fill_rules_cases() {
+  Cases cases;
+  for (const Quads quads : {Quads::basic_quad, Quads::basic_quad_reverse, Quads::clipped_full, Quads::clipped_partly, Quads::projected}) {
+    for (const int samples : {1, 2, 4, 8}) {
+      cases.push_back({kQuadNames[static_cast<int>(quads)] + samples_suffix(samples), [=] { return quads_picture(quads, samples); },
+                       quads_once, quads == Quads::clipped_full, mesa_lacks(samples)});
+    }
+  }
+  return cases;
+}
+
+Cases primitives_cases() {
+  Cases cases;
+  const auto add = [&](const std::string& name, const Named& kind, PolygonMode mode, float size, int samples, auto truth) {
+    Case c{name + samples_suffix(samples), [=] { return primitives_picture(kind, mode, size, samples); }};
+    if (truth) c.truth = truth;
+    cases.push_back(std::move(c));
+  };
+  constexpr std::string (*no_truth)(const Picture&, const Seen&) = nullptr;
+  for (const int samples : {1, 4}) {
+    for (const float size : {1.0f, 2.0f, 7.5f, 40.0f}) {
+      add("points_" + std::to_string(static_cast<int>(size)), {"points", Topology::points}, PolygonMode::fill, size, samples, filled);
+    }
+    for (const Named& kind : kTriangles) add(kind.name, kind, PolygonMode::fill, 1.0f, samples, filled);
+    for (const Named& kind : kLines) add(kind.name, kind, PolygonMode::fill, 1.0f, samples, samples == 1 ? thin_lines : no_truth);
+    for (const Named& kind : kWideLines) add(kind.name, kind, PolygonMode::fill, 1.0f, samples, samples == 1 ? thin_lines : no_truth);
+    for (const Named& kind : kTriangles) {
+      add(std::string("outline_of_") + kind.name, kind, PolygonMode::line, 1.0f, samples, no_truth);
+      add(std::string("corners_of_") + kind.name, kind, PolygonMode::point, 3.0f, samples, no_truth);
+    }
+  }
+  return cases;
+}
+
+Cases interpolation_cases() {
+  Cases cases;
+  for (const bool projected : {false, true}) {
+    const std::string suffix = projected ? "_projected" : "_basic";
+    for (const Named& kind : kTriangles) {
+      cases.push_back({kind.name + suffix, [=] { return colored(kind, projected, kSmooth); }, triangle_colors});
+      cases.push_back({std::string("linear_") + kind.name + suffix, [=] { return colored(kind, projected, kLinear); }, triangle_colors});
+      cases.push_back({kind.name + suffix + "_samples_4", [=] { return colored(kind, projected, kSmooth, 4); }, triangle_colors});
+    }
+    for (const Named& kind : kLines) {
+      cases.push_back({kind.name + suffix, [=] { return colored(kind, projected, kSmooth); }, colors_in_range});
+      cases.push_back({std::string("linear_") + kind.name + suffix, [=] { return colored(kind, projected, kLinear); }, colors_in_range});
+    }
+    for (const Named& kind : kWideLines)
+      cases.push_back({kind.name + suffix, [=] { return colored(kind, projected, kSmooth); }, colors_in_range});
+  }
+  return cases;
+}
+
+Cases culling_cases() {
+  Cases cases;
+  constexpr CullMode kModes[] = {CullMode::front, CullMode::back, CullMode::front_and_back};
+  constexpr const char* kNames[] = {"front", "back", "both"};
+  for (int mode = 0; mode < 3; ++mode) {
+    for (const Named& kind : kTriangles) {
+      for (const Winding front : {Winding::counter_clockwise, Winding::clockwise}) {
+        const bool reverse = front == Winding::clockwise;
+        cases.push_back({std::string(kNames[mode]) + "_" + kind.name + (reverse ? "_reverse" : ""),
+                         [=] {
+                           Picture p = colored(kind, false, kSmooth);
+                           p.draws[0].state.cull = kModes[mode];
+                           p.draws[0].state.front = front;
+                           return p;
+                         },
+                         triangle_colors, mode == 2 || kind.topology != Topology::triangles});
+      }
+    }
+  }
+  return cases;
+}
+
+Cases flatshading_cases() {
+  Cases cases;
+  for (const ProvokingVertex provoking : {ProvokingVertex::last, ProvokingVertex::first}) {
+    const auto add = [&](const Named& kind, auto truth) {
+      cases.push_back({std::string(kind.name) + (provoking == ProvokingVertex::first ? "_first" : "_last"),
+                       [=] {
+                         Picture p = colored(kind, false, kFlat);
+                         p.draws[0].state.provoking = provoking;
+                         return p;
+                       },
+                       truth});
+    };
+    for (const Named& kind : kTriangles) add(kind, triangle_colors);
+    for (const Named& kind : kLines) add(kind, provoking_colors);
+    for (const Named& kind : kWideLines) add(kind, provoking_colors);
+  }
+  return cases;
+}
+
+}  // namespace halfspace::conformance
