@@ -168,6 +168,7 @@ Picture line_picture(int from, int to, float width, uint64_t seed) {
   Random random(seed);
   Picture p;
   Drawing d;
+  d.mode = kFlat;
   d.state.topology = Topology::lines;
   d.state.line_width = width;
   const glm::vec4 a = from < 0 ? inside(random) : outside(from, 3.0f, random);

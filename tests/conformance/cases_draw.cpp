@@ -161,6 +161,7 @@ bool restarts_before(int place, int i) {
 Picture restarted(Topology topology, int place, bool narrow, uint32_t instances) {
   Picture p;
   Drawing d;
+  d.mode = kFlat;
   d.state.topology = topology;
   d.state.point_size = 3.0f;
   d.state.depth.test = false;
@@ -192,6 +193,7 @@ std::string as_single_draws(const Picture& p, const Seen& seen) {
     run.state.instances = 1;
     if (all.kind == Kind::instance) {  // the one instance of these draws is number 0
       run.kind = Kind::color;
+      run.mode = kSmooth;
       for (Vertex& v : run.vertices) {
         v.pos_clip.x += static_cast<float>(instance) * all.value;
         v.color.y = v.extra.w;

@@ -26,6 +26,8 @@ Picture scissored(Topology topology, const Rect& scissor) {
   d.state.topology = topology;
   d.state.point_size = 6.0f;
   d.state.scissor = scissor;
+  d.state.depth.test = false;
+  d.mode = kFlat;
   d.vertices = scattered(p, 60, 3);
   p.draws.push_back(std::move(d));
   return p;

@@ -11,8 +11,6 @@ namespace halfspace::conformance {
 
 namespace {
 
-const char* mesa_lacks(int samples) { return samples == 1 || samples == 4 ? nullptr : "llvmpipe has 1 or 4 samples"; }
-
 Picture counting_picture(int samples) {
   Picture p;
   p.samples = samples;
@@ -243,31 +241,22 @@ Cases multisample_cases() {
   Cases cases;
   for (const int samples : {1, 2, 4, 8}) {
     const std::string suffix = "_samples_" + std::to_string(samples);
-    const char* lacks = mesa_lacks(samples);
-    cases.push_back({"num_samples_polygon" + suffix, [=] { return fan_picture(samples); }, all_shares, false, lacks});
+    cases.push_back({"num_samples_polygon" + suffix, [=] { return fan_picture(samples); }, all_shares});
     for (const int n : {2, 9}) {
       const std::string name = "common_edge_" + std::to_string(n * n) + "_quads" + suffix;
-      cases.push_back({name, [=] { return common_edge_picture(samples, n); }, squares_once, false, lacks});
+      cases.push_back({name, [=] { return common_edge_picture(samples, n); }, squares_once});
     }
     for (const By by : {By::pixel, By::sample, By::supersample, By::centroid, By::depth, By::stencil}) {
-      const bool other_place = by == By::sample || by == By::supersample || by == By::centroid;
-      Case c{kByNames[static_cast<int>(by)] + suffix,
-             [=] { return sampled(by, samples); },
-             {},
-             false,
-             lacks != nullptr             ? lacks
-             : other_place && samples > 1 ? "OpenGL leaves open where a centroid lies, and Mesa shades by pixel here"
-                                          : nullptr};
+      Case c{kByNames[static_cast<int>(by)] + suffix, [=] { return sampled(by, samples); }};
       if (by == By::centroid) c.truth = within_vertices;
       cases.push_back(std::move(c));
     }
     if (samples == 1) continue;
-    cases.push_back({"alpha_to_coverage" + suffix, [=] { return columns(samples, true, ~0u); }, alpha_share, false,
-                     "OpenGL leaves open which samples an alpha covers"});
+    cases.push_back({"alpha_to_coverage" + suffix, [=] { return columns(samples, true, ~0u); }, alpha_share});
     for (const uint32_t mask : {1u, 2u, 0xa5u}) {
       if ((mask & ((1u << samples) - 1u)) == 0) continue;
       cases.push_back(
-          {"sample_mask_" + std::to_string(mask) + suffix, [=] { return columns(samples, false, mask); }, masked_share, false, lacks});
+          {"sample_mask_" + std::to_string(mask) + suffix, [=] { return columns(samples, false, mask); }, masked_share});
     }
   }
   return cases;

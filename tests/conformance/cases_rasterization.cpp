@@ -23,9 +23,6 @@ constexpr Named kWideLines[] = {
 
 std::string samples_suffix(int samples) { return samples == 1 ? "" : "_samples_" + std::to_string(samples); }
 
-// Mesa's llvmpipe knows 1 and 4 samples.
-const char* mesa_lacks(int samples) { return samples == 2 || samples == 8 ? "llvmpipe has 1 or 4 samples" : nullptr; }
-
 // Fragments add up in a float target, so that what is drawn twice shows.
 Drawing counting(const glm::vec4& color) {
   Drawing d;
@@ -111,6 +108,32 @@ std::string filled(const Picture& p, const Seen& seen) {
     }
   }
   return expect_red(p, seen, regions);
+}
+
+// A point that shows its coordinate: at the pixel's centre from the square's corner.
+Picture coordinate_picture(PointOrigin origin, int samples) {
+  Picture p;
+  p.samples = samples;
+  p.colors = {ColorFormat::rgba32f};
+  Drawing d;
+  d.kind = Kind::point;
+  d.state.topology = Topology::points;
+  d.state.point_origin = origin;
+  d.vertices = {{clip_at(p, 14.25, 17.75), glm::vec4(1.0f), {21.5f, 0, 0, 0}}};
+  p.draws.push_back(std::move(d));
+  return p;
+}
+std::string coordinate_formula(const Picture& p, const Seen& seen) {
+  const Vertex& v = p.draws[0].vertices[0];
+  const double size = static_cast<double>(v.extra.x);
+  const glm::dvec2 low = window_of(p, v.pos_clip) - glm::dvec2(0.5 * size);
+  return for_each_pixel(seen, [&](int x, int y) -> std::string {
+    glm::dvec2 c = (glm::dvec2(x + 0.5, y + 0.5) - low) / size;
+    if (p.draws[0].state.point_origin == PointOrigin::upper_left) c.y = 1.0 - c.y;
+    const double margin = 1.0 / size;  // a pixel inside of the square
+    const bool inside = c.x > margin && c.x < 1.0 - margin && c.y > margin && c.y < 1.0 - margin;
+    return inside ? expect_near({c.x, c.y, 1.0, 1.0}, seen.color(x, y), 1e-6) : "";
+  });
 }
 
 // Of a line of one sample and width w each column (row) between its ends holds w pixels, none further than (w + 1)/2 from it.
@@ -243,7 +266,7 @@ Cases fill_rules_cases() {
   for (const Quads quads : {Quads::basic_quad, Quads::basic_quad_reverse, Quads::clipped_full, Quads::clipped_partly, Quads::projected}) {
     for (const int samples : {1, 2, 4, 8}) {
       cases.push_back({kQuadNames[static_cast<int>(quads)] + samples_suffix(samples), [=] { return quads_picture(quads, samples); },
-                       quads_once, quads == Quads::clipped_full, mesa_lacks(samples)});
+                       quads_once, quads == Quads::clipped_full});
     }
   }
   return cases;
@@ -260,6 +283,10 @@ Cases primitives_cases() {
   for (const int samples : {1, 4}) {
     for (const float size : {1.0f, 2.0f, 7.5f, 40.0f}) {
       add("points_" + std::to_string(static_cast<int>(size)), {"points", Topology::points}, PolygonMode::fill, size, samples, filled);
+    }
+    for (const PointOrigin origin : {PointOrigin::upper_left, PointOrigin::lower_left}) {
+      const std::string name = origin == PointOrigin::upper_left ? "point_coordinate_upper_left" : "point_coordinate_lower_left";
+      cases.push_back({name + samples_suffix(samples), [=] { return coordinate_picture(origin, samples); }, coordinate_formula});
     }
     for (const Named& kind : kTriangles) add(kind.name, kind, PolygonMode::fill, 1.0f, samples, filled);
     for (const Named& kind : kLines) add(kind.name, kind, PolygonMode::fill, 1.0f, samples, samples == 1 ? thin_lines : no_truth);

@@ -3,6 +3,8 @@
 // The groups of parameter sets, named as VK-GL-CTS names them.
 #pragma once
 
+#include <ostream>
+
 #include "conformance/picture.h"
 
 namespace halfspace::conformance {
@@ -31,6 +33,7 @@ struct Group {
   const char* name;
   Cases (*cases)();
 };
+inline void PrintTo(const Group& g, std::ostream* os) { *os << g.name; }
 /// All but the random states, which are made by number (random_state.h).
 inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"Primitives", primitives_cases},

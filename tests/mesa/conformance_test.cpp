@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pictures of tests/conformance drawn by Mesa: in each group at least 99.9% of the covered pixels agree.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "conformance/groups.h"
+#include "conformance/random_state.h"
+#include "mesa_context.h"
+#include "mesa_draw.h"
+
+namespace halfspace::test {
+
+namespace {
+
+using conformance::Drawing;
+using conformance::Kind;
+
+// ---- the shaders of conformance/shaders.h in GLSL --------------------------------------------------------------------
+
+constexpr const char* kShared = R"(#version 450 core
+    uniform float mode;
+    uniform float value;
+    )";
+constexpr const char* kVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in vec4 extra;
+    out vec4 color;
+    out vec4 other;
+    void main() {
+      color = in_color;
+      other = extra;
+      gl_Position = pos_clip;
+    })";
+constexpr const char* kColorVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    smooth out vec4 s;
+    flat out vec4 f;
+    noperspective out vec4 l;
+    centroid out vec4 c;
+    void main() {
+      s = f = l = c = in_color;
+      gl_Position = pos_clip;
+    })";
+constexpr const char* kColorFragment = R"(
+    smooth in vec4 s;
+    flat in vec4 f;
+    noperspective in vec4 l;
+    centroid in vec4 c;
+    out vec4 fragment;
+    void main() { fragment = mode == 0.0 ? s : mode == 1.0 ? f : mode == 2.0 ? l : c; })";
+constexpr const char* kClipVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in vec4 extra;
+    out vec4 color;
+    out gl_PerVertex { vec4 gl_Position; float gl_PointSize; float gl_ClipDistance[4]; };
+    void main() {
+      color = in_color;
+      gl_Position = pos_clip;
+      gl_PointSize = 4.0;
+      for (int i = 0; i < 4; ++i) gl_ClipDistance[i] = extra[i];
+    })";
+constexpr const char* kPlainFragment = R"(
+    in vec4 color;
+    out vec4 fragment;
+    void main() { fragment = color; })";
+constexpr const char* kCutoutFragment = R"(
+    in vec4 color;
+    out vec4 fragment;
+    void main() {
+      if (!(color.x >= value)) discard;
+      fragment = color;
+    })";
+constexpr const char* kDepthFragment = R"(
+    in vec4 color;
+    out vec4 fragment;
+    void main() {
+      fragment = color;
+      gl_FragDepth = color.y;
+    })";
+constexpr const char* kPointVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in vec4 extra;
+    out vec4 color;
+    void main() {
+      color = in_color;
+      gl_Position = pos_clip;
+      gl_PointSize = extra.x;
+    })";
+constexpr const char* kPointFragment = R"(
+    in vec4 color;
+    out vec4 fragment;
+    void main() { fragment = vec4(gl_PointCoord, color.zw); })";
+constexpr const char* kDerivativeFragment = R"(
+    in vec4 other;
+    out vec4 fragment;
+    void main() {
+      vec2 dx = dFdxCoarse(other.xy), dy = dFdyCoarse(other.xy);
+      int m = int(mode) % 3;
+      fragment = vec4((m == 0 ? dx : m == 1 ? dy : abs(dx) + abs(dy)) * value, 0.0, 1.0);
+    })";
+constexpr const char* kTextureFragment = R"(
+    uniform sampler2D image;
+    in vec4 other;
+    out vec4 fragment;
+    void main() { fragment = mode == 0.0 ? texture(image, other.xy) : textureLod(image, other.xy, value); })";
+constexpr const char* kInstanceVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in vec4 extra;
+    out vec4 color;
+    void main() {
+      float number = float(gl_InstanceID);
+      color = vec4(in_color.x, extra.w, number * (1.0 / 32.0), in_color.w);
+      precise float x = pos_clip.x + number * value + extra.x;
+      gl_Position = vec4(x, pos_clip.y + extra.y, pos_clip.zw);
+    })";
+constexpr const char* kTwoFragment = R"(
+    in vec4 color;
+    in vec4 other;
+    layout(location = 0, index = 0) out vec4 first;
+    layout(location = 0, index = 1) out vec4 second;
+    void main() {
+      first = color;
+      second = other;
+    })";
+
+struct Glsl {
+  const char *vertex, *fragment;
+};
+Glsl glsl_of(Kind kind) {
+  switch (kind) {
+    case Kind::color: return {kColorVertex, kColorFragment};
+    case Kind::clip: return {kClipVertex, kPlainFragment};
+    case Kind::cutout: return {kVertex, kCutoutFragment};
+    case Kind::depth: return {kVertex, kDepthFragment};
+    case Kind::point: return {kPointVertex, kPointFragment};
+    case Kind::derivative: return {kVertex, kDerivativeFragment};
+    case Kind::texture: return {kVertex, kTextureFragment};
+    case Kind::instance: return {kInstanceVertex, kPlainFragment};
+    case Kind::two_colors:
+    case Kind::four_colors: break;
+  }
+  return {kVertex, kTwoFragment};
+}
+
+MesaDraw mesa_draw_of(const Drawing& d) {
+  const auto [vertex, fragment] = glsl_of(d.kind);
+  VertexStream extra = stream(d.vertices, &conformance::Vertex::extra);
+  if (!d.rows.empty()) extra = per_instance(stream(d.rows), d.divisor);
+  MesaDraw m{kShared,
+             vertex,
+             fragment,
+             [&d](const UniformSetter& set) {
+               set("mode", static_cast<float>(d.mode));
+               set("value", d.value);
+               if (d.texture) set("image", *d.texture, d.sampler);
+             },
+             vertices(stream(d.vertices, &conformance::Vertex::pos_clip), stream(d.vertices, &conformance::Vertex::color), extra),
+             d.indices,
+             d.state,
+             d.restart,
+             d.kind == Kind::point || d.kind == Kind::clip,
+             d.kind == Kind::clip ? 4 : 0};
+  for (uint32_t i = 0; d.indices.empty() && i < d.vertices.size(); ++i) m.indices.push_back(i);
+  return m;
+}
+
+// ---- comparison ----------------------------------------------------------------------------------------------------
+
+struct Agreement {
+  MesaPrograms programs;
+  int64_t pictures = 0, covered = 0, differing = 0;
+};
+
+// Why Mesa is not asked for a picture, or null.
+const char* not_comparable(const conformance::Picture& p) {
+  if (p.samples == 2 || p.samples == 8) return "llvmpipe has 1 or 4 samples";
+  if (p.colors.size() > 1) return "one colour is compared";
+  if (p.supersample) return "OpenGL has no such option";
+  for (const Drawing& d : p.draws) {
+    const DrawState& s = d.state;
+    const bool lines = is_lines(s.topology) || s.polygon_mode == PolygonMode::line;
+    const bool in_perspective = std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.pos_clip.w != 1.0f; });
+    if (s.alpha_to_coverage) return "OpenGL leaves open which samples an alpha covers";
+    if (p.samples > 1 && (s.sample_shading || d.mode == conformance::kCentroid)) return "OpenGL leaves open where inside a pixel is shaded";
+    if (lines && !(d.kind == Kind::color && d.mode == conformance::kFlat)) return "llvmpipe interpolates along a line's longer axis alone";
+    if (d.kind == Kind::point && p.samples > 1) return "llvmpipe's point coordinate is half a pixel off with samples";
+    if (d.kind == Kind::derivative && in_perspective) return "OpenGL leaves open which differences of a quad a derivative is";
+    if (d.texture && d.texture->format() > TexelFormat::srgb8a8) return "textures of 8-bit RGBA are uploaded";
+    if (s.topology == Topology::points && s.polygon_mode != PolygonMode::fill) return "points are no polygons";
+  }
+  return nullptr;
+}
+
+// By how much a channel may differ.
+float tolerance(const conformance::Picture& p) {
+  constexpr float kCode = 1.01f / 255.0f;
+  const auto any = [&p](auto is) { return std::any_of(p.draws.begin(), p.draws.end(), is); };
+  if (any([](const Drawing& d) { return d.texture != nullptr; })) return 2.0f * kCode;  // llvmpipe's log2 errs by 0.04, its sRGB by 0.001
+  const bool floats = p.colors[0] == ColorFormat::rgba16f || p.colors[0] == ColorFormat::rgba32f;
+  if (floats) return 0x1p-10f;
+  // Mesa blends 8 bits in whole numbers, each product rounded; VK-GL-CTS allows three codes.
+  return any([](const Drawing& d) { return d.state.blend.has_value(); }) ? 3.0f * kCode : kCode;
+}
+
+void print_pixel(int x, int y, const glm::vec4& a, const glm::vec4& b) {
+  std::printf("    (%d, %d): Halfspace", x, y);
+  for (int k = 0; k < 4; ++k) std::printf(" %g", static_cast<double>(a[k]));
+  std::printf("  Mesa");
+  for (int k = 0; k < 4; ++k) std::printf(" %g", static_cast<double>(b[k]));
+  std::printf("\n");
+}
+
+// A pixel is covered where either picture is not as it was cleared.
+void compare_with_mesa(const conformance::Picture& p, const std::string& name, Agreement& sum) {
+  const TargetSpec target{p.width, p.height, p.colors[0], p.clear_color, p.clear_depth, p.depth, p.clear_stencil, p.samples};
+  std::vector<MesaDraw> draws;
+  for (const Drawing& d : p.draws) draws.push_back(mesa_draw_of(d));
+  const std::vector<glm::vec4> mesa = colors_by_mesa(target, draws, sum.programs);
+  const conformance::Seen seen = conformance::draw(p);
+  conformance::Picture nothing = p;
+  nothing.draws.clear();
+  const glm::vec4 clear = conformance::draw(nothing).color(0, 0);
+  const auto near = [most = tolerance(p)](const glm::vec4& a, const glm::vec4& b) {
+    for (int k = 0; k < 4; ++k) {
+      if (!(std::fabs(a[k] - b[k]) <= most * std::max(1.0f, std::fabs(a[k])))) return false;
+    }
+    return true;
+  };
+  int64_t covered = 0, differing = 0;
+  for (int y = 0; y < p.height; ++y) {
+    for (int x = 0; x < p.width; ++x) {
+      const glm::vec4 a = seen.color(x, y), b = mesa[static_cast<std::size_t>(y * p.width + x)];
+      covered += p.draws.empty() || !near(a, clear) || !near(b, clear);
+      if (near(a, b)) continue;
+      if (++differing <= 3 && std::getenv("HALFSPACE_MESA_PIXELS") != nullptr) print_pixel(x, y, a, b);
+    }
+  }
+  if (differing > 0) std::printf("  %s: %lld of %lld\n", name.c_str(), static_cast<long long>(differing), static_cast<long long>(covered));
+  ++sum.pictures;
+  sum.covered += covered;
+  sum.differing += differing;
+}
+
+void expect_agreement(const Agreement& a) {
+  std::printf("%lld pictures, %lld covered pixels, %lld differ\n", static_cast<long long>(a.pictures), static_cast<long long>(a.covered),
+              static_cast<long long>(a.differing));
+  testing::Test::RecordProperty("covered", std::to_string(a.covered));
+  testing::Test::RecordProperty("differing", std::to_string(a.differing));
+  EXPECT_GT(a.covered, 0);
+  EXPECT_LE(a.differing * 1000, a.covered);
+}
+
+}  // namespace
+
+class MesaConformance : public MesaTest, public testing::WithParamInterface<conformance::Group> {};
+
+TEST_P(MesaConformance, AgreesOnTheGroup) {
+  Agreement sum;
+  for (const conformance::Case& c : GetParam().cases()) {
+    const conformance::Picture picture = c.picture();
+    if (c.not_by_mesa == nullptr && not_comparable(picture) == nullptr) compare_with_mesa(picture, c.name, sum);
+  }
+  expect_agreement(sum);
+}
+
+INSTANTIATE_TEST_SUITE_P(Groups, MesaConformance, testing::ValuesIn(conformance::kGroups),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+class MesaRandomStates : public MesaTest {};
+
+TEST_F(MesaRandomStates, Agree) {
+  Agreement sum;
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    const conformance::RandomState state{seed, 0};
+    const conformance::Picture picture = conformance::random_picture(state);
+    if (not_comparable(picture) == nullptr) compare_with_mesa(picture, state.text(), sum);
+  }
+  expect_agreement(sum);
+}
+
+}  // namespace halfspace::test
