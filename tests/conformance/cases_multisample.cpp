@@ -255,8 +255,7 @@ Cases multisample_cases() {
     cases.push_back({"alpha_to_coverage" + suffix, [=] { return columns(samples, true, ~0u); }, alpha_share});
     for (const uint32_t mask : {1u, 2u, 0xa5u}) {
       if ((mask & ((1u << samples) - 1u)) == 0) continue;
-      cases.push_back(
-          {"sample_mask_" + std::to_string(mask) + suffix, [=] { return columns(samples, false, mask); }, masked_share});
+      cases.push_back({"sample_mask_" + std::to_string(mask) + suffix, [=] { return columns(samples, false, mask); }, masked_share});
     }
   }
   return cases;

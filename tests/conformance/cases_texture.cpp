@@ -149,7 +149,8 @@ void add_filters(Cases& cases) {
       }
     }
   }
-  constexpr glm::ivec2 kSizes[] = {{1, 1}, {1, 16}, {3, 7}, {4, 8}, {31, 55}, {32, 64}, {57, 35}, {64, 32}, {63, 63}, {127, 99}, {128, 128}};
+  constexpr glm::ivec2 kSizes[] = {{1, 1},   {1, 16},  {3, 7},   {4, 8},    {31, 55},  {32, 64},
+                                   {57, 35}, {64, 32}, {63, 63}, {127, 99}, {128, 128}};
   for (const glm::ivec2& size : kSizes) {
     for (int min = 0; min < 3; ++min) {
       for (const bool minified : {false, true}) {

@@ -157,7 +157,17 @@ std::string difference_from_oracle(const Picture& picture) {
   return wrong;
 }
 
-std::string describe(const Picture& picture) { return halfspace::describe(scene_of(picture)); }
+std::string describe(const Picture& picture) {
+  std::ostringstream out;
+  out << halfspace::describe(scene_of(picture));
+  for (const Drawing& d : picture.draws) {
+    out << "  mode " << d.mode << ", value " << d.value << ", vertices";
+    for (const Vertex& v : d.vertices)
+      out << " (" << v.pos_clip.x << ' ' << v.pos_clip.y << ' ' << v.pos_clip.z << ' ' << v.pos_clip.w << ')';
+    out << '\n';
+  }
+  return out.str();
+}
 
 std::string check(const Case& c) {
   const Picture picture = c.picture();

@@ -209,8 +209,8 @@ GLenum gl(ColorFormat f) {
   return k[static_cast<std::size_t>(f)];
 }
 GLenum gl(DepthFormat f) {
-  constexpr std::array<GLenum, 6> k{GL_NONE,           GL_DEPTH_COMPONENT16,   GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F,
-                                    GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8};
+  constexpr std::array<GLenum, 6> k{
+      GL_NONE, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8};
   return k[static_cast<std::size_t>(f)];
 }
 

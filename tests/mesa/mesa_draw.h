@@ -59,7 +59,7 @@ struct MesaDraw {
   VertexView vertices;
   std::vector<uint32_t> indices;
   DrawState state;
-  bool restart = false;        ///< the index 2^32 − 1 ends a primitive
+  bool restart = false;         ///< the index 2^32 − 1 ends a primitive
   bool own_point_size = false;  ///< the vertex shader gives it
   int clip_distances = 0;
 };
