@@ -58,7 +58,7 @@ struct SphereSprite : SphereSprites {
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
     const SphereHit<R> h = hit(in, px);
-    return {h.seen, lens.window_depth(h.t)};
+    return {h.seen, lens.window_depth(h.t, h.t_low)};
   }
 
   template <class R>
@@ -72,7 +72,7 @@ struct SphereSprite : SphereSprites {
     const Illumination<R> light =
         illuminate(lights, LightModel::phong, R(shininess), SurfacePoint<R>{position_ew, world_from_camera * h.n_cs, v_ws});
     const vec3<R> color = in.color.value * (ambient + diffuse * light.diffuse) + specular * light.specular;
-    return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t)};
+    return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t, h.t_low)};
   }
 
   /// Side of the classic sprite's square, px: point_scale · radius / distance, the distance being that along z times the
@@ -109,7 +109,7 @@ struct SphereSprite : SphereSprites {
     } else {
       const vec2<R> coord = px.point_coord();
       const R x = fma(coord.x, R(2), R(-1)), y = -fma(coord.y, R(2), R(-1)), squared = fma(x, x, y * y);
-      return {squared <= R(1), c.z + sqrt(squared), vec3<R>(x, y, -sqrt(max(R(1) - squared, R(0))))};
+      return {squared <= R(1), c.z + sqrt(squared), R(0), vec3<R>(x, y, -sqrt(max(R(1) - squared, R(0))))};
     }
   }
 };
