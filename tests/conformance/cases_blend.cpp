@@ -187,6 +187,17 @@ void add_second_sources(Cases& cases) {
   }
 }
 
+// A second source that alpha's factors alone ask for.
+void add_second_alpha(Cases& cases) {
+  constexpr auto kFirst = static_cast<int>(BlendFactor::src1_color);
+  for (int i = 0; i < 4; ++i) {
+    const auto second = static_cast<BlendFactor>(kFirst + i);
+    const BlendFactor source = i % 2 == 0 ? second : BlendFactor::one, destination = i % 2 == 0 ? BlendFactor::dst_alpha : second;
+    add(cases, ColorFormat::rgba8, {BlendEquation::add, BlendFactor::one, BlendFactor::dst_color, BlendEquation::add, source, destination},
+        Kind::two_colors);
+  }
+}
+
 // Attachments with equations and masks of their own.
 void add_attachments(Cases& cases) {
   for (int i = 0; i < 20; ++i) {
@@ -219,6 +230,7 @@ Cases blend_cases() {
   add_factors(cases, ColorFormat::srgb8a8);
   for (const ColorFormat f : {ColorFormat::rgba8, ColorFormat::rgba16f, ColorFormat::rgba32f}) add_equations(cases, f);
   add_second_sources(cases);
+  add_second_alpha(cases);
   add_attachments(cases);
   return cases;
 }

@@ -210,6 +210,15 @@ void add_levels(Cases& cases) {
 
 Cases derivate_cases() {
   Cases cases;
+  for (int mode = 0; mode < 6; ++mode) {  // supersampled, a derivative is still that by pixel of the picture
+    cases.push_back({std::string(kFunctions[mode]) + "_supersampled",
+                     [=] {
+                       Picture p = derivative_picture(mode, 1.0f, false, 4);
+                       p.supersample = true;
+                       return p;
+                     },
+                     derivative_formula, true});
+  }
   for (int mode = 0; mode < 6; ++mode) {
     for (int power = -8; power <= 12; power += 4) {
       for (const bool projected : {false, true}) {
