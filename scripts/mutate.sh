@@ -79,6 +79,10 @@ fault "tone: light that is NaN passes" src/shading/tone.h 'return clamp(x, 0.0f,
 fault "tone: white point not squared" src/shading/tone.h 'x / R(white * white)' 'x / R(white)'
 fault "tone: curves not held to 1" src/shading/tone.h 'c[k] = clamp(c[k], 0.0f, 1.0f);' 'c[k] = max(c[k], R(0.0f));'
 fault "dithering: thresholds repeat" src/shading/tone.h 'bit(y, 2, 0)' 'bit(y, 1, 0)'
+fault "blending: a second source is looked for in the colour's factors alone" src/raster/output.cpp ' || second(blend.source_alpha) || second(blend.destination_alpha);' ';'
+fault "derivatives: quads of half a pixel" src/shading/pixel.h 'const R to_y = (R(static_cast<float>(j)) - quad_y) * R(256);' 'const R to_y = (R(static_cast<float>(j)) - quad_y) * R(128);'
+fault "exact spheres: near ones as distant ones" src/shading/sphere_lens.h 'R(25) * radius * radius > dot(c, c)' 'R(0) * radius * radius > dot(c, c)'
+fault "exact spheres: the rim is not decided in double" src/shading/sphere_lens.h 'if (any(close_call)) decide_in_double' 'if (false && any(close_call)) decide_in_double'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done
@@ -94,7 +98,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work"
 mkdir -p "$work/build"
-tests=(raster property shading core)  # in this order: most faults fall in the first
+tests=(raster property conformance shading core)  # in this order: most faults fall in the first
 # Builds and runs the test programs, one after the other, up to the first that fails.
 check() {
   for t in "${tests[@]}"; do
