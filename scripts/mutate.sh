@@ -83,6 +83,12 @@ fault "blending: a second source is looked for in the colour's factors alone" sr
 fault "derivatives: quads of half a pixel" src/shading/pixel.h 'const R to_y = (R(static_cast<float>(j)) - quad_y) * R(256);' 'const R to_y = (R(static_cast<float>(j)) - quad_y) * R(128);'
 fault "exact spheres: near ones as distant ones" src/shading/sphere_lens.h 'R(25) * radius * radius > dot(c, c)' 'R(0) * radius * radius > dot(c, c)'
 fault "exact spheres: the rim is not decided in double" src/shading/sphere_lens.h 'if (any(close_call)) decide_in_double' 'if (false && any(close_call)) decide_in_double'
+fault "differences: one code counts as above" src/scene/image_difference.cpp 'e > 1.0 / 255.0' 'e >= 1.0 / 255.0'
+fault "differences: percentile a rank too low" src/scene/image_difference.cpp 'std::ceil(0.999 * count)) - 1' 'std::ceil(0.999 * count)) - 2'
+fault "differences: alpha never counts" src/scene/image_difference.cpp 'is_opaque(a) && is_opaque(b) ? 3 : 4' 'is_opaque(a) || is_opaque(b) ? 3 : 4'
+fault "similarity: the sign of the covariance is lost" src/scene/image_difference.cpp '(2.0 * covariance + c2)' '(2.0 * std::abs(covariance) + c2)'
+fault "studies: the front keeps what is beaten" src/study/study.cpp '(error(b) < error(a) || b.time.median_ms < a.time.median_ms)' 'error(b) < error(a)'
+fault "studies: coverage upside down" src/study/polygon_area.cpp 'share.at(x, height - 1 - y)' 'share.at(x, y)'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done
