@@ -21,7 +21,7 @@ struct ConstantShader {
     return vec4<R>(in.position_ndc, R(1));
   }
   template <class R>
-  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
+  Fragment<R> fragment(const Varyings<R>&) const {
     return {vec4<R>(R(color.x), R(color.y), R(color.z), R(color.w))};
   }
 };

@@ -68,7 +68,7 @@ struct PerforatedLayerShader : LayerShader {
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {keeps(in, px), px.z};
+    return {keeps(in, px), px.z()};
   }
 
  private:

@@ -11,7 +11,7 @@ namespace halfspace {
 /// v over its length; v is not zero.
 template <class R>
 HS_INLINE vec3<R> unit(const vec3<R>& v) {
-  return v * (R(1) / sqrt(dot(v, v)));
+  return v * inverse_sqrt(dot(v, v));
 }
 
 /// What a surface's colour is multiplied by, and what is added.
@@ -24,7 +24,7 @@ struct WorkloadLight {
 template <class R>
 HS_INLINE WorkloadLight<R> blinn_phong(const vec3<R>& normal, const vec3<R>& l, const vec3<R>& v) {
   const vec3<R> n = unit(normal), h = unit(l + v);
-  return {R(0.08f) + R(0.8f) * max(dot(n, l), R(0)), R(0.4f) * pow(max(dot(n, h), R(0)), R(48))};
+  return {R(0.08f) + R(0.8f) * max(dot(n, l), R(0)), R(0.4f) * unit_pow(max(dot(n, h), R(0)), R(48))};
 }
 
 /// By Phong: 0.1 + 0.7·max(N·L, 0) and 0.3·max(R·V, 0)^32, R the light's direction reflected. All unit vectors.
@@ -32,7 +32,7 @@ template <class R>
 HS_INLINE WorkloadLight<R> phong(const vec3<R>& n, const vec3<R>& l, const vec3<R>& v) {
   const R n_l = dot(n, l);
   const vec3<R> r = n * (R(2) * n_l) - l;
-  return {R(0.1f) + R(0.7f) * max(n_l, R(0)), R(0.3f) * pow(max(dot(r, v), R(0)), R(32))};
+  return {R(0.1f) + R(0.7f) * max(n_l, R(0)), R(0.3f) * unit_pow(max(dot(r, v), R(0)), R(32))};
 }
 
 /// The colour of a surface in that light, opaque.

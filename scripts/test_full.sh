@@ -45,6 +45,7 @@ step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALF
 step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
 step order             "blended_order"
+step off-costs         "scripts/off_costs.sh"
 step mutate            "scripts/mutate.sh"
 
 if [ "${1:-}" = list ]; then

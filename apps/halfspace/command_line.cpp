@@ -128,6 +128,8 @@ int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {
     program.exit(e, std::cout, std::cerr);  // --help
   } catch (const UsageError& e) {
     return report(program, kUsage, e.what());
+  } catch (const DifferenceError& e) {
+    return report(program, kDiffers, e.what());
   } catch (const InputError& e) {
     return report(program, kBadInput, e.what());
   } catch (const OutputError& e) {

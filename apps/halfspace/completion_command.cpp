@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "halfspace/commands.h"
+#include "study/study.h"
 
 namespace halfspace {
 
@@ -24,6 +25,8 @@ _halfspace() {
     COMPREPLY=($(compgen -W "$(halfspace completion words "$command")" -- "$cur"))
   elif [ "$COMP_CWORD" -eq 2 ] && [[ $command == render || $command == list ]]; then
     COMPREPLY=($(compgen -W "$(halfspace list --names)" -- "$cur") $(compgen -f -X '!*.json' -- "$cur"))
+  elif [ "$COMP_CWORD" -eq 2 ] && [ "$command" = chart ]; then
+    COMPREPLY=($(compgen -W "$(halfspace completion studies)" -- "$cur"))
   else
     COMPREPLY=($(compgen -f -- "$cur"))
   fi
@@ -40,7 +43,8 @@ complete -c halfspace -f
 complete -c halfspace -n __fish_use_subcommand -a '(halfspace completion words)'
 complete -c halfspace -n '__fish_seen_subcommand_from render list' -a '(halfspace list --names)'
 complete -c halfspace -n '__fish_seen_subcommand_from render' -l set -x -a '(halfspace list (commandline -opc)[3] --names 2> /dev/null)'
-complete -c halfspace -n '__fish_seen_subcommand_from convert-normal' -F
+complete -c halfspace -n '__fish_seen_subcommand_from chart' -a '(halfspace completion studies)'
+complete -c halfspace -n '__fish_seen_subcommand_from convert-normal compare' -F
 complete -c halfspace -n 'not __fish_use_subcommand' -a '(halfspace completion words (commandline -opc)[2])'
 )script";
 
@@ -56,6 +60,12 @@ void print_words(const CLI::App& program, const std::string& command) {
   }
 }
 
+void print_studies() {
+  std::cout << "all\n";
+  if constexpr (HALFSPACE_HAS_RAYS)
+    for (const StudyEntry& s : studies()) std::cout << s.name << '\n';
+}
+
 }  // namespace
 
 void add_completion_command(CLI::App& program) {
@@ -64,7 +74,7 @@ void add_completion_command(CLI::App& program) {
     std::string shell, command;
   };
   const auto args = std::make_shared<Arguments>();
-  command->add_option("SHELL", args->shell, "bash, zsh or fish; words: the words themselves")->required()->type_name("");
+  command->add_option("SHELL", args->shell, "bash, zsh or fish; words or studies for a list")->required()->type_name("");
   command->add_option("COMMAND", args->command, "With words: the command whose options to print")->type_name("");
   command->footer(
       "Examples:\n  halfspace completion bash >> ~/.bashrc\n  halfspace completion fish | "
@@ -78,6 +88,8 @@ void add_completion_command(CLI::App& program) {
       std::cout << kFish;
     } else if (args->shell == "words") {
       print_words(program, args->command);
+    } else if (args->shell == "studies") {
+      print_studies();
     } else {
       throw UsageError("completion: no shell '" + args->shell + "'; expected bash, zsh or fish");
     }

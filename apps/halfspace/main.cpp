@@ -16,6 +16,8 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   add_render_command(program);
   add_convert_normal_command(program);
   if constexpr (HALFSPACE_HAS_RAYS) add_validate_command(program);
+  add_compare_command(program);
+  if constexpr (HALFSPACE_HAS_RAYS) add_chart_command(program);
   add_list_command(program);
   add_info_command(program);
   add_completion_command(program);

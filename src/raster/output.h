@@ -8,9 +8,6 @@
 
 namespace halfspace {
 
-/// Four rows of W floats: r, g, b, a of a packet.
-using PacketColor = std::array<Real, 4>;
-
 /// The packet's colours, decoded to linear floats.
 PacketColor read_color(const ColorBuffer& buffer, int packet);
 

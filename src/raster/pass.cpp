@@ -2,10 +2,12 @@
 #include "raster/pass.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/float_mode.h"
 #include "raster/assembly.h"
 #include "raster/bin.h"
+#include "raster/frame_memory.h"
 #include "raster/primitive_setup.h"
 #include "raster/setup.h"
 
@@ -20,10 +22,19 @@ constexpr int kTileBudget = 160 << 10;
 // Chunks that go through setup between two looks at the budget.
 constexpr std::size_t kWave = 32;
 
-std::size_t bytes_of(const Chunk& c) {
-  return c.triangles.capacity() * sizeof(Triangle) + c.bin_triangles.capacity() * sizeof(uint16_t) +
-         c.bin_start.capacity() * sizeof(uint32_t) + c.clip_vertices.capacity() * sizeof(ClipVertex) +
-         (c.clip_varyings.capacity() + c.primitives.capacity()) * sizeof(float);
+Chunk take_or_make(std::vector<Chunk>& from) {
+  if (from.empty()) return {};
+  Chunk c = std::move(from.back());
+  from.pop_back();
+  return c;
+}
+// Moves all chunks, emptied. Those that were taken first are taken first again: they have the memory that fits.
+void put_aside(std::vector<Chunk>& chunks, std::vector<Chunk>& to) {
+  for (auto c = chunks.rbegin(); c != chunks.rend(); ++c) {
+    c->clear();
+    to.push_back(std::move(*c));
+  }
+  chunks.clear();
 }
 
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
@@ -168,6 +179,8 @@ PassStatistics Pass::run(const Workers& workers) {
   for (const Draw& d : frame_.draws) {
     if (d.state.query) statistics.queries.resize(std::max(statistics.queries.size(), std::size_t{*d.state.query} + 1));
   }
+  FrameMemory memory = take_frame_memory();
+  frame_.shaded = std::move(memory.shaded);
   run_vertex_stage(workers, statistics);
   const std::vector<std::vector<Segment>> work = split_into_chunks();
   bool first_round = true;
@@ -175,11 +188,11 @@ PassStatistics Pass::run(const Workers& workers) {
   do {
     // Waves of chunks (at least one) until the budget or the ids are used up, or all is set up.
     std::size_t bytes = 0;
-    frame_.chunks.clear();
+    put_aside(frame_.chunks, memory.chunks);
     while (next < work.size() && (frame_.chunks.empty() || bytes < options_.bin_budget) && frame_.chunks.size() + kWave <= kMaxChunks) {
       const std::size_t begin = frame_.chunks.size();
       const std::size_t count = std::min(kWave, work.size() - next);
-      frame_.chunks.resize(begin + count);
+      for (std::size_t i = 0; i < count; ++i) frame_.chunks.push_back(take_or_make(memory.chunks));
       workers.for_each(static_cast<int>(count), [&](int i) {
         Chunk& chunk = frame_.chunks[begin + static_cast<std::size_t>(i)];
         chunk.segments = work[next + static_cast<std::size_t>(i)];
@@ -189,7 +202,7 @@ PassStatistics Pass::run(const Workers& workers) {
       });
       next += count;
       for (std::size_t c = begin; c < frame_.chunks.size(); ++c) {
-        bytes += bytes_of(frame_.chunks[c]);
+        bytes += frame_.chunks[c].bytes();
         statistics += frame_.chunks[c].statistics;
       }
     }
@@ -202,8 +215,9 @@ PassStatistics Pass::run(const Workers& workers) {
     first_round = false;
   } while (next < work.size());
   frame_.draws.clear();
-  frame_.shaded.clear();
-  frame_.chunks.clear();
+  put_aside(frame_.chunks, memory.chunks);
+  memory.shaded = std::exchange(frame_.shaded, {});
+  keep_frame_memory(std::move(memory));
   return statistics;
 }
 

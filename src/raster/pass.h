@@ -73,6 +73,7 @@ ShaderKernels kernels_of() {
     k.color_count = static_cast<int>(kColors<S>);
     k.discards = kDiscards<S>;
     k.writes_depth = kWritesDepth<S>;
+    k.is_constant = kIsConstant<S>;
   }
   if constexpr (HasVisibilityFunction<S>) k.visibility = visibility_kernel<S>;
   return k;
@@ -141,6 +142,9 @@ class Pass {
   bool resolve_attachments(Draw& d) const;
   void run_tiles(const Workers& workers, Round round, PassStatistics& statistics);
   void run_tile(int index, Round round, PassStatistics& statistics) const;
+  void clear_images(const Tile& tile) const;
+  // Where the tile's only triangle covers it wholly with one colour, and nothing else is to be done: fills the images. Else false.
+  bool fill_images(const Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
   void run_post_step(const Tile& tile) const;
   void draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
   void keep_between_flushes();

@@ -2,10 +2,13 @@
 //
 // The part of a pass that works on tiles: load or clear, draw, resolve, post step, store.
 #include <algorithm>
+#include <optional>
 
 #include "raster/bin.h"
 #include "raster/pass.h"
 #include "raster/resolve.h"
+#include "raster/shade.h"
+#include "raster/visibility.h"
 
 namespace halfspace {
 
@@ -65,6 +68,9 @@ void Pass::run_tile(int index, Round round, PassStatistics& statistics) const {
   tile.height = std::min(tile.size, frame_.height - tile.y0);
   const int width = frame_.width, height = frame_.height;
   const Samples kept = frame_.samples > 1 ? Samples::all : Samples::one;
+  if (!drawn && !spills && round.first && round.last && post_kernel_ == nullptr) return clear_images(tile);
+  const bool alone = round.first && round.last && post_kernel_ == nullptr && depth_.format == DepthFormat::none;
+  if (drawn && alone && fill_images(tile, tile_x, tile_y, statistics)) return;
   for (std::size_t i = 0; i < colors_.size(); ++i) {
     if (round.first) load_color(colors_[i], width, height, Samples::one, tile, tile.color[i]);
     if (!round.first) load_color(between_flushes(colors_[i], color_spills_[i]), width, height, kept, tile, tile.color[i]);
@@ -85,6 +91,42 @@ void Pass::run_tile(int index, Round round, PassStatistics& statistics) const {
   if (round.last && post_kernel_ != nullptr) run_post_step(tile);
 }
 
+void Pass::clear_images(const Tile& tile) const {
+  for (const ColorTarget& c : colors_) {
+    const glm::vec4& v = c.clear_value;
+    if (c.load == LoadOp::clear) fill_color(c, frame_.width, frame_.height, tile, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
+  }
+  if (depth_.load == LoadOp::clear) fill_depth(depth_, frame_.width, frame_.height, tile);
+}
+
+bool Pass::fill_images(const Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
+  const Chunk* chunk = nullptr;
+  uint16_t index = 0;
+  for (const Chunk& c : frame_.chunks) {
+    const std::span<const uint16_t> bin = bin_of(c, tile_x, tile_y);
+    if (bin.empty()) continue;
+    if (chunk != nullptr || bin.size() > 1) return false;
+    chunk = &c;
+    index = bin[0];
+  }
+  const Triangle& t = chunk->triangles[index];
+  const Draw& draw = frame_.draws[chunk->segments[t.segment()].draw];
+  if (!draw.deferred || !draw.kernels.is_constant || frame_.samples != 1 || draw.kernels.color_count < static_cast<int>(colors_.size())) return false;
+  const DrawInTile here(frame_, draw, VisibilityMode::deferred, tile);
+  if (!here.is_plain || here.bounds.x1 - here.bounds.x0 != tile.width || here.bounds.y1 - here.bounds.y0 != tile.height || !covers_tile(here, t)) {
+    return false;
+  }
+  FragmentOutput out;
+  constant_colors(draw, out);
+  for (std::size_t i = 0; i < colors_.size(); ++i) fill_color(colors_[i], frame_.width, frame_.height, tile, out.packet_color(i, 0));
+  const auto samples = static_cast<uint64_t>(tile.width) * static_cast<uint64_t>(tile.height);
+  statistics.samples_tested += samples;
+  statistics.samples_passed += samples;
+  statistics.fragments_shaded += samples;
+  if (draw.state.query) statistics.add_to_query(*draw.state.query, samples);
+  return true;
+}
+
 void Pass::run_post_step(const Tile& tile) const {
   ColorBuffer finished;
   finished.format = post_target_.format;
@@ -97,28 +139,35 @@ void Pass::run_post_step(const Tile& tile) const {
   store_color(post_target_, frame_.width, frame_.height, Samples::one, tile, finished);
 }
 
+// A tile's triangles lie scattered in their chunk: so many are fetched ahead.
+constexpr std::size_t kPrefetch = 6;
+
 void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
   bool waiting = false;  // there are visible pixels not shaded yet
   CoverageList list;
   tile.id.fill(kNoTriangle);
+  std::optional<DrawInTile> here;
   for (uint32_t c = 0; c < frame_.chunks.size(); ++c) {
     const Chunk& chunk = frame_.chunks[c];
-    for (const uint16_t t : bin_of(chunk, tile_x, tile_y)) {
+    const std::span<const uint16_t> bin = bin_of(chunk, tile_x, tile_y);
+    for (std::size_t i = 0; i < bin.size(); ++i) {
+      const uint16_t t = bin[i];
+      __builtin_prefetch(&chunk.triangles[bin[std::min(i + kPrefetch, bin.size() - 1)]]);
       const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
-      const VisibilityMode mode = visibility_mode(draw);
+      if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
+      const VisibilityMode mode = here->mode;
       const uint64_t passed_before = statistics.samples_passed;
-      if (mode == VisibilityMode::deferred) {
-        rasterize(frame_, c, t, mode, tile, nullptr, statistics);
-        waiting = true;
-      } else if (mode == VisibilityMode::early && !draw.writes_color) {  // what waits keeps its colour
-        list.count = 0;
-        rasterize(frame_, c, t, mode, tile, &list, statistics);
+      if (mode == VisibilityMode::deferred || mode == VisibilityMode::depth_only) {
+        rasterize(*here, c, t, tile, nullptr, statistics);
+        waiting |= mode == VisibilityMode::deferred;
       } else {
-        if (waiting && has_color_) shade_deferred(frame_, tile, statistics);
-        waiting = false;
+        // Without colours there is nothing to wait for: what waits keeps its own.
+        const bool shades = mode != VisibilityMode::early || draw.writes_color;
+        if (shades && waiting && has_color_) shade_deferred(frame_, tile, statistics);
+        if (shades) waiting = false;
         list.count = 0;
-        rasterize(frame_, c, t, mode, tile, &list, statistics);
-        if (list.count != 0) shade_immediate(frame_, draw, triangle_id(c, t), mode, list, tile, statistics);
+        rasterize(*here, c, t, tile, &list, statistics);
+        if (shades && list.count != 0) shade_immediate(frame_, draw, triangle_id(c, t), mode, list, tile, statistics);
       }
       if (draw.state.query) statistics.add_to_query(*draw.state.query, statistics.samples_passed - passed_before);
     }

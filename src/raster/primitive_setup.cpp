@@ -11,10 +11,6 @@ namespace halfspace {
 
 namespace {
 
-// Largest extent at which every edge function fits in int32 without a shift anywhere in a tile that the triangle meets:
-// at most (63 + 64)·256 < 2^15 sub-pixels from a vertex, times an edge of at most 63·256 < 2^14, twice: below 2^30.
-constexpr int32_t kSmallExtent = 63 * kSubPixels;
-
 // The smallest depth step that makes a difference: OpenGL 4.6, section 14.6.5.
 double smallest_depth_step(DepthFormat format, float largest_z) {
   switch (format) {
@@ -30,6 +26,7 @@ struct DepthPlane {
 };
 
 float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, const DepthPlane& p, float largest_z) {
+  if (o.slope == 0.0f && o.constant == 0.0f) return 0.0f;
   double offset = 0.0;
   if (o.slope != 0.0f) {  // 0·Inf is not NaN here: no slope term where none is asked for
     const double e1x = t.x[1] - t.x[0], e1y = t.y[1] - t.y[0], e2x = t.x[2] - t.x[0], e2y = t.y[2] - t.y[0];

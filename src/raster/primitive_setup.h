@@ -8,6 +8,10 @@
 
 namespace halfspace {
 
+/// Largest extent at which every edge function fits in int32 without a shift anywhere in a tile that the triangle meets:
+/// at most (63 + 64)·256 < 2^15 sub-pixels from a vertex, times an edge of at most 63·256 < 2^14, twice: below 2^30.
+inline constexpr int32_t kSmallExtent = 63 * kSubPixels;
+
 enum class Cull : uint8_t { none, degenerate, face, no_sample };
 
 /// Which way a primitive faces: by its winding, and is then culled by it and offset in depth; or as is said.

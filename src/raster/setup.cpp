@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/setup.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "raster/assembly.h"
 #include "raster/clip.h"
 #include "raster/fan.h"
 #include "raster/primitive_setup.h"
+#include "raster/triangle_batch.h"
 #include "raster/vertex_stage.h"
 
 namespace halfspace {
@@ -30,7 +34,7 @@ class SegmentSetup {
 
   void submit_point() {
     ++chunk_.statistics.primitives_in;
-    const uint32_t id = assembly_.next()[0] - slot_base_;
+    const uint32_t id = next_slots()[0];
     const Outcode code = shaded_.outcodes[id];
     const float inv_w = shaded_.screen[id].inv_w;
     if (code & kOutNonFinite) {
@@ -44,8 +48,7 @@ class SegmentSetup {
 
   void submit_line() {
     ++chunk_.statistics.primitives_in;
-    std::array<uint32_t, 3> id = assembly_.next();
-    for (uint32_t& i : id) i -= slot_base_;
+    const std::array<uint32_t, 3> id = next_slots();
     const Outcode any = shaded_.outcodes[id[0]] | shaded_.outcodes[id[1]];
     const Outcode all = shaded_.outcodes[id[0]] & shaded_.outcodes[id[1]] & kOutView;
     const uint32_t beyond_any = beyond_distances(id[0]) | beyond_distances(id[1]);
@@ -65,13 +68,51 @@ class SegmentSetup {
 
   void submit_triangle() {
     ++chunk_.statistics.primitives_in;
-    std::array<uint32_t, 3> id = assembly_.next();
+    submit_triangle(next_slots());
+  }
+
+  // The next W triangles, or what is left of them.
+  void submit_triangles(int count) {
+    chunk_.statistics.primitives_in += static_cast<uint64_t>(count);
+    uint32_t plain = 0;  // lanes that need no clipping
+    std::array<std::array<uint32_t, 3>, kLanes> slots;
+    for (int i = 0; i < count; ++i) {
+      std::array<uint32_t, 3>& s = slots[static_cast<std::size_t>(i)];
+      s = next_slots();
+      const Outcode any = shaded_.outcodes[s[0]] | shaded_.outcodes[s[1]] | shaded_.outcodes[s[2]];
+      const Outcode all = shaded_.outcodes[s[0]] & shaded_.outcodes[s[1]] & shaded_.outcodes[s[2]];
+      if ((any & (kOutNonFinite | kOutNeedsClip)) == 0 && (all & kOutView) == 0) plain |= 1u << i;
+      batch_.put(i, s);
+    }
+    for (int i = count; i < kLanes; ++i) batch_.put(i, slots[0]);
+    batch_.set_up(frame_, draw_, shaded_, plain, provoking_, chunk_.statistics);
+    const uint32_t all = static_cast<uint32_t>((uint64_t{1} << count) - 1);
+    for (uint32_t rest = (all & ~plain) | batch_.large() | batch_.kept(); rest != 0; rest &= rest - 1) {
+      const int i = std::countr_zero(rest);
+      if ((batch_.kept() >> i & 1) == 0) {
+        submit_triangle(slots[static_cast<std::size_t>(i)]);
+      } else {
+        chunk_.triangles.push_back(batch_.triangle(i));
+        chunk_.triangles.back().flags |= segment_ << kSegmentShift;
+      }
+    }
+  }
+
+ private:
+  using ClipFunction = ClipPolygon (*)(const Viewport&, const DepthState&, const std::array<glm::vec4, 3>&, const ClipDistances&);
+
+  std::array<uint32_t, 3> next_slots() {
+    std::array<uint32_t, 3> slots = assembly_.next();
+    for (uint32_t& s : slots) s -= slot_base_;
+    return slots;
+  }
+
+  void submit_triangle(const std::array<uint32_t, 3>& id) {
     Outcode any = 0;
     Outcode all = kOutView;
-    for (uint32_t i = 0; i < 3; ++i) {
-      id[i] -= slot_base_;
-      any |= shaded_.outcodes[id[i]];
-      all &= shaded_.outcodes[id[i]];
+    for (const uint32_t i : id) {
+      any |= shaded_.outcodes[i];
+      all &= shaded_.outcodes[i];
     }
     if (any & kOutNonFinite) {
       ++chunk_.statistics.culled_non_finite;
@@ -83,9 +124,6 @@ class SegmentSetup {
       append_whole(id);
     }
   }
-
- private:
-  using ClipFunction = ClipPolygon (*)(const Viewport&, const DepthState&, const std::array<glm::vec4, 3>&, const ClipDistances&);
 
   void count(Cull why, uint64_t n) {
     PassStatistics& s = chunk_.statistics;
@@ -271,6 +309,7 @@ class SegmentSetup {
   Assembly assembly_;
   uint32_t instance_;
   uint32_t slot_base_;  ///< a vertex's slot is its index less this (modulo 2^32)
+  TriangleBatch batch_;
   uint32_t provoking_;  ///< the provoking vertex's place among a primitive's three (of a line the second stands twice)
 };
 
@@ -280,8 +319,14 @@ void set_up_chunk(const Frame& frame, Chunk& chunk) {
   for (uint32_t s = 0; s < chunk.segments.size(); ++s) {
     Segment& segment = chunk.segments[s];
     segment.first_triangle = static_cast<uint32_t>(chunk.triangles.size());
+    chunk.triangles.reserve(chunk.triangles.size() + segment.count);
     SegmentSetup setup(frame, chunk, s);
-    const Topology topology = frame.draws[segment.draw].state.topology;
+    const Draw& draw = frame.draws[segment.draw];
+    const Topology topology = draw.state.topology;
+    if (topology <= Topology::triangle_fan && TriangleBatch::serves(draw) && can_gather(frame.shaded[segment.draw], draw)) {
+      for (uint32_t i = 0; i < segment.count; i += kLanes) setup.submit_triangles(static_cast<int>(std::min<uint32_t>(kLanes, segment.count - i)));
+      continue;
+    }
     for (uint32_t i = 0; i < segment.count; ++i) {
       if (topology == Topology::points) {
         setup.submit_point();

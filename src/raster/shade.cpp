@@ -5,11 +5,18 @@
 
 #include "raster/centroid.h"
 #include "raster/output.h"
+#include "raster/lane_order.h"
 #include "raster/sprite.h"
 
 namespace halfspace {
 
 namespace {
+
+const Draw& draw_of(const Frame& frame, TriangleId id) {
+  const Chunk& chunk = frame.chunks[id >> 16];
+  const std::size_t segment = chunk.segments.size() == 1 ? 0 : chunk.triangles[id & 0xffff].segment();
+  return frame.draws[chunk.segments[segment].draw];
+}
 
 // The vertices of what is clipped, a point or a line.
 void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, const Draw& draw, TriangleSource& s) {
@@ -64,6 +71,104 @@ void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
   }
 }
 
+namespace {
+
+// The records of a packet's triangles, field by field.
+struct Records {
+  alignas(64) std::array<std::array<int32_t, kLanes>, 3> x, y, vertex;
+  alignas(64) std::array<int32_t, kLanes> provoking, front;
+};
+
+bool copy_records(const Frame& frame, const TriangleId* ids, uint32_t lanes, Records& r, TriangleRows& rows) {
+  const TriangleId first = ids[std::countr_zero(lanes)];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kLanes); ++i) {
+    const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : first;
+    const Chunk& chunk = frame.chunks[id >> 16];
+    const uint32_t index = id & 0xffff;
+    const Triangle& t = chunk.triangles[index];
+    if (t.is(kClipped | kSprite | kLine)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      r.x[k][i] = t.x[k];
+      r.y[k][i] = t.y[k];
+      r.vertex[k][i] = static_cast<int32_t>(t.vertex[k]);
+    }
+    r.provoking[i] = static_cast<int32_t>(t.vertex[t.provoking()]);
+    r.front[i] = t.is(kFrontFacing) ? 1 : 0;
+    const Segment& segment = chunk.segments[t.segment()];
+    const auto row_length = static_cast<std::size_t>(frame.draws[segment.draw].kernels.primitive_count);
+    if (row_length != 0) rows.primitive[i] = chunk.primitives.data() + segment.first_primitive + (index - segment.first_triangle) * row_length;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front, TriangleRows& rows) {
+  const Draw& draw = draw_of(frame, ids[std::countr_zero(lanes)]);
+  const ShadedVertices& shaded = frame.shaded[static_cast<std::size_t>(&draw - frame.draws.data())];
+  Records r;
+  if (!can_gather(shaded, draw) || !copy_records(frame, ids, lanes, r, rows)) return false;
+  rows.varyings = shaded.varyings.get();
+  rows.provoking_row = load<Int>(r.provoking.data());
+  front = load<Int>(r.front.data()) != Int(0);
+  std::array<Int, 3> x, y;
+  std::array<Real, 3> q;
+  static_assert(sizeof(ScreenVertex) == 4 * sizeof(float));
+  const float* inv_w = &shaded.screen[0].inv_w;
+  for (std::size_t k = 0; k < 3; ++k) {
+    x[k] = load<Int>(r.x[k].data());
+    y[k] = load<Int>(r.y[k].data());
+    rows.row[k] = load<Int>(r.vertex[k].data());
+    q[k] = gather(inv_w, rows.row[k] << 2);
+  }
+  // Vertex 0 is the one with the smallest 1/w, the first of equals, as in triangle_scalars.
+  const Mask two = (q[2] < q[0]) & (q[2] < q[1]), one = (q[1] < q[0]) & !two;
+  rotate_lanes(one, two, x);
+  rotate_lanes(one, two, y);
+  rotate_lanes(one, two, q);
+  rotate_lanes(one, two, rows.row);
+  const detail::ScaledInverseW<Real> w = detail::scaled(q[0], q[1], q[2]);
+  const auto real = [](Int i) { return to_real<Real>(i); };
+  triangles = {real(x[0]), real(y[0]), real(x[1] - x[0]), real(y[1] - y[0]), real(x[2] - x[0]), real(y[2] - y[0]), Real(0.0f),
+               w.q0,       w.q1,       w.q2,              w.unscale};
+  triangles.area = difference_of_products(triangles.e1x, triangles.e2y, triangles.e1y, triangles.e2x);
+  return true;
+}
+
+Real packet_depth(const Pixel<Real>& px) {
+  const auto& packet = *static_cast<const PacketTriangleIds*>(px.z_source);
+  const Real x_sub = px.x * Real(kSubPixels), y_sub = px.y * Real(kSubPixels);
+  Real z(0.0f);
+  for (uint32_t rest = packet.lanes; rest != 0;) {
+    const TriangleId id = packet.ids == nullptr ? packet.uniform_id : packet.ids[std::countr_zero(rest)];
+    const Mask shows = packet.ids == nullptr ? Mask(true) : load<Int>(packet.ids) == Int(std::bit_cast<int32_t>(id));
+    rest &= ~bits(shows);
+    TriangleSource source;
+    find_triangle(*packet.frame, id, source);
+    const Triangle& t = *source.triangle;
+    const auto edge = [](int32_t to, int32_t from) { return Real(static_cast<float>(to - from)); };
+    const Real dx = x_sub - Real(static_cast<float>(t.x[0])), dy = y_sub - Real(static_cast<float>(t.y[0]));
+    const Real e1 = difference_of_products(dx, edge(t.y[2], t.y[0]), dy, edge(t.x[2], t.x[0]));
+    const Real e2 = difference_of_products(edge(t.x[1], t.x[0]), dy, edge(t.y[1], t.y[0]), dx);
+    const float z_high = clamp(t.z_max, draw_of(*packet.frame, id).depth_low, draw_of(*packet.frame, id).depth_high);
+    z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(source.z_low), Real(z_high)), z);
+  }
+  return z;
+}
+
+void constant_colors(const Draw& draw, FragmentOutput& out) {
+  draw.kernels.fragment(draw.shader.get(), {.frame = nullptr,
+                                            .tile_x0 = 0,
+                                            .tile_y0 = 0,
+                                            .position = {},
+                                            .ids = nullptr,
+                                            .uniform_id = kNoTriangle,
+                                            .packets = nullptr,
+                                            .count = 1,
+                                            .centroids = nullptr,
+                                            .out = &out});
+}
+
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile) {
   const PacketColor& second = out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);
   for (int n = 0; n < std::min(tile.color_count, draw.kernels.color_count); ++n) {
@@ -74,11 +179,6 @@ void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, in
 }
 
 namespace {
-
-const Draw& draw_of(const Frame& frame, TriangleId id) {
-  const Chunk& chunk = frame.chunks[id >> 16];
-  return frame.draws[chunk.segments[chunk.triangles[id & 0xffff].segment()].draw];
-}
 
 // One packet's pixels of one draw.
 struct Work {
@@ -104,6 +204,7 @@ int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<W
   int count = 0;
   const bool whole = tile.size == kMaxTileSize;
   const int shift = packet_shift(job.cell);
+  const Draw* only_draw = frame.draws.size() == 1 && !frame.draws[0].shades_samples && job.share == Share::per_pixel ? &frame.draws[0] : nullptr;
   for (int pixels = 0; pixels < kPackets; ++pixels) {
     if (!whole && !is_in_cell(tile, pixels)) continue;
     const int p = pixels + shift;
@@ -111,6 +212,10 @@ int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<W
     const Int packet_ids = load<Int>(ids);
     uint32_t rest = bits(packet_ids != Int(std::bit_cast<int32_t>(kNoTriangle)));
     const int first = count;
+    if (rest != 0 && only_draw != nullptr) {
+      work[static_cast<std::size_t>(count++)] = {only_draw, {static_cast<uint16_t>(p), static_cast<uint16_t>(rest)}};
+      continue;
+    }
     while (rest != 0) {
       const TriangleId id = ids[std::countr_zero(rest)];
       const uint32_t same = bits(packet_ids == Int(std::bit_cast<int32_t>(id)));
@@ -143,7 +248,8 @@ void run_job(const Frame& frame, Tile& tile, const Job& job, PassStatistics& sta
   std::array<Work, kMaxTilePixels> work;
   const int count = list_work(frame, tile, job, work);
   // By draw, so that each shader runs on full batches; pixels are independent, so the order makes no difference.
-  std::stable_sort(work.begin(), work.begin() + count, [](const Work& a, const Work& b) { return a.draw < b.draw; });
+  const auto by_draw = [](const Work& a, const Work& b) { return a.draw < b.draw; };
+  if (!std::is_sorted(work.begin(), work.begin() + count, by_draw)) std::stable_sort(work.begin(), work.begin() + count, by_draw);
   FragmentOutput out;
   std::array<PacketMask, kFragmentBatch> packets;
   std::array<SamplePosition, kFragmentBatch * kLanes> centroids;

@@ -53,8 +53,32 @@ struct TriangleSource {
 };
 void find_triangle(const Frame& frame, TriangleId id, TriangleSource& out);
 
+/// What the kernels read where each lane may show another triangle: which rows of the draw's varyings.
+struct TriangleRows {
+  const float* varyings;
+  std::array<Int, 3> row;  ///< of the vertices, in the order of TriangleLanes
+  Int provoking_row;
+  std::array<const float*, kLanes> primitive;  ///< the primitive stage's rows
+};
+/// Gathers the triangles of `lanes` (not empty; all of one draw); other lanes repeat the first. False, and nothing is said, if
+/// one of them is clipped, a point or a line, or the draw has too many vertices for gathers.
+bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front, TriangleRows& rows);
+
+/// Where Pixel::z() of a packet looks: the triangles of `lanes`.
+struct PacketTriangleIds {
+  const Frame* frame;
+  const TriangleId* ids;  ///< or null: uniform_id everywhere
+  TriangleId uniform_id;
+  uint32_t lanes;
+};
+/// The window depth of a packet's pixels, within an ulp of what the visibility stage tested. px.z_source: PacketTriangleIds.
+Real packet_depth(const Pixel<Real>& px);
+
 /// Shades all pixels of the tile that wait for it, and writes their colours.
 void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
+
+/// The colours of a draw whose shader is constant.
+void constant_colors(const Draw& draw, FragmentOutput& out);
 
 /// Shades one triangle's packets now: late tests where needed, blending, colour write.
 void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
@@ -64,6 +88,18 @@ void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, Visibi
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile);
 
 namespace detail {
+
+/// 1/w of three vertices over a power of two near the largest: products with areas up to 2^47 then neither overflow nor underflow.
+template <class R>
+struct ScaledInverseW {
+  R q0, q1, q2, unscale;
+};
+template <class R>
+HS_INLINE ScaledInverseW<R> scaled(R q0, R q1, R q2) {
+  const IntOf<R> exponent = as_int(max(q0, max(q1, q2))) & 0x7f800000;
+  const R scale = as_real(IntOf<R>(0x7f000000) - exponent);  // 2^(127 − e) for the largest in [2^(e−127), 2^(e−126))
+  return {q0 * scale, q1 * scale, q2 * scale, as_real(exponent)};
+}
 
 /// The floats of one triangle that interpolation needs, before they are spread to lanes. Vertex 0 is the one with the
 /// smallest 1/w.
@@ -89,15 +125,12 @@ HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
   r.e1y = static_cast<float>(v1.y - v0.y);
   r.e2x = static_cast<float>(v2.x - v0.x);
   r.e2y = static_cast<float>(v2.y - v0.y);
-  r.area = static_cast<float>(int64_t{v1.x - v0.x} * (v2.y - v0.y) - int64_t{v1.y - v0.y} * (v2.x - v0.x));
-  // 1/w over a power of two near the largest: products with areas up to 2^47 then neither overflow nor underflow.
-  const float q_max = max(v0.inv_w, max(v1.inv_w, v2.inv_w));
-  const int32_t exponent = as_int(q_max) & 0x7f800000;
-  const float q_scale = as_real(0x7f000000 - exponent);  // 2^(127 − e) for q_max in [2^(e−127), 2^(e−126))
-  r.q_unscale = as_real(exponent);
-  r.q0 = v0.inv_w * q_scale;
-  r.q1 = v1.inv_w * q_scale;
-  r.q2 = v2.inv_w * q_scale;
+  r.area = difference_of_products(r.e1x, r.e2y, r.e1y, r.e2x);
+  const ScaledInverseW<float> q = scaled(v0.inv_w, v1.inv_w, v2.inv_w);
+  r.q_unscale = q.unscale;
+  r.q0 = q.q0;
+  r.q1 = q.q1;
+  r.q2 = q.q2;
   for (std::size_t i = 0; i < N; ++i) {
     const bool flat = kInterpolations<V>[i] == Interpolation::flat;
     r.value0[i] = flat ? s.flat_varyings[i] : s.varyings[a][i];
@@ -110,12 +143,11 @@ HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
 /// Everything a packet needs of its triangles, lane by lane. P: components of the primitive stage's struct.
 template <std::size_t N, std::size_t P>
 struct PacketTriangles {
+  TriangleId only = kNoTriangle;  ///< where all lanes show one triangle, that
   TriangleLanes<Real> lanes;
   ComponentLanes<Real, N> components;
   std::array<Real, P> primitive;
   Mask front;
-  Real z0, z_edge1, z_edge2, z_low, z_high;  // as DepthPlane of the visibility stage
-  Real zx0, zy0, z_e1x, z_e1y, z_e2x, z_e2y;
 };
 
 /// Spreads one triangle's values: the packet's first to all lanes, so that lanes without a triangle compute with finite
@@ -150,36 +182,35 @@ HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketT
     put(out.components.delta2[i], s.delta2[i]);
   }
   for (std::size_t i = 0; i < P; ++i) put(out.primitive[i], source.primitive[i]);
-  const Triangle& tri = *source.triangle;
-  const Draw& draw = frame.draws[frame.chunks[id >> 16].segments[tri.segment()].draw];
-  out.front = first ? Mask(tri.is(kFrontFacing)) : select(m, Mask(tri.is(kFrontFacing)), out.front);
-  put(out.z0, tri.z0);
-  put(out.z_edge1, tri.z_edge1);
-  put(out.z_edge2, tri.z_edge2);
-  put(out.z_low, source.z_low);
-  put(out.z_high, clamp(tri.z_max, draw.depth_low, draw.depth_high));
-  put(out.zx0, static_cast<float>(tri.x[0]));
-  put(out.zy0, static_cast<float>(tri.y[0]));
-  put(out.z_e1x, static_cast<float>(tri.x[1] - tri.x[0]));
-  put(out.z_e1y, static_cast<float>(tri.y[1] - tri.y[0]));
-  put(out.z_e2x, static_cast<float>(tri.x[2] - tri.x[0]));
-  put(out.z_e2y, static_cast<float>(tri.y[2] - tri.y[0]));
+  out.front = first ? Mask(source.triangle->is(kFrontFacing)) : select(m, Mask(source.triangle->is(kFrontFacing)), out.front);
 }
 
-/// The window depth at the packet's pixels, within an ulp of what the visibility stage tested.
-template <std::size_t N, std::size_t P>
-HS_INLINE Real packet_depth(const PacketTriangles<N, P>& t, Real x_sub, Real y_sub) {
-  const Real dx = x_sub - t.zx0, dy = y_sub - t.zy0;
-  const Real e1 = difference_of_products(dx, t.z_e2y, dy, t.z_e2x);
-  const Real e2 = difference_of_products(t.z_e1x, dy, t.z_e1y, dx);
-  return clamp(fma(e1, t.z_edge1, fma(e2, t.z_edge2, t.z0)), t.z_low, t.z_high);
-}
-
-/// Merges the triangles of a packet: one, few or many.
+/// The components of rows, gathered.
 template <class V, std::size_t N, std::size_t P>
-HS_INLINE void gather_triangles(const FragmentBatch& batch, PacketMask packet, PacketTriangles<N, P>& t) {
+HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>& out) {
+  constexpr auto n = static_cast<int32_t>(N);
+  const std::array<Int, 4> at{rows.row[0] * n, rows.row[1] * n, rows.row[2] * n, rows.provoking_row * n};
+  for (std::size_t i = 0; i < N; ++i) {
+    const float* column = rows.varyings + i;
+    const bool flat = kInterpolations<V>[i] == Interpolation::flat;
+    out.components.value0[i] = gather(column, flat ? at[3] : at[0]);
+    out.components.delta1[i] = flat ? Real(0.0f) : gather(column, at[1]) - out.components.value0[i];
+    out.components.delta2[i] = flat ? Real(0.0f) : gather(column, at[2]) - out.components.value0[i];
+  }
+  for (std::size_t i = 0; i < P; ++i) {
+    for (int lane = 0; lane < kLanes; ++lane) set_lane(out.primitive[i], lane, rows.primitive[static_cast<std::size_t>(lane)][i]);
+  }
+}
+
+/// Triangles of a packet from which on they are gathered, not merged one by one: a merge costs as much as a third of a gather.
+inline constexpr int kGatherFrom = 3;
+
+/// The triangles of a packet: one, few or many. t.only is the one that t holds already, if it holds one alone.
+template <class V, std::size_t N, std::size_t P>
+HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, PacketTriangles<N, P>& t) {
   if (batch.ids == nullptr) {
-    merge_triangle<V, true>(*batch.frame, batch.uniform_id, Mask(true), t);
+    if (t.only != batch.uniform_id) merge_triangle<V, true>(*batch.frame, batch.uniform_id, Mask(true), t);
+    t.only = batch.uniform_id;
     return;
   }
   const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
@@ -187,8 +218,18 @@ HS_INLINE void gather_triangles(const FragmentBatch& batch, PacketMask packet, P
   uint32_t rest = packet.lanes;
   const auto next = [&] { return ids[std::countr_zero(rest)]; };
   const auto showing = [&](TriangleId id) { return packet_ids == Int(std::bit_cast<int32_t>(id)); };
+  int triangles = 0;
+  for (; rest != 0 && triangles < kGatherFrom; ++triangles) rest &= ~bits(showing(next()));
+  if (triangles == 1 && t.only == ids[std::countr_zero(static_cast<uint32_t>(packet.lanes))]) return;
+  t.only = kNoTriangle;
+  if (triangles == kGatherFrom) {
+    TriangleRows rows;
+    if (gather_rows(*batch.frame, ids, packet.lanes, t.lanes, t.front, rows)) return gather_components<V>(rows, t);
+  }
+  rest = packet.lanes;
   TriangleId id = next();
   merge_triangle<V, true>(*batch.frame, id, Mask(true), t);
+  if (triangles == 1) t.only = id;
   for (rest &= ~bits(showing(id)); rest != 0; rest &= ~bits(showing(id))) {
     id = next();
     merge_triangle<V, false>(*batch.frame, id, showing(id), t);
@@ -198,7 +239,7 @@ HS_INLINE void gather_triangles(const FragmentBatch& batch, PacketMask packet, P
 /// Sets up the Pixel of a packet and interpolates its varyings.
 template <class S, std::size_t N, std::size_t P>
 HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const SamplePosition& at, const SamplePosition* centroids,
-                                                           const PacketTriangles<N, P>& t, Pixel<Real>& px) {
+                                                           const PacketTriangles<N, P>& t, const PacketTriangleIds& ids, Pixel<Real>& px) {
   using V = typename S::template Varyings<Real>;
   const Int ix = lane_x() + x, iy = lane_y() + y;
   const Real x_sub = to_real<Real>(ix * kSubPixels + at.x);
@@ -207,13 +248,13 @@ HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const S
   px.dy = y_sub - t.lanes.y0;
   px.triangle = &t.lanes;
   px.component_lanes = &t.components;
-  px.weights = weights_at(t.lanes, px.dx, px.dy);
+  px.weights = weights_at<kUsesLinear<V>>(t.lanes, px.dx, px.dy);
   px.x = x_sub * Real(1.0f / kSubPixels);
   px.y = y_sub * Real(1.0f / kSubPixels);
   px.quad_x = to_real<Real>(ix & Int(1));
   px.quad_y = to_real<Real>(iy & Int(1));
-  px.z = packet_depth(t, x_sub, y_sub);
-  px.inv_w = px.weights.denominator / t.lanes.area * t.lanes.q_unscale;
+  px.find_z = packet_depth;
+  px.z_source = &ids;
   px.front_facing = t.front;
   if constexpr (kUsesCentroid<typename S::template Varyings<float>>) {
     if (centroids != nullptr) {
@@ -239,13 +280,25 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
   constexpr std::size_t n = kComponents<V>;
   constexpr std::size_t p = HasPrimitive<S> ? kComponents<P> : 0;
   const S& s = *static_cast<const S*>(shader);
+  if constexpr (kIsConstant<S>) {
+    const auto fragment = s.fragment(V{});
+    for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
+      const vec4<Real>& color = nth_color(fragment.color, n_color);
+      for (int i = 0; i < batch.count; ++i) {
+        batch.out->packet_color(n_color, static_cast<std::size_t>(i)) = {color.x, color.y, color.z, color.w};
+      }
+    }
+    return;
+  }
+  PacketTriangles<n, p> triangles;
   for (int i = 0; i < batch.count; ++i) {
     const PacketMask packet = batch.packets[i];
-    PacketTriangles<n, p> triangles;
-    gather_triangles<F>(batch, packet, triangles);
+    find_triangles<F>(batch, packet, triangles);
+    const PacketTriangleIds ids{batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes,
+                                batch.uniform_id, packet.lanes};
     Pixel<Real> px;
     const V in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), batch.position,
-                                 batch.centroids == nullptr ? nullptr : batch.centroids + i * kLanes, triangles, px);
+                                 batch.centroids == nullptr ? nullptr : batch.centroids + i * kLanes, triangles, ids, px);
     P face{};
     if constexpr (p != 0) face = from_components<P, Real>(triangles.primitive);
     const auto fragment = call_fragment<S, Real>(s, in, face, px);
@@ -260,16 +313,21 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
 }
 
 template <class S>
-HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityPacket& packet) {
+HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
   using V = typename S::template Varyings<Real>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
-  merge_triangle<F, true>(*packet.frame, packet.id, Mask(true), triangles);
-  Pixel<Real> px;
-  const V in = begin_packet<S>(packet.x, packet.y, packet.position, packet.centroids, triangles, px);
-  const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
-  store(packet.depth, v.depth);
-  *packet.lanes &= bits(v.keep);
+  merge_triangle<F, true>(*batch.frame, batch.id, Mask(true), triangles);
+  const PacketTriangleIds ids{batch.frame, nullptr, batch.id, kAllBits<Mask>};
+  for (int i = 0; i < batch.count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    Pixel<Real> px;
+    const V in = begin_packet<S>(batch.tile_x0 + packet_x(batch.packets[at]), batch.tile_y0 + packet_y(batch.packets[at]), batch.position,
+                                 batch.centroids == nullptr ? nullptr : batch.centroids + i * kLanes, triangles, ids, px);
+    const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
+    if constexpr (kWritesDepth<S>) batch.depth[at] = v.depth;
+    batch.lanes[at] &= bits(v.keep);
+  }
 }
 
 }  // namespace detail

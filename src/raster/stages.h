@@ -5,8 +5,10 @@
 //   vertex_stage → clip → setup → bin → (per tile) visibility → shade → blend → tile store
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -60,17 +62,38 @@ inline constexpr Outcode kOutNonFinite = 128;  ///< a NaN or Inf among x, y, z, 
 inline constexpr Outcode kOutNeedsClip = kOutNear | kOutFar | kOutGuard;
 inline constexpr Outcode kOutView = 63;  ///< the six planes of the view volume
 
+/// An array that starts uninitialized and keeps its memory when it is asked for less.
+template <class T>
+class Buffer {
+ public:
+  /// Room for n values, whatever they are.
+  void reset(std::size_t n) {
+    if (n <= capacity_) return;
+    data_.reset(new T[n]);  // not make_unique: rows that no index uses need no initialization
+    capacity_ = n;
+  }
+  T* get() const { return data_.get(); }
+  T& operator[](std::size_t i) const { return data_[i]; }
+  std::size_t bytes() const { return capacity_ * sizeof(T); }
+
+ private:
+  std::unique_ptr<T[]> data_;
+  std::size_t capacity_ = 0;
+};
+
 /// The vertices of one draw. A vertex's slot, by which all later stages know it, is (index − first) + instance · count.
 struct ShadedVertices {
   uint32_t first = 0;
   uint32_t count = 0;                      ///< slots of an instance
   int varying_count = 0;                   ///< floats per vertex in varyings
-  std::unique_ptr<ScreenVertex[]> screen;  ///< uninitialized where no index refers to it
-  std::unique_ptr<Outcode[]> outcodes;
-  std::unique_ptr<float[]> varyings;
+  Buffer<ScreenVertex> screen;             ///< uninitialized where no index refers to it
+  Buffer<Outcode> outcodes;
+  Buffer<float> varyings;
   std::unique_ptr<SpriteRect[]> sprites;  ///< of points alone
   int clip_distance_count = 0;            ///< floats per vertex in clip_distances
   std::unique_ptr<float[]> clip_distances;
+
+  std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes(); }
 };
 
 // ---- the viewport transform ------------------------------------------------------------------------------------
@@ -156,6 +179,11 @@ struct Chunk {
   std::vector<uint16_t> bin_triangles;
 
   PassStatistics statistics;
+
+  /// Empty, but with its memory.
+  void clear();
+  /// What its larger arrays take.
+  std::size_t bytes() const;
 };
 
 /// A triangle as a pixel remembers it: chunk and index in the chunk.
@@ -170,14 +198,14 @@ constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chu
 struct VertexBatch;
 struct PrimitiveBatch;
 struct FragmentBatch;
-struct VisibilityPacket;
+struct VisibilityBatch;
 
 /// The thin functions that call one shader; everything else in the pipeline is shared by all shaders.
 struct ShaderKernels {
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
   void (*position)(const void* shader, const VertexBatch&) = nullptr;         ///< as vertex, without varyings
   void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;     ///< null: no primitive stage
-  void (*visibility)(const void* shader, const VisibilityPacket&) = nullptr;  ///< null: the triangle decides
+  void (*visibility)(const void* shader, VisibilityBatch&) = nullptr;         ///< null: the triangle decides
   void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
   int varying_count = 0;                          ///< floats per vertex
   int primitive_count = 0;                        ///< floats per triangle
@@ -189,6 +217,7 @@ struct ShaderKernels {
   int color_count = 1;                            ///< colours that the fragment function returns
   bool discards = false;
   bool writes_depth = false;
+  bool is_constant = false;  ///< one colour for the whole draw: the fragment kernel reads nothing of its batch but the count
 };
 
 /// Where a list, strip or fan begins after a primitive restart.
@@ -218,6 +247,12 @@ struct Draw {
   uint32_t primitive_count = 0;  ///< of one instance
   std::vector<IndexRun> runs;    ///< those with a primitive in them; empty where no index is a restart
 };
+
+/// Are a draw's vertices few enough that a row's place in their arrays fits in a gather's index?
+inline bool can_gather(const ShadedVertices& v, const Draw& draw) {
+  const std::size_t floats = std::size_t{v.count} * draw.state.instances * static_cast<std::size_t>(std::max(4, v.varying_count));
+  return floats <= std::size_t{std::numeric_limits<int32_t>::max()};
+}
 
 /// Everything the stages after the vertex stage read.
 struct Frame {

@@ -20,8 +20,8 @@ Int apply(StencilOp op, Int value, Int reference) {
     case StencilOp::keep: return value;
     case StencilOp::zero: return Int(0);
     case StencilOp::replace: return reference;
-    case StencilOp::increment_clamp: return select(value == most, most, value + Int(1));
-    case StencilOp::decrement_clamp: return select(value == Int(0), Int(0), value - Int(1));
+    case StencilOp::increment_clamp: return min(value + Int(1), most);
+    case StencilOp::decrement_clamp: return max(value - Int(1), Int(0));
     case StencilOp::invert: return value ^ most;
     case StencilOp::increment_wrap: return (value + Int(1)) & most;
     case StencilOp::decrement_wrap: return (value - Int(1)) & most;

@@ -18,10 +18,11 @@ constexpr std::array<uint8_t, kPixelsPerBlock> make_z_order() {
 // Where pixel (x, y) of a block lies: [8·y + x].
 constexpr std::array<uint8_t, kPixelsPerBlock> kZOrder = make_z_order();
 
-// Calls f(pixel of the tile, pixel of the image) for every pixel of the tile inside the target, row by row, and so for
-// every sample; images of one sample give and take the first one's.
+// Calls f(pixel of the tile, pixel of the image, count) for every row of every block, cut to the target: count pixels, whose
+// places in the tile are the first one's plus kZOrder[0 … count − 1]. So for every sample; images of one sample give and
+// take the first one's.
 template <class F>
-HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_height, Samples held, int samples, F f) {
+HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_height, Samples held, int samples, F f) {
   for (int s = 0; s < samples; ++s) {
     const SampleCell cell = sample_cell(tile.samples, s, tile.size);
     const std::size_t shift = static_cast<std::size_t>(packet_shift(cell)) * kLanes;
@@ -32,16 +33,48 @@ HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_hei
       const std::size_t out = row + static_cast<std::size_t>(tile.x0);
       for (int x = 0; x < tile.width; x += kBlockSize) {
         const std::size_t block = static_cast<std::size_t>(y / kBlockSize * kBlocksPerRow + x / kBlockSize) * kPixelsPerBlock;
-        const std::size_t first = shift + block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize)];
-        if (tile.width - x >= kBlockSize) {  // a whole row of the block: places known when compiling
-          for (std::size_t i = 0; i < kBlockSize; ++i) f(first + kZOrder[i], out + static_cast<std::size_t>(x) + i);
-        } else {
-          for (int i = 0; i < tile.width - x; ++i) f(first + kZOrder[static_cast<std::size_t>(i)], out + static_cast<std::size_t>(x + i));
-        }
+        f(shift + block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize)], out + static_cast<std::size_t>(x),
+          std::min(kBlockSize, tile.width - x));
       }
     }
   }
 }
+
+// Calls f(pixel of the tile, pixel of the image) for each.
+template <class F>
+HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_height, Samples held, int samples, F f) {
+  for_each_row(tile, target_width, target_height, held, samples, [&](std::size_t first, std::size_t out, int pixels) {
+    if (pixels == kBlockSize) {  // places known when compiling
+      for (std::size_t i = 0; i < kBlockSize; ++i) f(first + kZOrder[i], out + i);
+    } else {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(pixels); ++i) f(first + kZOrder[i], out + i);
+    }
+  });
+}
+
+// for_each_pixel for images of 32 bits a pixel: two neighbours, which lie side by side in both, at a time. load: image to
+// tile, else tile to image.
+template <bool load, class TileBytes, class ImageBytes>
+void copy_words(const Tile& tile, int target_width, int target_height, Samples held, int samples, TileBytes* in_tile, ImageBytes* in_image) {
+  const auto copy = [&]<std::size_t bytes>(std::integral_constant<std::size_t, bytes>, std::size_t t, std::size_t i) {
+    if constexpr (load) {
+      std::memcpy(in_tile + 4 * t, in_image + 4 * i, bytes);
+    } else {
+      std::memcpy(in_image + 4 * i, in_tile + 4 * t, bytes);
+    }
+  };
+  for_each_row(tile, target_width, target_height, held, samples, [&](std::size_t first, std::size_t out, int pixels) {
+    if (pixels == kBlockSize) {
+      for (std::size_t i = 0; i < kBlockSize; i += 2) copy(std::integral_constant<std::size_t, 8>(), first + kZOrder[i], out + i);
+    } else {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(pixels); ++i) {
+        copy(std::integral_constant<std::size_t, 4>(), first + kZOrder[i], out + i);
+      }
+    }
+  });
+}
+
+int stored_samples(const Tile& tile, Samples held) { return held == Samples::one ? 1 : tile.samples; }
 
 // An image that a tile is loaded from or stored to.
 struct ImagePlace {
@@ -54,7 +87,7 @@ HS_INLINE void for_each_load(const Tile& tile, const ImagePlace& p, F f) {
 }
 template <class F>
 HS_INLINE void for_each_store(const Tile& tile, const ImagePlace& p, F f) {
-  for_each_pixel(tile, p.width, p.height, p.held, p.held == Samples::one ? 1 : tile.samples, f);
+  for_each_pixel(tile, p.width, p.height, p.held, stored_samples(tile, p.held), f);
 }
 
 // Planes of T in the tile ↔ T[4] a pixel in the image.
@@ -83,6 +116,53 @@ void store_planes(std::byte* data, const ImagePlace& place, const Tile& tile, co
   for_each_store(tile, place, [&](std::size_t t, std::size_t i) {
     for (std::size_t k = 0; k < 4; ++k) image[4 * i + k] = from[k * kMaxTilePixels + t];
   });
+}
+
+// Pixels of four 16-bit values, a quad at a time: two pixels of a row above two of the next, side by side in the tile.
+HS_INLINE void split_quad(const uint16_t* row0, const uint16_t* row1, uint16_t* to) {
+  const __m128i a = load<__m128i>(row0), b = load<__m128i>(row1);
+  const __m128i even = _mm_unpacklo_epi16(a, b), odd = _mm_unpackhi_epi16(a, b);  // r0 r2 g0 g2 …, r1 r3 g1 g3 …
+  const __m128i red_green = _mm_unpacklo_epi16(even, odd), blue_alpha = _mm_unpackhi_epi16(even, odd);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to), red_green);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + kMaxTilePixels), _mm_unpackhi_epi64(red_green, red_green));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 2 * kMaxTilePixels), blue_alpha);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 3 * kMaxTilePixels), _mm_unpackhi_epi64(blue_alpha, blue_alpha));
+}
+HS_INLINE void join_quad(const uint16_t* from, uint16_t* row0, uint16_t* row1) {
+  const auto plane = [&](int k) { return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from + k * kMaxTilePixels)); };
+  const __m128i red_green = _mm_unpacklo_epi16(plane(0), plane(1)), blue_alpha = _mm_unpacklo_epi16(plane(2), plane(3));
+  store(row0, _mm_unpacklo_epi32(red_green, blue_alpha));
+  store(row1, _mm_unpackhi_epi32(red_green, blue_alpha));
+}
+// Calls f(first pixel of a quad in the tile, and of its two rows in the image); images of one sample, the first one's.
+// False, and nothing is done, if the tile has half a quad.
+template <class F>
+HS_INLINE bool for_each_quad(const Tile& tile, const ImagePlace& place, F f) {
+  if (tile.samples != 1 || (tile.width | tile.height) % 2 != 0) return false;
+  for (int y = 0; y < tile.height; y += 2) {
+    const std::size_t row = static_cast<std::size_t>(place.height - 1 - (tile.y0 + y)) * static_cast<std::size_t>(place.width);
+    for (int x = 0; x < tile.width; x += 2) {
+      const std::size_t block = static_cast<std::size_t>(y / kBlockSize * kBlocksPerRow + x / kBlockSize) * kPixelsPerBlock;
+      const std::size_t in_tile = block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize + x % kBlockSize)];
+      const std::size_t in_image = row + static_cast<std::size_t>(tile.x0 + x);
+      f(in_tile, 4 * in_image, 4 * (in_image - static_cast<std::size_t>(place.width)));
+    }
+  }
+  return true;
+}
+
+void load_half_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
+  const auto* image = reinterpret_cast<const uint16_t*>(data);
+  uint16_t* to = planes<uint16_t>(color);
+  const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_quad(image + row0, image + row1, to + t); };
+  if (!for_each_quad(tile, place, quad)) load_planes<uint16_t>(data, place, tile, color);
+}
+
+void store_half_planes(std::byte* data, const ImagePlace& place, const Tile& tile, const ColorBuffer& color) {
+  auto* image = reinterpret_cast<uint16_t*>(data);
+  const uint16_t* from = planes<uint16_t>(color);
+  const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { join_quad(from + t, image + row0, image + row1); };
+  if (!for_each_quad(tile, place, quad)) store_planes<uint16_t>(data, place, tile, color);
 }
 
 // One pixel's depth and stencil, as an image holds them and as a tile does.
@@ -163,12 +243,8 @@ void load_color(const ColorTarget& target, int width, int height, Samples held, 
   const ImagePlace place{width, height, held};
   switch (target.format) {
     case ColorFormat::rgba32f: load_planes<float>(target.data, place, tile, color); break;
-    case ColorFormat::rgba16f: load_planes<uint16_t>(target.data, place, tile, color); break;
-    default: {
-      const auto* image = reinterpret_cast<const uint32_t*>(target.data);
-      uint32_t* to = planes<uint32_t>(color);
-      for_each_load(tile, place, [&](std::size_t t, std::size_t i) { to[t] = image[i]; });
-    }
+    case ColorFormat::rgba16f: load_half_planes(target.data, place, tile, color); break;
+    default: copy_words<true>(tile, width, height, held, tile.samples, color.bytes.data(), target.data); break;
   }
 }
 
@@ -194,22 +270,64 @@ void load_depth(const DepthTarget& target, int width, int height, Samples held, 
   for (int b = 0; b < kBlocks; ++b) refresh_block_bounds(tile, b);
 }
 
+namespace {
+
+// Sets the tile's pixels in an image of 4-byte or larger pixels to one value.
+template <class T>
+void fill_rows(T value, std::byte* data, int width, int height, const Tile& tile) {
+  T* image = reinterpret_cast<T*>(data);
+  for (int y = 0; y < tile.height; ++y) {
+    const std::size_t row = static_cast<std::size_t>(height - 1 - (tile.y0 + y)) * static_cast<std::size_t>(width);
+    std::fill_n(image + row + static_cast<std::size_t>(tile.x0), tile.width, value);
+  }
+}
+
+}  // namespace
+
+void fill_color(const ColorTarget& target, int width, int height, const Tile& tile, const PacketColor& color) {
+  if (target.store == StoreOp::dont_care || target.data == nullptr) return;
+  ColorBuffer one;
+  one.format = target.format;
+  write_color(one, 0, Mask(true), color, color, {});
+  switch (target.format) {
+    case ColorFormat::none: return;
+    case ColorFormat::rgba8:
+    case ColorFormat::srgb8a8: return fill_rows(*planes<uint32_t>(one), target.data, width, height, tile);
+    case ColorFormat::rgba16f: {
+      const uint16_t* p = planes<uint16_t>(one);
+      return fill_rows(std::array<uint16_t, 4>{p[0], p[kMaxTilePixels], p[2 * kMaxTilePixels], p[3 * kMaxTilePixels]}, target.data, width,
+                       height, tile);
+    }
+    case ColorFormat::rgba32f: {
+      const float* p = planes<float>(one);
+      return fill_rows(std::array<float, 4>{p[0], p[kMaxTilePixels], p[2 * kMaxTilePixels], p[3 * kMaxTilePixels]}, target.data, width,
+                       height, tile);
+    }
+  }
+}
+
+void fill_depth(const DepthTarget& target, int width, int height, const Tile& tile) {
+  if (target.store == StoreOp::dont_care || target.data == nullptr) return;
+  const float clear = depth_value(depth_part(target.format), std::clamp(target.clear_value, 0.0f, 1.0f));
+  with_codec(target.format, [&]<class C>(C) { fill_rows(C::store(clear, target.stencil_clear_value), target.data, width, height, tile); });
+}
+
 void store_color(const ColorTarget& target, int width, int height, Samples held, const Tile& tile, const ColorBuffer& color) {
   if (target.format == ColorFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
   const ImagePlace place{width, height, held};
   switch (target.format) {
     case ColorFormat::rgba32f: store_planes<float>(target.data, place, tile, color); break;
-    case ColorFormat::rgba16f: store_planes<uint16_t>(target.data, place, tile, color); break;
-    default: {
-      auto* image = reinterpret_cast<uint32_t*>(target.data);
-      const uint32_t* from = planes<uint32_t>(color);
-      for_each_store(tile, place, [&](std::size_t t, std::size_t i) { image[i] = from[t]; });
-    }
+    case ColorFormat::rgba16f: store_half_planes(target.data, place, tile, color); break;
+    default: copy_words<false>(tile, width, height, held, stored_samples(tile, held), color.bytes.data(), target.data); break;
   }
 }
 
 void store_depth(const DepthTarget& target, int width, int height, Samples held, const Tile& tile) {
   if (target.format == DepthFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
+  if (target.format == DepthFormat::d32f) {  // as the tile holds it
+    copy_words<false>(tile, width, height, held, stored_samples(tile, held), reinterpret_cast<const std::byte*>(tile.depth.data()), target.data);
+    return;
+  }
   with_codec(target.format, [&]<class C>(C) {
     auto* image = reinterpret_cast<typename C::Image*>(target.data);
     const bool stencil = tile.has_stencil;
@@ -226,15 +344,19 @@ void refresh_block_bounds(Tile& tile, int block) {
     low = min(low, z);
     high = max(high, z);
   }
-  // Minimum and maximum are exact, so their order makes no difference.
-  float block_min = lane(low, 0), block_max = lane(high, 0);
-  for (int i = 1; i < kLanes; ++i) {
-    block_min = min(block_min, lane(low, i));
-    block_max = max(block_max, lane(high, i));
+  // Minimum and maximum are exact, so their order makes no difference: halves against halves.
+  alignas(64) std::array<float, kLanes> lows, highs;
+  store(lows.data(), low);
+  store(highs.data(), high);
+  for (std::size_t half = kLanes / 2; half != 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) {
+      lows[i] = min(lows[i], lows[i + half]);
+      highs[i] = max(highs[i], highs[i + half]);
+    }
   }
   const auto b = static_cast<std::size_t>(block);
-  tile.block_min[b] = block_min;
-  tile.block_max[b] = block_max;
+  tile.block_min[b] = lows[0];
+  tile.block_max[b] = highs[0];
   tile.block_writes[b] = 0;
 }
 

@@ -62,6 +62,9 @@ struct PacketMask {
   uint16_t lanes;  ///< bit i: lane i
 };
 
+/// Four rows of W floats: r, g, b, a of a packet.
+using PacketColor = std::array<Real, 4>;
+
 /// The colours of a tile, in a target's format: 8-bit formats as one uint32 a pixel (r lowest); rgba16f and rgba32f as
 /// four planes.
 struct ColorBuffer {
@@ -117,6 +120,10 @@ void load_color(const ColorTarget& target, int target_width, int target_height, 
 void load_depth(const DepthTarget& target, int target_width, int target_height, Samples held, Tile& tile);
 void store_color(const ColorTarget& target, int target_width, int target_height, Samples held, const Tile& tile, const ColorBuffer& color);
 void store_depth(const DepthTarget& target, int target_width, int target_height, Samples held, const Tile& tile);
+
+/// Sets all the tile's pixels in the image at once: to a colour, and to the depth and stencil that the target is cleared to.
+void fill_color(const ColorTarget& target, int target_width, int target_height, const Tile& tile, const PacketColor& color);
+void fill_depth(const DepthTarget& target, int target_width, int target_height, const Tile& tile);
 
 /// Makes a block's depth bounds exact.
 void refresh_block_bounds(Tile& tile, int block);

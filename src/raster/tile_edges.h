@@ -97,20 +97,21 @@ class DepthPlane {
       e1y_ = static_cast<float>(t.y[1] - t.y[0]);
       e2x_ = static_cast<float>(t.x[2] - t.x[0]);
       e2y_ = static_cast<float>(t.y[2] - t.y[0]);
-      dx_ = static_cast<float>(grid.x_sub() - t.x[0]);
-      dy_ = static_cast<float>(grid.y_sub() - t.y[0]);
+      dx_ = grid.x_sub() - t.x[0];
+      dy_ = grid.y_sub() - t.y[0];
     }
   }
 
-  // e1, e2: the biased edge values of the packet's samples (small triangles); x, y: their pixels' place in the tile's room.
-  HS_INLINE Real at(Int e1, Int e2, Int x, Int y) const {
+  // x, y: the packet's place in the tile's room; edges: its BlockEdges.
+  template <class E>
+  HS_INLINE Real at(const E& edges, int x, int y) const {
     Real w1, w2;
     if constexpr (small) {
-      w1 = to_real<Real>(e1 + bias1_);
-      w2 = to_real<Real>(e2 + bias2_);
+      w1 = to_real<Real>(edges.values(1, x, y) + bias1_);
+      w2 = to_real<Real>(edges.values(2, x, y) + bias2_);
     } else {
-      const Real dx = Real(dx_) + to_real<Real>(x * kSubPixels);
-      const Real dy = Real(dy_) + to_real<Real>(y * kSubPixels);
+      const Real dx = to_real<Real>(lane_x() * kSubPixels + (dx_ + x * kSubPixels));
+      const Real dy = to_real<Real>(lane_y() * kSubPixels + (dy_ + y * kSubPixels));
       w1 = difference_of_products(dx, Real(e2y_), dy, Real(e2x_));
       w2 = difference_of_products(Real(e1x_), dy, Real(e1y_), dx);
     }
@@ -126,7 +127,8 @@ class DepthPlane {
   float z0_, z_edge1_, z_edge2_, low_, high_;
   DepthFormat format_;
   int32_t bias1_ = 0, bias2_ = 0;
-  float e1x_ = 0, e1y_ = 0, e2x_ = 0, e2y_ = 0, dx_ = 0, dy_ = 0;
+  float e1x_ = 0, e1y_ = 0, e2x_ = 0, e2y_ = 0;
+  int32_t dx_ = 0, dy_ = 0;
 };
 
 }  // namespace halfspace

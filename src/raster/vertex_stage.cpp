@@ -57,9 +57,17 @@ void project(const Draw& draw, const float* clip, int count, ScreenVertex* scree
     const Int y_fixed = snap(y, w, inv_w, v.half_height, v.center_y);
     // The bound only matters with depth clamp, where z/w may overflow.
     const Real z_window = clamp(fma(z * inv_w, Real(v.depth_scale), Real(v.depth_bias)), Real(-1e30f), Real(1e30f));
+    alignas(64) std::array<int32_t, kLanes> codes, xs, ys;
+    alignas(64) std::array<float, kLanes> zs, ws;
+    store(codes.data(), code);
+    store(xs.data(), x_fixed);
+    store(ys.data(), y_fixed);
+    store(zs.data(), z_window);
+    store(ws.data(), inv_w);
     for (int i = 0; i < std::min(kLanes, count - begin); ++i) {
-      screen[begin + i] = {lane(x_fixed, i), lane(y_fixed, i), lane(z_window, i), lane(inv_w, i)};
-      outcodes[begin + i] = static_cast<Outcode>(lane(code, i));
+      const auto k = static_cast<std::size_t>(i);
+      screen[begin + i] = {xs[k], ys[k], zs[k], ws[k]};
+      outcodes[begin + i] = static_cast<Outcode>(codes[k]);
     }
   }
 }
@@ -89,12 +97,12 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.varying_count = draw.kernels.varying_count;
   const std::size_t n = out.count * std::size_t{draw.state.instances};
   HS_CHECK_OP(n, <, std::size_t{1} << 32);
-  out.screen.reset(new ScreenVertex[n]);  // not make_unique: rows that no index uses need no initialization
-  out.outcodes.reset(new Outcode[n]);
-  out.varyings.reset(new float[n * static_cast<std::size_t>(out.varying_count)]);
+  out.screen.reset(n);
+  out.outcodes.reset(n);
+  out.varyings.reset(n * static_cast<std::size_t>(out.varying_count));
   out.clip_distance_count = draw.kernels.clip_distance_count;
-  if (out.clip_distance_count != 0) out.clip_distances.reset(new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
-  if (draws_points(draw.state)) out.sprites.reset(new SpriteRect[n]);
+  out.clip_distances.reset(out.clip_distance_count == 0 ? nullptr : new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
+  out.sprites.reset(draws_points(draw.state) ? new SpriteRect[n] : nullptr);
 }
 
 void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {

@@ -23,6 +23,7 @@ struct CoverageList {
 /// What a triangle's samples do to the tile before they are shaded.
 enum class VisibilityMode : uint8_t {
   deferred,   ///< test, write depth and triangle id
+  depth_only, ///< test, write depth: there is no colour to shade
   early,      ///< test, write depth, list what passed
   test_only,  ///< test, list what passed: depth is written after the shader has spoken
   cover_only  ///< list what is covered: the shader replaces the depth, and the test comes after it
@@ -31,9 +32,33 @@ enum class VisibilityMode : uint8_t {
 /// May a depth test come before the fragment function (OpenGL 4.6, section 15.2.4 allows it where no one can tell)?
 VisibilityMode visibility_mode(const Draw& draw);
 
-/// Rasterizes triangle `index` of chunk `chunk` in the tile. list is needed but for VisibilityMode::deferred.
-void rasterize(const Frame& frame, uint32_t chunk, uint32_t index, VisibilityMode mode, Tile& tile, CoverageList* list,
-               PassStatistics& statistics);
+/// What the triangles of one draw have in common in one tile.
+struct DrawInTile {
+  DrawInTile(const Frame& frame, const Draw& draw, VisibilityMode mode, const Tile& tile);
+
+  const Frame& frame;
+  const Draw& draw;
+  VisibilityMode mode;
+  const Tile& tile;
+  PixelBounds bounds;    ///< of the draw in the tile
+  bool cut;              ///< a covered pixel of the tile may lie outside of bounds
+  bool tests;            ///< there is a depth test in this stage (where the stencil does not put it off)
+  bool asks_shader;      ///< the shader's visibility function decides
+  bool stencils;         ///< there is a stencil test, in this stage or later
+  bool is_plain;         ///< one sample a pixel, and only coverage and depth decide
+};
+
+/// Rasterizes triangle `index` of chunk `chunk` in the tile. list is needed but for VisibilityMode::deferred and depth_only.
+void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, Tile& tile, CoverageList* list, PassStatistics& statistics);
+
+/// The same for a plain draw (visibility_plain.cpp).
+void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, Tile& tile, PassStatistics& statistics);
+
+/// Covers the triangle of a plain draw every pixel of the tile's room?
+bool covers_tile(const DrawInTile& d, const Triangle& t);
+
+/// Remembers that values in [low, high] were written to a block.
+void widen_block_bounds(CompareOp op, Tile& tile, int block, float low, float high);
 
 /// The depth test of a packet: which lanes of mask pass, with z as Tile::depth holds it.
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask);
@@ -41,15 +66,22 @@ Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, M
 /// Writes z where mask says, if the state writes depth, and keeps the block's bounds true.
 void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask mask);
 
-/// One packet for a shader's visibility function.
-struct VisibilityPacket {
+/// Packets that a visibility kernel decides in one call.
+inline constexpr int kVisibilityBatch = 16;
+
+/// Packets of one triangle for a shader's visibility function.
+struct VisibilityBatch {
   const Frame* frame;
   TriangleId id;
-  int x, y;                         ///< window coordinates of the packet's lowest corner
-  SamplePosition position;          ///< where in their pixels the shader looks
+  int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's room
+  SamplePosition position;  ///< where in their pixels the shader looks
+  int count = 0;            ///< ≤ kVisibilityBatch
+  std::array<uint16_t, kVisibilityBatch> packets;
   const SamplePosition* centroids;  ///< as in FragmentBatch
-  float* depth;                     ///< out: the shader's W depths (it sees in px.z what fragment will see, so both say the same)
-  uint32_t* lanes;                  ///< in and out: bits of the covered lanes, then of those kept
+  /// In: the triangle's depths; out, if the shader writes depth: the shader's (it sees in px.z() what fragment will see, so both
+  /// say the same).
+  alignas(64) std::array<Real, kVisibilityBatch> depth;
+  std::array<uint32_t, kVisibilityBatch> lanes;  ///< in and out: bits of the covered lanes, then of those kept
 };
 
 }  // namespace halfspace

@@ -61,26 +61,32 @@ void lean(LightDescription& light, double degrees) {
 
 }  // namespace
 
-std::vector<TableRow> shadow_table(bool full, const ValidationOptions& options, const Workers& workers,
-                                   const std::function<void(const TableRow&)>& done) {
-  std::vector<TableRow> rows;
+void for_each_shadow_case(bool full, const std::function<void(const ShadowCase&)>& visit) {
   for (const TableScene& place : kScenes) {
     SceneFile file = SceneFile::open(place.name);
     file.set("camera=" + std::string(place.camera));
-    SceneAssets assets(workers);
     for (const Variant& v : variants(full)) {
       SceneFile varied = file;
       varied.set(std::vector<std::string>{"shadow.bias=" + std::string(v.bias), "shadow.method=" + std::string(v.filter),
                                           "shadow.resolution=" + std::to_string(v.resolution)});
-      SceneDescription scene = varied.at(0.0);
-      LightDescription& light = scene.lights.front().second;
+      ShadowCase c{v.factor, place.name, v.bias, v.filter, v.resolution, v.angle >= 0.0 ? v.angle : place.angle, varied.at(0.0)};
+      LightDescription& light = c.description.lights.front().second;
       light.size = 0.0;
       if (v.angle >= 0.0) lean(light, v.angle);
-      Validation result = validate(place.name, scene, options, assets, workers);
-      rows.push_back({v.factor, v.angle >= 0.0 ? v.angle : place.angle, std::move(result.lights.front().score)});
-      done(rows.back());
+      visit(c);
     }
   }
+}
+
+std::vector<TableRow> shadow_table(bool full, const ValidationOptions& options, const Workers& workers,
+                                   const std::function<void(const TableRow&)>& done) {
+  std::vector<TableRow> rows;
+  SceneAssets assets(workers);
+  for_each_shadow_case(full, [&](const ShadowCase& c) {
+    Validation result = validate(c.scene, c.description, options, assets, workers);
+    rows.push_back({c.factor, c.angle, std::move(result.lights.front().score)});
+    done(rows.back());
+  });
   return rows;
 }
 

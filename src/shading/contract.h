@@ -9,6 +9,9 @@
 //
 // and, where it wants them,
 //
+//   template <class R> Fragment<R> fragment(const Varyings<R>& in) const;
+//     for a colour that needs nothing of the pixel but the varyings. With no varyings it is one colour for the whole draw, and
+//     is computed once.
 //   template <class R> vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const;
 //     a vertex function that is told which vertex of which instance it makes.
 //   template <class R> struct Primitive { … };       one value a triangle, and the function that makes it, run once
@@ -147,13 +150,17 @@ concept HasPlainFragmentFunction = requires(const S& s, const typename S::templa
   s.fragment(in, px);
 };
 template <class S>
+concept HasBareFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in) {
+  s.fragment(in);
+};
+template <class S>
 concept HasPrimitiveFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in,
                                                 const typename S::template Primitive<float>& face, const Pixel<float>& px) {
   s.fragment(in, face, px);
 };
 template <class S>
 concept HasFragmentFunction = (HasPrimitive<S> && HasPrimitiveFunction<S> && HasPrimitiveFragmentFunction<S>) ||
-                              (!HasPrimitive<S> && HasPlainFragmentFunction<S>);
+                              (!HasPrimitive<S> && (HasPlainFragmentFunction<S> || HasBareFragmentFunction<S>));
 template <class S>
 concept HasVisibilityFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
   { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
@@ -214,6 +221,8 @@ template <class S, class R, class P>
 HS_INLINE auto call_fragment(const S& s, const typename S::template Varyings<R>& in, const P& face, const Pixel<R>& px) {
   if constexpr (HasPrimitive<S>) {
     return s.fragment(in, face, px);
+  } else if constexpr (HasBareFragmentFunction<S>) {
+    return s.fragment(in);
   } else {
     return s.fragment(in, px);
   }
@@ -304,5 +313,9 @@ inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;
 /// Does the shader replace the triangle's depth?
 template <class S>
 inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>>;
+/// Is the shader's colour the same for a whole draw?
+template <class S>
+inline constexpr bool kIsConstant = !HasPrimitive<S> && HasBareFragmentFunction<S> && kComponents<typename S::template Varyings<float>> == 0 &&
+                                    !kDiscards<S>;
 
 }  // namespace halfspace

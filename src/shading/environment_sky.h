@@ -4,6 +4,7 @@
 // own before its map, as sharp as the picture (star_sky.h); they go down at its horizon.
 #pragma once
 
+#include "core/lane_math.h"
 #include "shading/contract.h"
 #include "shading/environment.h"
 #include "shading/star_sky.h"
@@ -45,7 +46,7 @@ struct EnvironmentSky {
   template <class R>
   static vec3<R> star_light(const StarSky& stars, const Environment& sky, const vec3<R>& d_ws) {
     const vec3<R> d_ms = sky.map_from_world * d_ws;
-    const vec3<R> d = d_ms * (R(1) / sqrt(dot(d_ms, d_ms)));
+    const vec3<R> d = d_ms * inverse_sqrt(dot(d_ms, d_ms));
     return stars.star_light(d) * (clamp(d.y * R(5.0f), 0.0f, 1.0f) * R(sky.brightness));
   }
 };

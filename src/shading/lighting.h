@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/lane_math.h"
@@ -57,7 +58,7 @@ inline constexpr float kLeastAttenuation = 1e-12f;
 template <class R>
 HS_INLINE vec3<R> normalize_or_zero(const vec3<R>& v) {
   const R squared = dot(v, v);
-  return v * select(squared > R(0), R(1) / sqrt(squared), R(0));
+  return v * select(squared > R(0) && squared < R(std::numeric_limits<float>::infinity()), inverse_sqrt(squared), R(0));
 }
 
 /// A normal of any length as a unit vector on the side of v; the zero vector stays zero.
@@ -127,7 +128,7 @@ HS_INLINE Illumination<R> illuminate(std::span<const Light> lights, LightModel m
           light_arriving(*light.shadow, ShadowReceiver<R>{p.position_ew, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
     sum.diffuse += light.diffuse * (max(n_l, R(0)) * arriving.strength);
     if (model == LightModel::lambert) continue;
-    const R highlight = pow(highlight_cosine(model, p, arriving.l_ws, n_l), shininess);
+    const R highlight = unit_pow(highlight_cosine(model, p, arriving.l_ws, n_l), shininess);
     sum.specular += light.specular * select(n_l > R(0), highlight * arriving.strength, R(0));
   }
   return sum;

@@ -37,15 +37,16 @@ struct TriangleLanes {
 template <class R>
 struct Weights {
   R p1, p2;       ///< perspective-correct weights of v1, v2
-  R b1, b2;       ///< window-space (linear) weights of v1, v2
+  R b1, b2;       ///< window-space (linear) weights of v1, v2; where no varying is linear, not set
   R denominator;  ///< D above: 1/w at the point is D / A, rescaled
+  R inverse;      ///< 1 / D
 };
 
 /// n1 and n2 over the sum of all three. The quotients are rounded, and so is the sum; what they lack of adding up to 1
 /// is then shared out. 1 − larger is exact where it matters: from 1/2 on.
 template <class R>
 struct Normalized {
-  R p1, p2, sum;
+  R p1, p2, sum, inverse;
 };
 template <class R>
 HS_INLINE Normalized<R> normalized(R n0, R n1, R n2) {
@@ -53,17 +54,23 @@ HS_INLINE Normalized<R> normalized(R n0, R n1, R n2) {
   const R inverse = R(1) / sum;
   const R p1 = n1 * inverse, p2 = n2 * inverse;
   const R rest = fma(-n0, inverse, (R(1) - max(p1, p2)) - min(p1, p2));
-  return {fma(p1, rest, p1), fma(p2, rest, p2), sum};
+  return {fma(p1, rest, p1), fma(p2, rest, p2), sum, inverse};
 }
 
-template <class R>
+/// linear: the window-space weights are needed too.
+template <bool linear = true, class R>
 HS_INLINE Weights<R> weights_at(const TriangleLanes<R>& t, R dx, R dy) {
   const R e0 = difference_of_products(t.e1x - dx, t.e2y - dy, t.e1y - dy, t.e2x - dx);
   const R e1 = difference_of_products(dx, t.e2y, dy, t.e2x);
   const R e2 = difference_of_products(t.e1x, dy, t.e1y, dx);
   const Normalized<R> p = normalized(e0 * t.q0, e1 * t.q1, e2 * t.q2);
-  const Normalized<R> b = normalized(e0, e1, e2);
-  return {p.p1, p.p2, b.p1, b.p2, p.sum};
+  Weights<R> w{.p1 = p.p1, .p2 = p.p2, .b1{}, .b2{}, .denominator = p.sum, .inverse = p.inverse};
+  if constexpr (linear) {
+    const Normalized<R> b = normalized(e0, e1, e2);
+    w.b1 = b.p1;
+    w.b2 = b.p2;
+  }
+  return w;
 }
 
 /// One component at a point with weights w: value0 at v0, and its differences to v1 and v2.
@@ -107,9 +114,12 @@ HS_INLINE V interpolate_all(const Weights<R>& w, const Weights<R>& centroid, con
 template <class R>
 struct Pixel {
   R x, y;                  ///< window coordinates of the pixel centre (origin lower left, centres at +0.5)
-  R z;                     ///< window depth of the fragment, in [0, 1]
-  R inv_w;                 ///< 1/w_clip at the pixel
   MaskOf<R> front_facing;  ///< the triangle is counter-clockwise (as DrawState::front says)
+
+  /// Window depth of the fragment, in [0, 1]. Found when asked for: few shaders do.
+  HS_INLINE R z() const { return find_z(*this); }
+  /// 1/w_clip at the pixel.
+  HS_INLINE R inv_w() const { return weights.denominator / triangle->area * triangle->q_unscale; }
 
   /// d/dx of a varying, per pixel: px.ddx(&Varyings<R>::uv). Exact by the triangle's plane, with no helper lanes.
   template <class V, class F>
@@ -132,7 +142,7 @@ struct Pixel {
   HS_INLINE V at_quad(int i, int j) const {
     const R to_x = (R(static_cast<float>(i)) - quad_x) * R(256);
     const R to_y = (R(static_cast<float>(j)) - quad_y) * R(256);
-    const Weights<R> w = weights_at(*triangle, dx + to_x, dy + to_y);
+    const Weights<R> w = weights_at<kUsesLinear<V>>(*triangle, dx + to_x, dy + to_y);
     return interpolate_all<V>(w, components<V>(), std::make_index_sequence<kComponents<V>>());
   }
 
@@ -142,6 +152,8 @@ struct Pixel {
   Weights<R> weights;
   R dx, dy;          ///< pixel centre − v0, in 1/256 px
   R quad_x, quad_y;  ///< 0 or 1: the pixel's place in its quad
+  R (*find_z)(const Pixel&);
+  const void* z_source;  ///< what find_z reads
 
  private:
   template <class V>
@@ -158,8 +170,7 @@ struct Pixel {
     using Traits = detail::FieldTraits<F>;
     static_assert(Traits::interpolation == Interpolation::smooth, "only smooth varyings have derivatives");
     const TriangleLanes<R>& t = *triangle;
-    const R inverse = R(1) / weights.denominator;
-    const R scale = sub_pixels * t.area * inverse * inverse;
+    const R scale = sub_pixels * t.area * weights.inverse * weights.inverse;
     const R dp1 = t.q1 * scale * difference_of_products(t.q2, r, t.q0, r - r2);
     const R dp2 = t.q2 * scale * difference_of_products(t.q0, r - r1, t.q1, r);
     const std::size_t first = first_component(member);

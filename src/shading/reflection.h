@@ -7,6 +7,7 @@
 //   r' = d' − 2 ((d'·n + d·n') n + (d·n) n').
 #pragma once
 
+#include "core/lane_math.h"
 #include "shading/environment.h"
 
 namespace halfspace {
@@ -20,7 +21,7 @@ struct Differential {
 /// The unit vector of v, which must not be 0: v/|v| changes by what of v' is across v, over |v|.
 template <Number R>
 HS_INLINE Differential<R> normalized(const Differential<R>& v) {
-  const R inverse = R(1.0f) / sqrt(dot(v.at, v.at));
+  const R inverse = inverse_sqrt(dot(v.at, v.at));
   const vec3<R> n = v.at * inverse;
   const auto across = [&](const vec3<R>& step) { return (step - n * dot(n, step)) * inverse; };
   return {n, across(v.dx), across(v.dy)};

@@ -105,14 +105,22 @@ inline constexpr std::size_t kComponents = detail::TupleTraits<detail::FieldsOf<
 template <class V>
 inline constexpr auto kInterpolations = detail::TupleTraits<detail::FieldsOf<V>>::interpolations();
 
-/// Is one of them looked up at the centroid?
-template <class V>
-inline constexpr bool kUsesCentroid = [] {
+namespace detail {
+template <class V, Interpolation mode>
+inline constexpr bool kAny = [] {
   for (const Interpolation i : kInterpolations<V>) {
-    if (i == Interpolation::centroid) return true;
+    if (i == mode) return true;
   }
   return false;
 }();
+}  // namespace detail
+
+/// Is one of them looked up at the centroid?
+template <class V>
+inline constexpr bool kUsesCentroid = detail::kAny<V, Interpolation::centroid>;
+/// Is one of them linear in the window?
+template <class V>
+inline constexpr bool kUsesLinear = detail::kAny<V, Interpolation::linear>;
 
 /// The components of t as an array of R, in order of declaration.
 template <class R, class T>

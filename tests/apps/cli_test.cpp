@@ -118,9 +118,15 @@ std::string shipped_scenes() {
 void PrintTo(const Mistake& m, std::ostream* os) { *os << m.name; }
 
 const Mistake kMistakes[] = {
-    {"NoCommand", {}, 2, "no command; expected one of render, convert-normal, validate, list, info, completion (see 'halfspace --help')"},
+    {"NoCommand",
+     {},
+     2,
+     "no command; expected one of render, convert-normal, validate, compare, chart, list, info, completion (see 'halfspace --help')"},
     {"WrongCommand", {"rendr", "earth"}, 2, "unknown command 'rendr'; did you mean 'render'?"},
-    {"FarCommand", {"paint"}, 2, "unknown command 'paint'; expected one of render, convert-normal, validate, list, info, completion"},
+    {"FarCommand",
+     {"paint"},
+     2,
+     "unknown command 'paint'; expected one of render, convert-normal, validate, compare, chart, list, info, completion"},
     {"WrongOption", {"render", "earth", "--siez", "3x3"}, 2, "unknown option '--siez'; did you mean '--size'?"},
     {"OptionOfNoCommand", {"--jsn"}, 2, "unknown option '--jsn'; expected one of --help, --version"},
     {"NoScene", {"render"}, 2, "SCENE is required; see 'halfspace render --help'"},
@@ -209,6 +215,17 @@ const Mistake kMistakes[] = {
      {"validate", "shadow-plane", "--size", "16x9", "-o", "/proc/none"},
      4,
      "/proc/none: cannot make the directory (No such file or directory)"},
+    {"CompareOne", {"compare", "a.png"}, 2, "B is required; see 'halfspace compare --help'"},
+    {"CompareNothing", {"compare", "a.png", "b.png"}, 3, "a.png: no such file; expected an image"},
+    {"CompareTolerance",
+     {"compare", "a.png", "b.png", "--tolerance", "-1"},
+     2,
+     "--tolerance is '-1'; expected a difference of 0 or more, for example 0.004"},
+    {"CompareNowhere", {"compare", "a.png", "b.png", "-o", "no/d.png"}, 4, "no/d.png: cannot write (there is no directory no)"},
+    {"ChartNothing", {"chart"}, 2, "STUDY is required; see 'halfspace chart --help'"},
+    {"ChartNear", {"chart", "shading_rat"}, 2, "unknown study 'shading_rat'; did you mean 'shading_rate'?"},
+    {"ChartThreads", {"chart", "tone", "--threads", "0"}, 2, "--threads is '0'; expected 1 to 1024"},
+    {"ChartNowhere", {"chart", "tone", "-o", "/proc/none"}, 4, "/proc/none: cannot make the directory (No such file or directory)"},
     {"NormalWithoutOutput", {"convert-normal", "a.png"}, 2, "--output is required; see 'halfspace convert-normal --help'"},
     {"NormalFormat", {"convert-normal", "a.png", "-o", "n.jpg"}, 2, "-o is 'n.jpg'; expected a name that ends in .png"},
     {"NormalStrength",
@@ -333,7 +350,7 @@ TEST_F(Cli, Info) {
 }
 
 TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
-  for (const char* command : {"render", "convert-normal", "validate", "list", "info", "completion"}) {
+  for (const char* command : {"render", "convert-normal", "validate", "compare", "chart", "list", "info", "completion"}) {
     const Outcome o = run({command, "--help"});
     EXPECT_EQ(o.exit_code, 0);
     EXPECT_LE(lines_of(o.out), 24);
@@ -394,7 +411,7 @@ TEST_F(Cli, ListTellsScenesAndKeys) {
 
 TEST_F(Cli, CompletionScriptsAreRight) {
   for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
-  EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nvalidate\nlist\ninfo\ncompletion\n");
+  EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nvalidate\ncompare\nchart\nlist\ninfo\ncompletion\n");
   std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
 halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
 compopt() { :; }
@@ -403,10 +420,12 @@ try halfspace re
 try halfspace render ear
 try halfspace render moon --set moon.lat
 try halfspace render moon --res
+try halfspace chart sh
+try halfspace compare --js
 )";
   const std::string command = "bash " + (directory / "try.sh").string() + " > " + (root / "out").string() + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(text_of(root / "out"), "render\nearth\nmoon.latitudes=\n--resume\n");
+  EXPECT_EQ(text_of(root / "out"), "render\nearth\nmoon.latitudes=\n--resume\nshading_rate shadows\n--json\n");
 }
 
 TEST_F(Cli, FramesAreNumberedAndResumed) {
@@ -496,6 +515,85 @@ TEST_F(Cli, ReportsStayOutOfThePicture) {
       HALFSPACE_PROGRAM " render earth --size 64x36 -o /dev/stdout --stats 2> /dev/null | cat > " + (directory / "piped.png").string();
   EXPECT_EQ(std::system(piped.c_str()), 0);
   EXPECT_EQ(text_of(directory / "piped.png"), o.out);
+}
+
+// ---- compare ---------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, CompareTellsNumbersAndJudges) {
+  for (const char* size : {"64x36", "32x18"})
+    EXPECT_EQ(run({"render", "earth", "--size", size, "-o", std::string(size) + ".png"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "earth", "--size", "64x36", "--shading", "flat", "-o", "flat.png"}).exit_code, 0);
+  const Outcome same = run({"compare", "64x36.png", "64x36.png", "--tolerance", "0"});
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_TRUE(same.out.starts_with("64x36.png against 64x36.png, 64x36, 8-bit codes over 255\nrmse         0\n")) << same.out;
+  EXPECT_NE(same.out.find("\npsnr         infinite\n"), std::string::npos) << same.out;
+  const Outcome json = run({"compare", "64x36.png", "flat.png", "--json", "-o", "d.png"});
+  EXPECT_EQ(json.exit_code, 0) << "without a tolerance nothing is judged";
+  const auto parsed = nlohmann::json::parse(json.out);
+  for (const char* key : {"rmse", "psnr_db", "max", "p999", "share_above_1_255", "ssim"}) EXPECT_TRUE(parsed.at(key).is_number()) << key;
+  EXPECT_TRUE(fs::exists(directory / "d.png"));
+  const double most = parsed.at("max");
+  EXPECT_GT(most, 0.01);
+  const Outcome above = run({"compare", "64x36.png", "flat.png", "--tolerance", "0.01"});
+  EXPECT_EQ(above.exit_code, 1);
+  EXPECT_TRUE(above.err.starts_with("halfspace: flat.png: differs from 64x36.png by 0.")) << above.err;
+  EXPECT_TRUE(above.err.ends_with("; expected at most 0.01\n")) << above.err;
+  EXPECT_EQ(run({"compare", "64x36.png", "flat.png", "--tolerance", "1"}).exit_code, 0);
+  const Outcome sizes = run({"compare", "64x36.png", "32x18.png"});
+  EXPECT_EQ(sizes.exit_code, 3);
+  EXPECT_EQ(sizes.err, "halfspace: 32x18.png: is 32x18; expected 64x36, the size of 64x36.png\n");
+  std::ofstream(directory / "bad.png") << "no picture";
+  const Outcome bad = run({"compare", "64x36.png", "bad.png"});
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_EQ(lines_of(bad.err), 1) << bad.err;
+}
+
+TEST_F(Cli, CompareOfLinearFilesIsOfLight) {
+  for (const char* name : {"a.exr", "a.png"}) EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", name}).exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(run({"compare", "a.exr", "a.exr", "--json"}).out).at("values"), "linear");
+  // A linear file beside codes counts by its codes: those of the same scene, but for the half's rounding (2^-11 of the light, which
+  // moves a code where it lies that near between two).
+  const auto mixed = nlohmann::json::parse(run({"compare", "a.exr", "a.png", "--json"}).out);
+  EXPECT_EQ(mixed.at("values"), "codes");
+  EXPECT_LE(mixed.at("max").get<double>(), 1.0 / 255.0);
+}
+
+// ---- chart -----------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, ChartWritesDataChartAndPage) {
+  const Outcome o = run({"chart", "antialiasing", "--quick", "-o", "out"});
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const auto data = nlohmann::json::parse(text_of(directory / "out" / "antialiasing.json"));
+  const std::string csv = text_of(directory / "out" / "antialiasing.csv"), page = text_of(directory / "out" / "index.html");
+  EXPECT_EQ(lines_of(csv), 1 + static_cast<int>(data.at("variants").size()));
+  EXPECT_TRUE(csv.starts_with("study,variant,group,samples,")) << csv;
+  for (const auto& row : data.at("variants"))
+    for (const char* key : {"picture", "difference"}) EXPECT_TRUE(fs::exists(directory / "out" / row.at(key).get<std::string>())) << row;
+  EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
+  EXPECT_NE(page.find("antialiasing-8-samples.png"), std::string::npos);
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) {
+    EXPECT_NE(o.out.find("gnuplot is missing (Debian and Ubuntu: gnuplot-nox)"), std::string::npos);
+    GTEST_SKIP() << "gnuplot is absent: no charts";
+  }
+  for (const char* file : {"antialiasing.svg", "antialiasing-dark.svg", "antialiasing.png"})
+    EXPECT_GT(fs::file_size(directory / "out" / file), 5000u);
+  const std::string svg = text_of(directory / "out" / "antialiasing.svg");
+  for (const auto& row : data.at("variants")) EXPECT_NE(svg.find(row.at("name").get<std::string>()), std::string::npos) << row;
+  // A second study joins the page of the first.
+  EXPECT_EQ(run({"chart", "tone", "--quick", "-o", "out"}).exit_code, 0);
+  const std::string both = text_of(directory / "out" / "index.html");
+  EXPECT_NE(both.find("id=\"antialiasing\""), std::string::npos);
+  EXPECT_NE(both.find("id=\"tone\""), std::string::npos);
+}
+
+TEST_F(Cli, WithoutGnuplotTheDataAreWritten) {
+  const std::string command = "cd " + directory.string() + " && PATH=/nowhere " HALFSPACE_PROGRAM " chart tone --quick -o out > " +
+                              (root / "out").string() + " 2> " + (root / "err").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
+  EXPECT_NE(text_of(root / "out").find("no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data are written\n"),
+            std::string::npos);
+  EXPECT_TRUE(fs::exists(directory / "out" / "tone.csv"));
+  EXPECT_FALSE(fs::exists(directory / "out" / "tone.svg"));
 }
 
 // ---- convert-normal --------------------------------------------------------------------------------------------

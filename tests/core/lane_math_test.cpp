@@ -72,6 +72,36 @@ void expect_at_most(double bound, const char* what, const Worst& worst) {
   EXPECT_LE(worst.ulp, bound) << what << ": " << worst;
 }
 
+TEST(LaneMath, InverseSqrtIsWithin113Ulp) {
+  const auto f = [](float x) { return inverse_sqrt(x); };
+  const auto g = [](double x) { return 1.0 / std::sqrt(x); };
+  // Every float of two binades, which is every mantissa with an even and an odd exponent; then all exponents.
+  Worst worst;
+  for (int32_t i = as_int(1.0f); i < as_int(4.0f); ++i) worst.add(ulps(f(as_real(i)), g(static_cast<double>(as_real(i)))), as_real(i));
+  expect_at_most(1.13, "inverse_sqrt 1 to 4", worst);
+  expect_at_most(1.13, "inverse_sqrt", sweep(f, g, 0x1p-149f, 0x1.fffffep127f));
+}
+
+TEST(LaneMath, UnitPowIsWithin15e8OfPow) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f), exponent(-7.0f, 17.0f);
+  double worst = 0.0;
+  for (int i = 0; i < 1 << 20; ++i) {
+    const float y = std::exp2(exponent(random));
+    // Half of them near 1, where a large exponent leaves something.
+    const float x = (i & 1) != 0 ? unit(random) : 1.0f - unit(random) * std::min(1.0f, 8.0f / y);
+    worst = std::max(worst, std::fabs(static_cast<double>(unit_pow(x, y)) - std::pow(static_cast<double>(x), static_cast<double>(y))));
+  }
+  EXPECT_LE(worst, 1.5e-7);  // see unit_pow; 6e-8 of it is the rounding of a result near 1
+  EXPECT_GT(worst, 1e-8);    // the pairs are not all at the ends
+  EXPECT_EQ(unit_pow(0.0f, 0.0f), 1.0f);
+  EXPECT_EQ(unit_pow(0.5f, 0.0f), 1.0f);
+  EXPECT_EQ(unit_pow(0.0f, 3.0f), 0.0f);
+  EXPECT_EQ(unit_pow(1.0f, 1e5f), 1.0f);
+  EXPECT_EQ(unit_pow(kNaN, 0.0f), 1.0f);
+  EXPECT_TRUE(std::isnan(unit_pow(kNaN, 2.0f)));
+}
+
 TEST(LaneMath, Exp2IsWithinOneUlp) {
   const auto f = [](float x) { return exp2(x); };
   const auto g = [](double x) { return std::exp2(x); };
@@ -336,6 +366,8 @@ TEST(LaneMath, LanesHoldTheBitsOfFloat) {
   expect_all_widths_agree("cos of y", [](auto, auto y) { return cos(y); });
   expect_all_widths_agree("atan2", [](auto x, auto y) { return atan2(x, y); });
   expect_all_widths_agree("atan", [](auto x, auto) { return atan(x); });
+  expect_all_widths_agree("inverse_sqrt", [](auto x, auto) { return inverse_sqrt(abs(x)); });
+  expect_all_widths_agree("unit_pow", [](auto x, auto y) { return unit_pow(abs(x), abs(y)); });
   expect_all_widths_agree("asin", [](auto x, auto) { return asin(x); });
   expect_all_widths_agree("acos", [](auto x, auto) { return acos(x); });
 }

@@ -136,8 +136,8 @@ class TruthDrawOf final : public TruthDraw {
     Pixel<double> px{};
     px.x = center.x;
     px.y = center.y;
-    px.z = z;
-    px.inv_w = q;
+    px.find_z = [](const Pixel<double>& pixel) { return *static_cast<const double*>(pixel.z_source); };
+    px.z_source = &z;
     px.triangle = &triangle;
     px.component_lanes = &lanes;
     px.dx = px.x * 256.0 - t.x[0];

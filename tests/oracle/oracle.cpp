@@ -783,7 +783,7 @@ Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> int
   l.e1y = static_cast<float>(c[1]->y - c[0]->y);
   l.e2x = static_cast<float>(c[2]->x - c[0]->x);
   l.e2y = static_cast<float>(c[2]->y - c[0]->y);
-  l.area = static_cast<float>(t.area);
+  l.area = determinant(l.e1x, l.e2y, l.e1y, l.e2x);
   // A power of two takes the largest 1/w to [1, 2) (a denormal one to below 1).
   const float largest = std::max({c[0]->inv_w, c[1]->inv_w, c[2]->inv_w});
   const int exponent = std::max(std::ilogb(largest), -127);
@@ -826,8 +826,7 @@ SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const Dept
   const float e2 = determinant(l.e1x, p.dy, l.e1y, p.dx);
   const std::array<float, 3> linear = share({e0, e1, e2});
   const std::array<float, 3> perspective = share({e0 * l.q0, e1 * l.q1, e2 * l.q2});
-  p.weights = {perspective[1], perspective[2], linear[1], linear[2], perspective[0]};
-  p.inv_w = p.weights.denominator / l.area * l.q_unscale;
+  p.weights = {perspective[1], perspective[2], linear[1], linear[2], perspective[0], 1.0f / perspective[0]};
   // Shaders are told the depth by float determinants, also for triangles whose tested depth is by whole numbers.
   const auto [z1, z2] = t.is_point ? std::pair{0.0f, 0.0f} : float_determinants(t, at);
   p.z = depth_sum(t, state, z1, z2);

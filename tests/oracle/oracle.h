@@ -151,7 +151,6 @@ struct SurfacePoint {
   Weights<float> weights;
   float dx, dy;  ///< from vertex 0, 1/256 px
   float z;       ///< window depth, as shaders are told
-  float inv_w;
 };
 
 Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations);
@@ -273,8 +272,8 @@ FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, c
   Pixel<float> px;
   px.x = static_cast<float>(at.x) / 256.0f;
   px.y = static_cast<float>(at.y) / 256.0f;
-  px.z = p.z;
-  px.inv_w = p.inv_w;
+  px.find_z = [](const Pixel<float>& pixel) { return *static_cast<const float*>(pixel.z_source); };
+  px.z_source = &p.z;
   px.front_facing = t.front;
   px.triangle = &s.lanes;
   px.component_lanes = &components;

@@ -31,8 +31,8 @@ struct PixelShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
     const R x = px.x * R(1.0f / 256.0f) + R(color.x);
-    const R y = px.y * R(1.0f / 256.0f) * px.z;
-    return {held(vec4<R>(x, y, px.inv_w * R(0.125f), select(px.front_facing, R(color.w), R(0.25f))), 4.0f)};
+    const R y = px.y * R(1.0f / 256.0f) * px.z();
+    return {held(vec4<R>(x, y, px.inv_w() * R(0.125f), select(px.front_facing, R(color.w), R(0.25f))), 4.0f)};
   }
 };
 
@@ -157,7 +157,7 @@ struct CutoutShader {
   }
   template <class R>
   MaskOf<R> keeps(const Varyings<R>& in, const Pixel<R>& px) const {
-    return (abs(in.uv.x * in.inside.value.y) > R(threshold)) & (px.z + in.fade.value * R(0.5f) < R(0.95f));
+    return (abs(in.uv.x * in.inside.value.y) > R(threshold)) & (px.z() + in.fade.value * R(0.5f) < R(0.95f));
   }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
@@ -165,7 +165,7 @@ struct CutoutShader {
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
-    return {keeps(in, px), px.z};
+    return {keeps(in, px), px.z()};
   }
 };
 
@@ -194,7 +194,7 @@ struct BumpShader {
   }
   template <class R>
   Visibility<R> decide(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {in.a.x + in.a.y > R(0.1f), px.z + R(height) * (in.a.z - R(0.5f))};
+    return {in.a.x + in.a.y > R(0.1f), px.z() + R(height) * (in.a.z - R(0.5f))};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
@@ -261,11 +261,11 @@ struct FaceCutoutShader {
   }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Primitive<R>& face, const Pixel<R>& px) const {
-    return {held(vec4<R>(in.uv, face.mean, px.z), 8.0f), in.uv.x > in.uv.y};
+    return {held(vec4<R>(in.uv, face.mean, px.z()), 8.0f), in.uv.x > in.uv.y};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {in.uv.x > in.uv.y, px.z};
+    return {in.uv.x > in.uv.y, px.z()};
   }
 };
 
@@ -332,7 +332,7 @@ struct ManyColorsShader {
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {keeps(in, px), px.z};
+    return {keeps(in, px), px.z()};
   }
 };
 
@@ -365,11 +365,11 @@ struct PointShader {
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec2<R> c = px.point_coord();
-    return {held(vec4<R>(c.x, c.y, in.color.z * px.inv_w, in.fade.value + in.color.x), 8.0f), keeps(px)};
+    return {held(vec4<R>(c.x, c.y, in.color.z * px.inv_w(), in.fade.value + in.color.x), 8.0f), keeps(px)};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const requires has_visibility {
-    return {keeps(px), px.z};
+    return {keeps(px), px.z()};
   }
 };
 
@@ -396,7 +396,7 @@ struct BoundsShader {
   template <class R>
   Visibility<R> decide(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec2<R> c = px.point_coord();
-    return {c.x + c.y > R(0.3f), px.z + R(0.2f) * (c.x - c.y * in.a.z)};
+    return {c.x + c.y > R(0.3f), px.z() + R(0.2f) * (c.x - c.y * in.a.z)};
   }
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {

@@ -573,7 +573,7 @@ struct Full {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {in.color + vec4<R>(in.extra.x, in.extra.y, in.more.value, px.z)};
+    return {in.color + vec4<R>(in.extra.x, in.extra.y, in.more.value, px.z())};
   }
 };
 

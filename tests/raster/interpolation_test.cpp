@@ -411,7 +411,7 @@ struct DerivativeShader {
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
     if (what == 0) return {px.ddx(&Varyings<R>::value)};
     if (what == 1) return {px.ddy(&Varyings<R>::value)};
-    if (what == 6) return {vec4<R>(px.inv_w, px.z, px.x, px.y)};
+    if (what == 6) return {vec4<R>(px.inv_w(), px.z(), px.x, px.y)};
     return {px.template at_quad<Varyings<R>>((what - 2) & 1, (what - 2) >> 1).value};
   }
 };

@@ -90,7 +90,7 @@ struct RampShader : ConstantShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {vec4<R>(in.smooth, in.linear.value, in.flat.value, px.z)};
+    return {vec4<R>(in.smooth, in.linear.value, in.flat.value, px.z())};
   }
 };
 

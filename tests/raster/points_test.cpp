@@ -112,7 +112,7 @@ struct BallShader {
   Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const {
     const vec2<R> c = px.point_coord();
     const R x = c.x * R(2.0f) - R(1.0f), y = c.y * R(2.0f) - R(1.0f), h = R(1.0f) - x * x - y * y;
-    return {h > R(0.0f), px.z - R(0.1f) * h};
+    return {h > R(0.0f), px.z() - R(0.1f) * h};
   }
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {

@@ -82,7 +82,7 @@ template <>
 struct HalfShader<true> : HalfShader<false> {
   template <class R>
   Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const {
-    return {px.x < R(edge), px.z};
+    return {px.x < R(edge), px.z()};
   }
 };
 

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# What is off costs nothing: for each feature, the instructions of a scene that does not use it, counted by callgrind in the
+# x86-64-v3 build, against a build from which a patch (tests/off) has taken the feature's code path. At most 1 % more.
+#
+#   scripts/off_costs.sh [FEATURE...]     default: all of tests/off; some minutes
+set -euo pipefail
+cd "$(dirname "$0")/.."
+command -v valgrind > /dev/null || { echo "off_costs.sh: valgrind is missing (Debian and Ubuntu: valgrind)" >&2; exit 1; }
+
+root=$PWD
+tree=$root/build/off/tree
+build=$root/build/off/build
+[ $# -gt 0 ] || set -- $(cd tests/off && ls ./*.patch | sed 's|./||; s|\.patch$||')
+for feature in "$@"; do
+  [ -f "tests/off/$feature.patch" ] || { echo "off_costs.sh: no feature '$feature'; expected one of: $(cd tests/off && echo *.patch)" >&2; exit 2; }
+done
+
+# A copy to patch, with the times of its files, so that only what a patch touches is built again.
+rm -rf "$tree"
+mkdir -p "$tree"
+git ls-files -z | tar --null -T - -c | tar -x -C "$tree"
+build_program() {
+  cmake --build "$build" --target halfspace > "$build/build.log" 2>&1 || { grep -E 'error|FAILED' "$build/build.log" | head -20 >&2; exit 1; }
+}
+mkdir -p "$build"
+cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3 -DHALFSPACE_BUILD_BENCHMARKS=OFF > /dev/null
+build_program
+
+# A globe with a map and a highlight: no shadow, no normal map, nothing mirrored, no HDR, one sample, nothing blended.
+instructions() {
+  valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no --toggle-collect='halfspace::Pass::run(*' \
+    "$build/bin/halfspace" render earth --size 640x360 --threads 1 -o "$build/picture.png" \
+    --set earth.normal=none --set surface.width=512 2>&1 | sed -n 's/.*Collected : //p'
+}
+whole=$(instructions)
+cp "$build/picture.png" "$build/whole.png"
+echo "whole         $whole instructions"
+
+failed=()
+for feature in "$@"; do
+  patch -s -p1 -d "$tree" < "tests/off/$feature.patch"
+  build_program
+  without=$(instructions)
+  # Statistics are no pixels; no patch may change any.
+  cmp -s "$build/picture.png" "$build/whole.png" || failed+=("$feature (another picture)")
+  awk -v f="$feature" -v a="$whole" -v b="$without" \
+    'BEGIN { printf "%-13s %s without its code path: %+.3f %% for being off\n", f, b, 100 * (a / b - 1); exit a > 1.01 * b }' ||
+    failed+=("$feature")
+  patch -s -R -p1 -d "$tree" < "tests/off/$feature.patch"
+done
+if [ ${#failed[@]} -gt 0 ]; then
+  echo "failed: ${failed[*]}"
+  exit 1
+fi

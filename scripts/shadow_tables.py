@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the tables of docs/shadows.md anew, between its two markers, from the CSV of `halfspace validate --table`.
+
+    halfspace validate --table --size 480x270 > table.csv && scripts/shadow_tables.py table.csv docs/shadows.md
+"""
+import csv
+import sys
+
+BEGIN, END = "<!-- tables: begin -->\n", "<!-- tables: end -->\n"
+TITLES = {
+    "bias": ("bias (pcf3, 2048)", "bias"),
+    "filter": ("filter (auto, 2048)", "method"),
+    "resolution": ("resolution (pcf3, auto)", "resolution"),
+    "angle": ("light from the vertical, degrees", "angle"),
+}
+
+
+def beyond_one_texel(row, kind):
+    return 100 * (float(row[kind + "_1_to_3"]) + float(row[kind + "_beyond_3"]))
+
+
+def tables(rows):
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    for factor, (title, column) in TITLES.items():
+        of_factor = [row for row in rows if row["factor"] == factor]
+        timed = factor != "angle"
+        head = [title, *scenes, "mean error"] + (["map, ms", "look-up, ms"] if timed else [])
+        yield "| " + " | ".join(head) + " |\n" + "|---" * len(head) + "|\n"
+        for value in dict.fromkeys(row[column] for row in of_factor):
+            group = [row for row in of_factor if row[column] == value]
+            cells = [f"{beyond_one_texel(r, 'false_shadow'):.3f} / {beyond_one_texel(r, 'false_light'):.3f}" for r in group]
+            mean = lambda key: sum(float(r[key]) for r in group) / len(group)
+            cells.append(f"{mean('error'):.4f}")
+            if timed:
+                cells += [f"{mean('map_ms'):.1f}", f"{mean('lookup_ms'):.1f}"]
+            yield "| " + " | ".join([value, *cells]) + " |\n"
+        yield "\n"
+
+
+def main():
+    table, document = sys.argv[1:3]
+    with open(table, newline="") as file:
+        rows = list(csv.DictReader(file))
+    with open(document) as file:
+        text = file.read()
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    with open(document, "w") as file:
+        file.write(before + BEGIN + "".join(tables(rows)).rstrip("\n") + "\n" + END + after)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/frame_memory.h"
+
+#include <mutex>
+
+namespace halfspace {
+
+namespace {
+
+constexpr std::size_t kMostKept = std::size_t{256} << 20;
+
+struct Kept {
+  std::mutex mutex;
+  std::vector<FrameMemory> idle;
+  std::size_t bytes = 0;
+};
+Kept& kept() {
+  static Kept k;
+  return k;
+}
+
+std::size_t bytes_of(const FrameMemory& m) {
+  std::size_t bytes = 0;
+  for (const Chunk& c : m.chunks) bytes += c.bytes();
+  for (const ShadedVertices& v : m.shaded) bytes += v.bytes();
+  return bytes;
+}
+
+}  // namespace
+
+void Chunk::clear() {
+  segments.clear();
+  triangles.clear();
+  clip_vertices.clear();
+  clip_varyings.clear();
+  clip_sources.clear();
+  primitives.clear();
+  bin_start.clear();
+  bin_triangles.clear();
+  tile_x0 = tile_y0 = tile_x1 = tile_y1 = 0;
+  statistics = {};
+}
+
+std::size_t Chunk::bytes() const {
+  return triangles.capacity() * sizeof(Triangle) + bin_triangles.capacity() * sizeof(uint16_t) + bin_start.capacity() * sizeof(uint32_t) +
+         clip_vertices.capacity() * sizeof(ClipVertex) + (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
+}
+
+FrameMemory take_frame_memory() {
+  Kept& k = kept();
+  const std::lock_guard lock(k.mutex);
+  if (k.idle.empty()) return {};
+  FrameMemory memory = std::move(k.idle.back());
+  k.idle.pop_back();
+  k.bytes -= bytes_of(memory);
+  return memory;
+}
+
+void keep_frame_memory(FrameMemory memory) {
+  const std::size_t bytes = bytes_of(memory);
+  Kept& k = kept();
+  const std::lock_guard lock(k.mutex);
+  if (k.bytes + bytes > kMostKept) return;
+  k.bytes += bytes;
+  k.idle.push_back(std::move(memory));
+}
+
+}  // namespace halfspace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Setup of W triangles at once: small ones that need no clipping, which are most. The same results as primitive_setup's.
+#pragma once
+
+#include "core/lanes.h"
+#include "raster/stages.h"
+
+namespace halfspace {
+
+class TriangleBatch {
+ public:
+  /// May triangles of the draw come here? Not with a depth offset, which asks each for its slope.
+  static bool serves(const Draw& draw);
+
+  /// The vertices' slots of a triangle.
+  void put(int lane, const std::array<uint32_t, 3>& slots) {
+    for (std::size_t i = 0; i < 3; ++i) vertex_[i][static_cast<std::size_t>(lane)] = static_cast<int32_t>(slots[i]);
+  }
+
+  /// Sets up the triangles of `lanes`, whose vertices need no clipping; put() has told the vertices of lane 0 to W − 1. Counts
+  /// those it culls. provoking: 0 or 2, the provoking vertex's place.
+  void set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
+              PassStatistics& statistics);
+
+  uint32_t kept() const { return kept_; }    ///< lanes that are set up
+  uint32_t large() const { return large_; }  ///< lanes that are too large for it: nothing is said of them
+  /// The triangle of a kept lane; its segment is left out.
+  Triangle triangle(int lane) const;
+
+ private:
+  using Row = std::array<int32_t, kLanes>;
+  using FloatRow = std::array<float, kLanes>;
+
+  alignas(64) std::array<Row, 3> vertex_;
+  alignas(64) std::array<Row, 3> x_, y_;
+  alignas(64) FloatRow z0_, z_edge1_, z_edge2_, z_max_;
+  alignas(64) Row flags_;
+  uint32_t kept_ = 0, large_ = 0;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Visibility of plain draws, which most are: one sample a pixel, and only coverage and depth decide. The same results as
+// visibility.cpp's, with what those draws do not need left out; small triangles in int32 and without blocks.
+#include <algorithm>
+#include <bit>
+
+#include "raster/block_edges.h"
+#include "raster/compare.h"
+#include "raster/primitive_setup.h"
+#include "raster/visibility.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr int kPacketColumns = kMaxTileSize / kPacketWidth, kPacketRows = kMaxTileSize / kPacketHeight;
+
+constexpr std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> make_packet_places() {
+  std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> at{};
+  for (int p = 0; p < kPackets; ++p) {
+    at[static_cast<std::size_t>(packet_y(p) / kPacketHeight)][static_cast<std::size_t>(packet_x(p) / kPacketWidth)] = static_cast<uint16_t>(p);
+  }
+  return at;
+}
+// The packet at a row and column of packets.
+constexpr auto kPacketAt = make_packet_places();
+
+// What one triangle's packets do to the tile.
+class Writer {
+ public:
+  Writer(const DrawInTile& d, TriangleId id, Tile& tile, PassStatistics& statistics)
+      : tile_(tile),
+        id_(std::bit_cast<int32_t>(id)),
+        statistics_(statistics),
+        compare_(d.draw.state.depth.compare),
+        tests_(d.tests),
+        writes_depth_(d.tests && d.draw.state.depth.write),
+        writes_id_(d.mode == VisibilityMode::deferred) {}
+
+  bool tests() const { return tests_; }
+  bool writes_depth() const { return writes_depth_; }
+  CompareOp compare_op() const { return compare_; }
+
+  // Covered lanes of a packet at depths z (any, where there is no test); true if one passed.
+  HS_INLINE bool write(int packet, Mask covered, Real z) {
+    statistics_.samples_tested += static_cast<uint64_t>(std::popcount(bits(covered)));
+    float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
+    Mask mask = covered;
+    if (tests_) {
+      const Real old = load<Real>(depth);
+      mask = mask & compare(compare_, z, old);
+      if (writes_depth_) store(depth, select(mask, z, old));
+    }
+    const uint32_t passed = bits(mask);
+    statistics_.samples_passed += static_cast<uint64_t>(std::popcount(passed));
+    if (writes_id_ && passed != 0) {
+      TriangleId* ids = &tile_.id[static_cast<std::size_t>(packet) * kLanes];
+      store(ids, select(mask, Int(id_), load<Int>(ids)));
+    }
+    return passed != 0;
+  }
+
+  // A packet that is covered wholly and passes wholly.
+  HS_INLINE void write_whole(int packet, Real z) {
+    statistics_.samples_tested += kLanes;
+    statistics_.samples_passed += kLanes;
+    if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z);
+    if (writes_id_) store(&tile_.id[static_cast<std::size_t>(packet) * kLanes], Int(id_));
+  }
+
+ private:
+  Tile& tile_;
+  int32_t id_;
+  PassStatistics& statistics_;
+  CompareOp compare_;
+  bool tests_, writes_depth_, writes_id_;
+};
+
+// ---- small triangles ---------------------------------------------------------------------------------------------
+
+// Triangles that span at most so many pixels need no blocks.
+constexpr int kSmallSpan = 48;
+
+bool spans_at_most(const Triangle& t, int pixels) {
+  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  return x_high - x_low <= pixels * kSubPixels && y_high - y_low <= pixels * kSubPixels;
+}
+
+// An edge function of a small triangle: its value at the tile's first sample, and its steps from pixel to pixel.
+struct SmallEdge {
+  int32_t e, step_x, step_y, bias;
+};
+SmallEdge small_edge(const std::array<int32_t, 3>& x, const std::array<int32_t, 3>& y, std::size_t i) {
+  const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+  const Edge edge{x[a], y[a], x[b] - x[a], y[b] - y[a]};
+  const int32_t bias = fill_bias(edge);
+  return {edge.ey * edge.x0 - edge.ex * edge.y0 - bias, -edge.ey * kSubPixels, edge.ex * kSubPixels, bias};
+}
+
+// A small triangle in one tile.
+class SmallTriangle {
+ public:
+  SmallTriangle(const DrawInTile& d, const Triangle& t, TriangleId id, Tile& tile, PassStatistics& statistics)
+      : d_(d), t_(t), tile_(tile), writer_(d, id, tile, statistics) {
+    // Everything from the tile's first sample; the triangle meets the tile and is small, so all fits in 16 bits.
+    const int32_t x_first = tile.x0 * kSubPixels + kSubPixels / 2, y_first = tile.y0 * kSubPixels + kSubPixels / 2;
+    const std::array<int32_t, 3> x{t.x[0] - x_first, t.x[1] - x_first, t.x[2] - x_first};
+    const std::array<int32_t, 3> y{t.y[0] - y_first, t.y[1] - y_first, t.y[2] - y_first};
+    rect_ = {std::max(d.bounds.x0 - tile.x0, (std::min({x[0], x[1], x[2]}) + kSubPixels - 1) >> kSubPixelBits),
+             std::max(d.bounds.y0 - tile.y0, (std::min({y[0], y[1], y[2]}) + kSubPixels - 1) >> kSubPixelBits),
+             std::min(d.bounds.x1 - tile.x0, (std::max({x[0], x[1], x[2]}) >> kSubPixelBits) + 1),
+             std::min(d.bounds.y1 - tile.y0, (std::max({y[0], y[1], y[2]}) >> kSubPixelBits) + 1)};
+    if (rect_.x0 >= rect_.x1 || rect_.y0 >= rect_.y1) return;
+    for (std::size_t i = 0; i < 3; ++i) edge_[i] = small_edge(x, y, i);
+    for (std::size_t i = 0; i < 3; ++i) first_[i] = lane_x() * edge_[i].step_x + lane_y() * edge_[i].step_y + edge_[i].e;
+    z_high_ = std::clamp(t.z_max, d.draw.depth_low, d.draw.depth_high);
+    low_ = depth_value(tile.depth_format, std::clamp(t.z0, d.draw.depth_low, z_high_));
+    high_ = depth_value(tile.depth_format, z_high_);
+    const int column0 = rect_.x0 / kPacketWidth, column1 = (rect_.x1 - 1) / kPacketWidth;
+    const int row0 = rect_.y0 / kPacketHeight, row1 = (rect_.y1 - 1) / kPacketHeight;
+    if ((column1 - column0 + 1) * (row1 - row0 + 1) <= kFewPackets || kLanes == 1) {
+      for (int row = row0; row <= row1; ++row) {
+        for (int column = column0; column <= column1; ++column) visit_packet(column, row);
+      }
+    } else {
+      visit_rows(column0, column1, row0, row1);
+    }
+  }
+
+ private:
+  static constexpr int kFewPackets = 4;
+
+  // Row by row of packets: W columns at once are asked whether a packet can hold a covered pixel.
+  void visit_rows(int column0, int column1, int row0, int row1) {
+    std::array<Int, 3> best;  // the edges' largest values in the packets of row 0
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SmallEdge& e = edge_[i];
+      const int32_t rise = std::max(0, e.step_x * (kPacketWidth - 1)) + std::max(0, e.step_y * (kPacketHeight - 1));
+      best[i] = iota<Int>() * (e.step_x * kPacketWidth) + (e.e + rise);
+    }
+    for (int row = row0; row <= row1; ++row) {
+      for (int group = column0 / kLanes * kLanes; group <= column1; group += kLanes) {
+        std::array<Int, 3> e;
+        for (std::size_t i = 0; i < 3; ++i) {
+          e[i] = best[i] + (edge_[i].step_x * (group * kPacketWidth) + edge_[i].step_y * (row * kPacketHeight));
+        }
+        const Int column = iota<Int>() + group;
+        const Mask reaches = ((e[0] | e[1] | e[2]) >= Int(0)) & (column >= Int(column0)) & (column <= Int(column1));
+        for (uint32_t rest = bits(reaches); rest != 0; rest &= rest - 1) visit_packet(group + std::countr_zero(rest), row);
+      }
+    }
+  }
+
+  HS_INLINE void visit_packet(int column, int row) {
+    std::array<Int, 3> e;
+    for (std::size_t i = 0; i < 3; ++i) {
+      e[i] = first_[i] + (edge_[i].step_x * (column * kPacketWidth) + edge_[i].step_y * (row * kPacketHeight));
+    }
+    Mask mask = (e[0] | e[1] | e[2]) >= Int(0);
+    if (d_.cut) mask = mask & inside(rect_, column * kPacketWidth, row * kPacketHeight);
+    if (none(mask)) return;
+    const Real w1 = to_real<Real>(e[1] + edge_[1].bias), w2 = to_real<Real>(e[2] + edge_[2].bias);
+    const Real z = clamp(fma(w1, Real(t_.z_edge1), fma(w2, Real(t_.z_edge2), Real(t_.z0))), Real(d_.draw.depth_low), Real(z_high_));
+    const int packet = kPacketAt[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+    const bool passed = writer_.write(packet, mask, depth_value(tile_.depth_format, z));
+    if (passed && writer_.writes_depth()) widen_block_bounds(writer_.compare_op(), tile_, packet / kPacketsPerBlock, low_, high_);
+  }
+
+  const DrawInTile& d_;
+  const Triangle& t_;
+  Tile& tile_;
+  Writer writer_;
+  TileRect rect_;
+  std::array<SmallEdge, 3> edge_;
+  std::array<Int, 3> first_;  // the edges in the tile's first packet
+  float z_high_, low_, high_;
+};
+
+// ---- all others --------------------------------------------------------------------------------------------------
+
+template <bool small>
+void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& tile_edges, const SampleGrid& grid, const TileRect& rect,
+                      TriangleId id, Tile& tile, PassStatistics& statistics) {
+  const DepthPlane<small> plane(t, tile_edges, d.draw, grid, tile.depth_format);
+  const BlockEdges edges(tile_edges);
+  const float low = plane.low(), high = plane.high();
+  const bool cut = d.cut || t.is(kSprite | kLine);
+  Writer writer(d, id, tile, statistics);
+  constexpr int mask_to_block = ~(kBlockSize - 1);
+  for (int y = rect.y0 & mask_to_block; y < rect.y1; y += kBlockSize) {
+    for (int x = rect.x0 & mask_to_block; x < rect.x1; x += kBlockSize) {
+      const BlockCoverage coverage = block_coverage(edges, x, y);
+      if (coverage == BlockCoverage::none) continue;
+      const int block = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
+      const BlockTest test = writer.tests() ? test_block(writer.compare_op(), tile, block, low, high) : BlockTest::all_pass;
+      if (test == BlockTest::none_passes) continue;
+      const int first = block * kPacketsPerBlock;
+      if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !cut) {
+        for (int p = first; p < first + kPacketsPerBlock; ++p) writer.write_whole(p, plane.at(edges, packet_x(p), packet_y(p)));
+      } else {
+        for (int p = first; p < first + kPacketsPerBlock; ++p) {
+          const int px = packet_x(p), py = packet_y(p);
+          if (px >= rect.x1 || py >= rect.y1 || px + kPacketWidth <= rect.x0 || py + kPacketHeight <= rect.y0) continue;
+          Mask mask = coverage == BlockCoverage::whole ? Mask(true) : edges.inside(px, py);
+          if (cut) mask = mask & inside(rect, px, py);
+          if (any(mask)) writer.write(p, mask, plane.at(edges, px, py));
+        }
+      }
+      if (writer.writes_depth()) widen_block_bounds(writer.compare_op(), tile, block, low, high);
+    }
+  }
+}
+
+}  // namespace
+
+bool covers_tile(const DrawInTile& d, const Triangle& t) {
+  if (t.is(kSmall | kSprite | kLine)) return false;
+  const TileEdges edges = tile_edges(d.draw, t, SampleGrid(d.tile, 0), d.tile.size);
+  bool whole = !edges.outside;
+  for (std::size_t i = 0; i < 3; ++i) whole &= edges.e[i] == 0 && edges.step_x[i] == 0 && edges.step_y[i] == 0;
+  return whole;
+}
+
+void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, Tile& tile, PassStatistics& statistics) {
+  if (t.is(kSmall) && !t.is(kSprite) && spans_at_most(t, kSmallSpan)) {
+    SmallTriangle(d, t, id, tile, statistics);
+    return;
+  }
+  const SampleGrid grid(d.tile, 0);
+  const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
+  if (b.empty()) return;
+  const TileEdges edges = tile_edges(d.draw, t, grid, d.tile.size);
+  if (edges.outside) return;
+  const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
+  if (t.is(kSmall)) {
+    rasterize_blocks<true>(d, t, edges, grid, rect, id, tile, statistics);
+  } else {
+    rasterize_blocks<false>(d, t, edges, grid, rect, id, tile, statistics);
+  }
+}
+
+}  // namespace halfspace

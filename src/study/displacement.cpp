@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The Moon: how fine a mesh its relief needs, by where normals come from.
+#include <fmt/format.h>
+
+#include "scene/scene_file.h"
+#include "study/pictures.h"
+
+namespace halfspace {
+
+namespace {
+
+SceneDescription moon(int latitudes, const char* normals, bool quick) {
+  SceneFile file = SceneFile::open("moon");
+  // The maps are the same for all variants; the relief is so coarse that the truth's mesh shows all of it, six times over.
+  const int width = quick ? 512 : 2048, relief = quick ? 128 : 512;
+  file.set(std::vector<std::string>{fmt::format("moon.latitudes={}", latitudes), fmt::format("moon.longitudes={}", 2 * latitudes),
+                                    fmt::format("moon.normals={}", normals), "shadow.method=none", "background.type=color",
+                                    fmt::format("surface.width={}", width), fmt::format("relief.width={}", relief)});
+  return file.description();
+}
+
+}  // namespace
+
+Study study_displacement(const StudyOptions& options, const Workers& workers) {
+  const int width = options.quick ? 160 : 960, height = options.quick ? 90 : 540, finest = options.quick ? 256 : 1536;
+  Study study{
+      .name = "displacement",
+      .title = "Displacement: the Moon's levels",
+      .setting = fmt::format("The Moon without shadows, {}x{}; labels are bands of latitude", width, height),
+      .error_name = "mean error of linear light over the picture",
+      .time_name = "frame",
+      .truth = {fmt::format("the same at {} bands, normals by pixel", finest), 0.0, "a third of the step from half as many bands"},
+  };
+  SceneAssets assets(workers);
+  Image<glm::vec4> truth(width, height), half(width, height);
+  render(assets.prepare(moon(finest, "pixel", options.quick), width, height), truth, workers);
+  render(assets.prepare(moon(finest / 2, "pixel", options.quick), width, height), half, workers);
+  Variant difference;
+  judge_picture(difference, half, truth, PictureError::mean);
+  study.truth.error = difference.error / 3.0;
+  study.truth.picture = codes_of(truth);
+  for (const auto& [normals, group] :
+       {std::pair("pixel", "normals by pixel"), std::pair("vertex", "by vertex"), std::pair("undisplaced", "the sphere's")}) {
+    for (const int latitudes : options.quick ? std::vector{16, 64} : std::vector{16, 32, 64, 128, 256}) {
+      const PreparedScene prepared = assets.prepare(moon(latitudes, normals, options.quick), width, height);
+      Image<glm::vec4> picture(width, height);
+      PassStatistics statistics;
+      Variant v{.name = fmt::format("{} {}", normals, latitudes), .group = group};
+      v.time = time_of([&] { statistics = render(prepared, picture, workers); }, options);
+      v.parameters = {{"latitudes", static_cast<double>(latitudes)},
+                      {"triangles", static_cast<double>(statistics.primitives_in)},
+                      {"pixels", static_cast<double>(statistics.fragments_shaded)}};
+      judge_picture(v, picture, truth, PictureError::mean);
+      study.variants.push_back(std::move(v));
+    }
+  }
+  return study;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The Earth's mountains by every kind of normal, and as a displaced surface.
+#include <fmt/format.h>
+
+#include "scene/scene_file.h"
+#include "study/pictures.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr double kScale = 0.02;  // units from the heights' 0 to 1: what the Earth's normal map is made for
+
+SceneDescription earth(bool quick, const std::vector<std::string>& settings) {
+  SceneFile file = SceneFile::open("earth");
+  const int width = quick ? 128 : 512;  // so coarse that the truth's mesh shows all of the relief, four times over
+  file.set(std::vector<std::string>{fmt::format("heights.width={}", width), fmt::format("normals.width={}", width), "earth.color=#808080",
+                                    "sun.position=6,1,1", "background.color=0,0,0"});
+  file.set(settings);
+  return file.description();
+}
+
+std::vector<std::string> displaced(int latitudes) {
+  return {"earth.normal=none",
+          "earth.height=heights",
+          fmt::format("earth.height_scale={}", kScale),
+          "earth.height_zero=0",
+          fmt::format("earth.latitudes={}", latitudes),
+          fmt::format("earth.longitudes={}", 2 * latitudes)};
+}
+
+struct Kind {
+  std::string name, group;
+  std::vector<std::string> settings;
+};
+
+std::vector<Kind> kinds(bool quick) {
+  std::vector<Kind> list{{"the sphere's", "one mesh, 256 bands", {"earth.normal=none"}},
+                         {"normal map", "one mesh, 256 bands", {"earth.normal=map"}},
+                         {"bump by difference", "one mesh, 256 bands", {"earth.normal=bump", "earth.bump_method=difference"}},
+                         {"bump by gradient", "one mesh, 256 bands", {"earth.normal=bump", "earth.bump_method=gradient"}}};
+  for (Kind& k : list) k.settings.insert(k.settings.end(), {"earth.latitudes=256", "earth.longitudes=512"});
+  for (const int n : quick ? std::vector{64} : std::vector{64, 128, 256}) {
+    list.push_back({fmt::format("displaced {}, by vertex", n), "displaced", displaced(n)});
+    list.back().settings.push_back("earth.normals=vertex");
+    list.push_back({fmt::format("displaced {}, by pixel", n), "displaced", displaced(n)});
+  }
+  return list;
+}
+
+}  // namespace
+
+Study study_normals(const StudyOptions& options, const Workers& workers) {
+  const int width = options.quick ? 160 : 960, height = options.quick ? 90 : 540, finest = options.quick ? 256 : 1024;
+  Study study{
+      .name = "normals",
+      .title = "Normals: by vertex, from maps, of a displaced surface",
+      .setting = fmt::format("The Earth's relief in grey under a low sun, {}x{}; displaced: bands of latitude", width, height),
+      .error_name = "mean error of linear light over the picture",
+      .time_name = "frame",
+      .truth = {fmt::format("displaced at {} bands, normals by pixel", finest), 0.0, "a third of the step from half as many bands"},
+  };
+  SceneAssets assets(workers);
+  Image<glm::vec4> truth(width, height), half(width, height);
+  render(assets.prepare(earth(options.quick, displaced(finest)), width, height), truth, workers);
+  render(assets.prepare(earth(options.quick, displaced(finest / 2)), width, height), half, workers);
+  Variant difference;
+  judge_picture(difference, half, truth, PictureError::mean);
+  study.truth.error = difference.error / 3.0;
+  study.truth.picture = codes_of(truth);
+  for (const Kind& kind : kinds(options.quick)) {
+    const PreparedScene prepared = assets.prepare(earth(options.quick, kind.settings), width, height);
+    Image<glm::vec4> picture(width, height);
+    PassStatistics statistics;
+    Variant v{.name = kind.name, .group = kind.group};
+    v.time = time_of([&] { statistics = render(prepared, picture, workers); }, options);
+    v.parameters = {{"triangles", static_cast<double>(statistics.primitives_in)},
+                    {"pixels", static_cast<double>(statistics.fragments_shaded)}};
+    judge_picture(v, picture, truth, PictureError::mean);
+    study.variants.push_back(std::move(v));
+  }
+  return study;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Light by triangle, by vertex or by pixel, on a sphere of few or many triangles.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/scene_file.h"
+#include "scene/shapes.h"
+#include "study/pictures.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr const char* kScene = R"({{
+  "version": 1,
+  "cameras": {{ "main": {{ "position": [0, 0, 4], "fov": 32, "near": 0.1, "far": 100 }} }},
+  "lights": {{ "sun": {{ "direction": [1, 1, 1.5] }} }},
+  "ambient": 0.05,
+  "objects": {{ "ball": {{ "shape": "uv_sphere", "latitudes": {}, "longitudes": {}, "shading": "{}",
+                         "diffuse": 0.7, "specular": 0.5, "shininess": 40 }} }}
+}})";
+
+// Where only one of both shows the sphere, the picture becomes the truth; returns how many pixels that are, of the sphere's.
+double leave_silhouette_out(Image<glm::vec4>& light, const Image<double>& truth) {
+  int moved = 0, sphere = 0;
+  for (std::size_t i = 0; i < truth.texels().size(); ++i) {
+    const bool is_sphere = truth.data()[i] > 0.0;
+    sphere += is_sphere;
+    if ((light.data()[i].x > 0.0f) == is_sphere) continue;
+    ++moved;
+    light.data()[i] = glm::vec4(glm::vec3(static_cast<float>(truth.data()[i])), 1.0f);
+  }
+  return static_cast<double>(moved) / sphere;
+}
+
+}  // namespace
+
+Study study_shading_rate(const StudyOptions& options, const Workers& workers) {
+  const int size = options.quick ? 160 : 720;
+  Study study{
+      .name = "shading_rate",
+      .title = "Shading rate: flat, Gouraud or Phong, by triangles",
+      .setting = fmt::format("A shiny sphere (Blinn and Phong, exponent 40), {}x{}; labels are bands of latitude", size, size),
+      .error_name = "RMS error of linear light over the picture, the silhouette left out",
+      .time_name = "frame",
+      .truth = {"the sphere by a ray a pixel, in double", 0.0, "largest difference to long double"},
+  };
+  SphereTruth truth{};
+  for (const auto& [rate, group] : {std::pair("flat", "flat"), std::pair("gouraud", "Gouraud"), std::pair("phong", "Phong")}) {
+    for (const int latitudes : options.quick ? std::vector{8, 32} : std::vector{8, 16, 32, 64, 128, 256, 512}) {
+      const SceneDescription scene = SceneFile::parse(fmt::format(kScene, latitudes, 2 * latitudes, rate), "study", ".").description();
+      if (truth.light.empty()) {
+        truth = sphere_truth({.ambient = 0.05, .diffuse = 0.7, .specular = 0.5, .shininess = 40.0},
+                             make_view(scene.cameras.front().second, size, size));
+        study.truth.error = truth.error;
+        study.truth.picture = codes_of(truth.light);
+      }
+      const TimedPicture picture = timed_picture(scene, size, size, options, workers);
+      const double px_per_unit = size / (2.0 * 4.0 * std::tan(16.0 * std::numbers::pi / 180.0));
+      Variant v{.name = fmt::format("{} {}", group, latitudes),
+                .group = group,
+                .parameters = {{"latitudes", static_cast<double>(latitudes)},
+                               {"triangles", static_cast<double>(picture.statistics.primitives_in)},
+                               {"pixels", static_cast<double>(picture.statistics.fragments_shaded)},
+                               {"chord_px", px_per_unit * deepest_chord(uv_sphere(latitudes, 2 * latitudes, 1.0f), 1.0)}},
+                .time = picture.time};
+      Image<glm::vec4> inside = picture.light;
+      const double moved = leave_silhouette_out(inside, truth.exact);
+      judge_picture(v, inside, truth.light, PictureError::rms);
+      v.error = rms_error(inside, truth.exact);
+      v.measures.push_back({"silhouette_share", moved});
+      v.picture = codes_of(picture.light);
+      study.variants.push_back(std::move(v));
+    }
+  }
+  return study;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One sphere off the picture's middle: as meshes of two kinds, as the classic sprite and as the exact one.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/scene_file.h"
+#include "scene/shapes.h"
+#include "study/pictures.h"
+
+namespace halfspace {
+
+namespace {
+
+// The sphere is seen 22 degrees off the axis, where it is no circle.
+constexpr const char* kScene = R"({{
+  "version": 1,
+  "cameras": {{ "main": {{ "position": [0, 0, 5], "target": [2, 0, 0], "fov": 50, "near": 0.1, "far": 100 }} }},
+  "lights": {{ "sun": {{ "direction": [1, 1, 1.5] }} }},
+  "ambient": 0.05,
+  {}
+}})";
+constexpr const char* kMesh = R"("objects": {{ "ball": {{ {}, "model": "phong", "diffuse": 0.7, "specular": 0.5, "shininess": 40 }} }})";
+// A grid of one has it at the origin, and grey by 0.55 there.
+constexpr const char* kSprite =
+    R"("particles": {{ "sprite": "{}", "count": 1, "arrangement": "grid", "radius": 1, "color": 1.8181818,
+                    "diffuse": 0.7, "specular": 0.5, "shininess": 40 }})";
+
+struct Model {
+  std::string name, group, keys;
+  double triangles, chord;
+};
+
+Model of_mesh(const std::string& name, const std::string& group, const std::string& keys, const Mesh& mesh) {
+  return {name, group, fmt::format(kMesh, keys), static_cast<double>(mesh.indices.size() / 3), deepest_chord(mesh, 1.0)};
+}
+
+std::vector<Model> models(bool quick) {
+  std::vector<Model> list;
+  for (const int n : quick ? std::vector{8, 32} : std::vector{8, 16, 32, 64, 128, 256, 512})
+    list.push_back(of_mesh(fmt::format("UV {}", n), "UV sphere",
+                           fmt::format(R"("shape": "uv_sphere", "latitudes": {}, "longitudes": {})", n, 2 * n), uv_sphere(n, 2 * n, 1.0f)));
+  for (int level = 1; level <= (quick ? 3 : 7); ++level)
+    list.push_back(of_mesh(fmt::format("ico {}", level), "icosphere", fmt::format(R"("shape": "icosphere", "level": {})", level),
+                           icosphere(level, 1.0f)));
+  for (const char* sprite : {"original", "exact"})
+    list.push_back({fmt::format("{} sprite", sprite), "sprite", fmt::format(kSprite, sprite), 0, 0});
+  return list;
+}
+
+}  // namespace
+
+Study study_sphere_model(const StudyOptions& options, const Workers& workers) {
+  const int size = options.quick ? 160 : 720;
+  Study study{
+      .name = "sphere_model",
+      .title = "Models of a sphere: meshes and sprites",
+      .setting = fmt::format("A shiny sphere 22 degrees off the axis, {}x{}; UV by bands of latitude, ico by level", size, size),
+      .error_name = "RMS error of linear light over the picture",
+      .time_name = "frame",
+      .truth = {"the sphere by a ray a pixel, in double", 0.0, "largest difference to long double"},
+  };
+  SphereTruth truth{};
+  for (const Model& model : models(options.quick)) {
+    const SceneDescription scene = SceneFile::parse(fmt::format(kScene, model.keys), "study", ".").description();
+    const View view = make_view(scene.cameras.front().second, size, size);
+    if (truth.light.empty()) {
+      truth = sphere_truth({.model = LightModel::phong}, view);
+      study.truth.error = truth.error;
+      study.truth.picture = codes_of(truth.light);
+    }
+    const TimedPicture picture = timed_picture(scene, size, size, options, workers);
+    const double px_per_unit = size / (2.0 * view.tan_y * 5.0);
+    Variant v{.name = model.name,
+              .group = model.group,
+              .parameters = {{"triangles", model.triangles},
+                             {"pixels", static_cast<double>(picture.statistics.fragments_shaded)},
+                             {"chord_px", px_per_unit * model.chord}},
+              .time = picture.time};
+    judge_picture(v, picture.light, truth.light, PictureError::rms);
+    v.error = rms_error(picture.light, truth.exact);
+    study.variants.push_back(std::move(v));
+  }
+  return study;
+}
+
+}  // namespace halfspace

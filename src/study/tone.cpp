@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From light to 8-bit sRGB codes through a tone curve: exactly, by a polynomial, by tables, by a plain gamma.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/srgb.h"
+#include "shading/tone.h"
+#include "study/study.h"
+
+namespace halfspace {
+
+namespace {
+
+// Narkowicz's curve and the sRGB encoding; see shading/tone.h.
+template <class T>
+T exact_code(T x) {
+  const T y = std::min(x * (T(2.51L) * x + T(0.03L)) / (x * (T(2.43L) * x + T(0.59L)) + T(0.14L)), T(1));
+  return 255 * (y <= T(0.0031308L) ? T(12.92L) * y : T(1.055L) * std::pow(y, 1 / T(2.4L)) - T(0.055L));
+}
+
+constexpr float kMost = 8.0f;  // light beyond it is white
+
+// The whole way from light to a code between codes, at even steps of light.
+struct CurveTable {
+  std::vector<float> codes;
+  explicit CurveTable(int size) {
+    for (int i = 0; i < size + 2; ++i)
+      codes.push_back(static_cast<float>(exact_code(static_cast<double>(i) * static_cast<double>(kMost) / size)));
+  }
+  HS_INLINE Int at(Real x) const {
+    const Real place = x * Real(static_cast<float>(codes.size() - 2) / kMost);
+    const Int i = truncate_to_int(place);
+    const Real low = gather(codes.data(), i), high = gather(codes.data() + 1, i);
+    return round_to_int(fma(place - to_real<Real>(i), high - low, low));
+  }
+};
+
+HS_INLINE Real curve(Real x) { return min(tone_curve(ToneCurve::aces, x, 4.0f), Real(1.0f)); }
+
+struct Lights {
+  std::vector<float> light;
+  std::vector<int> codes;  // the right ones
+};
+Lights make_lights(int count) {
+  Lights out;
+  for (int i = 0; i < count; ++i) {  // even in the square root: many are dark, as to the eye
+    const double s = (i + 0.5) / count;
+    out.light.push_back(static_cast<float>(s * s * static_cast<double>(kMost)));
+    out.codes.push_back(static_cast<int>(std::lround(exact_code(static_cast<long double>(out.light.back())))));
+  }
+  return out;
+}
+
+template <class F>
+Variant judged(const std::string& name, const std::string& group, const Lights& lights, const F& encode, const StudyOptions& options) {
+  std::vector<int32_t> codes(lights.light.size());
+  Variant v{.name = name,
+            .group = group,
+            .parameters = {{"values", static_cast<double>(codes.size())}},
+            .time = time_of(
+                [&] {
+                  for (std::size_t i = 0; i < codes.size(); i += kLanes) store(&codes[i], encode(load<Real>(&lights.light[i])));
+                },
+                options)};
+  int64_t wrong = 0, sum = 0;
+  int largest = 0;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    const int e = std::abs(codes[i] - lights.codes[i]);
+    wrong += e != 0;
+    sum += e;
+    largest = std::max(largest, e);
+  }
+  const auto n = static_cast<double>(codes.size());
+  v.error = static_cast<double>(sum) / n;
+  v.measures = {{"share_wrong", static_cast<double>(wrong) / n}, {"largest", static_cast<double>(largest)}};
+  return v;
+}
+
+}  // namespace
+
+Study study_tone(const StudyOptions& options, const Workers&) {
+  const int count = options.quick ? 1 << 16 : 1 << 20;
+  const Lights lights = make_lights(count);
+  Study study{
+      .name = "tone",
+      .title = "Tone curve and sRGB encoding",
+      .setting = fmt::format("{} channels of light from 0 to 8, ACES curve, 8-bit sRGB codes, {} lanes", count, kLanes),
+      .error_name = fmt::format("mean error in codes (none: drawn at {:.0e})", 0.1 / count),
+      .time_name = fmt::format("{} channels on one thread", count),
+      .truth = {"curve and power in long double, rounded", 0.1 / count, "a tenth of what one wrong code counts"},
+  };
+  study.variants.push_back(judged(
+      "double pow", "no lanes", lights,
+      [](Real x) {
+        Int codes(0);
+        for (int k = 0; k < kLanes; ++k) set_lane(codes, k, static_cast<int32_t>(std::lround(exact_code(static_cast<double>(lane(x, k))))));
+        return codes;
+      },
+      options));
+  study.variants.push_back(judged(
+      "curve, encoder's table (used here)", "curve by formula", lights, [](Real x) { return linear_to_srgb(curve(x)); }, options));
+  study.variants.push_back(judged(
+      "curve, polynomial power", "curve by formula", lights,
+      [](Real x) { return round_to_int(encode_srgb(DisplayLight<Real>{vec3<Real>(curve(x))}).rgb.x * Real(255.0f)); }, options));
+  study.variants.push_back(judged(
+      "curve, gamma 2.2", "curve by formula", lights, [](Real x) { return round_to_int(pow(curve(x), Real(1.0f / 2.2f)) * Real(255.0f)); },
+      options));
+  study.variants.push_back(judged(
+      "curve, gamma 2 (root)", "curve by formula", lights, [](Real x) { return round_to_int(sqrt(curve(x)) * Real(255.0f)); }, options));
+  for (const int size : {256, 1024, 4096, 65536}) {
+    const CurveTable table(size);
+    study.variants.push_back(judged(
+        fmt::format("table of {}", size), "one table for all", lights, [&](Real x) { return table.at(x); }, options));
+  }
+  return study;
+}
+
+}  // namespace halfspace

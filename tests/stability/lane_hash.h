@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A hash of what lanes of any width compute: elementary functions, interpolation, encoding. Header only, so that a program of one
+// file can be compiled for an instruction set of its own (isa_hash.cpp).
+#pragma once
+
+#include <cstring>
+#include <vector>
+
+#include "core/lane_math.h"
+#include "core/srgb.h"
+#include "shading/pixel.h"
+
+namespace halfspace::stability {
+
+/// 4,096 floats from 2^-20 to 2^7 by whole-number arithmetic.
+inline std::vector<float> hash_inputs() {
+  std::vector<float> in;
+  uint32_t state = 1;
+  for (int i = 0; i < 4096; ++i) {
+    state = state * 1664525u + 1013904223u;
+    in.push_back(as_real(static_cast<int32_t>(0x35800000u + state % 0x0d800000u)));
+  }
+  return in;
+}
+
+/// FNV-1a over the bits of all results, lane by lane.
+template <class R>
+uint64_t lane_hash(const std::vector<float>& in) {
+  constexpr std::size_t width = sizeof(R) / sizeof(float);
+  std::vector<std::vector<float>> results(8, std::vector<float>(in.size()));
+  for (std::size_t i = 0; i < in.size(); i += width) {
+    const R x = load<R>(&in[i]);
+    const R other = load<R>(&in[(i + 2048) % in.size()]);
+    const TriangleLanes<R> t{R(100), R(200),   R(5000), R(37), R(-1234), R(4321), R(5000.0f * 4321.0f + 37.0f * 1234.0f),
+                             R(1),   x + R(1), R(1.5f), R(1)};
+    const Weights<R> w = weights_at(t, x, other);
+    const R values[8] = {exp2(x), log2(x), pow(x, other), sin(x), atan2(x, other), w.p1, w.denominator, to_real<R>(linear_to_srgb(x))};
+    for (std::size_t k = 0; k < 8; ++k) store(&results[k][i], values[k]);
+  }
+  uint64_t h = 0xcbf29ce484222325u;
+  for (const std::vector<float>& row : results) {
+    for (const float r : row) {
+      const auto bits = static_cast<uint32_t>(as_int(r));
+      for (int k = 0; k < 32; k += 8) h = (h ^ ((bits >> k) & 255u)) * 0x100000001b3u;
+    }
+  }
+  return h;
+}
+
+}  // namespace halfspace::stability

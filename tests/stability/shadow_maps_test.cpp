@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shadow maps where they fail, held against rays.
+#include <cmath>
+#include <numbers>
+
+#include "judge.h"
+#include "reference/validation.h"
+#include "scene/scene_file.h"
+
+namespace halfspace::stability {
+namespace {
+
+ShadowComparison compared(const SceneFile& scene, int width = 240, int height = 135) {
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  return std::move(validate("test", scene.at(0.0), {width, height, 1}, assets, workers).lights.at(0));
+}
+
+ShadowComparison compared(const std::string& name, const std::vector<std::string>& settings) {
+  SceneFile scene = SceneFile::open(name);
+  scene.set(settings);
+  return compared(scene);
+}
+
+double beyond_a_texel(const DistanceShares& s) { return s.from_1_to_3 + s.beyond_3; }
+
+// A ball over a plane under a directional light that leans so far from the vertical.
+std::vector<std::string> sun_at(double degrees) {
+  const double a = degrees * std::numbers::pi / 180.0;
+  char direction[100];
+  std::snprintf(direction, sizeof direction, "lamp.direction=%.9g,%.9g,%.9g", -0.7 * std::sin(a), std::cos(a), 0.714 * std::sin(a));
+  return {"lamp.type=directional", direction};
+}
+
+TEST(Stability, AcneByAngle) {
+  double plain = 0.0, ours = 0.0;
+  for (const double degrees : {0.0, 30.0, 60.0, 80.0, 85.0, 88.0, 89.0, 89.5, 89.9}) {
+    std::vector<std::string> settings = sun_at(degrees);
+    ours = std::max(ours, beyond_a_texel(compared("shadow-plane", settings).score.false_shadow));
+    settings.insert(settings.end(), {"shadow.bias=none", "shadow.method=hard"});
+    plain = std::max(plain, beyond_a_texel(compared("shadow-plane", settings).score.false_shadow));
+  }
+  // One pixel of some 10,000 lit ones: at 89.9 degrees a texel's depths span 570 texels, and the automatic bias follows the plane.
+  judge({1, "shadow acne", "ball over a plane, light 0 to 89.9 degrees from the vertical; no bias against auto",
+         "worst share of lit pixels falsely dark beyond a texel of the edge"},
+        plain, 0.3, ours, 1.5e-4);
+}
+
+TEST(Stability, PeterPanning) {
+  const auto leak = [](const std::vector<std::string>& settings) {
+    return beyond_a_texel(compared("shadow-contact", settings).score.false_light);
+  };
+  // The bias in texels is the promise: no more than a pixel in a thousand of the shadow is lit beyond one texel of its edge.
+  judge({2, "peter-panning", "things that stand on a plane; a constant bias of 100 texels against auto",
+         "share of shadowed pixels falsely lit beyond a texel of the edge"},
+        leak({"shadow.bias=constant", "shadow.constant=100", "shadow.method=hard"}), 0.01, leak({}), 1e-3);
+}
+
+// A small plate high above a large one, close over the ground: at the small one's outline two depths meet in one texel, while all of
+// the ground below the large one is dark. Seen from beside, below the plates.
+SceneFile two_plates(const char* method) {
+  SceneFile scene = SceneFile::parse(R"({ "version": 1,
+    "cameras": { "main": { "position": [0, 0.5, 5], "target": [0, 0, 0], "fov": 50, "near": 0.1, "far": 100 } },
+    "lights": { "sun": { "direction": [0, 1, 0] } },
+    "objects": { "ground": { "shape": "plane", "size": 12 },
+                 "high": { "shape": "cube", "size": 1.4, "scale": [1, 0.01, 1], "position": [0.1, 6, 0] },
+                 "low": { "shape": "cube", "size": 5, "scale": [1, 0.01, 1], "position": [0, 0.9, 0] } },
+    "shadow": { "method": "pcf3", "resolution": 512, "radius": 4 } })",
+                                     "test", ".");
+  scene.set(std::string("shadow.method=") + method);
+  return scene;
+}
+
+// The most light that reaches a pixel by the map where by rays all pixels within 6 px are dark: that is beyond the filter.
+double most_light_in_shadow(const ShadowComparison& c) {
+  constexpr int kRadius = 6;
+  double most = 0.0;
+  for (int y = kRadius; y < c.truth.height() - kRadius; ++y) {
+    for (int x = kRadius; x < c.truth.width() - kRadius; ++x) {
+      bool dark = true;
+      for (int j = -kRadius; j <= kRadius; ++j)
+        for (int i = -kRadius; i <= kRadius; ++i) dark = dark && c.truth.at(x + i, y + j) == 0.0f;
+      if (dark) most = std::max(most, static_cast<double>(c.map.at(x, y)));
+    }
+  }
+  return most;
+}
+
+TEST(Stability, LightLeaks) {
+  const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), pcf = most_light_in_shadow(compared(two_plates("pcf3")));
+  // Comparisons of depths know no leak: every texel over the large plate says dark.
+  judge({3, "light leaks", "under two plates one over the other; variance shadow maps against pcf3 (the scenes' own)",
+         "most light in full shadow"},
+        vsm, 0.02, pcf, 0.0);
+}
+
+TEST(Stability, LightLeaksOfMoments) {
+  const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), moments = most_light_in_shadow(compared(two_plates("moments")));
+  // Four moments hold two depths exactly (Peters and Klein 2015); what is left is what keeps their equations solvable, some 1e-5.
+  judge({3, "light leaks", "the same; variance (two moments) against four moments", "most light in full shadow"}, vsm, 0.02, moments,
+        1e-4);
+}
+
+TEST(Stability, PerspectiveAliasing) {
+  const auto error = [](const std::string& cascades) {
+    SceneFile scene = SceneFile::parse(R"({ "version": 1,
+      "cameras": { "main": { "position": [0, 1.2, 0], "target": [0, 0.9, -10], "fov": 50, "near": 0.1, "far": 400 } },
+      "lights": { "sun": { "direction": [1, 1.2, 0.3] } },
+      "objects": { "ground": { "shape": "plane", "size": 400 },
+                   "pole": { "shape": "cube", "size": 0.3, "scale": [1, 6, 1], "position": [0.6, 0.5, -4],
+                             "instances": [ {}, { "position": [-1.5, 0, -3] }, { "position": [2, 0, -9] }, { "position": [-5, 0, -20] } ] } },
+      "shadow": { "method": "bilinear", "resolution": 1024 } })",
+                                       "test", ".");
+    scene.set("shadow.cascades=" + cascades);
+    return compared(scene).score.error;
+  };
+  // Edges are some 600 px long in this picture of 32,400 px, and err by up to half a texel, which is some 0.2 px by cascades.
+  judge({4, "perspective aliasing", "poles on a plane of 400 units, seen from 1.2 above it; one map of 1024 against four cascades of it",
+         "mean error of the light's share over the picture"},
+        error("1"), 0.008, error("4"), 0.004);
+}
+
+TEST(Stability, ShadowTerminator) {
+  // Few triangles: the shading normal and the triangle's differ by up to 15 degrees.
+  const ShadowScore s = compared("shadow-plane", {"earth.latitudes=12", "earth.longitudes=24"}).score;
+  // Apart from these pixels the map is right: a pixel or two of 10,000.
+  judge({27, "shadow terminator", "a ball of 24 sectors; pixels where face and shading normal disagree counted as the map's, against apart",
+         "share of pixels that no map can get right; ours: falsely dark beyond a texel of the edge"},
+        s.sides_differ, 0.002, beyond_a_texel(s.false_shadow), 2e-4);
+}
+
+}  // namespace
+}  // namespace halfspace::stability
