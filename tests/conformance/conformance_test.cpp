@@ -51,6 +51,23 @@ class Blend : public ConformanceOf {};
 TEST_P(Blend, IsTheFormula) { expect_right(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Blend, testing::ValuesIn(blend_cases()), case_name);
 
+// A second source needs a second colour, whichever factor asks for it.
+TEST(ConformanceBlendDeathTest, ASecondSourceNeedsASecondColor) {
+  Picture p;
+  p.draws.resize(1);
+  p.draws[0].vertices.resize(3, {glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)});
+  const auto draw_with = [&](auto change) {
+    p.draws[0].state.blend.emplace();
+    change(*p.draws[0].state.blend);
+    draw(p);
+  };
+  constexpr BlendFactor kSecond = BlendFactor::src1_alpha;
+  EXPECT_DEATH(draw_with([](BlendState& b) { b.source_color = kSecond; }), "color_count > 1");
+  EXPECT_DEATH(draw_with([](BlendState& b) { b.destination_color = kSecond; }), "color_count > 1");
+  EXPECT_DEATH(draw_with([](BlendState& b) { b.source_alpha = kSecond; }), "color_count > 1");
+  EXPECT_DEATH(draw_with([](BlendState& b) { b.destination_alpha = kSecond; }), "color_count > 1");
+}
+
 class DepthStencil : public ConformanceOf {};
 TEST_P(DepthStencil, TestsAndWrites) { expect_right(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, DepthStencil, testing::ValuesIn(depth_stencil_cases()), case_name);

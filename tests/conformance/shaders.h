@@ -83,7 +83,7 @@ struct CutoutShader {
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {in.color.x >= R(value), px.z};
+    return {in.color.x >= R(value), px.z()};
   }
 };
 
