@@ -22,6 +22,7 @@ std::unique_ptr<Workload> prepare_hdr_200k(WorkloadSize size, WorkloadAssets& as
 std::unique_ptr<Workload> prepare_tonemap(WorkloadSize size, WorkloadAssets& assets);
 std::unique_ptr<Workload> prepare_draws_10k(WorkloadSize size, WorkloadAssets& assets);
 std::unique_ptr<Workload> prepare_blend_10(WorkloadSize size, WorkloadAssets& assets);
+std::unique_ptr<Workload> prepare_msaa4_200k(WorkloadSize size, WorkloadAssets& assets);
 std::unique_ptr<Workload> prepare_alpha_test(WorkloadSize size, WorkloadAssets& assets);
 std::unique_ptr<Workload> prepare_aniso_floor(WorkloadSize size, WorkloadAssets& assets);
 std::unique_ptr<Workload> prepare_near_clip(WorkloadSize size, WorkloadAssets& assets);

@@ -6,6 +6,7 @@
 #include "families.h"
 #include "workload_canvas.h"
 #include "workload_constant.h"
+#include "workload_geometry.h"
 
 namespace halfspace {
 
@@ -30,7 +31,7 @@ class Fill final : public Workload {
     ColorTarget target = rgba8_target(color_);
     target.load = LoadOp::dont_care;
     Pass pass(color_.width(), color_.height(), target, {});
-    pass.draw(shader_, vertices(stream(std::span<const glm::vec3>(kQuad))), indices_, kState);
+    pass.draw(shader_, vertices(stream(std::span<const glm::vec3>(kFullQuad))), indices_, kState);
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return {&color_, nullptr}; }
@@ -39,12 +40,10 @@ class Fill final : public Workload {
   }
 
  private:
-  static constexpr std::array<glm::vec3, 4> kQuad{{{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}}};
-  static constexpr std::array<uint32_t, 6> kTriangles{0, 1, 2, 2, 1, 3};  // of the strip
   static constexpr DrawState kState{.depth = {.test = false, .write = false}};
   Image<glm::u8vec4> color_;
-  ConstantShader shader_{{0.25f, 0.50f, 0.75f, 1.0f}};
-  Indices indices_{std::span<const uint32_t>(kTriangles), kQuad.size()};
+  ConstantShader shader_{kFillColor};
+  Indices indices_{std::span<const uint32_t>(kStripTriangles), kFullQuad.size()};
 };
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace halfspace {
 
 namespace {
 
-void add_layer(int k, double aspect, LayerMesh& to) {
+// k counts from the eye, in tenths of all.
+void add_layer(double k, double aspect, LayerMesh& to) {
   const double z = -(2.0 + 0.5 * k), h = 1.05 * -z * kTanHalfAngle, w = h * aspect;
   const glm::vec3 base(glm::dvec3(0.1 * (k + 1), 0.5, 1.0 - 0.1 * k));
   const std::array<glm::dvec2, kLayerVertices> corners{{{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}}};
@@ -56,10 +57,13 @@ class DepthPrepass final : public Workload {
 
 }  // namespace
 
-LayerMesh layer_mesh(WorkloadSize size, bool front_to_back) {
+LayerMesh layer_mesh(WorkloadSize size, bool front_to_back, int layers) {
   LayerMesh mesh;
   const double aspect = static_cast<double>(size.width) / size.height;
-  for (int i = 0; i < kLayers; ++i) add_layer(front_to_back ? i : kLayers - 1 - i, aspect, mesh);
+  for (int i = 0; i < layers; ++i) {
+    const int k = front_to_back ? i : layers - 1 - i;
+    add_layer(static_cast<double>(k * kLayers) / layers, aspect, mesh);
+  }
   return mesh;
 }
 

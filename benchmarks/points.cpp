@@ -5,44 +5,19 @@
 
 #include "families.h"
 #include "workload_canvas.h"
-#include "workload_points.h"
+#include "workload_geometry.h"
 
 namespace halfspace {
 
 namespace {
 
-constexpr int kPoints = 100'000;
 constexpr double kRadius = 0.012;
 constexpr double kEyeZ = 4.0;
 
-// Evenly over the cube [−1, 1)³, by a linear congruential generator (Numerical Recipes' constants).
-std::vector<glm::vec3> point_cloud() {
-  uint32_t state = 12345;
-  const auto coordinate = [&] {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<float>(2.0 * (static_cast<double>(state >> 8) * 0x1p-24) - 1.0);
-  };
-  std::vector<glm::vec3> cloud(kPoints);
-  for (glm::vec3& p : cloud) {
-    p.x = coordinate();
-    p.y = coordinate();
-    p.z = coordinate();
-  }
-  return cloud;
-}
-
 class Points final : public Workload {
  public:
-  explicit Points(WorkloadSize size) : canvas_(size), size_(size), cloud_(point_cloud()), indices_(Indices::sequential(cloud_.size())) {
-    const glm::dmat4 projection = workload_projection(size, 0.5, 10.0);
-    shader_ = {.clip_from_world = glm::mat4(projection * look_at({0, 0, kEyeZ}, {0, 0, 0}, {0, 1, 0})),
-               .eye_ws = {0.0f, 0.0f, static_cast<float>(kEyeZ)},
-               .half_size = 0.5f * glm::vec2(size.width, size.height),
-               .size_at_w1 = static_cast<float>(kRadius * size.height / kTanHalfAngle),
-               .depth_a = static_cast<float>(projection[2][2]),
-               .depth_b = static_cast<float>(projection[3][2]),
-               .radius = static_cast<float>(kRadius)};
-  }
+  explicit Points(WorkloadSize size)
+      : canvas_(size), size_(size), cloud_(point_cloud()), indices_(Indices::sequential(cloud_.size())), shader_(point_shader(size)) {}
 
   void frame(const Workers& workers) override {
     DrawState state;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // shadow_200k: a depth map drawn from the light, and a picture that asks it nine times a pixel.
-#include <array>
-
 #include "families.h"
 #include "shading/depth_only.h"
+#include "workload_geometry.h"
 #include "workload_shadow.h"
 
 namespace halfspace {
@@ -21,13 +20,6 @@ struct DepthTwin : DepthOnly {
   }
 };
 
-struct PlaneVertex {
-  glm::vec3 position, normal;
-};
-constexpr std::array<PlaneVertex, 4> kPlane{
-    {{{-4, -1, 4}, {0, 1, 0}}, {{4, -1, 4}, {0, 1, 0}}, {{4, -1, -4}, {0, 1, 0}}, {{-4, -1, -4}, {0, 1, 0}}}};
-constexpr std::array<uint32_t, 6> kPlaneTriangles{0, 1, 2, 0, 2, 3};
-
 class Shadowed final : public Workload {
  public:
   Shadowed(WorkloadSize size, WorkloadAssets& assets)
@@ -35,15 +27,14 @@ class Shadowed final : public Workload {
         map_(kMapSize, kMapSize),
         sphere_(assets.sphere(k200k.rows, k200k.columns)),
         sphere_indices_(sphere_->indices, sphere_->vertices.size()) {
-    const glm::dvec3 to_light = unit_or_zero({0.5, 1.0, 0.3}), eye{0.0, 1.5, 4.5};
-    const glm::dmat4 light = orthographic_gl(3.2, 1.0, 0.5, 8.0) * look_at(3.0 * to_light, {0, 0, 0}, {0, 1, 0});
-    depth_shader_.clip_from_object = glm::mat4(light);
-    sphere_shader_ = {.clip_from_world = glm::mat4(workload_projection(size, 0.5, 20.0) * look_at(eye, {0.0, -0.3, 0.0}, {0, 1, 0})),
-                      .light_from_world = glm::mat4(light),
+    const ShadowCameras cameras = shadow_cameras(size);
+    depth_shader_.clip_from_object = cameras.light_from_world;
+    sphere_shader_ = {.clip_from_world = cameras.clip_from_world,
+                      .light_from_world = cameras.light_from_world,
                       .map = map_.data(),
-                      .eye_ws = glm::vec3(eye),
-                      .to_light_ws = glm::vec3(to_light),
-                      .base = {0.8f, 0.3f, 0.2f}};
+                      .eye_ws = cameras.eye_ws,
+                      .to_light_ws = cameras.to_light_ws,
+                      .base = kShadowSphereBase};
   }
 
   void frame(const Workers& workers) override {
@@ -78,10 +69,10 @@ class Shadowed final : public Workload {
   VertexView sphere_vertices() const {
     return vertices(stream(sphere_->vertices, &SphereVertex::position), stream(sphere_->vertices, &SphereVertex::normal));
   }
-  static VertexView plane_vertices() { return vertices(stream(std::span<const PlaneVertex>(kPlane))); }
+  static VertexView plane_vertices() { return vertices(stream(std::span<const PlaneVertex>(kShadowPlane))); }
   ShadowedShader plane_shader(const float* map) const {
     ShadowedShader shader = sphere_shader_;
-    shader.base = glm::vec3(0.6f);
+    shader.base = kShadowPlaneBase;
     shader.map = map;
     return shader;
   }
@@ -90,7 +81,7 @@ class Shadowed final : public Workload {
   Image<float> map_;
   std::shared_ptr<const SphereMesh> sphere_;
   Indices sphere_indices_;
-  Indices plane_indices_{std::span<const uint32_t>(kPlaneTriangles), kPlane.size()};
+  Indices plane_indices_{std::span<const uint32_t>(kRoundTriangles), kShadowPlane.size()};
   DepthOnly depth_shader_;
   ShadowedShader sphere_shader_;
 };

@@ -11,6 +11,7 @@ namespace halfspace {
 
 struct SphereDetail {
   int rows, columns;
+  constexpr int triangles() const { return 2 * columns * (rows - 1); }
 };
 inline constexpr SphereDetail k20k{51, 200}, k200k{201, 500}, k2m{501, 2000};  // 20,000, 200,000, 2,000,000 triangles
 

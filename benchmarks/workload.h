@@ -4,9 +4,10 @@
 // (docs/performance.md).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "core/image.h"
 #include "core/parallel.h"
@@ -43,9 +44,9 @@ class WorkloadAssets;
 
 /// A workload by name.
 struct WorkloadKind {
-  std::string_view name;
-  std::string_view what;  ///< one line
-  std::unique_ptr<Workload> (*prepare)(WorkloadSize size, WorkloadAssets& assets);
+  std::string name;
+  std::string what;  ///< one line
+  std::function<std::unique_ptr<Workload>(WorkloadSize size, WorkloadAssets& assets)> prepare;
 };
 
 /// All workloads, in the order in which tables show them.

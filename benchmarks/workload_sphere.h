@@ -16,6 +16,8 @@ struct SphereUniforms {
   glm::vec3 eye_ws{0.0f, 0.8f, 2.7f};
   glm::vec3 light_ws{2.0f, 3.0f, 4.0f};
 
+  static constexpr Sampler kSampler{.wrap_t = Wrap::clamp};
+
   template <class R>
   struct Attributes {
     vec3<R> position_ws, normal_ws;
@@ -30,9 +32,6 @@ struct SphereUniforms {
   HS_INLINE vec3<R> texel(const vec2<R>& uv, const Pixel<R>& px) const {
     return vec3<R>(texture->sample(kSampler, uv, px.ddx(&V::uv), px.ddy(&V::uv)));
   }
-
- private:
-  static constexpr Sampler kSampler{.wrap_t = Wrap::clamp};
 };
 
 struct SpherePhong : SphereUniforms {

@@ -13,7 +13,7 @@ struct WorkloadTone {
     vec4<R> out(R(0), R(0), R(0), R(1));
     for (int k = 0; k < 3; ++k) {
       const R c = R(0.8f) * light[k];
-      out[k] = pow(c / (R(1) + c), R(1.0f / 2.2f));
+      out[k] = unit_pow(c / (R(1) + c), R(1.0f / 2.2f));
     }
     return out;
   }

@@ -17,7 +17,7 @@ std::unique_ptr<Workload> at(WorkloadSize size, WorkloadAssets& assets) {
   return prepare(detail, size, assets);
 }
 
-constexpr std::array kWorkloads{
+const std::array kWorkloads{
     WorkloadKind{"clear", "colour and depth cleared, nothing drawn", prepare_clear},
     WorkloadKind{"fill", "one quad of one colour over the whole picture", prepare_fill},
     WorkloadKind{"layers_b2f", "10 quads over the whole picture, Phong by pixel, back to front", prepare_layers_b2f},
@@ -38,6 +38,7 @@ constexpr std::array kWorkloads{
     WorkloadKind{"tonemap", "tone mapping of that picture alone", prepare_tonemap},
     WorkloadKind{"draws_10k", "10,000 draws of one quad each", prepare_draws_10k},
     WorkloadKind{"blend_10", "the 10 quads half transparent, back to front", prepare_blend_10},
+    WorkloadKind{"msaa4_200k", "sphere_phong_200k with four samples a pixel", prepare_msaa4_200k},
     WorkloadKind{"alpha_test", "the 10 quads with holes by a texture, front to back", prepare_alpha_test},
     WorkloadKind{"aniso_floor", "a textured plane almost to the horizon, anisotropy 16", prepare_aniso_floor},
     WorkloadKind{"near_clip", "sphere_phong_200k from just inside of its surface", prepare_near_clip},

@@ -1,16 +1,20 @@
 #!/usr/bin/env bash
 # Installs what halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing where all is there.
 #
-#   scripts/install_deps.sh [--tests]     with --tests also what the tests and benchmarks need
+#   scripts/install_deps.sh [--tests | --benchmarks]
+#     --tests       also what the tests need
+#     --benchmarks  also what scripts/bench.sh needs: the tests' packages, and matplotlib for its charts
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libspng-dev libcli11-dev nlohmann-json3-dev libfmt-dev libembree-dev)
+benchmark_packages=(python3-matplotlib libvulkan1)
 test_packages=(python3-jsonschema gnuplot-nox libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
 
 case "${1:-}" in
   "") ;;
   --tests) packages+=("${test_packages[@]}") ;;
-  *) echo "install_deps.sh: unknown argument '$1'; expected --tests or nothing" >&2; exit 2 ;;
+  --benchmarks) packages+=("${test_packages[@]}" "${benchmark_packages[@]}") ;;
+  *) echo "install_deps.sh: unknown argument '$1'; expected --tests, --benchmarks or nothing" >&2; exit 2 ;;
 esac
 
 fail() { echo "install_deps.sh: $*" >&2; exit 1; }

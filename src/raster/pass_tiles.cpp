@@ -139,6 +139,9 @@ void Pass::run_post_step(const Tile& tile) const {
   store_color(post_target_, frame_.width, frame_.height, Samples::one, tile, finished);
 }
 
+// A tile's triangles lie scattered in their chunk: so many are fetched ahead.
+constexpr std::size_t kPrefetch = 6;
+
 void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
   bool waiting = false;  // there are visible pixels not shaded yet
   CoverageList list;
@@ -146,7 +149,10 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
   std::optional<DrawInTile> here;
   for (uint32_t c = 0; c < frame_.chunks.size(); ++c) {
     const Chunk& chunk = frame_.chunks[c];
-    for (const uint16_t t : bin_of(chunk, tile_x, tile_y)) {
+    const std::span<const uint16_t> bin = bin_of(chunk, tile_x, tile_y);
+    for (std::size_t i = 0; i < bin.size(); ++i) {
+      const uint16_t t = bin[i];
+      __builtin_prefetch(&chunk.triangles[bin[std::min(i + kPrefetch, bin.size() - 1)]]);
       const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
       if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
       const VisibilityMode mode = here->mode;

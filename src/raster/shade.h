@@ -313,17 +313,21 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
 }
 
 template <class S>
-HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityPacket& packet) {
+HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
   using V = typename S::template Varyings<Real>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
-  merge_triangle<F, true>(*packet.frame, packet.id, Mask(true), triangles);
-  const PacketTriangleIds ids{packet.frame, nullptr, packet.id, kAllBits<Mask>};
-  Pixel<Real> px;
-  const V in = begin_packet<S>(packet.x, packet.y, packet.position, packet.centroids, triangles, ids, px);
-  const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
-  store(packet.depth, v.depth);
-  *packet.lanes &= bits(v.keep);
+  merge_triangle<F, true>(*batch.frame, batch.id, Mask(true), triangles);
+  const PacketTriangleIds ids{batch.frame, nullptr, batch.id, kAllBits<Mask>};
+  for (int i = 0; i < batch.count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    Pixel<Real> px;
+    const V in = begin_packet<S>(batch.tile_x0 + packet_x(batch.packets[at]), batch.tile_y0 + packet_y(batch.packets[at]), batch.position,
+                                 batch.centroids == nullptr ? nullptr : batch.centroids + i * kLanes, triangles, ids, px);
+    const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
+    if constexpr (kWritesDepth<S>) batch.depth[at] = v.depth;
+    batch.lanes[at] &= bits(v.keep);
+  }
 }
 
 }  // namespace detail

@@ -198,14 +198,14 @@ constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chu
 struct VertexBatch;
 struct PrimitiveBatch;
 struct FragmentBatch;
-struct VisibilityPacket;
+struct VisibilityBatch;
 
 /// The thin functions that call one shader; everything else in the pipeline is shared by all shaders.
 struct ShaderKernels {
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
   void (*position)(const void* shader, const VertexBatch&) = nullptr;         ///< as vertex, without varyings
   void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;     ///< null: no primitive stage
-  void (*visibility)(const void* shader, const VisibilityPacket&) = nullptr;  ///< null: the triangle decides
+  void (*visibility)(const void* shader, VisibilityBatch&) = nullptr;         ///< null: the triangle decides
   void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
   int varying_count = 0;                          ///< floats per vertex
   int primitive_count = 0;                        ///< floats per triangle

@@ -118,6 +118,53 @@ void store_planes(std::byte* data, const ImagePlace& place, const Tile& tile, co
   });
 }
 
+// Pixels of four 16-bit values, a quad at a time: two pixels of a row above two of the next, side by side in the tile.
+HS_INLINE void split_quad(const uint16_t* row0, const uint16_t* row1, uint16_t* to) {
+  const __m128i a = load<__m128i>(row0), b = load<__m128i>(row1);
+  const __m128i even = _mm_unpacklo_epi16(a, b), odd = _mm_unpackhi_epi16(a, b);  // r0 r2 g0 g2 …, r1 r3 g1 g3 …
+  const __m128i red_green = _mm_unpacklo_epi16(even, odd), blue_alpha = _mm_unpackhi_epi16(even, odd);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to), red_green);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + kMaxTilePixels), _mm_unpackhi_epi64(red_green, red_green));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 2 * kMaxTilePixels), blue_alpha);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 3 * kMaxTilePixels), _mm_unpackhi_epi64(blue_alpha, blue_alpha));
+}
+HS_INLINE void join_quad(const uint16_t* from, uint16_t* row0, uint16_t* row1) {
+  const auto plane = [&](int k) { return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from + k * kMaxTilePixels)); };
+  const __m128i red_green = _mm_unpacklo_epi16(plane(0), plane(1)), blue_alpha = _mm_unpacklo_epi16(plane(2), plane(3));
+  store(row0, _mm_unpacklo_epi32(red_green, blue_alpha));
+  store(row1, _mm_unpackhi_epi32(red_green, blue_alpha));
+}
+// Calls f(first pixel of a quad in the tile, and of its two rows in the image); images of one sample, the first one's.
+// False, and nothing is done, if the tile has half a quad.
+template <class F>
+HS_INLINE bool for_each_quad(const Tile& tile, const ImagePlace& place, F f) {
+  if (tile.samples != 1 || (tile.width | tile.height) % 2 != 0) return false;
+  for (int y = 0; y < tile.height; y += 2) {
+    const std::size_t row = static_cast<std::size_t>(place.height - 1 - (tile.y0 + y)) * static_cast<std::size_t>(place.width);
+    for (int x = 0; x < tile.width; x += 2) {
+      const std::size_t block = static_cast<std::size_t>(y / kBlockSize * kBlocksPerRow + x / kBlockSize) * kPixelsPerBlock;
+      const std::size_t in_tile = block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize + x % kBlockSize)];
+      const std::size_t in_image = row + static_cast<std::size_t>(tile.x0 + x);
+      f(in_tile, 4 * in_image, 4 * (in_image - static_cast<std::size_t>(place.width)));
+    }
+  }
+  return true;
+}
+
+void load_half_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
+  const auto* image = reinterpret_cast<const uint16_t*>(data);
+  uint16_t* to = planes<uint16_t>(color);
+  const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_quad(image + row0, image + row1, to + t); };
+  if (!for_each_quad(tile, place, quad)) load_planes<uint16_t>(data, place, tile, color);
+}
+
+void store_half_planes(std::byte* data, const ImagePlace& place, const Tile& tile, const ColorBuffer& color) {
+  auto* image = reinterpret_cast<uint16_t*>(data);
+  const uint16_t* from = planes<uint16_t>(color);
+  const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { join_quad(from + t, image + row0, image + row1); };
+  if (!for_each_quad(tile, place, quad)) store_planes<uint16_t>(data, place, tile, color);
+}
+
 // One pixel's depth and stencil, as an image holds them and as a tile does.
 struct Depth16 {
   using Image = uint16_t;
@@ -196,7 +243,7 @@ void load_color(const ColorTarget& target, int width, int height, Samples held, 
   const ImagePlace place{width, height, held};
   switch (target.format) {
     case ColorFormat::rgba32f: load_planes<float>(target.data, place, tile, color); break;
-    case ColorFormat::rgba16f: load_planes<uint16_t>(target.data, place, tile, color); break;
+    case ColorFormat::rgba16f: load_half_planes(target.data, place, tile, color); break;
     default: copy_words<true>(tile, width, height, held, tile.samples, color.bytes.data(), target.data); break;
   }
 }
@@ -270,7 +317,7 @@ void store_color(const ColorTarget& target, int width, int height, Samples held,
   const ImagePlace place{width, height, held};
   switch (target.format) {
     case ColorFormat::rgba32f: store_planes<float>(target.data, place, tile, color); break;
-    case ColorFormat::rgba16f: store_planes<uint16_t>(target.data, place, tile, color); break;
+    case ColorFormat::rgba16f: store_half_planes(target.data, place, tile, color); break;
     default: copy_words<false>(tile, width, height, held, stored_samples(tile, held), color.bytes.data(), target.data); break;
   }
 }

@@ -57,9 +57,17 @@ void project(const Draw& draw, const float* clip, int count, ScreenVertex* scree
     const Int y_fixed = snap(y, w, inv_w, v.half_height, v.center_y);
     // The bound only matters with depth clamp, where z/w may overflow.
     const Real z_window = clamp(fma(z * inv_w, Real(v.depth_scale), Real(v.depth_bias)), Real(-1e30f), Real(1e30f));
+    alignas(64) std::array<int32_t, kLanes> codes, xs, ys;
+    alignas(64) std::array<float, kLanes> zs, ws;
+    store(codes.data(), code);
+    store(xs.data(), x_fixed);
+    store(ys.data(), y_fixed);
+    store(zs.data(), z_window);
+    store(ws.data(), inv_w);
     for (int i = 0; i < std::min(kLanes, count - begin); ++i) {
-      screen[begin + i] = {lane(x_fixed, i), lane(y_fixed, i), lane(z_window, i), lane(inv_w, i)};
-      outcodes[begin + i] = static_cast<Outcode>(lane(code, i));
+      const auto k = static_cast<std::size_t>(i);
+      screen[begin + i] = {xs[k], ys[k], zs[k], ws[k]};
+      outcodes[begin + i] = static_cast<Outcode>(codes[k]);
     }
   }
 }

@@ -35,23 +35,8 @@ struct Context {
   bool cut;                    // a covered pixel may lie outside of the primitive's bounds
   SampleGrid grid;             // which sample of the pixels
   float low, high;             // bounds of the triangle's depth
+  VisibilityBatch* waiting;    // packets for the shader's visibility function
 };
-
-// The shader's say on a packet: narrows mask, replaces z.
-void ask_shader(const Context& c, int packet, Real& z, Mask& mask) {
-  alignas(64) std::array<float, kLanes> depth;
-  uint32_t lanes = bits(mask);
-  const SamplePosition at = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
-  const int x = c.grid.x0 + packet_x(packet), y = c.grid.y0 + packet_y(packet);
-  std::array<SamplePosition, kLanes> centroids;
-  const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
-  if (looks_inside) find_centroids(c.frame, x, y, nullptr, c.id, centroids.data());
-  c.draw.kernels.visibility(c.draw.shader.get(),
-                            {&c.frame, c.id, x, y, at, looks_inside ? centroids.data() : nullptr, depth.data(), &lanes});
-  const Real shader_z = clamp(load<Real>(depth.data()), Real(c.draw.depth_low), Real(c.draw.depth_high));
-  if (c.draw.kernels.writes_depth) z = depth_value(c.tile.depth_format, shader_z);
-  mask = mask & mask_from_bits<Mask>(lanes);
-}
 
 // Both tests; the stencil remembers what became of each sample.
 Mask test_with_stencil(const Context& c, int packet, Real z, Mask mask) {
@@ -85,26 +70,64 @@ HS_INLINE void finish_packet(const Context& c, int packet, Mask mask, Real z) {
   c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
 }
 
+Mask test_depth(const Context& c, int packet, Real z, Mask mask) {
+  if (!c.tests) return mask;
+  return mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+}
+
+void test_and_finish(const Context& c, int packet, Mask mask, Real z) {
+  mask = c.stencil != nullptr ? test_with_stencil(c, packet, z, mask) : test_depth(c, packet, z, mask);
+  finish_packet(c, packet, mask, z);
+}
+
+// The shader's say on the packets that wait for it: narrows masks, replaces depths.
+void ask_shader(const Context& c) {
+  VisibilityBatch& batch = *c.waiting;
+  if (batch.count == 0) return;
+  std::array<SamplePosition, kVisibilityBatch * kLanes> centroids;
+  const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
+  for (std::size_t i = 0; looks_inside && i < static_cast<std::size_t>(batch.count); ++i) {
+    find_centroids(c.frame, c.grid.x0 + packet_x(batch.packets[i]), c.grid.y0 + packet_y(batch.packets[i]), nullptr, c.id,
+                   &centroids[i * kLanes]);
+  }
+  batch.frame = &c.frame;
+  batch.id = c.id;
+  batch.tile_x0 = c.grid.x0;
+  batch.tile_y0 = c.grid.y0;
+  batch.position = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
+  batch.centroids = looks_inside ? centroids.data() : nullptr;
+  c.draw.kernels.visibility(c.draw.shader.get(), batch);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+    Real z = batch.depth[i];
+    if (c.draw.kernels.writes_depth) z = depth_value(c.tile.depth_format, clamp(z, Real(c.draw.depth_low), Real(c.draw.depth_high)));
+    test_and_finish(c, batch.packets[i], mask_from_bits<Mask>(batch.lanes[i]), z);
+  }
+  batch.count = 0;
+}
+
 // Where the shader or the stencil has a say.
 __attribute__((noinline)) void visit_rare_packet(const Context& c, int packet, Mask mask, Real z) {
   if (c.mode == VisibilityMode::cover_only) {
     c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
     return;
   }
-  if (c.asks_shader) ask_shader(c, packet, z, mask);
-  if (c.stencil != nullptr) {
-    mask = test_with_stencil(c, packet, z, mask);
-  } else if (c.tests) {
-    mask = mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
-  }
-  finish_packet(c, packet, mask, z);
+  if (!c.asks_shader) return test_and_finish(c, packet, mask, z);
+  // Where the shader leaves the depth alone, what fails the test need not be asked for (a stencil counts what fails).
+  if (!c.draw.kernels.writes_depth && c.stencil == nullptr) mask = test_depth(c, packet, z, mask);
+  const uint32_t lanes = bits(mask);
+  if (lanes == 0) return;
+  VisibilityBatch& batch = *c.waiting;
+  const auto i = static_cast<std::size_t>(batch.count++);
+  batch.packets[i] = static_cast<uint16_t>(packet);
+  batch.lanes[i] = lanes;
+  batch.depth[i] = z;
+  if (batch.count == kVisibilityBatch) ask_shader(c);
 }
 
 void visit_packet(const Context& c, int packet, Mask mask, Real z) {
   c.statistics.samples_tested += static_cast<uint64_t>(std::popcount(bits(mask)));
   if (c.is_rare) return visit_rare_packet(c, packet, mask, z);
-  if (c.tests) mask = mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
-  finish_packet(c, packet, mask, z);
+  finish_packet(c, packet, test_depth(c, packet, z, mask), z);
 }
 
 template <bool small>
@@ -118,7 +141,7 @@ void visit_block(const Context& c, const BlockEdges& edges, const DepthPlane<sma
     if (any(mask)) visit_packet(c, packet, mask, plane.at(edges, x, y));
   }
   if (c.writes && c.mode != VisibilityMode::cover_only) {
-    widen_block_bounds(c.asks_shader ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
+    widen_block_bounds(c.draw.kernels.writes_depth ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
   }
 }
 
@@ -197,6 +220,7 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, Tile& tile, 
   const bool late = d.mode == VisibilityMode::test_only && stencil != nullptr;
   const bool tests = !late && d.tests;
   const bool counts_failures = stencil != nullptr && (stencil->fail != StencilOp::keep || stencil->depth_fail != StencilOp::keep);
+  VisibilityBatch waiting;  // not initialized but for its count
   Context c{d.frame,
             d.draw,
             t,
@@ -209,17 +233,19 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, Tile& tile, 
             tests,
             tests && d.draw.state.depth.write,
             d.asks_shader,
-            tests && !d.asks_shader && !counts_failures && d.mode != VisibilityMode::cover_only,
+            tests && !(d.asks_shader && d.draw.kernels.writes_depth) && !counts_failures && d.mode != VisibilityMode::cover_only,
             d.asks_shader || d.mode == VisibilityMode::cover_only || (stencil != nullptr && !late),
             d.cut || t.is(kSprite | kLine),
             SampleGrid(d.tile, 0),
             0.0f,
-            1.0f};
+            1.0f,
+            &waiting};
   for (int s = 0; s < d.tile.samples; ++s) {
     if (s != 0) c.grid = SampleGrid(d.tile, s);
     if ((d.draw.sample_mask >> s & 1) != 0) {
       const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, c.grid.position);
       if (!b.empty()) rasterize_sample(c, b);
+      ask_shader(c);
     }
     if (list != nullptr) list->sample_end[static_cast<std::size_t>(s)] = list->count;
   }

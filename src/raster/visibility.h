@@ -66,15 +66,22 @@ Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, M
 /// Writes z where mask says, if the state writes depth, and keeps the block's bounds true.
 void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask mask);
 
-/// One packet for a shader's visibility function.
-struct VisibilityPacket {
+/// Packets that a visibility kernel decides in one call.
+inline constexpr int kVisibilityBatch = 16;
+
+/// Packets of one triangle for a shader's visibility function.
+struct VisibilityBatch {
   const Frame* frame;
   TriangleId id;
-  int x, y;                         ///< window coordinates of the packet's lowest corner
-  SamplePosition position;          ///< where in their pixels the shader looks
+  int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's room
+  SamplePosition position;  ///< where in their pixels the shader looks
+  int count = 0;            ///< ≤ kVisibilityBatch
+  std::array<uint16_t, kVisibilityBatch> packets;
   const SamplePosition* centroids;  ///< as in FragmentBatch
-  float* depth;                     ///< out: the shader's W depths (it sees in px.z() what fragment will see, so both say the same)
-  uint32_t* lanes;                  ///< in and out: bits of the covered lanes, then of those kept
+  /// In: the triangle's depths; out, if the shader writes depth: the shader's (it sees in px.z() what fragment will see, so both
+  /// say the same).
+  alignas(64) std::array<Real, kVisibilityBatch> depth;
+  std::array<uint32_t, kVisibilityBatch> lanes;  ///< in and out: bits of the covered lanes, then of those kept
 };
 
 }  // namespace halfspace

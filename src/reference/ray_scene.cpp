@@ -70,9 +70,25 @@ struct RayScene::Impl {
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter> device;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter> scene;
   std::vector<Placed> placed;  // by mesh
+
+  void add_spheres(const Particles& spheres, const glm::dvec3& eye_ws, unsigned id);
 };
 
-RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only) : impl_(std::make_unique<Impl>()) {
+void RayScene::Impl::add_spheres(const Particles& spheres, const glm::dvec3& eye_ws, unsigned id) {
+  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  auto* rows = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), spheres.radii.size()));
+  for (std::size_t i = 0; i < spheres.radii.size(); ++i) {
+    const glm::vec3 center_ew(spheres.centers_ws[i] - eye_ws);
+    for (const float f : {center_ew.x, center_ew.y, center_ew.z, spheres.radii[i]}) *rows++ = f;
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene.get(), geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only, const PlacedSpheres& spheres)
+    : impl_(std::make_unique<Impl>()) {
   impl_->device.reset(rtcNewDevice("threads=1"));  // trees are built by this thread alone: the same tree every time
   if (impl_->device == nullptr) throw InputError("Embree cannot start on this machine");
   impl_->scene.reset(rtcNewScene(impl_->device.get()));
@@ -99,6 +115,8 @@ RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws,
     rtcAttachGeometryByID(impl_->scene.get(), geometry, static_cast<unsigned>(m));
     rtcReleaseGeometry(geometry);
   }
+  if (spheres.particles != nullptr && (spheres.casts_shadow || !casters_only))
+    impl_->add_spheres(*spheres.particles, eye_ws, static_cast<unsigned>(meshes.size()));
   rtcCommitScene(impl_->scene.get());
 }
 
@@ -112,6 +130,11 @@ std::optional<RayHit> RayScene::nearest(const glm::vec3& origin_ew, const glm::v
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   intersect(impl_->scene.get(), query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  if (query.hit.geomID >= impl_->placed.size()) {
+    const glm::dvec3 along = static_cast<double>(query.ray.tfar) * glm::dvec3(direction_ws);
+    const glm::dvec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+    return RayHit{-1, query.hit.primID, query.ray.tfar, {}, glm::dvec3(origin_ew) + along, normal / std::max(glm::length(normal), 1e-300)};
+  }
   const Impl::Placed& placed = impl_->placed[query.hit.geomID];
   std::array<glm::dvec3, 3> corner;
   for (std::size_t k = 0; k < 3; ++k) corner[k] = placed.positions_ew[(*placed.indices)[3 * std::size_t{query.hit.primID} + k]];

@@ -22,7 +22,7 @@ glm::u8vec4 gray(float value) {
 Validation validate(const std::string& name, const SceneDescription& description, const ValidationOptions& options, SceneAssets& assets,
                     const Workers& workers) {
   const PreparedScene scene = assets.prepare(description, options.width, options.height);
-  const RayScene rays(scene.meshes, scene.view.eye_ws), casters(scene.meshes, scene.view.eye_ws, true);
+  const RayScene rays(scene.meshes, scene.view.eye_ws), casters(scene.meshes, scene.view.eye_ws, true, scene.spheres);
   SceneDescription shown = description;
   const Json shadow = json_of(section_of(shown.shadow));
   Validation out;

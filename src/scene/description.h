@@ -247,6 +247,7 @@ struct ParticlesDescription {
   Color diffuse{glm::dvec3(1.0)};
   Color specular{glm::dvec3(0.0)};
   double shininess = 32.0;
+  bool casts_shadow = true, receives_shadow = true;  ///< exact ones
 };
 
 enum class AnimationType : uint8_t { rate, orbit, wave, keyframes };

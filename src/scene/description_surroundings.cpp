@@ -59,6 +59,8 @@ Section section_of(ParticlesDescription& p) {
       key<&T::diffuse>("diffuse", "Factor of the light that is sent back every way", {.low = 0}),
       key<&T::specular>("specular", "Factor of the highlight, by the reflected ray", {.low = 0}),
       key<&T::shininess>("shininess", "Exponent of the highlight: larger is smaller and sharper", {.low = 0, .high = 1e5}),
+      key<&T::casts_shadow>("casts_shadow", "Whether exact spheres shade others"),
+      key<&T::receives_shadow>("receives_shadow", "Whether others, or each other, shade exact spheres"),
   };
   return {{keys, &p}};
 }

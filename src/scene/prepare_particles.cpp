@@ -48,7 +48,7 @@ SphereSprites ScenePreparation::sphere_sprites() const {
   s.diffuse = glm::vec3(p.diffuse.linear);
   s.specular = glm::vec3(p.specular.linear);
   s.shininess = static_cast<float>(p.shininess);
-  s.lights = shadowless_lights_;
+  s.lights = p.sprite == ParticleSprite::exact && p.receives_shadow ? lights_ : shadowless_lights_;
   return s;
 }
 
@@ -56,11 +56,12 @@ void ScenePreparation::add_particles() {
   const ParticlesDescription& p = scene_.particles;
   const bool from_file = !p.file.path.empty();
   if (!from_file && p.count == 0) return;
-  const auto rows = std::make_shared<const SphereRows>(
-      rows_of(from_file ? *asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
-                                            [&] { return read_for("particles.file", [&] { return read_particles(p.file.path, p); }); })
-                        : make_particles(p),
-              view_, p.color.linear));
+  const std::shared_ptr<const Particles> particles =
+      from_file ? asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
+                                   [&] { return read_for("particles.file", [&] { return read_particles(p.file.path, p); }); })
+                : std::make_shared<const Particles>(make_particles(p));
+  if (p.sprite == ParticleSprite::exact) out_.spheres = {particles, p.casts_shadow, p.receives_shadow};
+  const auto rows = std::make_shared<const SphereRows>(rows_of(*particles, view_, p.color.linear));
   out_.assets.push_back(rows);
   DrawState state;
   state.topology = Topology::points;

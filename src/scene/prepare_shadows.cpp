@@ -10,8 +10,10 @@
 #include "core/trig_double.h"
 #include "scene/preparation.h"
 #include "scene/shadow_fit.h"
+#include "scene/sphere_camera.h"
 #include "shading/depth_only.h"
 #include "shading/shadow_bias.h"
+#include "shading/sphere_depth.h"
 
 namespace halfspace {
 
@@ -63,13 +65,28 @@ ShadowView to_shading(const LightView& v, int size, const glm::dvec3& eye_ws) {
   return s;
 }
 
-// Draws the meshes' depth as it is seen from a light, or from the eye.
-PassStatistics draw_depth(const glm::dmat4& clip_from_world, const std::vector<PlacedMesh>& meshes, bool casters_only, ShadowFaces faces,
-                          Image<float>& depth, const Workers& workers) {
+// What depth is drawn of.
+struct Placed {
+  const std::vector<PlacedMesh>& meshes;
+  const PlacedSpheres& spheres;
+};
+
+// Draws the depth of meshes and spheres as it is seen from a light, or from the eye. Of spheres the front is drawn, whatever `faces` says.
+PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double far, const Placed& placed, bool casters_only,
+                          ShadowFaces faces, Image<float>& depth, const Workers& workers) {
   DepthTarget target = d32f_target(depth);
   target.clear_value = 0.0f;
   Pass pass(depth.width(), depth.height(), {}, target);
-  for (const PlacedMesh& m : meshes) {
+  std::vector<glm::vec3> centers_cs;
+  const Particles* particles = placed.spheres.particles.get();
+  if (particles != nullptr && (placed.spheres.casts_shadow || !casters_only)) {
+    const SphereCamera camera(clip_from_world, near, far);
+    centers_cs = camera.centers_cs(*particles);
+    DrawState state = opaque_state(CullMode::none, false);
+    state.topology = Topology::points;
+    pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})}, vertices(stream(centers_cs), stream(particles->radii)), state);
+  }
+  for (const PlacedMesh& m : placed.meshes) {
     if (casters_only && !m.casts_shadow) continue;
     const CullMode cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
                           : faces == ShadowFaces::front             ? CullMode::back
@@ -115,10 +132,10 @@ struct SeenPlace {
   glm::dvec3 position_ew;
   double pixel;
 };
-std::vector<SeenPlace> seen_places(const View& view, const std::vector<PlacedMesh>& meshes, const Workers& workers) {
+std::vector<SeenPlace> seen_places(const View& view, double far, const Placed& placed, const Workers& workers) {
   constexpr int kWidth = 96, kHeight = 54;
   Image<float> depth(kWidth, kHeight);
-  draw_depth(view.clip_from_world, meshes, false, ShadowFaces::front, depth, workers);
+  draw_depth(view.clip_from_world, view.near, far, placed, false, ShadowFaces::front, depth, workers);
   const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
   std::vector<SeenPlace> places;
   for (int row = 0; row < kHeight; ++row) {
@@ -158,12 +175,12 @@ double footprint_of(const std::vector<ShadowView>& views, const std::vector<Seen
 
 std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const {
   // Half a texel more than the filter asks: rounding must not push a point on a face's edge out of both faces.
-  return fitted_views(view_, out_.meshes, light, scene_.shadow, size, static_cast<double>(filter_reach(settings)) + 0.5);
+  return fitted_views(view_, out_.meshes, out_.spheres, light, scene_.shadow, size, static_cast<double>(filter_reach(settings)) + 0.5);
 }
 
 int ScenePreparation::shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const {
   if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
-  const std::vector<SeenPlace> places = seen_places(view_, out_.meshes, assets_.workers_);
+  const std::vector<SeenPlace> places = seen_places(view_, camera().far, {out_.meshes, out_.spheres}, assets_.workers_);
   int size = 256;
   for (; size < kMostShadowTexels; size *= 2) {
     std::vector<ShadowView> views;
@@ -189,7 +206,8 @@ void ScenePreparation::add_shadows() {
       maps->views.push_back(to_shading(view, size, view_.eye_ws));
       ShadowView& s = maps->views.back();
       Image<float>& depth = maps->depths.emplace_back(size, size);
-      out_.shadow_statistics += draw_depth(view.clip_from_world, out_.meshes, true, d.faces, depth, assets_.workers_);
+      out_.shadow_statistics +=
+          draw_depth(view.clip_from_world, view.near, view.far, {out_.meshes, out_.spheres}, true, d.faces, depth, assets_.workers_);
       s.depth = depth.data();
       if (!is_moment_filter(shadow.settings.filter)) continue;
       s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(d.radius)), assets_.workers_)).data();

@@ -15,6 +15,7 @@
 #include "raster/pass.h"
 #include "scene/description.h"
 #include "scene/mesh.h"
+#include "scene/particles.h"
 #include "scene/view.h"
 #include "shading/environment_sky.h"
 #include "shading/shadow_map.h"
@@ -59,6 +60,12 @@ struct PlacedMesh {
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };
 
+/// The exact spheres of a scene: null where it has none. Original sprites, which are no spheres, are not among them.
+struct PlacedSpheres {
+  std::shared_ptr<const Particles> particles{};
+  bool casts_shadow = false, receives_shadow = false;
+};
+
 /// A light as this picture has it.
 struct PreparedLight {
   std::string name;
@@ -74,6 +81,7 @@ struct PreparedScene {
   PostDescription post;
   View view;
   std::vector<PlacedMesh> meshes;  ///< of every object that is drawn
+  PlacedSpheres spheres;
   std::vector<PreparedLight> lights;
   PassStatistics shadow_statistics;  ///< of the passes that made shadow maps
   std::vector<std::shared_ptr<const void>> assets;

@@ -15,9 +15,10 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 // Degrees from the axis: beyond, one plane's texels grow too wide at its border (from 90 on it is no plane), and faces are better.
 constexpr double kWidestSpot = 60.0;
 
-// What a mesh spans.
+// What a mesh, or all spheres together, span.
 struct Extent {
-  const PlacedMesh* mesh;
+  const PlacedMesh* mesh;  // or null, and then
+  const Particles* particles;
   Box box_ws;
 };
 
@@ -28,6 +29,20 @@ Box bounds_along(const PlacedMesh& placed, const glm::dmat3& axes) {
   Box box;
   for (const glm::vec3& p : placed.mesh->positions) box.add(turn * glm::dvec3(p) + shift);
   return box;
+}
+
+Box bounds_along(const Particles& spheres, const glm::dmat3& axes) {
+  Box box;
+  for (std::size_t i = 0; i < spheres.radii.size(); ++i) {
+    const glm::dvec3 center = glm::transpose(axes) * spheres.centers_ws[i], reach(static_cast<double>(spheres.radii[i]));
+    box.add(center - reach);
+    box.add(center + reach);
+  }
+  return box;
+}
+
+Box bounds_along(const Extent& e, const glm::dmat3& axes) {
+  return e.mesh != nullptr ? bounds_along(*e.mesh, axes) : bounds_along(*e.particles, axes);
 }
 
 Box common(const Box& a, const Box& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
@@ -43,13 +58,11 @@ Box joined(Box a, const Box& b) {
 // Finds a light's views.
 class ViewFinder {
  public:
-  ViewFinder(const View& view, const std::vector<PlacedMesh>& meshes, int size, double margin)
+  ViewFinder(const View& view, const std::vector<PlacedMesh>& meshes, const PlacedSpheres& spheres, int size, double margin)
       : frustum_(frustum_corners(view.clip_from_world)), eye_ws_(view.eye_ws), forward_ws_(view.forward_ws), size_(size), margin_(margin) {
-    for (const PlacedMesh& m : meshes) {
-      const Box box = bounds_along(m, glm::dmat3(1.0));
-      if (m.casts_shadow) casters_.push_back({&m, box});
-      if (m.receives_shadow && !common_corners(frustum_, box).empty()) receivers_.push_back({&m, box});
-    }
+    for (const PlacedMesh& m : meshes) add({&m, nullptr, bounds_along(m, glm::dmat3(1.0))}, m.casts_shadow, m.receives_shadow);
+    if (const Particles* p = spheres.particles.get(); p != nullptr && (spheres.casts_shadow || spheres.receives_shadow))
+      add({nullptr, p, bounds_along(*p, glm::dmat3(1.0))}, spheres.casts_shadow, spheres.receives_shadow);
   }
 
   bool nothing_received() const { return receivers_.empty(); }
@@ -57,8 +70,8 @@ class ViewFinder {
   std::vector<LightView> directional(const glm::dvec3& to_light_ws, int cascades, double growth) const {
     const glm::dmat3 axes = light_axes(to_light_ws);
     std::vector<Box> receivers, casters;
-    for (const Extent& r : receivers_) receivers.push_back(bounds_along(*r.mesh, axes));
-    for (const Extent& c : casters_) casters.push_back(bounds_along(*c.mesh, axes));
+    for (const Extent& r : receivers_) receivers.push_back(bounds_along(r, axes));
+    for (const Extent& c : casters_) casters.push_back(bounds_along(c, axes));
     const auto view_of = [&](const std::array<glm::dvec3, 8>& part) -> std::optional<LightView> {
       Box seen;
       for (std::size_t i = 0; i < receivers_.size(); ++i) {
@@ -120,6 +133,11 @@ class ViewFinder {
   }
 
  private:
+  void add(const Extent& e, bool casts, bool receives) {
+    if (casts) casters_.push_back(e);
+    if (receives && !common_corners(frustum_, e.box_ws).empty()) receivers_.push_back(e);
+  }
+
   // A little before the nearest caster; a thousandth of the way where the light stands among them.
   static double near_end(double nearest, double far) { return std::max(std::min(0.9 * nearest, 0.5 * far), 1e-3 * far); }
 
@@ -150,9 +168,9 @@ class ViewFinder {
 
 }  // namespace
 
-std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const LightDescription& light,
-                                    const ShadowDescription& shadow, int size, double margin) {
-  const ViewFinder finder(view, meshes, size, margin);
+std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const PlacedSpheres& spheres,
+                                    const LightDescription& light, const ShadowDescription& shadow, int size, double margin) {
+  const ViewFinder finder(view, meshes, spheres, size, margin);
   if (finder.nothing_received()) return {};
   switch (light.type) {
     case LightType::directional: return finder.directional(light.direction, shadow.cascades, shadow.cascade_growth);

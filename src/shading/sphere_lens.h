@@ -6,9 +6,16 @@
 //
 // The ray of a pixel is t·d with d = (dx, dy, 1) and t the depth along z, or (dx, dy, t) in an orthographic picture. It is
 // followed from where it crosses the plane z = c.z of the sphere's centre c: there it is at e = d·c.z − c from the centre, which
-// has no z, and |e + s·d| = r is solved for s. So all lengths are of the sphere's size, however far it is:
-//   a = d·d, b = e·d, s = (−b − √(a·r² − |e × d|²)) / a, t = c.z + s, normal = (e + s·d) / r.
-// That |e × d|² stands in the root, and not b² − a·(e·e − r²), keeps what distant and small spheres would lose.
+// has no z. So all lengths are of the sphere's size, however far it is. From a point p = e + s·d of the ray it is still δ to
+// the sphere, with a = d·d:
+//   a·δ² + 2·(p·d)·δ + |p|² − r² = 0, δ = (−p·d − √((p·d)² + a·(r² − |p|²))) / a, t = c.z + s + δ, normal = (p + δ·d) / r.
+// Taken from the point nearest to the centre, s = −(e·d)/a, p·d is no more than rounding has left, and r² − |p|² says how much of the
+// sphere the ray meets: at the rim nothing, and all that was rounded before stands in it. So d, e, p and that difference are kept as
+// sums of two floats (Dekker's and Knuth's exact products and sums): it is known to some 2^-44·r², and √ and normal to float's last bits up
+// to the rim. What is within 2^-38·r² of neither meeting nor missing is decided in double.
+//
+// δ is as long as the sphere. Where the eye is near to that (r > a fifth of the centre's distance) little of c.z + s + δ may be left, and
+// the depth needs more of δ than a float: one step of Newton from s + δ, in sums of two floats again, has it.
 #pragma once
 
 #include "core/lane_math.h"
@@ -23,11 +30,23 @@ struct SplitDouble {
   explicit SplitDouble(double d) : high(static_cast<float>(d)), low(static_cast<float>(d - static_cast<double>(high))) {}
 };
 
-/// x · scale + bias, with what the rounding of the sum took away.
+/// A number as a sum of two: high is the sum rounded.
 template <class R>
 struct SplitSum {
   R high, low;
 };
+/// a + b, exactly (Knuth).
+template <class R>
+HS_INLINE SplitSum<R> two_sum(R a, R b) {
+  const R sum = a + b, back = sum - a;
+  return {sum, (a - (sum - back)) + (b - back)};
+}
+/// a · b, exactly (Dekker).
+template <class R>
+HS_INLINE SplitSum<R> two_product(R a, R b) {
+  const R product = a * b;
+  return {product, fma(a, b, -product)};
+}
 
 /// A line through window coordinates.
 struct PixelLine {
@@ -35,10 +54,8 @@ struct PixelLine {
 
   template <class R>
   HS_INLINE SplitSum<R> at(R x) const {
-    const R product = x * R(scale.high), product_low = fma(x, R(scale.high), -product);
-    const R sum = product + R(bias.high), back = sum - product;
-    const R sum_low = (product - (sum - back)) + (R(bias.high) - back);  // Knuth's two-sum
-    return {sum, (sum_low + product_low) + fma(x, R(scale.low), R(bias.low))};
+    const SplitSum<R> product = two_product(x, R(scale.high)), sum = two_sum(product.high, R(bias.high));
+    return two_sum(sum.high, (sum.low + product.low) + fma(x, R(scale.low), R(bias.low)));
   }
 };
 
@@ -46,7 +63,7 @@ struct PixelLine {
 template <class R>
 struct SphereHit {
   MaskOf<R> seen;  ///< the ray enters the sphere between near and far
-  R t;             ///< depth along z, units
+  R t, t_low;      ///< depth along z, units: t, and what its rounding took away
   vec3<R> n_cs;    ///< unit normal, outwards
 };
 
@@ -61,8 +78,8 @@ struct SphereLens {
   bool perspective = true;
   glm::vec2 half{1.0f};       ///< what reaches from the picture's middle to its edges: tangents, or in an orthographic picture units
   glm::vec2 pixel_ndc{0.0f};  ///< size of a pixel in normalized device coordinates
-  float near = 0.1f, far = 1000.0f;
-  float depth_scale = 0.0f;
+  float near = 0.1f, far = 1000.0f, far_low = 0.0f;  ///< far + far_low is the double
+  float depth_scale = 0.0f, depth_scale_low = 0.0f;
   PixelLine ray_x, ray_y;  ///< from window coordinates to dx and dy
 
   SphereLens() = default;
@@ -72,38 +89,49 @@ struct SphereLens {
         half(half_extent),
         pixel_ndc(2.0 / glm::dvec2(size_px)),
         near(static_cast<float>(z_near)),
-        far(static_cast<float>(z_far)),
-        depth_scale(static_cast<float>((is_perspective ? z_near : 1.0) / (z_far - z_near))),
+        far(SplitDouble(z_far).high),
+        far_low(SplitDouble(z_far).low),
+        depth_scale(SplitDouble((is_perspective ? z_near : 1.0) / (z_far - z_near)).high),
+        depth_scale_low(SplitDouble((is_perspective ? z_near : 1.0) / (z_far - z_near)).low),
         ray_x{SplitDouble(2.0 * half_extent.x / size_px.x), SplitDouble(-half_extent.x)},
         ray_y{SplitDouble(2.0 * half_extent.y / size_px.y), SplitDouble(-half_extent.y)} {}
 
-  /// Window depth of depth t, held to [0, 1].
+  /// Window depth of depth t + t_low, held to [0, 1].
   template <class R>
-  HS_INLINE R window_depth(R t) const {
-    const R from_far = R(depth_scale) * (R(far) - t);
-    return clamp(perspective ? from_far / max(t, R(near)) : from_far, R(0), R(1));
+  HS_INLINE R window_depth(R t, R t_low = R(0)) const {
+    const R from_far = (R(far) - t) + (R(far_low) - t_low);
+    const R scaled = fma(R(depth_scale), from_far, R(depth_scale_low) * from_far);
+    if (!perspective) return clamp(scaled, R(0), R(1));
+    const R held = max(t, R(near)), inverse = R(1) / held, quotient = scaled * inverse;
+    const R rest = fma(-quotient, held, scaled) - quotient * t_low;
+    return clamp(fma(rest, inverse, quotient), R(0), R(1));
   }
 
   /// The ray of the window coordinates x and y, and a sphere of radius r > 0. What lies before the near plane is cut away: a
   /// pixel whose ray enters the sphere there sees nothing of it, as of a closed surface whose back faces are culled.
   template <class R>
   HS_INLINE SphereHit<R> hit(const vec3<R>& center_cs, R radius, R x, R y) const {
-    const SplitSum<R> px = ray_x.at(x), py = ray_y.at(y);
     const vec3<R>& c = center_cs;
-    R dx(0), dy(0), ex = (px.high - c.x) + px.low, ey = (py.high - c.y) + py.low;
-    if (perspective) {
-      dx = px.high;
-      dy = py.high;
-      ex = fma(px.low, c.z, fma(dx, c.z, -c.x));
-      ey = fma(py.low, c.z, fma(dy, c.z, -c.y));
+    const Ray<R> ray = ray_of(c, x, y);
+    const R a = fma(ray.dx.high, ray.dx.high, fma(ray.dy.high, ray.dy.high, R(1)));
+    R s = -fma(ray.ex.high, ray.dx.high, ray.ey.high * ray.dy.high) / a;  // nearest to the centre, but for rounding
+    RayPoint<R> p = point_at(ray, s);
+    const R forward = p.forward(ray);
+    R root = fma(forward, forward, a * p.inside(radius));
+    const MaskOf<R> close_call = abs(root) < R(0x1p-38f) * a * radius * radius;
+    if (any(close_call)) decide_in_double(close_call, c, radius, x, y, root);
+    R delta = -(forward + sqrt(max(root, R(0)))) / a;
+    const MaskOf<R> is_near = R(25) * radius * radius > dot(c, c);
+    if (any(is_near)) {
+      s = select(is_near, s + delta, s);
+      p = point_at(ray, s);
+      const R slope = R(2) * p.forward(ray);  // < 0: the ray enters
+      delta = select(is_near, select(slope < R(0), p.inside(radius) / slope, R(0)), delta);
     }
-    const R a = fma(dx, dx, fma(dy, dy, R(1)));
-    const R b = fma(ex, dx, ey * dy);
-    const R twist = difference_of_products(ex, dy, ey, dx);  // e × d = (ey, −ex, twist)
-    const R root = a * radius * radius - fma(twist, twist, fma(ex, ex, ey * ey));
-    const R s = -(b + sqrt(max(root, R(0)))) / a;
-    const R t = c.z + s, inverse = R(1) / radius;
-    return {(root > R(0)) && (t >= R(near)) && (t <= R(far)), t, vec3<R>(fma(s, dx, ex), fma(s, dy, ey), s) * inverse};
+    SplitSum<R> t = two_sum(c.z, s);
+    t = two_sum(t.high, t.low + delta);
+    const vec3<R> n = vec3<R>(fma(delta, ray.dx.high, p.x.high), fma(delta, ray.dy.high, p.y.high), s + delta) * (R(1) / radius);
+    return {(root > R(0)) && (t.high >= R(near)) && (t.high <= R(far)), t.high, t.low, n};
   }
 
   /// Does any of the sphere lie between near and far?
@@ -123,6 +151,59 @@ struct SphereLens {
   }
 
  private:
+  /// The root of hit in double; > 0 where the ray meets the sphere.
+  double root_in_double(const glm::vec3& center_cs, float radius, float x, float y) const;
+  // One of many millions of pixels: what two floats leave open.
+  template <class R>
+  HS_INLINE void decide_in_double(MaskOf<R> which, const vec3<R>& c, R radius, R x, R y, R& root) const {
+    if constexpr (!std::is_same_v<R, double>) {
+      for (int i = 0; i < kWidthOf<R>; ++i) {
+        if (!lane(which, i)) continue;
+        const glm::vec3 center(lane(c.x, i), lane(c.y, i), lane(c.z, i));
+        set_lane(root, i, static_cast<float>(root_in_double(center, lane(radius, i), lane(x, i), lane(y, i))));
+      }
+    }
+  }
+
+  // A ray as above: d without its z, which is 1, and e.
+  template <class R>
+  struct Ray {
+    SplitSum<R> dx, dy, ex, ey;
+  };
+  // e + s·d
+  template <class R>
+  struct RayPoint {
+    SplitSum<R> x, y;
+    R z;
+
+    /// p·d
+    HS_INLINE R forward(const Ray<R>& ray) const { return fma(x.high, ray.dx.high, fma(y.high, ray.dy.high, z)); }
+    /// r² − |p|²: of the four squares the two sums cancel exactly (Sterbenz) where the point is near the surface.
+    HS_INLINE R inside(R r) const {
+      const SplitSum<R> xx = two_product(x.high, x.high), yy = two_product(y.high, y.high), zz = two_product(z, z), rr = two_product(r, r);
+      const SplitSum<R> xy = two_sum(xx.high, yy.high), xyz = two_sum(xy.high, zz.high), left = two_sum(rr.high, -xyz.high);
+      const R squares_low = (xx.low + yy.low) + (zz.low + (xy.low + xyz.low));
+      return left.high + ((left.low - squares_low) + (rr.low - R(2) * fma(x.high, x.low, y.high * y.low)));
+    }
+  };
+
+  // base + s·along
+  template <class R>
+  HS_INLINE static SplitSum<R> step(const SplitSum<R>& base, const SplitSum<R>& along, R s) {
+    const SplitSum<R> product = two_product(s, along.high), sum = two_sum(product.high, base.high);
+    return two_sum(sum.high, (sum.low + product.low) + fma(s, along.low, base.low));
+  }
+  template <class R>
+  HS_INLINE static RayPoint<R> point_at(const Ray<R>& ray, R s) {
+    return {step(ray.ex, ray.dx, s), step(ray.ey, ray.dy, s), s};
+  }
+  template <class R>
+  HS_INLINE Ray<R> ray_of(const vec3<R>& c, R x, R y) const {
+    const SplitSum<R> px = ray_x.at(x), py = ray_y.at(y), none{R(0), R(0)}, from_x{-c.x, R(0)}, from_y{-c.y, R(0)};
+    if (perspective) return {px, py, step(from_x, px, c.z), step(from_y, py, c.z)};
+    return {none, none, step(from_x, px, R(1)), step(from_y, py, R(1))};
+  }
+
   // Largest (side 1) or least (side −1) x/z of the disk round (x, z) where it lies beyond the near plane: that of the tangent
   // from the eye, or where that touches before the plane, of the disk's chord in it. Orthographic: largest or least x.
   template <class R>

@@ -7,14 +7,14 @@
 //
 // Light is Phong's, in linear colours:
 //   color · (ambient + diffuse · D) + specular · S       (D and S: shading/lighting.h)
-// at the pixel's point of the sphere; the classic sprite takes light and eye as its centre sees them.
+// at the pixel's point of the sphere; the classic sprite takes light and eye as its centre sees them. Shadows fall on the exact one.
 #pragma once
 
 #include <span>
 
 #include "shading/contract.h"
 #include "shading/lighting.h"
-#include "shading/sphere_lens.h"
+#include "shading/sphere_depth.h"
 
 namespace halfspace {
 
@@ -49,7 +49,7 @@ struct SphereSprite : SphereSprites {
   auto vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out = {{in.center_cs}, {in.radius}, {in.color}};
     if constexpr (exact) {
-      return bounds(in);
+      return sphere_bounds(lens, in.center_cs, in.radius);
     } else {
       return point(in);
     }
@@ -58,7 +58,7 @@ struct SphereSprite : SphereSprites {
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
     const SphereHit<R> h = hit(in, px);
-    return {h.seen, lens.window_depth(h.t)};
+    return {h.seen, lens.window_depth(h.t, h.t_low)};
   }
 
   template <class R>
@@ -67,12 +67,12 @@ struct SphereSprite : SphereSprites {
     const vec3<R>& c = in.center_cs.value;
     vec3<R> lit_cs = c;
     if constexpr (exact) lit_cs = c + h.n_cs * in.radius.value;
-    const vec3<R> position_ew = world_from_camera * lit_cs;
+    const vec3<R> position_ew = world_from_camera * lit_cs, n_ws = world_from_camera * h.n_cs;
     const vec3<R> v_ws = lens.perspective ? normalize_or_zero(-position_ew) : vec3<R>(to_eye_ws);
     const Illumination<R> light =
-        illuminate(lights, LightModel::phong, R(shininess), SurfacePoint<R>{position_ew, world_from_camera * h.n_cs, v_ws});
+        illuminate(lights, LightModel::phong, R(shininess), SurfacePoint<R>{position_ew, n_ws, v_ws, n_ws, px.x, px.y});
     const vec3<R> color = in.color.value * (ambient + diffuse * light.diffuse) + specular * light.specular;
-    return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t)};
+    return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t, h.t_low)};
   }
 
   /// Side of the classic sprite's square, px: point_scale · radius / distance, the distance being that along z times the
@@ -84,13 +84,6 @@ struct SphereSprite : SphereSprites {
   }
 
  private:
-  template <class R>
-  HS_INLINE SpriteVertex<R> bounds(const Attributes<R>& in) const {
-    const SphereSpan<R> x = lens.span(in.center_cs, in.radius, 0), y = lens.span(in.center_cs, in.radius, 1);
-    return {vec2<R>(x.low, y.low), vec2<R>(x.high, y.high), lens.window_depth(max(in.center_cs.z - in.radius, R(lens.near))),
-            lens.in_depth(in.center_cs, in.radius)};
-  }
-
   template <class R>
   HS_INLINE PerVertex<R> point(const Attributes<R>& in) const {
     const vec3<R>& c = in.center_cs;
@@ -109,7 +102,7 @@ struct SphereSprite : SphereSprites {
     } else {
       const vec2<R> coord = px.point_coord();
       const R x = fma(coord.x, R(2), R(-1)), y = -fma(coord.y, R(2), R(-1)), squared = fma(x, x, y * y);
-      return {squared <= R(1), c.z + sqrt(squared), vec3<R>(x, y, -sqrt(max(R(1) - squared, R(0))))};
+      return {squared <= R(1), c.z + sqrt(squared), R(0), vec3<R>(x, y, -sqrt(max(R(1) - squared, R(0))))};
     }
   }
 };

@@ -2,16 +2,13 @@
 //
 // halfspace-bench as its users meet it. CMake gives its place as HALFSPACE_BENCH_PROGRAM.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "program.h"
 
 namespace halfspace {
 
@@ -19,28 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int exit_code;
-  std::string text;  // both streams
-};
+using test::lines_of;
+using test::Outcome;
 
-Outcome bench(const std::string& arguments) {
-  std::FILE* pipe = ::popen((std::string(HALFSPACE_BENCH_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return {-1, ""};
-  Outcome outcome{};
-  std::array<char, 4096> part;
-  for (std::size_t n = 0; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) outcome.text.append(part.data(), n);
-  const int status = ::pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
+Outcome bench(const std::string& arguments) { return test::run_program(HALFSPACE_BENCH_PROGRAM, arguments); }
 
 struct Mistake {
   std::string arguments, message;
@@ -55,12 +34,13 @@ TEST_P(BenchMistake, IsToldInOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(All, BenchMistake,
                          testing::Values(Mistake{"--only fil", "--only: unknown workload 'fil'; did you mean 'fill'?"},
+                                         Mistake{"--sweep overdrew", "--sweep: unknown series 'overdrew'; did you mean 'overdraw'?"},
                                          Mistake{"--size 0x4", "--size is '0x4'; expected WxH with 1 to 16384 each, for example 1920x1080"},
                                          Mistake{"--threads 0", "--threads is '0'; expected 1 to 1024"},
                                          Mistake{"--seconds -1", "--seconds is '-1'; expected 0 to 3600, for example 2.5"},
                                          Mistake{"--sise 4x4", "unknown option '--sise'; did you mean '--size'?"},
                                          Mistake{"--only fill tiny_1m", "unexpected argument 'tiny_1m'; see 'halfspace-bench --help'"},
-                    Mistake{"fill", "unexpected argument 'fill'; see 'halfspace-bench --help'"}));
+                                         Mistake{"fill", "unexpected argument 'fill'; see 'halfspace-bench --help'"}));
 
 TEST(BenchCli, HelpFitsAScreenAndEndsInTwoExamples) {
   const Outcome outcome = bench("--help");
@@ -98,22 +78,35 @@ TEST(BenchCli, EveryRoundCountsAFrame) {
 }
 
 TEST(BenchCli, PicturesAreWrittenWhereAsked) {
-  std::string name = (fs::temp_directory_path() / "halfspace-bench-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(name.data()), nullptr);
+  const test::TemporaryDirectory directory;
+  const std::string& name = directory.path();
   const Outcome outcome = bench("--only fill,layers_f2b --size 64x32 --seconds 0 --out " + name + "/new");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(fs::exists(fs::path(name) / "new/fill.png"));
   EXPECT_TRUE(fs::exists(fs::path(name) / "new/layers_f2b.png"));
   EXPECT_TRUE(fs::exists(fs::path(name) / "new/layers_f2b.depth.exr"));
   EXPECT_FALSE(fs::exists(fs::path(name) / "new/fill.depth.exr"));
-  fs::remove_all(name);
   EXPECT_EQ(bench("--only fill --size 4x4 --seconds 0 --out /dev/null/x").exit_code, 4);
+}
+
+TEST(BenchCli, ChecksPicturesWhereAsked) {
+  const test::TemporaryDirectory truths;
+  for (const char* sweep : {"", "--sweep overdraw "}) {
+    const std::string only = *sweep != 0 ? "overdraw=2" : "layers_b2f";
+    const Outcome outcome = bench(sweep + ("--only " + only) + " --size 64x32 --seconds 0 --json --check " + truths.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    const nlohmann::json row = nlohmann::json::parse(outcome.text);
+    EXPECT_EQ(row.at("workload"), only);
+    EXPECT_EQ(row.at("picture").at("covered"), 64 * 32);
+    EXPECT_EQ(row.at("picture").at("colors_off"), 0);
+    EXPECT_TRUE(fs::exists(truths.path() + "/" + only + ".64x32.truth"));
+  }
 }
 
 TEST(BenchCli, ListNamesAll) {
   const Outcome outcome = bench("--list");
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_EQ(lines_of(outcome.text).size(), 24u);
+  EXPECT_EQ(lines_of(outcome.text).size(), 25u);
 }
 
 }  // namespace

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every workload's picture, against the same picture in double precision: the closed form of clear, fill and points_100k, the
-// naive pipeline of all others (hdr_200k, tonemap: and the curve; blend_10: a layer at a time). Nothing here depends on time.
+// naive pipeline of all others (hdr_200k, tonemap: and the curve; blend_10: a layer at a time; msaa4_200k: a sample at a time). Nothing
+// here depends on time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <ostream>
 #include <string>
 
+#include "picture_errors.h"
 #include "workload.h"
 #include "workload_assets.h"
 
@@ -21,42 +22,6 @@ namespace halfspace {
 void PrintTo(const WorkloadKind& kind, std::ostream* out) { *out << kind.name; }
 
 namespace {
-
-struct Count {
-  int covered = 0, colors_off = 0, depths_off = 0;
-  double worst_color = 0, worst_depth = 0;
-};
-
-double color_error(const glm::u8vec4& code, const vec4<double>& truth) {
-  double worst = 0;
-  for (int k = 0; k < 4; ++k) worst = std::max(worst, std::abs(code[k] / 255.0 - std::clamp(truth[k], 0.0, 1.0)));
-  return worst;
-}
-
-// Over the pixels that either picture draws; over all where the workload draws none with depth.
-Count compare(const WorkloadPicture& picture, const WorkloadTruth& truth, double depth_tolerance) {
-  const auto drawn = [&](std::size_t i) {
-    return truth.depth.data()[i] < 1.0 || (picture.depth != nullptr && picture.depth->data()[i] < 1.0f);
-  };
-  const std::size_t pixels = truth.color.texels().size();
-  bool any_drawn = false;
-  for (std::size_t i = 0; i < pixels && picture.depth != nullptr; ++i) any_drawn = any_drawn || drawn(i);
-  Count count;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const double color = color_error(picture.color->data()[i], truth.color.data()[i]);
-    const double depth = picture.depth == nullptr ? 0 : std::abs(static_cast<double>(picture.depth->data()[i]) - truth.depth.data()[i]);
-    if (any_drawn && !drawn(i)) {
-      EXPECT_LT(color, 0.51 / 255) << "beside what is drawn, pixel " << i;  // the background's code, correctly rounded
-      continue;
-    }
-    ++count.covered;
-    count.colors_off += color > 1.0 / 255 ? 1 : 0;
-    count.depths_off += depth > depth_tolerance ? 1 : 0;
-    count.worst_color = std::max(count.worst_color, color);
-    count.worst_depth = std::max(count.worst_depth, depth);
-  }
-  return count;
-}
 
 // Odd, with a tile that is cut on either side. HALFSPACE_BENCH_SIZE=1920x1080 judges the pictures of another size.
 WorkloadSize size_of_pictures() {
@@ -81,13 +46,14 @@ TEST_P(WorkloadPictures, AreThoseOfDoublePrecision) {
   const WorkloadTruth truth = workload->truth();
   workload->frame(Workers(1));
   const Image<glm::u8vec4> first = *workload->picture().color;
-  const Count count = compare(workload->picture(), truth, depth_tolerance(GetParam().name));
-  EXPECT_GT(count.covered, size.width * size.height / 5);
-  EXPECT_LE(count.colors_off, count.covered / 1000) << "worst " << 255 * count.worst_color << "/255";
-  EXPECT_LE(count.depths_off, count.covered / 1000) << "worst " << count.worst_depth;
-  RecordProperty("covered", count.covered);
-  RecordProperty("colors_off", count.colors_off);
-  RecordProperty("depths_off", count.depths_off);
+  const PictureErrors errors = picture_errors(workload->picture(), truth, depth_tolerance(GetParam().name));
+  EXPECT_GT(errors.covered, size.width * size.height / 5);
+  EXPECT_LE(errors.colors_off, errors.covered / 1000) << "worst " << errors.worst_color << "/255";
+  EXPECT_LE(errors.depths_off, errors.covered / 1000) << "worst " << errors.worst_depth;
+  EXPECT_EQ(errors.background_off, 0);
+  RecordProperty("covered", errors.covered);
+  RecordProperty("colors_off", errors.colors_off);
+  RecordProperty("depths_off", errors.depths_off);
 
   // Every frame is the first again, by any number of threads.
   workload->frame(Workers(3));
@@ -99,7 +65,7 @@ std::string name_of(const testing::TestParamInfo<WorkloadKind>& info) { return s
 INSTANTIATE_TEST_SUITE_P(All, WorkloadPictures, testing::ValuesIn(workloads().begin(), workloads().end()), name_of);
 
 TEST(WorkloadTable, NamesEachOnce) {
-  EXPECT_EQ(workloads().size(), 24u);
+  EXPECT_EQ(workloads().size(), 25u);
   for (const WorkloadKind& kind : workloads()) {
     EXPECT_EQ(std::ranges::count(workloads(), kind.name, &WorkloadKind::name), 1) << kind.name;
     EXPECT_FALSE(kind.what.empty());

@@ -2,6 +2,7 @@
 #include "mesa_draw.h"
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -12,14 +13,6 @@ namespace halfspace::test {
 namespace {
 
 // ---- objects that delete themselves --------------------------------------------------------------------------------
-
-struct Program {
-  GLuint id = glCreateProgram();
-  Program() = default;
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-  ~Program() { glDeleteProgram(id); }
-};
 
 template <void (*const* generate)(GLsizei, GLuint*), void (*const* remove)(GLsizei, const GLuint*)>
 struct Object {
@@ -81,7 +74,7 @@ GLenum gl(CompareOp op) {
   return k[static_cast<std::size_t>(op)];
 }
 GLenum gl(BlendFactor f) {
-  constexpr std::array<GLenum, 15> k{GL_ZERO,
+  constexpr std::array<GLenum, 19> k{GL_ZERO,
                                      GL_ONE,
                                      GL_SRC_COLOR,
                                      GL_ONE_MINUS_SRC_COLOR,
@@ -95,12 +88,39 @@ GLenum gl(BlendFactor f) {
                                      GL_ONE_MINUS_CONSTANT_COLOR,
                                      GL_CONSTANT_ALPHA,
                                      GL_ONE_MINUS_CONSTANT_ALPHA,
-                                     GL_SRC_ALPHA_SATURATE};
+                                     GL_SRC_ALPHA_SATURATE,
+                                     GL_SRC1_COLOR,
+                                     GL_ONE_MINUS_SRC1_COLOR,
+                                     GL_SRC1_ALPHA,
+                                     GL_ONE_MINUS_SRC1_ALPHA};
   return k[static_cast<std::size_t>(f)];
 }
 GLenum gl(BlendEquation e) {
   constexpr std::array<GLenum, 5> k{GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX};
   return k[static_cast<std::size_t>(e)];
+}
+
+GLenum gl(StencilOp op) {
+  constexpr std::array<GLenum, 8> k{GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP};
+  return k[static_cast<std::size_t>(op)];
+}
+
+void set_stencil_state(const std::optional<StencilState>& s) {
+  enable(GL_STENCIL_TEST, s.has_value());
+  if (!s) return;
+  for (const auto& [face, f] : {std::pair(GL_FRONT, s->front), std::pair(GL_BACK, s->back)}) {
+    glStencilFuncSeparate(face, gl(f.compare), f.reference, f.read_mask);
+    glStencilOpSeparate(face, gl(f.fail), gl(f.depth_fail), gl(f.pass));
+    glStencilMaskSeparate(face, f.write_mask);
+  }
+}
+
+void set_sample_state(const DrawState& s) {
+  enable(GL_SAMPLE_MASK, s.sample_mask != ~0u);
+  glSampleMaski(0, s.sample_mask);
+  enable(GL_SAMPLE_ALPHA_TO_COVERAGE, s.alpha_to_coverage);
+  enable(GL_SAMPLE_SHADING, s.sample_shading);
+  glMinSampleShading(1.0f);
 }
 
 void set_depth_state(const DepthState& d) {
@@ -122,9 +142,12 @@ void set_state(const DrawState& s, const TargetSpec& target) {
   glFrontFace(s.front == Winding::counter_clockwise ? GL_CCW : GL_CW);
   glProvokingVertex(s.provoking == ProvokingVertex::last ? GL_LAST_VERTEX_CONVENTION : GL_FIRST_VERTEX_CONVENTION);
   set_depth_state(s.depth);
+  set_stencil_state(s.stencil);
+  set_sample_state(s);
   enable(GL_POLYGON_OFFSET_FILL, s.offset.slope != 0.0f || s.offset.constant != 0.0f);
   glPolygonOffsetClamp(s.offset.slope, s.offset.constant, s.offset.clamp);
   glPointSize(s.point_size);
+  glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, s.point_origin == PointOrigin::upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT);
   glLineWidth(s.line_width);
   glPolygonMode(GL_FRONT_AND_BACK, s.polygon_mode == PolygonMode::fill   ? GL_FILL
                                    : s.polygon_mode == PolygonMode::line ? GL_LINE
@@ -139,6 +162,14 @@ void set_state(const DrawState& s, const TargetSpec& target) {
   }
 }
 
+// What is of a draw besides its DrawState.
+void set_state(const MesaDraw& draw, const TargetSpec& target) {
+  set_state(draw.state, target);
+  enable(GL_PRIMITIVE_RESTART_FIXED_INDEX, draw.restart);
+  enable(GL_PROGRAM_POINT_SIZE, draw.own_point_size);
+  for (int i = 0; i < 8; ++i) enable(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i), i < draw.clip_distances);
+}
+
 // ---- a draw --------------------------------------------------------------------------------------------------------
 
 void bind_stream(GLuint location, const Buffer& buffer, const VertexStream& s) {
@@ -147,17 +178,15 @@ void bind_stream(GLuint location, const Buffer& buffer, const VertexStream& s) {
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(floats * sizeof(float)), s.data, GL_STATIC_DRAW);
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, s.components, GL_FLOAT, GL_FALSE, s.stride * static_cast<GLsizei>(sizeof(float)), nullptr);
+  glVertexAttribDivisor(location, s.divisor);
 }
 
-void run(const MesaDraw& draw, const TargetSpec& target) {
-  const Program program;
-  compile(program.id, GL_VERTEX_SHADER, draw.shared_glsl, draw.vertex_glsl);
-  compile(program.id, GL_FRAGMENT_SHADER, draw.shared_glsl, draw.fragment_glsl);
-  link(program.id);
-  glUseProgram(program.id);
+void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs) {
+  const GLuint program = programs.of(draw);
+  glUseProgram(program);
   const GlTexture texture;
   glBindTexture(GL_TEXTURE_2D, texture.id);
-  draw.set_uniforms(UniformSetter(program.id));
+  draw.set_uniforms(UniformSetter(program));
 
   const VertexArray array;
   glBindVertexArray(array.id);
@@ -170,23 +199,71 @@ void run(const MesaDraw& draw, const TargetSpec& target) {
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.id);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(draw.indices.size() * sizeof(uint32_t)), draw.indices.data(),
                GL_STATIC_DRAW);
-  set_state(draw.state, target);
-  glDrawElements(gl(draw.state.topology), static_cast<GLsizei>(draw.indices.size()), GL_UNSIGNED_INT, nullptr);
+  set_state(draw, target);
+  glDrawElementsInstancedBaseVertex(gl(draw.state.topology), static_cast<GLsizei>(draw.indices.size()), GL_UNSIGNED_INT, nullptr,
+                                    static_cast<GLsizei>(draw.state.instances), draw.state.base_vertex);
 }
 
-void attach(const GlTexture& texture, GLenum attachment, GLenum format, const TargetSpec& target) {
-  glBindTexture(GL_TEXTURE_2D, texture.id);
-  glTexStorage2D(GL_TEXTURE_2D, 1, format, target.width, target.height);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.id, 0);
+GLenum gl(ColorFormat f) {
+  constexpr std::array<GLenum, 5> k{GL_NONE, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16F, GL_RGBA32F};
+  return k[static_cast<std::size_t>(f)];
 }
+GLenum gl(DepthFormat f) {
+  constexpr std::array<GLenum, 6> k{
+      GL_NONE, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8};
+  return k[static_cast<std::size_t>(f)];
+}
+
+// Textures of a size and number of samples as the framebuffer's attachments.
+class Attachments {
+ public:
+  Attachments(const TargetSpec& target, int samples) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id);
+    attach(color_, GL_COLOR_ATTACHMENT0, gl(target.format), target, samples);
+    const GLenum place = has_stencil(target.depth) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+    if (target.depth != DepthFormat::none) attach(depth_, place, gl(target.depth), target, samples);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw std::runtime_error("the framebuffer is not complete");
+  }
+  GLuint framebuffer() const { return framebuffer_.id; }
+
+ private:
+  static void attach(const GlTexture& texture, GLenum attachment, GLenum format, const TargetSpec& target, int samples) {
+    const GLenum kind = samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+    glBindTexture(kind, texture.id);
+    if (samples > 1) {
+      glTexStorage2DMultisample(kind, samples, format, target.width, target.height, GL_TRUE);
+    } else {
+      glTexStorage2D(kind, 1, format, target.width, target.height);
+    }
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, kind, texture.id, 0);
+  }
+
+  Framebuffer framebuffer_;
+  GlTexture color_, depth_;
+};
 
 void clear(const TargetSpec& target) {
   glDisable(GL_SCISSOR_TEST);
   glDepthMask(GL_TRUE);
+  glStencilMask(0xff);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glClearColor(target.clear_color.x, target.clear_color.y, target.clear_color.z, target.clear_color.w);
   glClearDepth(static_cast<double>(target.clear_depth));
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glClearStencil(target.clear_stencil);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
+// Draws into the bound framebuffer.
+void draw_all(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs) {
+  enable(GL_FRAMEBUFFER_SRGB, target.format == ColorFormat::srgb8a8);
+  glDisable(GL_DITHER);
+  enable(GL_MULTISAMPLE, true);
+  clear(target);
+  for (const MesaDraw& draw : draws) run(draw, target, programs);
+}
+
+void expect_no_error() {
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR) throw std::runtime_error("OpenGL error " + std::to_string(error));
 }
 
 // GL's first row is the lowest; ours is the top one.
@@ -227,24 +304,48 @@ void UniformSetter::operator()(const char* name, const Texture2D& texture, const
   set(GL_TEXTURE_WRAP_T, wrap(sampler.wrap_t));
 }
 
+MesaPrograms::~MesaPrograms() {
+  for (const auto& [sources, program] : programs_) glDeleteProgram(program);
+}
+
+unsigned MesaPrograms::of(const MesaDraw& draw) {
+  unsigned& program = programs_[{draw.shared_glsl, draw.vertex_glsl, draw.fragment_glsl}];
+  if (program == 0) {
+    program = glCreateProgram();
+    compile(program, GL_VERTEX_SHADER, draw.shared_glsl, draw.vertex_glsl);
+    compile(program, GL_FRAGMENT_SHADER, draw.shared_glsl, draw.fragment_glsl);
+    link(program);
+  }
+  return program;
+}
+
+std::vector<glm::vec4> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs) {
+  const Attachments drawn(target, target.samples);
+  draw_all(target, draws, programs);
+  std::optional<Attachments> resolved;
+  if (target.samples > 1) {
+    resolved.emplace(target, 1);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn.framebuffer());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved->framebuffer());
+    glDisable(GL_SCISSOR_TEST);
+    glBlitFramebuffer(0, 0, target.width, target.height, 0, 0, target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, resolved->framebuffer());
+  }
+  std::vector<glm::vec4> colors(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height));
+  glReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_FLOAT, colors.data());
+  expect_no_error();
+  return colors;
+}
+
 Picture draw_with_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws) {
   HS_CHECK_OP(target.width, !=, 512);
-  const bool srgb = target.format == ColorFormat::srgb8a8;
-  const Framebuffer framebuffer;
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id);
-  const GlTexture color, depth;
-  attach(color, GL_COLOR_ATTACHMENT0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, target);
-  attach(depth, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, target);
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw std::runtime_error("the framebuffer is not complete");
-  enable(GL_FRAMEBUFFER_SRGB, srgb);
-  glDisable(GL_DITHER);
-  clear(target);
-  for (const MesaDraw& draw : draws) run(draw, target);
-
+  const Attachments attachments(target, 1);
+  MesaPrograms programs;
+  draw_all(target, draws, programs);
   Picture picture{Image<glm::u8vec4>(target.width, target.height), Image<float>(target.width, target.height)};
   read(picture.color, GL_RGBA, GL_UNSIGNED_BYTE);
   read(picture.depth, GL_DEPTH_COMPONENT, GL_FLOAT);
-  if (const GLenum error = glGetError(); error != GL_NO_ERROR) throw std::runtime_error("OpenGL error " + std::to_string(error));
+  expect_no_error();
   return picture;
 }
 

@@ -3,7 +3,9 @@
 // Draws by OpenGL what a Pass is told to draw: the same vertex views, index lists and draw states.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "core/image.h"
@@ -14,13 +16,16 @@
 
 namespace halfspace::test {
 
-/// What both renderers draw into: a cleared colour image and a cleared 32-bit float depth image.
+/// What both renderers draw into: a cleared colour image and a cleared depth image.
 struct TargetSpec {
   int width = 320;  ///< not 512: llvmpipe on LLVM 15 crashes there
   int height = 240;
-  ColorFormat format = ColorFormat::rgba8;  ///< or srgb8a8
+  ColorFormat format = ColorFormat::rgba8;
   glm::vec4 clear_color = glm::vec4(0.0f);
   float clear_depth = 1.0f;
+  DepthFormat depth = DepthFormat::d32f;
+  uint8_t clear_stencil = 0;
+  int samples = 1;  ///< or 4
 };
 
 /// Colour codes and window depths, top row first.
@@ -54,9 +59,29 @@ struct MesaDraw {
   VertexView vertices;
   std::vector<uint32_t> indices;
   DrawState state;
+  bool restart = false;         ///< the index 2^32 − 1 ends a primitive
+  bool own_point_size = false;  ///< the vertex shader gives it
+  int clip_distances = 0;
 };
 
-/// Draws with the current context (MesaContext).
+/// Linked programs, kept from picture to picture; to be destroyed before the context.
+class MesaPrograms {
+ public:
+  MesaPrograms() = default;
+  MesaPrograms(const MesaPrograms&) = delete;
+  MesaPrograms& operator=(const MesaPrograms&) = delete;
+  ~MesaPrograms();
+  /// The draw's program; sources are told apart by their addresses.
+  unsigned of(const MesaDraw& draw);
+
+ private:
+  std::map<std::array<const char*, 3>, unsigned> programs_;
+};
+
+/// Draws with the current context (MesaContext), and returns the colours as they are stored (of 8-bit formats codes/255), in rows from
+/// the bottom. Samples are resolved.
+std::vector<glm::vec4> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs);
+/// The same as codes, with the depth: of rgba8 or srgb8a8 and d32f, of one sample.
 Picture draw_with_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws);
 
 }  // namespace halfspace::test

@@ -21,9 +21,12 @@ namespace {
 std::atomic<bool> counting{false};
 std::atomic<std::size_t> least{0}, large{0};
 
-void* counted(std::size_t size) {
+void* counted_or_null(std::size_t size) {
   if (counting && size >= least) ++large;
-  void* p = std::malloc(size == 0 ? 1 : size);
+  return std::malloc(size == 0 ? 1 : size);
+}
+void* counted(std::size_t size) {
+  void* p = counted_or_null(size);
   if (p == nullptr) throw std::bad_alloc();
   return p;
 }
@@ -32,6 +35,8 @@ void* counted(std::size_t size) {
 
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted_or_null(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted_or_null(size); }
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete[](void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }

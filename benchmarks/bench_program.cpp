@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_program.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "halfspace/arguments.h"
+#include "halfspace/frames.h"
+#include "picture_errors.h"
+#include "runner.h"
+#include "scene/image_io.h"
+#include "scene/nearest_name.h"
+#include "scene/output_file.h"
+#include "workload_assets.h"
+
+namespace halfspace {
+
+namespace {
+
+struct BenchArguments {
+  std::vector<std::string> only;  // empty: all
+  std::string sweep;              // empty: the workloads
+  std::string size = "1920x1080";
+  std::string threads;  // empty: one a core
+  std::string seconds = "1";
+  std::string out;    // empty: no pictures
+  std::string check;  // empty: pictures are not held against the truth
+  bool list = false;
+  bool json = false;
+};
+
+// Window depths lie near 1, where a float's step is 6e-8.
+constexpr double kDepthTolerance = 1e-5;
+
+const WorkloadKind& workload_of(std::span<const WorkloadKind> kinds, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const WorkloadKind& kind : kinds) {
+    if (kind.name == name) return kind;
+    names.emplace_back(kind.name);
+  }
+  throw UsageError("--only: unknown workload '" + name + "'" + suggestion(name, names));
+}
+
+// In the table's order, each once.
+std::vector<const WorkloadKind*> chosen_workloads(std::span<const WorkloadKind> kinds, const std::vector<std::string>& only) {
+  std::vector<const WorkloadKind*> chosen;
+  for (const std::string& name : only) chosen.push_back(&workload_of(kinds, name));
+  if (only.empty()) {
+    for (const WorkloadKind& kind : kinds) chosen.push_back(&kind);
+  }
+  std::ranges::sort(chosen);
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
+
+std::string padded(std::string_view name) {
+  std::string text(name);
+  text.resize(std::max<std::size_t>(text.size() + 1, 25), ' ');
+  return text;
+}
+
+void list_workloads(std::span<const WorkloadKind> kinds) {
+  for (const WorkloadKind& kind : kinds) {
+    std::cout << padded(kind.name) << kind.what << '\n';
+  }
+}
+
+void write_pictures(const std::filesystem::path& directory, std::string_view name, const WorkloadPicture& picture) {
+  write_png(directory / (std::string(name) + ".png"), *picture.color);
+  if (picture.depth != nullptr) write_depth_exr(directory / (std::string(name) + ".depth.exr"), *picture.depth);
+}
+
+// Three decimals: microseconds.
+std::string milliseconds(double ms) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%10.3f", ms);
+  return text.data();
+}
+
+nlohmann::ordered_json json_line(nlohmann::ordered_json line, std::string_view name, PictureSize size, int threads, const FrameTimes& t) {
+  line["workload"] = name;
+  line["size"] = std::to_string(size.width) + "x" + std::to_string(size.height);
+  line["threads"] = threads;
+  line["frames"] = t.frames;
+  line["ms"] = t.median;
+  line["ms_min"] = t.min;
+  line["ms_max"] = t.max;
+  line["cpu_ms"] = t.cpu;
+  return line;
+}
+
+nlohmann::ordered_json json_of(const PictureErrors& e) {
+  return {{"covered", e.covered},         {"colors_off", e.colors_off}, {"depths_off", e.depths_off}, {"background_off", e.background_off},
+          {"worst_color", e.worst_color}, {"rms_color", e.rms_color}};
+}
+
+std::string row(std::string_view name, const FrameTimes& t) {
+  return padded(name) + milliseconds(t.median) + milliseconds(t.min) + milliseconds(t.max) + milliseconds(t.cpu) + "  " +
+         std::to_string(t.frames);
+}
+
+std::string text_of(const PictureErrors& e) {
+  std::array<char, 100> text;
+  std::snprintf(text.data(), text.size(), "  %.3f%% within 1/255, rms %.3f/255", 100.0 - 100.0 * e.colors_off / std::max(e.covered, 1),
+                e.rms_color);
+  return text.data();
+}
+
+// For people: ", " and the values of the identity.
+std::string identity_text(const BenchProgram& program) {
+  std::string text;
+  const nlohmann::ordered_json identity = program.identity();
+  for (const auto& [key, value] : identity.items())
+    text += ", " + (value.is_string() ? value.get<std::string>() : key + ": " + value.dump());
+  return text;
+}
+
+// What comes of one workload that has been measured.
+void report(const BenchProgram& program, const BenchArguments& args, const WorkloadKind& kind, const Workload& workload, PictureSize size,
+            int threads, const FrameTimes& times) {
+  std::optional<PictureErrors> errors;
+  if (!args.check.empty()) {
+    const WorkloadTruth truth = kept_truth(args.check, kind.name, workload, {size.width, size.height});
+    errors = picture_errors(workload.picture(), truth, kDepthTolerance);
+  }
+  if (args.json) {
+    nlohmann::ordered_json line = json_line(program.identity(), kind.name, size, threads, times);
+    if (errors) line["picture"] = json_of(*errors);
+    std::cout << line.dump() << '\n' << std::flush;
+  } else {
+    std::cout << row(kind.name, times) << (errors ? text_of(*errors) : "") << '\n' << std::flush;
+  }
+  if (!args.out.empty()) write_pictures(args.out, kind.name, workload.picture());
+}
+
+std::span<const WorkloadKind> kinds_of(const BenchProgram& program, const std::string& sweep) {
+  if (sweep.empty()) return program.kinds();
+  std::vector<std::string_view> names;
+  for (const Sweep& s : program.sweeps()) {
+    if (s.name == sweep) return s.kinds;
+    names.emplace_back(s.name);
+  }
+  throw UsageError("--sweep: unknown series '" + sweep + "'" + suggestion(sweep, names));
+}
+
+void run_bench(const BenchProgram& program, const BenchArguments& args) {
+  const PictureSize size = parse_size(args.size);
+  const int threads = parse_threads(args.threads);
+  const double seconds = parse_real("--seconds", args.seconds, 0.0, 3600.0, "0 to 3600, for example 2.5");
+  const std::span<const WorkloadKind> all = kinds_of(program, args.sweep);
+  const std::vector<const WorkloadKind*> kinds = chosen_workloads(all, args.only);
+  if (args.list) return list_workloads(all);
+  if (!args.out.empty()) make_directory(args.out);
+
+  if (program.start) program.start(threads);
+  WorkloadAssets assets;
+  std::vector<std::unique_ptr<Workload>> prepared;
+  for (const WorkloadKind* kind : kinds) prepared.push_back(kind->prepare({size.width, size.height}, assets));
+  const Workers workers(threads);
+  std::vector<FrameTimes> times;
+  {
+    Progress progress(Runner::steps(prepared.size(), seconds));
+    times = Runner(workers).run(prepared, seconds, [&] { progress.advance(false); });
+  }
+  if (!args.json) {
+    std::cout << size.width << 'x' << size.height << ", threads: " << threads << identity_text(program)
+              << "\nworkload                     ms median       min       max       cpu  frames\n";
+  }
+  for (std::size_t i = 0; i < kinds.size(); ++i) report(program, args, *kinds[i], *prepared[i], size, threads, times[i]);
+}
+
+void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** argv) {
+  app.name(program.name);
+  set_common_options(app);
+  BenchArguments args;
+  app.add_option("--only", args.only, "These workloads alone (--list names them all)")
+      ->type_name("NAME,")
+      ->allow_extra_args(false)
+      ->delimiter(',');
+  app.add_option("--sweep", args.sweep, "A series instead: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
+  app.add_option("--size", args.size, "Size of the pictures (default: 1920x1080)")->type_name("WxH");
+  app.add_option("--threads", args.threads, "Threads, the main one counted (default: one a core)")->type_name("N");
+  app.add_option("--seconds", args.seconds, "Time for each workload; 0: one frame of each (default: 1)")->type_name("S");
+  app.add_option("--out", args.out, "Write NAME.png and NAME.depth.exr of each workload into DIR")->type_name("DIR");
+  app.add_option("--check", args.check, "Hold pictures against double precision (slow; kept in DIR)")->type_name("DIR");
+  app.add_flag("--json", args.json, "Print a JSON object a line, one for each workload");
+  app.add_flag("--list", args.list, "Print the workloads and exit");
+  if (program.add_options) program.add_options(app);
+  app.footer(
+      "Times are milliseconds a frame; cpu is that of all threads together.\n"
+      "Examples:\n  " +
+      program.name + " --only fill,tiny_1m --size 512x512 --threads 1\n  " + program.name + " --seconds 0 --out pictures");
+  app.parse(argc, argv);
+  run_bench(program, args);
+}
+
+}  // namespace
+
+int run_bench_program(const BenchProgram& program, int argc, char** argv) {
+  CLI::App app(program.what);
+  return run_program(app, [&] { parse_and_run(app, program, argc, argv); });
+}
+
+}  // namespace halfspace

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// halfspace-limits: what this machine can do at best.
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "core/lanes.h"
+#include "halfspace/arguments.h"
+#include "halfspace/command_line.h"
+#include "limits.h"
+
+namespace halfspace {
+
+namespace {
+
+void print(const Limit& limit, int threads, bool json) {
+  if (json) {
+    const nlohmann::ordered_json line{{"limit", limit.name}, {"unit", limit.unit},     {"value", limit.value},
+                                      {"threads", threads},  {"arch", HALFSPACE_ARCH}, {"lanes", kLanes}};
+    std::cout << line.dump() << '\n';
+    return;
+  }
+  std::array<char, 100> text;
+  std::snprintf(text.data(), text.size(), "%-26s%10.2f  %s\n", limit.name.c_str(), limit.value, limit.unit.c_str());
+  std::cout << text.data();
+}
+
+void parse_and_run(CLI::App& program, int argc, char** argv) {
+  program.name("halfspace-limits");
+  set_common_options(program);
+  std::string threads_text, seconds_text = "0.03";
+  bool json = false;
+  program.add_option("--threads", threads_text, "Threads, the main one counted (default: one a core)")->type_name("N");
+  program.add_option("--seconds", seconds_text, "Time of one trial of one limit (default: 0.03)")->type_name("S");
+  program.add_flag("--json", json, "Print a JSON object a line, one for each limit");
+  program.footer(
+      "Each figure is the best of 15 trials, for all threads together.\n"
+      "Examples:\n"
+      "  halfspace-limits --threads 1\n"
+      "  halfspace-limits --seconds 1 --json");
+  program.parse(argc, argv);
+
+  const LimitTimer timer(parse_threads(threads_text), parse_real("--seconds", seconds_text, 0.001, 60.0, "0.001 to 60, for example 0.1"));
+  if (!json) std::cout << "threads: " << timer.threads() << ", " HALFSPACE_ARCH ", lanes: " << kLanes << '\n';
+  for (const auto measure : {compute_limits, bandwidth_limits, frame_limits}) {
+    for (const Limit& limit : measure(timer)) print(limit, timer.threads(), json);
+  }
+}
+
+}  // namespace
+
+}  // namespace halfspace
+
+int main(int argc, char** argv) {
+  CLI::App program("Measures bandwidth, arithmetic, gather and clock of this machine");
+  return halfspace::run_program(program, [&] { halfspace::parse_and_run(program, argc, argv); });
+}

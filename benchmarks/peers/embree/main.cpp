@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// halfspace-bench-embree: the sphere workloads by rays.
+#include "bench_program.h"
+#include "core/lanes.h"
+#include "embree_workload.h"
+
+int main(int argc, char** argv) {
+  using namespace halfspace;
+  return run_bench_program({.name = "halfspace-bench-embree",
+                            .what = "Draws the sphere workloads of the benchmark by Embree's rays and measures their frames",
+                            .add_options = {},
+                            .start = {},
+                            .kinds = [] { return embree_workloads(); },
+                            .sweeps = [] { return embree_sweeps(); },
+                            .identity =
+                                [] {
+                                  return nlohmann::ordered_json{{"program", "embree"}, {"arch", HALFSPACE_ARCH}, {"lanes", kLanes}};
+                                }},
+                           argc, argv);
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// OpenGL objects that delete themselves: programs, meshes, textures, targets.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <glm/glm.hpp>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/image.h"
+#include "shading/texture.h"
+#include "workload.h"
+
+namespace halfspace {
+
+/// A linked program whose uniforms are set by name; a wrong name is a bug and ends the program.
+class GlProgram {
+ public:
+  /// GLSL 3.30, without its first line; `shared` comes before both.
+  GlProgram(std::string_view shared, std::string_view vertex, std::string_view fragment);
+  ~GlProgram() { glDeleteProgram(id_); }
+  GlProgram(const GlProgram&) = delete;
+  GlProgram& operator=(const GlProgram&) = delete;
+
+  void use() const { glUseProgram(id_); }
+  void set(const char* name, const glm::mat4& value);
+  void set(const char* name, const glm::vec4& value);
+  void set(const char* name, const glm::vec3& value);
+  void set(const char* name, float value);
+  void set(const char* name, int value);
+  GLint location(const char* name) const;
+
+ private:
+  GLuint id_;
+};
+
+/// Vertices in a buffer, and perhaps indices.
+class GlMesh {
+ public:
+  /// Attribute i has components[i] floats, one behind the other in a vertex.
+  GlMesh(std::span<const float> vertices, std::initializer_list<int> components, std::span<const uint32_t> indices = {});
+  ~GlMesh();
+  GlMesh(const GlMesh&) = delete;
+  GlMesh& operator=(const GlMesh&) = delete;
+
+  void bind() const { glBindVertexArray(array_); }
+  void draw(GLenum topology) const;
+
+ private:
+  GLuint array_ = 0;
+  std::array<GLuint, 2> buffers_{};
+  GLsizei count_;
+  bool indexed_;
+};
+
+/// The floats of a span of structs that hold nothing else.
+template <class T>
+std::span<const float> floats_of(std::span<const T> structs) {
+  static_assert(sizeof(T) % sizeof(float) == 0 && std::is_trivially_copyable_v<T>);
+  return {reinterpret_cast<const float*>(structs.data()), structs.size() * (sizeof(T) / sizeof(float))};
+}
+
+/// An rgba8 texture with all its levels; wrap_t: GL_REPEAT or GL_CLAMP_TO_EDGE. Trilinear.
+class GlTexture {
+ public:
+  GlTexture(const Texture2D& texels, GLint wrap_t, float anisotropy = 1.0f);
+  ~GlTexture() { glDeleteTextures(1, &id_); }
+  GlTexture(const GlTexture&) = delete;
+  GlTexture& operator=(const GlTexture&) = delete;
+  void bind() const { glBindTexture(GL_TEXTURE_2D, id_); }
+
+ private:
+  GLuint id_ = 0;
+};
+
+/// What is drawn into: a colour texture (or none: 0) of that format, and a float depth texture (or none).
+class GlTarget {
+ public:
+  GlTarget(WorkloadSize size, GLenum color_format, bool has_depth, int samples = 1);
+  ~GlTarget();
+  GlTarget(const GlTarget&) = delete;
+  GlTarget& operator=(const GlTarget&) = delete;
+
+  /// Draws go here, with depth test "less" and back faces culled (where depth is absent: neither).
+  void bind() const;
+  void clear(const glm::vec4& color) const;
+  void bind_color() const { glBindTexture(GL_TEXTURE_2D, color_); }
+  void bind_depth() const { glBindTexture(GL_TEXTURE_2D, depth_); }
+  /// Averages the colours of this one's samples into that one's pixels.
+  void resolve_into(const GlTarget& to) const;
+  Image<glm::u8vec4> read_color() const;
+  Image<float> read_depth() const;
+  bool has_depth() const { return depth_ != 0; }
+
+ private:
+  WorkloadSize size_;
+  GLuint framebuffer_ = 0, color_ = 0, depth_ = 0;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// halfspace-bench-gl: the workloads drawn by a software OpenGL.
+#include <map>
+#include <optional>
+
+#include "bench_program.h"
+#include "gl_context.h"
+#include "gl_workload.h"
+
+namespace halfspace {
+
+namespace {
+
+int run(int argc, char** argv) {
+  std::string driver = "llvmpipe";
+  std::optional<GlContext> context;
+  const std::map<std::string, GlDriver> drivers{
+      {"llvmpipe", GlDriver::llvmpipe}, {"swiftshader", GlDriver::swiftshader}, {"softpipe", GlDriver::softpipe}};
+  return run_bench_program({.name = "halfspace-bench-gl",
+                            .what = "Draws the workloads of the benchmark with a software OpenGL and measures their frames",
+                            .add_options =
+                                [&](CLI::App& program) {
+                                  program.add_option("--driver", driver, "llvmpipe (default), swiftshader or softpipe")->type_name("NAME");
+                                },
+                            .start =
+                                [&](int threads) {
+                                  if (!drivers.contains(driver))
+                                    throw UsageError("--driver is '" + driver + "'; expected llvmpipe, swiftshader or softpipe");
+                                  context.emplace(drivers.at(driver), threads);
+                                },
+                            .kinds = [] { return gl_workloads(); },
+                            .sweeps = [] { return gl_sweeps(); },
+                            .identity =
+                                [&] {
+                                  return nlohmann::ordered_json{{"program", driver}, {"renderer", context->description()}};
+                                }},
+                           argc, argv);
+}
+
+}  // namespace
+
+}  // namespace halfspace
+
+int main(int argc, char** argv) { return halfspace::run(argc, argv); }

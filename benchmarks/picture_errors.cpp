@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+#include "core/check.h"
+#include "scene/output_file.h"
+
+namespace halfspace {
+
+namespace {
+
+struct PixelError {
+  double worst = 0, squares = 0;
+};
+
+PixelError color_error(const glm::u8vec4& code, const vec4<double>& truth) {
+  PixelError error;
+  for (int k = 0; k < 4; ++k) {
+    const double off = std::abs(code[k] - 255.0 * std::clamp(truth[k], 0.0, 1.0));
+    error.worst = std::max(error.worst, off);
+    error.squares += off * off;
+  }
+  return error;
+}
+
+constexpr std::streamsize kPixelBytes = 5 * sizeof(float);
+
+std::optional<WorkloadTruth> read_truth(const std::filesystem::path& path, WorkloadSize size) {
+  std::ifstream in(path, std::ios::binary);
+  WorkloadTruth truth(size.width, size.height, vec4<double>(0.0), 1.0);
+  std::array<float, 5> pixel;
+  for (std::size_t i = 0; i < truth.color.texels().size(); ++i) {
+    if (!in.read(reinterpret_cast<char*>(pixel.data()), kPixelBytes)) return std::nullopt;
+    truth.color.data()[i] = {pixel[0], pixel[1], pixel[2], pixel[3]};
+    truth.depth.data()[i] = pixel[4];
+  }
+  return truth;
+}
+
+void write_truth(const std::filesystem::path& path, const WorkloadTruth& truth) {
+  std::ofstream out(path, std::ios::binary);
+  for (std::size_t i = 0; i < truth.color.texels().size(); ++i) {
+    const glm::vec4 c(glm::dvec4(truth.color.data()[i]));
+    const std::array<float, 5> pixel{c.x, c.y, c.z, c.w, static_cast<float>(truth.depth.data()[i])};
+    out.write(reinterpret_cast<const char*>(pixel.data()), kPixelBytes);
+  }
+  if (!out.flush()) throw OutputError(path.string() + ": cannot be written");
+}
+
+}  // namespace
+
+PictureErrors picture_errors(const WorkloadPicture& picture, const WorkloadTruth& truth, double depth_tolerance) {
+  const std::size_t pixels = truth.color.texels().size();
+  const auto drawn = [&](std::size_t i) {
+    return truth.depth.data()[i] < 1.0 || (picture.depth != nullptr && picture.depth->data()[i] < 1.0f);
+  };
+  bool any_drawn = false;
+  for (std::size_t i = 0; i < pixels; ++i) any_drawn = any_drawn || drawn(i);
+  PictureErrors errors;
+  double squares = 0;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const PixelError color = color_error(picture.color->data()[i], truth.color.data()[i]);
+    if (any_drawn && !drawn(i)) {
+      errors.background_off += color.worst >= 0.51 ? 1 : 0;
+      continue;
+    }
+    const double depth = picture.depth == nullptr ? 0 : std::abs(static_cast<double>(picture.depth->data()[i]) - truth.depth.data()[i]);
+    ++errors.covered;
+    errors.colors_off += color.worst > 1.0 ? 1 : 0;
+    errors.depths_off += depth > depth_tolerance ? 1 : 0;
+    errors.worst_color = std::max(errors.worst_color, color.worst);
+    errors.worst_depth = std::max(errors.worst_depth, depth);
+    squares += color.squares;
+  }
+  errors.rms_color = std::sqrt(squares / (4.0 * std::max(errors.covered, 1)));
+  return errors;
+}
+
+WorkloadTruth kept_truth(const std::filesystem::path& directory, std::string_view name, const Workload& workload, WorkloadSize size) {
+  make_directory(directory);
+  const std::string file = std::string(name) + "." + std::to_string(size.width) + "x" + std::to_string(size.height) + ".truth";
+  if (std::optional<WorkloadTruth> kept = read_truth(directory / file, size)) return *std::move(kept);
+  WorkloadTruth truth = workload.truth();
+  write_truth(directory / file, truth);
+  return truth;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the benchmarks of single stages share. Stages are reached through passes, as all callers reach them: each benchmark draws
+// something of which the stage that it is named after does nearly all the work, and says what else is in it. One thread.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include "workload_assets.h"
+#include "workload_canvas.h"
+#include "workload_geometry.h"
+
+namespace halfspace {
+
+inline constexpr WorkloadSize kStageSize{1024, 1024};
+inline constexpr int64_t kStagePixels = int64_t{kStageSize.width} * kStageSize.height;
+
+/// Draws until the time is measured; `items` a pass become a rate.
+template <class Draw>
+void measure_passes(benchmark::State& state, int64_t items, Draw draw) {
+  const Workers one(1);
+  for (auto _ : state) draw(one);
+  state.SetItemsProcessed(state.iterations() * items);
+}
+
+/// Draws one mesh into a cleared picture of colour and depth, again and again.
+template <class S>
+void measure_draw(benchmark::State& state, int64_t items, const S& shader, const VertexView& vertices, const Indices& indices,
+                  const DrawState& draw_state = {}, const PassOptions& options = {}) {
+  Image<glm::u8vec4> color(kStageSize.width, kStageSize.height);
+  Image<float> depth(kStageSize.width, kStageSize.height);
+  measure_passes(state, items, [&](const Workers& workers) {
+    Pass pass(kStageSize.width, kStageSize.height, rgba8_target(color), d32f_target(depth), options);
+    if constexpr (DepthOnlyShader<S>) {
+      pass.draw_depth(shader, vertices, indices, draw_state);
+    } else {
+      pass.draw(shader, vertices, indices, draw_state);
+    }
+    pass.run(workers);
+  });
+}
+
+/// A quad over the picture with all that shaders ask of a vertex: position, normal (or base colour) towards the eye, texture
+/// coordinates 0 to 1.
+inline constexpr std::array<SphereVertex, 4> kStageQuad{
+    {{{-1, -1, 0}, {0, 0, 1}, {0, 1}}, {{1, -1, 0}, {0, 0, 1}, {1, 1}}, {{-1, 1, 0}, {0, 0, 1}, {0, 0}}, {{1, 1, 0}, {0, 0, 1}, {1, 0}}}};
+inline VertexView stage_quad() { return vertices(stream(std::span<const SphereVertex>(kStageQuad))); }
+inline VertexView stage_quad_positions() { return vertices(stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::position)); }
+inline VertexView stage_quad_positions_and_normals() {
+  return vertices(stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::position),
+                  stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::normal));
+}
+inline Indices stage_quad_indices() { return {std::span<const uint32_t>(kStripTriangles), kStageQuad.size()}; }
+
+}  // namespace halfspace

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Charts of what bench_measure.py wrote, as PNG and SVG. Needs matplotlib."""
+import matplotlib
+
+matplotlib.use("Agg")
+matplotlib.rcParams["svg.hashsalt"] = "halfspace"  # the same picture, the same bytes
+import matplotlib.pyplot as plt
+
+from bench_tables import COMPARED, intensity, sweep_series
+
+COLORS = {"halfspace native": "#1f6fb4", "halfspace v3": "#7fb3dc", "llvmpipe": "#d9722b", "SwiftShader": "#8a8a8a", "Embree": "#4a9a4a"}
+RATIOS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
+
+
+def save(figure, folder, name):
+    figure.tight_layout()
+    figure.savefig(folder / f"{name}.png", dpi=110)
+    figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
+    plt.close(figure)
+
+
+def legend_beside(axes):
+    axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0)
+
+
+def bars(results, folder):
+    """Frames a second of each program over llvmpipe's, by workload: up is faster than llvmpipe, down is slower."""
+    n = results.threads
+    for size in results.sizes:
+        names = [w for w in COMPARED if (f"llvmpipe {n}", w, size) in results.rows]
+        who = [f"halfspace native {n}", f"halfspace v3 {n}", f"SwiftShader {n}", f"Embree {n}"]
+        figure, axes = plt.subplots(figsize=(13, 5))
+        width = 0.8 / len(who)
+        for k, contender in enumerate(who):
+            found = [(i, results.ms(f"llvmpipe {n}", w, size) / results.ms(contender, w, size)) for i, w in enumerate(names) if results.ms(contender, w, size)]
+            if found:
+                places, ratios = [i + (k - 1.5) * width for i, _ in found], [r - 1 for _, r in found]
+                axes.bar(places, ratios, width, bottom=1, label=contender, color=COLORS[contender.rsplit(" ", 1)[0]])
+        axes.axhline(1, color=COLORS["llvmpipe"], label=f"llvmpipe {n}")
+        axes.set_yscale("log")
+        low, high = axes.get_ylim()
+        ticks = [r for r in RATIOS if low <= r <= high]
+        axes.set_yticks(ticks, [f"{r:g}" for r in ticks])
+        axes.minorticks_off()
+        axes.set_xticks(range(len(names)), names, rotation=45, ha="right")
+        axes.set_ylabel("frames a second over llvmpipe's")
+        axes.set_title(f"{size}, {n} threads")
+        legend_beside(axes)
+        save(figure, folder, f"workloads_{size}")
+
+
+def finish(axes, x_label, y_label, log_x, log_y):
+    if log_x:
+        axes.set_xscale("log")
+    if log_y:
+        axes.set_yscale("log")
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(y_label)
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=8)
+
+
+def by_program(results, folder, sweep, panels, x_label, log_x=True):
+    """A line a program; a panel for each (label of y, function of x and ms, logarithmic)."""
+    series = sweep_series(results, sweep)
+    if not series:
+        return
+    figure, all_axes = plt.subplots(1, len(panels), figsize=(6.5 * len(panels), 4.6), squeeze=False)
+    for axes, (label, value, log_y) in zip(all_axes[0], panels):
+        for (who, _), points in series.items():
+            axes.plot([x for x, _ in points], [value(x, ms) for x, ms in points], marker="o", markersize=3, color=COLORS[who], label=who)
+        finish(axes, x_label, label, log_x, log_y)
+    save(figure, folder, sweep)
+
+
+def by_workload(results, folder, sweep, label, value, x_label, log_x, log_y):
+    """A line a workload; a panel for each program, of one scale. value: of x, ms and the first point's ms."""
+    series = sweep_series(results, sweep)
+    if not series:
+        return
+    programs = list(dict.fromkeys(who for who, _ in series))
+    workloads = list(dict.fromkeys(workload for _, workload in series))
+    figure, all_axes = plt.subplots(1, len(programs), figsize=(6.5 * len(programs), 4.6), squeeze=False, sharey=True)
+    for axes, program in zip(all_axes[0], programs):
+        for (who, workload), points in series.items():
+            if who == program:
+                axes.plot([x for x, _ in points], [value(x, ms, points[0][1]) for x, ms in points], marker="o", markersize=3,
+                          color=f"C{workloads.index(workload)}", label=workload)
+        axes.set_title(program)
+        finish(axes, x_label, label, log_x, log_y)
+        places = sorted({x for points in series.values() for x, _ in points})
+        axes.set_xticks(places, [f"{x:g}" for x in places])
+        axes.minorticks_off()
+    save(figure, folder, sweep)
+
+
+def roofline(results, folder):
+    """Operations a second against operations a byte that leaves the tile, under what multiply-adds and memset allow."""
+    n = results.threads
+    for size in results.sizes:
+        peak, bandwidth = results.limits.get(("fma", n)), results.limits.get((f"memset {size}", n))
+        points = [(w, *found) for w in COMPARED if (found := intensity(results, w, size, n))]
+        if not peak or not bandwidth or not points:
+            continue
+        figure, axes = plt.subplots(figsize=(9, 5))
+        low, high = 0.5 * min(p[1] for p in points), 4 * max(max(p[1] for p in points), peak / bandwidth)
+        axes.plot([low, peak / bandwidth, high], [low * bandwidth, peak, peak], color="black", label=f"memset {bandwidth:.0f} GB/s, multiply-adds {peak:.0f} GFLOP/s")
+        for k, (workload, x, y) in enumerate(points):
+            axes.plot(x, y, marker="os^Dv*P"[k % 7], linestyle="", color=f"C{k % 10}", label=workload)
+        finish(axes, "operations a byte that leaves the tile", "GFLOP/s", True, True)
+        axes.set_title(f"{size}, {n} threads, native build")
+        legend_beside(axes)
+        save(figure, folder, f"roofline_{size}")
+
+
+def triangles_of_size(area):
+    return max(16, min(1_000_000, int(4e6 / area)))  # as benchmarks/sweeps.cpp has it
+
+
+def draw_all(results, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    bars(results, folder)
+    roofline(results, folder)
+    pixels = 1920 * 1080
+    by_program(results, folder, "triangle_size",
+               [("million triangles a second, 1 thread", lambda x, ms: 1e-3 * triangles_of_size(x) / ms, True),
+                ("million pixels of triangles a second, 1 thread", lambda x, ms: 1e-3 * x * triangles_of_size(x) / ms, True)], "area of a triangle, px²")
+    by_program(results, folder, "triangle_count",
+               [("ms a frame at 1920x1080, 1 thread", lambda x, ms: ms, True), ("ns a triangle", lambda x, ms: 1e6 * ms / x, True)], "triangles of the sphere")
+    by_program(results, folder, "overdraw", [("million pixels of quads a second, 1 thread", lambda x, ms: 1e-3 * pixels * x / ms, True)],
+               "quads over the whole picture, back to front")
+    by_program(results, folder, "varyings", [("ms a frame at 1920x1080, 1 thread", lambda x, ms: ms, False)], "floats from vertex to fragment", False)
+    by_workload(results, folder, "threads", "times as fast as one thread", lambda x, ms, first: first / ms, "threads", False, False)
+    by_workload(results, folder, "picture_size", "ns a pixel, 1 thread", lambda x, ms, first: 1e6 * ms / x**2, "side of the picture, px", True, True)

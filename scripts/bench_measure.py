@@ -1,0 +1,241 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the programs of the benchmark side by side and writes what they print, with the machine it came from, as one JSON file.
+
+For each size and workload the programs take turns, round after round, so that a machine that changes its speed changes it for all.
+"""
+import argparse
+import datetime
+import json
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+SPHERES = [f"sphere_{light}_{count}" for light in ("phong", "gouraud", "flat") for count in ("20k", "200k", "2m")]
+
+
+@dataclass
+class Contender:
+    """A program with its arguments, at one number of threads."""
+
+    key: str  # as tables and charts name it
+    command: list
+    threads: int
+    only: list = field(default_factory=list)  # workloads it draws; empty: all
+
+    def draws(self, workload):
+        return not self.only or workload in self.only
+
+    def run(self, *arguments):
+        """The JSON lines that the program prints; None where it fails."""
+        done = subprocess.run([*self.command, "--threads", str(self.threads), "--json", *arguments], capture_output=True, text=True)
+        if done.returncode != 0:
+            print(f"{self.key}: {done.stderr.strip()}", file=sys.stderr)
+            return None
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+class Progress:
+    """One line that says how far the run is; nothing unless on a terminal."""
+
+    def __init__(self, total):
+        self.total, self.done, self.start = total, 0, time.monotonic()
+
+    def step(self, what):
+        self.done += 1
+        if not sys.stderr.isatty():
+            return
+        left = (time.monotonic() - self.start) / self.done * (self.total - self.done)
+        print(f"\r\033[K{self.done}/{self.total}  {what}  {left / 60:.0f} min left", end="", file=sys.stderr, flush=True)
+        if self.done == self.total:
+            print("\r\033[K", end="", file=sys.stderr)
+
+
+def machine():
+    def first_line(command):
+        try:
+            return subprocess.run(command, capture_output=True, text=True).stdout.strip().splitlines()[0]
+        except (OSError, IndexError):
+            return ""
+
+    cpu = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.machine())
+    return {
+        "cpu": cpu,
+        "cores": len(os.sched_getaffinity(0)),
+        "system": next((line.split("=", 1)[1].strip().strip('"') for line in open("/etc/os-release") if line.startswith("PRETTY_NAME")), ""),
+        "compiler": first_line(["c++", "--version"]),
+        "commit": first_line(["git", "describe", "--always", "--dirty"]),
+        "date": datetime.date.today().isoformat(),
+        "load_before": os.getloadavg()[0],
+    }
+
+
+def contenders(args):
+    """All that can run here. What is absent is named once on stderr."""
+    n = args.threads
+    found = []
+
+    def add(key, command, threads, only=()):
+        contender = Contender(key, [str(c) for c in command], threads, list(only))
+        if not Path(command[0]).exists():
+            print(f"{key}: left out, {command[0]} is not built", file=sys.stderr)
+        elif contender.run("--only", "sphere_phong_20k", "--size", "16x16", "--seconds", "0") is None:
+            print(f"{key}: left out", file=sys.stderr)
+        else:
+            found.append(contender)
+
+    for threads in dict.fromkeys((1, n)):
+        for build, folder in (("v3", args.v3), ("native", args.native)):
+            add(f"halfspace {build} {threads}", [folder / "halfspace-bench"], threads)
+        add(f"llvmpipe {threads}", [args.native / "halfspace-bench-gl", "--driver", "llvmpipe"], threads)
+    add(f"SwiftShader {n}", [args.native / "halfspace-bench-gl", "--driver", "swiftshader"], n)
+    for threads in dict.fromkeys((1, n)):
+        add(f"Embree {threads}", [args.native / "halfspace-bench-embree"], threads, SPHERES)
+    return found
+
+
+def measure_rounds(runners, names, sizes, rounds, seconds, extra=(), progress=None):
+    """Lines of (contender, workload, size): the median over rounds of each round's median, and how far rounds lie apart."""
+    rows = []
+    for size in sizes:
+        for name in names:
+            lines = {r.key: [] for r in runners if r.draws(name)}
+            for _ in range(rounds):
+                for r in runners:
+                    if r.key not in lines:
+                        continue
+                    got = r.run("--only", name, "--size", size, "--seconds", str(seconds), *extra)
+                    if got:
+                        lines[r.key].append(got[0])
+                    if progress:
+                        progress.step(f"{size} {name} {r.key}")
+            rows += [row_of(key, of_rounds) for key, of_rounds in lines.items() if of_rounds]
+    return rows
+
+
+def row_of(key, lines):
+    medians = [line["ms"] for line in lines]
+    row = {"contender": key, **lines[0]}
+    row["frames"] = sum(line["frames"] for line in lines)
+    row["ms"] = statistics.median(medians)
+    row["ms_rounds"] = medians
+    row["ms_min"] = min(line["ms_min"] for line in lines)
+    row["ms_max"] = max(line["ms_max"] for line in lines)
+    row["cpu_ms"] = statistics.median(line["cpu_ms"] for line in lines)
+    return row
+
+
+def names_of(command):
+    return [line.split()[0] for line in subprocess.run([command, "--list"], capture_output=True, text=True, check=True).stdout.splitlines()]
+
+
+def check_pictures(runners, names, sizes, truths):
+    """Every program's pictures against double precision. Slow the first time: the truths are kept."""
+    rows = []
+    progress = Progress(len(sizes) * len(runners))
+    for size in sizes:
+        for r in runners:
+            drawn = [name for name in names if r.draws(name)]
+            got = r.run("--only", ",".join(drawn), "--size", size, "--seconds", "0", "--check", str(truths)) or []
+            rows += [{"contender": r.key, "workload": line["workload"], "size": size, **line["picture"]} for line in got]
+            progress.step(f"pictures {size} {r.key}")
+    return rows
+
+
+def measure_limits(program, threads, quick):
+    seconds = "0.01" if quick else "0.05"
+    rows = []
+    for n in dict.fromkeys((1, threads)):
+        out = subprocess.run([program, "--threads", str(n), "--seconds", seconds, "--json"], capture_output=True, text=True, check=True)
+        rows += [json.loads(line) for line in out.stdout.splitlines()]
+    return rows
+
+
+def sweep_points(command, sweep):
+    out = subprocess.run([command, "--sweep", sweep, "--list"], capture_output=True, text=True, check=True).stdout
+    return [line.split()[0] for line in out.splitlines()]
+
+
+def measure_sweeps(runners, args, progress_of):
+    """Series of one number each; rows have "x". Those of triangles and varyings run on one thread, which tells a cost most plainly."""
+    rows = []
+    program = args.native / "halfspace-bench"
+    rounds = 1 if args.quick else 3
+    for sweep in ("triangle_size", "triangle_count", "overdraw", "varyings"):
+        chosen = [r for r in runners if r.key in ("halfspace native 1", "llvmpipe 1") or (sweep == "triangle_count" and r.key == "Embree 1")]
+        everyone = [Contender(r.key, r.command, r.threads) for r in chosen]
+        points = sweep_points(program, sweep)
+        if args.quick:  # the largest take long to prepare
+            points = [p for p in points if p not in ("triangle_count=3200000", "triangle_count=10000000")]
+        progress = progress_of(len(points) * rounds * len(everyone))
+        got = measure_rounds(everyone, points, ["1920x1080"], rounds, args.seconds, ("--sweep", sweep), progress)
+        rows += [{"sweep": sweep, "x": float(row["workload"].split("=")[1]), **row} for row in got]
+    return rows
+
+
+def measure_threads(runners, args, progress_of):
+    """1 to twice as many threads as there are cores."""
+    rows = []
+    names = ["layers_b2f", "sphere_phong_20k", "sphere_phong_2m", "shadow_200k", "tiny_1m"]
+    counts = sorted({1, 2, 3, 4, args.threads, args.threads + 1, 2 * args.threads} | {2**k for k in range(8) if 2**k <= args.threads})
+    rounds = 1 if args.quick else 3
+    everyone = [
+        Contender(f"{kind} {n}", r.command, n) for n in counts for kind in ("halfspace native", "llvmpipe") for r in runners if r.key == f"{kind} 1"
+    ]
+    progress = progress_of(len(names) * rounds * len(everyone))
+    got = measure_rounds(everyone, names, ["1920x1080"], rounds, args.seconds, progress=progress)
+    return [{"sweep": "threads", "x": row["threads"], **row} for row in got]
+
+
+def measure_sizes(runners, args, progress_of):
+    """Square pictures of 256 to 8192 pixels a side."""
+    sides = [256, 512, 1024, 2048] + ([] if args.quick else [4096, 8192])
+    names = ["clear", "fill", "layers_f2b", "sphere_phong_20k", "tonemap"]
+    chosen = [r for r in runners if r.key in ("halfspace native 1", "llvmpipe 1")]
+    rounds = 1 if args.quick else 3
+    progress = progress_of(len(names) * len(sides) * rounds * len(chosen))
+    got = measure_rounds(chosen, names, [f"{side}x{side}" for side in sides], rounds, args.seconds, progress=progress)
+    return [{"sweep": "picture_size", "x": int(row["size"].split("x")[0]), **row} for row in got]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--native", type=Path, required=True, help="folder of the native build's programs")
+    parser.add_argument("--v3", type=Path, required=True, help="folder of the x86-64-v3 build's programs")
+    parser.add_argument("--out", type=Path, required=True, help="the JSON file to write")
+    parser.add_argument("--truths", type=Path, required=True, help="folder of pictures in double precision, made where absent")
+    parser.add_argument("--only", default="", help="these workloads alone, by comma")
+    parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--sizes", default="1920x1080,512x512")
+    parser.add_argument("--rounds", type=int)
+    parser.add_argument("--seconds", type=float, help="of each program in each round")
+    parser.add_argument("--no-sweeps", action="store_true", help="the workloads alone, no series")
+    parser.add_argument("--quick", action="store_true", help="fewer rounds, shorter, the largest left out")
+    args = parser.parse_args()
+    args.rounds = args.rounds or (1 if args.quick else 5)
+    args.seconds = args.seconds or (0.1 if args.quick else 0.5)
+
+    runners = contenders(args)
+    names = args.only.split(",") if args.only else names_of(args.native / "halfspace-bench")
+    sizes = args.sizes.split(",")
+    results = {"machine": machine(), "threads": args.threads, "rounds": args.rounds, "seconds": args.seconds, "quick": args.quick}
+    results["pictures"] = check_pictures(runners, names, sizes, args.truths)
+    results["limits"] = measure_limits(args.native / "halfspace-limits", args.threads, args.quick)
+    progress = Progress(len(sizes) * args.rounds * sum(r.draws(name) for r in runners for name in names))
+    results["workloads"] = measure_rounds(runners, names, sizes, args.rounds, args.seconds, progress=progress)
+    results["sweeps"] = []
+    if not args.no_sweeps:
+        for measure in (measure_sweeps, measure_threads, measure_sizes):
+            results["sweeps"] += measure(runners, args, Progress)
+    results["machine"]["load_after"] = os.getloadavg()[0]
+    args.out.parent.mkdir(parents=True, exist_ok=True)
+    args.out.write_text(json.dumps(results, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

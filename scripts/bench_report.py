@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tables and charts of a run of the benchmark (the JSON of bench_measure.py), into a folder; with --docs also into the documents."""
+import argparse
+import json
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import bench_tables
+
+DOCUMENTS = ["README.md", "docs/performance.md"]
+CHARTS = Path("docs/benchmark")
+
+
+MARKED = re.compile(r"<!-- benchmark: (\w+) -->\n.*?<!-- /benchmark -->", flags=re.DOTALL)
+
+
+def marked_sections(text):
+    return MARKED.findall(text)
+
+
+def renewed(text, sections):
+    """Replaces what stands between <!-- benchmark: NAME --> and <!-- /benchmark -->."""
+    return MARKED.sub(lambda m: f"<!-- benchmark: {m.group(1)} -->\n{sections[m.group(1)]}\n<!-- /benchmark -->", text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("results", type=Path)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--docs", action="store_true", help="renew README.md, docs/performance.md and docs/benchmark, in the current folder")
+    args = parser.parse_args()
+
+    results = bench_tables.Results(json.loads(args.results.read_text()))
+    sections = bench_tables.sections(results)
+    args.out.mkdir(parents=True, exist_ok=True)
+    shown = ("source", "means", "times", "ratios", "resources", "limits", "growth")
+    (args.out / "tables.md").write_text("\n\n".join(sections[name] for name in shown) + "\n")
+    if args.docs:
+        for name in DOCUMENTS:
+            Path(name).write_text(renewed(Path(name).read_text(), sections))
+    try:
+        import bench_charts
+    except ImportError:
+        print("bench_report.py: no charts, matplotlib is missing (Debian: python3-matplotlib)", file=sys.stderr)
+    else:
+        bench_charts.draw_all(results, args.out)
+        if args.docs:  # PNG alone: the pages show those
+            CHARTS.mkdir(parents=True, exist_ok=True)
+            for chart in args.out.glob("*.png"):
+                shutil.copy(chart, CHARTS)
+    print(f"{args.out}/tables.md")
+
+
+if __name__ == "__main__":
+    main()

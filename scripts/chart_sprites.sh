@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# How wrong the original sprite is by the angle off the axis: docs/sprite_error.csv and its chart docs/sprite_error.svg.
+# Needs ImageMagick (compare) and gnuplot.
+#
+#   scripts/chart_sprites.sh [PROGRAM]     default: build/release/bin/halfspace
+set -euo pipefail
+cd "$(dirname "$0")/.."
+program=$(realpath "${1:-build/release/bin/halfspace}")
+for tool in compare convert gnuplot; do
+  command -v "$tool" > /dev/null || { echo "chart_sprites.sh: $tool is missing; install imagemagick and gnuplot-nox" >&2; exit 1; }
+done
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# One white sphere of ambient light alone, radius 1/6 of its distance, 100 degrees of view: silhouettes.
+cat > "$work/scene.json" << 'END'
+{ "version": 1, "ambient": 1, "background": { "color": [0, 0, 0] },
+  "cameras": { "main": { "position": [0, 0, 0], "target": [0, 0, -1], "fov": 100, "near": 0.1, "far": 100 } },
+  "particles": { "file": "one.csv" } }
+END
+echo "angle_degrees,sphere_px,wrong_px,wrong_share,one_minus_cos" > docs/sprite_error.csv
+for angle in $(seq 0 5 50); do
+  awk -v a="$angle" 'BEGIN { t = a * atan2(0, -1) / 180; printf "%.17g,0,%.17g,0.5\n", 3 * sin(t), -3 * cos(t) }' > "$work/one.csv"
+  for sprite in original exact; do
+    "$program" render "$work/scene.json" --set "particles.sprite=$sprite" --size 1920x1080 -o "$work/$sprite.png" > /dev/null
+  done
+  wrong=$(compare -metric AE "$work/original.png" "$work/exact.png" null: 2>&1 || true)
+  sphere=$(convert "$work/exact.png" -colorspace gray -threshold 50% -format '%[fx:mean*w*h]' info:)
+  awk -v a="$angle" -v s="$sphere" -v w="$wrong" \
+    'BEGIN { printf "%d,%d,%d,%.4f,%.4f\n", a, s + 0.5, w, w / s, 1 - cos(a * atan2(0, -1) / 180) }' >> docs/sprite_error.csv
+done
+gnuplot << 'END'
+set terminal svg size 640,400 font "sans,12" background "white"
+set output "docs/sprite_error.svg"
+set datafile separator ","
+set xlabel "angle off the axis (degrees)"
+set ylabel "pixels wrong, share of the sphere's"
+set key top left
+set grid
+plot "docs/sprite_error.csv" skip 1 using 1:4 with linespoints pointtype 7 title "particles.sprite=original", \
+     "docs/sprite_error.csv" skip 1 using 1:5 with lines dashtype 2 title "1 - cos of the angle"
+END
+cat docs/sprite_error.csv

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What Halfspace is compared with draws the same pictures, and the other programs of the benchmark run. CMake gives the places of
+// those that are built; the others' tests are skipped.
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "sweeps.h"
+
+#ifndef HALFSPACE_BENCH_GL_PROGRAM
+#define HALFSPACE_BENCH_GL_PROGRAM ""
+#endif
+#ifndef HALFSPACE_BENCH_EMBREE_PROGRAM
+#define HALFSPACE_BENCH_EMBREE_PROGRAM ""
+#endif
+#ifndef HALFSPACE_STAGES_PROGRAM
+#define HALFSPACE_STAGES_PROGRAM ""
+#endif
+
+namespace halfspace {
+
+namespace {
+
+using test::Outcome;
+
+// All workloads but the largest meshes, which the same code draws.
+std::string all_but_2m() {
+  std::string names;
+  for (const WorkloadKind& kind : workloads()) {
+    if (!kind.name.ends_with("_2m")) names += (names.empty() ? "" : ",") + kind.name;
+  }
+  return names;
+}
+
+// Rounding to codes alone is 0.29/255. llvmpipe's level of detail comes from differences between pixels, through an estimate of the
+// logarithm: at this small size up to a tenth of textured pixels is off by more than a code, none by many. Its points lie on a grid, which
+// is coarse for disks this small, and its anisotropic footprint is another one; where it decides the edge of a hole otherwise, another
+// layer shows. A wrong light, matrix, state or mesh is off by tens.
+double allowed_rms(const std::string& workload) {
+  if (workload == "aniso_floor") return 10.0;
+  if (workload == "points_100k") return 5.0;
+  if (workload == "shadow_200k") return 0.3;  // most of it holds no texture and no light
+  return workload == "alpha_test" ? 2.0 : 0.6;
+}
+
+TEST(BenchGl, DrawsTheSamePictures) {
+  const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
+  if (program.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built";
+  const test::TemporaryDirectory truths;
+  const Outcome outcome =
+      test::run_program(program, "--only " + all_but_2m() + " --size 160x120 --threads 1 --seconds 0 --json --check " + truths.path());
+  if (outcome.exit_code == 3) GTEST_SKIP() << outcome.text;
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const std::vector<nlohmann::json> rows = test::json_lines_of(outcome.text);
+  EXPECT_EQ(rows.size(), workloads().size() - 3);
+  for (const nlohmann::json& row : rows) {
+    const std::string name = row.at("workload");
+    EXPECT_EQ(row.at("program"), "llvmpipe");
+    const nlohmann::json& picture = row.at("picture");
+    EXPECT_GT(picture.at("covered"), 160 * 120 / 5) << name;
+    EXPECT_LT(picture.at("rms_color"), allowed_rms(name)) << name;
+  }
+}
+
+// Rays hit where triangles lie: what is off is the outline, and edges of the checker. At this size the outline of the sphere is
+// 1.5% of it, of which rays and the 1/256 px grid decide few pixels differently.
+TEST(BenchEmbree, DrawsTheSamePictures) {
+  const std::string program = HALFSPACE_BENCH_EMBREE_PROGRAM;
+  if (program.empty()) GTEST_SKIP() << "halfspace-bench-embree is not built";
+  const test::TemporaryDirectory truths;
+  const Outcome outcome = test::run_program(program,
+                                            "--only sphere_phong_20k,sphere_gouraud_20k,sphere_flat_20k,sphere_phong_200k --size 223x149 "
+                                            "--threads 2 --seconds 0 --json --check " +
+                                                truths.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const std::vector<nlohmann::json> rows = test::json_lines_of(outcome.text);
+  EXPECT_EQ(rows.size(), 4u);
+  for (const nlohmann::json& row : rows) {
+    const nlohmann::json& picture = row.at("picture");
+    EXPECT_LE(picture.at("colors_off").get<double>(), picture.at("covered").get<double>() / 200) << row.dump();
+    // Rays meet the triangles where they are, not where they were snapped to: depth differs by 1/512 px of slope, which is steep there.
+    EXPECT_LE(picture.at("depths_off").get<double>(), picture.at("covered").get<double>() / 50) << row.dump();
+  }
+}
+
+TEST(BenchGl, SaysWhichDriversThereAre) {
+  const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
+  if (program.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built";
+  const Outcome outcome = test::run_program(program, "--driver llvm --only fill");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.text, "halfspace-bench-gl: --driver is 'llvm'; expected llvmpipe, swiftshader or softpipe\n");
+}
+
+TEST(BenchPeers, HaveTheSeriesOfHalfspace) {
+  for (const std::string program : {HALFSPACE_BENCH_GL_PROGRAM, HALFSPACE_BENCH_EMBREE_PROGRAM}) {
+    if (program.empty()) continue;
+    const Outcome list = test::run_program(program, "--sweep triangle_count --list");
+    EXPECT_EQ(list.exit_code, 0);
+    EXPECT_EQ(test::lines_of(list.text).size(), kTriangleCounts.size()) << list.text;
+    const Outcome wrong = test::run_program(program, "--sweep triangle_cuont");
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_NE(wrong.text.find("unknown series 'triangle_cuont'; did you mean 'triangle_count'?"), std::string::npos) << wrong.text;
+  }
+}
+
+TEST(Limits, AreMeasured) {
+  const Outcome outcome = test::run_program(HALFSPACE_LIMITS_PROGRAM, "--threads 2 --seconds 0.001 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const std::vector<nlohmann::json> rows = test::json_lines_of(outcome.text);
+  EXPECT_EQ(rows.size(), 17u);
+  for (const nlohmann::json& row : rows) EXPECT_GT(row.at("value"), 0.0) << row.dump();
+  EXPECT_EQ(test::run_program(HALFSPACE_LIMITS_PROGRAM, "--seconds 0").exit_code, 2);
+}
+
+TEST(Stages, Run) {
+  const std::string program = HALFSPACE_STAGES_PROGRAM;
+  if (program.empty()) GTEST_SKIP() << "halfspace-stages is not built";
+  const Outcome outcome =
+      test::run_program(program, "--benchmark_min_time=0.001 --benchmark_filter='clip|vertex_position|store_depth|nearest'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  for (const char* name : {"clip/0", "vertex_position", "store_depth/d16", "look_up/rgba8_nearest"})
+    EXPECT_NE(outcome.text.find(name), std::string::npos) << outcome.text;
+}
+
+}  // namespace
+
+}  // namespace halfspace

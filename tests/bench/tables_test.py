@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The tables of scripts/bench_tables.py: what they compute, and when a ratio counts."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+sys.dont_write_bytecode = True
+import bench_report  # noqa: E402
+import bench_tables  # noqa: E402
+
+SIZE = "512x512"
+
+
+def results(**changes):
+    """Two workloads by three programs; ours takes 2 ms and llvmpipe 8 or 18."""
+
+    def row(contender, workload, ms, threads):
+        return {"contender": contender, "workload": workload, "size": SIZE, "threads": threads, "ms": ms, "ms_rounds": [ms, 2 * ms]}
+
+    def picture(contender, workload, off, rms):
+        return {"contender": contender, "workload": workload, "size": SIZE, "covered": 10000, "colors_off": off, "rms_color": rms}
+
+    raw = {
+        "machine": {"cpu": "C", "cores": 2, "system": "S", "compiler": "G", "commit": "abc", "date": "2026-01-01", "load_before": 0.0, "load_after": 0.5},
+        "threads": 2, "rounds": 5, "seconds": 0.5, "quick": False,
+        "workloads": [row(f"{who} {n}", w, ms / n, n) for who, w, ms in (
+            ("halfspace native", "fill", 2.0), ("llvmpipe", "fill", 8.0), ("halfspace native", "tiny_1m", 2.0), ("llvmpipe", "tiny_1m", 18.0)) for n in (1, 2)],
+        "pictures": [picture("halfspace native 1", "fill", 0, 0.25), picture("llvmpipe 1", "fill", 0, 0.25),
+                     picture("halfspace native 1", "tiny_1m", 10, 0.25), picture("llvmpipe 1", "tiny_1m", 20, 0.30)],
+        "limits": [{"limit": "memset 512x512", "unit": "GB/s", "value": 4.0, "threads": n} for n in (1, 2)] + [{"limit": "clock", "unit": "GHz", "value": 3.0, "threads": 1}],
+        "sweeps": [{"sweep": "triangle_count", "x": x, "ms": x * 1e-5, "contender": "halfspace native 1", "workload": f"triangle_count={x}"} for x in (1e4, 1e5, 1e6)],
+    }
+    raw.update(changes)
+    return bench_tables.Results(raw)
+
+
+class Tables(unittest.TestCase):
+    def test_ratio_is_the_peers_time_over_ours(self):
+        self.assertAlmostEqual(results().ratio("halfspace native 1", "llvmpipe 1", "fill", SIZE), 4.0)
+
+    def test_mean_is_geometric(self):
+        r = results()
+        for n in (1, 2):
+            r.pictures[(f"halfspace native {n}", "fill", SIZE)] = r.pictures[("halfspace native 1", "fill", SIZE)]
+            r.pictures[(f"halfspace native {n}", "tiny_1m", SIZE)] = r.pictures[("halfspace native 1", "tiny_1m", SIZE)]
+        self.assertAlmostEqual(r.mean_ratio("halfspace native 1", "llvmpipe 1", SIZE), 6.0)
+
+    def test_a_wrong_picture_has_no_ratio(self):
+        r = results()
+        r.pictures[("halfspace native 1", "tiny_1m", SIZE)]["colors_off"] = 11  # of 10,000 that are covered 10 may be
+        self.assertIsNone(r.ratio("halfspace native 1", "llvmpipe 1", "tiny_1m", SIZE))
+
+    def test_a_picture_further_off_than_llvmpipes_has_no_ratio(self):
+        r = results()
+        r.pictures[("halfspace native 1", "fill", SIZE)]["rms_color"] = 0.26
+        self.assertIsNone(r.ratio("halfspace native 1", "llvmpipe 1", "fill", SIZE))
+
+    def test_share_of_the_memset(self):
+        # 4 bytes of 262,144 pixels in 1 ms by two threads: 1.05 GB/s of 4.
+        what, reached, limit, unit = bench_tables.resource(results(), "fill", SIZE, 2)
+        self.assertAlmostEqual(reached, 1.048576)
+        self.assertEqual((limit, unit), (4.0, "GB/s"))
+
+    def test_slope_of_what_grows_linearly_is_one(self):
+        self.assertAlmostEqual(bench_tables.slope([(10, 3), (100, 30), (1000, 300)]), 1.0)
+
+    def test_every_section_is_made(self):
+        for name, text in bench_tables.sections(results()).items():
+            self.assertTrue(text, name)
+            for line in text.splitlines():
+                if line.startswith("| "):
+                    self.assertTrue(line.endswith(" |"), line)
+
+    def test_documents_name_sections_that_exist(self):
+        sections = {name: "new" for name in bench_tables.sections(results())}
+        root = Path(__file__).resolve().parents[2]
+        for name in bench_report.DOCUMENTS:
+            text = (root / name).read_text()
+            found = bench_report.marked_sections(text)
+            self.assertTrue(found, name)
+            self.assertLessEqual(set(found), set(sections), name)
+            renewed = bench_report.renewed(text, sections)
+            self.assertEqual(bench_report.marked_sections(renewed), found)
+            self.assertEqual(renewed.count("\nnew\n"), len(found))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/picture.h"
+
+#include <cstring>
+#include <numeric>
+#include <sstream>
+
+#include "conformance/shaders.h"
+#include "core/half.h"
+
+namespace halfspace::conformance {
+
+namespace {
+
+template <class S>
+SceneDraw draw_of(const S& shader, const char* name, const Drawing& d) {
+  static_assert(sizeof(VertexAttributes<float>) == sizeof(Vertex));
+  oracle::Input<S> input;
+  const auto row = [](const Vertex& v) { return VertexAttributes<float>{v.pos_clip, v.color, v.extra}; };
+  for (const Vertex& v : d.vertices) input.vertices.push_back(row(v));
+  input.indices = d.indices;
+  if (d.indices.empty()) {
+    input.indices.resize(d.vertices.size());
+    std::iota(input.indices.begin(), input.indices.end(), 0u);
+  }
+  input.restart = d.restart;
+  input.divisor = d.divisor;
+  if (!d.rows.empty()) input.instance_components = 4;
+  for (const glm::vec4& r : d.rows) input.instances.push_back(row({glm::vec4(0.0f), glm::vec4(0.0f), r}));
+  const IndexLayout layout = d.indices.empty() ? IndexLayout::none : d.narrow ? IndexLayout::narrow : IndexLayout::wide;
+  return make_draw(shader, name, input, d.state, VertexLayout::tight, layout);
+}
+
+SceneDraw draw_of(const Drawing& d) {
+  switch (d.kind) {
+    case Kind::color: return draw_of(ColorShader{d.mode}, "color", d);
+    case Kind::clip: return draw_of(ClipShader{}, "clip", d);
+    case Kind::cutout: return draw_of(CutoutShader{d.value}, "cutout", d);
+    case Kind::depth: return draw_of(DepthShader{}, "depth", d);
+    case Kind::point: return draw_of(PointShader{}, "point", d);
+    case Kind::derivative: return draw_of(DerivativeShader{d.mode, d.value}, "derivative", d);
+    case Kind::texture: return draw_of(TextureShader{d.texture, d.sampler, d.mode, d.value}, "texture", d);
+    case Kind::instance: return draw_of(InstanceShader{d.value}, "instance", d);
+    case Kind::two_colors: return draw_of(ColorsShader<2>{}, "two_colors", d);
+    case Kind::four_colors: break;
+  }
+  return draw_of(ColorsShader<4>{}, "four_colors", d);
+}
+
+Scene scene_of(const Picture& p) {
+  Scene s;
+  s.width = p.width;
+  s.height = p.height;
+  s.samples = p.samples;
+  s.supersample = p.supersample;
+  for (const ColorFormat f : p.colors) s.more_colors.push_back({.format = f, .clear_value = p.clear_color});
+  s.color = s.more_colors.front();
+  s.more_colors.erase(s.more_colors.begin());
+  s.depth = {.format = p.depth, .clear_value = p.clear_depth, .stencil_clear_value = p.clear_stencil};
+  s.has_depth_image = p.depth != DepthFormat::none;
+  for (const Drawing& d : p.draws) s.draws.push_back(draw_of(d));
+  return s;
+}
+
+Seen seen_of(const Picture& p, Pictures bytes, std::vector<uint64_t> queries) {
+  return {p.width, p.height, p.colors, p.depth, std::move(bytes), std::move(queries)};
+}
+
+template <class T>
+T read(const std::vector<std::byte>& bytes, std::size_t index) {
+  T value;
+  std::memcpy(&value, &bytes[index * sizeof(T)], sizeof(T));
+  return value;
+}
+
+}  // namespace
+
+std::size_t Seen::index(int x, int y) const {
+  return static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
+glm::vec4 Seen::color(int x, int y, std::size_t attachment) const {
+  const std::vector<std::byte>& from = attachment == 0 ? bytes.color : bytes.more[attachment - 1];
+  const std::size_t i = index(x, y);
+  switch (formats[attachment]) {
+    case ColorFormat::rgba32f: return read<glm::vec4>(from, i);
+    case ColorFormat::rgba16f: {
+      const auto h = read<U16Vec4>(from, i);
+      return {half_to_float(h.x), half_to_float(h.y), half_to_float(h.z), half_to_float(h.w)};
+    }
+    default: return glm::vec4(read<glm::u8vec4>(from, i)) / 255.0f;
+  }
+}
+
+double Seen::depth(int x, int y) const {
+  const std::size_t i = index(x, y);
+  switch (depth_format) {
+    case DepthFormat::none: return 0.0;
+    case DepthFormat::d16: return read<uint16_t>(bytes.depth, i);
+    case DepthFormat::d24: return read<uint32_t>(bytes.depth, i);
+    case DepthFormat::d24s8: return read<uint32_t>(bytes.depth, i) >> 8;
+    case DepthFormat::d32f: return static_cast<double>(read<float>(bytes.depth, i));
+    case DepthFormat::d32fs8: break;
+  }
+  return static_cast<double>(read<DepthStencil>(bytes.depth, i).depth);
+}
+
+int Seen::stencil(int x, int y) const {
+  const std::size_t i = index(x, y);
+  if (depth_format == DepthFormat::d24s8) return static_cast<int>(read<uint32_t>(bytes.depth, i) & 0xff);
+  return static_cast<int>(read<DepthStencil>(bytes.depth, i).stencil);
+}
+
+bool Seen::is_constant() const {
+  const auto constant = [&](const std::vector<std::byte>& of, ColorFormat format) {
+    const auto n = static_cast<std::size_t>(bytes_per_pixel(format));
+    return of.size() <= n || std::memcmp(of.data(), of.data() + n, of.size() - n) == 0;
+  };
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    if (!constant(i == 0 ? bytes.color : bytes.more[i - 1], formats[i])) return false;
+  }
+  return true;
+}
+
+Seen draw(const Picture& picture, const PassOptions& options, int threads) {
+  PassResult r = run_pass(scene_of(picture), options, threads);
+  return seen_of(picture, std::move(r.pictures), std::move(r.statistics.queries));
+}
+
+Seen draw_by_oracle(const Picture& picture) {
+  OracleResult r = run_oracle(scene_of(picture));
+  std::vector<uint64_t> queries;
+  for (const auto& [query, samples] : r.counts.queries) {
+    queries.resize(std::max<std::size_t>(queries.size(), query + 1));
+    queries[query] = samples;
+  }
+  return seen_of(picture, std::move(r.pictures), std::move(queries));
+}
+
+std::string difference_from_oracle(const Picture& picture) {
+  const Scene scene = scene_of(picture);
+  const OracleResult expected = run_oracle(scene);
+  const PassResult deferred = run_pass(scene, {}, 1), at_once = run_pass(scene, {.tile_size = 8, .defer = false}, 1);
+  std::string wrong = difference(scene, expected.pictures, deferred.pictures);
+  if (wrong.empty()) {
+    wrong = difference(scene, expected.pictures, at_once.pictures);
+    if (!wrong.empty()) wrong = "shaded at once in tiles of 8: " + wrong;
+  }
+  if (wrong.empty() && expected.counts.samples_passed != deferred.statistics.samples_passed) {
+    wrong = "samples passed: " + std::to_string(expected.counts.samples_passed) + " expected, got " +
+            std::to_string(deferred.statistics.samples_passed) + "\n";
+  }
+  for (const auto& [query, samples] : expected.counts.queries) {
+    const auto& counted = deferred.statistics.queries;
+    if (wrong.empty() && (query >= counted.size() || counted[query] != samples)) wrong = "an occlusion query differs\n";
+  }
+  return wrong;
+}
+
+std::string describe(const Picture& picture) {
+  std::ostringstream out;
+  out << halfspace::describe(scene_of(picture));
+  for (const Drawing& d : picture.draws) {
+    out << "  mode " << d.mode << ", value " << d.value << ", vertices";
+    for (const Vertex& v : d.vertices)
+      out << " (" << v.pos_clip.x << ' ' << v.pos_clip.y << ' ' << v.pos_clip.z << ' ' << v.pos_clip.w << ')';
+    out << '\n';
+  }
+  return out.str();
+}
+
+std::string check(const Case& c) {
+  const Picture picture = c.picture();
+  std::string wrong = difference_from_oracle(picture);
+  if (!wrong.empty()) return "against the oracle: " + wrong + describe(picture);
+  const Seen seen = draw(picture);
+  if (!c.may_be_constant && seen.is_constant()) return "nothing is seen\n" + describe(picture);
+  if (c.truth) wrong = c.truth(picture, seen);
+  return wrong.empty() ? wrong : wrong + "\n" + describe(picture);
+}
+
+}  // namespace halfspace::conformance

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Random states: the tile path against the oracle. A failure prints the command that draws the shrunk state alone:
+//
+//   HALFSPACE_STATE=1234:8f03 build/release/bin/test-conformance --gtest_filter=ConformanceRandomState.Again
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "conformance/random_state.h"
+
+namespace halfspace::conformance {
+
+namespace {
+
+std::string what_is_wrong(const Picture& p) {
+  const std::string wrong = difference_from_oracle(p);
+  return wrong.empty() ? wrong : wrong + describe(p);
+}
+
+}  // namespace
+
+class RandomStates : public testing::TestWithParam<uint64_t> {};
+
+TEST_P(RandomStates, AreTheOracles) {
+  uint64_t seen = 0;
+  for (uint64_t i = 0; i < kStatesPerSet; ++i) {
+    const RandomState state{GetParam() * kStatesPerSet + i, 0};
+    const Picture picture = random_picture(state);
+    if (difference_from_oracle(picture).empty()) {
+      seen += !draw(picture).is_constant();
+      continue;
+    }
+    const RandomState shrunk = shrink(state, [](const Picture& p) { return !difference_from_oracle(p).empty(); });
+    FAIL() << "seed " << state.seed << ", shrunk: HALFSPACE_STATE=" << shrunk.text()
+           << " build/release/bin/test-conformance --gtest_filter=ConformanceRandomState.Again\n"
+           << what_is_wrong(random_picture(shrunk));
+  }
+  RecordProperty("not_constant", std::to_string(seen));
+  EXPECT_GE(seen * 10, kStatesPerSet * 8) << "too many states of which nothing is seen";
+}
+
+INSTANTIATE_TEST_SUITE_P(Conformance, RandomStates, testing::Range(uint64_t{0}, kRandomSets),
+                         [](const auto& set) { return "seeds_from_" + std::to_string(set.param * kStatesPerSet); });
+
+TEST(ConformanceRandomState, Again) {
+  const char* text = std::getenv("HALFSPACE_STATE");
+  if (text == nullptr) GTEST_SKIP() << "HALFSPACE_STATE names no state";
+  RandomState state;
+  ASSERT_TRUE(RandomState::parse(text, state)) << "HALFSPACE_STATE=" << text << " is no state; expected SEED or SEED:BITS";
+  const Picture picture = random_picture(state);
+  std::printf("%s", describe(picture).c_str());
+  EXPECT_EQ(what_is_wrong(picture), "");
+}
+
+// A failure is made up: whatever subtracts when it blends. What is left does, needs nothing else, and can be told by its text.
+TEST(ConformanceRandomState, ShrinksToWhatFails) {
+  const auto subtracts = [](const Picture& p) {
+    for (const Drawing& d : p.draws) {
+      if (d.state.blend && d.state.blend->color_equation == BlendEquation::subtract) return true;
+    }
+    return false;
+  };
+  int shrunk = 0;
+  for (uint64_t seed = 0; seed < 100; ++seed) {
+    if (!subtracts(random_picture({seed, 0}))) continue;
+    ++shrunk;
+    const RandomState least = shrink({seed, 0}, subtracts);
+    RandomState again;
+    ASSERT_TRUE(RandomState::parse(least.text(), again));
+    const Picture p = random_picture(again);
+    EXPECT_TRUE(subtracts(p));
+    EXPECT_EQ(p.draws.size(), 1u);
+    EXPECT_EQ(p.samples, 1);
+    const DrawState& s = p.draws[0].state;
+    EXPECT_FALSE(s.stencil || s.scissor || s.viewport || s.query);
+    EXPECT_LE(p.draws[0].indices.size(), 8u);  // of up to 20
+  }
+  EXPECT_GT(shrunk, 5);
+}
+
+}  // namespace halfspace::conformance

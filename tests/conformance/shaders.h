@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The shaders of the conformance tests, one for each Kind. All take a Vertex; tests/mesa has the same in GLSL.
+#pragma once
+
+#include "conformance/picture.h"
+
+namespace halfspace::conformance {
+
+template <class R>
+struct VertexAttributes {
+  vec4<R> pos_clip;
+  vec4<R> color;
+  vec4<R> extra;
+};
+
+/// A colour, interpolated as the mode says.
+struct ColorShader {
+  int mode = kSmooth;
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  struct Varyings {
+    vec4<R> smooth;
+    Flat<vec4<R>> flat;
+    Linear<vec4<R>> linear;
+    Centroid<vec4<R>> centroid;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.smooth = out.flat.value = out.linear.value = out.centroid.value = in.color;
+    return in.pos_clip;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    switch (mode) {
+      case kFlat: return {in.flat.value};
+      case kLinear: return {in.linear.value};
+      case kCentroid: return {in.centroid.value};
+      default: return {in.smooth};
+    }
+  }
+};
+
+/// What most others hand over.
+template <class R>
+struct ColorVaryings {
+  vec4<R> color;
+};
+
+/// Four clip distances, in `extra`.
+struct ClipShader {
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using Varyings = ColorVaryings<R>;
+  template <class R>
+  PerVertex<R, 4> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return {in.pos_clip, R(4.0f), {in.extra.x, in.extra.y, in.extra.z, in.extra.w}};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color};
+  }
+};
+
+/// Discards where red is below `value`.
+struct CutoutShader {
+  float value = 0.5f;
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using Varyings = ColorVaryings<R>;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return in.pos_clip;
+  }
+  template <class R>
+  DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color, in.color.x >= R(value)};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {in.color.x >= R(value), px.z()};
+  }
+};
+
+/// Writes green as depth.
+struct DepthShader {
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using Varyings = ColorVaryings<R>;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return in.pos_clip;
+  }
+  template <class R>
+  DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color, R(0.0f) <= R(0.0f), in.color.y};
+  }
+};
+
+/// Points of extra.x px that show their coordinate.
+struct PointShader {
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using Varyings = ColorVaryings<R>;
+  template <class R>
+  PerVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return {in.pos_clip, in.extra.x, {}};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec2<R> c = px.point_coord();
+    return {vec4<R>(c.x, c.y, in.color.z, in.color.w)};
+  }
+};
+
+/// Derivatives of extra.x and extra.y, times `value`.
+struct DerivativeShader {
+  int mode = kDdx;
+  float value = 1.0f;
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  struct Varyings {
+    vec2<R> uv;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = vec2<R>(in.extra.x, in.extra.y);
+    return in.pos_clip;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    vec2<R> dx, dy;
+    if (mode < kQuadDdx) {
+      dx = px.ddx(&Varyings<R>::uv);
+      dy = px.ddy(&Varyings<R>::uv);
+    } else {
+      const vec2<R> here = px.template at_quad<Varyings<R>>(0, 0).uv;
+      const vec2<R> right = px.template at_quad<Varyings<R>>(1, 0).uv, up = px.template at_quad<Varyings<R>>(0, 1).uv;
+      dx = vec2<R>(right.x - here.x, right.y - here.y);
+      dy = vec2<R>(up.x - here.x, up.y - here.y);
+    }
+    const R k(value);
+    switch (mode % 3) {
+      case kDdx: return {vec4<R>(dx.x * k, dx.y * k, R(0.0f), R(1.0f))};
+      case kDdy: return {vec4<R>(dy.x * k, dy.y * k, R(0.0f), R(1.0f))};
+      default: return {vec4<R>((abs(dx.x) + abs(dy.x)) * k, (abs(dx.y) + abs(dy.y)) * k, R(0.0f), R(1.0f))};
+    }
+  }
+};
+
+/// A texture at (extra.x, extra.y).
+struct TextureShader {
+  std::shared_ptr<const Texture2D> texture;
+  Sampler sampler;
+  int mode = kByDerivatives;
+  float value = 0.0f;
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  struct Varyings {
+    vec2<R> uv;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = vec2<R>(in.extra.x, in.extra.y);
+    return in.pos_clip;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    if (mode == kByLevel) return {texture->sample_level<R>(sampler, in.uv, R(value))};
+    return {texture->sample<R>(sampler, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv))};
+  }
+};
+
+/// Moves to the right by `value` an instance, and by extra; the colour's blue counts instances too.
+struct InstanceShader {
+  float value = 0.0f;
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using Varyings = ColorVaryings<R>;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    const R number(static_cast<float>(id.instance));
+    out.color = vec4<R>(in.color.x, in.extra.w, number * R(1.0f / 32.0f), in.color.w);
+    return vec4<R>(in.pos_clip.x + number * R(value) + in.extra.x, in.pos_clip.y + in.extra.y, in.pos_clip.z, in.pos_clip.w);
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color};
+  }
+};
+
+/// N colours made of two: for attachments, or the second source of blending.
+template <std::size_t N>
+struct ColorsShader {
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  struct Varyings {
+    vec4<R> color, other;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    out.other = in.extra;
+    return in.pos_clip;
+  }
+  template <class R>
+  Fragments<R, N> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    Fragments<R, N> out;
+    out.color[0] = in.color;
+    out.color[1] = in.other;
+    for (std::size_t i = 2; i < N; ++i) {
+      const R t(static_cast<float>(i) * 0.25f);
+      for (int k = 0; k < 4; ++k) out.color[i][k] = in.color[k] * t + in.other[k] * (R(1.0f) - t);
+    }
+    return out;
+  }
+};
+
+}  // namespace halfspace::conformance

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pictures of tests/conformance drawn by Mesa: in each group at least 99.9% of the covered pixels agree.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "conformance/groups.h"
+#include "conformance/random_state.h"
+#include "conformance_glsl.h"
+#include "core/srgb.h"
+#include "mesa_context.h"
+#include "mesa_draw.h"
+
+namespace halfspace::test {
+
+namespace {
+
+using conformance::Drawing;
+using conformance::Kind;
+using namespace conformance_glsl;
+
+struct Glsl {
+  const char *vertex, *fragment;
+};
+Glsl glsl_of(Kind kind) {
+  switch (kind) {
+    case Kind::color: return {kColorVertex, kColorFragment};
+    case Kind::clip: return {kClipVertex, kPlainFragment};
+    case Kind::cutout: return {kVertex, kCutoutFragment};
+    case Kind::depth: return {kVertex, kDepthFragment};
+    case Kind::point: return {kPointVertex, kPointFragment};
+    case Kind::derivative: return {kVertex, kDerivativeFragment};
+    case Kind::texture: return {kVertex, kTextureFragment};
+    case Kind::instance: return {kInstanceVertex, kPlainFragment};
+    case Kind::two_colors:
+    case Kind::four_colors: break;
+  }
+  return {kVertex, kTwoFragment};
+}
+
+MesaDraw mesa_draw_of(const Drawing& d) {
+  const auto [vertex, fragment] = glsl_of(d.kind);
+  VertexStream extra = stream(d.vertices, &conformance::Vertex::extra);
+  if (!d.rows.empty()) extra = per_instance(stream(d.rows), d.divisor);
+  MesaDraw m{kShared,
+             vertex,
+             fragment,
+             [&d](const UniformSetter& set) {
+               set("mode", static_cast<float>(d.mode));
+               set("value", d.value);
+               if (d.texture) set("image", *d.texture, d.sampler);
+             },
+             vertices(stream(d.vertices, &conformance::Vertex::pos_clip), stream(d.vertices, &conformance::Vertex::color), extra),
+             d.indices,
+             d.state,
+             d.restart,
+             d.kind == Kind::point || d.kind == Kind::clip,
+             d.kind == Kind::clip ? 4 : 0};
+  for (uint32_t i = 0; d.indices.empty() && i < d.vertices.size(); ++i) m.indices.push_back(i);
+  return m;
+}
+
+// ---- comparison ----------------------------------------------------------------------------------------------------
+
+struct Agreement {
+  MesaPrograms programs;
+  int64_t pictures = 0, covered = 0, differing = 0;
+};
+
+bool is_inside(const conformance::Vertex& v) {
+  const glm::vec4& p = v.pos_clip;
+  return std::fabs(p.x) <= p.w && std::fabs(p.y) <= p.w && std::fabs(p.z) <= p.w;
+}
+
+// Why Mesa is not asked for a picture, or null.
+const char* not_comparable(const conformance::Picture& p) {
+  if (p.samples == 2 || p.samples == 8) return "llvmpipe has 1 or 4 samples";
+  if (p.colors.size() > 1) return "one colour is compared";
+  if (p.supersample) return "OpenGL has no such option";
+  for (const Drawing& d : p.draws) {
+    const DrawState& s = d.state;
+    const bool lines = is_lines(s.topology) || s.polygon_mode == PolygonMode::line;
+    const bool in_perspective = std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.pos_clip.w != 1.0f; });
+    if (s.alpha_to_coverage) return "OpenGL leaves open which samples an alpha covers";
+    if (p.samples > 1 && (s.sample_shading || d.mode == conformance::kCentroid)) return "OpenGL leaves open where inside a pixel is shaded";
+    if (lines && !(d.kind == Kind::color && d.mode == conformance::kFlat)) return "llvmpipe interpolates along a line's longer axis alone";
+    if (d.kind == Kind::point && p.samples > 1) return "llvmpipe's point coordinate is half a pixel off with samples";
+    const bool derives = d.kind == Kind::derivative || (d.kind == Kind::texture && d.mode == conformance::kByDerivatives);
+    if (derives && in_perspective) return "OpenGL leaves open which differences of a quad a derivative is";
+    const bool turns_over = std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.pos_clip.w < 0.0f; });
+    if (d.kind == Kind::color && d.mode == conformance::kLinear && turns_over)
+      return "OpenGL leaves noperspective open where w changes its sign";
+    if (s.stencil && s.polygon_mode != PolygonMode::fill) return "llvmpipe tests outlines of back faces as front faces";
+    if (d.texture && d.texture->format() > TexelFormat::srgb8a8) return "textures of 8-bit RGBA are uploaded";
+    if (draws_points(s) && (d.kind == Kind::clip || !std::all_of(d.vertices.begin(), d.vertices.end(), is_inside)))
+      return "Mesa clips points by their centre";
+    if (p.samples > 1 && s.scissor) return "llvmpipe's scissor lets samples of the pixels beside it through";
+  }
+  return nullptr;
+}
+
+bool blends(const conformance::Picture& p) {
+  return std::any_of(p.draws.begin(), p.draws.end(), [](const Drawing& d) { return d.state.blend.has_value(); });
+}
+
+float srgb_to_linear(float code) { return kSrgbToLinear[static_cast<std::size_t>(std::lround(code * 255.0f))]; }
+
+// By how much a channel may differ.
+float tolerance(const conformance::Picture& p) {
+  constexpr float kCode = 1.01f / 255.0f;
+  const bool textured = std::any_of(p.draws.begin(), p.draws.end(), [](const Drawing& d) { return d.texture != nullptr; });
+  if (textured) return 2.0f * kCode;  // llvmpipe's log2 errs by 0.04, its sRGB by 0.001
+  const bool floats = p.colors[0] == ColorFormat::rgba16f || p.colors[0] == ColorFormat::rgba32f;
+  if (floats) return 0x1p-10f;
+  // Mesa blends 8 bits in whole numbers, each product rounded; VK-GL-CTS allows three codes.
+  return blends(p) ? 3.0f * kCode : kCode;
+}
+
+void print_pixel(int x, int y, const glm::vec4& a, const glm::vec4& b) {
+  std::printf("    (%d, %d): Halfspace", x, y);
+  for (int k = 0; k < 4; ++k) std::printf(" %g", static_cast<double>(a[k]));
+  std::printf("  Mesa");
+  for (int k = 0; k < 4; ++k) std::printf(" %g", static_cast<double>(b[k]));
+  std::printf("\n");
+}
+
+// A pixel is covered where either picture is not as it was cleared.
+int64_t compare_with_mesa(const conformance::Picture& p, const std::string& name, Agreement& sum) {
+  const TargetSpec target{p.width, p.height, p.colors[0], p.clear_color, p.clear_depth, p.depth, p.clear_stencil, p.samples};
+  std::vector<MesaDraw> draws;
+  for (const Drawing& d : p.draws) draws.push_back(mesa_draw_of(d));
+  const std::vector<glm::vec4> mesa = colors_by_mesa(target, draws, sum.programs);
+  const conformance::Seen seen = conformance::draw(p);
+  conformance::Picture nothing = p;
+  nothing.draws.clear();
+  const glm::vec4 clear = conformance::draw(nothing).color(0, 0);
+  const bool in_light = p.colors[0] == ColorFormat::srgb8a8 && blends(p);  // llvmpipe decodes what is there less exactly
+  const auto near = [in_light, most = tolerance(p)](const glm::vec4& a, const glm::vec4& b) {
+    for (int k = 0; k < 4; ++k) {
+      const bool near_by_code = std::fabs(a[k] - b[k]) <= most * std::max(1.0f, std::fabs(a[k]));
+      const bool near_in_light = in_light && k < 3 && std::fabs(srgb_to_linear(a[k]) - srgb_to_linear(b[k])) <= most;
+      if (!near_by_code && !near_in_light) return false;
+    }
+    return true;
+  };
+  int64_t covered = 0, differing = 0;
+  for (int y = 0; y < p.height; ++y) {
+    for (int x = 0; x < p.width; ++x) {
+      const glm::vec4 a = seen.color(x, y), b = mesa[static_cast<std::size_t>(y * p.width + x)];
+      covered += p.draws.empty() || !near(a, clear) || !near(b, clear);
+      if (near(a, b)) continue;
+      if (++differing <= 3 && std::getenv("HALFSPACE_MESA_PIXELS") != nullptr) print_pixel(x, y, a, b);
+    }
+  }
+  if (differing > 0 && !name.empty())
+    std::printf("  %s: %lld of %lld\n", name.c_str(), static_cast<long long>(differing), static_cast<long long>(covered));
+  ++sum.pictures;
+  sum.covered += covered;
+  sum.differing += differing;
+  return differing;
+}
+
+void expect_agreement(const Agreement& a) {
+  std::printf("%lld pictures, %lld covered pixels, %lld differ\n", static_cast<long long>(a.pictures), static_cast<long long>(a.covered),
+              static_cast<long long>(a.differing));
+  testing::Test::RecordProperty("covered", std::to_string(a.covered));
+  testing::Test::RecordProperty("differing", std::to_string(a.differing));
+  EXPECT_GT(a.covered, 0);
+  EXPECT_LE(a.differing * 1000, a.covered);
+}
+
+}  // namespace
+
+class MesaConformance : public MesaTest, public testing::WithParamInterface<conformance::Group> {};
+
+TEST_P(MesaConformance, AgreesOnTheGroup) {
+  Agreement sum;
+  for (const conformance::Case& c : GetParam().cases()) {
+    const conformance::Picture picture = c.picture();
+    if (c.not_by_mesa == nullptr && not_comparable(picture) == nullptr) compare_with_mesa(picture, c.name, sum);
+  }
+  expect_agreement(sum);
+}
+
+INSTANTIATE_TEST_SUITE_P(Groups, MesaConformance, testing::ValuesIn(conformance::kGroups),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+class MesaRandomStates : public MesaTest {
+ protected:
+  // Levels come by lot here; llvmpipe's err by 0.04, which counts where filters or levels change.
+  static bool comparable(const conformance::Picture& p) {
+    const bool filter_changes = std::any_of(p.draws.begin(), p.draws.end(), [](const Drawing& d) {
+      const bool by_level = d.sampler.min == Filter::trilinear || (d.sampler.mag == Filter::nearest) != (d.sampler.min == Filter::nearest);
+      return d.texture && by_level;
+    });
+    return !filter_changes && not_comparable(p) == nullptr;
+  }
+};
+
+TEST_F(MesaRandomStates, Agree) {
+  Agreement sum;
+  for (uint64_t seed = 0; seed < 1000; ++seed) {
+    const conformance::RandomState state{seed, 0};
+    const conformance::Picture picture = conformance::random_picture(state);
+    if (!comparable(picture) || compare_with_mesa(picture, state.text(), sum) < 12) continue;
+    const auto differs = [](const conformance::Picture& p) {
+      Agreement one;
+      return comparable(p) && compare_with_mesa(p, "", one) >= 12;
+    };
+    std::printf("  shrunk: HALFSPACE_STATE=%s\n", conformance::shrink(state, differs).text().c_str());
+  }
+  expect_agreement(sum);
+}
+
+}  // namespace halfspace::test
