@@ -74,6 +74,44 @@ void copy_words(const Tile& tile, int target_width, int target_height, Samples h
   });
 }
 
+// Images from this size on are larger than the caches next to a core: what is written to them goes past these, which saves
+// reading each line first.
+constexpr std::size_t kStreamBytes = std::size_t{4} << 20;
+
+bool streams(const std::byte* data, int width, int height, int bytes) {
+  const auto row = static_cast<std::size_t>(width) * static_cast<std::size_t>(bytes);
+  return row * static_cast<std::size_t>(height) >= kStreamBytes && row % 64 == 0 && reinterpret_cast<uintptr_t>(data) % 64 == 0;
+}
+
+#ifdef __AVX2__
+// copy_words to a large image, of a whole tile of one sample: two rows of eight pixels at a time.
+void stream_words(const Tile& tile, int target_width, int target_height, const std::byte* in_tile, std::byte* in_image) {
+  const __m256i rows = _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7);  // Z order to one row of four and the next
+  const std::size_t pitch = static_cast<std::size_t>(target_width) * 4;
+  for (int y = 0; y < kMaxTileSize; y += 2) {
+    std::byte* out = in_image + static_cast<std::size_t>(target_height - 1 - (tile.y0 + y)) * pitch + static_cast<std::size_t>(tile.x0) * 4;
+    for (int x = 0; x < kMaxTileSize; x += kBlockSize, out += 4 * kBlockSize) {
+      const std::size_t block = static_cast<std::size_t>(y / kBlockSize * kBlocksPerRow + x / kBlockSize) * kPixelsPerBlock;
+      const std::byte* from = in_tile + 4 * (block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize)]);
+      const __m256i left = _mm256_permutevar8x32_epi32(load<__m256i>(from), rows);
+      const __m256i right = _mm256_permutevar8x32_epi32(load<__m256i>(from + 4 * 16), rows);
+      _mm256_stream_si256(reinterpret_cast<__m256i*>(out), _mm256_permute2x128_si256(left, right, 0x20));
+      _mm256_stream_si256(reinterpret_cast<__m256i*>(out - pitch), _mm256_permute2x128_si256(left, right, 0x31));
+    }
+  }
+  _mm_sfence();  // streamed stores are not ordered before the end of the task by anything else
+}
+#endif
+
+// Tile to image, 32 bits a pixel.
+void store_words(const Tile& tile, int width, int height, Samples held, int samples, const std::byte* in_tile, std::byte* in_image) {
+#ifdef __AVX2__
+  const bool whole = tile.samples == 1 && tile.width == kMaxTileSize && tile.height == kMaxTileSize;
+  if (whole && streams(in_image, width, height, 4)) return stream_words(tile, width, height, in_tile, in_image);
+#endif
+  copy_words<false>(tile, width, height, held, samples, in_tile, in_image);
+}
+
 int stored_samples(const Tile& tile, Samples held) { return held == Samples::one ? 1 : tile.samples; }
 
 // An image that a tile is loaded from or stored to.
@@ -272,14 +310,35 @@ void load_depth(const DepthTarget& target, int width, int height, Samples held, 
 
 namespace {
 
-// Sets the tile's pixels in an image of 4-byte or larger pixels to one value.
+// Fills bytes, a multiple of 64, with a line of 64.
+void stream_lines(const std::byte* line, std::byte* out, std::size_t bytes) {
+  const __m128i a = load<__m128i>(line), b = load<__m128i>(line + 16), c = load<__m128i>(line + 32), d = load<__m128i>(line + 48);
+  for (std::size_t i = 0; i < bytes; i += 64) {
+    auto* to = reinterpret_cast<__m128i*>(out + i);
+    _mm_stream_si128(to, a);
+    _mm_stream_si128(to + 1, b);
+    _mm_stream_si128(to + 2, c);
+    _mm_stream_si128(to + 3, d);
+  }
+}
+
+// Sets the tile's pixels in an image to one value.
 template <class T>
 void fill_rows(T value, std::byte* data, int width, int height, const Tile& tile) {
-  T* image = reinterpret_cast<T*>(data);
+  alignas(64) std::array<std::byte, 64> line;
+  for (std::size_t i = 0; i < 64; i += sizeof(T)) std::memcpy(&line[i], &value, sizeof(T));
+  const bool aligned = static_cast<std::size_t>(tile.width) * sizeof(T) % 64 == 0 && static_cast<std::size_t>(tile.x0) * sizeof(T) % 64 == 0;
+  const bool stream = aligned && streams(data, width, height, sizeof(T));
   for (int y = 0; y < tile.height; ++y) {
     const std::size_t row = static_cast<std::size_t>(height - 1 - (tile.y0 + y)) * static_cast<std::size_t>(width);
-    std::fill_n(image + row + static_cast<std::size_t>(tile.x0), tile.width, value);
+    std::byte* out = data + (row + static_cast<std::size_t>(tile.x0)) * sizeof(T);
+    if (stream) {
+      stream_lines(line.data(), out, static_cast<std::size_t>(tile.width) * sizeof(T));
+    } else {
+      std::fill_n(reinterpret_cast<T*>(out), tile.width, value);
+    }
   }
+  if (stream) _mm_sfence();
 }
 
 }  // namespace
@@ -318,14 +377,14 @@ void store_color(const ColorTarget& target, int width, int height, Samples held,
   switch (target.format) {
     case ColorFormat::rgba32f: store_planes<float>(target.data, place, tile, color); break;
     case ColorFormat::rgba16f: store_half_planes(target.data, place, tile, color); break;
-    default: copy_words<false>(tile, width, height, held, stored_samples(tile, held), color.bytes.data(), target.data); break;
+    default: store_words(tile, width, height, held, stored_samples(tile, held), color.bytes.data(), target.data); break;
   }
 }
 
 void store_depth(const DepthTarget& target, int width, int height, Samples held, const Tile& tile) {
   if (target.format == DepthFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
   if (target.format == DepthFormat::d32f) {  // as the tile holds it
-    copy_words<false>(tile, width, height, held, stored_samples(tile, held), reinterpret_cast<const std::byte*>(tile.depth.data()), target.data);
+    store_words(tile, width, height, held, stored_samples(tile, held), reinterpret_cast<const std::byte*>(tile.depth.data()), target.data);
     return;
   }
   with_codec(target.format, [&]<class C>(C) {
