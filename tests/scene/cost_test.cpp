@@ -52,7 +52,8 @@ inline Counted floor(Counted a) { return std::floor(a.value); }
 inline Counted fma(Counted a, Counted b, Counted c) { return std::fma(a.value, b.value, c.value); }
 inline Counted min(Counted a, Counted b) { return a < b ? a : b; }
 inline Counted max(Counted a, Counted b) { return a > b ? a : b; }
-inline Counted pow(Counted a, Counted b) { return pow(a.value, b.value); }
+inline Counted unit_pow(Counted a, Counted b) { return unit_pow(a.value, b.value); }
+inline Counted inverse_sqrt(Counted a) { return inverse_sqrt(a.value); }
 
 }  // namespace halfspace
 
