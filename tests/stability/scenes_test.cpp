@@ -111,8 +111,9 @@ TEST(Stability, GouraudHighlights) {
       "objects": { "ball": { "latitudes": 18, "longitudes": 36, "rotation": [5, 5, 0], "diffuse": 0, "specular": 1, "shininess": 200,
                              "shading": ")") +
                                           shading + "\" } } }");
+    const Image<glm::vec4> light = light_of(scene, 300, 300);
     float peak = 0.0f;
-    for (const glm::vec4& p : light_of(scene, 300, 300).texels()) peak = std::max(peak, p.x);
+    for (const glm::vec4& p : light.texels()) peak = std::max(peak, p.x);
     return 1.0 - static_cast<double>(peak);
   };
   // A pixel is 0.5 degrees at most from the middle: cos(0.25 degrees)^200 is 1 − 0.002; interpolated normals are as near.
