@@ -34,7 +34,7 @@ class Image {
   Image(int width, int height) : width_(width), height_(height) {
     HS_CHECK_OP(width, >=, 0);
     HS_CHECK_OP(height, >=, 0);
-    texels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    texels_ = Texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   }
 
   int width() const { return width_; }
@@ -52,6 +52,8 @@ class Image {
   friend bool operator==(const Image&, const Image&) = default;
 
  private:
+  using Texels = std::vector<T, LineAllocator<T>>;
+
   std::size_t index(int x, int row) const {
     HS_DCHECK(x >= 0 && x < width_ && row >= 0 && row < height_);
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
@@ -59,7 +61,7 @@ class Image {
 
   int width_ = 0;
   int height_ = 0;
-  std::vector<T, LineAllocator<T>> texels_;
+  Texels texels_;
 };
 
 }  // namespace halfspace

@@ -152,13 +152,12 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
     px.y = real(y) + R(0.5f);
     px.quad_x = real(x & 1);
     px.quad_y = real(y & 1);
-    const R depth = std::clamp(a.z + px.weights.b1 * (b.z - a.z) + px.weights.b2 * (c.z - a.z), R(0), R(1));
+    R z = std::clamp(a.z + px.weights.b1 * (b.z - a.z) + px.weights.b2 * (c.z - a.z), R(0), R(1));
     px.find_z = [](const Pixel<R>& pixel) { return *static_cast<const R*>(pixel.z_source); };
-    px.z_source = &depth;
+    px.z_source = &z;
     px.front_facing = front;
     const auto fragment =
         call_fragment<S, R>(shader, interpolate_all<V>(px.weights, lanes, std::make_index_sequence<kComponents<V>>()), face, px);
-    R z = depth;
     if constexpr (kDiscards<S>)
       if (!fragment.keep) return;
     if constexpr (kWritesDepth<S>) z = fragment.depth;

@@ -41,6 +41,13 @@ struct FragmentBatch {
   FragmentOutput* out;
 };
 
+/// The draw that a triangle belongs to.
+inline const Draw& draw_of(const Frame& frame, TriangleId id) {
+  const Chunk& chunk = frame.chunks[id >> 16];
+  const std::size_t segment = chunk.segments.size() == 1 ? 0 : chunk.triangles[id & 0xffff].segment();
+  return frame.draws[chunk.segments[segment].draw];
+}
+
 /// What the kernels read of one triangle, wherever it is kept.
 struct TriangleSource {
   const Triangle* triangle;
@@ -62,7 +69,8 @@ struct TriangleRows {
 };
 /// Gathers the triangles of `lanes` (not empty; all of one draw); other lanes repeat the first. False, and nothing is said, if
 /// one of them is clipped, a point or a line, or the draw has too many vertices for gathers.
-bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front, TriangleRows& rows);
+bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
+                 TriangleRows& rows);
 
 /// Where Pixel::z() of a packet looks: the triangles of `lanes`.
 struct PacketTriangleIds {

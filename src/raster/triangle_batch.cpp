@@ -52,8 +52,9 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   const PixelBounds& b = draw.bounds;
   const SampleSpan& span = frame.samples_at;
   constexpr int32_t last = kSubPixels - 1;
-  const Mask no_sample = (max((x_low + (last - span.high)) >> kSubPixelBits, Int(b.x0)) >= min(((x_high - span.low) >> kSubPixelBits) + 1, Int(b.x1))) |
-                         (max((y_low + (last - span.high)) >> kSubPixelBits, Int(b.y0)) >= min(((y_high - span.low) >> kSubPixelBits) + 1, Int(b.y1)));
+  const Mask no_sample =
+      (max((x_low + (last - span.high)) >> kSubPixelBits, Int(b.x0)) >= min(((x_high - span.low) >> kSubPixelBits) + 1, Int(b.x1))) |
+      (max((y_low + (last - span.high)) >> kSubPixelBits, Int(b.y0)) >= min(((y_high - span.low) >> kSubPixelBits) + 1, Int(b.y1)));
   const auto take = [&](uint32_t which, uint64_t& counter) {
     counter += static_cast<uint64_t>(std::popcount(lanes & which));
     lanes &= ~which;
@@ -68,7 +69,7 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   std::array<Real, 3> z;
   for (std::size_t i = 0; i < 3; ++i) z[i] = gather(first_z, v[i] << 2);
   std::array<Int, 3> order{Int(0), Int(1), Int(2)};
-  
+
   swap_lanes(turns_right, x[1], x[2]);
   swap_lanes(turns_right, y[1], y[2]);
   swap_lanes(turns_right, z[1], z[2]);

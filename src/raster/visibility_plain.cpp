@@ -19,7 +19,8 @@ constexpr int kPacketColumns = kMaxTileSize / kPacketWidth, kPacketRows = kMaxTi
 constexpr std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> make_packet_places() {
   std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> at{};
   for (int p = 0; p < kPackets; ++p) {
-    at[static_cast<std::size_t>(packet_y(p) / kPacketHeight)][static_cast<std::size_t>(packet_x(p) / kPacketWidth)] = static_cast<uint16_t>(p);
+    at[static_cast<std::size_t>(packet_y(p) / kPacketHeight)][static_cast<std::size_t>(packet_x(p) / kPacketWidth)] =
+        static_cast<uint16_t>(p);
   }
   return at;
 }
@@ -112,12 +113,15 @@ class SmallTriangle {
              std::max(d.bounds.y0 - tile.y0, (std::min({y[0], y[1], y[2]}) + kSubPixels - 1) >> kSubPixelBits),
              std::min(d.bounds.x1 - tile.x0, (std::max({x[0], x[1], x[2]}) >> kSubPixelBits) + 1),
              std::min(d.bounds.y1 - tile.y0, (std::max({y[0], y[1], y[2]}) >> kSubPixelBits) + 1)};
-    if (rect_.x0 >= rect_.x1 || rect_.y0 >= rect_.y1) return;
     for (std::size_t i = 0; i < 3; ++i) edge_[i] = small_edge(x, y, i);
     for (std::size_t i = 0; i < 3; ++i) first_[i] = lane_x() * edge_[i].step_x + lane_y() * edge_[i].step_y + edge_[i].e;
     z_high_ = std::clamp(t.z_max, d.draw.depth_low, d.draw.depth_high);
     low_ = depth_value(tile.depth_format, std::clamp(t.z0, d.draw.depth_low, z_high_));
     high_ = depth_value(tile.depth_format, z_high_);
+  }
+
+  void visit() {
+    if (rect_.x0 >= rect_.x1 || rect_.y0 >= rect_.y1) return;
     const int column0 = rect_.x0 / kPacketWidth, column1 = (rect_.x1 - 1) / kPacketWidth;
     const int row0 = rect_.y0 / kPacketHeight, row1 = (rect_.y1 - 1) / kPacketHeight;
     if ((column1 - column0 + 1) * (row1 - row0 + 1) <= kFewPackets || kLanes == 1) {
@@ -225,7 +229,7 @@ bool covers_tile(const DrawInTile& d, const Triangle& t) {
 
 void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, Tile& tile, PassStatistics& statistics) {
   if (t.is(kSmall) && !t.is(kSprite) && spans_at_most(t, kSmallSpan)) {
-    SmallTriangle(d, t, id, tile, statistics);
+    SmallTriangle(d, t, id, tile, statistics).visit();
     return;
   }
   const SampleGrid grid(d.tile, 0);
