@@ -53,6 +53,7 @@ fault "setup in lanes: the nearest vertex is not the first" src/raster/triangle_
 fault "gathered triangles: vertices of equal w out of order" src/raster/gather.cpp '(q[2] < q[0]) & (q[2] < q[1])' '(q[2] <= q[0]) & (q[2] < q[1])'
 fault "small triangles: a row of packets asked at its first pixels" src/raster/visibility_plain.cpp '(e.step_x * kPacketWidth) + (e.e + rise)' '(e.step_x * kPacketWidth) + e.e'
 fault "blocks that may fail the test are written whole" src/raster/block_edges.h 'case CompareOp::less: return say(low >= block_max, high < block_min);' 'case CompareOp::less: return say(low >= block_max, low < block_min);'
+fault "a tile's depth bounds are those of a few blocks" src/raster/block_edges.h 'for (int b = kLanes; b < kBlocks; b += kLanes)' 'for (int b = kBlocks; b < kBlocks; b += kLanes)'
 fault "constant tiles: a triangle that covers half of one fills it" src/raster/visibility_plain.cpp 'whole &= edges.e[i] == 0 &&' 'whole &= edges.e[i] >= 0 ||'
 fault "halves: rows of a quad swapped" src/raster/tile_images.h 'f(in_tile, 4 * in_image, 4 * (in_image - static_cast<std::size_t>(place.width)));' 'f(in_tile, 4 * (in_image - static_cast<std::size_t>(place.width)), 4 * in_image);'
 fault "stencil: rejected blocks forget what failed" src/raster/visibility.cpp '!(d.asks_shader && d.draw.kernels.writes_depth) && !counts_failures &&' '!(d.asks_shader && d.draw.kernels.writes_depth) &&'

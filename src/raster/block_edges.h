@@ -57,11 +57,8 @@ inline constexpr uint8_t kRefreshAfter = 8;
 
 enum class BlockTest : uint8_t { none_passes, some_may, all_pass };
 
-/// What a block's depth bounds say of values in [low, high].
-inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high) {
-  const auto b = static_cast<std::size_t>(block);
-  if (tile.block_writes[b] >= kRefreshAfter) refresh_block_bounds(tile, block);
-  const float block_min = tile.block_min[b], block_max = tile.block_max[b];
+/// What bounds of stored depths say of values in [low, high].
+inline BlockTest test_bounds(CompareOp op, float low, float high, float block_min, float block_max) {
   const auto say = [](bool none, bool all) { return none ? BlockTest::none_passes : all ? BlockTest::all_pass : BlockTest::some_may; };
   switch (op) {
     case CompareOp::never: return BlockTest::none_passes;
@@ -74,6 +71,27 @@ inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, floa
     case CompareOp::always: return BlockTest::all_pass;
   }
   return BlockTest::some_may;
+}
+
+inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high) {
+  const auto b = static_cast<std::size_t>(block);
+  if (tile.block_writes[b] >= kRefreshAfter) refresh_block_bounds(tile, block);
+  return test_bounds(op, low, high, tile.block_min[b], tile.block_max[b]);
+}
+
+/// The same of all blocks together.
+inline BlockTest test_tile(CompareOp op, const Tile& tile, float low, float high) {
+  Real least = load<Real>(tile.block_min.data()), largest = load<Real>(tile.block_max.data());
+  for (int b = kLanes; b < kBlocks; b += kLanes) {
+    least = min(least, load<Real>(&tile.block_min[static_cast<std::size_t>(b)]));
+    largest = max(largest, load<Real>(&tile.block_max[static_cast<std::size_t>(b)]));
+  }
+  float tile_min = lane(least, 0), tile_max = lane(largest, 0);
+  for (int i = 1; i < kLanes; ++i) {
+    tile_min = std::min(tile_min, lane(least, i));
+    tile_max = std::max(tile_max, lane(largest, i));
+  }
+  return test_bounds(op, low, high, tile_min, tile_max);
 }
 
 }  // namespace halfspace

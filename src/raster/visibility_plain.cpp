@@ -182,6 +182,14 @@ class SmallTriangle {
   float z_high_, low_, high_;
 };
 
+// Remembers that every value of a block was replaced by one in [low, high].
+void set_block_bounds(Tile& tile, int block, float low, float high) {
+  const auto b = static_cast<std::size_t>(block);
+  tile.block_min[b] = low;
+  tile.block_max[b] = high;
+  tile.block_writes[b] = 0;
+}
+
 // ---- all others --------------------------------------------------------------------------------------------------
 
 template <bool small>
@@ -192,6 +200,8 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
   const float low = plane.low(), high = plane.high();
   const bool cut = d.cut || t.is(kSprite | kLine);
   Writer writer(d, id, tile, statistics);
+  const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
+  if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) return;
   constexpr int mask_to_block = ~(kBlockSize - 1);
   for (int y = rect.y0 & mask_to_block; y < rect.y1; y += kBlockSize) {
     for (int x = rect.x0 & mask_to_block; x < rect.x1; x += kBlockSize) {
@@ -203,6 +213,7 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       const int first = block * kPacketsPerBlock;
       if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !cut) {
         for (int p = first; p < first + kPacketsPerBlock; ++p) writer.write_whole(p, plane.at(edges, packet_x(p), packet_y(p)));
+        if (writer.writes_depth()) set_block_bounds(tile, block, low, high);
       } else {
         for (int p = first; p < first + kPacketsPerBlock; ++p) {
           const int px = packet_x(p), py = packet_y(p);
@@ -211,8 +222,8 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
           if (cut) mask = mask & inside(rect, px, py);
           if (any(mask)) writer.write(p, mask, plane.at(edges, px, py));
         }
+        if (writer.writes_depth()) widen_block_bounds(writer.compare_op(), tile, block, low, high);
       }
-      if (writer.writes_depth()) widen_block_bounds(writer.compare_op(), tile, block, low, high);
     }
   }
 }
