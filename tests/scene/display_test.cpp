@@ -21,8 +21,11 @@ namespace {
 std::atomic<bool> counting{false};
 std::atomic<std::size_t> least{0}, large{0};
 
-void* counted_or_null(std::size_t size) {
+void count(std::size_t size) {
   if (counting && size >= least) ++large;
+}
+void* counted_or_null(std::size_t size) {
+  count(size);
   return std::malloc(size == 0 ? 1 : size);
 }
 void* counted(std::size_t size) {
@@ -35,6 +38,15 @@ void* counted(std::size_t size) {
 
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  count(size);
+  const auto a = static_cast<std::size_t>(alignment);
+  void* p = std::aligned_alloc(a, (size + a - 1) / a * a);
+  if (p == nullptr) throw std::bad_alloc();
+  return p;
+}
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted_or_null(size); }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted_or_null(size); }
 void operator delete(void* p) noexcept { std::free(p); }
