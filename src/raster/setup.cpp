@@ -232,7 +232,8 @@ class SegmentSetup {
   // The corners become clip vertices of the chunk; the first one's place. All carry the provoking vertex's flat values.
   uint32_t add_corners(const ClipPolygon& polygon, const std::array<uint32_t, 3>& id, const std::array<double, 3>& w) {
     const auto n = static_cast<std::size_t>(shaded_.varying_count);
-    const std::array<const float*, 3> varyings{&shaded_.varyings[id[0] * n], &shaded_.varyings[id[1] * n], &shaded_.varyings[id[2] * n]};
+    const float* rows = shaded_.varyings.get();  // null where there are none
+    const std::array<const float*, 3> varyings{rows + id[0] * n, rows + id[1] * n, rows + id[2] * n};
     const auto first = static_cast<uint32_t>(chunk_.clip_vertices.size());
     for (int i = 0; i < polygon.count; ++i) {
       const ClipCorner& c = polygon.corners[static_cast<std::size_t>(i)];

@@ -157,7 +157,7 @@ struct CutoutShader {
   }
   template <class R>
   MaskOf<R> keeps(const Varyings<R>& in, const Pixel<R>& px) const {
-    return (abs(in.uv.x * in.inside.value.y) > R(threshold)) & (px.z() + in.fade.value * R(0.5f) < R(0.95f));
+    return (abs(in.uv.x * in.inside.value.y) > R(threshold)) && (px.z() + in.fade.value * R(0.5f) < R(0.95f));
   }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
