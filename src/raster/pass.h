@@ -144,7 +144,7 @@ class Pass {
   void run_tile(int index, Round round, PassStatistics& statistics) const;
   void clear_images(const Tile& tile) const;
   // Where the tile's only triangle covers it wholly with one colour, and nothing else is to be done: fills the images. Else false.
-  bool fill_images(const Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
+  bool fill_images(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
   void run_post_step(const Tile& tile) const;
   void draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
   void keep_between_flushes();

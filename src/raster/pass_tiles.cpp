@@ -99,7 +99,7 @@ void Pass::clear_images(const Tile& tile) const {
   if (depth_.load == LoadOp::clear) fill_depth(depth_, frame_.width, frame_.height, tile);
 }
 
-bool Pass::fill_images(const Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
+bool Pass::fill_images(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
   const Chunk* chunk = nullptr;
   uint16_t index = 0;
   for (const Chunk& c : frame_.chunks) {
@@ -158,7 +158,7 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
       const VisibilityMode mode = here->mode;
       const uint64_t passed_before = statistics.samples_passed;
       if (mode == VisibilityMode::deferred || mode == VisibilityMode::depth_only) {
-        rasterize(*here, c, t, tile, nullptr, statistics);
+        rasterize(*here, c, t, nullptr, statistics);
         waiting |= mode == VisibilityMode::deferred;
       } else {
         // Without colours there is nothing to wait for: what waits keeps its own.
@@ -166,7 +166,7 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
         if (shades && waiting && has_color_) shade_deferred(frame_, tile, statistics);
         if (shades) waiting = false;
         list.count = 0;
-        rasterize(*here, c, t, tile, &list, statistics);
+        rasterize(*here, c, t, &list, statistics);
         if (shades && list.count != 0) shade_immediate(frame_, draw, triangle_id(c, t), mode, list, tile, statistics);
       }
       if (draw.state.query) statistics.add_to_query(*draw.state.query, statistics.samples_passed - passed_before);

@@ -172,7 +172,7 @@ VisibilityMode visibility_mode(const Draw& draw) {
   return VisibilityMode::early;
 }
 
-DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, const Tile& t)
+DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, Tile& t)
     : frame(f),
       draw(d),
       mode(m),
@@ -182,9 +182,8 @@ DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, const Ti
       cut(t.size != kMaxTileSize || bounds.x0 > t.x0 || bounds.y0 > t.y0 || d.bounds.x1 < t.x0 + t.size || d.bounds.y1 < t.y0 + t.size),
       tests(tests_depth(d.state.depth, t)),
       asks_shader(m == VisibilityMode::deferred && d.kernels.visibility != nullptr),
-      stencils(d.state.stencil && t.has_stencil),
       is_plain((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && t.samples == 1 && (d.sample_mask & 1) != 0 &&
-               !asks_shader && !stencils) {}
+               !asks_shader && !(d.state.stencil && t.has_stencil)) {}
 
 void widen_block_bounds(CompareOp op, Tile& tile, int block, float low, float high) {
   // What passes LESS only lowers the values, what passes GREATER only raises them.
@@ -212,9 +211,9 @@ void rasterize_sample(Context& c, const PixelBounds& b) {
 
 }  // namespace
 
-void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, Tile& tile, CoverageList* list, PassStatistics& statistics) {
+void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics) {
   const Triangle& t = d.frame.chunks[chunk].triangles[index];
-  if (d.is_plain) return rasterize_plain(d, t, triangle_id(chunk, index), tile, statistics);
+  if (d.is_plain) return rasterize_plain(d, t, triangle_id(chunk, index), statistics);
   const StencilFace* stencil = stencil_face(d.draw.state, d.tile, t.is(kFrontFacing));
   // A stencil value changes with what becomes of the sample: where the shader speaks later, so do both tests.
   const bool late = d.mode == VisibilityMode::test_only && stencil != nullptr;
@@ -226,7 +225,7 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, Tile& tile, 
             t,
             triangle_id(chunk, index),
             d.mode,
-            tile,
+            d.tile,
             list,
             statistics,
             late ? nullptr : stencil,

@@ -34,25 +34,24 @@ VisibilityMode visibility_mode(const Draw& draw);
 
 /// What the triangles of one draw have in common in one tile.
 struct DrawInTile {
-  DrawInTile(const Frame& frame, const Draw& draw, VisibilityMode mode, const Tile& tile);
+  DrawInTile(const Frame& frame, const Draw& draw, VisibilityMode mode, Tile& tile);
 
   const Frame& frame;
   const Draw& draw;
   VisibilityMode mode;
-  const Tile& tile;
+  Tile& tile;
   PixelBounds bounds;    ///< of the draw in the tile
   bool cut;              ///< a covered pixel of the tile may lie outside of bounds
   bool tests;            ///< there is a depth test in this stage (where the stencil does not put it off)
   bool asks_shader;      ///< the shader's visibility function decides
-  bool stencils;         ///< there is a stencil test, in this stage or later
   bool is_plain;         ///< one sample a pixel, and only coverage and depth decide
 };
 
 /// Rasterizes triangle `index` of chunk `chunk` in the tile. list is needed but for VisibilityMode::deferred and depth_only.
-void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, Tile& tile, CoverageList* list, PassStatistics& statistics);
+void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics);
 
 /// The same for a plain draw (visibility_plain.cpp).
-void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, Tile& tile, PassStatistics& statistics);
+void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
 
 /// Covers the triangle of a plain draw every pixel of the tile's room?
 bool covers_tile(const DrawInTile& d, const Triangle& t);

@@ -30,8 +30,8 @@ constexpr auto kPacketAt = make_packet_places();
 // What one triangle's packets do to the tile.
 class Writer {
  public:
-  Writer(const DrawInTile& d, TriangleId id, Tile& tile, PassStatistics& statistics)
-      : tile_(tile),
+  Writer(const DrawInTile& d, TriangleId id, PassStatistics& statistics)
+      : tile_(d.tile),
         id_(std::bit_cast<int32_t>(id)),
         statistics_(statistics),
         compare_(d.draw.state.depth.compare),
@@ -103,8 +103,9 @@ SmallEdge small_edge(const std::array<int32_t, 3>& x, const std::array<int32_t, 
 // A small triangle in one tile.
 class SmallTriangle {
  public:
-  SmallTriangle(const DrawInTile& d, const Triangle& t, TriangleId id, Tile& tile, PassStatistics& statistics)
-      : d_(d), t_(t), tile_(tile), writer_(d, id, tile, statistics) {
+  SmallTriangle(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics)
+      : d_(d), t_(t), writer_(d, id, statistics) {
+    const Tile& tile = d.tile;
     // Everything from the tile's first sample; the triangle meets the tile and is small, so all fits in 16 bits.
     const int32_t x_first = tile.x0 * kSubPixels + kSubPixels / 2, y_first = tile.y0 * kSubPixels + kSubPixels / 2;
     const std::array<int32_t, 3> x{t.x[0] - x_first, t.x[1] - x_first, t.x[2] - x_first};
@@ -168,13 +169,12 @@ class SmallTriangle {
     const Real w1 = to_real<Real>(e[1] + edge_[1].bias), w2 = to_real<Real>(e[2] + edge_[2].bias);
     const Real z = clamp(fma(w1, Real(t_.z_edge1), fma(w2, Real(t_.z_edge2), Real(t_.z0))), Real(d_.draw.depth_low), Real(z_high_));
     const int packet = kPacketAt[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
-    const bool passed = writer_.write(packet, mask, depth_value(tile_.depth_format, z));
-    if (passed && writer_.writes_depth()) widen_block_bounds(writer_.compare_op(), tile_, packet / kPacketsPerBlock, low_, high_);
+    const bool passed = writer_.write(packet, mask, depth_value(d_.tile.depth_format, z));
+    if (passed && writer_.writes_depth()) widen_block_bounds(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, low_, high_);
   }
 
   const DrawInTile& d_;
   const Triangle& t_;
-  Tile& tile_;
   Writer writer_;
   TileRect rect_;
   std::array<SmallEdge, 3> edge_;
@@ -194,12 +194,13 @@ void set_block_bounds(Tile& tile, int block, float low, float high) {
 
 template <bool small>
 void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& tile_edges, const SampleGrid& grid, const TileRect& rect,
-                      TriangleId id, Tile& tile, PassStatistics& statistics) {
+                      TriangleId id, PassStatistics& statistics) {
+  Tile& tile = d.tile;
   const DepthPlane<small> plane(t, tile_edges, d.draw, grid, tile.depth_format);
   const BlockEdges edges(tile_edges);
   const float low = plane.low(), high = plane.high();
   const bool cut = d.cut || t.is(kSprite | kLine);
-  Writer writer(d, id, tile, statistics);
+  Writer writer(d, id, statistics);
   const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
   if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) return;
   constexpr int mask_to_block = ~(kBlockSize - 1);
@@ -238,9 +239,9 @@ bool covers_tile(const DrawInTile& d, const Triangle& t) {
   return whole;
 }
 
-void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, Tile& tile, PassStatistics& statistics) {
+void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
   if (t.is(kSmall) && !t.is(kSprite) && spans_at_most(t, kSmallSpan)) {
-    SmallTriangle(d, t, id, tile, statistics).visit();
+    SmallTriangle(d, t, id, statistics).visit();
     return;
   }
   const SampleGrid grid(d.tile, 0);
@@ -250,9 +251,9 @@ void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, Tile
   if (edges.outside) return;
   const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
   if (t.is(kSmall)) {
-    rasterize_blocks<true>(d, t, edges, grid, rect, id, tile, statistics);
+    rasterize_blocks<true>(d, t, edges, grid, rect, id, statistics);
   } else {
-    rasterize_blocks<false>(d, t, edges, grid, rect, id, tile, statistics);
+    rasterize_blocks<false>(d, t, edges, grid, rect, id, statistics);
   }
 }
 

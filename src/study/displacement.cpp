@@ -36,10 +36,7 @@ Study study_displacement(const StudyOptions& options, const Workers& workers) {
   Image<glm::vec4> truth(width, height), half(width, height);
   render(assets.prepare(moon(finest, "pixel", options.quick), width, height), truth, workers);
   render(assets.prepare(moon(finest / 2, "pixel", options.quick), width, height), half, workers);
-  Variant difference;
-  judge_picture(difference, half, truth, PictureError::mean);
-  study.truth.error = difference.error / 3.0;
-  study.truth.picture = codes_of(truth);
+  set_truth(study.truth, truth, half, PictureError::mean);
   for (const auto& [normals, group] :
        {std::pair("pixel", "normals by pixel"), std::pair("vertex", "by vertex"), std::pair("undisplaced", "the sphere's")}) {
     for (const int latitudes : options.quick ? std::vector{16, 64} : std::vector{16, 32, 64, 128, 256}) {

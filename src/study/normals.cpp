@@ -65,10 +65,7 @@ Study study_normals(const StudyOptions& options, const Workers& workers) {
   Image<glm::vec4> truth(width, height), half(width, height);
   render(assets.prepare(earth(options.quick, displaced(finest)), width, height), truth, workers);
   render(assets.prepare(earth(options.quick, displaced(finest / 2)), width, height), half, workers);
-  Variant difference;
-  judge_picture(difference, half, truth, PictureError::mean);
-  study.truth.error = difference.error / 3.0;
-  study.truth.picture = codes_of(truth);
+  set_truth(study.truth, truth, half, PictureError::mean);
   for (const Kind& kind : kinds(options.quick)) {
     const PreparedScene prepared = assets.prepare(earth(options.quick, kind.settings), width, height);
     Image<glm::vec4> picture(width, height);

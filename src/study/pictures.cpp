@@ -39,6 +39,13 @@ TimedPicture timed_picture(const SceneDescription& scene, int width, int height,
   return out;
 }
 
+void set_truth(Truth& truth, const Image<glm::vec4>& light, const Image<glm::vec4>& half, PictureError kind) {
+  Variant difference;
+  judge_picture(difference, half, light, kind);
+  truth.error = difference.error / 3.0;
+  truth.picture = codes_of(light);
+}
+
 Image<glm::u8vec4> codes_of(const Image<glm::vec4>& light) {
   Image<glm::u8vec4> codes(light.width(), light.height());
   std::ranges::transform(light.texels(), codes.data(), [](const glm::vec4& c) {

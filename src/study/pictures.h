@@ -24,6 +24,9 @@ enum class PictureError : uint8_t {
 /// Sets the variant's error by its light against the truth's, its measures (rms, mean, p999, max, ssim) and its pictures.
 void judge_picture(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind);
 
+/// The truth of what converges with a number of bands: its picture, and a third of the step from half as many bands as its error.
+void set_truth(Truth& truth, const Image<glm::vec4>& light, const Image<glm::vec4>& half, PictureError kind);
+
 /// Light as sRGB codes.
 Image<glm::u8vec4> codes_of(const Image<glm::vec4>& light);
 

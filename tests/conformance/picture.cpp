@@ -38,8 +38,8 @@ SceneDraw draw_of(const Drawing& d) {
     case Kind::cutout: return draw_of(CutoutShader{d.value}, "cutout", d);
     case Kind::depth: return draw_of(DepthShader{}, "depth", d);
     case Kind::point: return draw_of(PointShader{}, "point", d);
-    case Kind::derivative: return draw_of(DerivativeShader{d.mode, d.value}, "derivative", d);
-    case Kind::texture: return draw_of(TextureShader{d.texture, d.sampler, d.mode, d.value}, "texture", d);
+    case Kind::derivative: return draw_of(DerivativeShader{{}, d.mode, d.value}, "derivative", d);
+    case Kind::texture: return draw_of(TextureShader{{}, d.texture, d.sampler, d.mode, d.value}, "texture", d);
     case Kind::instance: return draw_of(InstanceShader{d.value}, "instance", d);
     case Kind::two_colors: return draw_of(ColorsShader<2>{}, "two_colors", d);
     case Kind::four_colors: break;

@@ -122,10 +122,8 @@ struct PointShader {
   }
 };
 
-/// Derivatives of extra.x and extra.y, times `value`.
-struct DerivativeShader {
-  int mode = kDdx;
-  float value = 1.0f;
+/// Hands over extra.x and extra.y.
+struct CoordinatesShader {
   template <class R>
   using Attributes = VertexAttributes<R>;
   template <class R>
@@ -137,6 +135,12 @@ struct DerivativeShader {
     out.uv = vec2<R>(in.extra.x, in.extra.y);
     return in.pos_clip;
   }
+};
+
+/// Derivatives of extra.x and extra.y, times `value`.
+struct DerivativeShader : CoordinatesShader {
+  int mode = kDdx;
+  float value = 1.0f;
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
     vec2<R> dx, dy;
@@ -159,22 +163,11 @@ struct DerivativeShader {
 };
 
 /// A texture at (extra.x, extra.y).
-struct TextureShader {
+struct TextureShader : CoordinatesShader {
   std::shared_ptr<const Texture2D> texture;
   Sampler sampler;
   int mode = kByDerivatives;
   float value = 0.0f;
-  template <class R>
-  using Attributes = VertexAttributes<R>;
-  template <class R>
-  struct Varyings {
-    vec2<R> uv;
-  };
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
-    out.uv = vec2<R>(in.extra.x, in.extra.y);
-    return in.pos_clip;
-  }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     if (mode == kByLevel) return {texture->sample_level<R>(sampler, in.uv, R(value))};
