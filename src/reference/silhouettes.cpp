@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/silhouettes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/pass.h"
+#include "shading/contract.h"
+
+namespace halfspace {
+
+namespace {
+
+// Colour: 1 + the object's place.
+struct ObjectNumber {
+  glm::mat4 clip_from_object;
+  float number = 0.0f;
+
+  template <class R>
+  struct Attributes {
+    vec3<R> position_os;
+  };
+  template <class R>
+  struct Varyings {};
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return clip_from_object * vec4<R>(in.position_os, R(1));
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&) const {
+    return {vec4<R>(R(number), R(0), R(0), R(1))};
+  }
+};
+
+std::vector<glm::ivec2> outlines_of(const Image<int>& objects) {
+  std::vector<glm::ivec2> out;
+  for (int y = 0; y + 1 < objects.height(); ++y) {
+    for (int x = 0; x + 1 < objects.width(); ++x) {
+      const int here = objects.at(x, y);
+      if (here != objects.at(x + 1, y) || here != objects.at(x, y + 1)) out.emplace_back(x, y);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers) {
+  const int width = finer * scene.view.width_px, height = finer * scene.view.height_px;
+  Image<glm::vec4> numbers(width, height);
+  Pass pass(width, height, rgba32f_target(numbers), {.format = DepthFormat::d32f, .clear_value = 0.0f});
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const PlacedMesh& m = scene.meshes[i];
+    pass.draw(ObjectNumber{glm::mat4(scene.view.clip_from_world * m.world_from_object), static_cast<float>(i + 1)},
+              vertices(stream(m.mesh->positions)), *m.indices, opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
+  }
+  pass.run(workers);
+  Image<int> objects(width, height);
+  std::ranges::transform(numbers.texels(), objects.data(), [](const glm::vec4& t) { return static_cast<int>(std::lround(t.x)); });
+  return objects;
+}
+
+EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer) {
+  const std::vector<glm::ivec2> ours = outlines_of(picture), theirs = outlines_of(truth);
+  const EdgeDistance there = edge_distance(ours, theirs, picture.width(), picture.height()),
+                     back = edge_distance(theirs, ours, picture.width(), picture.height());
+  return {std::max(there.mean, back.mean) / finer, std::max(there.p95, back.p95) / finer, std::max(there.max, back.max) / finer};
+}
+
+}  // namespace halfspace
