@@ -33,12 +33,14 @@ struct ObjectNumber {
   }
 };
 
+// Pixels that have a neighbour, to the right or below, that shows another object, and that neighbour.
 std::vector<glm::ivec2> outlines_of(const Image<int>& objects) {
   std::vector<glm::ivec2> out;
   for (int y = 0; y + 1 < objects.height(); ++y) {
     for (int x = 0; x + 1 < objects.width(); ++x) {
-      const int here = objects.at(x, y);
-      if (here != objects.at(x + 1, y) || here != objects.at(x, y + 1)) out.emplace_back(x, y);
+      for (const glm::ivec2 next : {glm::ivec2(x + 1, y), glm::ivec2(x, y + 1)}) {
+        if (objects.at(x, y) != objects.at(next.x, next.y)) out.insert(out.end(), {glm::ivec2(x, y), next});
+      }
     }
   }
   return out;
@@ -62,10 +64,14 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
 }
 
 EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer) {
-  const std::vector<glm::ivec2> ours = outlines_of(picture), theirs = outlines_of(truth);
-  const EdgeDistance there = edge_distance(ours, theirs, picture.width(), picture.height()),
-                     back = edge_distance(theirs, ours, picture.width(), picture.height());
-  return {std::max(there.mean, back.mean) / finer, std::max(there.p95, back.p95) / finer, std::max(there.max, back.max) / finer};
+  std::vector<glm::ivec2> differ;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (picture.at(x, y) != truth.at(x, y)) differ.emplace_back(x, y);
+    }
+  }
+  const EdgeDistance d = edge_distance(differ, outlines_of(truth), picture.width(), picture.height());
+  return {d.mean / finer, d.p95 / finer, d.max / finer};
 }
 
 }  // namespace halfspace

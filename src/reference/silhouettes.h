@@ -14,8 +14,9 @@ namespace halfspace {
 /// scene's own picture with `finer` > 1. Spheres are not drawn.
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers);
 
-/// From the outlines of `picture` to those of `truth` and back, whichever is farther; both by seen_objects with the same `finer`, in
-/// pixels of the scenes' own picture. An outline is where two neighbours show different objects; the picture's frame is none.
+/// How far the outlines of `picture` lie off those of `truth`: from each pixel where the two differ to the nearest outline of the truth
+/// (a pixel one of whose neighbours shows another object). Both by seen_objects with the same `finer`; in pixels of the scenes' own
+/// picture. Where a narrow gap closes, this is as far as its outlines have moved, and not the way to where it is still open.
 EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer);
 
 }  // namespace halfspace

@@ -45,7 +45,7 @@ double lost(const Image<float>& map, const Image<float>& half, const Workers& wo
 }  // namespace
 
 ReliefDetail::ReliefDetail(const Image<float>& map, double smoothing, const Workers& workers) {
-  levels_.push_back({static_cast<double>(map.width()), 0.0});
+  levels_.push_back({static_cast<double>(map.width()), 0.0});  // known when the first half is
   // A Gaussian of σ leaves exp(−2π²σ²/λ²) of a wave; the spline of the field is one of σ² = 1/3 besides. What a halving loses are waves
   // of 2 to 4 texels.
   const double sigma_squared = smoothing * smoothing + 1.0 / 3.0;
@@ -59,10 +59,15 @@ ReliefDetail::ReliefDetail(const Image<float>& map, double smoothing, const Work
     kept = std::move(half);
     fine = &kept;
   }
+  // With a vertex a texel nothing is averaged away: what is left is the chords', which twice the columns quarter.
+  if (levels_.size() > 1) levels_.front().error = 0.25 * levels_[1].error;
 }
 
 double ReliefDetail::error(double columns) const {
-  if (columns >= levels_.front().columns) return 0.0;
+  if (columns >= levels_.front().columns) {
+    const double finer = levels_.front().columns / columns;
+    return levels_.front().error * finer * finer;
+  }
   for (std::size_t i = 1; i < levels_.size(); ++i) {
     const Level &finer = levels_[i - 1], &coarser = levels_[i];
     if (columns < coarser.columns) continue;

@@ -44,8 +44,7 @@ bool is_smooth(const ObjectDescription& o) {
 SceneDescription finest(SceneDescription scene) {
   for (auto& [name, o] : scene.objects) {
     if (!is_smooth(o) || (o.shape == Shape::plane && !is_map(o.height))) continue;
-    const bool many = o.instances.size() > 4;
-    o = with_parts(o, std::min(most_parts(o), many ? 128 : is_map(o.height) ? 1024 : 512));
+    o = with_parts(o, std::min(most_parts(o), is_map(o.height) ? 1024 : 512));
   }
   return scene;
 }
@@ -59,7 +58,11 @@ View random_view(int seed) {
   std::mt19937 random(static_cast<uint32_t>(seed));
   constexpr std::array kScenes{"earth", "moon", "three-lights", "shapes", "shadow-plane", "shadow-knot", "shadow-contact", "day-night"};
   const std::string name = kScenes[static_cast<std::size_t>(seed) % kScenes.size()];
-  SceneDescription scene = SceneFile::open(name).at(uniform(random, 0.0, 20.0));
+  SceneFile file = SceneFile::open(name);
+  // Where two surfaces meet at a grazing angle, the line between them moves farther than either: it is no silhouette. So the knot is
+  // lifted off its floor.
+  if (name == "shadow-knot") file.set("knot.position=0,1,0");
+  SceneDescription scene = file.at(uniform(random, 0.0, 20.0));
   auto& camera = scene.cameras[random() % scene.cameras.size()];
   camera.second = moved(camera.second, random);
   scene.head.camera = camera.first;
@@ -79,12 +82,15 @@ TEST(MaxError, OutlinesOfRandomViewsLieWithinIt) {
     const FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAsked, std::nullopt});
     const Image<int> ours = seen_objects(assets.prepare(fitted.scene, kWidth, kHeight), kFiner, workers());
     const Image<int> truth = seen_objects(assets.prepare(finest(view.scene), kWidth, kHeight), kFiner, workers());
-    const EdgeDistance d = silhouette_distance(ours, truth, kFiner);
-    // An outline's pixels are known to one of the finer picture, along both axes.
-    constexpr double kKnown = 1.5 / kFiner;
-    beyond += d.max > kAsked + kKnown ? 1 : 0;
-    EXPECT_LE(d.max, 2.0 * kAsked + kKnown) << view.name;
-    if (std::getenv("HALFSPACE_VERBOSE")) printf("%s: mean %.3f p95 %.3f max %.3f\n", view.name.c_str(), d.mean, d.p95, d.max);
+    const double off_px = silhouette_distance(ours, truth, kFiner).max;
+    constexpr double kKnown = 1.0 / kFiner;  // between the middles of two pixels lies an outline
+    beyond += off_px > kAsked + kKnown ? 1 : 0;
+    EXPECT_LE(off_px, 2.0 * kAsked + kKnown) << view.name;
+    if (std::getenv("HALFSPACE_VERBOSE")) {
+      printf("%s: %.3f\n", view.name.c_str(), off_px);
+      if (off_px > 0.55)
+        for (auto& c : fitted.choices) printf("   %s=%s %s\n", c.key.c_str(), c.value.c_str(), c.why.c_str());
+    }
   }
   EXPECT_LE(beyond, views / 100);
 }
