@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image.h"
-
 namespace halfspace {
 
 EdgeDistance edge_distance(const std::vector<glm::ivec2>& from, const std::vector<glm::ivec2>& to, int width, int height) {
@@ -30,6 +28,16 @@ EdgeDistance edge_distance(const std::vector<glm::ivec2>& from, const std::vecto
   for (const double d : distances) sum += d;
   const auto n = distances.size();
   return {sum / static_cast<double>(n), distances[(n - 1) * 95 / 100], distances.back()};
+}
+
+EdgeDistance wrong_band_width(const Image<uint8_t>& wrong, int finer) {
+  std::vector<glm::ivec2> from, to;
+  for (int y = 0; y < wrong.height(); ++y) {
+    for (int x = 0; x < wrong.width(); ++x) (wrong.at(x, y) != 0 ? from : to).emplace_back(x, y);
+  }
+  const EdgeDistance depth = edge_distance(from, to, wrong.width(), wrong.height());
+  const auto width = [&](double d) { return std::max(0.0, 2.0 * d - 1.0) / finer; };
+  return {width(depth.mean), width(depth.p95), width(depth.max)};
 }
 
 }  // namespace halfspace

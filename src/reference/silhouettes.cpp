@@ -33,19 +33,6 @@ struct ObjectNumber {
   }
 };
 
-// Pixels that have a neighbour, to the right or below, that shows another object, and that neighbour.
-std::vector<glm::ivec2> outlines_of(const Image<int>& objects) {
-  std::vector<glm::ivec2> out;
-  for (int y = 0; y + 1 < objects.height(); ++y) {
-    for (int x = 0; x + 1 < objects.width(); ++x) {
-      for (const glm::ivec2 next : {glm::ivec2(x + 1, y), glm::ivec2(x, y + 1)}) {
-        if (objects.at(x, y) != objects.at(next.x, next.y)) out.insert(out.end(), {glm::ivec2(x, y), next});
-      }
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers) {
@@ -64,14 +51,9 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
 }
 
 EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer) {
-  std::vector<glm::ivec2> differ;
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      if (picture.at(x, y) != truth.at(x, y)) differ.emplace_back(x, y);
-    }
-  }
-  const EdgeDistance d = edge_distance(differ, outlines_of(truth), picture.width(), picture.height());
-  return {d.mean / finer, d.p95 / finer, d.max / finer};
+  Image<uint8_t> wrong(picture.width(), picture.height());
+  std::ranges::transform(picture.texels(), truth.texels(), wrong.data(), [](int a, int b) { return static_cast<uint8_t>(a != b); });
+  return wrong_band_width(wrong, finer);
 }
 
 }  // namespace halfspace

@@ -14,9 +14,8 @@ namespace halfspace {
 /// scene's own picture with `finer` > 1. Spheres are not drawn.
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers);
 
-/// How far the outlines of `picture` lie off those of `truth`: from each pixel where the two differ to the nearest outline of the truth
-/// (a pixel one of whose neighbours shows another object). Both by seen_objects with the same `finer`; in pixels of the scenes' own
-/// picture. Where a narrow gap closes, this is as far as its outlines have moved, and not the way to where it is still open.
+/// How far the outlines of `picture` lie off those of `truth` (wrong_band_width). Both by seen_objects with the same `finer`; in pixels of
+/// the scenes' own picture.
 EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer);
 
 }  // namespace halfspace

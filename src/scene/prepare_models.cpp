@@ -28,7 +28,7 @@ constexpr double kCodesPerSquaredAngle = 1700.0;
 constexpr double kEdgePixels = 0.5;
 
 // By bilinear comparison 95 % of a shadow's edge lie within this part of a texel's width.
-constexpr double kShadowEdgeTexels = 0.5;
+constexpr double kShadowEdgeTexels = 1.0;
 
 // What one vertex costs in pixels shaded (docs/performance.md: some 10 ns beside 2.5 that light by vertex saves a pixel).
 constexpr double kPixelsPerVertex = 4.0;
