@@ -178,7 +178,7 @@ const Mistake kMistakes[] = {
     {"WrongRange",
      {"render", "earth", "--set", "earth.latitudes=1"},
      3,
-     "--set: earth.latitudes: expected a whole number from 2 to 8192, got 1.0"},
+     "--set: earth.latitudes: expected a whole number from 2 to 8192, got 1"},
     {"WrongChoice",
      {"render", "earth", "--set", "earth.shape=ball"},
      3,
