@@ -27,7 +27,8 @@ constexpr double kCodesPerSquaredAngle = 1700.0;
 // How many pixels of a thousand may show another surface, so that the 99.9th percentile is not an edge's.
 constexpr double kEdgePixels = 0.5;
 
-// By bilinear comparison 95 % of a shadow's edge lie within this part of a texel's width.
+// By bilinear comparison 95 % of a shadow's edge lie within this part of a texel's width. (With a half, 4 of 208 random views were off by more
+// than asked, moons by nearly four times; with this none.)
 constexpr double kShadowEdgeTexels = 1.0;
 
 // What one vertex costs in pixels shaded (docs/performance.md: some 10 ns beside 2.5 that light by vertex saves a pixel).

@@ -47,9 +47,9 @@ double lost(const Image<float>& map, const Image<float>& half, const Workers& wo
 ReliefDetail::ReliefDetail(const Image<float>& map, double smoothing, const Workers& workers) {
   levels_.push_back({static_cast<double>(map.width()), 0.0});  // known when the first half is
   // A Gaussian of σ leaves exp(−2π²σ²/λ²) of a wave; the spline of the field is one of σ² = 1/3 besides. What a halving loses are waves
-  // of 2 to 4 texels.
+  // of 2 to 4 texels; the longest are left most.
   const double sigma_squared = smoothing * smoothing + 1.0 / 3.0;
-  double wave = 3.0, error = 0.0;
+  double wave = 4.0, error = 0.0;
   Image<float> kept;
   for (const Image<float>* fine = &map; fine->width() >= 4; wave *= 2.0) {
     Image<float> half = halved(*fine, workers);
