@@ -30,6 +30,8 @@ struct ShadowScore {
   DistanceShares false_shadow;    ///< |map − rays| > 0.5, of the lit pixels
   DistanceShares false_light;     ///< the same of the shadowed ones
   EdgeDistance edge_px;
+  double edge_texels =
+      0.0;  ///< mean of these distances, each by what a texel spans there, as it falls on the surface and the picture shows it
   double penumbra_error = 0.0;  ///< mean of |map − rays| where 0 < rays < 1; 0 where there is no penumbra
   double error = 0.0;           ///< the same over all pixels
   double truth_error = 0.0;     ///< largest standard error of the rays
