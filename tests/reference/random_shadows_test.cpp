@@ -72,8 +72,8 @@ std::string random_scene(uint64_t seed) {
  "lights": {{ "lamp": {{ {} }} }},
  "textures": {{ "stone": {{ "source": "rock_height", "width": 128 }}, "craters": {{ "source": "moon_height", "width": 128 }} }},
  "objects": {{ {} }},
- "shadow": {{ "method": "pcf3", "bias": "auto", "resolution": 2048 }} }})",
-                     eye, light, objects);
+ "shadow": {{ "method": "pcf3", "bias": "auto", "resolution": 2048, "cascades": {} }} }})",
+                     eye, light, objects, random.pick({1, 1, 2, 4}));
 }
 
 int64_t beyond_a_texel(const DistanceShares& s, int64_t of) { return std::llround((s.from_1_to_3 + s.beyond_3) * static_cast<double>(of)); }
