@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -99,6 +100,26 @@ TEST(Validation, SoftShadowsAreNearTheTruth) {
   EXPECT_LE(s.truth_error, 0.5 / 32.0 + 1e-6);  // of 1024 rays, were they independent
   const ShadowScore hard = validated("shadow-contact", {"shadow.method=hard"}, 160, 90, 256).lights.at(0).score;
   EXPECT_GT(hard.penumbra_error, 0.1);
+}
+
+// Of the places that the picture shows, 95 % have texels of no more than the pixels that are asked for; half as many texels would not do.
+TEST(Validation, ResolutionIsAsFineAsTheFootprintAsks) {
+  for (const double footprint : {0.5, 1.0, 3.0}) {
+    SceneFile file = SceneFile::open("shadow-contact");
+    file.set(std::vector<std::string>{"shadow.resolution=0", "shadow.footprint=" + std::to_string(footprint)});
+    SceneAssets assets(workers());
+    const PreparedScene scene = assets.prepare(file.at(0.0), 960, 540);
+    const ShadowView& view = scene.lights.front().light.shadow->views.front();
+    const RayScene rays(scene.meshes, scene.view.eye_ws);
+    const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, 192, 108, workers());
+    std::vector<double> texels_px;
+    for (const std::optional<RayHit>& hit : hits.texels())
+      if (hit) texels_px.push_back(static_cast<double>(view.texel_per_w) / pixel_width(scene.view, hit->position_ew));
+    std::ranges::sort(texels_px);
+    const double most = texels_px[texels_px.size() * 95 / 100];
+    EXPECT_LE(most, 1.02 * footprint);  // the program looks at fewer places
+    EXPECT_GT(most, 0.4 * footprint);   // twice the size halves a texel, give or take a step of 2^(1/4)
+  }
 }
 
 TEST(Validation, WithoutAMethodNothingIsShadedAndNoMapIsMade) {
