@@ -39,6 +39,7 @@ struct RenderArguments {
   std::string fps;      // empty: 30
   std::string threads;  // empty: one a core
   std::string statistics;
+  std::string max_error, max_error_color;  // empty: the scene as it is
   bool resume = false;
   bool print = false;
 };
@@ -53,6 +54,7 @@ struct RenderJob {
   std::optional<FrameRange> frames;
   int threads;
   bool resume;
+  std::optional<AllowedError> allowed;
 };
 
 std::filesystem::path output_path(const RenderArguments& args) {
@@ -79,6 +81,15 @@ void set_shading(SceneFile& scene, const std::string& rate) {
   scene.set(settings);
 }
 
+std::optional<AllowedError> allowed_error(const RenderArguments& args) {
+  if (args.max_error.empty() && args.max_error_color.empty()) return std::nullopt;
+  AllowedError allowed;
+  if (!args.max_error.empty()) allowed.edge_px = parse_real("--max-error", args.max_error, 0.01, 100.0, "pixels, for example 0.5");
+  if (!args.max_error_color.empty())
+    allowed.color = parse_real("--max-error-color", args.max_error_color, 0.1, 255.0, "8-bit codes, for example 4");
+  return allowed;
+}
+
 RenderJob understand(const RenderArguments& args) {
   const PictureSize size = parse_size(args.size);
   const int threads = parse_threads(args.threads);
@@ -98,7 +109,7 @@ RenderJob understand(const RenderArguments& args) {
   const ImageFile format = output_format(out);
   SceneFile scene = open_scene(args.scene, args.set, args.camera);
   set_shading(scene, args.shading);
-  return {std::move(scene), out, format, size, time, fps, frames, threads, args.resume};
+  return {std::move(scene), out, format, size, time, fps, frames, threads, args.resume, allowed_error(args)};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -111,9 +122,14 @@ void write_picture(const std::filesystem::path& path, const Image<glm::u8vec4>& 
 }
 
 // What the scene asks for and cannot have is told with its name.
-PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets) {
-  const SceneDescription scene = job.scene.at(seconds);
+PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets, RenderReport& report) {
+  SceneDescription scene = job.scene.at(seconds);
   try {
+    if (job.allowed) {
+      FittedScene fitted = assets.fit(scene, job.size.width, job.size.height, *job.allowed);
+      scene = std::move(fitted.scene);
+      report.choices = std::move(fitted.choices);
+    }
     return assets.prepare(scene, job.size.width, job.size.height);
   } catch (const InputError& e) {
     throw InputError(job.scene.source() + ": " + e.what());
@@ -126,7 +142,7 @@ void render_picture(const RenderJob& job, double seconds, const std::filesystem:
                     RenderReport& report) {
   const auto start = std::chrono::steady_clock::now();
   Image<Pixel> picture(job.size.width, job.size.height);
-  const PreparedScene scene = prepare(job, seconds, assets);
+  const PreparedScene scene = prepare(job, seconds, assets, report);
   report.counts += scene.shadow_statistics;
   report.counts += render(scene, picture, workers);
   const double render_ms = milliseconds_since(start);
@@ -223,6 +239,8 @@ void add_render_command(CLI::App& program) {
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
   command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
+  command->add_option("--max-error", args->max_error, "Cheapest model with edges this right")->type_name("PX");
+  command->add_option("--max-error-color", args->max_error_color, "... with colours this right, in codes")->type_name("E");
   command->add_flag("--resume", args->resume, "Leave out frames that are there, whole");
   command->add_option("--threads", args->threads, "Threads (default: one a core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts, as text or JSON")->option_text("[=json]");

@@ -42,6 +42,7 @@ std::string text_report(const RenderReport& r) {
   text << std::fixed << std::setprecision(1);
   text << std::left << std::setw(20) << "render_ms" << r.render_ms << '\n' << std::setw(20) << "write_ms" << r.write_ms << '\n';
   for (const Count& c : kCounts) text << std::setw(20) << c.name << r.counts.*c.member << '\n';
+  for (const ModelChoice& c : r.choices) text << c.key << '=' << c.value << "  (" << c.why << ")\n";
   return text.str();
 }
 
@@ -49,6 +50,7 @@ std::string json_report(const RenderReport& r) {
   nlohmann::ordered_json json = {{"scene", r.scene},     {"output", r.output},       {"width", r.width},      {"height", r.height},
                                  {"threads", r.threads}, {"render_ms", r.render_ms}, {"write_ms", r.write_ms}};
   for (const Count& c : kCounts) json["counts"][c.name] = r.counts.*c.member;
+  for (const ModelChoice& c : r.choices) json["choices"].push_back({{"key", c.key}, {"value", c.value}, {"why", c.why}});
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

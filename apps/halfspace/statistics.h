@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "raster/statistics.h"
+#include "scene/model_choice.h"
 
 namespace halfspace {
 
@@ -14,6 +16,7 @@ struct RenderReport {
   double render_ms = 0;  ///< maps read or made, and the passes
   double write_ms = 0;   ///< encoding and writing
   PassStatistics counts;
+  std::vector<ModelChoice> choices;  ///< of the last picture
 };
 
 /// One "name value" a line.

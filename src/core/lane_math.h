@@ -200,8 +200,8 @@ HS_INLINE R pow(R x, std::type_identity_t<R> y) {
   }
 }
 
-/// x^y for 0 <= x <= 1 and y >= 0, as highlights ask: absolute error at most 1.5e-7, at less than half of pow's cost (whose error
-/// is relative). unit_pow(x, 0) = 1, unit_pow(0, y) = 0 for y > 0. NaN gives NaN, but y = 0 always 1.
+/// x^y for 0 <= x <= 1 and y >= 0, as highlights ask: absolute error at most 1.5e-7, at three quarters of pow's cost (measured alone,
+/// 16 lanes; pow's error is relative). unit_pow(x, 0) = 1, unit_pow(0, y) = 0 for y > 0. NaN gives NaN, but y = 0 always 1.
 template <Number R>
 HS_INLINE R unit_pow(R x, std::type_identity_t<R> y) {
   if constexpr (std::is_same_v<R, double>) {
@@ -212,8 +212,8 @@ HS_INLINE R unit_pow(R x, std::type_identity_t<R> y) {
   }
 }
 
-/// 1/sqrt(x) for 0 < x < infinity. Error at most 1.13 ulp, at a fifth of the cost of a root and a division. Other x give
-/// nothing that means anything (0 a large number).
+/// 1/sqrt(x) for 0 < x < infinity. Error at most 1.13 ulp. Measured alone it costs nine tenths of a root and a division,
+/// and it leaves their unit to others. Other x give nothing that means anything (0 a large number).
 ///
 /// A first guess by halving the exponent (as in Moroz et al., "Fast calculation of inverse square root with the use of
 /// magic constant", 2016), then twice Householder's step of third order, which takes an error e to about 5e³/2.

@@ -210,7 +210,7 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
   }
 }
 
-/// Triangles of a packet from which on they are gathered, not merged one by one: a merge costs as much as a third of a gather.
+/// Triangles of a packet from which on they are gathered, not merged one by one.
 inline constexpr int kGatherFrom = 3;
 
 /// The triangles of a packet: one, few or many. t.only is the one that t holds already, if it holds one alone.

@@ -89,27 +89,6 @@ std::vector<glm::ivec2> edge_pixels(const Image<float>& light, const Pixels& pix
   return edges;
 }
 
-// From each pixel of `from` the distance to the nearest of `to`; none where there are none.
-std::vector<double> edge_distances(const std::vector<glm::ivec2>& from, const std::vector<glm::ivec2>& to, int width, int height) {
-  if (to.empty()) return {};
-  Image<uint8_t> marked(width, height);
-  for (const glm::ivec2& p : to) marked.at(p.x, p.y) = 1;
-  std::vector<double> distances;
-  for (const glm::ivec2& p : from) {
-    double best = 1e18;
-    for (int r = 0; r * r <= best && r < std::max(width, height); ++r) {  // squares of growing size round p
-      for (int y = std::max(0, p.y - r); y <= std::min(height - 1, p.y + r); ++y) {
-        const bool whole_row = std::abs(y - p.y) == r;
-        for (int x = p.x - r; x <= p.x + r; x += whole_row ? 1 : std::max(1, 2 * r)) {
-          if (x >= 0 && x < width && marked.at(x, y) != 0) best = std::min(best, std::pow(x - p.x, 2) + std::pow(y - p.y, 2));
-        }
-      }
-    }
-    distances.push_back(std::sqrt(best));
-  }
-  return distances;
-}
-
 // What a texel that falls along the light on the surface at a hit spans in the picture, px: the longer of its sides.
 double texel_on_surface_px(const RayHit& hit, const Light& light, double texel, const View& view) {
   const glm::dvec3 axis = light_at<double>(light, hit.position_ew).l_ws;
@@ -122,15 +101,6 @@ double texel_on_surface_px(const RayHit& hit, const Light& light, double texel, 
     longest = std::max(longest, glm::length(glm::cross(on_surface, sight)));
   }
   return longest / pixel_width(view, hit.position_ew);
-}
-
-EdgeDistance summary_of(std::vector<double> distances) {
-  if (distances.empty()) return {};
-  std::ranges::sort(distances);
-  double sum = 0.0;
-  for (const double d : distances) sum += d;
-  const auto n = distances.size();
-  return {sum / static_cast<double>(n), distances[(n - 1) * 95 / 100], distances.back()};
 }
 
 void add(DistanceShares& shares, double distance, double weight) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/edge_distance.h"
 #include "reference/pixel_truth.h"
 
 namespace halfspace {
@@ -13,11 +14,6 @@ namespace halfspace {
 /// Shares of pixels by their distance from the true edge: in the light's plane, in texels, less the filter's radius.
 struct DistanceShares {
   double within_1 = 0.0, from_1_to_3 = 0.0, beyond_3 = 0.0;
-};
-
-/// How far the map's edges lie from the true ones, in pixels of the picture. 0 where there are no edges.
-struct EdgeDistance {
-  double mean = 0.0, p95 = 0.0, max = 0.0;
 };
 
 /// One light of one scene. A pixel that faces away from the light is dark by map and by rays alike: what is compared is what
@@ -29,12 +25,11 @@ struct ShadowScore {
   double sides_differ = 0.0;      ///< share of pixels where geometric and shading normal disagree on the light's side: judged apart
   DistanceShares false_shadow;    ///< |map − rays| > 0.5, of the lit pixels
   DistanceShares false_light;     ///< the same of the shadowed ones
-  EdgeDistance edge_px;
-  double edge_texels =
-      0.0;  ///< mean of these distances, each by what a texel spans there, as it falls on the surface and the picture shows it
-  double penumbra_error = 0.0;  ///< mean of |map − rays| where 0 < rays < 1; 0 where there is no penumbra
-  double error = 0.0;           ///< the same over all pixels
-  double truth_error = 0.0;     ///< largest standard error of the rays
+  EdgeDistance edge_px;           ///< from the map's edges to the true ones
+  double edge_texels = 0.0;       ///< mean of these, each by what a texel spans there, as it falls on the surface and the picture shows it
+  double penumbra_error = 0.0;    ///< mean of |map − rays| where 0 < rays < 1; 0 where there is no penumbra
+  double error = 0.0;             ///< the same over all pixels
+  double truth_error = 0.0;       ///< largest standard error of the rays
   double map_ms = 0.0, lookup_ms = 0.0;
 };
 

@@ -96,6 +96,7 @@ Section section_of(SceneHead& s) {
       key<&SceneHead::title>("title", "What the scene shows, in one line"),
       key<&SceneHead::camera>("camera", "Name of the camera to render by; empty: the first"),
       key<&SceneHead::ambient>("ambient", "Light that comes from everywhere, linear", {.low = 0, .high = kMost}),
+      key<&SceneHead::samples>("samples", "Samples of a pixel that find edges: 1, 2, 4 or 8", {.low = 1, .high = 8}),
   };
   return {{keys, &s}};
 }

@@ -285,6 +285,7 @@ struct SceneHead {
   std::string title;
   std::string camera;  ///< empty: the first
   Color ambient{glm::dvec3(0.0)};
+  int samples = 1;
 };
 
 struct SceneDescription {

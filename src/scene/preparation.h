@@ -2,7 +2,7 @@
 //
 // The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
 // prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp,
-// prepare_background.cpp, prepare_particles.cpp.
+// prepare_background.cpp, prepare_particles.cpp, prepare_models.cpp.
 // Included by these alone.
 #pragma once
 
@@ -16,6 +16,7 @@
 #include "scene/prepared_scene.h"
 #include "scene/procedural_moon.h"
 #include "scene/procedural_patterns.h"
+#include "scene/relief_detail.h"
 #include "scene/shadow_views.h"
 #include "scene/view.h"
 
@@ -68,6 +69,12 @@ MapEdges edges_of(Shape shape);
 /// How the shader reads a texture.
 Sampler make_sampler(const TextureDescription& t);
 
+/// The radius of the ball round its origin that holds the shape, without heights; units of the object.
+double ball_radius(const ObjectDescription& o);
+
+/// Columns of the mesh along u.
+int columns_of(const ObjectDescription& o);
+
 /// World from object, for each copy.
 std::vector<glm::dmat4> places_of(const ObjectDescription& o);
 
@@ -76,6 +83,7 @@ class ScenePreparation {
   ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height);
   PreparedScene prepare();
   void expect();
+  FittedScene fit(const AllowedError& allowed);
 
  private:
   // What displaces an object.
@@ -134,9 +142,15 @@ class ScenePreparation {
   std::vector<LightView> shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const;
   int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
 
+  // prepare_models.cpp
+  ObjectDescription fitted(const ObjectDescription& authored, const std::string& path, const AllowedError& allowed,
+                           std::vector<ModelChoice>& choices);
+  std::shared_ptr<const ReliefDetail> relief_detail(const ObjectDescription& o, const std::string& path);
+
   // prepare_particles.cpp
   void add_particles();
   SphereSprites sphere_sprites() const;
+  std::shared_ptr<const Particles> particles();  // null: none
 
   // prepare_background.cpp
   void add_background();

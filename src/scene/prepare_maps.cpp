@@ -53,6 +53,8 @@ Image<float> unit_numbers(const Image<uint16_t>& codes) {
 
 }  // namespace
 
+double ball_radius(const ObjectDescription& o) { return extent_of(o).radius; }
+
 // How many texels along u are worth having: where the object is nearest one spans two pixels.
 int ScenePreparation::width_for(const ObjectDescription& o) const {
   const Extent extent = extent_of(o);

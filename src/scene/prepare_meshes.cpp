@@ -11,16 +11,6 @@ namespace halfspace {
 
 namespace {
 
-// Columns of the mesh along u: finer heights are averaged.
-int columns_of(const ObjectDescription& o) {
-  switch (o.shape) {
-    case Shape::plane:
-    case Shape::cube: return std::max(o.segments, 2);
-    case Shape::icosphere: return 5 << o.level;
-    default: return o.longitudes;
-  }
-}
-
 Mesh generated(const ObjectDescription& o, const Displacement* displacement) {
   const auto radius = static_cast<float>(o.radius), tube = static_cast<float>(o.tube), length = static_cast<float>(o.length);
   const auto size = static_cast<float>(o.size);
@@ -38,6 +28,16 @@ Mesh generated(const ObjectDescription& o, const Displacement* displacement) {
 }
 
 }  // namespace
+
+// Finer heights are averaged.
+int columns_of(const ObjectDescription& o) {
+  switch (o.shape) {
+    case Shape::plane:
+    case Shape::cube: return std::max(o.segments, 2);
+    case Shape::icosphere: return 5 << o.level;
+    default: return o.longitudes;
+  }
+}
 
 MapEdges edges_of(Shape shape) {
   switch (shape) {

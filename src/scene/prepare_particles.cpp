@@ -52,14 +52,19 @@ SphereSprites ScenePreparation::sphere_sprites() const {
   return s;
 }
 
+std::shared_ptr<const Particles> ScenePreparation::particles() {
+  const ParticlesDescription& p = scene_.particles;
+  if (!p.file.path.empty()) {
+    return asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
+                            [&] { return read_for("particles.file", [&] { return read_particles(p.file.path, p); }); });
+  }
+  return p.count == 0 ? nullptr : std::make_shared<const Particles>(make_particles(p));
+}
+
 void ScenePreparation::add_particles() {
   const ParticlesDescription& p = scene_.particles;
-  const bool from_file = !p.file.path.empty();
-  if (!from_file && p.count == 0) return;
-  const std::shared_ptr<const Particles> particles =
-      from_file ? asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
-                                   [&] { return read_for("particles.file", [&] { return read_particles(p.file.path, p); }); })
-                : std::make_shared<const Particles>(make_particles(p));
+  const std::shared_ptr<const Particles> particles = this->particles();
+  if (particles == nullptr) return;
   if (p.sprite == ParticleSprite::exact) out_.spheres = {particles, p.casts_shadow, p.receives_shadow};
   const auto rows = std::make_shared<const SphereRows>(rows_of(*particles, view_, p.color.linear));
   out_.assets.push_back(rows);

@@ -77,6 +77,7 @@ ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& 
 PreparedScene ScenePreparation::prepare() {
   out_.clear_color = glm::vec4(glm::vec3(scene_.background.color.linear), 1.0f);
   out_.post = scene_.post;
+  out_.samples = scene_.head.samples;
   for (const auto& [name, object] : scene_.objects) {
     if (object.visible) add_object("objects." + name, object);
   }
@@ -117,7 +118,7 @@ constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
 // A pass that holds the scene's draws.
 Pass pass_of(const PreparedScene& scene, int width, int height, ColorTarget color) {
   color.clear_value = scene.clear_color;
-  Pass pass(width, height, color, kDepth);
+  Pass pass(width, height, color, kDepth, {.samples = scene.samples});
   for (const PreparedDraw& draw : scene.draws) add_draw(pass, draw);
   return pass;
 }

@@ -15,6 +15,7 @@
 #include "raster/pass.h"
 #include "scene/description.h"
 #include "scene/mesh.h"
+#include "scene/model_choice.h"
 #include "scene/particles.h"
 #include "scene/view.h"
 #include "shading/environment_sky.h"
@@ -80,6 +81,7 @@ struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
   PostDescription post;
+  int samples = 1;  ///< of a pixel
   View view;
   std::vector<PlacedMesh> meshes;  ///< of every object that is drawn
   PlacedSpheres spheres;
@@ -97,6 +99,10 @@ class SceneAssets {
   /// Tells of a frame to come: from now on, generated maps without a width of their own are at least as fine as that frame
   /// needs. Told of all frames of a range before the first, they do not change on the way. width, height: of the picture, px.
   void expect(const SceneDescription& scene, int width, int height);
+
+  /// The same scene with the cheapest models whose picture of that size is as right as asked (docs/accuracy.md): chosen by a model of
+  /// errors and costs from the scene alone, so that it is the same on every machine. Throws as prepare does.
+  FittedScene fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed);
 
   /// width, height: of the picture, px. Throws InputError that begins with the key, where a file cannot be used.
   PreparedScene prepare(const SceneDescription& scene, int width, int height);

@@ -2,6 +2,7 @@
 #include "scene/scene_check.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -141,6 +142,8 @@ void check_scene(SceneDescription& scene, const std::string& source) {
   if (!scene.head.camera.empty() && find_named(scene.cameras, scene.head.camera) == nullptr) {
     fail(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
   }
+  if (!std::has_single_bit(static_cast<unsigned>(scene.head.samples)))
+    fail(source, "samples: expected 1, 2, 4 or 8, got " + std::to_string(scene.head.samples));
   check_environments(scene, source);
   for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
     for (auto& entry : list) {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How far the outlines of a scene's objects lie from those by another model of it.
+#pragma once
+
+#include "core/image.h"
+#include "core/parallel.h"
+#include "reference/edge_distance.h"
+#include "scene/prepared_scene.h"
+
+namespace halfspace {
+
+/// Which object each pixel's centre shows: 1 + its place among PreparedScene::meshes, or 0. Top row first; several times as fine as the
+/// scene's own picture with `finer` > 1. Spheres are not drawn.
+Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers);
+
+/// How far the outlines of `picture` lie off those of `truth` (wrong_band_width). Both by seen_objects with the same `finer`; in pixels of
+/// the scenes' own picture.
+EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer);
+
+}  // namespace halfspace

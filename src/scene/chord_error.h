@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How far a generated shape's triangles lie off the surface that they stand for, and how many it needs to lie nearer.
+#pragma once
+
+#include "scene/description.h"
+#include "scene/view.h"
+
+namespace halfspace {
+
+/// The largest distance between the shape's triangles and its smooth surface, without heights; units of the object.
+///
+/// Of an arc of 2π/n the chord lies r·(1 − cos(π/n)) below. On a surface curved both ways the diagonal of a quad lies below by the sum
+/// of both its sides' (exact for the sphere, where it is the triangle's circumcentre that lies lowest). 0 for what has plane faces.
+double chord_error(const ObjectDescription& o);
+
+/// Numbers of parts from which counts are chosen: 1, 2, 3, 4, 6, 8, 12, 16, …: few, so that a moving view rarely changes a mesh. The
+/// smallest that is not below `least`.
+int part_step(int least);
+
+/// The same object with `parts` from top to bottom (or round a tube, or along an edge), and with as many along the other
+/// direction as make both directions' chords err alike. For an icosphere the level whose triangles are no larger.
+ObjectDescription with_parts(ObjectDescription o, int parts);
+
+/// The most parts that its keys allow.
+int most_parts(const ObjectDescription& o);
+
+/// By how many pixels at most a point's picture moves if the point, somewhere within a ball, is moved by one unit of the
+/// world. The ball's own silhouette: only moves towards its centre count.
+double pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
+double silhouette_pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
+
+/// Does the picture show nothing of the ball?
+bool is_outside(const View& view, const glm::dvec3& center_ws, double radius);
+
+}  // namespace halfspace

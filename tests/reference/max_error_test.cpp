@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The cheapest model that is right enough: random views of the shipped scenes, their outlines held against those of the finest
+// meshes. HALFSPACE_VIEWS sets how many views; scripts/test_full.sh takes more.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "core/trig_double.h"
+#include "reference/silhouettes.h"
+#include "reference/validation.h"
+#include "scene/chord_error.h"
+#include "scene/image_difference.h"
+#include "scene/scene_file.h"
+
+namespace halfspace {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 90;
+
+const Workers& workers() {
+  static const Workers team(2);
+  return team;
+}
+
+double uniform(std::mt19937& random, double low, double high) { return low + (high - low) * static_cast<double>(random()) / 4294967296.0; }
+
+// The camera somewhere else on the way round its target, nearer or farther.
+CameraDescription moved(CameraDescription c, std::mt19937& random) {
+  const glm::dvec3 offset = c.position - c.target;
+  const SinCosDouble yaw = sincos_turns(uniform(random, 0.0, 1.0));
+  const double share = std::exp2(uniform(random, -1.0, 1.5));
+  c.position = c.target + share * glm::dvec3(yaw.cos * offset.x + yaw.sin * offset.z, offset.y * uniform(random, 0.5, 1.5),
+                                             -yaw.sin * offset.x + yaw.cos * offset.z);
+  return c;
+}
+
+bool is_smooth(const ObjectDescription& o) {
+  return o.surface.shading != ShadingRate::flat && o.surface.shading != ShadingRate::provoking;
+}
+
+// Every smooth object by as fine a mesh as there is room for. Facets that are meant stay.
+SceneDescription finest(SceneDescription scene) {
+  for (auto& [name, o] : scene.objects) {
+    if (!is_smooth(o) || (o.shape == Shape::plane && !is_map(o.height))) continue;
+    o = with_parts(o, std::min(most_parts(o), is_map(o.height) ? 1024 : 512));
+  }
+  return scene;
+}
+
+struct View {
+  SceneDescription scene;
+  std::string name;
+};
+
+View random_view(int seed) {
+  std::mt19937 random(static_cast<uint32_t>(seed));
+  constexpr std::array kScenes{"earth", "moon", "three-lights", "shapes", "shadow-plane", "shadow-knot", "shadow-contact", "day-night"};
+  const std::string name = kScenes[static_cast<std::size_t>(seed) % kScenes.size()];
+  SceneFile file = SceneFile::open(name);
+  // Where two surfaces meet at a grazing angle, the line between them moves farther than either: it is no silhouette. So the knot is
+  // lifted off its floor.
+  if (name == "shadow-knot") file.set("knot.position=0,1,0");
+  SceneDescription scene = file.at(uniform(random, 0.0, 20.0));
+  auto& camera = scene.cameras[random() % scene.cameras.size()];
+  camera.second = moved(camera.second, random);
+  scene.head.camera = camera.first;
+  scene.background.type = BackgroundType::color;
+  return {scene, name + " seed " + std::to_string(seed)};
+}
+
+int number_of_views(int usual) {
+  const char* asked = std::getenv("HALFSPACE_VIEWS");
+  return asked != nullptr ? std::atoi(asked) : usual;
+}
+
+// Of many views, some may lie beyond what was asked, and none beyond twice that.
+class Tally {
+ public:
+  Tally(double asked, double known) : asked_(asked), known_(known) {}
+
+  void add(double error, const std::string& view) {
+    ++views_;
+    beyond_ += error > asked_ + known_ ? 1 : 0;
+    largest_ = std::max(largest_, error);
+    EXPECT_LE(error, 2.0 * asked_ + known_) << view;
+  }
+  void judge() const {
+    EXPECT_LE(beyond_, views_ / 100);
+    testing::Test::RecordProperty("views", views_);
+    testing::Test::RecordProperty("beyond", beyond_);
+    testing::Test::RecordProperty("largest", std::to_string(largest_));
+  }
+
+ private:
+  double asked_, known_;  // known_: how finely it was measured
+  int views_ = 0, beyond_ = 0;
+  double largest_ = 0.0;
+};
+
+constexpr double kAskedPx = 0.5;
+
+TEST(MaxError, OutlinesOfRandomViewsLieWithinIt) {
+  constexpr int kFiner = 8;
+  Tally tally(kAskedPx, 1.0 / kFiner);
+  for (int seed = 0; seed < number_of_views(8); ++seed) {
+    View view = random_view(seed);
+    view.scene.shadow.method = ShadowMethod::none;
+    SceneAssets assets(workers());
+    const FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
+    const Image<int> ours = seen_objects(assets.prepare(fitted.scene, kWidth, kHeight), kFiner, workers());
+    const Image<int> truth = seen_objects(assets.prepare(finest(view.scene), kWidth, kHeight), kFiner, workers());
+    tally.add(silhouette_distance(ours, truth, kFiner).max, view.name);
+  }
+  tally.judge();
+}
+
+// Shadows' edges, against rays from the same meshes: on 95 % of them, as shadow.footprint says.
+TEST(MaxError, ShadowEdgesOfRandomViewsLieWithinIt) {
+  constexpr int kFiner = 4;
+  Tally tally(kAskedPx, 1.0 / kFiner);
+  for (int seed = 0; seed < number_of_views(8); ++seed) {
+    const View view = random_view(seed);
+    if (view.scene.shadow.method == ShadowMethod::none) continue;
+    SceneAssets assets(workers());
+    FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
+    fitted.scene.shadow.footprint *= kFiner;  // in pixels of the finer picture
+    const ValidationOptions options{kFiner * kWidth, kFiner * kHeight, 1};
+    for (const ShadowComparison& light : validate(view.name, fitted.scene, options, assets, workers()).lights) {
+      Image<uint8_t> wrong(light.map.width(), light.map.height());
+      std::ranges::transform(light.map.texels(), light.truth.texels(), wrong.data(),
+                             [](float map, float truth) { return static_cast<uint8_t>(std::abs(map - truth) > 0.5f); });
+      tally.add(wrong_band_width(wrong, kFiner).p95, view.name + " " + light.score.light);
+    }
+  }
+  tally.judge();
+}
+
+// Colours against those by the finest meshes and filters, in floats, lit by pixel: 99.9 % of the pixels.
+TEST(MaxError, ColorsOfRandomViewsLieWithinIt) {
+  constexpr int kLarger = 2;  // fewer of its pixels are edges
+  constexpr double kAskedCodes = 8.0;
+  Tally tally(kAskedCodes, 0.0);
+  for (int seed = 0; seed < number_of_views(8); ++seed) {
+    View view = random_view(seed);
+    view.scene.shadow.method = ShadowMethod::none;
+    SceneDescription truth = finest(view.scene);
+    for (auto& [name, texture] : truth.textures) texture.anisotropy = 16;
+    truth.post.format = LightFormat::rgba32f;
+    SceneAssets assets(workers());
+    Image<glm::u8vec4> ours(kLarger * kWidth, kLarger * kHeight), theirs(kLarger * kWidth, kLarger * kHeight);
+    const FittedScene fitted = assets.fit(view.scene, ours.width(), ours.height(), {std::nullopt, kAskedCodes});
+    render(assets.prepare(fitted.scene, ours.width(), ours.height()), ours, workers());
+    render(assets.prepare(truth, ours.width(), ours.height()), theirs, workers());
+    tally.add(255.0 * compare_images(ours, theirs).p999, view.name);
+  }
+  tally.judge();
+}
+
+}  // namespace
+}  // namespace halfspace
