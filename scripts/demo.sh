@@ -16,10 +16,13 @@ if ! { cmake --preset release -B "$build" -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPAC
 fi
 
 mkdir -p out
-# picture NAME SCENE OPTIONS...
+# picture NAME SCENE OPTIONS...   What is newer than the program and this script would only become the same again.
 picture() {
-  "$build/bin/halfspace" render "$2" -o "out/$1.png" "${@:3}"
-  echo "$PWD/out/$1.png"
+  local out=out/$1.png
+  if [ ! "$out" -nt "$build/bin/halfspace" ] || [ ! "$out" -nt scripts/demo.sh ]; then
+    "$build/bin/halfspace" render "$2" -o "$out" "${@:3}"
+  fi
+  echo "$PWD/$out"
 }
 for scene in $("$build/bin/halfspace" list --names); do picture "$scene" "$scene"; done
 picture day-night-noon day-night --set time.hours=12

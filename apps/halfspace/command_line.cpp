@@ -100,6 +100,11 @@ int report(const CLI::App& program, ExitCode code, std::string_view what) {
 
 // CLI11 shows a flag's default value in braces; here it stands for "no value given".
 class HelpFormatter : public CLI::Formatter {
+  // Below the usage that names them, without a headline.
+  std::string make_positionals(const CLI::App* app) const override {
+    const std::string text = CLI::Formatter::make_positionals(app);
+    return text.empty() ? text : text.substr(text.find(":\n") + 2);
+  }
   std::string make_option_name(const CLI::Option* option, bool positional) const override {
     const std::string name = CLI::Formatter::make_option_name(option, positional);
     return name.substr(0, name.find('{'));

@@ -172,6 +172,19 @@ bool is_whole(const std::filesystem::path& path, const RenderJob& job) {
   }
 }
 
+// The scene with what is chosen for it.
+SceneFile chosen(const RenderJob& job) {
+  SceneFile scene = job.scene;
+  if (!job.allowed) return scene;
+  const Workers workers(job.threads);
+  SceneAssets assets(workers);
+  std::vector<std::string> settings;
+  for (const ModelChoice& c : assets.fit(scene.at(job.time), job.size.width, job.size.height, *job.allowed).choices)
+    settings.push_back(c.key + "=" + c.value);
+  scene.set(settings);
+  return scene;
+}
+
 double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
 
 // Generated maps are as fine as the nearest of all views needs, so that none changes its width on the way. A thousand looks
@@ -210,7 +223,7 @@ RenderReport run(const RenderJob& job) {
 void render_command(const RenderArguments& args) {
   const RenderJob job = understand(args);
   if (args.print) {
-    std::cout << job.scene.print();
+    std::cout << chosen(job).print();
     return;
   }
   RenderReport report = run(job);

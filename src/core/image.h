@@ -2,27 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <new>
 #include <span>
 #include <vector>
 
 #include "core/check.h"
+#include "core/line_allocator.h"
 
 namespace halfspace {
-
-/// Memory that starts at a cache line, so that whole lines of an image can be written at once.
-template <class T>
-struct LineAllocator {
-  using value_type = T;
-  static constexpr std::align_val_t kLine{64};
-
-  LineAllocator() = default;
-  template <class U>
-  LineAllocator(const LineAllocator<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kLine)); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, kLine); }
-  friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
-};
 
 /// A rectangle of texels or pixels, row by row without gaps. Row 0 is the top row of a picture, and t = 0 of a texture.
 /// The image owns its memory; copying copies the texels.

@@ -241,7 +241,7 @@ Section section_of(ShadowDescription& s) {
       key<&T::slope>("slope", "Factor of the bias that grows with the light's angle", {.low = 0, .high = 1000}),
       key<&T::max_slope>("max_slope", "Largest tangent of the light's angle that a bias other than auto follows", {.low = 0, .high = 1e6}),
       key<&T::radius>("radius", "Of vogel's disk and of the moments' filter", {.unit = "texels", .low = 0, .high = 16}),
-      key<&T::faces>("faces", "Faces that cast, as the light sees them"),
+      key<&T::faces>("faces", "Faces of meshes that cast, as the light sees them; of spheres it is the front"),
       key<&T::cascades>("cascades", "Maps of a directional light, by distance", {.low = 1, .high = 4}),
       key<&T::cascade_growth>("cascade_growth", "0: even distances, 1: each cascade a constant times the one before",
                               {.low = 0, .high = 1}),

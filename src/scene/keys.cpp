@@ -23,6 +23,7 @@ constexpr double kLeastPause = 1e-6;  // seconds from keyframe to keyframe
 
 // A value as a message shows it: short, on one line.
 std::string shown(const Json& json) {
+  if (json.is_number()) return number_text(json.get<double>());  // 1, where the command line's numbers say 1.0
   std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
   if (text.size() > 40) text = text.substr(0, 37) + "...";
   return text;

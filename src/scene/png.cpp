@@ -34,14 +34,18 @@ void check_decoding(int result, const std::string& name) {
   if (result != SPNG_OK) throw InputError(name + ": damaged PNG (" + spng_strerror(result) + "); expected a whole PNG file");
 }
 
-// The texels without their alpha.
-std::vector<std::byte> rgb_bytes(std::span<const glm::u8vec4> texels) {
-  std::vector<std::byte> bytes(3 * texels.size());
-  std::byte* out = bytes.data();
-  for (const glm::u8vec4& t : texels) {
-    for (int i = 0; i < 3; ++i) *out++ = static_cast<std::byte>(t[i]);
+// Rows of the image, of RGB bytes where it is opaque: a copy of all of it could need gigabytes.
+void encode_rows(spng_ctx* context, const Image<glm::u8vec4>& image, bool opaque) {
+  check_encoding(spng_encode_image(context, nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
+  std::vector<glm::u8vec3> rgb(opaque ? static_cast<std::size_t>(image.width()) : 0);
+  for (int y = 0; y < image.height(); ++y) {
+    const std::span<const glm::u8vec4> row = image.row(y);
+    if (opaque) std::ranges::transform(row, rgb.begin(), [](const glm::u8vec4& t) { return glm::u8vec3(t); });
+    const std::span<const std::byte> bytes = opaque ? std::as_bytes(std::span(rgb)) : std::as_bytes(row);
+    const int result = spng_encode_row(context, bytes.data(), bytes.size());
+    const bool last = y + 1 == image.height();
+    if (!(last && result == SPNG_EOI)) check_encoding(result);
   }
-  return bytes;
 }
 
 // Deflate shrinks at most 1032 times: a file that claims more than that is a bomb or is cut.
@@ -80,13 +84,7 @@ std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes code
   check_encoding(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB));
   check_encoding(spng_set_ihdr(context.get(), &header));
   if (codes == PngCodes::srgb) check_encoding(spng_set_srgb(context.get(), 0));
-  if (opaque) {
-    const std::vector<std::byte> rgb = rgb_bytes(image.texels());
-    check_encoding(spng_encode_image(context.get(), rgb.data(), rgb.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));
-  } else {
-    const std::size_t bytes = image.texels().size_bytes();
-    check_encoding(spng_encode_image(context.get(), image.data(), bytes, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));
-  }
+  encode_rows(context.get(), image, opaque);
   std::size_t size = 0;
   int error = 0;
   const std::unique_ptr<void, decltype(&std::free)> buffer(spng_get_png_buffer(context.get(), &size, &error), &std::free);

@@ -169,7 +169,7 @@ class Texture2D {
   std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{};  // offset: index of a level's first texel
   // All levels, texel after texel as texels.h reads them; red in the low byte. After each row its first texel stands once
   // more, so that one 64-bit load brings an RGBA8 texel and its right neighbour, across the seam too.
-  std::vector<int32_t> texels_;
+  std::vector<int32_t, LineAllocator<int32_t>> texels_;
 };
 
 /// The full chain of levels below base, largest first, base not included; the last is 1 × 1.

@@ -15,7 +15,7 @@ namespace halfspace {
 std::string chart_script(const Study& study, const std::vector<bool>& on_front);
 
 /// A rectangle in pixels, y up.
-struct Box {
+struct ChartBox {
   double x0, y0, x1, y1;
 };
 /// A place for a label beside its point.
@@ -26,6 +26,6 @@ struct LabelPlace {
 };
 /// Places for labels of `widths` pixels beside points, one after the other, each where it covers the least of points and of labels
 /// already placed. All stay within `room`.
-std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, const std::vector<double>& widths, const Box& room);
+std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, const std::vector<double>& widths, const ChartBox& room);
 
 }  // namespace halfspace

@@ -12,11 +12,11 @@ namespace {
 constexpr double kHeight = 15.0;  // of a line of text
 constexpr double kPoint = 5.0;    // radius of a point
 
-double overlap(const Box& a, const Box& b) {
+double overlap(const ChartBox& a, const ChartBox& b) {
   return std::max(0.0, std::min(a.x1, b.x1) - std::max(a.x0, b.x0)) * std::max(0.0, std::min(a.y1, b.y1) - std::max(a.y0, b.y0));
 }
 
-Box box_of(const LabelPlace& p, double width) {
+ChartBox box_of(const LabelPlace& p, double width) {
   const double x0 = p.anchor > 0 ? p.x : p.anchor < 0 ? p.x - width : p.x - 0.5 * width;
   return {x0, p.y - 0.5 * kHeight, x0 + width, p.y + 0.5 * kHeight};
 }
@@ -35,18 +35,18 @@ std::vector<LabelPlace> candidates(const glm::dvec2& p) {
 
 }  // namespace
 
-std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, const std::vector<double>& widths, const Box& room) {
+std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, const std::vector<double>& widths, const ChartBox& room) {
   std::vector<LabelPlace> places;
-  std::vector<Box> taken;
+  std::vector<ChartBox> taken;
   for (const glm::dvec2& p : points) taken.push_back({p.x - kPoint, p.y - kPoint, p.x + kPoint, p.y + kPoint});
   for (std::size_t i = 0; i < points.size(); ++i) {
     double least = 1e300;
     LabelPlace best{};
     for (const LabelPlace& place : candidates(points[i])) {
-      const Box box = box_of(place, widths[i]);
+      const ChartBox box = box_of(place, widths[i]);
       const double area = widths[i] * kHeight;
       double cost = 3.0 * (area - overlap(box, room)) + (place.far ? 0.01 * area : 0.0);
-      for (const Box& other : taken) cost += overlap(box, other);
+      for (const ChartBox& other : taken) cost += overlap(box, other);
       cost += 1e-3 * (std::abs(place.x - points[i].x) + std::abs(place.y - points[i].y));
       if (cost >= least) continue;
       least = cost;

@@ -48,7 +48,8 @@ std::vector<StudyEntry> studies() {
           {"interpolation", study_interpolation},
           {"raster_vs_rays", study_raster_vs_rays},
           {"specular", study_specular},
-          {"tone", study_tone}};
+          {"tone", study_tone},
+          {"max_error", study_max_error}};
 }
 
 }  // namespace halfspace

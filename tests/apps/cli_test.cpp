@@ -13,6 +13,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -177,7 +178,7 @@ const Mistake kMistakes[] = {
     {"WrongRange",
      {"render", "earth", "--set", "earth.latitudes=1"},
      3,
-     "--set: earth.latitudes: expected a whole number from 2 to 8192, got 1.0"},
+     "--set: earth.latitudes: expected a whole number from 2 to 8192, got 1"},
     {"WrongChoice",
      {"render", "earth", "--set", "earth.shape=ball"},
      3,
@@ -191,6 +192,9 @@ const Mistake kMistakes[] = {
      {"render", "earth", "--set", "earth.normal_map=1"},
      3,
      "scene earth: objects.earth.normal: is map, and normal_map is none; expected a texture or an image file as normal_map"},
+    {"MaxErrorZero", {"render", "earth", "--max-error", "0"}, 2, "--max-error is '0'; expected pixels, for example 0.5"},
+    {"MaxErrorColorWord", {"render", "earth", "--max-error-color", "low"}, 2, "--max-error-color is 'low'; expected 8-bit codes, for example 4"},
+    {"ThreeSamples", {"render", "earth", "--set", "samples=3"}, 3, "scene earth: samples: expected 1, 2, 4 or 8, got 3"},
     {"NoCamera", {"render", "earth", "--camera", "nroth"}, 3, "--camera: no camera 'nroth'; did you mean 'north'?"},
     {"TimeWord", {"render", "earth", "--time", "noon"}, 2, "--time is 'noon'; expected seconds, for example 2.5"},
     {"FramesBackwards", {"render", "earth", "--frames", "5..2"}, 2, "--frames is '5..2'; expected FIRST..LAST, for example 0..47"},
@@ -325,6 +329,30 @@ TEST_F(Cli, ShadingOverridesEveryObject) {
   }
   std::ranges::sort(pictures);
   EXPECT_EQ(std::ranges::adjacent_find(pictures), pictures.end()) << "five different pictures";
+}
+
+// What --max-error chooses is told, and can be printed as a scene that gives the same picture.
+TEST_F(Cli, MaxErrorTellsWhatItChose) {
+  const std::vector<std::string> asked{"render", "shadow-plane", "--size", "160x90", "--max-error", "0.3"};
+  std::vector<std::string> render = asked, print = asked;
+  render.insert(render.end(), {"--stats=json", "-o", "asked.png"});
+  print.emplace_back("--print");
+  const Outcome o = run(render);
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  std::map<std::string, std::string> choices;
+  const auto report = nlohmann::json::parse(o.out);
+  for (const auto& choice : report.at("choices")) {
+    choices[choice.at("key")] = choice.at("value");
+    EXPECT_FALSE(choice.at("why").get<std::string>().empty());
+  }
+  EXPECT_EQ(choices.at("samples"), "4") << "0.5/sqrt(4) px is the first within 0.3";
+  EXPECT_LT(std::stoi(choices.at("objects.earth.latitudes")), 128) << "a globe of some 20 px needs fewer than the scene says";
+  EXPECT_EQ(choices.at("shadow.method"), "bilinear");
+  const Outcome printed = run(print);
+  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  std::ofstream(directory / "chosen.json") << printed.out;
+  EXPECT_EQ(run({"render", "chosen.json", "--size", "160x90", "-o", "chosen.png"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory / "asked.png"), text_of(directory / "chosen.png"));
 }
 
 TEST_F(Cli, AColorMapIsUsed) {

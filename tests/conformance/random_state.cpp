@@ -106,7 +106,8 @@ Drawing random_drawing(const Picture& p, Random& r, bool first) {
   d.mode = d.kind == Kind::color ? r.below(3) : d.kind == Kind::derivative ? r.below(6) : 0;
   d.value = r.real(0.05f, 0.6f);
   const uint64_t seed = r.bits();
-  d.vertices = scattered(p, r.between(6, 20), seed, r.once_in(2));
+  const bool projected = r.once_in(2);  // one number after the other: compilers order arguments as they like
+  d.vertices = scattered(p, r.between(6, 20), seed, projected);
   for (Vertex& v : d.vertices) {
     if (first && r.once_in(2)) v.pos_clip.x = v.pos_clip.x * 2.0f;  // fills more, and is cut
     if (r.once_in(12)) v.pos_clip.z *= 3.0f;
@@ -173,7 +174,10 @@ std::vector<std::function<void(Picture&)>> simplifications() {
   each([](DrawState& s) { s.sample_shading = s.alpha_to_coverage = false, s.sample_mask = ~0u; });
   each([](DrawState& s) { s.polygon_mode = PolygonMode::fill, s.instances = 1; });
   all.push_back([](Picture& p) {
-    for (Drawing& d : p.draws) d.kind = p.colors.size() > 1 ? d.kind : Kind::color, d.mode = kSmooth;
+    for (Drawing& d : p.draws) {
+      if (p.colors.size() == 1 && d.kind != Kind::two_colors) d.kind = Kind::color;  // two colours: the blending may ask for both
+      d.mode = kSmooth;
+    }
   });
   all.push_back([](Picture& p) { p.samples = 1, p.supersample = false; });
   all.push_back([](Picture& p) { p.colors.assign(p.colors.size(), ColorFormat::rgba8); });

@@ -153,7 +153,7 @@ TEST(Clip, WeightsSumToOneAndGiveThePosition) {
   for (int i = 0; i < effort(50000); ++i) {
     const ClipTriangle t{random_position(r), random_position(r), random_position(r)};
     const ClipPolygon p = clip_triangle(viewport_64(), i % 2 ? kGl : kZeroToOne, t);
-    ASSERT_LE(p.count, 3 + kClipPlanes);
+    ASSERT_LE(p.count, 3 + kFixedPlanes);
     for (int k = 0; k < p.count; ++k) {
       ++pieces;
       const ClipCorner& c = p.corners[static_cast<std::size_t>(k)];

@@ -206,7 +206,27 @@ TEST(Watertight, JitteredGridsCoverEverything) {
   check.report();
 }
 
-// ---- shared edges and vertices exactly on samples (in the manner of facebookresearch/DRTK, issue 9) ------------
+// ---- shared edges and vertices exactly on samples ----------------------------------------------------------------
+
+// The quad of facebookresearch/DRTK's issue 9, whose diagonal leads through samples: in either order of the second
+// triangle's vertices each of its 6x6 samples is drawn once. DRTK's samples are at whole coordinates, ours at halves;
+// 0.49993896484375 = 0.5 - 2^-14 and 6.50006103515625 = 6.5 + 2^-14.
+TEST(Watertight, TheQuadOfDrtkIssue9) {
+  const std::array<glm::vec2, 4> corners{
+      {{0.5f, 0.49993896484375f}, {0.5f, 6.5f}, {6.50006103515625f, 0.49993896484375f}, {6.50006103515625f, 6.5f}}};
+  std::vector<glm::vec4> positions;
+  for (const glm::vec2& c : corners) positions.emplace_back((c + 0.5f) / 4.0f - 1.0f, 0.0f, 1.0f);
+  for (const std::vector<uint32_t>& triangles : {std::vector<uint32_t>{0, 1, 2, 3, 2, 1}, {0, 1, 2, 3, 1, 2}}) {
+    Image<glm::vec4> image(8, 8);
+    count_coverage(image, positions, triangles);
+    for (int y = 0; y < 8; ++y) {
+      for (int x = 0; x < 8; ++x) {
+        const bool inside = x >= 1 && x <= 6 && y >= 1 && y <= 6;
+        EXPECT_EQ(pixel(image, x, y).x, inside ? 1.0f : 0.0f) << x << ", " << y;
+      }
+    }
+  }
+}
 
 // A fan whose spokes all lead through pixel centres: from a centre by multiples of small whole steps. Far ends make the
 // barycentrics of the samples on a spoke quotients of large products, which float arithmetic rounds to either side.

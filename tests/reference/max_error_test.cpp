@@ -50,12 +50,12 @@ SceneDescription finest(SceneDescription scene) {
   return scene;
 }
 
-struct View {
+struct RandomView {
   SceneDescription scene;
   std::string name;
 };
 
-View random_view(int seed) {
+RandomView random_view(int seed) {
   std::mt19937 random(static_cast<uint32_t>(seed));
   constexpr std::array kScenes{"earth", "moon", "three-lights", "shapes", "shadow-plane", "shadow-knot", "shadow-contact", "day-night"};
   const std::string name = kScenes[static_cast<std::size_t>(seed) % kScenes.size()];
@@ -106,7 +106,7 @@ TEST(MaxError, OutlinesOfRandomViewsLieWithinIt) {
   constexpr int kFiner = 8;
   Tally tally(kAskedPx, 1.0 / kFiner);
   for (int seed = 0; seed < number_of_views(8); ++seed) {
-    View view = random_view(seed);
+    RandomView view = random_view(seed);
     view.scene.shadow.method = ShadowMethod::none;
     SceneAssets assets(workers());
     const FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
@@ -122,7 +122,7 @@ TEST(MaxError, ShadowEdgesOfRandomViewsLieWithinIt) {
   constexpr int kFiner = 4;
   Tally tally(kAskedPx, 1.0 / kFiner);
   for (int seed = 0; seed < number_of_views(8); ++seed) {
-    const View view = random_view(seed);
+    const RandomView view = random_view(seed);
     if (view.scene.shadow.method == ShadowMethod::none) continue;
     SceneAssets assets(workers());
     FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
@@ -144,7 +144,7 @@ TEST(MaxError, ColorsOfRandomViewsLieWithinIt) {
   constexpr double kAskedCodes = 8.0;
   Tally tally(kAskedCodes, 0.0);
   for (int seed = 0; seed < number_of_views(8); ++seed) {
-    View view = random_view(seed);
+    RandomView view = random_view(seed);
     view.scene.shadow.method = ShadowMethod::none;
     SceneDescription truth = finest(view.scene);
     for (auto& [name, texture] : truth.textures) texture.anisotropy = 16;

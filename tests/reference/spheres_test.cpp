@@ -190,13 +190,14 @@ TEST(Spheres, CastAndReceiveShadowsOfEveryKindOfLight) {
   }
 }
 
+int differs(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
+  int n = 0;
+  for (int i = 0; i < kWidth * kHeight; ++i) n += a.data()[i] != b.data()[i];
+  return n;
+}
+
 TEST(Spheres, ThatNeitherCastNorReceiveAreLeftOut) {
   const std::string scene = std::string(kShaded) + kSun;
-  const auto differs = [](const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
-    int n = 0;
-    for (int i = 0; i < kWidth * kHeight; ++i) n += a.data()[i] != b.data()[i];
-    return n;
-  };
   const Image<glm::vec4> none = rendered(prepared(scene, {"shadow.method=none"}));
   const Image<glm::vec4> neither = rendered(prepared(scene, {"particles.casts_shadow=false", "particles.receives_shadow=false"}));
   const Image<glm::vec4> casting = rendered(prepared(scene, {"particles.receives_shadow=false"}));
@@ -204,6 +205,16 @@ TEST(Spheres, ThatNeitherCastNorReceiveAreLeftOut) {
   EXPECT_EQ(differs(none, neither), 0);  // the ground alone shades nothing
   EXPECT_GT(differs(none, casting), 500);
   EXPECT_EQ(differs(none, receiving), 0);
+}
+
+// The ground alone shades nothing, whichever of its faces cast; what is seen of shadows is the spheres'.
+TEST(Spheres, CastByTheirFrontWhateverFacesOfMeshesCast) {
+  const std::string scene = std::string(kShaded) + kSun;
+  const Image<glm::vec4> none = rendered(prepared(scene, {"shadow.method=none"}));
+  const Image<glm::vec4> front = rendered(prepared(scene, {"shadow.faces=front"}));
+  EXPECT_GT(differs(none, front), 500);
+  for (const char* faces : {"shadow.faces=back", "shadow.faces=both"})
+    EXPECT_EQ(differs(front, rendered(prepared(scene, {faces}))), 0) << faces;
 }
 
 }  // namespace

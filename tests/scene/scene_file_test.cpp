@@ -429,7 +429,7 @@ TEST(Animation, SpeedScalesTime) {
 TEST(Animation, LeavingTheRangeIsTold) {
   const SceneFile scene =
       scene_of(R"({"version": 1, "objects": {"a": {"radius": 1}}, "animations": {"t": {"target": "a.radius", "rate": -1}}})");
-  EXPECT_EQ(error_of([&] { scene.at(2); }), "test.json: animations.t: a.radius: expected a number from 1e-06 to 1e+06 (units), got -1.0");
+  EXPECT_EQ(error_of([&] { scene.at(2); }), "test.json: animations.t: a.radius: expected a number from 1e-06 to 1e+06 (units), got -1");
 }
 
 // ---- schema ----------------------------------------------------------------------------------------------------

@@ -36,7 +36,7 @@ TEST(Timing, QuartilesEncloseTheMedian) {
 }
 
 TEST(Labels, StayInTheRoomAndClearOfEachOther) {
-  const Box room{0, 0, 400, 300};
+  const ChartBox room{0, 0, 400, 300};
   std::vector<glm::dvec2> points;
   std::vector<double> widths;
   for (int i = 0; i < 12; ++i) {
@@ -46,7 +46,7 @@ TEST(Labels, StayInTheRoomAndClearOfEachOther) {
   points.emplace_back(395, 295);  // in a corner
   widths.push_back(80);
   const std::vector<LabelPlace> places = place_labels(points, widths, room);
-  std::vector<Box> boxes;
+  std::vector<ChartBox> boxes;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const LabelPlace& p = places[i];
     const double x0 = p.anchor > 0 ? p.x : p.anchor < 0 ? p.x - widths[i] : p.x - 0.5 * widths[i];
@@ -55,7 +55,7 @@ TEST(Labels, StayInTheRoomAndClearOfEachOther) {
     EXPECT_LE(x0 + widths[i], room.x1);
     EXPECT_LE(p.y + 7, room.y1);
     for (std::size_t k = 0; k < i; ++k) {
-      const Box &a = boxes[i], &b = boxes[k];
+      const ChartBox &a = boxes[i], &b = boxes[k];
       EXPECT_FALSE(a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1) << i << " covers " << k;
     }
   }

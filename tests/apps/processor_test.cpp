@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The check at the program's start, on the machine itself: a program of start_check.cpp and cpu.cpp alone is said to need
+// FMA4 and XOP, which no processor since 2017 has, beside what every one has. An emulator of a lesser processor has a
+// test of its own (Cli.ALesserProcessorIsToldInOneLine).
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace halfspace {
+namespace {
+
+TEST(StartCheck, SaysInOneLineWhatTheProcessorLacks) {
+  FILE* program = ::popen(HALFSPACE_LESSER_PROGRAM " 2>&1", "r");
+  ASSERT_NE(program, nullptr);
+  std::string said;
+  std::array<char, 256> part{};
+  while (std::fgets(part.data(), static_cast<int>(part.size()), program) != nullptr) said += part.data();
+  const int status = ::pclose(program);
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_TRUE(said.starts_with("halfspace: this build needs FMA4, XOP, which this processor lacks; ")) << said;
+  EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
+}
+
+}  // namespace
+}  // namespace halfspace
