@@ -23,7 +23,9 @@ ShadowView view_of(int size, bool perspective) {
 TEST(MomentMap, IsTheMeanOfThePowersOverASquare) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> any(0.0f, 1.0f);
-  for (const auto& [size, radius] : {std::pair{256, 2}, {301, 0}, {257, 5}}) {  // widths that end within a task's rows and a row's lanes
+  for (const glm::ivec2& c :
+       {glm::ivec2(256, 2), glm::ivec2(301, 0), glm::ivec2(257, 5)}) {  // widths that end within a task's rows and a row's lanes
+    const int size = c.x, radius = c.y;
     for (const bool perspective : {false, true}) {
       const ShadowView view = view_of(size, perspective);
       Image<float> depth(size, size);
