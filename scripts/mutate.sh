@@ -90,6 +90,8 @@ fault "blending: a second source is looked for in the colour's factors alone" sr
 fault "derivatives: quads of half a pixel" src/shading/pixel.h 'const R to_y = (R(static_cast<float>(j)) - quad_y) * R(256);' 'const R to_y = (R(static_cast<float>(j)) - quad_y) * R(128);'
 fault "exact spheres: near ones as distant ones" src/shading/sphere_lens.h 'R(25) * radius * radius > dot(c, c)' 'R(0) * radius * radius > dot(c, c)'
 fault "exact spheres: the rim is not decided in double" src/shading/sphere_lens.h 'if (any(close_call)) decide_in_double' 'if (false && any(close_call)) decide_in_double'
+fault "shadows: the automatic bias lifts nothing" src/shading/shadow_map.h 'kAutomaticLift = 0.5f' 'kAutomaticLift = 0.0f'
+fault "shadows: where nothing was drawn a steep plane is dark" src/shading/shadow_view.h 'max(depth, R(0)) >= map_depth' 'depth >= map_depth'
 fault "differences: one code counts as above" src/scene/image_difference.cpp 'e > 1.0 / 255.0' 'e >= 1.0 / 255.0'
 fault "differences: percentile a rank too low" src/scene/image_difference.cpp 'std::ceil(0.999 * count)) - 1' 'std::ceil(0.999 * count)) - 2'
 fault "differences: alpha never counts" src/scene/image_difference.cpp 'is_opaque(a) && is_opaque(b) ? 3 : 4' 'is_opaque(a) || is_opaque(b) ? 3 : 4'

@@ -6,8 +6,8 @@
 
 namespace halfspace {
 
-EdgeDistance edge_distance(const std::vector<glm::ivec2>& from, const std::vector<glm::ivec2>& to, int width, int height) {
-  if (from.empty() || to.empty()) return {};
+std::vector<double> edge_distances(const std::vector<glm::ivec2>& from, const std::vector<glm::ivec2>& to, int width, int height) {
+  if (to.empty()) return {};
   Image<uint8_t> marked(width, height);
   for (const glm::ivec2& p : to) marked.at(p.x, p.y) = 1;
   std::vector<double> distances;
@@ -23,6 +23,11 @@ EdgeDistance edge_distance(const std::vector<glm::ivec2>& from, const std::vecto
     }
     distances.push_back(std::sqrt(best));
   }
+  return distances;
+}
+
+EdgeDistance summary_of(std::vector<double> distances) {
+  if (distances.empty()) return {};
   std::ranges::sort(distances);
   double sum = 0.0;
   for (const double d : distances) sum += d;
@@ -35,7 +40,7 @@ EdgeDistance wrong_band_width(const Image<uint8_t>& wrong, int finer) {
   for (int y = 0; y < wrong.height(); ++y) {
     for (int x = 0; x < wrong.width(); ++x) (wrong.at(x, y) != 0 ? from : to).emplace_back(x, y);
   }
-  const EdgeDistance depth = edge_distance(from, to, wrong.width(), wrong.height());
+  const EdgeDistance depth = summary_of(edge_distances(from, to, wrong.width(), wrong.height()));
   const auto width = [&](double d) { return std::max(0.0, 2.0 * d - 1.0) / finer; };
   return {width(depth.mean), width(depth.p95), width(depth.max)};
 }

@@ -8,6 +8,7 @@
 
 #include "core/trig_double.h"
 #include "scene/camera.h"
+#include "scene/shadow_views.h"
 #include "shading/shadow_bias.h"
 
 namespace halfspace {
@@ -86,6 +87,20 @@ std::vector<glm::ivec2> edge_pixels(const Image<float>& light, const Pixels& pix
     }
   }
   return edges;
+}
+
+// What a texel that falls along the light on the surface at a hit spans in the picture, px: the longer of its sides.
+double texel_on_surface_px(const RayHit& hit, const Light& light, double texel, const View& view) {
+  const glm::dvec3 axis = light_at<double>(light, hit.position_ew).l_ws;
+  const glm::dvec3 sight = view.to_eye_ws == glm::dvec3(0.0) ? unit_or_zero(hit.position_ew) : -view.to_eye_ws;
+  const double lean = std::max(std::abs(glm::dot(hit.face_normal_ws, axis)), 1e-3);
+  const glm::dmat3 axes = light_axes(axis);
+  double longest = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    const glm::dvec3 along = axes[side] * texel, on_surface = along - axis * (glm::dot(hit.face_normal_ws, along) / lean);
+    longest = std::max(longest, glm::length(glm::cross(on_surface, sight)));
+  }
+  return longest / pixel_width(view, hit.position_ew);
 }
 
 void add(DistanceShares& shares, double distance, double weight) {
@@ -198,7 +213,14 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
   s.truth_error = static_cast<double>(*std::ranges::max_element(errors));
   score_means(out, pixels);
   score_false_pixels(out, pixels, shadow, EdgeFinder(rays, casters, {ray_light.light, 0.0, 1}), workers);
-  s.edge_px = edge_distance(edge_pixels(out.map, pixels), edge_pixels(out.truth, pixels), width, height);
+  const std::vector<glm::ivec2> edges = edge_pixels(out.map, pixels);
+  const std::vector<double> distances = edge_distances(edges, edge_pixels(out.truth, pixels), width, height);
+  s.edge_px = summary_of(distances);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const RayHit& hit = *pixels.hits.at(edges[i].x, edges[i].y);
+    const double texel_px = texel_on_surface_px(hit, light.light, texel_at(shadow, hit.position_ew), view);
+    if (texel_px > 0.0) s.edge_texels += distances[i] / texel_px / static_cast<double>(distances.size());
+  }
   s.map_ms = light.map_ms;
   s.lookup_ms = std::max(
       0.0, median_draw_ms(choice, view, width, height, true, workers) - median_draw_ms(choice, view, width, height, false, workers));

@@ -25,10 +25,11 @@ struct ShadowScore {
   double sides_differ = 0.0;      ///< share of pixels where geometric and shading normal disagree on the light's side: judged apart
   DistanceShares false_shadow;    ///< |map − rays| > 0.5, of the lit pixels
   DistanceShares false_light;     ///< the same of the shadowed ones
-  EdgeDistance edge_px;  ///< from the map's edges to the true ones
-  double penumbra_error = 0.0;  ///< mean of |map − rays| where 0 < rays < 1; 0 where there is no penumbra
-  double error = 0.0;           ///< the same over all pixels
-  double truth_error = 0.0;     ///< largest standard error of the rays
+  EdgeDistance edge_px;           ///< from the map's edges to the true ones
+  double edge_texels = 0.0;       ///< mean of these, each by what a texel spans there, as it falls on the surface and the picture shows it
+  double penumbra_error = 0.0;    ///< mean of |map − rays| where 0 < rays < 1; 0 where there is no penumbra
+  double error = 0.0;             ///< the same over all pixels
+  double truth_error = 0.0;       ///< largest standard error of the rays
   double map_ms = 0.0, lookup_ms = 0.0;
 };
 

@@ -60,6 +60,7 @@ std::string json_report(const Validation& validation) {
                     {"false_shadow", to_json(s.false_shadow)},
                     {"false_light", to_json(s.false_light)},
                     {"edge_px", {{"mean", s.edge_px.mean}, {"p95", s.edge_px.p95}, {"max", s.edge_px.max}}},
+                    {"edge_texels", s.edge_texels},
                     {"penumbra_error", s.penumbra_error},
                     {"error", s.error},
                     {"truth_standard_error", s.truth_error},

@@ -239,7 +239,7 @@ Section section_of(ShadowDescription& s) {
                          {.unit = "px", .low = 0.1, .high = 100}),
       key<&T::constant>("constant", "Constant part of the bias", {.unit = "texels", .low = 0, .high = 1000}),
       key<&T::slope>("slope", "Factor of the bias that grows with the light's angle", {.low = 0, .high = 1000}),
-      key<&T::max_slope>("max_slope", "Largest tangent of the light's angle that a bias follows", {.low = 0, .high = 1e6}),
+      key<&T::max_slope>("max_slope", "Largest tangent of the light's angle that a bias other than auto follows", {.low = 0, .high = 1e6}),
       key<&T::radius>("radius", "Of vogel's disk and of the moments' filter", {.unit = "texels", .low = 0, .high = 16}),
       key<&T::faces>("faces", "Faces of meshes that cast, as the light sees them; of spheres it is the front"),
       key<&T::cascades>("cascades", "Maps of a directional light, by distance", {.low = 1, .high = 4}),

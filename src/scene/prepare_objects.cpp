@@ -68,9 +68,9 @@ VertexView view_of(const Mesh& m) {
   return vertices(stream(m.positions));
 }
 
-template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none>
+template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none, bool highlight = true>
 PreparedDraw draw_of(const LitSurface& surface, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices) {
-  using S = SurfaceShader<rate, mapped, detail>;
+  using S = SurfaceShader<rate, mapped, detail, highlight>;
   return {S{surface}, view_of<S>(mesh.mesh), indices,
           opaque_state(surface.two_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f)};
 }
@@ -85,6 +85,7 @@ PreparedDraw draw_of(const LitSurface& s, ShadingRate rate, NormalDetail detail,
     case ShadingRate::provoking:
       return (mapped ? draw_of<ShadingRate::provoking, true> : draw_of<ShadingRate::provoking, false>)(s, mesh, indices);
     case ShadingRate::gouraud:
+      if (mapped && s.model == LightModel::lambert) return draw_of<ShadingRate::gouraud, true, NormalDetail::none, false>(s, mesh, indices);
       return (mapped ? draw_of<ShadingRate::gouraud, true> : draw_of<ShadingRate::gouraud, false>)(s, mesh, indices);
     case ShadingRate::phong: break;
   }

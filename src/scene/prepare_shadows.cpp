@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/trig_double.h"
+#include "scene/moment_map.h"
 #include "scene/preparation.h"
 #include "scene/shadow_fit.h"
 #include "scene/sphere_camera.h"
@@ -97,36 +98,6 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
   return pass.run(workers);
 }
 
-// Means of the powers 1 to 4 of the linear depth over squares of 2·radius + 1 texels; beyond the edge counts the edge.
-Image<glm::vec4> filtered_moments(const ShadowView& view, const Image<float>& depth, int radius, const Workers& workers) {
-  const int size = depth.width();
-  Image<glm::vec4> rows(size, size), out(size, size);
-  const auto linear = [&](float z) {
-    if (!view.perspective) return 1.0f - z;
-    const float b = -view.near / (view.far - view.near);  // z = depth_per_unit / w + b
-    return (view.depth_per_unit / (z - b) - view.near) / (view.far - view.near);
-  };
-  const float share = 1.0f / static_cast<float>(2 * radius + 1);
-  workers.for_each(size, [&](int row) {
-    for (int x = 0; x < size; ++x) {
-      glm::vec4 sum(0.0f);
-      for (int k = -radius; k <= radius; ++k) {
-        const float d = linear(depth.at(std::clamp(x + k, 0, size - 1), row));
-        sum += glm::vec4(d, d * d, d * d * d, d * d * d * d);
-      }
-      rows.at(x, row) = sum * share;
-    }
-  });
-  workers.for_each(size, [&](int row) {
-    for (int x = 0; x < size; ++x) {
-      glm::vec4 sum(0.0f);
-      for (int k = -radius; k <= radius; ++k) sum += rows.at(x, std::clamp(row + k, 0, size - 1));
-      out.at(x, row) = sum * share;
-    }
-  });
-  return out;
-}
-
 // Places of receivers that the picture shows, and the width of a pixel there: from a coarse picture of their depth.
 struct SeenPlace {
   glm::dvec3 position_ew;
@@ -144,11 +115,7 @@ std::vector<SeenPlace> seen_places(const View& view, double far, const Placed& p
       const glm::dvec4 p = world_from_clip * glm::dvec4((x + 0.5) / kWidth * 2.0 - 1.0, 1.0 - (row + 0.5) / kHeight * 2.0,
                                                         static_cast<double>(depth.at(x, row)), 1.0);
       const glm::dvec3 position_ew = glm::dvec3(p) / p.w - view.eye_ws;
-      const double spanned =
-          view.to_eye_ws == glm::dvec3(0.0)
-              ? 2.0 * view.tan_y * glm::dot(position_ew, view.forward_ws)
-              : 2.0 / glm::length(glm::dvec3(view.clip_from_world[0][1], view.clip_from_world[1][1], view.clip_from_world[2][1]));
-      places.push_back({position_ew, spanned / view.height_px});
+      places.push_back({position_ew, pixel_width(view, position_ew)});
     }
   }
   return places;

@@ -31,6 +31,7 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  SurfaceShader<ShadingRate::flat, false>, SurfaceShader<ShadingRate::flat, true>,            //
                                  SurfaceShader<ShadingRate::provoking, false>, SurfaceShader<ShadingRate::provoking, true>,  //
                                  SurfaceShader<ShadingRate::gouraud, false>, SurfaceShader<ShadingRate::gouraud, true>,      //
+                                 SurfaceShader<ShadingRate::gouraud, true, NormalDetail::none, false>,                       //
                                  SurfaceShader<ShadingRate::phong, false>, SurfaceShader<ShadingRate::phong, true>,          //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //

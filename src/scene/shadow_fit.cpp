@@ -80,12 +80,7 @@ class ViewFinder {
         if (!in_view.empty()) seen = joined(seen, common(in_view, receivers[i]));
       }
       if (seen.empty()) return std::nullopt;
-      Box above;
-      for (const Box& c : casters) {
-        const Box over = common(c, seen);
-        if (over.low.x <= over.high.x && over.low.y <= over.high.y) above = joined(above, c);
-      }
-      return directional_view(axes, seen, above.empty() ? seen : above, size_, margin_);
+      return directional_view(axes, seen, casters, size_, margin_);
     };
     std::vector<LightView> views;
     if (cascades == 1) {

@@ -136,15 +136,20 @@ std::vector<glm::dvec3> common_corners(const std::array<glm::dvec3, 8>& frustum,
   return corners;
 }
 
-LightView directional_view(const glm::dmat3& axes, const Box& receivers, const Box& casters, int size, double margin) {
+LightView directional_view(const glm::dmat3& axes, const Box& receivers, std::span<const Box> casters, int size, double margin) {
   const double wanted = std::max({receivers.high.x - receivers.low.x, receivers.high.y - receivers.low.y, 1e-6});
   // One texel more than needed on each side, for the origin's step.
   const double texel = next_step(wanted / (size - 2.0 * margin - 2.0));
   const double width = texel * size;
   const auto start = [&](double low, double high) { return std::floor((0.5 * (low + high) - 0.5 * width) / texel) * texel; };
   const double x0 = start(receivers.low.x, receivers.high.x), y0 = start(receivers.low.y, receivers.high.y);
+  double nearest = receivers.high.z;
+  for (const Box& c : casters) {
+    const bool over = c.low.x <= x0 + width && c.high.x >= x0 && c.low.y <= y0 + width && c.high.y >= y0;
+    if (over) nearest = std::max(nearest, c.high.z);
+  }
   // A texel's depth of room at both ends, so that neither end is clipped away by rounding.
-  const double near = std::max(receivers.high.z, casters.high.z) + texel, far = receivers.low.z - texel;
+  const double near = nearest + texel, far = receivers.low.z - texel;
   const double depth = near - far;
   const glm::dmat4 along_axes(glm::transpose(axes));
   glm::dmat4 clip_from_axes(1.0);

@@ -46,10 +46,11 @@ std::array<glm::dvec3, 8> frustum_slice(const std::array<glm::dvec3, 8>& frustum
 /// of the one within the other.
 std::vector<glm::dvec3> common_corners(const std::array<glm::dvec3, 8>& frustum, const Box& box_ws);
 
-/// A directional light's view that holds `receivers` (coordinates along the axes) with `margin` texels round them, and all
-/// that may shade them: depth reaches from the receivers' far end to the casters' near end. Width and place are held to
-/// steps of the grid, so that a moving camera does not make shadows crawl: edges 2^(1/4) apart, origin on whole texels.
-LightView directional_view(const glm::dmat3& axes, const Box& receivers, const Box& casters, int size, double margin);
+/// A directional light's view that holds `receivers` (coordinates along the axes) with `margin` texels round them, and of the
+/// `casters` all that may shade any point of its square, which is wider: depth reaches from the receivers' far end to the near end of the
+/// casters over the square. Width and place are held to steps of the grid, so that a moving camera does not make shadows crawl: edges
+/// 2^(1/4) apart, origin on whole texels.
+LightView directional_view(const glm::dmat3& axes, const Box& receivers, std::span<const Box> casters, int size, double margin);
 
 /// A view from a point along `forward`, of `angle` radians with `margin` texels round that.
 LightView spot_view(const glm::dvec3& position, const glm::dvec3& forward, double angle, double near, double far, int size, double margin);

@@ -21,6 +21,9 @@ struct View {
 /// The view of a camera on a picture of width x height px; reversed Z.
 View make_view(const CameraDescription& camera, int width, int height);
 
+/// Width of a pixel at a point (the world's axes, the eye as origin), across the view's axis; units.
+double pixel_width(const View& view, const glm::dvec3& position_ew);
+
 /// The transform that a placement says: scaled, turned, then moved.
 glm::dmat4 world_from_object(const Placement& placement);
 

@@ -24,36 +24,37 @@ inline float filter_reach(const ShadowSettings& s) {
 
 /// The place of the receiver lifted along its face's normal by `texels` times the sine of the light's angle.
 template <class R>
-HS_INLINE ShadowPlace<R> lifted_place(const ShadowView& view, const ShadowReceiver<R>& at, R cosine, float texels, float max_slope,
-                                      bool plane) {
+HS_INLINE ShadowPlace<R> lifted_place(const ShadowView& view, const ShadowReceiver<R>& at, R cosine, float texels) {
   const R w = place_on(view, at.position_ew).w;
   const R step = R(texels * view.texel_per_w) * w * sqrt(R(1) - cosine * cosine);
-  const vec3<R> lifted_ew = at.position_ew + at.face_normal_ws * step;
-  ShadowPlace<R> p = place_on(view, lifted_ew);
-  if (plane) set_plane(view, lifted_ew, at.face_normal_ws, max_slope, p);
-  return p;
+  return place_on(view, at.position_ew + at.face_normal_ws * step);
+}
+
+/// Tangent of the angle whose cosine is given, up to a limit.
+template <class R>
+HS_INLINE R tangent_of(R cosine, float limit) {
+  return min(sqrt(R(1) - cosine * cosine) / max(cosine, R(1e-6f)), R(limit));
+}
+
+/// How far `automatic` lifts a point, texels. With the triangle's own plane nothing more is needed on it; its neighbours lean
+/// away from it, and what they rise grows with the filter's reach and with the light's angle. Half a texel more is for the depths that
+/// the map rounds over a texel. Only pcss looks farther than pcf7, and at what stands far away.
+template <class R>
+HS_INLINE R automatic_lift(const ShadowSettings& s, R tangent) {
+  return R(kAutomaticLift) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));
 }
 
 /// Where the receiver lies on the view, moved by the bias that the settings ask for.
 template <class R>
 HS_INLINE ShadowPlace<R> biased_place(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
   const R cosine = clamp(dot(at.face_normal_ws, at.to_light_ws), R(0), R(1));
-  if (s.bias == ShadowBias::normal_offset) return lifted_place(view, at, cosine, s.constant * filter_reach(s), s.max_slope, false);
-  if (s.bias == ShadowBias::automatic) {
-    ShadowPlace<R> p = lifted_place(view, at, cosine, kAutomaticOffset, s.max_slope, true);
-    p.depth += depth_of_texel(view, p.w) * R(kAutomaticConstant);
-    return p;
-  }
+  if (s.bias == ShadowBias::normal_offset) return lifted_place(view, at, cosine, s.constant * filter_reach(s));
 
   ShadowPlace<R> p = place_on(view, at.position_ew);
   const R texel = depth_of_texel(view, p.w);
   switch (s.bias) {
     case ShadowBias::constant: p.depth += texel * R(s.constant); break;
-    case ShadowBias::slope: {
-      const R tangent = min(sqrt(R(1) - cosine * cosine) / max(cosine, R(1e-6f)), R(s.max_slope));
-      p.depth += texel * (R(s.slope * filter_reach(s)) * tangent + R(s.constant));
-      break;
-    }
+    case ShadowBias::slope: p.depth += texel * (R(s.slope * filter_reach(s)) * tangent_of(cosine, s.max_slope) + R(s.constant)); break;
     case ShadowBias::angle: p.depth += texel * max(R(s.slope) * (R(1) - cosine), R(s.constant)); break;
     case ShadowBias::original: p.depth += R(0.0005f); break;
     case ShadowBias::receiver_plane:
@@ -63,6 +64,10 @@ HS_INLINE ShadowPlace<R> biased_place(const ShadowView& view, const ShadowSettin
     case ShadowBias::adaptive:  // a ten-thousandth of the view's length, besides the plane
       set_plane(view, at.position_ew, at.shading_normal_ws, s.max_slope, p);
       p.depth += R((view.far - view.near) * 1e-4f * view.depth_per_unit) / (p.w * p.w);
+      break;
+    case ShadowBias::automatic:
+      set_plane(view, at.position_ew, at.face_normal_ws, kSteepestSlope, p);
+      p.depth += texel * automatic_lift(s, tangent_of(cosine, kSteepestSlope));
       break;
     default: break;
   }

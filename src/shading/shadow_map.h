@@ -44,9 +44,10 @@ enum class ShadowBias : uint8_t {
   original         ///< 0.0005 of the depth range, as the day and night's original
 };
 
-/// The widest penumbra that pcss looks for, and the bias of `automatic`; texels.
+/// The widest penumbra that pcss looks for, texels.
 inline constexpr float kMaxPenumbra = 64.0f;
-inline constexpr float kAutomaticOffset = 0.5f, kAutomaticConstant = 0.1f;
+/// Of ShadowBias::automatic: texels (see automatic_lift), and the largest tangent of the light's angle that it follows, 89.99 degrees.
+inline constexpr float kAutomaticLift = 0.5f, kSteepestSlope = 1e4f;
 
 /// How a shadow is looked up; the same for all views of a light.
 struct ShadowSettings {
@@ -54,7 +55,7 @@ struct ShadowSettings {
   ShadowBias bias = ShadowBias::automatic;
   float constant = 1.0f;    ///< texels
   float slope = 1.0f;       ///< factor of the depth that a texel spans
-  float max_slope = 16.0f;  ///< largest tangent of the light's angle that is believed
+  float max_slope = 16.0f;  ///< largest tangent of the light's angle that the other biases follow
   float radius = 2.0f;      ///< texels; of vogel's disk and of the moments' filter
   /// Half the light's width: the tangent of half its angle (directional), or its radius in world units (point, spot). For pcss.
   float light_radius = 0.0f;

@@ -58,12 +58,13 @@ HS_INLINE R map_depth(const ShadowView& view, IntOf<R> i, IntOf<R> j) {
   return R(gather(view.depth, IntOf<R>(row * IntOf<R>(view.size) + column)));
 }
 
-/// 1 where the light reaches the place as far as texel (i, j) tells, else 0.
+/// 1 where the light reaches the place as far as texel (i, j) tells, else 0. Where nothing was drawn the texel is 0 and the place is
+/// lit, even if its plane falls beyond the view's far end.
 template <class R>
 HS_INLINE R lit_by_texel(const ShadowView& view, const ShadowPlace<R>& p, IntOf<R> i, IntOf<R> j) {
   const R dx = to_real<R>(i) + R(0.5f) - p.x, dy = to_real<R>(j) + R(0.5f) - p.y;
   const R depth = fma(p.depth_dy, dy, fma(p.depth_dx, dx, p.depth));
-  return select(depth >= map_depth<R>(view, i, j), R(1), R(0));
+  return select(max(depth, R(0)) >= map_depth<R>(view, i, j), R(1), R(0));
 }
 
 }  // namespace halfspace

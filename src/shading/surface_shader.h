@@ -18,10 +18,12 @@ enum class NormalDetail : uint8_t {
   slopes  ///< it is a map of the slopes of a displaced sphere whose vertices lie in the directions of its normals
 };
 
-/// mapped: the draw has texture coordinates, and maps may be set. Without it all maps are null.
-template <ShadingRate rate, bool mapped, NormalDetail normal_detail = NormalDetail::none>
+/// mapped: the draw has texture coordinates, and maps may be set. Without it all maps are null. highlight: the material has specular
+/// light; without it, which gouraud with maps knows, none is carried.
+template <ShadingRate rate, bool mapped, NormalDetail normal_detail = NormalDetail::none, bool highlight = true>
 struct SurfaceShader : LitSurface {
   static_assert(normal_detail == NormalDetail::none || (rate == ShadingRate::phong && mapped));
+  static_assert(highlight || (rate == ShadingRate::gouraud && mapped));
   static constexpr bool kByVertex = rate == ShadingRate::provoking || rate == ShadingRate::gouraud;
   static constexpr bool kByPixel = rate == ShadingRate::phong;
   static constexpr bool kSlopes = normal_detail == NormalDetail::slopes;
@@ -51,7 +53,7 @@ struct SurfaceShader : LitSurface {
     [[no_unique_address]] MemberIf<kTangents, Flat<R>, 5> side;
     [[no_unique_address]] MemberIf<kByVertex && !mapped, PerVertex<vec3<R>>, 6> color;
     [[no_unique_address]] MemberIf<kByVertex && mapped, PerVertex<vec3<R>>, 7> diffuse;
-    [[no_unique_address]] MemberIf<kByVertex && mapped, PerVertex<vec3<R>>, 8> specular;
+    [[no_unique_address]] MemberIf<kByVertex && mapped && highlight, PerVertex<vec3<R>>, 8> specular;
     [[no_unique_address]] MemberIf<mapped, vec2<R>, 9> uv;
   };
 
@@ -137,7 +139,7 @@ struct SurfaceShader : LitSurface {
     const Illumination<R> light = illuminate(lights, model, R(factors[kShininess].constant.x), p);
     if constexpr (mapped) {
       to.diffuse = {light.diffuse};
-      to.specular = {light.specular};
+      if constexpr (highlight) to.specular = {light.specular};
     } else {
       to.color = {reflected(constants<R>(), light)};
     }
@@ -145,8 +147,10 @@ struct SurfaceShader : LitSurface {
 
   template <class R, class From>
   HS_INLINE vec3<R> with_light_of(const From& from, const Varyings<R>& in, const Pixel<R>& px) const {
-    if constexpr (mapped) {
+    if constexpr (mapped && highlight) {
       return reflected(material(in, px), Illumination<R>{plain(from.diffuse), plain(from.specular)});
+    } else if constexpr (mapped) {
+      return reflected(material(in, px), Illumination<R>{plain(from.diffuse), vec3<R>(R(0))});
     } else {
       return plain(from.color);
     }

@@ -48,21 +48,37 @@ TEST(ShadowViews, DirectionalHoldsReceiversWithTheirMarginAndCastersInDepth) {
     const auto corner = [&] { return glm::dvec3(any(random), any(random), any(random)); };
     const Box receivers = box_of({corner(), corner()}), casters = box_of({corner(), corner()});
     const int size = 512;
-    const LightView view = directional_view(axes, receivers, casters, size, 4.0);
+    const LightView view = directional_view(axes, receivers, {&casters, 1}, size, 4.0);
     for (const glm::dvec3& c : corners_of(receivers)) {
       const glm::dvec3 p = to_texels(view, size, axes * c);
       EXPECT_GE(std::min(p.x, p.y), 4.0);
       EXPECT_LE(std::max(p.x, p.y), size - 4.0);
       EXPECT_GT(p.z, 0.0);
     }
-    for (const glm::dvec3& c : corners_of(casters)) EXPECT_LT(to_texels(view, size, axes * c).z, 1.0);
+    for (const glm::dvec3& c : corners_of(casters)) {
+      const glm::dvec3 p = to_texels(view, size, axes * c);
+      const bool over = p.x >= 0.0 && p.x <= size && p.y >= 0.0 && p.y <= size;
+      EXPECT_TRUE(!over || p.z < 1.0);  // also where it is over no receiver: other points of the square look there
+    }
   }
+}
+
+// The square is wider than a long strip of receivers: what is over its sides shades points that lie there.
+TEST(ShadowViews, DirectionalHoldsCastersOverAllOfItsSquare) {
+  const glm::dmat3 axes = light_axes({0, 0, 1});
+  const Box strip = box_of({{-5, -0.1, -1}, {5, 0.1, 0}}), beside = box_of({{-1, 3, 6}, {1, 4, 7}}),
+            apart = box_of({{20, 0, 50}, {21, 1, 60}});
+  const Box casters[] = {strip, beside, apart};
+  const LightView view = directional_view(axes, strip, casters, 512, 4.0);
+  const double depth = to_texels(view, 512, axes * beside.high).z;
+  EXPECT_LT(depth, 1.0);
+  EXPECT_GT(depth, 0.9);  // and no room is lost to what is over no part of it
 }
 
 TEST(ShadowViews, DepthAndTexelAreWhatTheViewSays) {
   const glm::dmat3 axes = light_axes({1, 2, 3});
   const Box receivers = box_of({{-3, -2, -1}, {2, 3, 4}});
-  const LightView view = directional_view(axes, receivers, receivers, 256, 2.0);
+  const LightView view = directional_view(axes, receivers, {&receivers, 1}, 256, 2.0);
   const glm::dvec3 p(0.3, 0.2, 0.1);
   const glm::dvec3 here = to_texels(view, 256, p);
   EXPECT_NEAR(to_texels(view, 256, p + axes[0] * view.texel_per_w).x - here.x, 1.0, 1e-9);
@@ -82,7 +98,7 @@ TEST(ShadowViews, ACameraThatMovesKeepsTheGrid) {
   const glm::dmat3 axes = light_axes({1, 5, 2});
   const Box casters = box_of({{-9, -9, -9}, {9, 9, 9}});
   const auto at = [&](double shift) {
-    return directional_view(axes, box_of({{shift, shift, -1}, {shift + 6.1, shift + 6.1, 1}}), casters, 1024, 2.0);
+    return directional_view(axes, box_of({{shift, shift, -1}, {shift + 6.1, shift + 6.1, 1}}), {&casters, 1}, 1024, 2.0);
   };
   const LightView first = at(0.0);
   for (double shift = 0.0; shift < 1.0; shift += 0.0137) {

@@ -190,7 +190,7 @@ TEST(Shadow, OutsideOfTheMapIsLit) {
   EXPECT_EQ(light_arriving(s, receiver({1.01f, 0, 0})), 1.0f);
   EXPECT_EQ(light_arriving(s, receiver({0, -1.01f, 0})), 1.0f);
   EXPECT_EQ(light_arriving(s, receiver({0, 0, 1.01f})), 1.0f);     // nearer than the view begins
-  EXPECT_EQ(light_arriving(s, receiver({0, 0, -1.01f})), 1.0f);  // beyond its end: another cascade's
+  EXPECT_EQ(light_arriving(s, receiver({0, 0, -1.01f})), 1.0f);    // beyond its end: another cascade's
   EXPECT_EQ(light_arriving(Shadow{}, receiver({0, 0, 0})), 1.0f);  // a light without shadow
 }
 
@@ -238,6 +238,7 @@ TEST(ShadowBias, EachLiftsThePlaceByItsFormula) {
   EXPECT_NEAR(lift(ShadowBias::angle), texel * std::max(2.0 * (1.0 - cosine), 1.5), kRounding);
   EXPECT_NEAR(lift(ShadowBias::original), 0.0005, kRounding);
   EXPECT_NEAR(lift(ShadowBias::receiver_plane), 1.5 * texel, kRounding);
+  EXPECT_NEAR(lift(ShadowBias::automatic), texel * 0.5 * (1.0 + (1.0 + 0.5) * tangent), kRounding);
   EXPECT_NEAR(lift(ShadowBias::normal_offset), 1.5 * 0.5 * (2.0 / 64) * 0.8 * 0.6 * 0.5, kRounding);  // step·n.z, in depth
   EXPECT_NEAR(lift(ShadowBias::adaptive), 2.0 * 1e-4 * 0.5, kRounding);
 }
@@ -274,6 +275,14 @@ TEST(ShadowBias, WithoutOneAFloorShadesItselfAndThePlanesDoNot) {
     EXPECT_EQ(false_shadow(ShadowFilter::hard, ShadowBias::adaptive, degrees), 0.0) << degrees;
   }
   EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::constant, 80.0), 0.3);  // a texel of lift is too little at 5.7 a texel
+}
+
+TEST(ShadowBias, WhereNothingWasDrawnAPlaneBeyondTheFarEndIsLit) {
+  const Map map(64);  // empty
+  const glm::vec3 steep = glm::normalize(glm::vec3(-5, 0, 1)), at_far_end(0.1f, 0.1f, -0.999f);
+  for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::bilinear, ShadowFilter::pcf7})
+    for (const ShadowBias bias : {ShadowBias::receiver_plane, ShadowBias::adaptive, ShadowBias::automatic})
+      EXPECT_EQ(light_arriving(shadow_of(map.view, filter, bias), receiver(at_far_end, steep)), 1.0f);
 }
 
 TEST(ShadowBias, PlanesOfASpotAreFlatInItsWindowToo) {

@@ -118,7 +118,7 @@ TEST(Stability, PerspectiveAliasing) {
   // Edges are some 600 px long in this picture of 32,400 px, and err by up to half a texel, which is some 0.2 px by cascades.
   judge({4, "perspective aliasing", "poles on a plane of 400 units, seen from 1.2 above it; one map of 1024 against four cascades of it",
          "mean error of the light's share over the picture"},
-        error("1"), 0.008, error("4"), 0.004);
+        error("1"), 0.005, error("4"), 0.004);
 }
 
 TEST(Stability, ShadowTerminator) {
