@@ -39,6 +39,14 @@ blended_order() {
   HALFSPACE_RUNS=100 "$dir/bin/test-conformance" --gtest_filter='ConformanceOrder.*'
 }
 
+# What --max-error promises, on 208 random views.
+random_views() {
+  local dir=build/full/gcc-native
+  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release > /dev/null
+  cmake --build "$dir" --target test-reference -- -j "$jobs" > "$dir/build.log" 2>&1
+  HALFSPACE_VIEWS=208 "$dir/bin/test-reference" --gtest_filter='MaxError.*'
+}
+
 declare -A steps
 names=()
 step() { names+=("$1"); steps[$1]=$2; }
@@ -55,6 +63,7 @@ step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALF
 step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
 step order             "blended_order"
+step views             "random_views"
 step off-costs         "scripts/off_costs.sh"
 step mutate            "scripts/mutate.sh"
 
