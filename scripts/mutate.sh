@@ -3,6 +3,7 @@
 #
 #   scripts/mutate.sh        all faults
 #   scripts/mutate.sh N      the N-th alone
+#   scripts/mutate.sh N M    the N-th to the M-th
 #   scripts/mutate.sh list   their names
 #
 # Ends in "N caught, M missed"; exit 1 if any was missed. A fault is a text in one file and what it becomes; the text
@@ -103,32 +104,42 @@ if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done
   exit 0
 fi
-only=${1:-}
-if [ -n "$only" ] && ! { [[ $only =~ ^[0-9]+$ ]] && [ "$only" -ge 1 ] && [ "$only" -le ${#names[@]} ]; }; then
-  echo "mutate.sh: '$only' is not a fault; expected 1 to ${#names[@]}, or list" >&2
+first=${1:-1} last=${2:-${1:-${#names[@]}}}
+for number in "$first" "$last"; do
+  [[ $number =~ ^[0-9]+$ ]] && [ "$number" -ge 1 ] && [ "$number" -le ${#names[@]} ] && continue
+  echo "mutate.sh: '$number' is not a fault; expected 1 to ${#names[@]}, or list" >&2
   exit 2
-fi
+done
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work"
 mkdir -p "$work/build"
-tests=(raster property conformance shading core)  # in this order: most faults fall in the first
-# Builds and runs the test programs, one after the other, up to the first that fails.
+# The test programs that may notice a fault in a file, in the order in which they are asked: most fall in the first.
+tests_of() {
+  case $1 in
+    src/scene/*) echo scene ;;
+    src/study/*) echo study ;;
+    src/reference/*) echo reference ;;
+    src/shading/*) echo shading raster property conformance ;;
+    *) echo raster property conformance shading core ;;
+  esac
+}
+# Builds and runs test programs, one after the other, up to the first that fails.
 check() {
-  for t in "${tests[@]}"; do
+  for t in "$@"; do
     cmake --build "$work/build" --target "test-$t" > "$work/build.log" 2>&1 || return 2
     (cd "$work" && timeout 600 "build/bin/test-$t" --gtest_fail_fast --gtest_brief=1) > "$work/test.log" 2>&1 || return 1
   done
 }
+mapfile -t selected < <(seq $((first - 1)) $((last - 1)))
 
 echo "building the tree without faults"
 cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_WERROR=OFF > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
-check || { echo "the tests fail without any fault:"; tail -30 "$work/build.log" "$work/test.log"; exit 1; }
+check $(for i in "${selected[@]}"; do tests_of "${files[$i]}"; done | tr ' ' '\n' | awk '!seen[$0]++') || { echo "the tests fail without any fault:"; tail -30 "$work/build.log" "$work/test.log"; exit 1; }
 
 caught=0 missed=0
-for i in "${!names[@]}"; do
-  [ -z "$only" ] || [ "$only" -eq $((i + 1)) ] || continue
+for i in "${selected[@]}"; do
   file=$work/${files[$i]}
   text=$(cat "$file"; echo .)
   text=${text%.}
@@ -140,7 +151,7 @@ for i in "${!names[@]}"; do
   fi
   printf '%s' "$once" > "$file"
   status=0
-  check || status=$?
+  check $(tests_of "${files[$i]}") || status=$?
   if [ "$status" -eq 1 ]; then
     caught=$((caught + 1))
     echo "caught $((i + 1)) ${names[$i]} ($(grep -m1 -oE '\[  FAILED  \] [A-Za-z0-9_/.]+' "$work/test.log" | cut -c14- || tail -1 "$work/test.log"))"
