@@ -5,35 +5,9 @@
 #include <cmath>
 
 #include "raster/pass.h"
-#include "shading/contract.h"
+#include "reference/numbered_mesh.h"
 
 namespace halfspace {
-
-namespace {
-
-// Colour: 1 + the object's place.
-struct ObjectNumber {
-  glm::mat4 clip_from_object;
-  float number = 0.0f;
-
-  template <class R>
-  struct Attributes {
-    vec3<R> position_os;
-  };
-  template <class R>
-  struct Varyings {};
-
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return clip_from_object * vec4<R>(in.position_os, R(1));
-  }
-  template <class R>
-  Fragment<R> fragment(const Varyings<R>&) const {
-    return {vec4<R>(R(number), R(0), R(0), R(1))};
-  }
-};
-
-}  // namespace
 
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers) {
   const int width = finer * scene.view.width_px, height = finer * scene.view.height_px;
@@ -41,7 +15,7 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
   Pass pass(width, height, rgba32f_target(numbers), {.format = DepthFormat::d32f, .clear_value = 0.0f});
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const PlacedMesh& m = scene.meshes[i];
-    pass.draw(ObjectNumber{glm::mat4(scene.view.clip_from_world * m.world_from_object), static_cast<float>(i + 1)},
+    pass.draw(NumberedMesh{glm::mat4(scene.view.clip_from_world * m.world_from_object), static_cast<float>(i + 1)},
               vertices(stream(m.mesh->positions)), *m.indices, opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
   }
   pass.run(workers);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "reference/numbered_mesh.h"
 #include "reference/ray_scene.h"
 #include "scene/scene_file.h"
 #include "shading/sphere_sprite.h"
@@ -26,26 +27,6 @@ PreparedScene prepared(const std::string& sections, const std::vector<std::strin
   SceneAssets assets(workers());
   return assets.prepare(file.description(), kWidth, kHeight);
 }
-
-/// A mesh in one colour, its number.
-struct NumberedMesh {
-  glm::mat4 clip_from_object;
-  float number;
-  template <class R>
-  struct Attributes {
-    vec3<R> position_os;
-  };
-  template <class R>
-  struct Varyings {};
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return clip_from_object * vec4<R>(in.position_os, R(1));
-  }
-  template <class R>
-  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
-    return {vec4<R>(R(number), R(0), R(0), R(1))};
-  }
-};
 
 // Each pixel's number: of a sphere its own from 1 on, of a mesh −1, −2, …; 0: nothing.
 Image<glm::vec4> numbers_of(const PreparedScene& scene) {
