@@ -74,7 +74,8 @@ ObjectDescription with_parts(ObjectDescription o, int parts) {
     case Shape::cylinder:
     case Shape::cone:
       // Without heights straight from top to bottom.
-      o.latitudes = is_map(o.height) ? std::max(2, static_cast<int>(std::ceil(static_cast<double>(parts) * o.latitudes / o.longitudes))) : 2;
+      o.latitudes =
+          is_map(o.height) ? std::max(2, static_cast<int>(std::ceil(static_cast<double>(parts) * o.latitudes / o.longitudes))) : 2;
       o.longitudes = std::max(3, parts);
       break;
     case Shape::torus:

@@ -11,6 +11,7 @@
 #include "scene/chord_error.h"
 #include "scene/particles.h"
 #include "scene/preparation.h"
+#include "scene/scene_check.h"
 #include "shading/tone.h"
 
 namespace halfspace {
@@ -27,8 +28,8 @@ constexpr double kCodesPerSquaredAngle = 1700.0;
 // How many pixels of a thousand may show another surface, so that the 99.9th percentile is not an edge's.
 constexpr double kEdgePixels = 0.5;
 
-// By bilinear comparison 95 % of a shadow's edge lie within this part of a texel's width. (With a half, 4 of 208 random views were off by more
-// than asked, moons by nearly four times; with this none.)
+// By bilinear comparison 95 % of a shadow's edge lie within this part of a texel's width. (With a half, 4 of 208 random views were off by
+// more than asked, moons by nearly four times; with this none.)
 constexpr double kShadowEdgeTexels = 1.0;
 
 // What one vertex costs in pixels shaded (docs/performance.md: some 10 ns beside 2.5 that light by vertex saves a pixel).
@@ -243,7 +244,8 @@ void fit_textures(Named<TextureDescription>& textures, double color, std::vector
   for (auto& [name, t] : textures) {
     if (t.filter != Filter::trilinear || t.anisotropy == anisotropy) continue;
     t.anisotropy = anisotropy;
-    const std::string why = anisotropy == kMostAnisotropy ? "the most there are" : "up to " + rounded_text(codes_of(enough->linear)) + " codes";
+    const std::string why =
+        anisotropy == kMostAnisotropy ? "the most there are" : "up to " + rounded_text(codes_of(enough->linear)) + " codes";
     choices.push_back({"textures." + name + ".anisotropy", std::to_string(anisotropy), why});
   }
 }
@@ -273,6 +275,7 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
     fit_textures(scene.textures, *allowed.color, out.choices);
     fit_post(scene.post, *allowed.color, out.choices);
   }
+  check_scene(scene, "the cheapest model");  // thousands of copies of a fine mesh may want more room than there is
   return out;
 }
 

@@ -15,7 +15,8 @@ class ReliefDetail {
   /// `smoothing`: HeightField's, texels; detail that it takes away is none.
   ReliefDetail(const Image<float>& map, double smoothing, const Workers& workers);
 
-  /// In the map's unit, for `columns` ≥ 1 along u; on a straight line between the halvings of the map, which is too much rather than too little.
+  /// In the map's unit, for `columns` ≥ 1 along u; on a straight line between the halvings of the map, which is too much rather than too
+  /// little.
   double error(double columns) const;
 
  private:

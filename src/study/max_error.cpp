@@ -83,7 +83,8 @@ std::vector<Way> ways_of(const std::string& name, const SceneDescription& scene,
                       with_bands(scene, bands, samples)});
   }
   for (const double px : quick ? std::vector{1.0} : std::vector{2.0, 1.0, 0.5, 0.25, 0.1, 0.05})
-    ways.push_back({fmt::format("{} asked {}", name, px), name + ", asked", assets.fit(scene, size.width_px, size.height_px, {px, {}}).scene});
+    ways.push_back(
+        {fmt::format("{} asked {}", name, px), name + ", asked", assets.fit(scene, size.width_px, size.height_px, {px, {}}).scene});
   return ways;
 }
 

@@ -37,9 +37,7 @@ CameraDescription moved(CameraDescription c, std::mt19937& random) {
   return c;
 }
 
-bool is_smooth(const ObjectDescription& o) {
-  return o.surface.shading != ShadingRate::flat && o.surface.shading != ShadingRate::provoking;
-}
+bool is_smooth(const ObjectDescription& o) { return o.surface.shading != ShadingRate::flat && o.surface.shading != ShadingRate::provoking; }
 
 // Every smooth object by as fine a mesh as there is room for. Facets that are meant stay.
 SceneDescription finest(SceneDescription scene) {
