@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -20,13 +21,7 @@
 #include <thread>
 #include <vector>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SANITIZED true
-#elif defined(__has_feature)
-#define SANITIZED (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
-#else
-#define SANITIZED false
-#endif
+#include "support/sanitized.h"
 
 namespace halfspace {
 namespace {
@@ -72,6 +67,7 @@ class Cli : public testing::Test {
     const int o = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     const int e = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (::chdir(directory.c_str()) != 0 || ::dup2(o, STDOUT_FILENO) < 0 || ::dup2(e, STDERR_FILENO) < 0) ::_exit(99);
+    std::signal(SIGINT, SIG_DFL);  // a shell has what it runs in the background ignore it, and the program keeps to that
     ::execv(argv[0], argv.data());
     ::_exit(99);
   }
@@ -288,7 +284,7 @@ TEST_F(Cli, AFileThatIsNoImageIsBadInput) {
 // lesser processor (qemu64 has nothing beyond SSE3).
 TEST_F(Cli, ALesserProcessorIsToldInOneLine) {
   if (std::system("qemu-x86_64 --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "qemu-x86_64 (package qemu-user) is absent";
-  if (SANITIZED) GTEST_SKIP() << "sanitizers do not run in the emulator";
+  if (kSanitized) GTEST_SKIP() << "sanitizers do not run in the emulator";
   const std::string command = std::string("qemu-x86_64 -cpu qemu64 ") + HALFSPACE_PROGRAM + " info 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
   const std::string line = text_of(root / "err");
@@ -686,7 +682,7 @@ TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
     }
   }
   std::ranges::sort(times_ms);
-  EXPECT_LT(times_ms[times_ms.size() / 2], SANITIZED ? 1000 : 100);
+  EXPECT_LT(times_ms[times_ms.size() / 2], kSanitized ? 1000 : 100);
 }
 
 }  // namespace

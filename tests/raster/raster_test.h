@@ -12,16 +12,9 @@
 #include <vector>
 
 #include "raster/pass.h"
+#include "support/sanitized.h"
 
 namespace halfspace::raster_test {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-inline constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-inline constexpr bool kSanitized = false;
-#endif
 
 /// Repetitions of a random test: fewer where a sanitizer makes each many times slower.
 constexpr int effort(int n) { return kSanitized ? (n + 15) / 16 : n; }

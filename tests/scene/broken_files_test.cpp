@@ -17,21 +17,14 @@
 
 #include "core/check.h"
 #include "scene/image_io.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define HS_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define HS_SANITIZED 1
-#endif
-#endif
+#include "support/sanitized.h"
 
 namespace halfspace {
 namespace {
 
 constexpr const char* kData = "../shared/data";
 constexpr unsigned kSecondsPerFile = 90;  // a decoder that hangs is ended after 60 s of its own; sanitizers and a busy machine take time
-[[maybe_unused]] constexpr rlim_t kAddressSpace = rlim_t{2} << 30;
+constexpr rlim_t kAddressSpace = rlim_t{2} << 30;
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -44,10 +37,9 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
 
 // Sanitizers reserve terabytes of addresses.
 void limit_memory() {
-#ifndef HS_SANITIZED
+  if (kSanitized) return;
   const rlimit limit = {kAddressSpace, kAddressSpace};
   ::setrlimit(RLIMIT_AS, &limit);
-#endif
 }
 
 struct Reader {
