@@ -98,7 +98,7 @@ TEST(Stability, Slivers) {
   const Wrong w = wrong_pixels(effort(4000), make, covers_in_floats);
   judge({7, "slivers", "triangles 32 to 60 px long and 0 to 0.04 px high; floats with a cut at an area of 1 px² against a pass",
          "pixels wrong against 128 bits"},
-        static_cast<double>(w.plain), 100, static_cast<double>(w.ours), 0);
+        static_cast<double>(w.plain), effort(100), static_cast<double>(w.ours), 0);
 }
 
 // A square of 64 px as two triangles to the left of a line and, to its right, one (conforming) or two whose common vertex lies on
@@ -134,7 +134,7 @@ TEST(Stability, TJunctions) {
   // No fill rule can close a mesh whose edges are not the same; one whose are is closed by the rule alone.
   judge(
       {8, "T-junctions", "1,500 squares with a vertex on a line: only one side knows of it, against both", "pixels not drawn exactly once"},
-      static_cast<double>(plain), 20, static_cast<double>(ours), 0);
+      static_cast<double>(plain), effort(20), static_cast<double>(ours), 0);
 }
 
 TEST(Stability, SharedEdges) {

@@ -79,19 +79,20 @@ TEST(AreaCoverage, OfTrianglesInClosedForm) {
   }
   // The sum is the triangle's area, whatever its place; a part beyond the picture does not count.
   const std::vector<TrianglePx> thin{{glm::dvec2(1.1, 7.3), glm::dvec2(30.7, 8.9), glm::dvec2(2.2, 7.9)}};
-  double sum = 0.0;
-  for (const double s : area_coverage<double>(thin, 64, 64).texels()) sum += s;
+  const auto total = [](const Image<double>& shares) {
+    double sum = 0.0;
+    for (const double s : shares.texels()) sum += s;
+    return sum;
+  };
   const glm::dvec2 a = thin[0][1] - thin[0][0], b = thin[0][2] - thin[0][0];
-  EXPECT_NEAR(sum, 0.5 * std::abs(a.x * b.y - a.y * b.x), 1e-12);
+  EXPECT_NEAR(total(area_coverage<double>(thin, 64, 64)), 0.5 * std::abs(a.x * b.y - a.y * b.x), 1e-12);
   // A disk of 4,096 wedges, half of it outside.
   std::vector<TrianglePx> disk;
   const auto at = [](int i) {
     return 8.0 * glm::dvec2(std::cos(i * std::numbers::pi / 2048), std::sin(i * std::numbers::pi / 2048)) + glm::dvec2(0, 10);
   };
   for (int i = 0; i < 4096; ++i) disk.push_back({glm::dvec2(0, 10), at(i), at(i + 1)});
-  sum = 0.0;
-  for (const double s : area_coverage<double>(disk, 20, 20).texels()) sum += s;
-  EXPECT_NEAR(sum, 0.5 * std::numbers::pi * 64.0, 1e-3);  // the polygon's: 4e-7 of the area less
+  EXPECT_NEAR(total(area_coverage<double>(disk, 20, 20)), 0.5 * std::numbers::pi * 64.0, 1e-3);  // the polygon's: 4e-7 of the area less
 }
 
 TEST(ChartScript, HasEveryPointLabelAndTheFront) {
