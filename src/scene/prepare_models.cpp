@@ -275,7 +275,7 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
     fit_textures(scene.textures, *allowed.color, out.choices);
     fit_post(scene.post, *allowed.color, out.choices);
   }
-  check_scene(scene, "the cheapest model");  // thousands of copies of a fine mesh may want more room than there is
+  check_room(scene.objects, "the cheapest model");  // thousands of copies of a fine mesh may want more room than there is
   return out;
 }
 

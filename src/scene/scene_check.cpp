@@ -106,23 +106,6 @@ void check(const ObjectDescription& o, const std::string& where) {
   }
 }
 
-// What all objects together ask of memory.
-void check_total(const Named<ObjectDescription>& objects, const std::string& source) {
-  int64_t vertices = 0, copies = 0;
-  for (const auto& [name, o] : objects) {
-    if (!o.visible) continue;
-    const int64_t count = std::max<int64_t>(1, static_cast<int64_t>(o.instances.size()));
-    copies += count;
-    vertices += vertices_of(o) * count;
-  }
-  if (copies > kMostCopies)
-    fail(source, "objects: are " + std::to_string(copies) + " with all their instances; expected at most " + std::to_string(kMostCopies));
-  if (vertices > kMostDrawnVertices) {
-    fail(source, "objects: have " + std::to_string(vertices) +
-                     " vertices with all their instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
-  }
-}
-
 void check_environments(SceneDescription& scene, const std::string& source) {
   const BackgroundDescription& b = scene.background;
   const auto check_name = [&](const char* key, const std::string& name) {
@@ -137,6 +120,22 @@ void check_environments(SceneDescription& scene, const std::string& source) {
 }
 
 }  // namespace
+
+void check_room(const Named<ObjectDescription>& objects, const std::string& source) {
+  int64_t vertices = 0, copies = 0;
+  for (const auto& [name, o] : objects) {
+    if (!o.visible) continue;
+    const int64_t count = std::max<int64_t>(1, static_cast<int64_t>(o.instances.size()));
+    copies += count;
+    vertices += vertices_of(o) * count;
+  }
+  if (copies > kMostCopies)
+    fail(source, "objects: are " + std::to_string(copies) + " with all their instances; expected at most " + std::to_string(kMostCopies));
+  if (vertices > kMostDrawnVertices) {
+    fail(source, "objects: have " + std::to_string(vertices) +
+                     " vertices with all their instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
+  }
+}
 
 void check_scene(SceneDescription& scene, const std::string& source) {
   if (!scene.head.camera.empty() && find_named(scene.cameras, scene.head.camera) == nullptr) {
@@ -156,7 +155,7 @@ void check_scene(SceneDescription& scene, const std::string& source) {
     }
   });
   check(scene.shadow, source + ": shadow");
-  check_total(scene.objects, source);
+  check_room(scene.objects, source);
 }
 
 }  // namespace halfspace

@@ -11,4 +11,7 @@ namespace halfspace {
 /// InputError that begins with `source`.
 void check_scene(SceneDescription& scene, const std::string& source);
 
+/// That all objects together ask for no more memory than is bearable. Throws as above.
+void check_room(const Named<ObjectDescription>& objects, const std::string& source);
+
 }  // namespace halfspace
