@@ -50,6 +50,7 @@ std::string json_report(const RenderReport& r) {
   nlohmann::ordered_json json = {{"scene", r.scene},     {"output", r.output},       {"width", r.width},      {"height", r.height},
                                  {"threads", r.threads}, {"render_ms", r.render_ms}, {"write_ms", r.write_ms}};
   for (const Count& c : kCounts) json["counts"][c.name] = r.counts.*c.member;
+  json["choices"] = nlohmann::ordered_json::array();
   for (const ModelChoice& c : r.choices) json["choices"].push_back({{"key", c.key}, {"value", c.value}, {"why", c.why}});
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

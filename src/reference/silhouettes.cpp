@@ -15,7 +15,7 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
   Pass pass(width, height, rgba32f_target(numbers), {.format = DepthFormat::d32f, .clear_value = 0.0f});
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const PlacedMesh& m = scene.meshes[i];
-    pass.draw(NumberedMesh{glm::mat4(scene.view.clip_from_world * m.world_from_object), static_cast<float>(i + 1)},
+    pass.draw(NumberedMesh{{glm::mat4(scene.view.clip_from_world * m.world_from_object)}, static_cast<float>(i + 1)},
               vertices(stream(m.mesh->positions)), *m.indices, opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
   }
   pass.run(workers);

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "scene/description.h"
-#include "scene/view.h"
 
 namespace halfspace {
 
@@ -24,13 +23,5 @@ ObjectDescription with_parts(ObjectDescription o, int parts);
 
 /// The most parts that its keys allow.
 int most_parts(const ObjectDescription& o);
-
-/// By how many pixels at most a point's picture moves if the point, somewhere within a ball, is moved by one unit of the
-/// world. The ball's own silhouette: only moves towards its centre count.
-double pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
-double silhouette_pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
-
-/// Does the picture show nothing of the ball?
-bool is_outside(const View& view, const glm::dvec3& center_ws, double radius);
 
 }  // namespace halfspace

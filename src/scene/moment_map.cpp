@@ -10,8 +10,6 @@ namespace halfspace {
 
 namespace {
 
-constexpr int kLanes = static_cast<int>(sizeof(Real) / sizeof(float));
-
 // Four floats a texel, side by side; as many more at the end as fill the last lanes.
 using Row = std::vector<float>;
 Row make_row(int texels) { return Row(static_cast<std::size_t>(4 * texels + kLanes - 1)); }

@@ -143,7 +143,7 @@ class ScenePreparation {
   int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
 
   // prepare_models.cpp
-  ObjectDescription fitted(const ObjectDescription& authored, const std::string& path, const AllowedError& allowed,
+  ObjectDescription fitted(const ObjectDescription& authored, const std::string& path, double edge_px, std::optional<double> color,
                            std::vector<ModelChoice>& choices);
   std::shared_ptr<const ReliefDetail> relief_detail(const ObjectDescription& o, const std::string& path);
 

@@ -143,8 +143,8 @@ std::shared_ptr<const ReliefDetail> ScenePreparation::relief_detail(const Object
 }
 
 // authored: one of the scene's own, since what is asked of its maps depends on its place there.
-ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, const std::string& path, const AllowedError& allowed,
-                                           std::vector<ModelChoice>& choices) {
+ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, const std::string& path, double edge_px,
+                                           std::optional<double> color, std::vector<ModelChoice>& choices) {
   if (is_faceted(authored)) return authored;
   const Presence presence = presence_of(authored, view_, scene_.shadow.method != ShadowMethod::none && authored.casts_shadow);
   const std::shared_ptr<const ReliefDetail> detail = presence.is_seen ? relief_detail(authored, path) : nullptr;
@@ -154,7 +154,7 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
   };
   const auto is_enough = [&](const ObjectDescription& o) {
     const double angle = diagonal_angle(o);
-    return off_px(o) <= *allowed.edge_px && (!allowed.color || kCodesPerSquaredAngle * angle * angle <= *allowed.color);
+    return off_px(o) <= edge_px && (!color || kCodesPerSquaredAngle * angle * angle <= *color);
   };
   const bool has_curves = !is_plane(authored.shape) || is_map(authored.height);
   int parts = has_curves ? kLeastParts : 1;
@@ -177,7 +177,7 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
   tell("segments", authored.segments, o.segments);
   // A cosine between two vertices lies off the straight line by an eighth of the angle's square at the most.
   const double angle = diagonal_angle(o), light_error = codes_of(most_light(scene_) * angle * angle / 8.0);
-  if (allowed.color && may_shade_by_vertex(o, scene_) && light_error <= *allowed.color &&
+  if (color && may_shade_by_vertex(o, scene_) && light_error <= *color &&
       kPixelsPerVertex * vertices_of(o) <= presence.pixels) {
     o.surface.shading = ShadingRate::gouraud;
     choices.push_back({path + ".shading", "gouraud", "up to " + rounded_text(light_error) + " codes off"});
@@ -208,7 +208,8 @@ void fit_shadow(ShadowDescription& shadow, double edge_px, std::vector<ModelChoi
   }
   shadow.resolution = 0;
   shadow.footprint = std::clamp(edge_px / kShadowEdgeTexels, 0.1, 100.0);
-  const std::string why = "edges within " + rounded_text(shadow.footprint * kShadowEdgeTexels) + " px on 95 % of the picture";
+  const std::string why = "as fine as edges within " + rounded_text(shadow.footprint * kShadowEdgeTexels) + " px ask, at most " +
+                          std::to_string(kMostShadowTexels) + " texels";
   choices.push_back({"shadow.resolution", "0", why});
   choices.push_back({"shadow.footprint", rounded_text(shadow.footprint), why});
 }
@@ -267,7 +268,7 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
   const double edge_px = allowed.edge_px ? *allowed.edge_px : edge_for_color(view_);
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
     const auto& [name, authored] = scene_.objects[i];
-    if (authored.visible) scene.objects[i].second = fitted(authored, "objects." + name, {edge_px, allowed.color}, out.choices);
+    if (authored.visible) scene.objects[i].second = fitted(authored, "objects." + name, edge_px, allowed.color, out.choices);
   }
   fit_shadow(scene.shadow, edge_px, out.choices);
   if (const auto spheres = particles()) fit_particles(scene.particles, original_error_px(view_, *spheres), edge_px, out.choices);

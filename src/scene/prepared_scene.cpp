@@ -105,9 +105,9 @@ void ScenePreparation::expect() {
 void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
-  for (auto& [recipe, entry] : entries_) entry.wanted = false;
   PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();
   std::erase_if(entries_, [](const auto& entry) { return !entry.second.wanted; });
+  for (auto& [recipe, entry] : entries_) entry.wanted = false;
   return prepared;
 }
 

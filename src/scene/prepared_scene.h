@@ -111,7 +111,7 @@ class SceneAssets {
   friend class ScenePreparation;
   struct Entry {
     std::shared_ptr<const void> asset;
-    bool wanted;  // by the frame being prepared
+    bool wanted;  // since the last frame was prepared
   };
   const Workers& workers_;
   std::map<std::string, Entry> entries_;    ///< by what they are made from

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,6 +36,51 @@ double pixel_width(const View& view, const glm::dvec3& position_ew) {
   const double spanned = view.to_eye_ws == glm::dvec3(0.0) ? 2.0 * view.tan_y * glm::dot(position_ew, view.forward_ws)
                                                            : 2.0 / glm::length(glm::dvec3(m[0][1], m[1][1], m[2][1]));
   return spanned / view.height_px;
+}
+
+namespace {
+
+double corner_tangent_squared(const View& v) { return v.tan_x * v.tan_x + v.tan_y * v.tan_y; }
+double focal_px(const View& v) { return 0.5 * v.height_px / v.tan_y; }
+bool is_orthographic(const View& v) { return v.to_eye_ws != glm::dvec3(0.0); }
+
+glm::dvec4 row_of(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
+
+}  // namespace
+
+double pixels_per_unit(const View& v, const glm::dvec3& center_ws, double radius) {
+  if (is_orthographic(v)) return 1.0 / pixel_width(v, {});
+  const double nearest = std::max(v.near, glm::dot(center_ws - v.eye_ws, v.forward_ws) - radius);
+  // A move along the ray of a corner shows √(1 + tan²) of itself over the depth at the most.
+  return focal_px(v) * std::sqrt(1.0 + corner_tangent_squared(v)) / nearest;
+}
+
+double silhouette_pixels_per_unit(const View& v, const glm::dvec3& center_ws, double radius) {
+  if (is_orthographic(v)) return 1.0 / pixel_width(v, {});
+  const glm::dvec3 from_eye = center_ws - v.eye_ws;
+  const double distance_squared = glm::dot(from_eye, from_eye), depth = glm::dot(from_eye, v.forward_ws);
+  if (distance_squared <= radius * radius) return pixels_per_unit(v, center_ws, radius);
+  // The silhouette is seen at the angle α from the centre, sin α = r/d; less radius by δ turns it by δ/√(d² − r²). The picture
+  // stretches angles by 1 + tan²θ, θ from its middle.
+  const double tangent_length = std::sqrt(distance_squared - radius * radius);
+  const double corner = std::sqrt(corner_tangent_squared(v));
+  double farthest = corner;
+  if (depth > 0.0) {
+    const double center = std::sqrt(std::max(0.0, distance_squared - depth * depth)) / depth, own = radius / tangent_length;
+    if (center * own < 1.0) farthest = std::min(corner, (center + own) / (1.0 - center * own));
+  }
+  return focal_px(v) * (1.0 + farthest * farthest) / tangent_length;
+}
+
+bool is_outside(const View& v, const glm::dvec3& center_ws, double radius) {
+  const glm::dvec4 w = row_of(v.clip_from_world, 3);
+  for (const int axis : {0, 1}) {
+    for (const double side : {-1.0, 1.0}) {
+      const glm::dvec4 plane = w + side * row_of(v.clip_from_world, axis);
+      if (glm::dot(plane, glm::dvec4(center_ws, 1.0)) < -radius * glm::length(glm::dvec3(plane))) return true;
+    }
+  }
+  return false;
 }
 
 namespace {

@@ -24,6 +24,14 @@ View make_view(const CameraDescription& camera, int width, int height);
 /// Width of a pixel at a point (the world's axes, the eye as origin), across the view's axis; units.
 double pixel_width(const View& view, const glm::dvec3& position_ew);
 
+/// By how many pixels at most a point's picture moves if the point, somewhere within a ball, is moved by one unit of the
+/// world. The ball's own silhouette: only moves towards its centre count.
+double pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
+double silhouette_pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
+
+/// Does the picture show nothing of the ball?
+bool is_outside(const View& view, const glm::dvec3& center_ws, double radius);
+
 /// The transform that a placement says: scaled, turned, then moved.
 glm::dmat4 world_from_object(const Placement& placement);
 

@@ -42,7 +42,7 @@ bool is_smooth(const ObjectDescription& o) { return o.surface.shading != Shading
 // Every smooth object by as fine a mesh as there is room for. Facets that are meant stay.
 SceneDescription finest(SceneDescription scene) {
   for (auto& [name, o] : scene.objects) {
-    if (!is_smooth(o) || (o.shape == Shape::plane && !is_map(o.height))) continue;
+    if (!is_smooth(o) || ((o.shape == Shape::plane || o.shape == Shape::cube) && !is_map(o.height))) continue;
     o = with_parts(o, std::min(most_parts(o), is_map(o.height) ? 1024 : 512));
   }
   return scene;

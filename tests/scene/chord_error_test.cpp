@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "scene/shapes.h"
+#include "scene/view.h"
 
 namespace halfspace {
 namespace {
@@ -111,7 +112,7 @@ TEST(ChordError, StepsAreFew) {
 }
 
 // A sphere's outline moves in the picture as pixels_per_unit says: its rim in double, before and after its radius shrinks.
-TEST(ChordError, OutlinesMoveByThePixelsThatTheUnitsSay) {
+TEST(PixelsPerUnit, AreWhatAnOutlineMovesBy) {
   CameraDescription camera;
   camera.position = {0, 0, 5};
   const View view = make_view(camera, 1600, 900);
