@@ -38,10 +38,9 @@ struct Vertex {
   V varyings;
 };
 
-// Step 1: the vertex function, with the attributes read from the streams.
-template <class R, class S, class V = typename S::template Varyings<R>>
-Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t index) {
-  using A = typename S::template Attributes<R>;
+// Step 1: the attributes read from the streams, and the vertex function.
+template <class A, class R>
+A attributes_of(const VertexView& view, std::size_t index) {
   std::array<R, kComponents<A>> in{};
   std::size_t c = 0;
   for (int s = 0; s < view.stream_count; ++s) {
@@ -49,8 +48,13 @@ Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t i
     for (int k = 0; k < stream.components; ++k)
       in[c++] = static_cast<R>(stream.data[index * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)]);
   }
+  return from_components<A, R>(in);
+}
+template <class R, class S, class V = typename S::template Varyings<R>>
+Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t index) {
   Vertex<R, V> v{};
-  v.pos_clip = call_vertex<S, R>(shader, from_components<A, R>(in), {static_cast<int32_t>(index), 0}, v.varyings);
+  const auto in = attributes_of<typename S::template Attributes<R>, R>(view, index);
+  v.pos_clip = call_vertex<S, R>(shader, in, {static_cast<int32_t>(index), 0}, v.varyings);
   return v;
 }
 

@@ -2,6 +2,8 @@
 #include "scene/display.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <vector>
 
 #include "core/half.h"
@@ -10,22 +12,39 @@ namespace halfspace {
 
 namespace {
 
+// Of the squares whose sums are added up: their own, so that the bits do not depend on a pass's tiles.
+constexpr int kMeterTile = 64;
+
 glm::vec3 rgb_of(const glm::vec4& c) { return glm::vec3(c); }
 glm::vec3 rgb_of(const U16Vec4& c) { return {half_to_float(c.x), half_to_float(c.y), half_to_float(c.z)}; }
 
+// The sum of log(kLeastLuminance + luminance) over a square of the picture, from its first row on: logarithms by lanes, their sum in
+// the order of the pixels, so that lanes of any width give the same bits.
+template <class Pixel>
+double log_sum(const Image<Pixel>& light, int x0, int y0) {
+  const int width = std::min(kMeterTile, light.width() - x0), y1 = std::min(y0 + kMeterTile, light.height());
+  std::array<float, kMeterTile> values{};
+  double sum = 0.0;
+  for (int y = y0; y < y1; ++y) {
+    const Pixel* pixels = light.row(y).data() + x0;
+    for (int x = 0; x < width; ++x) values[static_cast<std::size_t>(x)] = luminance<float>(rgb_of(pixels[x]));
+    for (float* v = values.data(); v < values.data() + kMeterTile; v += kLanes) {
+      store(v, log(Real(kLeastLuminance) + clamp(load<Real>(v), 0.0f, kMaxHalf)));
+    }
+    for (int x = 0; x < width; ++x) sum += static_cast<double>(values[static_cast<std::size_t>(x)]);
+  }
+  return sum;
+}
+
 template <class Pixel>
 double log_average(const Image<Pixel>& light, const Workers& workers) {
-  std::vector<double> rows(static_cast<std::size_t>(light.height()));
-  workers.for_each(light.height(), [&](int row) {
-    double sum = 0.0;
-    for (const Pixel& pixel : light.row(row)) {
-      const float held = clamp(luminance<float>(rgb_of(pixel)), 0.0f, kMaxHalf);
-      sum += static_cast<double>(log(kLeastLuminance + held));
-    }
-    rows[static_cast<std::size_t>(row)] = sum;
+  const auto tiles_along = [](int size) { return (size + kMeterTile - 1) / kMeterTile; };
+  const int columns = tiles_along(light.width()), rows = tiles_along(light.height());
+  std::vector<double> sums(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  workers.for_each(columns * rows, [&](int tile) {
+    sums[static_cast<std::size_t>(tile)] = log_sum(light, tile % columns * kMeterTile, tile / columns * kMeterTile);
   });
-  double sum = 0.0;
-  for (const double row : rows) sum += row;
+  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
   return static_cast<double>(exp(static_cast<float>(sum / (static_cast<double>(light.width()) * light.height()))));
 }
 

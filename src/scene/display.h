@@ -12,8 +12,8 @@ namespace halfspace {
 inline constexpr float kLeastLuminance = 1e-6f;
 
 /// exp of the mean of log(kLeastLuminance + luminance) over all pixels (Reinhard et al. 2002, equation 1). A luminance that is
-/// NaN or below 0 counts as 0, one above 65504 as that. Summed in double, by row, so that the bits do not depend on the
-/// workers. Pixels are halfs or floats; at least one.
+/// NaN or below 0 counts as 0, one above 65504 as that. Summed in double, tile by tile in their order, so that the bits do
+/// not depend on the workers. Pixels are halfs or floats; at least one.
 double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers);
 double log_average_luminance(const Image<glm::vec4>& light, const Workers& workers);
 

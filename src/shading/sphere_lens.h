@@ -156,7 +156,7 @@ struct SphereLens {
   // One of many millions of pixels: what two floats leave open.
   template <class R>
   HS_INLINE void decide_in_double(MaskOf<R> which, const vec3<R>& c, R radius, R x, R y, R& root) const {
-    if constexpr (!std::is_same_v<R, double>) {
+    if constexpr (std::is_same_v<decltype(lane(radius, 0)), float>) {
       for (int i = 0; i < kWidthOf<R>; ++i) {
         if (!lane(which, i)) continue;
         const glm::vec3 center(lane(c.x, i), lane(c.y, i), lane(c.z, i));

@@ -76,7 +76,7 @@ SceneDescription bright_scene(const std::vector<std::string>& settings = {}) {
 
 TEST(AutoExposure, IsTheLogAverageSummedInDouble) {
   std::mt19937 random(1);
-  Image<glm::vec4> light(123, 77);
+  Image<glm::vec4> light(123, 77);  // whole tiles and cut ones
   double sum = 0;
   for (int y = 0; y < 77; ++y) {
     for (int x = 0; x < 123; ++x) {
