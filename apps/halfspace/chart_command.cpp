@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/cpu.h"
 #include "core/parallel.h"
 #include "halfspace/arguments.h"
+#include "halfspace/charting.h"
 #include "halfspace/commands.h"
 #include "scene/nearest_name.h"
 #include "scene/output_file.h"
@@ -40,16 +40,14 @@ void chart_command(const ChartArguments& args) {
   const std::filesystem::path folder = args.out;
   make_directory(folder);
   check_writable(folder / "index.html");
-  const RunFacts facts{"halfspace chart " + args.study + (args.quick ? " --quick" : ""),
-                       std::string("halfspace " HALFSPACE_VERSION ", ") + build_description(), workers.threads(), args.quick};
+  const std::string command = "halfspace chart " + args.study + (args.quick ? " --quick" : "");
   bool drawn = true;
   for (const StudyEntry& entry : chosen) {
-    write_study(entry.run({args.quick}, workers), facts, folder);
-    drawn = draw_chart(std::string(entry.name), folder) && drawn;
+    drawn = write_charted(entry.run({args.quick}, workers), command, args.quick, workers, folder) && drawn;
     std::cout << entry.name << ": " << (folder / entry.name).string() << ".json" << std::endl;
   }
   write_index(folder);
-  if (!drawn) std::cout << "no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data are written\n";
+  if (!drawn) std::cout << kNoGnuplot;
   std::cout << (folder / "index.html").string() << '\n';
 }
 

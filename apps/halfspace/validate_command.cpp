@@ -7,12 +7,14 @@
 
 #include "core/parallel.h"
 #include "halfspace/arguments.h"
+#include "halfspace/charting.h"
 #include "halfspace/commands.h"
 #include "halfspace/scene_arguments.h"
 #include "reference/shadow_table.h"
 #include "scene/image_io.h"
 #include "scene/output_file.h"
 #include "scene/scene_file.h"
+#include "study/shadow_study.h"
 
 namespace halfspace {
 
@@ -34,9 +36,19 @@ void write_pictures(const std::filesystem::path& folder, const ShadowComparison&
   write_png(folder / (name + "-difference.png"), difference_picture(c));
 }
 
+// Rows as they come; the chart when all are known.
 void print_table(const ValidateArguments& args, const PictureSize& size, const Workers& workers) {
+  const std::filesystem::path folder = args.out;
+  if (!args.out.empty()) {
+    make_directory(folder);
+    check_writable(folder / "shadow_table.svg");
+  }
   std::cout << csv_header() << std::flush;
-  shadow_table(args.full, {size.width, size.height, 1}, workers, [](const TableRow& row) { std::cout << csv_line(row) << std::flush; });
+  const std::vector<TableRow> rows =
+      shadow_table(args.full, {size.width, size.height, 1}, workers, [](const TableRow& row) { std::cout << csv_line(row) << std::flush; });
+  if (args.out.empty()) return;
+  const std::string command = std::string("halfspace validate --table") + (args.full ? " --full" : "");
+  if (!write_charted(shadow_table_study(rows, size.width, size.height), command, false, workers, folder)) std::cerr << kNoGnuplot;
 }
 
 void validate_command(const ValidateArguments& args) {
@@ -68,7 +80,7 @@ void add_validate_command(CLI::App& program) {
   const auto args = std::make_shared<ValidateArguments>();
   command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->type_name("");
   command->add_flag("--json", args->json, "Report as JSON: one object per light");
-  command->add_option("-o,--output", args->out, "Write pictures: map, truth, difference")->type_name("DIR");
+  command->add_option("-o,--output", args->out, "Write pictures: map, truth, difference; or a chart")->type_name("DIR");
   command->add_flag("--table", args->table, "Every bias and filter on four scenes, as CSV");
   command->add_flag("--full", args->full, "With --table: every combination (hours)");
   add_set_option(command, args->set);

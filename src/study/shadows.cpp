@@ -6,8 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "reference/shadow_table.h"
-#include "study/study.h"
+#include "study/shadow_study.h"
 
 namespace halfspace {
 
@@ -32,64 +31,98 @@ double share_in_doubt(const PreparedScene& scene, int width, int height, const W
   return static_cast<double>(doubtful) / static_cast<double>(std::max<int64_t>(all, 1));
 }
 
-// Means over the scenes.
+// Sums over the scenes, and what they are of.
 struct Sum {
-  std::string factor, bias, method;
-  int resolution = 0, scenes = 0;
+  std::string factor;
+  int resolution = 0, rows = 0;
   double error = 0.0, false_shadow = 0.0, false_light = 0.0, edge_px = 0.0;
   Timing time;
 };
 
-void add(Sum& sum, const ShadowCase& c, const ShadowScore& score, const Timing& time) {
-  const auto beyond = [](const DistanceShares& s) { return s.from_1_to_3 + s.beyond_3; };
-  sum.factor = c.factor;
-  sum.bias = c.bias;
-  sum.method = c.method;
-  sum.resolution = c.resolution;
-  ++sum.scenes;
-  sum.error += score.error;
-  sum.false_shadow += beyond(score.false_shadow);
-  sum.false_light += beyond(score.false_light);
-  sum.edge_px += score.edge_px.mean;
-  sum.time = {sum.time.median_ms + time.median_ms, sum.time.low_ms + time.low_ms, sum.time.high_ms + time.high_ms, time.runs};
+class Sums {
+ public:
+  void add(const std::string& name, const std::string& factor, const ShadowScore& score, const Timing& time) {
+    const auto beyond = [](const DistanceShares& s) { return s.from_1_to_3 + s.beyond_3; };
+    if (!sums_.contains(name)) order_.push_back(name);
+    Sum& sum = sums_[name];
+    sum.factor = factor;
+    sum.resolution = score.resolution;
+    ++sum.rows;
+    sum.error += score.error;
+    sum.false_shadow += beyond(score.false_shadow);
+    sum.false_light += beyond(score.false_light);
+    sum.edge_px += score.edge_px.mean;
+    sum.time = {sum.time.median_ms + time.median_ms, sum.time.low_ms + time.low_ms, sum.time.high_ms + time.high_ms, time.runs};
+  }
+
+  // Means, in the order in which they were begun.
+  std::vector<Variant> variants() const {
+    std::vector<Variant> list;
+    for (const std::string& name : order_) list.push_back(mean_of(name, sums_.at(name)));
+    return list;
+  }
+
+ private:
+  static std::string group_of(const std::string& factor) {
+    if (factor == "bias") return "biases of pcf3, 2048";
+    if (factor == "filter") return "filters, bias auto, 2048";
+    if (factor == "resolution") return "pcf3, bias auto, by texels a side";
+    return "filter and bias, 2048, over angles";
+  }
+  static Variant mean_of(const std::string& name, const Sum& s) {
+    const double n = s.rows;
+    return {.name = name,
+            .group = group_of(s.factor),
+            .parameters = {{"resolution", static_cast<double>(s.resolution)}},
+            .error = s.error / n,
+            .measures = {{"false_shadow_beyond_1_texel", s.false_shadow / n},
+                         {"false_light_beyond_1_texel", s.false_light / n},
+                         {"edge_px", s.edge_px / n}},
+            .time = {s.time.median_ms / n, s.time.low_ms / n, s.time.high_ms / n, s.time.runs}};
+  }
+
+  std::vector<std::string> order_;
+  std::map<std::string, Sum> sums_;
+};
+
+// What differs from the rest; empty where nothing does: the same stands among the resolutions, as 2048. Angles are no variants: one may not
+// choose them.
+template <class Choice>  // a ShadowCase or a ShadowScore
+std::string name_of(const std::string& factor, const Choice& choice) {
+  if (factor == "resolution") return std::to_string(choice.resolution);
+  if (factor == "angle") return "";
+  if (factor == "all") return choice.resolution == 2048 ? choice.method + " " + choice.bias : "";
+  const std::string& varied = factor == "bias" ? choice.bias : choice.method;
+  return varied == "auto" || varied == "pcf3" ? "" : varied;
 }
 
-Variant to_variant(const std::string& name, const Sum& s) {
-  const double n = s.scenes;
-  return {.name = name,
-          .group = s.factor == "bias"     ? "biases of pcf3, 2048"
-                   : s.factor == "filter" ? "filters, bias auto, 2048"
-                                          : "pcf3, bias auto, by texels a side",
-          .parameters = {{"resolution", static_cast<double>(s.resolution)}},
-          .error = s.error / n,
-          .measures = {{"false_shadow_beyond_1_texel", s.false_shadow / n},
-                       {"false_light_beyond_1_texel", s.false_light / n},
-                       {"edge_px", s.edge_px / n}},
-          .time = {s.time.median_ms / n, s.time.low_ms / n, s.time.high_ms / n, s.time.runs}};
-}
-
-}  // namespace
-
-Study study_shadows(const StudyOptions& options, const Workers& workers) {
-  const int width = options.quick ? 96 : 480, height = options.quick ? 54 : 270;
-  Study study{
-      .name = "shadows",
+// All but its variants.
+Study study_on(const std::string& name, int width, int height) {
+  return {
+      .name = name,
       .title = "Shadow maps: biases, filters, resolutions",
       .setting = fmt::format("Means over shadow-plane, moon (terminator), shadow-contact and shadow-knot, {}x{}", width, height),
       .error_name = "mean error of the light's share over pixels that can see it",
       .time_name = "maps and look-ups, mean of a scene's frame without colours",
       .truth = {"a ray a pixel from the surface to the light", 0.0, "rays that tell otherwise 2^-22 of the distance aside"},
   };
+}
+
+// Not below a tenth of a pixel.
+void set_truth_error(Study& study, double doubt, int width, int height) { study.truth.error = std::max(doubt, 0.1 / (width * height)); }
+
+}  // namespace
+
+Study study_shadows(const StudyOptions& options, const Workers& workers) {
+  const int width = options.quick ? 96 : 480, height = options.quick ? 54 : 270;
+  Study study = study_on("shadows", width, height);
   SceneAssets assets(workers);
-  std::vector<std::string> order;
-  std::map<std::string, Sum> sums;
+  Sums sums;
   std::map<std::string, double> doubts;
   for_each_shadow_case(false, [&](const ShadowCase& c) {
-    if (c.factor == "angle") return;
-    const std::string& varied = c.factor == "bias" ? c.bias : c.method;
-    if (options.quick && c.factor != "resolution") return;
-    const std::string name = c.factor == "resolution" ? std::to_string(c.resolution) : varied;
-    if (name == "auto" || name == "pcf3") return;  // the point 2048 of the resolutions
+    if (c.factor == "angle" || (options.quick && c.factor != "resolution")) return;
+    const std::string name = name_of(c.factor, c);
+    if (name.empty()) return;
     const ShadowScore score = validate(c.scene, c.description, {width, height, 1}, assets, workers).lights.front().score;
     PreparedScene scene = assets.prepare(c.description, width, height);
     if (!doubts.contains(c.scene)) doubts[c.scene] = share_in_doubt(scene, width, height, workers);
@@ -99,12 +132,26 @@ Study study_shadows(const StudyOptions& options, const Workers& workers) {
           draw_shadow_picture({&scene, 0}, scene.view, width, height, true, workers);
         },
         options);
-    if (!sums.contains(name)) order.push_back(name);
-    add(sums[name], c, score, time);
+    sums.add(name, c.factor, score, time);
   });
-  for (const auto& [scene, doubt] : doubts) study.truth.error += doubt / static_cast<double>(doubts.size());
-  study.truth.error = std::max(study.truth.error, 0.1 / (width * height));
-  for (const std::string& name : order) study.variants.push_back(to_variant(name, sums[name]));
+  double doubt = 0.0;
+  for (const auto& [scene, share] : doubts) doubt += share / static_cast<double>(doubts.size());
+  set_truth_error(study, doubt, width, height);
+  study.variants = sums.variants();
+  return study;
+}
+
+Study shadow_table_study(const std::vector<TableRow>& rows, int width, int height) {
+  Study study = study_on("shadow_table", width, height);
+  Sums sums;
+  for (const TableRow& row : rows) {
+    const std::string name = name_of(row.factor, row.score);
+    const double ms = row.score.map_ms + row.score.lookup_ms;
+    if (!name.empty()) sums.add(name, row.factor, row.score, {ms, ms, ms, 1});
+  }
+  set_truth_error(study, 0.0, width, height);
+  study.truth.error_method = "a tenth of a pixel";
+  study.variants = sums.variants();
   return study;
 }
 

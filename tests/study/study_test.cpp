@@ -11,6 +11,7 @@
 
 #include "study/chart.h"
 #include "study/polygon_area.h"
+#include "study/shadow_study.h"
 #include "study/study_files.h"
 
 namespace halfspace {
@@ -103,6 +104,41 @@ TEST(ChartScript, HasEveryPointLabelAndTheFront) {
   for (const char* part : {"'name 0'", "'name 1'", "'name 2'", "'It''s one'", "'s.svg'", "'s-dark.svg'", "'s.png'", "set logscale xy",
                            "$front << EOD\n1e-09 3\n0.1 2\nEOD", "own error 1.0e-09"})
     EXPECT_NE(script.find(part), std::string::npos) << part << '\n' << script;
+}
+
+// One row of `halfspace validate --table`.
+TableRow table_row(const char* factor, const char* scene, const char* method, const char* bias, int resolution, double error) {
+  TableRow row{factor, 45.0, {}};
+  row.score.scene = scene;
+  row.score.method = method;
+  row.score.bias = bias;
+  row.score.resolution = resolution;
+  row.score.error = error;
+  row.score.map_ms = 2.0;
+  row.score.lookup_ms = 1.0;
+  return row;
+}
+
+TEST(ShadowTable, BecomesAChartOfMeansOverItsScenes) {
+  const Study study =
+      shadow_table_study({table_row("bias", "a", "pcf3", "slope", 2048, 0.1), table_row("bias", "a", "pcf3", "auto", 2048, 0.7),
+                          table_row("filter", "a", "hard", "auto", 2048, 0.3), table_row("filter", "a", "pcf3", "auto", 2048, 0.7),
+                          table_row("resolution", "a", "pcf3", "auto", 512, 0.5), table_row("angle", "a", "pcf3", "auto", 2048, 0.6),
+                          table_row("bias", "b", "pcf3", "slope", 2048, 0.3)},
+                         480, 270);
+  std::vector<std::string> names;
+  for (const Variant& v : study.variants) names.push_back(v.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"slope", "hard", "512"}))
+      << "what stands among the resolutions stands once, angles not at all";
+  EXPECT_DOUBLE_EQ(study.variants[0].error, 0.2);
+  EXPECT_DOUBLE_EQ(study.variants[0].time.median_ms, 3.0) << "map and look-up";
+  EXPECT_GT(study.truth.error, 0.0);
+  // Of a full table every filter with every bias, at 2048 texels a side.
+  const Study full =
+      shadow_table_study({table_row("all", "a", "hard", "slope", 2048, 0.1), table_row("all", "a", "hard", "slope", 512, 0.9)}, 480, 270);
+  ASSERT_EQ(full.variants.size(), 1u);
+  EXPECT_EQ(full.variants[0].name, "hard slope");
+  EXPECT_DOUBLE_EQ(full.variants[0].error, 0.1);
 }
 
 // Every study, small: its data are complete, its truth is better than its best variant.
