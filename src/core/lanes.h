@@ -495,7 +495,8 @@ HS_INLINE RealN<W> abs(RealN<W> a) {
   return as_real(as_int(a) & 0x7fffffff);
 }
 
-// min and max return the second argument when either is NaN, as the SSE instructions do, at every width.
+// min and max return the second argument when either is NaN, as the SSE instructions do, at every width. (Compilers make a comparison
+// and a blend of a > b ? a : b.)
 HS_INLINE float min(float a, float b) { return a < b ? a : b; }
 HS_INLINE float max(float a, float b) { return a > b ? a : b; }
 HS_INLINE double min(double a, double b) { return a < b ? a : b; }
@@ -504,10 +505,26 @@ HS_INLINE int32_t min(int32_t a, int32_t b) { return a < b ? a : b; }
 HS_INLINE int32_t max(int32_t a, int32_t b) { return a > b ? a : b; }
 template <int W>
 HS_INLINE RealN<W> min(RealN<W> a, std::type_identity_t<RealN<W>> b) {
+  using V [[maybe_unused]] = typename RealN<W>::V;
+#ifdef __AVX512F__
+  if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_min_ps(detail::kAll16, (__m512)a.v, (__m512)b.v));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return RealN<W>((V)_mm256_min_ps((__m256)a.v, (__m256)b.v));
+#endif
+  if constexpr (W == 4) return RealN<W>((V)_mm_min_ps((__m128)a.v, (__m128)b.v));
   return RealN<W>(a.v < b.v ? a.v : b.v);
 }
 template <int W>
 HS_INLINE RealN<W> max(RealN<W> a, std::type_identity_t<RealN<W>> b) {
+  using V [[maybe_unused]] = typename RealN<W>::V;
+#ifdef __AVX512F__
+  if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_max_ps(detail::kAll16, (__m512)a.v, (__m512)b.v));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return RealN<W>((V)_mm256_max_ps((__m256)a.v, (__m256)b.v));
+#endif
+  if constexpr (W == 4) return RealN<W>((V)_mm_max_ps((__m128)a.v, (__m128)b.v));
   return RealN<W>(a.v > b.v ? a.v : b.v);
 }
 template <int W>

@@ -97,6 +97,12 @@ HS_INLINE vec<3, R> operator*(const mat<3, 3, float>& m, const vec<3, R>& v) {
   return widen<3, R>(m[0]) * v[0] + widen<3, R>(m[1]) * v[1] + widen<3, R>(m[2]) * v[2];
 }
 
+/// With one rounding a component. (GLM's is taken for double alone.)
+template <class R>
+requires(halfspace::kIsLanes<R> || std::is_same_v<R, float>) HS_INLINE R dot(const vec<3, R>& a, const vec<3, R>& b) {
+  using halfspace::fma;
+  return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
+}
 template <length_t L, halfspace::MixesWithFloat R>
 HS_INLINE R dot(const vec<L, R>& a, const vec<L, float>& b) {
   return dot(a, widen<L, R>(b));
