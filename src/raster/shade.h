@@ -298,19 +298,31 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     }
     return;
   }
-  PacketTriangles<n, p> triangles;
-  for (int i = 0; i < batch.count; ++i) {
-    const PacketMask packet = batch.packets[i];
-    find_triangles<F>(batch, packet, triangles);
-    const PacketTriangleIds ids{batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes,
-                                batch.uniform_id, packet.lanes};
+  // A packet's interpolation is a long chain of operations that wait for each other, and so is its shading: while one packet is shaded the
+  // next is already interpolated.
+  struct Ready {
+    PacketTriangles<n, p> triangles;
+    PacketTriangleIds ids;
     Pixel<Real> px;
-    const V in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), batch.position,
-                                 batch.centroids == nullptr ? nullptr : batch.centroids + i * kLanes, triangles, ids, px);
+    V in;
+  };
+  std::array<Ready, 2> ready;
+  for (int next = 0; next <= batch.count; ++next) {
+    if (next < batch.count) {
+      Ready& r = ready[next % 2];
+      const PacketMask packet = batch.packets[next];
+      find_triangles<F>(batch, packet, r.triangles);
+      r.ids = {batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes,
+               batch.uniform_id, packet.lanes};
+      r.in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), batch.position,
+                             batch.centroids == nullptr ? nullptr : batch.centroids + next * kLanes, r.triangles, r.ids, r.px);
+    }
+    if (next == 0) continue;
+    const auto at = static_cast<std::size_t>(next - 1);
+    const Ready& r = ready[at % 2];
     P face{};
-    if constexpr (p != 0) face = from_components<P, Real>(triangles.primitive);
-    const auto fragment = call_fragment<S, Real>(s, in, face, px);
-    const auto at = static_cast<std::size_t>(i);
+    if constexpr (p != 0) face = from_components<P, Real>(r.triangles.primitive);
+    const auto fragment = call_fragment<S, Real>(s, r.in, face, r.px);
     for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
       const vec4<Real>& color = nth_color(fragment.color, n_color);
       batch.out->packet_color(n_color, at) = {color.x, color.y, color.z, color.w};

@@ -37,7 +37,7 @@ struct TriangleLanes {
 template <class R>
 struct Weights {
   R p1, p2;       ///< perspective-correct weights of v1, v2
-  R b1, b2;       ///< window-space (linear) weights of v1, v2; where no varying is linear, not set
+  R b1, b2;       ///< window-space (linear) weights of v1, v2; where no varying is linear, p1 and p2
   R denominator;  ///< D above: 1/w at the point is D / A, rescaled
   R inverse;      ///< 1 / D
 };
@@ -64,13 +64,8 @@ HS_INLINE Weights<R> weights_at(const TriangleLanes<R>& t, R dx, R dy) {
   const R e1 = difference_of_products(dx, t.e2y, dy, t.e2x);
   const R e2 = difference_of_products(t.e1x, dy, t.e1y, dx);
   const Normalized<R> p = normalized(e0 * t.q0, e1 * t.q1, e2 * t.q2);
-  Weights<R> w{.p1 = p.p1, .p2 = p.p2, .b1{}, .b2{}, .denominator = p.sum, .inverse = p.inverse};
-  if constexpr (linear) {
-    const Normalized<R> b = normalized(e0, e1, e2);
-    w.b1 = b.p1;
-    w.b2 = b.p2;
-  }
-  return w;
+  const Normalized<R> b = linear ? normalized(e0, e1, e2) : p;
+  return {p.p1, p.p2, b.p1, b.p2, p.sum, p.inverse};
 }
 
 /// One component at a point with weights w: value0 at v0, and its differences to v1 and v2.
