@@ -74,7 +74,7 @@ struct PerforatedLayerShader : LayerShader {
  private:
   template <class R>
   HS_INLINE MaskOf<R> keeps(const Varyings<R>& in, const Pixel<R>& px) const {
-    return texture->sample(Sampler{}, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)).x >= R(0.5f);
+    return texture->sample_rgb(Sampler{}, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)).x >= R(0.5f);
   }
 };
 

@@ -30,7 +30,7 @@ struct SphereUniforms {
   }
   template <class V, class R>
   HS_INLINE vec3<R> texel(const vec2<R>& uv, const Pixel<R>& px) const {
-    return vec3<R>(texture->sample(kSampler, uv, px.ddx(&V::uv), px.ddy(&V::uv)));
+    return texture->sample_rgb(kSampler, uv, px.ddx(&V::uv), px.ddy(&V::uv));
   }
 };
 

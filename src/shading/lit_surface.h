@@ -90,7 +90,7 @@ struct LitSurface {
       m[i] = vec3<R>(f.constant);
       if (f.map == nullptr) continue;
       vec3<R> texel = color_texel;
-      if (i == kColor || f.map != factors[kColor].map) texel = vec3<R>(f.map->sample(f.sampler, place.uv, place.duv_dx, place.duv_dy));
+      if (i == kColor || f.map != factors[kColor].map) texel = f.map->sample_rgb(f.sampler, place.uv, place.duv_dx, place.duv_dy);
       if (i == kColor) color_texel = texel;
       m[i] = f.constant * texel;
     }

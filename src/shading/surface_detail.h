@@ -14,7 +14,7 @@ namespace halfspace {
 /// (the convention of M. Mikkelsen's MikkTSpace, which tools that bake such maps go by); `side` is ±1, mirroring included.
 template <class R>
 HS_INLINE vec3<R> normal_from_map(const DetailMap& detail, const MapPlace<R>& at, const vec3<R>& n_ws, const vec3<R>& tangent_ws, R side) {
-  const vec3<R> code(detail.map->sample(detail.sampler, at.uv, at.duv_dx, at.duv_dy));
+  const vec3<R> code = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
   const R tilt(2.0f * detail.strength), up(detail.flip_green ? -2.0f * detail.strength : 2.0f * detail.strength);
   const R x = (code.x - R(0.5f)) * tilt, y = (code.y - R(0.5f)) * up, z = max(R(2) * code.z - R(1), R(0));
   const vec3<R> n = tangent_ws * x + cross(n_ws, tangent_ws) * (side * y) + n_ws * z;
@@ -30,7 +30,7 @@ struct HeightSteps {
 /// From a map that holds (∂h/∂u, ∂h/∂v): the slope of the filtered heights.
 template <class R>
 HS_INLINE HeightSteps<R> height_steps(const DetailMap& detail, const MapPlace<R>& at) {
-  const vec4<R> slope = detail.map->sample(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
+  const vec3<R> slope = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
   const R s(detail.strength);
   return {s * fma(slope.x, at.duv_dx.x, slope.y * at.duv_dx.y), s * fma(slope.x, at.duv_dy.x, slope.y * at.duv_dy.y)};
 }
@@ -42,7 +42,7 @@ HS_INLINE HeightSteps<R> height_differences(const DetailMap& detail, const Pixel
   std::array<R, 3> h;
   for (int k = 0; k < 3; ++k) {
     const vec2<R> uv = uv_of(px.template at_quad<V>(k & 1, k >> 1));
-    h[static_cast<std::size_t>(k)] = detail.map->sample(detail.sampler, uv, at.duv_dx, at.duv_dy).x;
+    h[static_cast<std::size_t>(k)] = detail.map->sample_rgb(detail.sampler, uv, at.duv_dx, at.duv_dy).x;
   }
   const R s(detail.strength);
   return {s * (h[1] - h[0]), s * (h[2] - h[0])};

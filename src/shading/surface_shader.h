@@ -213,7 +213,7 @@ struct SurfaceShader : LitSurface {
       return normal_from_heights(normalize_or_zero(in.normal_ws), steps, px.ddx(&V::position_ew), px.ddy(&V::position_ew));
     } else {
       const MapPlace<R> at = place(in, px);
-      const vec3<R> slope(detail.map->sample(detail.sampler, at.uv, at.duv_dx, at.duv_dy));
+      const vec3<R> slope = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
       return normal_from_object * normal_from_slopes(normalize_or_zero(in.position_os), slope);
     }
   }

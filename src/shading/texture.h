@@ -93,6 +93,10 @@ class Texture2D {
   template <Number R>
   vec4<R> sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
+  /// Red, green and blue alone: alpha, which most shaders do not ask for, is a quarter of the filtering.
+  template <Number R>
+  vec3<R> sample_rgb(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
+
   /// The same with a given level of detail (0 is the largest level); lod <= 0 and NaN magnify.
   template <Number R>
   vec4<R> sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const;
@@ -147,8 +151,11 @@ class Texture2D {
   template <class R, class Function>
   vec4<R> with_lookup(const Sampler& sampler, const Function& function) const;
 
-  template <class R>
-  vec4<R> sample_level_common(const Sampler& sampler, const vec2<R>& uv, R lod) const;
+  // The first N channels (3 or 4).
+  template <int N, class R>
+  glm::vec<N, R> sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
+  template <int N, class R>
+  glm::vec<N, R> sample_level_common(const Sampler& sampler, const vec2<R>& uv, R lod) const;
   template <class R>
   LevelChoice<R> choose_level(const Sampler& sampler, R lod) const;
   template <class R>
@@ -157,12 +164,12 @@ class Texture2D {
   static R wrapped(R coordinate, Wrap wrap);
   template <class R>
   static Axis<R> axis(R coordinate, IntOf<R> size, MaskOf<R> nearest);
-  template <class R>
-  vec4<R> filter_row(IntOf<R> index, R fraction) const;
-  template <class R>
-  vec4<R> trilinear(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
-  template <class R>
-  vec4<R> filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const;
+  template <int N, class R>
+  glm::vec<N, R> filter_row(IntOf<R> index, R fraction) const;
+  template <int N, class R>
+  glm::vec<N, R> trilinear(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
+  template <int N, class R>
+  glm::vec<N, R> filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const;
 
   TexelFormat format_;
   int levels_ = 0;
@@ -204,20 +211,20 @@ HS_INLINE R Texture2D::wrapped(R coordinate, Wrap wrap) {
 template <class R>
 HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, IntOf<R> size, MaskOf<R> nearest) {
   const R n = to_real<R>(size);
-  const R u = fma(coordinate, n, R(-0.5f));  // in [−1/2, size − 1/2]
-  R i = floor(u);
-  R fraction = u - i;
-  if constexpr (!std::is_same_v<R, double>) {
-    fraction = (fraction + R(256.0f)) - R(256.0f);  // to a multiple of 2^-15, the last bit beside 256
-    const MaskOf<R> up = fraction >= R(1.0f);       // not in the last texel, where u ends half-way
-    i = select(up, i + R(1.0f), i);
-    fraction = select(up, R(0.0f), fraction);
+  Axis<R> axis;
+  if constexpr (std::is_same_v<R, double>) {
+    const double u = coordinate * n - 0.5;
+    axis = {truncate_to_int(floor(u)), u - floor(u)};
+  } else {
+    constexpr int kBits = 15;  // of the fraction; kMaxSize leaves room for them
+    const IntOf<R> u = round_to_int(fma(coordinate, n * R(1 << kBits), R(-(1 << kBits) / 2)));
+    axis = {u >> kBits, to_real<R>(u & ((1 << kBits) - 1)) * R(1.0f / (1 << kBits))};
   }
   if (any(nearest)) {
-    i = select(nearest, min(floor(coordinate * n), n - R(1.0f)), i);
-    fraction = select(nearest, R(0.0f), fraction);
+    axis.i = select(nearest, truncate_to_int(min(floor(coordinate * n), n - R(1.0f))), axis.i);
+    axis.fraction = select(nearest, R(0.0f), axis.fraction);
   }
-  return {truncate_to_int(i), fraction};
+  return axis;
 }
 
 namespace detail {
@@ -231,9 +238,13 @@ HS_INLINE vec4<R> decode_rgba8(IntOf<R> texel, TexelFormat format) {
 }
 /// Filtered numbers as linear values.
 template <class R>
+HS_INLINE vec3<R> rgba8_to_linear(const vec3<R>& c, TexelFormat format) {
+  if (format == TexelFormat::srgb8a8) return c;
+  return {unorm8_to_linear(c.x), unorm8_to_linear(c.y), unorm8_to_linear(c.z)};
+}
+template <class R>
 HS_INLINE vec4<R> rgba8_to_linear(const vec4<R>& c, TexelFormat format) {
-  if (format == TexelFormat::srgb8a8) return {c.x, c.y, c.z, unorm8_to_linear(c.w)};
-  return {unorm8_to_linear(c.x), unorm8_to_linear(c.y), unorm8_to_linear(c.z), unorm8_to_linear(c.w)};
+  return vec4<R>(rgba8_to_linear(vec3<R>(c), format), unorm8_to_linear(c.w));
 }
 
 /// a + f·(b − a) for 0 <= f <= 1 − 2^-15. It stays between a and b: the rounding of b − a lengthens it by at most 2^-24 of
@@ -241,6 +252,10 @@ HS_INLINE vec4<R> rgba8_to_linear(const vec4<R>& c, TexelFormat format) {
 template <class R>
 HS_INLINE R lerp(R a, R b, R f) {
   return fma(f, b - a, a);
+}
+template <class R>
+HS_INLINE vec3<R> lerp(const vec3<R>& a, const vec3<R>& b, R f) {
+  return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f)};
 }
 template <class R>
 HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
@@ -293,15 +308,16 @@ HS_INLINE Pair<IntN<W>> load_pairs(const int32_t* base, IntN<W> i) {
 }  // namespace detail
 
 /// The texels at index and right of it, mixed.
-template <class R>
-HS_INLINE vec4<R> Texture2D::filter_row(IntOf<R> index, R fraction) const {
+template <int N, class R>
+HS_INLINE glm::vec<N, R> Texture2D::filter_row(IntOf<R> index, R fraction) const {
   const auto texels = detail::load_pairs(texels_.data(), index);
-  return detail::lerp(detail::decode_rgba8<R>(texels.first, format_), detail::decode_rgba8<R>(texels.second, format_), fraction);
+  const auto decoded = [&](IntOf<R> texel) { return glm::vec<N, R>(detail::decode_rgba8<R>(texel, format_)); };
+  return detail::lerp(decoded(texels.first), decoded(texels.second), fraction);
 }
 
 /// One level, bilinear or (where nearest) one texel, in filtering units. st in [0, 1].
-template <class R>
-HS_INLINE vec4<R> Texture2D::filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const {
+template <int N, class R>
+HS_INLINE glm::vec<N, R> Texture2D::filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const {
   const Level<R> l = level<R>(level_index);
   const IntOf<R> last_x = l.width - 1, last_y = l.height - 1, pitch = l.width + 1;
   Axis<R> x = axis<R>(st.x, l.width, nearest);
@@ -311,9 +327,9 @@ HS_INLINE vec4<R> Texture2D::filter(const Sampler& sampler, const vec2<R>& st, I
   x.i = select(x.i < 0, sampler.wrap_s == Wrap::repeat ? last_x : IntOf<R>(0), x.i);
   const bool seam = sampler.wrap_t == Wrap::repeat;
   const IntOf<R> row0 = l.offset + select(y.i < 0, seam ? last_y : IntOf<R>(0), y.i) * pitch;
-  if (all(nearest)) return detail::decode_rgba8<R>(gather(texels_.data(), row0 + x.i), format_);
+  if (all(nearest)) return glm::vec<N, R>(detail::decode_rgba8<R>(gather(texels_.data(), row0 + x.i), format_));
   const IntOf<R> row1 = l.offset + select(y.i < last_y, y.i + 1, seam ? IntOf<R>(0) : last_y) * pitch;
-  return detail::lerp(filter_row<R>(row0 + x.i, x.fraction), filter_row<R>(row1 + x.i, x.fraction), y.fraction);
+  return detail::lerp(filter_row<N, R>(row0 + x.i, x.fraction), filter_row<N, R>(row1 + x.i, x.fraction), y.fraction);
 }
 
 template <class R>
@@ -331,32 +347,42 @@ HS_INLINE Texture2D::LevelChoice<R> Texture2D::choose_level(const Sampler& sampl
 }
 
 /// Mixed of one level or two, in filtering units.
-template <class R>
-HS_INLINE vec4<R> Texture2D::trilinear(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const {
+template <int N, class R>
+HS_INLINE glm::vec<N, R> Texture2D::trilinear(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const {
   const vec2<R> st(wrapped(uv.x, sampler.wrap_s), wrapped(uv.y, sampler.wrap_t));
-  const vec4<R> c = filter<R>(sampler, st, levels.index, levels.nearest);
+  const glm::vec<N, R> c = filter<N, R>(sampler, st, levels.index, levels.nearest);
   if (!any(levels.between)) return c;
-  const vec4<R> smaller = filter<R>(sampler, st, min(levels.index + 1, IntOf<R>(levels_ - 1)), levels.nearest);
+  const glm::vec<N, R> smaller = filter<N, R>(sampler, st, min(levels.index + 1, IntOf<R>(levels_ - 1)), levels.nearest);
   return select(levels.between, detail::lerp(c, smaller, levels.fraction), c);
 }
 
-template <class R>
-HS_INLINE vec4<R> Texture2D::sample_level_common(const Sampler& sampler, const vec2<R>& uv, R lod) const {
-  return detail::rgba8_to_linear(trilinear<R>(sampler, uv, choose_level(sampler, lod)), format_);
+template <int N, class R>
+HS_INLINE glm::vec<N, R> Texture2D::sample_level_common(const Sampler& sampler, const vec2<R>& uv, R lod) const {
+  return detail::rgba8_to_linear(trilinear<N, R>(sampler, uv, choose_level(sampler, lod)), format_);
 }
 
 template <Number R>
 vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const {
   if (!is_common(sampler)) return sample_level_any<R>(sampler, uv, lod);
-  return sample_level_common<R>(sampler, uv, lod);
+  return sample_level_common<4, R>(sampler, uv, lod);
+}
+
+template <int N, class R>
+HS_INLINE glm::vec<N, R> Texture2D::sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx,
+                                                    const vec2<R>& duv_dy) const {
+  if (!is_common(sampler) || sampler.anisotropy > 1) return glm::vec<N, R>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
+  const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
+  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return sample_level_common<N, R>(sampler, uv, R(0.0f));
+  return sample_level_common<N, R>(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
 }
 
 template <Number R>
 vec4<R> Texture2D::sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
-  if (!is_common(sampler) || sampler.anisotropy > 1) return sample_any<R>(sampler, uv, duv_dx, duv_dy);
-  const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
-  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return sample_level_common<R>(sampler, uv, R(0.0f));
-  return sample_level_common<R>(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
+  return sample_channels<4, R>(sampler, uv, duv_dx, duv_dy);
+}
+template <Number R>
+vec3<R> Texture2D::sample_rgb(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  return sample_channels<3, R>(sampler, uv, duv_dx, duv_dy);
 }
 
 }  // namespace halfspace

@@ -119,7 +119,7 @@ struct Texture2D::CommonLookup {
   const Texture2D& texture;
   const Sampler& sampler;
 
-  HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const { return texture.trilinear<R>(sampler, uv, levels); }
+  HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const { return texture.trilinear<4, R>(sampler, uv, levels); }
   HS_INLINE vec4<R> finish(const Value& v) const { return detail::rgba8_to_linear(v, texture.format_); }
 };
 

@@ -83,12 +83,12 @@ Counts counts;
 }  // namespace
 
 template <>
-vec4<Counted> Texture2D::sample<Counted>(const Sampler& sampler, const vec2<Counted>& uv, const vec2<Counted>& duv_dx,
+vec3<Counted> Texture2D::sample_rgb<Counted>(const Sampler& sampler, const vec2<Counted>& uv, const vec2<Counted>& duv_dx,
                                          const vec2<Counted>& duv_dy) const {
   ++counts.now->fetches;
   const auto plain = [](const vec2<Counted>& v) { return vec2<double>(v.x.value, v.y.value); };
-  const vec4<double> c = sample<double>(sampler, plain(uv), plain(duv_dx), plain(duv_dy));
-  return {c.x, c.y, c.z, c.w};
+  const vec3<double> c = sample_rgb<double>(sampler, plain(uv), plain(duv_dx), plain(duv_dy));
+  return {c.x, c.y, c.z};
 }
 
 // An environment's look-up counts as one.

@@ -404,7 +404,7 @@ TEST(TextureFormats, BitsAreTheCommittedOnes) {
       }
     });
   }
-  EXPECT_EQ(hash, 8878737872646301870u);
+  EXPECT_EQ(hash, 16879134480049514184u);
 }
 
 }  // namespace

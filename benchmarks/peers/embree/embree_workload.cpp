@@ -130,8 +130,8 @@ class RaySphere final : public Workload {
       return uv1 * ((dot(r, m1) - w1 * along) * inverse) + uv2 * ((dot(r, m2) - w2 * along) * inverse);
     };
     const vec3<R> p = t.corner + t.edge1 * w1 + t.edge2 * w2;
-    const vec3<R> texel(
-        uniforms_.texture->sample(SphereUniforms::kSampler, uv0 + uv1 * w1 + uv2 * w2, step(vec3<R>(right_)), step(vec3<R>(up_))));
+    const vec3<R> texel =
+        uniforms_.texture->sample_rgb(SphereUniforms::kSampler, uv0 + uv1 * w1 + uv2 * w2, step(vec3<R>(right_)), step(vec3<R>(up_)));
     const vec4<R> shaded = lit(texel, light(t, p, w1, w2)), clip = uniforms_.clip_from_world * vec4<R>(p, R(1));
     for (int k = 0; k < 4; ++k) color[k] = select(hit, shaded[k], color[k]);
     depth = select(hit, R(0.5f) + R(0.5f) * (clip.z / clip.w), depth);
