@@ -315,7 +315,7 @@ template <class S>
 inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>>;
 /// Is the shader's colour the same for a whole draw?
 template <class S>
-inline constexpr bool kIsConstant = !HasPrimitive<S> && HasBareFragmentFunction<S> && kComponents<typename S::template Varyings<float>> == 0 &&
-                                    !kDiscards<S>;
+inline constexpr bool kIsConstant =
+    !HasPrimitive<S> && HasBareFragmentFunction<S> && kComponents<typename S::template Varyings<float>> == 0 && !kDiscards<S>;
 
 }  // namespace halfspace
