@@ -309,7 +309,7 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
   std::array<Ready, 2> ready;
   for (int next = 0; next <= batch.count; ++next) {
     if (next < batch.count) {
-      Ready& r = ready[next % 2];
+      Ready& r = ready[static_cast<std::size_t>(next) % 2];
       const PacketMask packet = batch.packets[next];
       find_triangles<F>(batch, packet, r.triangles);
       r.ids = {batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes,
