@@ -71,8 +71,19 @@ def machine():
         "compiler": first_line(["c++", "--version"]),
         "commit": first_line(["git", "describe", "--always", "--dirty"]),
         "date": datetime.date.today().isoformat(),
-        "load_before": os.getloadavg()[0],
+        "busy_before": busy_cores(),
     }
+
+
+def busy_cores(seconds=2.0):
+    """How many cores other work keeps busy, while this program waits. (The load average still counts what ended a minute ago.)"""
+    def busy_ticks():
+        user, nice, system, _idle, _waiting, *rest = map(int, Path("/proc/stat").read_text().splitlines()[0].split()[1:9])
+        return user + nice + system + sum(rest)
+
+    before = busy_ticks()
+    time.sleep(seconds)
+    return (busy_ticks() - before) / os.sysconf("SC_CLK_TCK") / seconds
 
 
 def contenders(args):
@@ -232,7 +243,7 @@ def main():
     if not args.no_sweeps:
         for measure in (measure_sweeps, measure_threads, measure_sizes):
             results["sweeps"] += measure(runners, args, Progress)
-    results["machine"]["load_after"] = os.getloadavg()[0]
+    results["machine"]["busy_after"] = busy_cores()
     args.out.parent.mkdir(parents=True, exist_ok=True)
     args.out.write_text(json.dumps(results, indent=1) + "\n")
 

@@ -71,7 +71,8 @@ def table(head, rows):
 def source_line(results):
     m, raw = results.raw["machine"], results.raw
     rounds = f"{raw['rounds']} interleaved rounds of {raw['seconds']} s; the median of the rounds' medians" if raw["rounds"] > 1 else f"one round of {raw['seconds']} s"
-    busy = f" **Other work ran beside it (load {m['load_before']:.1f} before it began): the figures are no measure of the programs.**" if m["load_before"] > 1 else ""
+    others = max(m["busy_before"], m["busy_after"])
+    busy = f" **Other work ran beside it (it kept {others:.1f} cores busy): the figures are no measure of the programs.**" if others > 0.2 else ""
     return f"From the run of {m['date']}: {m['cpu']}, {m['cores']} cores, {m['system']}, {m['compiler']}, commit {m['commit']}; {rounds}.{busy}"
 
 

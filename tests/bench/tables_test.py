@@ -23,7 +23,7 @@ def results(**changes):
         return {"contender": contender, "workload": workload, "size": SIZE, "covered": 10000, "colors_off": off, "rms_color": rms}
 
     raw = {
-        "machine": {"cpu": "C", "cores": 2, "system": "S", "compiler": "G", "commit": "abc", "date": "2026-01-01", "load_before": 0.0, "load_after": 0.5},
+        "machine": {"cpu": "C", "cores": 2, "system": "S", "compiler": "G", "commit": "abc", "date": "2026-01-01", "busy_before": 0.0, "busy_after": 0.1},
         "threads": 2, "rounds": 5, "seconds": 0.5, "quick": False,
         "workloads": [row(f"{who} {n}", w, ms / n, n) for who, w, ms in (
             ("halfspace native", "fill", 2.0), ("llvmpipe", "fill", 8.0), ("halfspace native", "tiny_1m", 2.0), ("llvmpipe", "tiny_1m", 18.0)) for n in (1, 2)],
@@ -65,6 +65,12 @@ class Tables(unittest.TestCase):
 
     def test_slope_of_what_grows_linearly_is_one(self):
         self.assertAlmostEqual(bench_tables.slope([(10, 3), (100, 30), (1000, 300)]), 1.0)
+
+    def test_what_ran_beside_it_is_told(self):
+        quiet = results()
+        self.assertNotIn("Other work", bench_tables.source_line(quiet))
+        quiet.raw["machine"]["busy_after"] = 0.5
+        self.assertIn("Other work ran beside it (it kept 0.5 cores busy)", bench_tables.source_line(quiet))
 
     def test_every_section_is_made(self):
         for name, text in bench_tables.sections(results()).items():
