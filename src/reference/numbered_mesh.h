@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/depth_only.h"
+#include "shading/sphere_depth.h"
 
 namespace halfspace {
 
@@ -12,6 +13,18 @@ struct NumberedMesh : DepthOnly {
   template <class R>
   Fragment<R> fragment(const Varyings<R>&) const {
     return {vec4<R>(R(number), R(0), R(0), R(1))};
+  }
+};
+
+/// Spheres likewise.
+struct NumberedSphere : SphereDepth {
+  float number = 0.0f;
+
+  template <class R>
+  DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    DepthFragment<R> f = SphereDepth::fragment(in, px);
+    f.color = vec4<R>(R(number), R(0), R(0), R(1));
+    return f;
   }
 };
 

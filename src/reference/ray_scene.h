@@ -17,8 +17,8 @@ namespace halfspace {
 
 /// Where a ray meets the scene. The suffix _ew: the world's axes, RaySceneOptions::eye_ws as origin.
 struct RayHit {
-  int mesh;                       ///< index into the meshes given; −1: a sphere
-  uint32_t triangle;              ///< of that mesh: its indices are 3·triangle …; or the sphere's number
+  int mesh;                       ///< index into the meshes given; −1, −2, …: a sphere of the first spheres given, of the second, …
+  uint32_t triangle;              ///< of that mesh: its indices are 3·triangle …; or the sphere's number among those
   float distance;                 ///< along the ray, in lengths of its direction
   std::array<double, 3> weights;  ///< barycentric, of the triangle's vertices; they add up to 1. Of a sphere 0
   glm::dvec3 position_ew;         ///< by the weights, in double: nearer to the triangle than origin + distance·direction
@@ -30,8 +30,9 @@ class RayScene {
  public:
   /// Takes a copy of the meshes' triangles in world space round eye_ws, as floats. With casters_only, only of those that
   /// cast shadows; indices stay those of `meshes`.
-  /// Spheres are Embree's own; none where `spheres` holds none.
-  RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only = false, const PlacedSpheres& spheres = {});
+  /// Spheres are Embree's own.
+  RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only = false,
+           std::span<const PlacedSpheres> spheres = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;

@@ -3,20 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "raster/pass.h"
 #include "reference/numbered_mesh.h"
+#include "scene/sphere_camera.h"
 
 namespace halfspace {
 
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers) {
-  const int width = finer * scene.view.width_px, height = finer * scene.view.height_px;
+  const View& view = scene.view;
+  const int width = finer * view.width_px, height = finer * view.height_px;
   Image<glm::vec4> numbers(width, height);
   Pass pass(width, height, rgba32f_target(numbers), {.format = DepthFormat::d32f, .clear_value = 0.0f});
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    const PlacedMesh& m = scene.meshes[i];
-    pass.draw(NumberedMesh{{glm::mat4(scene.view.clip_from_world * m.world_from_object)}, static_cast<float>(i + 1)},
+  for (const PlacedMesh& m : scene.meshes) {
+    pass.draw(NumberedMesh{{glm::mat4(view.clip_from_world * m.world_from_object)}, static_cast<float>(m.object + 1)},
               vertices(stream(m.mesh->positions)), *m.indices, opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
+  }
+  const SphereCamera camera(view.clip_from_world, view.near, view.far);
+  std::deque<std::vector<glm::vec3>> centers_cs;  // the pass points into them
+  for (const PlacedSpheres& s : scene.spheres) {
+    if (s.object < 0) continue;
+    const auto& centers = centers_cs.emplace_back(camera.centers_cs(*s.particles));
+    DrawState state = opaque_state(CullMode::none, false);
+    state.topology = Topology::points;
+    pass.draw(NumberedSphere{{camera.lens({width, height})}, static_cast<float>(s.object + 1)},
+              vertices(stream(centers), stream(s.particles->radii)), state);
   }
   pass.run(workers);
   Image<int> objects(width, height);

@@ -42,6 +42,7 @@ double chord_error(const ObjectDescription& o) {
     case Shape::cone: return chord_error_of_circle(o.radius, o.longitudes);
     case Shape::torus: return chord_error_of_circle(o.tube, o.latitudes) + chord_error_of_circle(o.radius + o.tube, o.longitudes);
     case Shape::torus_knot: return chord_error_of_circle(o.tube, o.latitudes) + chord_error_along_knot(o.radius, o.tube, o.longitudes);
+    case Shape::sphere:
     case Shape::plane:
     case Shape::cube: break;
   }
@@ -89,6 +90,7 @@ ObjectDescription with_parts(ObjectDescription o, int parts) {
       break;
     case Shape::plane:
     case Shape::cube: o.segments = parts; break;
+    case Shape::sphere: break;
   }
   return o;
 }
@@ -102,7 +104,8 @@ int most_parts(const ObjectDescription& o) {
     case Shape::cone: return 8192;
     case Shape::torus: return 512;
     case Shape::torus_knot: return 256;
-    case Shape::uv_sphere: break;
+    case Shape::uv_sphere:
+    case Shape::sphere: break;
   }
   return 1536;
 }

@@ -50,8 +50,8 @@ struct ChoiceNames<Wrap> {
 };
 template <>
 struct ChoiceNames<Shape> {
-  static constexpr std::array<std::string_view, 8> names{"uv_sphere", "icosphere", "plane", "cube",
-                                                         "cylinder",  "cone",      "torus", "torus_knot"};
+  static constexpr std::array<std::string_view, 9> names{"uv_sphere", "icosphere", "sphere", "plane",     "cube",
+                                                         "cylinder",  "cone",      "torus",  "torus_knot"};
 };
 template <>
 struct ChoiceNames<NormalSource> {
@@ -197,9 +197,9 @@ Section section_of(Placement& p) {
 Section section_of(ObjectDescription& o) {
   using T = ObjectDescription;
   static const std::vector<Key> keys{
-      key<&T::shape>("shape", "Generator of the mesh"),
+      key<&T::shape>("shape", "Generator of the mesh; sphere: exact, by a ray a pixel, without maps"),
       key<&T::radius>("radius", "Radius; of a torus, to its tube's middle",
-                      {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere cylinder cone torus torus_knot"}),
+                      {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere sphere cylinder cone torus torus_knot"}),
       key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = "torus torus_knot"}),
       key<&T::length>("length", "From the bottom to the top", {.unit = "units", .low = kTiny, .high = 1e6, .only = "cylinder cone"}),
       key<&T::latitudes>("latitudes", "Bands from the top to the bottom, or round a tube",

@@ -118,7 +118,8 @@ struct SurfaceDescription {
   BumpMethod bump_method = BumpMethod::gradient;
 };
 
-enum class Shape : uint8_t { uv_sphere, icosphere, plane, cube, cylinder, cone, torus, torus_knot };
+/// sphere: no mesh but a ray by pixel (shading/sphere_sprite.h); of surfaces without maps.
+enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
 
 struct Placement {

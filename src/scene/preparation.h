@@ -2,7 +2,7 @@
 //
 // The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
 // prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp,
-// prepare_background.cpp, prepare_particles.cpp, prepare_models.cpp.
+// prepare_background.cpp, prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp.
 // Included by these alone.
 #pragma once
 
@@ -131,7 +131,8 @@ class ScenePreparation {
   std::shared_ptr<const MeshAsset> sphere_of(const ObjectDescription& o, const Relief& relief);
 
   // prepare_objects.cpp
-  void add_object(const std::string& path, const ObjectDescription& o);
+  // object: its place among the scene's.
+  void add_object(int object);
   Relief relief_of(const ObjectDescription& o, const std::string& path);
   DetailMap slopes_of(const Relief& relief, const ObjectDescription& o);
   NormalDetail add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path);
@@ -147,9 +148,13 @@ class ScenePreparation {
                            std::vector<ModelChoice>& choices);
   std::shared_ptr<const ReliefDetail> relief_detail(const ObjectDescription& o, const std::string& path);
 
+  // prepare_spheres.cpp
+  SphereSprites sphere_sprites(bool receives_shadow) const;
+  void draw_spheres(const Particles& spheres, const glm::dvec3& color, const SceneShader& shader);
+  void add_exact_spheres(int object, const std::string& path, const ObjectDescription& o);
+
   // prepare_particles.cpp
   void add_particles();
-  SphereSprites sphere_sprites() const;
   std::shared_ptr<const Particles> particles();  // null: none
 
   // prepare_background.cpp

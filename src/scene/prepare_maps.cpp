@@ -34,7 +34,8 @@ Extent extent_of(const ObjectDescription& o) {
   const auto round = [](double radius) { return 2.0 * std::numbers::pi * radius; };
   switch (o.shape) {
     case Shape::uv_sphere:
-    case Shape::icosphere: return {round(o.radius), o.radius};
+    case Shape::icosphere:
+    case Shape::sphere: return {round(o.radius), o.radius};
     case Shape::plane: return {o.size, o.size * std::numbers::sqrt2 / 2.0};
     case Shape::cube: return {o.size, o.size * std::numbers::sqrt3 / 2.0};
     case Shape::torus: return {round(o.radius + o.tube), o.radius + o.tube};

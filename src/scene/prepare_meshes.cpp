@@ -22,6 +22,7 @@ Mesh generated(const ObjectDescription& o, const Displacement* displacement) {
     case Shape::cylinder: return cylinder(radius, length, o.latitudes, o.longitudes, displacement);
     case Shape::cone: return cone(radius, length, o.latitudes, o.longitudes, displacement);
     case Shape::torus: return torus(radius, tube, o.latitudes, o.longitudes, displacement);
+    case Shape::sphere:
     case Shape::torus_knot: break;
   }
   return torus_knot(radius, tube, o.latitudes, o.longitudes, displacement);

@@ -121,7 +121,10 @@ NormalDetail ScenePreparation::add_detail(LitSurface& s, const ObjectDescription
   return s.detail.map != nullptr ? NormalDetail::slopes : NormalDetail::none;
 }
 
-void ScenePreparation::add_object(const std::string& path, const ObjectDescription& o) {
+void ScenePreparation::add_object(int object) {
+  const auto& [name, o] = scene_.objects[static_cast<std::size_t>(object)];
+  const std::string path = "objects." + name;
+  if (o.shape == Shape::sphere) return add_exact_spheres(object, path, o);
   const Relief relief = relief_of(o, path);
   const std::shared_ptr<const MeshAsset> mesh = mesh_of(o, relief);
   const std::shared_ptr<const Indices> indices(mesh, &mesh->indices);
@@ -130,7 +133,7 @@ void ScenePreparation::add_object(const std::string& path, const ObjectDescripti
   for (const glm::dmat4& world : places_of(o)) {
     place(surface, world);
     out_.draws.push_back(draw_of(surface, o.surface.shading, detail, *mesh, indices));
-    out_.meshes.push_back({&mesh->mesh, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow});
+    out_.meshes.push_back({&mesh->mesh, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <numbers>
 
 #include "core/trig_double.h"
@@ -69,7 +70,7 @@ ShadowView to_shading(const LightView& v, int size, const glm::dvec3& eye_ws) {
 // What depth is drawn of.
 struct Placed {
   const std::vector<PlacedMesh>& meshes;
-  const PlacedSpheres& spheres;
+  const std::vector<PlacedSpheres>& spheres;
 };
 
 // Draws the depth of meshes and spheres as it is seen from a light, or from the eye. Of spheres the front is drawn, whatever `faces` says.
@@ -78,14 +79,14 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
   DepthTarget target = d32f_target(depth);
   target.clear_value = 0.0f;
   Pass pass(depth.width(), depth.height(), {}, target);
-  std::vector<glm::vec3> centers_cs;
-  const Particles* particles = placed.spheres.particles.get();
-  if (particles != nullptr && (placed.spheres.casts_shadow || !casters_only)) {
-    const SphereCamera camera(clip_from_world, near, far);
-    centers_cs = camera.centers_cs(*particles);
+  std::deque<std::vector<glm::vec3>> centers_cs;  // the pass points into them
+  const SphereCamera camera(clip_from_world, near, far);
+  for (const PlacedSpheres& spheres : placed.spheres) {
+    if (casters_only && !spheres.casts_shadow) continue;
+    const auto& centers = centers_cs.emplace_back(camera.centers_cs(*spheres.particles));
     DrawState state = opaque_state(CullMode::none, false);
     state.topology = Topology::points;
-    pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})}, vertices(stream(centers_cs), stream(particles->radii)), state);
+    pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})}, vertices(stream(centers), stream(spheres.particles->radii)), state);
   }
   for (const PlacedMesh& m : placed.meshes) {
     if (casters_only && !m.casts_shadow) continue;
@@ -103,10 +104,10 @@ struct SeenPlace {
   glm::dvec3 position_ew;
   double pixel;
 };
-std::vector<SeenPlace> seen_places(const View& view, double far, const Placed& placed, const Workers& workers) {
+std::vector<SeenPlace> seen_places(const View& view, const Placed& placed, const Workers& workers) {
   constexpr int kWidth = 96, kHeight = 54;
   Image<float> depth(kWidth, kHeight);
-  draw_depth(view.clip_from_world, view.near, far, placed, false, ShadowFaces::front, depth, workers);
+  draw_depth(view.clip_from_world, view.near, view.far, placed, false, ShadowFaces::front, depth, workers);
   const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
   std::vector<SeenPlace> places;
   for (int row = 0; row < kHeight; ++row) {
@@ -147,7 +148,7 @@ std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& li
 
 int ScenePreparation::shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const {
   if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
-  const std::vector<SeenPlace> places = seen_places(view_, camera().far, {out_.meshes, out_.spheres}, assets_.workers_);
+  const std::vector<SeenPlace> places = seen_places(view_, {out_.meshes, out_.spheres}, assets_.workers_);
   int size = 256;
   for (; size < kMostShadowTexels; size *= 2) {
     std::vector<ShadowView> views;

@@ -78,8 +78,8 @@ PreparedScene ScenePreparation::prepare() {
   out_.clear_color = glm::vec4(glm::vec3(scene_.background.color.linear), 1.0f);
   out_.post = scene_.post;
   out_.samples = scene_.head.samples;
-  for (const auto& [name, object] : scene_.objects) {
-    if (object.visible) add_object("objects." + name, object);
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+    if (scene_.objects[i].second.visible) add_object(static_cast<int>(i));
   }
   add_particles();
   add_background();

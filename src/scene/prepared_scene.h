@@ -58,14 +58,16 @@ struct PlacedMesh {
   std::shared_ptr<const Indices> indices;
   glm::dmat4 world_from_object;
   bool two_sided, casts_shadow, receives_shadow;
+  int object = 0;  ///< its place among the scene's objects
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };
 
-/// The exact spheres of a scene: null where it has none. Original sprites, which are no spheres, are not among them.
+/// Exact spheres of a scene: its particles, or an object's copies. Original sprites, which are no spheres, are not among them.
 struct PlacedSpheres {
-  std::shared_ptr<const Particles> particles{};
-  bool casts_shadow = false, receives_shadow = false;
+  std::shared_ptr<const Particles> particles;
+  bool casts_shadow, receives_shadow;
+  int object = -1;  ///< its place among the scene's objects; −1: the particles
 };
 
 /// A light as this picture has it.
@@ -84,7 +86,7 @@ struct PreparedScene {
   int samples = 1;  ///< of a pixel
   View view;
   std::vector<PlacedMesh> meshes;  ///< of every object that is drawn
-  PlacedSpheres spheres;
+  std::vector<PlacedSpheres> spheres;
   std::vector<PreparedLight> lights;
   PassStatistics shadow_statistics;  ///< of the passes that made shadow maps
   std::vector<std::shared_ptr<const void>> assets;

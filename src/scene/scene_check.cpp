@@ -73,6 +73,7 @@ void check(const Placement& p, const std::string& where) {
 int64_t vertices_of(const ObjectDescription& o) {
   const int64_t bands = o.latitudes, sectors = o.longitudes, n = o.segments;
   switch (o.shape) {
+    case Shape::sphere: return 1;
     case Shape::icosphere: return 10 * (int64_t{1} << (2 * o.level)) + 2;
     case Shape::plane: return (n + 1) * (n + 1);
     case Shape::cube: return 6 * (n + 1) * (n + 1);
@@ -98,6 +99,10 @@ void check(const ObjectDescription& o, const std::string& where) {
   if (is_ring(o.shape) && o.tube >= o.radius)
     fail(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
   if (is_ring(o.shape) && o.latitudes < 3) fail(where + ".latitudes", "2 make no tube; expected at least 3");
+  if (const std::string_view key = key_for_meshes(o); o.shape == Shape::sphere && !key.empty()) {
+    fail(where + "." + std::string(key), std::string("is more than the shape sphere shows (constant factors, light by pixel from outside, one scale for ") +
+                                "all axes); expected the shape uv_sphere or icosphere");
+  }
   const bool displaced = o.shape != Shape::plane && is_map(o.height);
   if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness_of(o)) {
     fail(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +
@@ -120,6 +125,28 @@ void check_environments(SceneDescription& scene, const std::string& source) {
 }
 
 }  // namespace
+
+std::string_view key_for_meshes(const ObjectDescription& o) {
+  const SurfaceDescription& s = o.surface;
+  const std::pair<std::string_view, const MapValue&> maps[] = {{"height", o.height},
+                                                          {"color", s.color},
+                                                          {"ambient_map", s.ambient_map},
+                                                          {"diffuse_map", s.diffuse_map},
+                                                          {"specular_map", s.specular_map},
+                                                          {"shininess_map", s.shininess_map},
+                                                          {"emissive_map", s.emissive_map},
+                                                          {"normal_map", s.normal_map},
+                                                          {"bump_map", s.bump_map}};
+  for (const auto& [key, map] : maps) {
+    if (is_map(map)) return key;
+  }
+  if (s.reflection.linear != glm::dvec3(0.0)) return "reflection";
+  if (s.shading != ShadingRate::phong) return "shading";
+  if (s.two_sided) return "two_sided";
+  const auto is_even = [](const Placement& p) { return glm::abs(p.scale) == glm::dvec3(std::fabs(p.scale.x)); };
+  if (!is_even(o.placement)) return "scale";
+  return std::ranges::all_of(o.instances, is_even) ? "" : kInstances;
+}
 
 void check_room(const Named<ObjectDescription>& objects, const std::string& source) {
   int64_t vertices = 0, copies = 0;

@@ -15,7 +15,7 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 // Degrees from the axis: beyond, one plane's texels grow too wide at its border (from 90 on it is no plane), and faces are better.
 constexpr double kWidestSpot = 60.0;
 
-// What a mesh, or all spheres together, span.
+// What a mesh, or spheres together, span.
 struct Extent {
   const PlacedMesh* mesh;  // or null, and then
   const Particles* particles;
@@ -58,11 +58,10 @@ Box joined(Box a, const Box& b) {
 // Finds a light's views.
 class ViewFinder {
  public:
-  ViewFinder(const View& view, const std::vector<PlacedMesh>& meshes, const PlacedSpheres& spheres, int size, double margin)
+  ViewFinder(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres, int size, double margin)
       : frustum_(frustum_corners(view.clip_from_world)), eye_ws_(view.eye_ws), forward_ws_(view.forward_ws), size_(size), margin_(margin) {
     for (const PlacedMesh& m : meshes) add({&m, nullptr, bounds_along(m, glm::dmat3(1.0))}, m.casts_shadow, m.receives_shadow);
-    if (const Particles* p = spheres.particles.get(); p != nullptr && (spheres.casts_shadow || spheres.receives_shadow))
-      add({nullptr, p, bounds_along(*p, glm::dmat3(1.0))}, spheres.casts_shadow, spheres.receives_shadow);
+    for (const PlacedSpheres& s : spheres) add({nullptr, s.particles.get(), bounds_along(*s.particles, glm::dmat3(1.0))}, s.casts_shadow, s.receives_shadow);
   }
 
   bool nothing_received() const { return receivers_.empty(); }
@@ -163,7 +162,7 @@ class ViewFinder {
 
 }  // namespace
 
-std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const PlacedSpheres& spheres,
+std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres,
                                     const LightDescription& light, const ShadowDescription& shadow, int size, double margin) {
   const ViewFinder finder(view, meshes, spheres, size, margin);
   if (finder.nothing_received()) return {};

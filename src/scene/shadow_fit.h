@@ -15,7 +15,7 @@ namespace halfspace {
 /// size: texels of a view; margin: texels round it that a filter needs. Of a directional light as many as there are cascades
 /// that show anything, of a spot one, of a point light or a spot wider than 60 degrees from its axis those of six that show a receiver and
 /// a caster.
-std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const PlacedSpheres& spheres,
+std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres,
                                     const LightDescription& light, const ShadowDescription& shadow, int size, double margin);
 
 }  // namespace halfspace

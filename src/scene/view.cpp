@@ -20,7 +20,7 @@ View make_view(const CameraDescription& c, int width, int height) {
   const glm::dvec3 right(view[0][0], view[1][0], view[2][0]), up(view[0][1], view[1][1], view[2][1]),
       back(view[0][2], view[1][2], view[2][2]);
   const SinCosDouble half = sincos_radians(0.5 * c.fov * kRadiansPerDegree);
-  View v{{}, c.position, glm::dvec3(0.0), -back, right, up, 0.0, half.sin / half.cos, c.near, width, height};
+  View v{{}, c.position, glm::dvec3(0.0), -back, right, up, 0.0, half.sin / half.cos, c.near, c.far, width, height};
   if (c.type == Projection::perspective) {
     v.clip_from_world = perspective_reversed(c.fov * kRadiansPerDegree, aspect, c.near, c.far) * view;
   } else {

@@ -14,7 +14,7 @@ struct View {
   glm::dvec3 to_eye_ws;                    ///< orthographic: towards the eye from everywhere; else 0
   glm::dvec3 forward_ws, right_ws, up_ws;  ///< unit vectors
   double tan_x, tan_y;                     ///< of half the field of view
-  double near;
+  double near, far;                        ///< units along forward_ws
   int width_px, height_px;
 };
 

@@ -5,8 +5,8 @@
 // ellipse and no circle, and two spheres do not meet where they should. SphereSprite<true> is the sphere: the bounds of
 // its ellipse, and a ray by pixel (shading/sphere_lens.h).
 //
-// Light is Phong's, in linear colours:
-//   color · (ambient + diffuse · D) + specular · S       (D and S: shading/lighting.h)
+// Light, in linear colours:
+//   color · (ambient + diffuse · D) + specular · S + emissive       (D and S: shading/lighting.h)
 // at the pixel's point of the sphere; the classic sprite takes light and eye as its centre sees them. Shadows fall on the exact one.
 #pragma once
 
@@ -25,7 +25,8 @@ struct SphereSprites {
   glm::vec3 to_eye_ws{0.0f};          ///< orthographic: towards the eye from everywhere; else 0
   float point_scale = 800.0f;         ///< px; of the classic sprite: see point_size
   glm::vec3 ambient{0.0f};            ///< the ambient light is in it
-  glm::vec3 diffuse{1.0f}, specular{0.0f};
+  glm::vec3 diffuse{1.0f}, specular{0.0f}, emissive{0.0f};
+  LightModel model = LightModel::phong;
   float shininess = 32.0f;
   std::span<const Light> lights;
 };
@@ -70,8 +71,8 @@ struct SphereSprite : SphereSprites {
     const vec3<R> position_ew = world_from_camera * lit_cs, n_ws = world_from_camera * h.n_cs;
     const vec3<R> v_ws = lens.perspective ? normalize_or_zero(-position_ew) : vec3<R>(to_eye_ws);
     const Illumination<R> light =
-        illuminate(lights, LightModel::phong, R(shininess), SurfacePoint<R>{position_ew, n_ws, v_ws, n_ws, px.x, px.y});
-    const vec3<R> color = in.color.value * (ambient + diffuse * light.diffuse) + specular * light.specular;
+        illuminate(lights, model, R(shininess), SurfacePoint<R>{position_ew, n_ws, v_ws, n_ws, px.x, px.y});
+    const vec3<R> color = in.color.value * (ambient + diffuse * light.diffuse) + specular * light.specular + emissive;
     return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t, h.t_low)};
   }
 

@@ -34,7 +34,7 @@ Image<glm::vec4> numbers_of(const PreparedScene& scene) {
   DepthTarget depth{.format = DepthFormat::d32f, .clear_value = 0.0f};
   Pass pass(kWidth, kHeight, rgba32f_target(image), depth);
   std::vector<glm::vec3> numbers;
-  for (std::size_t i = 0; i < scene.spheres.particles->radii.size(); ++i) numbers.emplace_back(static_cast<float>(i + 1));
+  for (std::size_t i = 0; i < scene.spheres.at(0).particles->radii.size(); ++i) numbers.emplace_back(static_cast<float>(i + 1));
   for (const PreparedDraw& draw : scene.draws) {
     const auto* sprite = std::get_if<SphereSprite<true>>(&draw.shader);
     if (sprite == nullptr) continue;

@@ -34,11 +34,14 @@ std::map<std::string, std::string> choices(const std::string& sections, const Al
 
 const AllowedError kHalfPixel{0.5, std::nullopt};
 
+// A sphere that only a mesh can show.
+const std::string kMirror = R"("reflection": 0.1)";
+
 std::string objects(const std::string& keys) { return R"("objects": {"a": {)" + keys + "}}"; }
 
 // The fewest bands whose chord, at the pixels that a unit spans, is short enough: one step fewer is too long.
 TEST(ModelChoice, TakesTheFewestBandsThatAreEnough) {
-  const FittedScene f = fitted(objects(R"("latitudes": 4, "longitudes": 8)"), kHalfPixel);
+  const FittedScene f = fitted(objects(R"("latitudes": 4, "longitudes": 8, )" + kMirror), kHalfPixel);
   const ObjectDescription& o = f.scene.objects.front().second;
   const View view = make_view(f.scene.cameras.front().second, kWidth, kHeight);
   const double per_unit = silhouette_pixels_per_unit(view, {0, 0, 0}, 1.0);
@@ -58,8 +61,8 @@ TEST(ModelChoice, LeavesWhatIsMeant) {
 
 TEST(ModelChoice, SpendsNothingOnWhatIsPlaneOrOutOfSight) {
   EXPECT_EQ(choices(objects(R"("shape": "cube", "segments": 9)"), kHalfPixel).at("objects.a.segments"), "1");
-  EXPECT_EQ(choices(objects(R"("position": [90, 0, 0])"), kHalfPixel).at("objects.a.latitudes"), "8");
-  EXPECT_EQ(choices(objects(R"("position": [90, 0, 0])") + R"(, "shadow": {"method": "pcf3"})", kHalfPixel).at("objects.a.latitudes"), "8")
+  EXPECT_EQ(choices(objects(R"("position": [90, 0, 0], )" + kMirror), kHalfPixel).at("objects.a.latitudes"), "8");
+  EXPECT_EQ(choices(objects(R"("position": [90, 0, 0], )" + kMirror) + R"(, "shadow": {"method": "pcf3"})", kHalfPixel).at("objects.a.latitudes"), "8")
       << "its shadow spans no pixel that is known";
 }
 
@@ -73,6 +76,20 @@ TEST(ModelChoice, SpritesAreExactWhereCirclesLieOff) {
   const std::string sphere = R"("particles": {"count": 1, "arrangement": "grid", "radius": 0.5})";
   EXPECT_TRUE(choices(sphere, {3.0, std::nullopt}).empty()) << "in the middle of the picture";
   EXPECT_EQ(choices(sphere, {0.1, std::nullopt}).at("particles.sprite"), "exact");
+}
+
+TEST(ModelChoice, PlainSpheresAreRays) {
+  for (const AllowedError& allowed : {kHalfPixel, AllowedError{std::nullopt, 4.0}}) {
+    const auto shape = [&](const std::string& keys) { return choices(objects(keys), allowed).contains("objects.a.shape"); };
+    EXPECT_TRUE(shape(R"("color": [1, 0, 0], "specular": 0.5, "scale": [2, -2, 2])"));
+    EXPECT_TRUE(shape(R"("shape": "icosphere", "instances": [{"scale": [2, 2, 2]}])"));
+    EXPECT_FALSE(shape(R"("shape": "torus")"));
+    EXPECT_FALSE(shape(R"("shape": "sphere")")) << "is one";
+    EXPECT_FALSE(shape(kMirror));
+    EXPECT_FALSE(shape(R"("shading": "gouraud", "longitudes": 8)"));
+    EXPECT_FALSE(shape(R"("scale": [1, 2, 1])"));
+    EXPECT_FALSE(shape(R"("instances": [{"scale": [2, 2, 1]}])"));
+  }
 }
 
 TEST(ModelChoice, LightByVertexIsForDiffuseLightFromFarAway) {
@@ -96,7 +113,7 @@ TEST(ModelChoice, MoreThanThereIsRoomForIsToldInOneLine) {
   for (int i = 0; i < 3000; ++i) copies += R"({"position": [0, 0, 0]},)";
   copies.pop_back();
   try {
-    fitted(objects(R"("instances": [)" + copies + "]"), {0.01, std::nullopt});
+    fitted(objects(kMirror + R"(, "instances": [)" + copies + "]"), {0.01, std::nullopt});
     FAIL() << "no error";
   } catch (const InputError& e) {
     EXPECT_TRUE(std::string(e.what()).starts_with("the cheapest model: objects: have ")) << e.what();
