@@ -74,7 +74,7 @@ struct SurfacePoint {
   vec3<R> position_ew;
   vec3<R> n_ws;  ///< unit normal; a zero or NaN one is in the dark
   vec3<R> v_ws;  ///< unit vector towards the eye
-  // For shadows alone; where no light has one they need not be set.
+  // For shadows alone; where no light has one they may be anything.
   vec3<R> face_ws{};   ///< unit normal of the triangle, on the side that is seen
   R x_px{0}, y_px{0};  ///< window coordinates
 };

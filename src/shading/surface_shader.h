@@ -179,12 +179,9 @@ struct SurfaceShader : LitSurface {
       position = in.position_ew;
     }
     const vec3<R> n_ws = normalize_or_zero(detailed_normal(in, px));
-    SurfacePoint<R> p{position, two_sided ? n_ws * select(px.front_facing, R(1), R(-1)) : n_ws, to_eye(position)};
-    if (shadowed) {
-      p.face_ws = face_normal(px, p.v_ws);
-      p.x_px = px.x;
-      p.y_px = px.y;
-    }
+    const vec3<R> lit_ws = two_sided ? n_ws * select(px.front_facing, R(1), R(-1)) : n_ws;
+    SurfacePoint<R> p{position, lit_ws, to_eye(position), lit_ws, px.x, px.y};
+    if (shadowed) p.face_ws = face_normal(px, p.v_ws);
     return p;
   }
 
