@@ -179,7 +179,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
   const RayLight ray_light{light.light, static_cast<double>(shadow.settings.light_radius),
                            shadow.settings.light_radius > 0.0f ? rays_per_pixel : 1};
   const ShadowPicture picture = draw_shadow_picture(choice, view, width, height, true, workers);
-  ShadowComparison out{Image<float>(width, height), Image<float>(width, height), {}};
+  ShadowComparison out{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height), {}};
   Pixels pixels{Image<PixelKind>(width, height), primary_hits(rays, view, width, height, workers)};
   std::vector<float> errors(static_cast<std::size_t>(height));
   workers.for_each(height, [&](int y) {
@@ -201,6 +201,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
       pixels.kind.at(x, y) = PixelKind::compared;
       out.map.at(x, y) = out.truth.at(x, y) = 0.0f;
       if (face_l <= 0.0) continue;
+      out.facing.at(x, y) = static_cast<float>(face_l);
       const LightTruth truth = light_truth(casters, ray_light, hit->position_ew, hit->face_normal_ws,
                                            static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x));
       out.truth.at(x, y) = truth.share;

@@ -33,9 +33,10 @@ struct ShadowScore {
   double map_ms = 0.0, lookup_ms = 0.0;
 };
 
-/// The pixels of a comparison, top row first: share of light by map and by rays; negative where there is nothing to compare.
+/// The pixels of a comparison, top row first.
 struct ShadowComparison {
-  Image<float> map, truth;
+  Image<float> map, truth;  ///< share of light, by map and by rays; negative where there is nothing to compare
+  Image<float> facing;      ///< cosine of the angle from the triangle's normal to the light; 0 where it faces away
   ShadowScore score;
 };
 

@@ -11,6 +11,28 @@
 
 namespace halfspace {
 
+namespace {
+
+DrawState sprite_state() {
+  DrawState state = opaque_state(CullMode::none, false);
+  state.topology = Topology::points;
+  return state;
+}
+
+// The draw's number alone, as fine as the lens. numbers: of its points, red; the pass points into them.
+void draw_numbers(Pass& pass, const PreparedDraw& draw, SphereSprite<false> sprite, const SphereLens& lens, int finer,
+                  const std::vector<glm::vec3>& numbers) {
+  sprite.lens = lens;
+  sprite.point_scale *= static_cast<float>(finer);
+  sprite.lights = {};
+  sprite.ambient = glm::vec3(1.0f);
+  VertexView vertices = draw.vertices;
+  vertices.streams[2] = stream(numbers);
+  pass.draw(sprite, vertices, *draw.indices, sprite_state());
+}
+
+}  // namespace
+
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers) {
   const View& view = scene.view;
   const int width = finer * view.width_px, height = finer * view.height_px;
@@ -22,13 +44,18 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
   }
   const SphereCamera camera(view.clip_from_world, view.near, view.far);
   std::deque<std::vector<glm::vec3>> centers_cs;  // the pass points into them
+  const SphereLens lens = camera.lens({width, height});
   for (const PlacedSpheres& s : scene.spheres) {
-    if (s.object < 0) continue;
     const auto& centers = centers_cs.emplace_back(camera.centers_cs(*s.particles));
-    DrawState state = opaque_state(CullMode::none, false);
-    state.topology = Topology::points;
-    pass.draw(NumberedSphere{{camera.lens({width, height})}, static_cast<float>(s.object + 1)},
-              vertices(stream(centers), stream(s.particles->radii)), state);
+    const auto number = static_cast<float>(s.object < 0 ? kParticlesSeen : s.object + 1);
+    pass.draw(NumberedSphere{{lens}, number}, vertices(stream(centers), stream(s.particles->radii)), sprite_state());
+  }
+  std::vector<glm::vec3> particle_numbers;
+  for (const PreparedDraw& draw : scene.draws) {
+    const auto* sprite = std::get_if<SphereSprite<false>>(&draw.shader);
+    if (sprite == nullptr) continue;
+    particle_numbers.assign(draw.indices->size(), glm::vec3(static_cast<float>(kParticlesSeen)));
+    draw_numbers(pass, draw, *sprite, lens, finer, particle_numbers);
   }
   pass.run(workers);
   Image<int> objects(width, height);

@@ -60,9 +60,17 @@ namespace {
 
 int scaled(int parts, double factor) { return std::max(3, static_cast<int>(std::ceil(parts * factor))); }
 
+// Of cylinders and cones, which are straight from top to bottom.
+int rows_of_cone(const ObjectDescription& o, int sectors, bool places_maps) {
+  if (is_map(o.height)) return scaled(sectors, static_cast<double>(o.latitudes) / o.longitudes);
+  // s/4n = 2πr/(4·sectors·sectors/3) is 4.7 r/sectors²; the chord error is 4.9.
+  if (places_maps && o.shape == Shape::cone && !first_map(o.surface).empty()) return scaled(sectors, 1.0 / 3.0);
+  return 2;
+}
+
 }  // namespace
 
-ObjectDescription with_parts(ObjectDescription o, int parts) {
+ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps) {
   switch (o.shape) {
     case Shape::uv_sphere:
       o.latitudes = parts;
@@ -74,9 +82,7 @@ ObjectDescription with_parts(ObjectDescription o, int parts) {
       break;
     case Shape::cylinder:
     case Shape::cone:
-      // Without heights straight from top to bottom.
-      o.latitudes =
-          is_map(o.height) ? std::max(2, static_cast<int>(std::ceil(static_cast<double>(parts) * o.latitudes / o.longitudes))) : 2;
+      o.latitudes = rows_of_cone(o, parts, places_maps);
       o.longitudes = std::max(3, parts);
       break;
     case Shape::torus:

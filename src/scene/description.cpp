@@ -185,6 +185,21 @@ Section section_of(SurfaceDescription& s) {
   return {{keys, &s}};
 }
 
+std::string_view first_map(const SurfaceDescription& s) {
+  const std::pair<std::string_view, const MapValue&> maps[] = {{"color", s.color},
+                                                               {"ambient_map", s.ambient_map},
+                                                               {"diffuse_map", s.diffuse_map},
+                                                               {"specular_map", s.specular_map},
+                                                               {"shininess_map", s.shininess_map},
+                                                               {"emissive_map", s.emissive_map},
+                                                               {"normal_map", s.normal_map},
+                                                               {"bump_map", s.bump_map}};
+  for (const auto& [key, map] : maps) {
+    if (is_map(map)) return key;
+  }
+  return {};
+}
+
 Section section_of(Placement& p) {
   static const std::vector<Key> keys{
       key<&Placement::position>("position", "Where the object's origin is", {.unit = "units"}),

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -117,6 +118,9 @@ struct SurfaceDescription {
   double bump_scale = 0.02;                    ///< units of the world between the map's 0 and 1
   BumpMethod bump_method = BumpMethod::gradient;
 };
+
+/// The key of a surface's first map; empty where it has none.
+std::string_view first_map(const SurfaceDescription& s);
 
 /// sphere: no mesh but a ray by pixel (shading/sphere_sprite.h); of surfaces without maps.
 enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot };

@@ -128,18 +128,8 @@ void check_environments(SceneDescription& scene, const std::string& source) {
 
 std::string_view key_for_meshes(const ObjectDescription& o) {
   const SurfaceDescription& s = o.surface;
-  const std::pair<std::string_view, const MapValue&> maps[] = {{"height", o.height},
-                                                          {"color", s.color},
-                                                          {"ambient_map", s.ambient_map},
-                                                          {"diffuse_map", s.diffuse_map},
-                                                          {"specular_map", s.specular_map},
-                                                          {"shininess_map", s.shininess_map},
-                                                          {"emissive_map", s.emissive_map},
-                                                          {"normal_map", s.normal_map},
-                                                          {"bump_map", s.bump_map}};
-  for (const auto& [key, map] : maps) {
-    if (is_map(map)) return key;
-  }
+  if (is_map(o.height)) return "height";
+  if (const std::string_view map = first_map(s); !map.empty()) return map;
   if (s.reflection.linear != glm::dvec3(0.0)) return "reflection";
   if (s.shading != ShadingRate::phong) return "shading";
   if (s.two_sided) return "two_sided";

@@ -70,7 +70,7 @@ struct Way {
 };
 
 SceneDescription with_bands(SceneDescription scene, int bands, int samples) {
-  scene.objects.front().second = with_parts(scene.objects.front().second, bands);
+  scene.objects.front().second = with_parts(scene.objects.front().second, bands, true);
   scene.head.samples = samples;
   return scene;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The cheapest model that is right enough: random views of the shipped scenes, their outlines held against those of the finest
-// meshes. HALFSPACE_VIEWS sets how many views; scripts/test_full.sh takes more.
+// meshes. HALFSPACE_VIEWS sets how many views (9: one of each); scripts/test_full.sh takes more.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,12 +39,13 @@ CameraDescription moved(CameraDescription c, std::mt19937& random) {
 
 bool is_smooth(const ObjectDescription& o) { return o.surface.shading != ShadingRate::flat && o.surface.shading != ShadingRate::provoking; }
 
-// Every smooth object by as fine a mesh as there is room for. Facets that are meant stay.
+// Every smooth object by as fine a mesh as there is room for, particles as spheres. Facets that are meant stay.
 SceneDescription finest(SceneDescription scene) {
   for (auto& [name, o] : scene.objects) {
     if (!is_smooth(o) || ((o.shape == Shape::plane || o.shape == Shape::cube) && !is_map(o.height))) continue;
-    o = with_parts(o, std::min(most_parts(o), is_map(o.height) ? 1024 : 512));
+    o = with_parts(o, std::min(most_parts(o), is_map(o.height) ? 1536 : 512), true);
   }
+  scene.particles.sprite = ParticleSprite::exact;
   return scene;
 }
 
@@ -55,7 +56,8 @@ struct RandomView {
 
 RandomView random_view(int seed) {
   std::mt19937 random(static_cast<uint32_t>(seed));
-  constexpr std::array kScenes{"earth", "moon", "three-lights", "shapes", "shadow-plane", "shadow-knot", "shadow-contact", "day-night"};
+  constexpr std::array kScenes{"earth",       "moon",           "three-lights", "shapes",    "shadow-plane",
+                               "shadow-knot", "shadow-contact", "day-night",    "particles"};
   const std::string name = kScenes[static_cast<std::size_t>(seed) % kScenes.size()];
   SceneFile file = SceneFile::open(name);
   // Where two surfaces meet at a grazing angle, the line between them moves farther than either: it is no silhouette. So the knot is
@@ -103,7 +105,7 @@ constexpr double kAskedPx = 0.5;
 TEST(MaxError, OutlinesOfRandomViewsLieWithinIt) {
   constexpr int kFiner = 8;
   Tally tally(kAskedPx, 1.0 / kFiner);
-  for (int seed = 0; seed < number_of_views(8); ++seed) {
+  for (int seed = 0; seed < number_of_views(9); ++seed) {
     RandomView view = random_view(seed);
     view.scene.shadow.method = ShadowMethod::none;
     SceneAssets assets(workers());
@@ -115,11 +117,13 @@ TEST(MaxError, OutlinesOfRandomViewsLieWithinIt) {
   tally.judge();
 }
 
-// Shadows' edges, against rays from the same meshes: on 95 % of them, as shadow.footprint says.
+// Shadows' edges, against rays from the same meshes. Not where light only grazes the triangles: with
+// less than a tenth of the light there is no edge to be seen, and what rays say hangs on how the surface was cut into triangles.
 TEST(MaxError, ShadowEdgesOfRandomViewsLieWithinIt) {
   constexpr int kFiner = 4;
+  constexpr float kGrazing = 0.1f;
   Tally tally(kAskedPx, 1.0 / kFiner);
-  for (int seed = 0; seed < number_of_views(8); ++seed) {
+  for (int seed = 0; seed < number_of_views(9); ++seed) {
     const RandomView view = random_view(seed);
     if (view.scene.shadow.method == ShadowMethod::none) continue;
     SceneAssets assets(workers());
@@ -130,7 +134,9 @@ TEST(MaxError, ShadowEdgesOfRandomViewsLieWithinIt) {
       Image<uint8_t> wrong(light.map.width(), light.map.height());
       std::ranges::transform(light.map.texels(), light.truth.texels(), wrong.data(),
                              [](float map, float truth) { return static_cast<uint8_t>(std::abs(map - truth) > 0.5f); });
-      tally.add(wrong_band_width(wrong, kFiner).p95, view.name + " " + light.score.light);
+      std::ranges::transform(wrong.texels(), light.facing.texels(), wrong.data(),
+                             [](uint8_t is_wrong, float facing) { return facing < kGrazing ? uint8_t{0} : is_wrong; });
+      tally.add(wrong_band_width(wrong, kFiner).max, view.name + " " + light.score.light);
     }
   }
   tally.judge();
@@ -141,7 +147,7 @@ TEST(MaxError, ColorsOfRandomViewsLieWithinIt) {
   constexpr int kLarger = 2;  // fewer of its pixels are edges
   constexpr double kAskedCodes = 8.0;
   Tally tally(kAskedCodes, 0.0);
-  for (int seed = 0; seed < number_of_views(8); ++seed) {
+  for (int seed = 0; seed < number_of_views(9); ++seed) {
     RandomView view = random_view(seed);
     view.scene.shadow.method = ShadowMethod::none;
     SceneDescription truth = finest(view.scene);

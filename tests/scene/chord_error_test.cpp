@@ -31,7 +31,7 @@ TEST(ChordError, OfSpheresIsTheDepthOfTheirFlattestTriangles) {
   for (const int bands : {8, 17, 64}) {
     ObjectDescription o;
     o.radius = kRadius;
-    o = with_parts(o, bands);
+    o = with_parts(o, bands, false);
     const double measured = deepest_plane(uv_sphere(o.latitudes, o.longitudes, kRadius), kRadius);
     EXPECT_LE(measured, chord_error(o) + kRounding) << bands;
     // The widest quads lie at the equator, and there the bound is exact but for the half band's width between them and it.
@@ -76,7 +76,7 @@ void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displac
     o.shape = shape;
     o.radius = kRadius;
     o.tube = kTube;
-    o = with_parts(o, parts);
+    o = with_parts(o, parts, false);
     const Mesh mesh = make(kRadius, kTube, o.latitudes, o.longitudes, nullptr);
     const Mesh fine = make(kRadius, kTube, 4 * o.latitudes, 4 * o.longitudes, nullptr);
     const double measured = deepest_diagonal(mesh, fine, o.latitudes, o.longitudes);
@@ -94,11 +94,48 @@ TEST(ChordError, OfCylindersIsTheirCircles) {
   ObjectDescription o;
   o.shape = Shape::cylinder;
   o.radius = kRadius;
-  o = with_parts(o, 12);
+  o = with_parts(o, 12, true);
   EXPECT_EQ(o.latitudes, 2);
   EXPECT_NEAR(chord_error(o), kRadius * (1.0 - std::cos(std::numbers::pi / 12)), 1e-12);
   o.shape = Shape::cube;
   EXPECT_EQ(chord_error(o), 0.0);
+}
+
+// How far the side's maps lie from where they belong, along the circle, at the most.
+double map_error_of_cone(const ObjectDescription& o) {
+  const Mesh mesh = cone(static_cast<float>(o.radius), static_cast<float>(o.length), o.latitudes, o.longitudes);
+  const int side = o.longitudes * (2 * o.latitudes - 1), steps = 8;
+  double worst = 0.0;
+  for (int t = 0; t < side; ++t) {
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; i + j <= steps; ++j) {
+        const double weights[] = {static_cast<double>(i) / steps, static_cast<double>(j) / steps, static_cast<double>(steps - i - j) / steps};
+        glm::dvec3 p(0.0);
+        double u = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const uint32_t v = mesh.indices[3 * static_cast<std::size_t>(t) + k];
+          p += weights[k] * glm::dvec3(mesh.positions[v]);
+          u += weights[k] * static_cast<double>(mesh.uvs[v].x);
+        }
+        const double turns = u - std::atan2(-p.z, p.x) / (2.0 * std::numbers::pi);
+        worst = std::max(worst, std::abs(turns - std::round(turns)) * 2.0 * std::numbers::pi * std::hypot(p.x, p.z));
+      }
+    }
+  }
+  return worst;
+}
+
+TEST(ChordError, OfConesHoldsForTheirMapsToo) {
+  ObjectDescription o;
+  o.shape = Shape::cone;
+  EXPECT_EQ(with_parts(o, 48, true).latitudes, 2) << "no map";
+  o.surface.color = TextureName{"squares"};
+  for (const int parts : {12, 48, 96}) {
+    const ObjectDescription placed = with_parts(o, parts, true), coarse = with_parts(o, parts, false);
+    EXPECT_EQ(coarse.latitudes, 2);
+    EXPECT_LE(map_error_of_cone(placed), chord_error(placed) * 1.01) << parts;  // floats' uv
+    EXPECT_GT(map_error_of_cone(coarse), chord_error(coarse) * (parts / 12.0)) << parts << ": s/4n is 0.16 parts as long with two bands";
+  }
 }
 
 TEST(ChordError, StepsAreFew) {

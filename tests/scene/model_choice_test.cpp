@@ -47,7 +47,7 @@ TEST(ModelChoice, TakesTheFewestBandsThatAreEnough) {
   const double per_unit = silhouette_pixels_per_unit(view, {0, 0, 0}, 1.0);
   EXPECT_LE(chord_error(o) * per_unit, 0.5);
   const int fewer = o.latitudes == part_step(o.latitudes * 3 / 4) ? o.latitudes / 2 : o.latitudes * 3 / 4;
-  EXPECT_GT(chord_error(with_parts(o, fewer)) * per_unit, 0.5) << o.latitudes;
+  EXPECT_GT(chord_error(with_parts(o, fewer, false)) * per_unit, 0.5) << o.latitudes;
   EXPECT_EQ(f.choices.size(), 2u) << "latitudes and longitudes, and nothing that is as it was";
 }
 
