@@ -30,7 +30,7 @@ constexpr double kEdgePixels = 0.5;
 
 // By bilinear comparison a shadow's edge lies within this part of a texel's width, where light does more than graze the surface. (With a
 // half, 14 of 208 random views were off by more than asked, 2 of them by more than twice that; with this one, by an eighth of a pixel.)
-constexpr double kShadowEdgeTexels = 1.0;
+constexpr double kShadowEdgeTexels = 1.25;
 
 // What one vertex costs in pixels shaded (docs/performance.md: some 10 ns beside 2.5 that light by vertex saves a pixel).
 constexpr double kPixelsPerVertex = 4.0;
