@@ -25,8 +25,9 @@ constexpr int kLeastParts = 8;
 // between the ends of a quad's diagonal counts squared.
 constexpr double kCodesPerSquaredAngle = 1700.0;
 
-// How many pixels of a thousand may show another surface, so that the 99.9th percentile is not an edge's.
-constexpr double kEdgePixels = 0.5;
+// How many pixels of a thousand may show another surface, so that the 99.9th percentile is not an edge's. (Of 208 random views with 8 codes
+// asked three were beyond by 0.5, by this two: bricks in relief, seen at a grazing angle, 11 codes.)
+constexpr double kEdgePixels = 0.35;
 
 // By bilinear comparison a shadow's edge lies within this part of a texel's width, where light does more than graze the surface. (With a
 // half, 14 of 208 random views were off by more than asked, 2 of them by more than twice that; with this one, by an eighth of a pixel.)
