@@ -80,6 +80,9 @@ ShaderKernels kernels_of() {
 }
 }  // namespace detail
 
+struct CoverageList;
+struct DrawInTile;
+
 class Pass {
  public:
   /// width, height: 1 … 16384 px, the size of every target. Targets' images must outlive the pass.
@@ -146,6 +149,8 @@ class Pass {
   // Where the tile's only triangle covers it wholly with one colour, and nothing else is to be done: fills the images. Else false.
   bool fill_images(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
   void run_post_step(const Tile& tile) const;
+  void draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index, bool& waiting, CoverageList& list,
+                     PassStatistics& statistics) const;
   void draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
   void keep_between_flushes();
 

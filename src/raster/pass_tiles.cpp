@@ -9,6 +9,7 @@
 #include "raster/resolve.h"
 #include "raster/shade.h"
 #include "raster/visibility.h"
+#include "raster/whole_tile.h"
 
 namespace halfspace {
 
@@ -142,11 +143,29 @@ void Pass::run_post_step(const Tile& tile) const {
 // A tile's triangles lie scattered in their chunk: so many are fetched ahead.
 constexpr std::size_t kPrefetch = 6;
 
+// waiting: there are visible pixels of the tile that are not shaded yet.
+void Pass::draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index, bool& waiting, CoverageList& list,
+                         PassStatistics& statistics) const {
+  if (d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only) {
+    rasterize(d, chunk, index, nullptr, statistics);
+    waiting |= d.mode == VisibilityMode::deferred;
+    return;
+  }
+  // Without colours there is nothing to wait for: what waits keeps its own.
+  const bool shades = d.mode != VisibilityMode::early || d.draw.writes_color;
+  if (shades && waiting && has_color_) shade_deferred(frame_, d.tile, statistics);
+  if (shades) waiting = false;
+  list.count = 0;
+  rasterize(d, chunk, index, &list, statistics);
+  if (shades && list.count != 0) shade_immediate(frame_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, statistics);
+}
+
 void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
-  bool waiting = false;  // there are visible pixels not shaded yet
+  bool waiting = false;
   CoverageList list;
   tile.id.fill(kNoTriangle);
   std::optional<DrawInTile> here;
+  WholeTile whole;
   for (uint32_t c = 0; c < frame_.chunks.size(); ++c) {
     const Chunk& chunk = frame_.chunks[c];
     const std::span<const uint16_t> bin = bin_of(chunk, tile_x, tile_y);
@@ -155,23 +174,16 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
       __builtin_prefetch(&chunk.triangles[bin[std::min(i + kPrefetch, bin.size() - 1)]]);
       const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
       if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
-      const VisibilityMode mode = here->mode;
       const uint64_t passed_before = statistics.samples_passed;
-      if (mode == VisibilityMode::deferred || mode == VisibilityMode::depth_only) {
-        rasterize(*here, c, t, nullptr, statistics);
-        waiting |= mode == VisibilityMode::deferred;
-      } else {
-        // Without colours there is nothing to wait for: what waits keeps its own.
-        const bool shades = mode != VisibilityMode::early || draw.writes_color;
-        if (shades && waiting && has_color_) shade_deferred(frame_, tile, statistics);
-        if (shades) waiting = false;
-        list.count = 0;
-        rasterize(*here, c, t, &list, statistics);
-        if (shades && list.count != 0) shade_immediate(frame_, draw, triangle_id(c, t), mode, list, tile, statistics);
-      }
+      const bool showed = whole.shows();
+      const bool is_done = whole.take(*here, c, t, statistics);
+      waiting |= showed && !whole.shows();
+      if (!is_done) draw_triangle(*here, c, t, waiting, list, statistics);
       if (draw.state.query) statistics.add_to_query(*draw.state.query, statistics.samples_passed - passed_before);
     }
   }
+  if (whole.shows() && has_color_) return whole.shade(statistics);
+  whole.write();
   if (waiting && has_color_) shade_deferred(frame_, tile, statistics);
 }
 

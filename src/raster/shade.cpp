@@ -250,6 +250,20 @@ void shade_deferred_samples(const Frame& frame, Tile& tile, PassStatistics& stat
 
 }  // namespace
 
+void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatistics& statistics) {
+  const Draw& draw = draw_of(frame, id);
+  statistics.fragments_shaded += kMaxTilePixels;
+  FragmentOutput out;
+  std::array<PacketMask, kFragmentBatch> packets;
+  for (int first = 0; first < kPackets; first += kFragmentBatch) {
+    for (int i = 0; i < kFragmentBatch; ++i)
+      packets[static_cast<std::size_t>(i)] = {static_cast<uint16_t>(first + i), static_cast<uint16_t>(kAllBits<Mask>)};
+    draw.kernels.fragment(draw.shader.get(),
+                          {&frame, tile.x0, tile.y0, kPixelCenter, nullptr, id, packets.data(), kFragmentBatch, nullptr, &out});
+    for (int i = 0; i < kFragmentBatch; ++i) write_colors(draw, out, static_cast<std::size_t>(i), first + i, Mask(true), tile);
+  }
+}
+
 void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics) {
   if (tile.samples == 1) {
     run_job(frame, tile, {tile.id.data(), {0, 0}, kPixelCenter, Share::per_pixel}, statistics);

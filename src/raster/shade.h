@@ -85,6 +85,9 @@ Real packet_depth(const Pixel<Real>& px);
 /// Shades all pixels of the tile that wait for it, and writes their colours.
 void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
 
+/// The same where all pixels of the tile's room show one triangle.
+void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatistics& statistics);
+
 /// The colours of a draw whose shader is constant.
 void constant_colors(const Draw& draw, FragmentOutput& out);
 

@@ -78,6 +78,15 @@ inline TileEdges tile_edges(const Draw& draw, const Triangle& t, const SampleGri
   return r;
 }
 
+/// Bounds of a triangle's depths, as Tile::depth holds them.
+struct DepthBounds {
+  float low, high;
+};
+inline DepthBounds depth_bounds(const Triangle& t, const Draw& draw, DepthFormat format) {
+  const float high = std::clamp(t.z_max, draw.depth_low, draw.depth_high);
+  return {depth_value(format, std::clamp(t.z0, draw.depth_low, high)), depth_value(format, high)};
+}
+
 /// The depth of a triangle at the samples of packets.
 template <bool small>
 class DepthPlane {
@@ -118,10 +127,6 @@ class DepthPlane {
     const Real z = fma(w1, Real(z_edge1_), fma(w2, Real(z_edge2_), Real(z0_)));
     return depth_value(format_, clamp(z, Real(low_), Real(high_)));
   }
-
-  // Bounds of what at() gives.
-  float low() const { return depth_value(format_, std::clamp(z0_, low_, high_)); }
-  float high() const { return depth_value(format_, high_); }
 
  private:
   float z0_, z_edge1_, z_edge2_, low_, high_;

@@ -148,9 +148,10 @@ void visit_block(const Context& c, const BlockEdges& edges, const DepthPlane<sma
 template <bool small>
 void visit_triangle(Context& c, const TileEdges& tile_edges, const TileRect& rect) {
   const DepthPlane<small> plane(c.triangle, tile_edges, c.draw, c.grid, c.tile.depth_format);
+  const DepthBounds bounds = depth_bounds(c.triangle, c.draw, c.tile.depth_format);
   const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
-  c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : plane.low();
-  c.high = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_high) : plane.high();
+  c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : bounds.low;
+  c.high = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_high) : bounds.high;
   const BlockEdges edges(tile_edges);
   constexpr int mask = ~(kBlockSize - 1);
   for (int y = rect.y0 & mask; y < rect.y1; y += kBlockSize) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "raster/tile.h"
+#include "raster/tile_edges.h"
 
 namespace halfspace {
 
@@ -55,6 +56,9 @@ void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, Pass
 
 /// Covers the triangle of a plain draw every pixel of the tile's room?
 bool covers_tile(const DrawInTile& d, const Triangle& t);
+
+/// Writes depth and id of a triangle that covers the tile's room and passes everywhere; bounds: of its depths. Counts nothing.
+void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds);
 
 /// Remembers that values in [low, high] were written to a block.
 void widen_block_bounds(CompareOp op, Tile& tile, int block, float low, float high);

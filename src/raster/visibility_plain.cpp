@@ -117,8 +117,7 @@ class SmallTriangle {
     for (std::size_t i = 0; i < 3; ++i) edge_[i] = small_edge(x, y, i);
     for (std::size_t i = 0; i < 3; ++i) first_[i] = lane_x() * edge_[i].step_x + lane_y() * edge_[i].step_y + edge_[i].e;
     z_high_ = std::clamp(t.z_max, d.draw.depth_low, d.draw.depth_high);
-    low_ = depth_value(tile.depth_format, std::clamp(t.z0, d.draw.depth_low, z_high_));
-    high_ = depth_value(tile.depth_format, z_high_);
+    bounds_ = depth_bounds(t, d.draw, tile.depth_format);
   }
 
   void visit() {
@@ -170,7 +169,7 @@ class SmallTriangle {
     const Real z = clamp(fma(w1, Real(t_.z_edge1), fma(w2, Real(t_.z_edge2), Real(t_.z0))), Real(d_.draw.depth_low), Real(z_high_));
     const int packet = kPacketAt[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
     const bool passed = writer_.write(packet, mask, depth_value(d_.tile.depth_format, z));
-    if (passed && writer_.writes_depth()) widen_block_bounds(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, low_, high_);
+    if (passed && writer_.writes_depth()) widen_block_bounds(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
   }
 
   const DrawInTile& d_;
@@ -179,7 +178,8 @@ class SmallTriangle {
   TileRect rect_;
   std::array<SmallEdge, 3> edge_;
   std::array<Int, 3> first_;  // the edges in the tile's first packet
-  float z_high_, low_, high_;
+  float z_high_;
+  DepthBounds bounds_;
 };
 
 // Remembers that every value of a block was replaced by one in [low, high].
@@ -198,7 +198,7 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
   Tile& tile = d.tile;
   const DepthPlane<small> plane(t, tile_edges, d.draw, grid, tile.depth_format);
   const BlockEdges edges(tile_edges);
-  const float low = plane.low(), high = plane.high();
+  const auto [low, high] = depth_bounds(t, d.draw, tile.depth_format);
   const bool cut = d.cut || t.is(kSprite | kLine);
   Writer writer(d, id, statistics);
   const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
@@ -237,6 +237,18 @@ bool covers_tile(const DrawInTile& d, const Triangle& t) {
   bool whole = !edges.outside;
   for (std::size_t i = 0; i < 3; ++i) whole &= edges.e[i] == 0 && edges.step_x[i] == 0 && edges.step_y[i] == 0;
   return whole;
+}
+
+void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds) {
+  const SampleGrid grid(d.tile, 0);
+  const TileEdges tile_edges{};
+  const DepthPlane<false> plane(t, tile_edges, d.draw, grid, d.tile.depth_format);
+  const BlockEdges edges(tile_edges);
+  PassStatistics counted_before;
+  Writer writer(d, id, counted_before);
+  for (int p = 0; p < kPackets; ++p) writer.write_whole(p, plane.at(edges, packet_x(p), packet_y(p)));
+  if (!writer.writes_depth()) return;
+  for (int b = 0; b < kBlocks; ++b) set_block_bounds(d.tile, b, bounds.low, bounds.high);
 }
 
 void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {

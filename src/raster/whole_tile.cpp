@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/whole_tile.h"
+
+#include "raster/block_edges.h"
+#include "raster/primitive_setup.h"
+#include "raster/shade.h"
+
+namespace halfspace {
+
+bool WholeTile::take_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
+  if (d.is_plain) {
+    const DepthBounds depth = depth_bounds(t, d.draw, d.tile.depth_format);
+    const CompareOp op = d.draw.state.depth.compare;
+    const BlockTest test = !d.tests   ? BlockTest::all_pass
+                           : waiting_ ? test_bounds(op, depth.low, depth.high, waiting_->depth.low, waiting_->depth.high)
+                                      : test_tile(op, d.tile, depth.low, depth.high);
+    if (waiting_ && test == BlockTest::none_passes) return true;
+    const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
+    if (may_cover(t) && test == BlockTest::all_pass && replaces_depth && !d.cut && covers_tile(d, t)) {
+      statistics.samples_tested += kMaxTilePixels;
+      statistics.samples_passed += kMaxTilePixels;
+      if (shows() && d.mode != VisibilityMode::deferred) write();  // its colours stay
+      waiting_.emplace(Waiting{d, &t, id, depth});
+      return true;
+    }
+  }
+  write();
+  return false;
+}
+
+void WholeTile::write() {
+  if (waiting_) write_whole_tile(waiting_->draw, *waiting_->triangle, waiting_->id, waiting_->depth);
+  waiting_.reset();
+}
+
+void WholeTile::shade(PassStatistics& statistics) {
+  shade_whole_tile(waiting_->draw.frame, waiting_->id, waiting_->draw.tile, statistics);
+  waiting_->draw.mode = VisibilityMode::depth_only;  // no one asks for the triangle any more
+  write();
+}
+
+}  // namespace halfspace
