@@ -46,7 +46,7 @@ fault "provoking vertex: always the last" src/raster/setup.cpp 'provoking_(draw_
 fault "bins: last column of a triangle's box left out" src/raster/bin.cpp '((b.x1 - 1) >> shift) + 1, ((b.y1 - 1)' '(std::max(b.x0, b.x1 - 2) >> shift) + 1, ((b.y1 - 1)'
 fault "bins: tile rejected by the wrong corner" src/raster/bin.cpp 'e.ey < 0 ? size - 1 : 0' 'e.ey > 0 ? size - 1 : 0'
 fault "scissor ignored inside a packet" src/raster/visibility_plain.cpp 'if (d_.cut) mask = mask &' 'if (false) mask = mask &'
-fault "blending before the pixels that wait are shaded" src/raster/pass_tiles.cpp 'if (shades && waiting && has_color_) shade_deferred(frame_, tile, statistics);' ''
+fault "blending before the pixels that wait are shaded" src/raster/pass_tiles.cpp 'if (shades && waiting && has_color_) shade_deferred(frame_, d.tile, statistics);' ''
 fault "flush forgets the depth" src/raster/pass_tiles.cpp 'if (!round.first) load_depth(between_flushes(depth_, depth_spill_), width, height, kept, tile);' 'if (!round.first) load_depth(depth_, width, height, kept, tile);'
 fault "stencil: increments wrap where they should be held" src/raster/stencil.cpp 'min(value + Int(1), most)' '(value + Int(1)) & most'
 fault "setup in lanes: degenerate triangles are kept" src/raster/triangle_batch.cpp 'take(bits(area == Int(0)), statistics.culled_degenerate);' 'take(0, statistics.culled_degenerate);'
@@ -99,6 +99,10 @@ fault "differences: alpha never counts" src/scene/image_difference.cpp 'is_opaqu
 fault "similarity: the sign of the covariance is lost" src/scene/image_difference.cpp '(2.0 * covariance + c2)' '(2.0 * std::abs(covariance) + c2)'
 fault "studies: the front keeps what is beaten" src/study/study.cpp '(error(b) < error(a) || b.time.median_ms < a.time.median_ms)' 'error(b) < error(a)'
 fault "studies: coverage upside down" src/study/polygon_area.cpp 'share.at(x, height - 1 - y)' 'share.at(x, y)'
+fault "whole tiles: depth alone hides colours that wait" src/raster/whole_tile.cpp 'if (shows() && d.mode != VisibilityMode::deferred) write();' ''
+fault "whole tiles: what writes no depth takes the place of what does" src/raster/whole_tile.cpp '(d.tests && d.draw.state.depth.write)' 'd.tests'
+fault "cones: too few bands for their maps" src/scene/chord_error.cpp 'scaled(sectors, 1.0 / 3.0)' 'scaled(sectors, 1.0 / 12.0)'
+fault "exact spheres: an object's scale is lost" src/scene/prepare_spheres.cpp 'o.radius * glm::length(glm::dvec3(world[0]))' 'o.radius'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done
