@@ -5,6 +5,7 @@
 // are merged into the lanes that show it, and the shader runs once.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -112,12 +113,13 @@ HS_INLINE ScaledInverseW<R> scaled(R q0, R q1, R q2) {
   return {q0 * scale, q1 * scale, q2 * scale, as_real(exponent)};
 }
 
-/// The floats of one triangle that interpolation needs, before they are spread to lanes. Vertex 0 is the one with the
-/// smallest 1/w.
+/// What interpolation needs of one triangle, before it is spread to lanes. Vertex 0 is the one with the smallest 1/w.
 template <std::size_t N>
 struct TriangleScalars {
   float x0, y0, e1x, e1y, e2x, e2y, area, q0, q1, q2, q_unscale;
   std::array<float, N> value0, delta1, delta2;
+  const float* primitive;  ///< the primitive stage's row, or null
+  bool front;
 };
 
 /// V is the Varyings struct with R = float, which tells how each component is interpolated.
@@ -148,8 +150,33 @@ HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
     r.delta1[i] = flat ? 0.0f : s.varyings[b][i] - s.varyings[a][i];
     r.delta2[i] = flat ? 0.0f : s.varyings[c][i] - s.varyings[a][i];
   }
+  r.primitive = s.primitive;
+  r.front = s.triangle->is(kFrontFacing);
   return r;
 }
+
+/// The scalars of the triangles that were asked for last: neighbouring packets show the same ones.
+template <class V, std::size_t N>
+class RecentTriangles {
+ public:
+  HS_INLINE const TriangleScalars<N>& of(const Frame& frame, TriangleId id) {
+    for (std::size_t i = 0; i < used_; ++i) {
+      if (ids_[i] == id) return scalars_[i];
+    }
+    TriangleSource source;
+    find_triangle(frame, id, source);
+    newest_ = (newest_ + 1) % ids_.size();
+    used_ = std::max(used_, newest_ + 1);
+    ids_[newest_] = id;
+    return scalars_[newest_] = triangle_scalars<V>(source);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 8;
+  std::array<TriangleId, kMost> ids_;
+  std::array<TriangleScalars<N>, kMost> scalars_;
+  std::size_t used_ = 0, newest_ = kMost - 1;
+};
 
 /// Everything a packet needs of its triangles, lane by lane. P: components of the primitive stage's struct.
 template <std::size_t N, std::size_t P>
@@ -163,11 +190,8 @@ struct PacketTriangles {
 
 /// Spreads one triangle's values: the packet's first to all lanes, so that lanes without a triangle compute with finite
 /// values; the others to the lanes of m.
-template <class V, bool first, std::size_t N, std::size_t P>
-HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketTriangles<N, P>& out) {
-  TriangleSource source;
-  find_triangle(frame, id, source);
-  const TriangleScalars<N> s = triangle_scalars<V>(source);
+template <bool first, std::size_t N, std::size_t P>
+HS_INLINE void merge_triangle(const TriangleScalars<N>& s, Mask m, PacketTriangles<N, P>& out) {
   const auto put = [=](Real& to, float value) {
     if constexpr (first) {
       to = Real(value);
@@ -192,8 +216,8 @@ HS_INLINE void merge_triangle(const Frame& frame, TriangleId id, Mask m, PacketT
     put(out.components.delta1[i], s.delta1[i]);
     put(out.components.delta2[i], s.delta2[i]);
   }
-  for (std::size_t i = 0; i < P; ++i) put(out.primitive[i], source.primitive[i]);
-  out.front = first ? Mask(source.triangle->is(kFrontFacing)) : select(m, Mask(source.triangle->is(kFrontFacing)), out.front);
+  for (std::size_t i = 0; i < P; ++i) put(out.primitive[i], s.primitive[i]);
+  out.front = first ? Mask(s.front) : select(m, Mask(s.front), out.front);
 }
 
 /// The components of rows, gathered.
@@ -213,14 +237,14 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
   }
 }
 
-/// Triangles of a packet from which on they are gathered, not merged one by one.
-inline constexpr int kGatherFrom = 3;
+/// Triangles of a packet from which on they are gathered, not merged one by one (4 and 5 of them: 1 to 2 % slower gathered).
+inline constexpr int kGatherFrom = 5;
 
 /// The triangles of a packet: one, few or many. t.only is the one that t holds already, if it holds one alone.
 template <class V, std::size_t N, std::size_t P>
-HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, PacketTriangles<N, P>& t) {
+HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V, N>& recent, PacketTriangles<N, P>& t) {
   if (batch.ids == nullptr) {
-    if (t.only != batch.uniform_id) merge_triangle<V, true>(*batch.frame, batch.uniform_id, Mask(true), t);
+    if (t.only != batch.uniform_id) merge_triangle<true>(recent.of(*batch.frame, batch.uniform_id), Mask(true), t);
     t.only = batch.uniform_id;
     return;
   }
@@ -239,11 +263,11 @@ HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, Pac
   }
   rest = packet.lanes;
   TriangleId id = next();
-  merge_triangle<V, true>(*batch.frame, id, Mask(true), t);
+  merge_triangle<true>(recent.of(*batch.frame, id), Mask(true), t);
   if (triangles == 1) t.only = id;
   for (rest &= ~bits(showing(id)); rest != 0; rest &= ~bits(showing(id))) {
     id = next();
-    merge_triangle<V, false>(*batch.frame, id, showing(id), t);
+    merge_triangle<false>(recent.of(*batch.frame, id), showing(id), t);
   }
 }
 
@@ -310,11 +334,12 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     V in;
   };
   std::array<Ready, 2> ready;
+  RecentTriangles<F, n> recent;
   for (int next = 0; next <= batch.count; ++next) {
     if (next < batch.count) {
       Ready& r = ready[static_cast<std::size_t>(next) % 2];
       const PacketMask packet = batch.packets[next];
-      find_triangles<F>(batch, packet, r.triangles);
+      find_triangles(batch, packet, recent, r.triangles);
       r.ids = {batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes,
                batch.uniform_id, packet.lanes};
       r.in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), batch.position,
@@ -340,7 +365,8 @@ HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
   using V = typename S::template Varyings<Real>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
-  merge_triangle<F, true>(*batch.frame, batch.id, Mask(true), triangles);
+  RecentTriangles<F, kComponents<V>> recent;
+  merge_triangle<true>(recent.of(*batch.frame, batch.id), Mask(true), triangles);
   const PacketTriangleIds ids{batch.frame, nullptr, batch.id, kAllBits<Mask>};
   for (int i = 0; i < batch.count; ++i) {
     const auto at = static_cast<std::size_t>(i);
