@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "raster/block_edges.h"
 #include "raster/centroid.h"
@@ -260,9 +261,11 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
   if (!tests_depth(state, tile) || !state.write) return;
   float* stored = &tile.depth[static_cast<std::size_t>(packet) * kLanes];
   store(stored, select(mask, z, load<Real>(stored)));
-  const int block = packet / kPacketsPerBlock;
+  const auto block = static_cast<std::size_t>(packet / kPacketsPerBlock);
   // The shader may have written anything: bounds are made exact when next asked for.
-  tile.block_writes[static_cast<std::size_t>(block)] = kRefreshAfter;
+  tile.block_min[block] = std::numeric_limits<float>::lowest();
+  tile.block_max[block] = std::numeric_limits<float>::max();
+  tile.block_writes[block] = kRefreshAfter;
 }
 
 }  // namespace halfspace

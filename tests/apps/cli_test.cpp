@@ -178,7 +178,7 @@ const Mistake kMistakes[] = {
     {"WrongChoice",
      {"render", "earth", "--set", "earth.shape=ball"},
      3,
-     "--set: earth.shape: \"ball\" is no choice; expected one of uv_sphere, icosphere, plane, cube, cylinder, cone, torus, torus_knot"},
+     "--set: earth.shape: \"ball\" is no choice; expected one of uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot"},
     {"EmptyValue",
      {"render", "earth", "--set", "earth.color="},
      3,

@@ -87,6 +87,38 @@ TEST(WholeTile, IsDrawnAsSmallerTilesAre) {
   EXPECT_GT(counts.size(), static_cast<std::size_t>(pictures) / 4) << "pictures differ";
 }
 
+// Keeps every pixel, which no one can know before.
+struct KeepingShader : FlatColorShader {
+  template <class R>
+  DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color.value, in.color.value.w > R(0.0f)};
+  }
+};
+
+// Depths that a shader had the last word on may lie beyond what the tile knew of its bounds.
+TEST(WholeTile, IsTestedAgainstDepthsThatWereWrittenLate) {
+  for (const float late_z : {0.5f, -0.5f}) {
+    for (const CompareOp op : {CompareOp::less, CompareOp::greater}) {
+      Image<glm::vec4> color(kWidth, kHeight);
+      Image<float> depth(kWidth, kHeight);
+      DepthTarget target = d32f_target(depth);
+      target.clear_value = 0.5f;
+      Pass pass(kWidth, kHeight, rgba32f_target(color), target);
+      const auto place = [](float z) { return std::vector<glm::vec4>{{-4, -4, z, 1}, {8, -4, z, 1}, {-4, 8, z, 1}}; };
+      const std::vector<glm::vec4> late = place(late_z), next = place(0.5f * late_z), red(3, {1, 0, 0, 1}), green(3, {0, 1, 0, 1});
+      const Indices triangle = Indices::sequential(3);
+      DrawState state;
+      state.depth.compare = CompareOp::always;
+      pass.draw(KeepingShader{}, vertices(stream(late), stream(red)), triangle, state);
+      state.depth.compare = op;
+      pass.draw(FlatColorShader{}, vertices(stream(next), stream(green)), triangle, state);
+      pass.run(one_worker());
+      const bool passes = op == CompareOp::less ? 0.5f * late_z < late_z : 0.5f * late_z > late_z;
+      for (const glm::vec4& c : color.texels()) ASSERT_EQ(c, passes ? green[0] : red[0]) << late_z << static_cast<int>(op);
+    }
+  }
+}
+
 // What lies behind costs a test, and what is hidden later is never shaded.
 TEST(WholeTile, ShadesWhatIsSeenAlone) {
   std::vector<Step> steps;
