@@ -87,34 +87,39 @@ TEST(WholeTile, IsDrawnAsSmallerTilesAre) {
   EXPECT_GT(counts.size(), static_cast<std::size_t>(pictures) / 4) << "pictures differ";
 }
 
-// Keeps every pixel, which no one can know before.
-struct KeepingShader : FlatColorShader {
+// Puts every pixel at one depth.
+struct DeepShader : FlatColorShader {
+  float depth;
   template <class R>
-  DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    return {in.color.value, in.color.value.w > R(0.0f)};
+  DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color.value, true, R(depth)};
   }
 };
 
-// Depths that a shader had the last word on may lie beyond what the tile knew of its bounds.
-TEST(WholeTile, IsTestedAgainstDepthsThatWereWrittenLate) {
-  for (const float late_z : {0.5f, -0.5f}) {
+// What a shader has written may lie beyond what the tile knew of its depths.
+TEST(WholeTile, IsTestedAgainstDepthsThatAShaderWrote) {
+  for (const float written : {0.125f, 0.875f}) {
     for (const CompareOp op : {CompareOp::less, CompareOp::greater}) {
       Image<glm::vec4> color(kWidth, kHeight);
       Image<float> depth(kWidth, kHeight);
       DepthTarget target = d32f_target(depth);
       target.clear_value = 0.5f;
       Pass pass(kWidth, kHeight, rgba32f_target(color), target);
-      const auto place = [](float z) { return std::vector<glm::vec4>{{-4, -4, z, 1}, {8, -4, z, 1}, {-4, 8, z, 1}}; };
-      const std::vector<glm::vec4> late = place(late_z), next = place(0.5f * late_z), red(3, {1, 0, 0, 1}), green(3, {0, 1, 0, 1});
+      const float z = 0.5f * (written + 0.5f);  // between what is written and what was there
+      const auto place = [](float window_z) {
+        const float z_ndc = 2.0f * window_z - 1.0f;
+        return std::vector<glm::vec4>{{-4, -4, z_ndc, 1}, {8, -4, z_ndc, 1}, {-4, 8, z_ndc, 1}};
+      };
+      const std::vector<glm::vec4> middle = place(0.5f), next = place(z), red(3, {1, 0, 0, 1}), green(3, {0, 1, 0, 1});
       const Indices triangle = Indices::sequential(3);
       DrawState state;
       state.depth.compare = CompareOp::always;
-      pass.draw(KeepingShader{}, vertices(stream(late), stream(red)), triangle, state);
+      pass.draw(DeepShader{{}, written}, vertices(stream(middle), stream(red)), triangle, state);
       state.depth.compare = op;
       pass.draw(FlatColorShader{}, vertices(stream(next), stream(green)), triangle, state);
       pass.run(one_worker());
-      const bool passes = op == CompareOp::less ? 0.5f * late_z < late_z : 0.5f * late_z > late_z;
-      for (const glm::vec4& c : color.texels()) ASSERT_EQ(c, passes ? green[0] : red[0]) << late_z << static_cast<int>(op);
+      const bool passes = op == CompareOp::less ? z < written : z > written;
+      for (const glm::vec4& c : color.texels()) ASSERT_EQ(c, passes ? green[0] : red[0]) << written << " " << static_cast<int>(op);
     }
   }
 }
