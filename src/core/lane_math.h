@@ -222,9 +222,8 @@ HS_INLINE R pow(R x, std::type_identity_t<R> y) {
   }
 }
 
-/// x^y for 0 <= x <= 1 and y >= 0, as highlights ask: absolute error at most 1.5e-7 (pow's is relative), at a quarter of pow's cost (alone, 16
-/// lanes).
-/// unit_pow(x, 0) = 1, unit_pow(0, y) = 0 for y > 0. NaN gives NaN, but y = 0 always 1. What is below 2^-126 counts as 0.
+/// x^y for 0 <= x <= 1 and y >= 0, as highlights ask: absolute error at most 1.5e-7 (pow's is relative), at a quarter of pow's cost (alone,
+/// 16 lanes). unit_pow(x, 0) = 1, unit_pow(0, y) = 0 for y > 0. NaN gives NaN, but y = 0 always 1. What is below 2^-126 counts as 0.
 ///
 /// y·log2 x errs by 1.8·2^-24 of itself, the result by that times ln 2·2^(y·log2 x): t·2^-t is 0.54 at most.
 template <Number R>

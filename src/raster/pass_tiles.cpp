@@ -112,9 +112,11 @@ bool Pass::fill_images(Tile& tile, int tile_x, int tile_y, PassStatistics& stati
   }
   const Triangle& t = chunk->triangles[index];
   const Draw& draw = frame_.draws[chunk->segments[t.segment()].draw];
-  if (!draw.deferred || !draw.kernels.is_constant || frame_.samples != 1 || draw.kernels.color_count < static_cast<int>(colors_.size())) return false;
+  if (!draw.deferred || !draw.kernels.is_constant || frame_.samples != 1 || draw.kernels.color_count < static_cast<int>(colors_.size()))
+    return false;
   const DrawInTile here(frame_, draw, VisibilityMode::deferred, tile);
-  if (!here.is_plain || here.bounds.x1 - here.bounds.x0 != tile.width || here.bounds.y1 - here.bounds.y0 != tile.height || !covers_tile(here, t)) {
+  if (!here.is_plain || here.bounds.x1 - here.bounds.x0 != tile.width || here.bounds.y1 - here.bounds.y0 != tile.height ||
+      !covers_tile(here, t)) {
     return false;
   }
   FragmentOutput out;

@@ -155,26 +155,31 @@ HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
   return r;
 }
 
+template <class V>
+HS_INLINE TriangleScalars<kComponents<V>> scalars_of(const Frame& frame, TriangleId id) {
+  TriangleSource source;
+  find_triangle(frame, id, source);
+  return triangle_scalars<V>(source);
+}
+
 /// The scalars of the triangles that were asked for last: neighbouring packets show the same ones.
-template <class V, std::size_t N>
+template <class V>
 class RecentTriangles {
  public:
-  HS_INLINE const TriangleScalars<N>& of(const Frame& frame, TriangleId id) {
+  HS_INLINE const TriangleScalars<kComponents<V>>& of(const Frame& frame, TriangleId id) {
     for (std::size_t i = 0; i < used_; ++i) {
       if (ids_[i] == id) return scalars_[i];
     }
-    TriangleSource source;
-    find_triangle(frame, id, source);
     newest_ = (newest_ + 1) % ids_.size();
     used_ = std::max(used_, newest_ + 1);
     ids_[newest_] = id;
-    return scalars_[newest_] = triangle_scalars<V>(source);
+    return scalars_[newest_] = scalars_of<V>(frame, id);
   }
 
  private:
   static constexpr std::size_t kMost = 8;
   std::array<TriangleId, kMost> ids_;
-  std::array<TriangleScalars<N>, kMost> scalars_;
+  std::array<TriangleScalars<kComponents<V>>, kMost> scalars_;
   std::size_t used_ = 0, newest_ = kMost - 1;
 };
 
@@ -242,7 +247,7 @@ inline constexpr int kGatherFrom = 5;
 
 /// The triangles of a packet: one, few or many. t.only is the one that t holds already, if it holds one alone.
 template <class V, std::size_t N, std::size_t P>
-HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V, N>& recent, PacketTriangles<N, P>& t) {
+HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V>& recent, PacketTriangles<N, P>& t) {
   if (batch.ids == nullptr) {
     if (t.only != batch.uniform_id) merge_triangle<true>(recent.of(*batch.frame, batch.uniform_id), Mask(true), t);
     t.only = batch.uniform_id;
@@ -334,14 +339,14 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     V in;
   };
   std::array<Ready, 2> ready;
-  RecentTriangles<F, n> recent;
+  RecentTriangles<F> recent;
   for (int next = 0; next <= batch.count; ++next) {
     if (next < batch.count) {
       Ready& r = ready[static_cast<std::size_t>(next) % 2];
       const PacketMask packet = batch.packets[next];
       find_triangles(batch, packet, recent, r.triangles);
-      r.ids = {batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes,
-               batch.uniform_id, packet.lanes};
+      r.ids = {batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes, batch.uniform_id,
+               packet.lanes};
       r.in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), batch.position,
                              batch.centroids == nullptr ? nullptr : batch.centroids + next * kLanes, r.triangles, r.ids, r.px);
     }
@@ -365,8 +370,7 @@ HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
   using V = typename S::template Varyings<Real>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
-  RecentTriangles<F, kComponents<V>> recent;
-  merge_triangle<true>(recent.of(*batch.frame, batch.id), Mask(true), triangles);
+  merge_triangle<true>(scalars_of<F>(*batch.frame, batch.id), Mask(true), triangles);
   const PacketTriangleIds ids{batch.frame, nullptr, batch.id, kAllBits<Mask>};
   for (int i = 0; i < batch.count; ++i) {
     const auto at = static_cast<std::size_t>(i);

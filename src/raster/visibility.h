@@ -23,11 +23,11 @@ struct CoverageList {
 
 /// What a triangle's samples do to the tile before they are shaded.
 enum class VisibilityMode : uint8_t {
-  deferred,   ///< test, write depth and triangle id
-  depth_only, ///< test, write depth: there is no colour to shade
-  early,      ///< test, write depth, list what passed
-  test_only,  ///< test, list what passed: depth is written after the shader has spoken
-  cover_only  ///< list what is covered: the shader replaces the depth, and the test comes after it
+  deferred,    ///< test, write depth and triangle id
+  depth_only,  ///< test, write depth: there is no colour to shade
+  early,       ///< test, write depth, list what passed
+  test_only,   ///< test, list what passed: depth is written after the shader has spoken
+  cover_only   ///< list what is covered: the shader replaces the depth, and the test comes after it
 };
 
 /// May a depth test come before the fragment function (OpenGL 4.6, section 15.2.4 allows it where no one can tell)?
@@ -41,11 +41,11 @@ struct DrawInTile {
   const Draw& draw;
   VisibilityMode mode;
   Tile& tile;
-  PixelBounds bounds;    ///< of the draw in the tile
-  bool cut;              ///< a covered pixel of the tile may lie outside of bounds
-  bool tests;            ///< there is a depth test in this stage (where the stencil does not put it off)
-  bool asks_shader;      ///< the shader's visibility function decides
-  bool is_plain;         ///< one sample a pixel, and only coverage and depth decide
+  PixelBounds bounds;  ///< of the draw in the tile
+  bool cut;            ///< a covered pixel of the tile may lie outside of bounds
+  bool tests;          ///< there is a depth test in this stage (where the stencil does not put it off)
+  bool asks_shader;    ///< the shader's visibility function decides
+  bool is_plain;       ///< one sample a pixel, and only coverage and depth decide
 };
 
 /// Rasterizes triangle `index` of chunk `chunk` in the tile. list is needed but for VisibilityMode::deferred and depth_only.

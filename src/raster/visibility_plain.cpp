@@ -169,7 +169,8 @@ class SmallTriangle {
     const Real z = clamp(fma(w1, Real(t_.z_edge1), fma(w2, Real(t_.z_edge2), Real(t_.z0))), Real(d_.draw.depth_low), Real(z_high_));
     const int packet = kPacketAt[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
     const bool passed = writer_.write(packet, mask, depth_value(d_.tile.depth_format, z));
-    if (passed && writer_.writes_depth()) widen_block_bounds(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
+    if (passed && writer_.writes_depth())
+      widen_block_bounds(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
   }
 
   const DrawInTile& d_;

@@ -13,8 +13,8 @@ namespace halfspace {
 /// What waits to be written to one tile: the triangle that all its pixels show, or of a draw without colours its depth, if there is one.
 class WholeTile {
  public:
-  /// The triangle `index` of chunk `chunk`, which comes next in the tile. True if nothing is left to do: it passes everywhere, and waits now
-  /// itself, or nowhere. Else it is still to be rasterized; what waited has been written.
+  /// The triangle `index` of chunk `chunk`, which comes next in the tile. True if nothing is left to do: it passes everywhere, and waits
+  /// now itself, or nowhere. Else it is still to be rasterized; what waited has been written.
   bool take(const DrawInTile& d, uint32_t chunk, uint32_t index, PassStatistics& statistics) {
     const Triangle& t = d.frame.chunks[chunk].triangles[index];
     if (!waiting_ && !may_cover(t)) return false;  // as a rule

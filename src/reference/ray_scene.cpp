@@ -116,7 +116,8 @@ RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws,
     rtcReleaseGeometry(geometry);
   }
   for (std::size_t k = 0; k < spheres.size(); ++k) {
-    if (spheres[k].casts_shadow || !casters_only) impl_->add_spheres(*spheres[k].particles, eye_ws, static_cast<unsigned>(meshes.size() + k));
+    if (spheres[k].casts_shadow || !casters_only)
+      impl_->add_spheres(*spheres[k].particles, eye_ws, static_cast<unsigned>(meshes.size() + k));
   }
   rtcCommitScene(impl_->scene.get());
 }
@@ -134,7 +135,12 @@ std::optional<RayHit> RayScene::nearest(const glm::vec3& origin_ew, const glm::v
   if (query.hit.geomID >= impl_->placed.size()) {
     const glm::dvec3 along = static_cast<double>(query.ray.tfar) * glm::dvec3(direction_ws);
     const glm::dvec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-    return RayHit{static_cast<int>(impl_->placed.size()) - 1 - static_cast<int>(query.hit.geomID), query.hit.primID, query.ray.tfar, {}, glm::dvec3(origin_ew) + along, normal / std::max(glm::length(normal), 1e-300)};
+    return RayHit{static_cast<int>(impl_->placed.size()) - 1 - static_cast<int>(query.hit.geomID),
+                  query.hit.primID,
+                  query.ray.tfar,
+                  {},
+                  glm::dvec3(origin_ew) + along,
+                  normal / std::max(glm::length(normal), 1e-300)};
   }
   const Impl::Placed& placed = impl_->placed[query.hit.geomID];
   std::array<glm::dvec3, 3> corner;

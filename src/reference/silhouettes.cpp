@@ -13,12 +13,6 @@ namespace halfspace {
 
 namespace {
 
-DrawState sprite_state() {
-  DrawState state = opaque_state(CullMode::none, false);
-  state.topology = Topology::points;
-  return state;
-}
-
 // The draw's number alone, as fine as the lens. numbers: of its points, red; the pass points into them.
 void draw_numbers(Pass& pass, const PreparedDraw& draw, SphereSprite<false> sprite, const SphereLens& lens, int finer,
                   const std::vector<glm::vec3>& numbers) {

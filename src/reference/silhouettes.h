@@ -13,8 +13,8 @@ namespace halfspace {
 /// What seen_objects says of particles.
 inline constexpr int kParticlesSeen = -1;
 
-/// Which object each pixel's centre shows: 1 + its place among the scene's, kParticlesSeen, or 0. Top row first; several times as fine as the
-/// scene's own picture with `finer` > 1.
+/// Which object each pixel's centre shows: 1 + its place among the scene's, kParticlesSeen, or 0. Top row first; several times as fine as
+/// the scene's own picture with `finer` > 1.
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers);
 
 /// How far the outlines of `picture` lie off those of `truth` (wrong_band_width). Both by seen_objects with the same `finer`; in pixels of

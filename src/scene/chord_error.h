@@ -20,8 +20,8 @@ int part_step(int least);
 /// The same object with `parts` from top to bottom (or round a tube, or along an edge), and with as many along the other
 /// direction as make both directions' chords err alike. For an icosphere the level whose triangles are no larger.
 ///
-/// places_maps: the surface's maps, too, lie nearer than the chord error to where they belong. That asks for more on a cone alone: its bands are
-/// narrower above, and a triangle of one bends what is straight. In sectors of width s, and n bands, by up to s/4n.
+/// places_maps: the surface's maps, too, lie nearer than the chord error to where they belong. That asks for more on a cone alone: its
+/// bands are narrower above, and a triangle of one bends what is straight. In sectors of width s, and n bands, by up to s/4n.
 ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps);
 
 /// The most parts that its keys allow.

@@ -149,10 +149,10 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
                                            std::optional<double> color, std::vector<ModelChoice>& choices) {
   if (is_faceted(authored) || authored.shape == Shape::sphere) return authored;
   if (is_ball(authored) && key_for_meshes(authored).empty()) {
-    // Study sphere_model: as fast as a mesh of eight bands.
+    // Study sphere_model: 1.52 ms, a mesh of eight bands 1.41, one of 64 bands 6.5.
     ObjectDescription sphere = authored;
     sphere.shape = Shape::sphere;
-    choices.push_back({path + ".shape", "sphere", "a ray a pixel: exact, and no slower than the coarsest mesh"});
+    choices.push_back({path + ".shape", "sphere", "a ray a pixel: exact, at about the cost of the coarsest mesh"});
     return sphere;
   }
   const Presence presence = presence_of(authored, view_, scene_.shadow.method != ShadowMethod::none && authored.casts_shadow);
@@ -186,8 +186,7 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
   tell("segments", authored.segments, o.segments);
   // A cosine between two vertices lies off the straight line by an eighth of the angle's square at the most.
   const double angle = diagonal_angle(o), light_error = codes_of(most_light(scene_) * angle * angle / 8.0);
-  if (color && may_shade_by_vertex(o, scene_) && light_error <= *color &&
-      kPixelsPerVertex * vertices_of(o) <= presence.pixels) {
+  if (color && may_shade_by_vertex(o, scene_) && light_error <= *color && kPixelsPerVertex * vertices_of(o) <= presence.pixels) {
     o.surface.shading = ShadingRate::gouraud;
     choices.push_back({path + ".shading", "gouraud", "up to " + rounded_text(light_error) + " codes off"});
   }

@@ -84,9 +84,8 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
   for (const PlacedSpheres& spheres : placed.spheres) {
     if (casters_only && !spheres.casts_shadow) continue;
     const auto& centers = centers_cs.emplace_back(camera.centers_cs(*spheres.particles));
-    DrawState state = opaque_state(CullMode::none, false);
-    state.topology = Topology::points;
-    pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})}, vertices(stream(centers), stream(spheres.particles->radii)), state);
+    pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})}, vertices(stream(centers), stream(spheres.particles->radii)),
+              sprite_state());
   }
   for (const PlacedMesh& m : placed.meshes) {
     if (casters_only && !m.casts_shadow) continue;

@@ -56,6 +56,12 @@ DrawState opaque_state(CullMode cull, bool mirrored) {
   return state;
 }
 
+DrawState sprite_state() {
+  DrawState state = opaque_state(CullMode::none, false);
+  state.topology = Topology::points;
+  return state;
+}
+
 ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height)
     : assets_(assets), scene_(scene), view_(make_view(camera(), width, height)), ambient_(ambient_of(scene)) {
   out_.view = view_;

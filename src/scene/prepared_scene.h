@@ -49,6 +49,9 @@ struct PreparedDraw {
 /// What opaque surfaces of scenes are drawn with: reversed Z, the nearest wins. mirrored: the object's transform turns windings.
 DrawState opaque_state(CullMode cull, bool mirrored);
 
+/// What spheres as points are drawn with.
+DrawState sprite_state();
+
 /// Adds it to a pass.
 void add_draw(Pass& pass, const PreparedDraw& draw);
 

@@ -100,8 +100,9 @@ void check(const ObjectDescription& o, const std::string& where) {
     fail(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
   if (is_ring(o.shape) && o.latitudes < 3) fail(where + ".latitudes", "2 make no tube; expected at least 3");
   if (const std::string_view key = key_for_meshes(o); o.shape == Shape::sphere && !key.empty()) {
-    fail(where + "." + std::string(key), std::string("is more than the shape sphere shows (constant factors, light by pixel from outside, one scale for ") +
-                                "all axes); expected the shape uv_sphere or icosphere");
+    fail(where + "." + std::string(key),
+         std::string("is more than the shape sphere shows (constant factors, light by pixel from outside, one scale for ") +
+             "all axes); expected the shape uv_sphere or icosphere");
   }
   const bool displaced = o.shape != Shape::plane && is_map(o.height);
   if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness_of(o)) {

@@ -61,7 +61,8 @@ class ViewFinder {
   ViewFinder(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres, int size, double margin)
       : frustum_(frustum_corners(view.clip_from_world)), eye_ws_(view.eye_ws), forward_ws_(view.forward_ws), size_(size), margin_(margin) {
     for (const PlacedMesh& m : meshes) add({&m, nullptr, bounds_along(m, glm::dmat3(1.0))}, m.casts_shadow, m.receives_shadow);
-    for (const PlacedSpheres& s : spheres) add({nullptr, s.particles.get(), bounds_along(*s.particles, glm::dmat3(1.0))}, s.casts_shadow, s.receives_shadow);
+    for (const PlacedSpheres& s : spheres)
+      add({nullptr, s.particles.get(), bounds_along(*s.particles, glm::dmat3(1.0))}, s.casts_shadow, s.receives_shadow);
   }
 
   bool nothing_received() const { return receivers_.empty(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles that cover whole tiles, in every order with others: what waits to be written must not be seen to wait. Tiles of 32 px never wait
-// (raster/whole_tile.h asks for 64), so both must draw alike; what is drawn at all is for the other tests.
+// Triangles that cover whole tiles, in every order with others: what waits to be written must not be seen to wait. Tiles of 32 px never
+// wait (raster/whole_tile.h asks for 64), so both must draw alike; what is drawn at all is for the other tests.
 #include "raster/whole_tile.h"
 
 #include <algorithm>
@@ -37,7 +37,8 @@ Step random_step(Random& r) {
   s.state.depth.test = r.integer(0, 5) != 0;
   s.state.depth.write = r.integer(0, 4) != 0;
   s.state.depth.compare = r.integer(0, 1) == 0 ? CompareOp::less : static_cast<CompareOp>(r.integer(0, 7));
-  if (r.integer(0, 5) == 0) s.state.blend = BlendState{.source_color = BlendFactor::src_alpha, .destination_color = BlendFactor::one_minus_src_alpha};
+  if (r.integer(0, 5) == 0)
+    s.state.blend = BlendState{.source_color = BlendFactor::src_alpha, .destination_color = BlendFactor::one_minus_src_alpha};
   if (r.integer(0, 7) == 0) s.state.color_mask.g = false;
   s.state.query = static_cast<uint32_t>(r.integer(0, 2));
   return s;

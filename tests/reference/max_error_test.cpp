@@ -56,7 +56,7 @@ struct RandomView {
 
 RandomView random_view(int seed) {
   std::mt19937 random(static_cast<uint32_t>(seed));
-  constexpr std::array kScenes{"earth",       "moon",           "three-lights", "shapes",    "shadow-plane",
+  constexpr std::array kScenes{"earth",       "moon",           "three-lights", "shapes",   "shadow-plane",
                                "shadow-knot", "shadow-contact", "day-night",    "particles"};
   const std::string name = kScenes[static_cast<std::size_t>(seed) % kScenes.size()];
   SceneFile file = SceneFile::open(name);

@@ -109,7 +109,8 @@ double map_error_of_cone(const ObjectDescription& o) {
   for (int t = 0; t < side; ++t) {
     for (int i = 0; i <= steps; ++i) {
       for (int j = 0; i + j <= steps; ++j) {
-        const double weights[] = {static_cast<double>(i) / steps, static_cast<double>(j) / steps, static_cast<double>(steps - i - j) / steps};
+        const double weights[] = {static_cast<double>(i) / steps, static_cast<double>(j) / steps,
+                                  static_cast<double>(steps - i - j) / steps};
         glm::dvec3 p(0.0);
         double u = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -30,7 +30,8 @@ Image<glm::u8vec4> picture_of(const std::string& sections) {
 }
 
 // Every factor, model and kind of place, on a floor that takes shadows. Of the finest mesh a band is 0.3 px high: its outline lies within
-// 1e-3 px, its normals turn by 2e-5. What may differ are the pixels that the outlines of sphere and shadow cross.
+// 1e-3 px, its normals turn by 2e-5. What may differ are the pixels that the outlines of sphere and shadow cross, some 1,000 px long: about
+// one (as many differ), and some codes by one where light lies between two.
 TEST(ExactSphere, IsWhatTheFinestMeshNears) {
   const std::string floor = R"("floor": {"shape": "plane", "size": 12, "position": [0, -1, 0]})";
   for (const std::string look : {R"("specular": 0.6, "shininess": 12, "model": "phong")", R"("specular": [0.6, 0.2, 0], "shininess": 60)",
@@ -39,12 +40,12 @@ TEST(ExactSphere, IsWhatTheFinestMeshNears) {
     for (const std::string place : {R"("radius": 0.5, "position": [0.4, 0.2, 1], "rotation": [10, 20, 30], "scale": [2, 2, -2])",
                                     R"("instances": [{"position": [-1, 0, 0]}, {"position": [1, 0.5, 0], "scale": [0.5, 0.5, 0.5]}])"}) {
       const auto with = [&](const std::string& shape) {
-        return picture_of(R"("shadow": {"method": "bilinear"}, "objects": {)" + floor + R"(, "ball": {"shape": )" + shape + ", " + look + ", " + place +
-                          "}}");
+        return picture_of(R"("shadow": {"method": "bilinear"}, "objects": {)" + floor + R"(, "ball": {"shape": )" + shape + ", " + look +
+                          ", " + place + "}}");
       };
       const ImageDifference d = compare_images(with(R"("uv_sphere", "latitudes": 512, "longitudes": 1024)"), with(R"("sphere")"));
-      EXPECT_LT(d.share_above, 0.004) << look << place;
-      EXPECT_LT(d.mean, 2e-4) << look << place;
+      EXPECT_LE(d.share_above * kWidth * kHeight, 4.5) << look << place;
+      EXPECT_LT(d.mean, 2e-5) << look << place;
     }
   }
 }

@@ -62,7 +62,9 @@ TEST(ModelChoice, LeavesWhatIsMeant) {
 TEST(ModelChoice, SpendsNothingOnWhatIsPlaneOrOutOfSight) {
   EXPECT_EQ(choices(objects(R"("shape": "cube", "segments": 9)"), kHalfPixel).at("objects.a.segments"), "1");
   EXPECT_EQ(choices(objects(R"("position": [90, 0, 0], )" + kMirror), kHalfPixel).at("objects.a.latitudes"), "8");
-  EXPECT_EQ(choices(objects(R"("position": [90, 0, 0], )" + kMirror) + R"(, "shadow": {"method": "pcf3"})", kHalfPixel).at("objects.a.latitudes"), "8")
+  EXPECT_EQ(
+      choices(objects(R"("position": [90, 0, 0], )" + kMirror) + R"(, "shadow": {"method": "pcf3"})", kHalfPixel).at("objects.a.latitudes"),
+      "8")
       << "its shadow spans no pixel that is known";
 }
 
@@ -101,8 +103,9 @@ TEST(ModelChoice, LightByVertexIsForDiffuseLightFromFarAway) {
 }
 
 TEST(ModelChoice, FiltersAndFormatsFollowTheCodesAllowed) {
-  const std::string scene = R"("textures": {"t": {"source": "checkerboard", "anisotropy": 4}}, "post": {"hdr": true, "format": "rgba32f"}, )" +
-                            objects(R"("shape": "plane", "color": "t")");
+  const std::string scene =
+      R"("textures": {"t": {"source": "checkerboard", "anisotropy": 4}}, "post": {"hdr": true, "format": "rgba32f"}, )" +
+      objects(R"("shape": "plane", "color": "t")");
   EXPECT_EQ(choices(scene, {std::nullopt, 4.0}).at("textures.t.anisotropy"), "16");
   EXPECT_EQ(choices(scene, {std::nullopt, 200.0}).at("textures.t.anisotropy"), "1");
   EXPECT_EQ(choices(scene, {std::nullopt, 4.0}).at("post.format"), "rgba16f");
