@@ -12,6 +12,7 @@
 
 #include <immintrin.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -290,6 +291,23 @@ HS_INLINE IntN<W> gather(const int32_t* base, IntN<W> i) {
   IntN<W> r;
   for (int k = 0; k < W; ++k) r.v[k] = base[i.v[k]];
   return r;
+}
+
+HS_INLINE int32_t look_up(const std::array<int32_t, 16>& table, int32_t i) { return table[static_cast<std::size_t>(i)]; }
+/// table[i] lane by lane, i in 0 … 15: cheaper than gather, for the table is in registers.
+template <int W>
+HS_INLINE IntN<W> look_up(const std::array<int32_t, 16>& table, IntN<W> i) {
+  using V = typename IntN<W>::V;
+#ifdef __AVX512F__
+  if constexpr (W == 16) return IntN<W>((V)_mm512_maskz_permutexvar_epi32(detail::kAll16, (__m512i)i.v, load<__m512i>(table.data())));
+#endif
+#ifdef __AVX2__
+  if constexpr (W == 8) {
+    const auto half = [&](int first) { return (V)_mm256_permutevar8x32_epi32(load<__m256i>(table.data() + first), (__m256i)i.v); };
+    return select(i < 8, IntN<W>(half(0)), IntN<W>(half(8)));
+  }
+#endif
+  return gather(table.data(), i);
 }
 
 // One lane as a scalar, and one lane set.

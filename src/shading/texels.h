@@ -15,14 +15,13 @@
 
 namespace halfspace::detail {
 
-template <class R>
+template <TexelFormat format, class R>
 struct Rgba8Texels {
   using Value = vec4<R>;
   const int32_t* words;
-  TexelFormat format;  // rgba8 or srgb8a8
 
-  HS_INLINE Value operator()(IntOf<R> i) const { return decode_rgba8<R>(gather(words, i), format); }
-  HS_INLINE Value to_linear(const Value& v) const { return rgba8_to_linear(v, format); }
+  HS_INLINE Value operator()(IntOf<R> i) const { return decode_rgba8<4, format, R>(gather(words, i)); }
+  HS_INLINE Value to_linear(const Value& v) const { return rgba8_to_linear<format>(v); }
 };
 
 template <class R>

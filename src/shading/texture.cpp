@@ -121,6 +121,9 @@ Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of) {
 
 // ---- texels in 32-bit words, as texels.h reads them -------------------------------------------------------------------
 
+/// The texels of a level and of the border round it.
+std::size_t with_border(int width, int height) { return static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2); }
+
 /// How many words so many texels fill.
 std::size_t words_of(std::size_t texels, TexelFormat format) {
   switch (format) {
@@ -205,14 +208,14 @@ template <class Texel>
 void Texture2D::add_levels(std::span<const Image<Texel>> levels) {
   HS_CHECK_OP(levels.size(), >=, 1u);
   std::size_t size = 0;
-  for (const Image<Texel>& level : levels) size += static_cast<std::size_t>(level.width() + 1) * static_cast<std::size_t>(level.height());
+  for (const Image<Texel>& level : levels) size += with_border(level.width(), level.height());
   texels_.reserve(words_of(size, format_));
   for (const Image<Texel>& level : levels) add_level(level);
 }
 
 template <class Texel>
 void Texture2D::add_chain(const Image<Texel>& base) {
-  const auto size = static_cast<std::size_t>(base.width() + 1) * static_cast<std::size_t>(base.height());
+  const std::size_t size = with_border(base.width(), base.height());
   texels_.reserve(words_of(size + size / 2, format_));
   add_level(base);  // checks the size
   for (const Image<Texel>& level : mip_chain(base, format_)) add_level(level);
@@ -229,18 +232,21 @@ void Texture2D::add_level(const Image<Texel>& image) {
     HS_CHECK_OP(std::max(width(last), height(last)), >, 1);
     HS_CHECK_OP(image.width(), ==, half_size(width(last)));
     HS_CHECK_OP(image.height(), ==, half_size(height(last)));
-    begin = index_of(last, width(last) - 1, height(last) - 1) + 2;
+    begin = index_of(last, width(last) - 1, height(last) - 1) + static_cast<std::size_t>(width(last)) + 4;
   }
-  const std::size_t end = begin + static_cast<std::size_t>(image.width() + 1) * static_cast<std::size_t>(image.height());
+  const std::size_t end = begin + with_border(image.width(), image.height());
   HS_CHECK_OP(words_of(end, format_), <, std::size_t{1} << 31);  // 32-bit indices reach no farther
   texels_.resize(words_of(end, format_));
   const auto l = static_cast<std::size_t>(levels_++);
   width_[l] = image.width();
   height_[l] = image.height();
-  offset_[l] = static_cast<int32_t>(begin);
-  for (int y = 0; y < image.height(); ++y) {
-    for (const Texel& t : image.row(y)) put(texels_.data(), begin++, t, format_);
-    put(texels_.data(), begin++, image.at(0, y), format_);
+  offset_[l] = static_cast<int32_t>(begin) + image.width() + 3;
+  const int last_y = image.height() - 1;
+  for (int y = -1; y <= image.height(); ++y) {
+    const std::span<const Texel> row = image.row(y < 0 ? last_y : y > last_y ? 0 : y);
+    put(texels_.data(), begin++, row.back(), format_);
+    for (const Texel& t : row) put(texels_.data(), begin++, t, format_);
+    put(texels_.data(), begin++, row.front(), format_);
   }
 }
 
@@ -249,7 +255,7 @@ std::size_t Texture2D::index_of(int level, int x, int row) const {
   HS_CHECK(level >= 0 && level < levels_);
   HS_CHECK(x >= 0 && x < width(level) && row >= 0 && row < height(level));
   const auto l = static_cast<std::size_t>(level);
-  return static_cast<std::size_t>(offset_[l] + row * (width_[l] + 1) + x);
+  return static_cast<std::size_t>(offset_[l] + row * (width_[l] + 2) + x);
 }
 
 glm::u8vec4 Texture2D::texel(int level, int x, int row) const {

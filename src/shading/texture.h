@@ -12,8 +12,8 @@
 // divided by 255), and for every format: a constant texture gives exactly its constant, a fraction of zero exactly the
 // texel, and no result leaves the interval of the texels it mixes.
 //
-// Common look-ups (8-bit RGBA, repeat or clamp, isotropic) are inlined into shaders from here; all others are one call away,
-// in texture_lookup.cpp.
+// Common look-ups (rgba8, repeat or clamp, bilinear or trilinear) are inlined into shaders from here; all others are one call
+// away, in texture_lookup.cpp.
 // R = double filters in double with unrounded fractions (over the same decoded texels): the accuracy reference.
 #pragma once
 
@@ -108,13 +108,14 @@ class Texture2D {
   template <class R>
   struct LevelChoice {
     IntOf<R> index;
-    R fraction;  // 0 … 1 − 2^-14
+    R fraction;  // 0 … 1 − 2^-14; 0 where not between
     MaskOf<R> between, nearest;
   };
   // What one look-up in one level needs.
   template <class R>
   struct Level {
     IntOf<R> width, height, offset;
+    IntOf<R> pitch() const { return width + 2; }
   };
   // Where a look-up falls on one axis: between texel i (−1 … size − 1) and its neighbour, whose weight is fraction.
   template <class R>
@@ -131,31 +132,32 @@ class Texture2D {
   void add_level(const Image<Texel>& image);
   std::size_t index_of(int level, int x, int row) const;
 
-  /// Whether the inlined look-up serves, apart from anisotropy.
+  /// Whether CommonLookup reads what the sampler asks for.
   bool is_common(const Sampler& sampler) const {
     const auto common = [](Wrap w) { return w == Wrap::repeat || w == Wrap::clamp; };
-    return format_ <= TexelFormat::srgb8a8 && common(sampler.wrap_s) && common(sampler.wrap_t);
+    return format_ <= TexelFormat::srgb8a8 && common(sampler.wrap_s) && common(sampler.wrap_t) && sampler.mag != Filter::nearest &&
+           sampler.min != Filter::nearest;
   }
   // sample and sample_level for every format and sampler. In texture_lookup.cpp, for all Numbers.
   template <class R>
   vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   vec4<R> sample_level_any(const Sampler& sampler, const vec2<R>& uv, const R& lod) const;
-  // A look-up of any format, written for the texels of one (texels.h), or for common samplers.
+  // A look-up of any format, written for the texels of one (texels.h).
   template <class R, class Texels>
   struct AnyLookup;
-  template <class R>
+  // The first N channels (3 or 4) of an 8-bit format, by a common sampler.
+  template <int N, TexelFormat format, class R>
   struct CommonLookup;
   template <class R, class Function>
   vec4<R> with_texels(const Function& function) const;
   template <class R, class Function>
   vec4<R> with_lookup(const Sampler& sampler, const Function& function) const;
 
-  // The first N channels (3 or 4).
   template <int N, class R>
   glm::vec<N, R> sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
-  template <int N, class R>
-  glm::vec<N, R> sample_level_common(const Sampler& sampler, const vec2<R>& uv, R lod) const;
+  template <class R>
+  R lod_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   LevelChoice<R> choose_level(const Sampler& sampler, R lod) const;
   template <class R>
@@ -163,19 +165,13 @@ class Texture2D {
   template <class R>
   static R wrapped(R coordinate, Wrap wrap);
   template <class R>
-  static Axis<R> axis(R coordinate, IntOf<R> size, MaskOf<R> nearest);
-  template <int N, class R>
-  glm::vec<N, R> filter_row(IntOf<R> index, R fraction) const;
-  template <int N, class R>
-  glm::vec<N, R> trilinear(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
-  template <int N, class R>
-  glm::vec<N, R> filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const;
+  static Axis<R> axis(R coordinate, IntOf<R> size);
 
   TexelFormat format_;
   int levels_ = 0;
-  std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{};  // offset: index of a level's first texel
-  // All levels, texel after texel as texels.h reads them; red in the low byte. After each row its first texel stands once
-  // more, so that one 64-bit load brings an RGBA8 texel and its right neighbour, across the seam too.
+  std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{};  // offset: index of a level's texel (0, 0)
+  // All levels, texel after texel as texels.h reads them; red in the low byte. Round each level stands a border of the texels
+  // that repeating would show there, so that a texel's neighbours lie beside it, across the seams too.
   std::vector<int32_t, LineAllocator<int32_t>> texels_;
 };
 
@@ -193,58 +189,56 @@ std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format
 
 template <class R>
 HS_INLINE Texture2D::Level<R> Texture2D::level(IntOf<R> index) const {
-  const int32_t first = lane(index, 0);
-  if (all(index == IntOf<R>(first))) {  // as a rule
-    const auto i = static_cast<std::size_t>(first);
-    return {IntOf<R>(width_[i]), IntOf<R>(height_[i]), IntOf<R>(offset_[i])};
-  }
-  return {gather(width_.data(), index), gather(height_.data(), index), gather(offset_.data(), index)};
+  return {look_up(width_, index), look_up(height_, index), look_up(offset_, index)};
 }
 
 /// A coordinate brought into [0, 1]: all that follows is then in range. NaN becomes 0.
 template <class R>
 HS_INLINE R Texture2D::wrapped(R coordinate, Wrap wrap) {
-  return clamp(wrap == Wrap::repeat ? coordinate - floor(coordinate) : coordinate, R(0.0f), R(1.0f));
+  return wrap == Wrap::repeat ? max(coordinate - floor(coordinate), R(0.0f)) : clamp(coordinate, R(0.0f), R(1.0f));
 }
 
 /// Texel centres lie at i + 1/2. In: a coordinate in [0, 1].
 template <class R>
-HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, IntOf<R> size, MaskOf<R> nearest) {
+HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, IntOf<R> size) {
   const R n = to_real<R>(size);
-  Axis<R> axis;
   if constexpr (std::is_same_v<R, double>) {
     const double u = coordinate * n - 0.5;
-    axis = {truncate_to_int(floor(u)), u - floor(u)};
+    return {truncate_to_int(floor(u)), u - floor(u)};
   } else {
     constexpr int kBits = 15;  // of the fraction; kMaxSize leaves room for them
     const IntOf<R> u = round_to_int(fma(coordinate, n * R(1 << kBits), R(-(1 << kBits) / 2)));
-    axis = {u >> kBits, to_real<R>(u & ((1 << kBits) - 1)) * R(1.0f / (1 << kBits))};
+    return {u >> kBits, to_real<R>(u & ((1 << kBits) - 1)) * R(1.0f / (1 << kBits))};
   }
-  if (any(nearest)) {
-    axis.i = select(nearest, truncate_to_int(min(floor(coordinate * n), n - R(1.0f))), axis.i);
-    axis.fraction = select(nearest, R(0.0f), axis.fraction);
-  }
-  return axis;
 }
 
 namespace detail {
 
-/// Packed 8-bit RGBA as the numbers that are filtered: codes, and linear values where the format decodes.
-template <class R>
-HS_INLINE vec4<R> decode_rgba8(IntOf<R> texel, TexelFormat format) {
-  const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255, a = (texel >> 24) & 255;
-  if (format == TexelFormat::srgb8a8) return {srgb_to_linear<R>(r), srgb_to_linear<R>(g), srgb_to_linear<R>(b), to_real<R>(a)};
-  return {to_real<R>(r), to_real<R>(g), to_real<R>(b), to_real<R>(a)};
+/// Packed 8-bit RGBA as the numbers that are filtered: codes, and linear values where the format decodes. The first N channels.
+template <int N, TexelFormat format, class R>
+HS_INLINE glm::vec<N, R> decode_rgba8(IntOf<R> texel) {
+  const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255;
+  vec3<R> color;
+  if constexpr (format == TexelFormat::srgb8a8) {
+    color = {srgb_to_linear<R>(r), srgb_to_linear<R>(g), srgb_to_linear<R>(b)};
+  } else {
+    color = {to_real<R>(r), to_real<R>(g), to_real<R>(b)};
+  }
+  if constexpr (N == 3) {
+    return color;
+  } else {
+    return {color, to_real<R>((texel >> 24) & 255)};
+  }
 }
 /// Filtered numbers as linear values.
-template <class R>
-HS_INLINE vec3<R> rgba8_to_linear(const vec3<R>& c, TexelFormat format) {
-  if (format == TexelFormat::srgb8a8) return c;
+template <TexelFormat format, class R>
+HS_INLINE vec3<R> rgba8_to_linear(const vec3<R>& c) {
+  if constexpr (format == TexelFormat::srgb8a8) return c;
   return {unorm8_to_linear(c.x), unorm8_to_linear(c.y), unorm8_to_linear(c.z)};
 }
-template <class R>
-HS_INLINE vec4<R> rgba8_to_linear(const vec4<R>& c, TexelFormat format) {
-  return vec4<R>(rgba8_to_linear(vec3<R>(c), format), unorm8_to_linear(c.w));
+template <TexelFormat format, class R>
+HS_INLINE vec4<R> rgba8_to_linear(const vec4<R>& c) {
+  return vec4<R>(rgba8_to_linear<format>(vec3<R>(c)), unorm8_to_linear(c.w));
 }
 
 /// a + f·(b − a) for 0 <= f <= 1 − 2^-15. It stays between a and b: the rounding of b − a lengthens it by at most 2^-24 of
@@ -262,74 +256,53 @@ HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
   return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f), lerp(a.w, b.w, f)};
 }
 
-template <class I>
-struct Pair {
-  I first, second;
-};
-/// base[i] and base[i + 1]. Lanes load 64 bits each and are then sorted: faster than gathers, which pay by the element
-/// (measured on Sapphire Rapids: bilinear −16% at 16 lanes, −34% at 8; 64-bit gathers gain nothing).
-HS_INLINE Pair<int32_t> load_pairs(const int32_t* base, int32_t i) { return {base[i], base[i + 1]}; }
-template <int W>
-HS_INLINE Pair<IntN<W>> load_pairs(const int32_t* base, IntN<W> i) {
-  using V = typename IntN<W>::V;
-  alignas(64) int32_t at[W];
-  store(at, i);
-  [[maybe_unused]] const auto two = [&](int k) { return _mm_set_epi64x(load<int64_t>(base + at[k + 1]), load<int64_t>(base + at[k])); };
-#ifdef __AVX512F__
-  if constexpr (W == 16) {
-    const auto four = [&](int k) { return _mm256_inserti128_si256(_mm256_castsi128_si256(two(k)), two(k + 2), 1); };
-    const auto eight = [&](int k) { return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(four(k)), four(k + 4), 1); };
-    const __m512i a = eight(0), b = eight(8);
-    const IntN<16> even = iota<IntN<16>>() << 1;
-    return {IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)even.v, b)),
-            IntN<W>((V)_mm512_permutex2var_epi32(a, (__m512i)(even + 1).v, b))};
-  }
-#endif
-#ifdef __AVX__
-  if constexpr (W == 8) {  // a holds the pairs of lanes 0 1 4 5, b those of 2 3 6 7: the shuffle works within 128 bits
-    const auto four = [&](int k) { return _mm256_castsi256_ps(_mm256_insertf128_si256(_mm256_castsi128_si256(two(k)), two(k + 4), 1)); };
-    const __m256 a = four(0), b = four(2);
-    return {IntN<W>((V)_mm256_castps_si256(_mm256_shuffle_ps(a, b, 0b10001000))),
-            IntN<W>((V)_mm256_castps_si256(_mm256_shuffle_ps(a, b, 0b11011101)))};
-  }
-#endif
-  if constexpr (W == 4) {
-    const __m128 a = _mm_castsi128_ps(two(0)), b = _mm_castsi128_ps(two(2));
-    return {IntN<W>((V)_mm_castps_si128(_mm_shuffle_ps(a, b, 0b10001000))), IntN<W>((V)_mm_castps_si128(_mm_shuffle_ps(a, b, 0b11011101)))};
-  }
-  Pair<IntN<W>> r;
-  for (int k = 0; k < W; ++k) {
-    set_lane(r.first, k, base[at[k]]);
-    set_lane(r.second, k, base[at[k] + 1]);
-  }
-  return r;
-}
-
 }  // namespace detail
 
-/// The texels at index and right of it, mixed.
-template <int N, class R>
-HS_INLINE glm::vec<N, R> Texture2D::filter_row(IntOf<R> index, R fraction) const {
-  const auto texels = detail::load_pairs(texels_.data(), index);
-  const auto decoded = [&](IntOf<R> texel) { return glm::vec<N, R>(detail::decode_rgba8<R>(texel, format_)); };
-  return detail::lerp(decoded(texels.first), decoded(texels.second), fraction);
-}
+template <int N, TexelFormat format, class R>
+struct Texture2D::CommonLookup {
+  using Value = glm::vec<N, R>;
 
-/// One level, bilinear or (where nearest) one texel, in filtering units. st in [0, 1].
-template <int N, class R>
-HS_INLINE glm::vec<N, R> Texture2D::filter(const Sampler& sampler, const vec2<R>& st, IntOf<R> level_index, MaskOf<R> nearest) const {
-  const Level<R> l = level<R>(level_index);
-  const IntOf<R> last_x = l.width - 1, last_y = l.height - 1, pitch = l.width + 1;
-  Axis<R> x = axis<R>(st.x, l.width, nearest);
-  const Axis<R> y = axis<R>(st.y, l.height, nearest);
-  // Left of texel 0 lies the last one (its pair crosses the seam); or, where clamped, texel 0 alone, as the last at the end.
-  if (sampler.wrap_s == Wrap::clamp) x.fraction = select(x.i >= 0 && x.i < last_x, x.fraction, R(0.0f));
-  x.i = select(x.i < 0, sampler.wrap_s == Wrap::repeat ? last_x : IntOf<R>(0), x.i);
-  const bool seam = sampler.wrap_t == Wrap::repeat;
-  const IntOf<R> row0 = l.offset + select(y.i < 0, seam ? last_y : IntOf<R>(0), y.i) * pitch;
-  if (all(nearest)) return glm::vec<N, R>(detail::decode_rgba8<R>(gather(texels_.data(), row0 + x.i), format_));
-  const IntOf<R> row1 = l.offset + select(y.i < last_y, y.i + 1, seam ? IntOf<R>(0) : last_y) * pitch;
-  return detail::lerp(filter_row<N, R>(row0 + x.i, x.fraction), filter_row<N, R>(row1 + x.i, x.fraction), y.fraction);
+  const Texture2D& texture;
+  const Sampler& sampler;
+
+  /// Where clamped, what lies beyond the middle of the outermost texels is those alone.
+  HS_INLINE static Axis<R> held(const Axis<R>& a, IntOf<R> size, Wrap wrap) {
+    if (wrap == Wrap::repeat) return a;
+    return {max(a.i, IntOf<R>(0)), select(a.i >= 0 && a.i < size - 1, a.fraction, R(0.0f))};
+  }
+
+  /// The texels at index and right of it, mixed.
+  HS_INLINE Value filter_row(IntOf<R> index, R fraction) const {
+    const int32_t* texels = texture.texels_.data();
+    return detail::lerp(detail::decode_rgba8<N, format, R>(gather(texels, index)),
+                        detail::decode_rgba8<N, format, R>(gather(texels + 1, index)), fraction);
+  }
+
+  /// One level, in filtering units. st in [0, 1].
+  HS_INLINE Value filter(const vec2<R>& st, IntOf<R> level_index) const {
+    const Level<R> l = texture.level<R>(level_index);
+    const Axis<R> x = held(axis(st.x, l.width), l.width, sampler.wrap_s), y = held(axis(st.y, l.height), l.height, sampler.wrap_t);
+    const IntOf<R> row = l.offset + y.i * l.pitch() + x.i;
+    return detail::lerp(filter_row(row, x.fraction), filter_row(row + l.pitch(), x.fraction), y.fraction);
+  }
+
+  /// Mixed of one level or two, in filtering units.
+  HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const {
+    const vec2<R> st(wrapped(uv.x, sampler.wrap_s), wrapped(uv.y, sampler.wrap_t));
+    const Value c = filter(st, levels.index);
+    if (!any(levels.between)) return c;
+    return detail::lerp(c, filter(st, min(levels.index + 1, IntOf<R>(texture.levels_ - 1))), levels.fraction);
+  }
+
+  HS_INLINE Value finish(const Value& v) const { return detail::rgba8_to_linear<format>(v); }
+};
+
+/// The level of detail, or 0 where it changes nothing.
+template <class R>
+HS_INLINE R Texture2D::lod_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
+  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return R(0.0f);
+  return level_of_detail(width(), height(), duv_dx, duv_dy);
 }
 
 template <class R>
@@ -343,37 +316,24 @@ HS_INLINE Texture2D::LevelChoice<R> Texture2D::choose_level(const Sampler& sampl
   constexpr float kSnap = std::is_same_v<R, double> ? 0.0f : 0x1p-14f;
   const R whole = floor(held + R(kSnap));
   const R fraction = held - whole;
-  return {truncate_to_int(whole), fraction, fraction > R(kSnap), nearest};
-}
-
-/// Mixed of one level or two, in filtering units.
-template <int N, class R>
-HS_INLINE glm::vec<N, R> Texture2D::trilinear(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const {
-  const vec2<R> st(wrapped(uv.x, sampler.wrap_s), wrapped(uv.y, sampler.wrap_t));
-  const glm::vec<N, R> c = filter<N, R>(sampler, st, levels.index, levels.nearest);
-  if (!any(levels.between)) return c;
-  const glm::vec<N, R> smaller = filter<N, R>(sampler, st, min(levels.index + 1, IntOf<R>(levels_ - 1)), levels.nearest);
-  return select(levels.between, detail::lerp(c, smaller, levels.fraction), c);
-}
-
-template <int N, class R>
-HS_INLINE glm::vec<N, R> Texture2D::sample_level_common(const Sampler& sampler, const vec2<R>& uv, R lod) const {
-  return detail::rgba8_to_linear(trilinear<N, R>(sampler, uv, choose_level(sampler, lod)), format_);
+  const MaskOf<R> between = fraction > R(kSnap);
+  return {truncate_to_int(whole), select(between, fraction, R(0.0f)), between, nearest};
 }
 
 template <Number R>
 vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const {
-  if (!is_common(sampler)) return sample_level_any<R>(sampler, uv, lod);
-  return sample_level_common<4, R>(sampler, uv, lod);
+  if (format_ != TexelFormat::rgba8 || !is_common(sampler)) return sample_level_any<R>(sampler, uv, lod);
+  const CommonLookup<4, TexelFormat::rgba8, R> lookup{*this, sampler};
+  return lookup.finish(lookup(uv, choose_level(sampler, lod)));
 }
 
 template <int N, class R>
 HS_INLINE glm::vec<N, R> Texture2D::sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx,
                                                     const vec2<R>& duv_dy) const {
-  if (!is_common(sampler) || sampler.anisotropy > 1) return glm::vec<N, R>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
-  const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
-  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return sample_level_common<N, R>(sampler, uv, R(0.0f));
-  return sample_level_common<N, R>(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
+  if (format_ != TexelFormat::rgba8 || !is_common(sampler) || sampler.anisotropy > 1)
+    return glm::vec<N, R>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
+  const CommonLookup<N, TexelFormat::rgba8, R> lookup{*this, sampler};
+  return lookup.finish(lookup(uv, choose_level(sampler, lod_of(sampler, duv_dx, duv_dy))));
 }
 
 template <Number R>

@@ -62,38 +62,48 @@ struct Texture2D::AnyLookup {
     return {wrapped(coordinate, wrap), MaskOf<R>(false)};
   }
 
+  /// The texel that a coordinate lies in; beside a border it may lie outside.
+  HS_INLINE static IntOf<R> texel_at(const Wrapped<R>& coordinate, IntOf<R> size, Wrap wrap) {
+    const R position = coordinate.at * to_real<R>(size);
+    R i = floor(position);
+    i = select(coordinate.mirrored && i == position, i - R(1.0f), i);  // between two texels: the one farther from 0, unmirrored
+    const IntOf<R> texel = truncate_to_int(i);
+    return wrap == Wrap::border ? texel : min(texel, size - 1);
+  }
+
   HS_INLINE static Taps<R> taps(const Wrapped<R>& coordinate, IntOf<R> size, Wrap wrap, MaskOf<R> nearest) {
-    Axis<R> axis = Texture2D::axis<R>(coordinate.at, size, MaskOf<R>(false));
-    const IntOf<R> last = size - 1;
+    Axis<R> axis = Texture2D::axis<R>(coordinate.at, size);
     if (any(nearest)) {
-      const R position = coordinate.at * to_real<R>(size);
-      R i = floor(position);
-      i = select(coordinate.mirrored && i == position, i - R(1.0f), i);  // between two texels: the one farther from 0, unmirrored
-      const IntOf<R> texel = truncate_to_int(i);
-      axis.i = select(nearest, wrap == Wrap::border ? texel : min(texel, last), axis.i);
+      axis.i = select(nearest, texel_at(coordinate, size, wrap), axis.i);
       axis.fraction = select(nearest, R(0.0f), axis.fraction);
     }
-    const IntOf<R> next = axis.i + 1;
-    const MaskOf<R> first_inside = axis.i >= 0 && axis.i <= last, second_inside = next >= 0 && next <= last;
+    const IntOf<R> last = size - 1, next = axis.i + 1;
+    const MaskOf<R> first_inside = is_inside(axis.i, size), second_inside = is_inside(next, size);
     if (wrap == Wrap::repeat) return {select(first_inside, axis.i, last), select(second_inside, next, 0), axis.fraction, true, true};
-    const auto held = [&](IntOf<R> i) { return min(max(i, IntOf<R>(0)), last); };
     const MaskOf<R> no_border(wrap != Wrap::border);
-    return {held(axis.i), held(next), axis.fraction, first_inside || no_border, second_inside || no_border};
+    return {held(axis.i, size), held(next, size), axis.fraction, first_inside || no_border, second_inside || no_border};
   }
+
+  HS_INLINE static MaskOf<R> is_inside(IntOf<R> i, IntOf<R> size) { return i >= 0 && i < size; }
+  HS_INLINE static IntOf<R> held(IntOf<R> i, IntOf<R> size) { return min(max(i, IntOf<R>(0)), size - 1); }
 
   HS_INLINE Value texel(IntOf<R> index, MaskOf<R> inside) const {
     const Value v = texels(index);
     return has_border ? select(inside, texels.to_linear(v), border) : v;
   }
 
+  HS_INLINE Value nearest_texel(const Wrapped<R>& s, const Wrapped<R>& t, const Level<R>& l) const {
+    const IntOf<R> x = texel_at(s, l.width, sampler.wrap_s), y = texel_at(t, l.height, sampler.wrap_t);
+    return texel(l.offset + held(y, l.height) * l.pitch() + held(x, l.width), is_inside(x, l.width) && is_inside(y, l.height));
+  }
+
   /// One level, bilinear or one texel.
   HS_INLINE Value filter(const Wrapped<R>& s, const Wrapped<R>& t, IntOf<R> level_index, MaskOf<R> nearest) const {
     const Level<R> l = texture.level<R>(level_index);
+    if (all(nearest)) return nearest_texel(s, t, l);
     const Taps<R> x = taps(s, l.width, sampler.wrap_s, nearest), y = taps(t, l.height, sampler.wrap_t, nearest);
-    const IntOf<R> pitch = l.width + 1;
-    const IntOf<R> row0 = l.offset + y.first * pitch, row1 = l.offset + y.second * pitch;
+    const IntOf<R> row0 = l.offset + y.first * l.pitch(), row1 = l.offset + y.second * l.pitch();
     const Value first = texel(row0 + x.first, x.first_inside && y.first_inside);
-    if (all(nearest)) return first;
     const Value upper = detail::lerp(first, texel(row0 + x.second, x.second_inside && y.first_inside), x.fraction);
     const Value lower = detail::lerp(texel(row1 + x.first, x.first_inside && y.second_inside),
                                      texel(row1 + x.second, x.second_inside && y.second_inside), x.fraction);
@@ -105,40 +115,33 @@ struct Texture2D::AnyLookup {
     const Value c = filter(s, t, levels.index, levels.nearest);
     if (!any(levels.between)) return c;
     const Value smaller = filter(s, t, min(levels.index + 1, IntOf<R>(texture.levels_ - 1)), levels.nearest);
-    return select(levels.between, detail::lerp(c, smaller, levels.fraction), c);
+    return detail::lerp(c, smaller, levels.fraction);
   }
 
   HS_INLINE vec4<R> finish(const Value& v) const { return detail::to_rgba(has_border ? v : texels.to_linear(v)); }
 };
 
-/// The look-up of texture.h with its parts apart.
-template <class R>
-struct Texture2D::CommonLookup {
-  using Value = vec4<R>;
-
-  const Texture2D& texture;
-  const Sampler& sampler;
-
-  HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const { return texture.trilinear<4, R>(sampler, uv, levels); }
-  HS_INLINE vec4<R> finish(const Value& v) const { return detail::rgba8_to_linear(v, texture.format_); }
-};
-
 /// function(how to read this texture's format).
 template <class R, class Function>
 HS_INLINE vec4<R> Texture2D::with_texels(const Function& function) const {
+  const int32_t* words = texels_.data();
   switch (format_) {
-    case TexelFormat::r8: return function(detail::R8Texels<R>{texels_.data()});
-    case TexelFormat::r16: return function(detail::R16Texels<R>{texels_.data()});
-    case TexelFormat::rgba16f: return function(detail::Rgba16fTexels<R>{texels_.data()});
-    case TexelFormat::rgba32f: return function(detail::Rgba32fTexels<R>{texels_.data()});
-    default: return function(detail::Rgba8Texels<R>{texels_.data(), format_});
+    case TexelFormat::rgba8: return function(detail::Rgba8Texels<TexelFormat::rgba8, R>{words});
+    case TexelFormat::srgb8a8: return function(detail::Rgba8Texels<TexelFormat::srgb8a8, R>{words});
+    case TexelFormat::r8: return function(detail::R8Texels<R>{words});
+    case TexelFormat::r16: return function(detail::R16Texels<R>{words});
+    case TexelFormat::rgba16f: return function(detail::Rgba16fTexels<R>{words});
+    default: return function(detail::Rgba32fTexels<R>{words});
   }
 }
 
 /// function(a look-up that serves this texture and sampler).
 template <class R, class Function>
 HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function& function) const {
-  if (is_common(sampler)) return function(CommonLookup<R>{*this, sampler});
+  if (is_common(sampler)) {
+    if (format_ == TexelFormat::rgba8) return function(CommonLookup<4, TexelFormat::rgba8, R>{*this, sampler});
+    return function(CommonLookup<4, TexelFormat::srgb8a8, R>{*this, sampler});
+  }
   return with_texels<R>([&](const auto& texels) {
     return function(AnyLookup<R, std::remove_cvref_t<decltype(texels)>>{*this, sampler, texels});
   });
@@ -152,7 +155,7 @@ vec4<R> Texture2D::sample_level_any(const Sampler& sampler, const vec2<R>& uv, c
 
 template <class R>
 vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
-  if (sampler.anisotropy <= 1) return sample_level_any<R>(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
+  if (sampler.anisotropy <= 1) return sample_level_any<R>(sampler, uv, lod_of(sampler, duv_dx, duv_dy));
 
   HS_DCHECK(sampler.anisotropy <= 16);
   const Footprint<R> area = footprint(width(), height(), duv_dx, duv_dy, sampler.anisotropy);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -219,6 +220,14 @@ void check_width() {
       EXPECT_EQ(lane(r, k), gather(table.data() + 250, lane(index, k)));
       EXPECT_EQ(lane(n, k), gather(int_table.data() + 250, lane(index, k)));
     }
+  }
+  std::array<int32_t, 16> small_table;
+  for (std::size_t i = 0; i < 16; ++i) small_table[i] = static_cast<int32_t>(100 - i * i);
+  for (int first = 0; first < 16; ++first) {
+    IntN<W> index;
+    for (int k = 0; k < W; ++k) set_lane(index, k, (first + 5 * k) % 16);
+    const IntN<W> found = look_up(small_table, index);
+    for (int k = 0; k < W; ++k) EXPECT_EQ(lane(found, k), look_up(small_table, lane(index, k)));
   }
   const RealN<W> loaded = load<RealN<W>>(table.data() + 3);  // unaligned
   for (int k = 0; k < W; ++k) EXPECT_EQ(lane(loaded, k), table[static_cast<std::size_t>(3 + k)]);
