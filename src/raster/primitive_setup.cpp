@@ -6,6 +6,7 @@
 
 #include "raster/clip.h"
 #include "raster/line.h"
+#include "raster/sample_cover.h"
 
 namespace halfspace {
 
@@ -38,6 +39,12 @@ float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, 
   if (o.clamp > 0.0f) offset = std::min(offset, static_cast<double>(o.clamp));
   if (o.clamp < 0.0f) offset = std::max(offset, static_cast<double>(o.clamp));
   return static_cast<float>(offset);
+}
+
+bool is_small(const Triangle& t) {
+  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  return x_high - x_low <= kSmallExtent && y_high - y_low <= kSmallExtent;
 }
 
 }  // namespace
@@ -85,7 +92,12 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
     out.vertex[i] = index[order[i]];
     if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
   }
-  if (pixel_bounds(draw, out, draw.bounds, frame.samples_at).empty()) return Cull::no_sample;
+  const PixelBounds box = pixel_bounds(draw, out, draw.bounds, frame.samples_at);
+  if (box.empty()) return Cull::no_sample;
+  if (frame.samples == 1 && box.x1 - box.x0 <= kCoverSide && box.y1 - box.y0 <= kCoverSide && is_small(out) &&
+      !covers_center<float>(out.x, out.y, box.x0, box.y0, box.x1, box.y1)) {
+    return Cull::no_sample;
+  }
 
   const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
                          static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
@@ -98,9 +110,7 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
   out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
   out.z_edge2 = static_cast<float>(plane.dz2 / plane.area);
 
-  const auto [x_low, x_high] = std::minmax({out.x[0], out.x[1], out.x[2]});
-  const auto [y_low, y_high] = std::minmax({out.y[0], out.y[1], out.y[2]});
-  if (x_high - x_low <= kSmallExtent && y_high - y_low <= kSmallExtent) out.flags |= kSmall;
+  if (is_small(out)) out.flags |= kSmall;
   if (front) out.flags |= kFrontFacing;
   return Cull::none;
 }

@@ -15,7 +15,7 @@ struct PassStatistics {
   uint64_t culled_outside = 0;     ///< wholly beyond one plane of the view volume, or nothing left after clipping
   uint64_t culled_face = 0;        ///< by CullMode
   uint64_t culled_degenerate = 0;  ///< zero area after snapping
-  uint64_t culled_no_sample = 0;   ///< no sample inside its bounds, viewport and scissor
+  uint64_t culled_no_sample = 0;   ///< no sample inside its bounds, viewport and scissor; of one sample a pixel and at most 4 x 4: none covered
   uint64_t clipped = 0;            ///< triangles that a clip plane cut
   uint64_t triangles_binned = 0;   ///< triangles that reached the tiles (a clipped one may count several times)
   uint64_t bin_entries = 0;        ///< triangle-tile pairs

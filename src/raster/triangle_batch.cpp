@@ -5,6 +5,7 @@
 
 #include "raster/lane_order.h"
 #include "raster/primitive_setup.h"
+#include "raster/sample_cover.h"
 
 namespace halfspace {
 
@@ -52,16 +53,21 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   const PixelBounds& b = draw.bounds;
   const SampleSpan& span = frame.samples_at;
   constexpr int32_t last = kSubPixels - 1;
-  const Mask no_sample =
-      (max((x_low + (last - span.high)) >> kSubPixelBits, Int(b.x0)) >= min(((x_high - span.low) >> kSubPixelBits) + 1, Int(b.x1))) |
-      (max((y_low + (last - span.high)) >> kSubPixelBits, Int(b.y0)) >= min(((y_high - span.low) >> kSubPixelBits) + 1, Int(b.y1)));
+  const Int x0 = max((x_low + (last - span.high)) >> kSubPixelBits, Int(b.x0)), x1 = min(((x_high - span.low) >> kSubPixelBits) + 1, Int(b.x1));
+  const Int y0 = max((y_low + (last - span.high)) >> kSubPixelBits, Int(b.y0)), y1 = min(((y_high - span.low) >> kSubPixelBits) + 1, Int(b.y1));
   const auto take = [&](uint32_t which, uint64_t& counter) {
     counter += static_cast<uint64_t>(std::popcount(lanes & which));
     lanes &= ~which;
   };
   take(bits(area == Int(0)), statistics.culled_degenerate);
   take(bits(select(front, Mask(culls_front), Mask(culls_back))), statistics.culled_face);
-  take(bits(no_sample), statistics.culled_no_sample);
+  take(bits(x0 >= x1 || y0 >= y1), statistics.culled_no_sample);
+  swap_lanes(turns_right, x[1], x[2]);
+  swap_lanes(turns_right, y[1], y[2]);
+  const Mask few = x1 - x0 <= Int(kCoverSide) && y1 - y0 <= Int(kCoverSide);
+  if (frame.samples == 1 && (bits(few) & lanes) != 0) {
+    take(bits(few && !covers_center<Real>(x, y, x0, y0, x1, y1)), statistics.culled_no_sample);
+  }
   kept_ = lanes;
   if (lanes == 0) return;
 
@@ -69,9 +75,6 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   std::array<Real, 3> z;
   for (std::size_t i = 0; i < 3; ++i) z[i] = gather(first_z, v[i] << 2);
   std::array<Int, 3> order{Int(0), Int(1), Int(2)};
-
-  swap_lanes(turns_right, x[1], x[2]);
-  swap_lanes(turns_right, y[1], y[2]);
   swap_lanes(turns_right, z[1], z[2]);
   swap_lanes(turns_right, v[1], v[2]);
   swap_lanes(turns_right, order[1], order[2]);

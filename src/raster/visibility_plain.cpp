@@ -27,6 +27,23 @@ constexpr std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> make_pac
 // The packet at a row and column of packets.
 constexpr auto kPacketAt = make_packet_places();
 
+// The pixel (x, y) of a tile is kPixelAt.column[x] + kPixelAt.row[y].
+struct PixelPlaces {
+  std::array<uint16_t, kMaxTileSize> column, row;
+};
+constexpr PixelPlaces make_pixel_places() {
+  PixelPlaces at{};
+  for (int i = 0; i < kPixelsPerBlock; ++i) {
+    for (int block = 0; block < kBlocksPerRow; ++block) {
+      const auto x = static_cast<std::size_t>(block * kBlockSize + block_x(i)), y = static_cast<std::size_t>(block * kBlockSize + block_y(i));
+      if (block_y(i) == 0) at.column[x] = static_cast<uint16_t>(block * kPixelsPerBlock + i);
+      if (block_x(i) == 0) at.row[y] = static_cast<uint16_t>(block * kBlocksPerRow * kPixelsPerBlock + i);
+    }
+  }
+  return at;
+}
+constexpr PixelPlaces kPixelAt = make_pixel_places();
+
 // What one triangle's packets do to the tile.
 class Writer {
  public:
@@ -60,6 +77,16 @@ class Writer {
       store(ids, select(mask, Int(id_), load<Int>(ids)));
     }
     return passed != 0;
+  }
+
+  // One covered pixel; true if it passed.
+  HS_INLINE bool write_pixel(std::size_t pixel, float z) {
+    ++statistics_.samples_tested;
+    if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return false;
+    if (writes_depth_) tile_.depth[pixel] = z;
+    if (writes_id_) tile_.id[pixel] = static_cast<TriangleId>(id_);
+    ++statistics_.samples_passed;
+    return true;
   }
 
   // A packet that is covered wholly and passes wholly.
@@ -98,6 +125,45 @@ SmallEdge small_edge(const std::array<int32_t, 3>& x, const std::array<int32_t, 
   const Edge edge{x[a], y[a], x[b] - x[a], y[b] - y[a]};
   const int32_t bias = fill_bias(edge);
   return {edge.ey * edge.x0 - edge.ex * edge.y0 - bias, -edge.ey * kSubPixels, edge.ex * kSubPixels, bias};
+}
+
+// Where a small triangle lies on the grid of samples: the pixels whose samples lie in its box, half open.
+PixelBounds box_of(const Triangle& t) {
+  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  constexpr int32_t center = kSubPixels / 2, last = kSubPixels - 1;
+  return {(x_low - center + last) >> kSubPixelBits, (y_low - center + last) >> kSubPixelBits, ((x_high - center) >> kSubPixelBits) + 1,
+          ((y_high - center) >> kSubPixelBits) + 1};
+}
+
+// A triangle whose box is no larger than a packet: one packet, wherever it lies, is laid over the box; its pixels are then few.
+void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBounds& box, TriangleId id, PassStatistics& statistics) {
+  const int32_t x_first = box.x0 * kSubPixels + kSubPixels / 2, y_first = box.y0 * kSubPixels + kSubPixels / 2;
+  std::array<Int, 3> e;
+  std::array<int32_t, 3> bias;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge edge = edge_of(t, i);
+    bias[i] = fill_bias(edge);
+    e[i] = lane_x() * (-edge.ey * kSubPixels) + lane_y() * (edge.ex * kSubPixels) +
+           (edge.ex * (y_first - edge.y0) - edge.ey * (x_first - edge.x0) - bias[i]);
+  }
+  Mask mask = (e[0] | e[1] | e[2]) >= Int(0);
+  const PixelBounds& b = d.bounds;
+  if (box.x0 < b.x0 || box.y0 < b.y0 || box.x1 > b.x1 || box.y1 > b.y1) mask = mask & inside({b.x0, b.y0, b.x1, b.y1}, box.x0, box.y0);
+  const float z_high = std::clamp(t.z_max, d.draw.depth_low, d.draw.depth_high);
+  const Real w1 = to_real<Real>(e[1] + bias[1]), w2 = to_real<Real>(e[2] + bias[2]);
+  const Real depth = clamp(fma(w1, Real(t.z_edge1), fma(w2, Real(t.z_edge2), Real(t.z0))), Real(d.draw.depth_low), Real(z_high));
+  alignas(64) std::array<float, kLanes> z;
+  store(z.data(), depth_value(d.tile.depth_format, depth));
+  Writer writer(d, id, statistics);
+  for (uint32_t rest = bits(mask); rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    const std::size_t pixel = std::size_t{kPixelAt.column[static_cast<std::size_t>(box.x0 + block_x(lane) - d.tile.x0)]} +
+                              kPixelAt.row[static_cast<std::size_t>(box.y0 + block_y(lane) - d.tile.y0)];
+    const float at = z[static_cast<std::size_t>(lane)];
+    if (writer.write_pixel(pixel, at) && writer.writes_depth())
+      widen_block_bounds(writer.compare_op(), d.tile, static_cast<int>(pixel / kPixelsPerBlock), at, at);
+  }
 }
 
 // A small triangle in one tile.
@@ -253,9 +319,10 @@ void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, con
 }
 
 void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
-  if (t.is(kSmall) && !t.is(kSprite) && spans_at_most(t, kSmallSpan)) {
-    SmallTriangle(d, t, id, statistics).visit();
-    return;
+  if (t.is(kSmall) && !t.is(kSprite)) {
+    const PixelBounds box = box_of(t);
+    if (box.x1 - box.x0 <= kPacketWidth && box.y1 - box.y0 <= kPacketHeight) return rasterize_tiny(d, t, box, id, statistics);
+    if (spans_at_most(t, kSmallSpan)) return SmallTriangle(d, t, id, statistics).visit();
   }
   const SampleGrid grid(d.tile, 0);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);

@@ -501,6 +501,8 @@ float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTrian
 
 enum class Fate { drawn, degenerate, wrong_face, no_sample };
 
+bool covers_none_of_few(const WindowTriangle& t, const Box& box);
+
 // Face, order of corners and depth of a triangle whose corners are given as submitted.
 std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format, int samples,
                                                      const std::array<Corner, 3>& submitted, std::size_t provoking,
@@ -523,6 +525,7 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   // The corner of smallest depth comes first: of equals the first, going counter-clockwise from the first submitted.
   const auto nearest = std::min_element(c.begin(), c.end(), [](const Corner& a, const Corner& b) { return a.z < b.z; });
   std::rotate(c.begin(), nearest, c.end());
+  if (samples == 1 && covers_none_of_few(t, intersect(covered_box(t, samples), allowed))) return {Fate::no_sample, t};
   const double dz1 = static_cast<double>(c[1].z) - static_cast<double>(c[0].z);
   const double dz2 = static_cast<double>(c[2].z) - static_cast<double>(c[0].z);
   const float offset = faces_front ? 0.0f : polygon_offset(state.offset, format, t, dz1, dz2);
@@ -623,6 +626,17 @@ bool is_small(const WindowTriangle& t) {
   const auto [xl, xh] = std::minmax({t.corner[0].x, t.corner[1].x, t.corner[2].x});
   const auto [yl, yh] = std::minmax({t.corner[0].y, t.corner[1].y, t.corner[2].y});
   return xh - xl <= kExactExtent && yh - yl <= kExactExtent;
+}
+
+// Does a small triangle, of the pixels' centres in a box of at most 4 x 4, cover none?
+bool covers_none_of_few(const WindowTriangle& t, const Box& box) {
+  if (!is_small(t) || box.x1 - box.x0 > 4 || box.y1 - box.y0 > 4) return false;
+  for (int64_t y = box.y0; y < box.y1; ++y) {
+    for (int64_t x = box.x0; x < box.x1; ++x) {
+      if (covers(t, position_of({static_cast<int>(x), static_cast<int>(y), 0}, 1))) return false;
+    }
+  }
+  return true;
 }
 
 float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, float e2) {
