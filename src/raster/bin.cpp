@@ -6,6 +6,7 @@
 
 #include "raster/edge.h"
 #include "raster/line.h"
+#include "raster/pixel_box.h"
 #include "raster/primitive_setup.h"
 
 namespace halfspace {
@@ -17,10 +18,34 @@ struct Pair {
   uint16_t triangle;
 };
 
-// The tiles that pixels lie in, half open.
-PixelBounds tiles_of(const Frame& frame, const PixelBounds& b) {
+// The tiles that pixels lie in, half open. T: PixelBounds, or a PixelBox of lanes.
+template <class T>
+T tiles_of(const Frame& frame, const T& pixels) {
   const int shift = std::countr_zero(static_cast<unsigned>(frame.tile_size));
-  return {b.x0 >> shift, b.y0 >> shift, ((b.x1 - 1) >> shift) + 1, ((b.y1 - 1) >> shift) + 1};
+  return {pixels.x0 >> shift, pixels.y0 >> shift, ((pixels.x1 - 1) >> shift) + 1, ((pixels.y1 - 1) >> shift) + 1};
+}
+
+// Tiles of W triangles.
+struct TileRows {
+  alignas(64) std::array<int32_t, kLanes> x0, y0, x1, y1;
+};
+
+// Those of `count` triangles of one draw from `first` on; of lines nothing is said.
+TileRows tile_rows(const Frame& frame, const Draw& draw, const Triangle* first, std::size_t count) {
+  static_assert(sizeof(Triangle) % sizeof(int32_t) == 0);
+  const Int at = min(iota<Int>(), Int(static_cast<int32_t>(count - 1))) * static_cast<int32_t>(sizeof(Triangle) / sizeof(int32_t));
+  std::array<Int, 3> x, y;
+  for (std::size_t i = 0; i < 3; ++i) {
+    x[i] = gather(&first->x[i], at);
+    y[i] = gather(&first->y[i], at);
+  }
+  const PixelBox<Int> tiles = tiles_of(frame, cut(pixel_box(x, y, frame.samples_at, frame.samples_at), draw.bounds));
+  TileRows rows;
+  store(rows.x0.data(), tiles.x0);
+  store(rows.y0.data(), tiles.y0);
+  store(rows.x1.data(), tiles.x1);
+  store(rows.y1.data(), tiles.y1);
+  return rows;
 }
 
 // The largest E in the box of a tile's samples.
@@ -66,18 +91,29 @@ void bin_chunk(const Frame& frame, Chunk& chunk) {
   std::vector<Pair> pairs;
   pairs.reserve(chunk.triangles.size() + chunk.triangles.size() / 2);
   int x0 = frame.tiles_x, y0 = frame.tiles_y, x1 = 0, y1 = 0;
-  for (std::size_t i = 0; i < chunk.triangles.size(); ++i) {
-    const Triangle& t = chunk.triangles[i];
-    const Draw& draw = frame.draws[chunk.segments[t.segment()].draw];
-    const PixelBounds tiles = tiles_of(frame, pixel_bounds(draw, t, draw.bounds, frame.samples_at));
-    x0 = std::min(x0, tiles.x0);
-    y0 = std::min(y0, tiles.y0);
-    x1 = std::max(x1, tiles.x1);
-    y1 = std::max(y1, tiles.y1);
-    if (t.is(kLine)) {
-      list_line_tiles(frame, t, line_pixels(draw.state.line_width), tiles, static_cast<uint16_t>(i), pairs);
-    } else {
-      list_tiles(frame, t, tiles, static_cast<uint16_t>(i), pairs);
+  for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
+    const Draw& draw = frame.draws[chunk.segments[s].draw];
+    const std::size_t end = s + 1 < chunk.segments.size() ? chunk.segments[s + 1].first_triangle : chunk.triangles.size();
+    for (std::size_t first = chunk.segments[s].first_triangle; first < end; first += kLanes) {
+      const std::size_t count = std::min<std::size_t>(kLanes, end - first);
+      const TileRows rows = tile_rows(frame, draw, &chunk.triangles[first], count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Triangle& t = chunk.triangles[first + i];
+        const auto index = static_cast<uint16_t>(first + i);
+        PixelBounds tiles{rows.x0[i], rows.y0[i], rows.x1[i], rows.y1[i]};
+        if (t.is(kLine)) {
+          tiles = tiles_of(frame, pixel_bounds(draw, t, draw.bounds, frame.samples_at));
+          list_line_tiles(frame, t, line_pixels(draw.state.line_width), tiles, index, pairs);
+        } else if (tiles.x1 - tiles.x0 == 1 && tiles.y1 - tiles.y0 == 1) {
+          pairs.push_back(pair_of(tiles.x0, tiles.y0, index));
+        } else {
+          list_tiles(frame, t, tiles, index, pairs);
+        }
+        x0 = std::min(x0, tiles.x0);
+        y0 = std::min(y0, tiles.y0);
+        x1 = std::max(x1, tiles.x1);
+        y1 = std::max(y1, tiles.y1);
+      }
     }
   }
   chunk.statistics.bin_entries = pairs.size();

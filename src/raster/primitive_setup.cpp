@@ -6,11 +6,18 @@
 
 #include "raster/clip.h"
 #include "raster/line.h"
+#include "raster/pixel_box.h"
 #include "raster/sample_cover.h"
 
 namespace halfspace {
 
 namespace {
+
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& at_x, const SampleSpan& at_y) {
+  if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
+  const PixelBox<int32_t> box = cut(pixel_box(t.x, t.y, at_x, at_y), b);
+  return {box.x0, box.y0, box.x1, box.y1};
+}
 
 // The smallest depth step that makes a difference: OpenGL 4.6, section 14.6.5.
 double smallest_depth_step(DepthFormat format, float largest_z) {
@@ -41,31 +48,16 @@ float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, 
   return static_cast<float>(offset);
 }
 
-bool is_small(const Triangle& t) {
-  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  return x_high - x_low <= kSmallExtent && y_high - y_low <= kSmallExtent;
-}
+bool is_small(const Triangle& t) { return largest(t.x) - least(t.x) <= kSmallExtent && largest(t.y) - least(t.y) <= kSmallExtent; }
 
 }  // namespace
 
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& span) {
-  if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
-  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  constexpr int32_t last = kSubPixels - 1;
-  // first pixel with a sample at or right of x_low, one past the last with a sample at or left of x_high
-  return {std::max(b.x0, (x_low - span.high + last) >> kSubPixelBits), std::max(b.y0, (y_low - span.high + last) >> kSubPixelBits),
-          std::min(b.x1, ((x_high - span.low) >> kSubPixelBits) + 1), std::min(b.y1, ((y_high - span.low) >> kSubPixelBits) + 1)};
+  return pixel_bounds(draw, t, b, span, span);
 }
 
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SamplePosition& at) {
-  if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
-  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  constexpr int32_t last = kSubPixels - 1;
-  return {std::max(b.x0, (x_low - at.x + last) >> kSubPixelBits), std::max(b.y0, (y_low - at.y + last) >> kSubPixelBits),
-          std::min(b.x1, ((x_high - at.x) >> kSubPixelBits) + 1), std::min(b.y1, ((y_high - at.y) >> kSubPixelBits) + 1)};
+  return pixel_bounds(draw, t, b, {at.x, at.x}, {at.y, at.y});
 }
 
 Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 3>& v,
@@ -92,12 +84,10 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
     out.vertex[i] = index[order[i]];
     if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
   }
-  const PixelBounds box = pixel_bounds(draw, out, draw.bounds, frame.samples_at);
+  const PixelBox<int32_t> box = cut(pixel_box(out.x, out.y, frame.samples_at, frame.samples_at), draw.bounds);
   if (box.empty()) return Cull::no_sample;
-  if (frame.samples == 1 && box.x1 - box.x0 <= kCoverSide && box.y1 - box.y0 <= kCoverSide && is_small(out) &&
-      !covers_center<float>(out.x, out.y, box.x0, box.y0, box.x1, box.y1)) {
-    return Cull::no_sample;
-  }
+  const bool few = frame.samples == 1 && is_small(out) && box.is_at_most(kCoverSide, kCoverSide);
+  if (few && !covers_center<float>(out.x, out.y, box)) return Cull::no_sample;
 
   const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
                          static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};

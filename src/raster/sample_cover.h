@@ -7,19 +7,17 @@
 #include <array>
 
 #include "core/lanes.h"
-#include "raster/stages.h"
+#include "raster/pixel_box.h"
 
 namespace halfspace {
 
 /// Boxes of at most so many pixels a side are asked sample by sample.
 inline constexpr int kCoverSide = 4;
 
-/// Does a triangle cover the centre of a pixel of the box [x0, x1) x [y0, y1)? Lane by lane; R: float or Real. Of one sample a pixel.
-/// x, y: corners in 1/256 px, counter-clockwise, at most kSmallExtent from each other. A box that is empty or has more than
-/// kCoverSide pixels a side is answered of its first kCoverSide columns and rows.
+/// Does a triangle cover the centre of a pixel of the box? Lane by lane; R: float or Real. x, y: its corners in 1/256 px,
+/// counter-clockwise, at most kSmallExtent from each other. A box of more than kCoverSide pixels a side is answered of its first ones.
 template <class R>
-HS_INLINE MaskOf<R> covers_center(const std::array<IntOf<R>, 3>& x, const std::array<IntOf<R>, 3>& y, IntOf<R> x0, IntOf<R> y0,
-                                  IntOf<R> x1, IntOf<R> y1) {
+HS_INLINE MaskOf<R> covers_center(const std::array<IntOf<R>, 3>& x, const std::array<IntOf<R>, 3>& y, const PixelBox<IntOf<R>>& box) {
   using I = IntOf<R>;
   constexpr int32_t center = kSubPixels / 2;
   std::array<I, 3> row, step_x, step_y;  // the edge functions less the fill rule's bias (raster/edge.h)
@@ -27,15 +25,15 @@ HS_INLINE MaskOf<R> covers_center(const std::array<IntOf<R>, 3>& x, const std::a
     const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
     const I ex = x[b] - x[a], ey = y[b] - y[a];
     const MaskOf<R> owns = ey < I(0) || (ey == I(0) && ex > I(0));
-    row[i] = ex * ((y0 << kSubPixelBits) + center - y[a]) - ey * ((x0 << kSubPixelBits) + center - x[a]) - select(owns, I(0), I(1));
+    row[i] = ex * ((box.y0 << kSubPixelBits) + center - y[a]) - ey * ((box.x0 << kSubPixelBits) + center - x[a]) - select(owns, I(0), I(1));
     step_x[i] = -ey << kSubPixelBits;
     step_y[i] = ex << kSubPixelBits;
   }
   MaskOf<R> covered(false);
-  for (int32_t r = 0; r < kCoverSide && any(y0 + r < y1); ++r) {
+  for (int32_t r = 0; r < kCoverSide && any(box.y0 + r < box.y1); ++r) {
     std::array<I, 3> e = row;
-    for (int32_t c = 0; c < kCoverSide && any(x0 + c < x1); ++c) {
-      covered = covered || ((e[0] | e[1] | e[2]) >= I(0) && y0 + r < y1 && x0 + c < x1);
+    for (int32_t c = 0; c < kCoverSide && any(box.x0 + c < box.x1); ++c) {
+      covered = covered || ((e[0] | e[1] | e[2]) >= I(0) && box.y0 + r < box.y1 && box.x0 + c < box.x1);
       for (std::size_t i = 0; i < 3; ++i) e[i] = e[i] + step_x[i];
     }
     for (std::size_t i = 0; i < 3; ++i) row[i] = row[i] + step_y[i];

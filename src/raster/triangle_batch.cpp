@@ -4,23 +4,11 @@
 #include <bit>
 
 #include "raster/lane_order.h"
+#include "raster/pixel_box.h"
 #include "raster/primitive_setup.h"
 #include "raster/sample_cover.h"
 
 namespace halfspace {
-
-namespace {
-
-template <class T>
-T least(const std::array<T, 3>& v) {
-  return min(v[0], min(v[1], v[2]));
-}
-template <class T>
-T largest(const std::array<T, 3>& v) {
-  return max(v[0], max(v[1], v[2]));
-}
-
-}  // namespace
 
 bool TriangleBatch::serves(const Draw& draw) {
   const DrawState& s = draw.state;
@@ -40,8 +28,7 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
     x[i] = gather(first_x, v[i] << 2);
     y[i] = gather(first_y, v[i] << 2);
   }
-  const Int x_low = least(x), x_high = largest(x), y_low = least(y), y_high = largest(y);
-  const uint32_t small = bits((x_high - x_low <= Int(kSmallExtent)) & (y_high - y_low <= Int(kSmallExtent)));
+  const uint32_t small = bits(largest(x) - least(x) <= Int(kSmallExtent) && largest(y) - least(y) <= Int(kSmallExtent));
   large_ = lanes & ~small;
   lanes &= small;
   // Below 2·kSmallExtent² < 2^29.
@@ -50,24 +37,18 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   const Mask turns_right = !turns_left;
   const Mask front = draw.state.front == Winding::counter_clockwise ? turns_left : turns_right;
   const bool culls_front = is_culled(draw.state.cull, true), culls_back = is_culled(draw.state.cull, false);
-  const PixelBounds& b = draw.bounds;
-  const SampleSpan& span = frame.samples_at;
-  constexpr int32_t last = kSubPixels - 1;
-  const Int x0 = max((x_low + (last - span.high)) >> kSubPixelBits, Int(b.x0)), x1 = min(((x_high - span.low) >> kSubPixelBits) + 1, Int(b.x1));
-  const Int y0 = max((y_low + (last - span.high)) >> kSubPixelBits, Int(b.y0)), y1 = min(((y_high - span.low) >> kSubPixelBits) + 1, Int(b.y1));
+  const PixelBox<Int> box = cut(pixel_box(x, y, frame.samples_at, frame.samples_at), draw.bounds);
   const auto take = [&](uint32_t which, uint64_t& counter) {
     counter += static_cast<uint64_t>(std::popcount(lanes & which));
     lanes &= ~which;
   };
   take(bits(area == Int(0)), statistics.culled_degenerate);
   take(bits(select(front, Mask(culls_front), Mask(culls_back))), statistics.culled_face);
-  take(bits(x0 >= x1 || y0 >= y1), statistics.culled_no_sample);
+  take(bits(box.empty()), statistics.culled_no_sample);
   swap_lanes(turns_right, x[1], x[2]);
   swap_lanes(turns_right, y[1], y[2]);
-  const Mask few = x1 - x0 <= Int(kCoverSide) && y1 - y0 <= Int(kCoverSide);
-  if (frame.samples == 1 && (bits(few) & lanes) != 0) {
-    take(bits(few && !covers_center<Real>(x, y, x0, y0, x1, y1)), statistics.culled_no_sample);
-  }
+  const Mask few = box.is_at_most(kCoverSide, kCoverSide);
+  if (frame.samples == 1 && (bits(few) & lanes) != 0) take(bits(few && !covers_center<Real>(x, y, box)), statistics.culled_no_sample);
   kept_ = lanes;
   if (lanes == 0) return;
 

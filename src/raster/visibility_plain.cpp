@@ -7,6 +7,7 @@
 
 #include "raster/block_edges.h"
 #include "raster/compare.h"
+#include "raster/pixel_box.h"
 #include "raster/primitive_setup.h"
 #include "raster/visibility.h"
 
@@ -111,9 +112,7 @@ class Writer {
 constexpr int kSmallSpan = 48;
 
 bool spans_at_most(const Triangle& t, int pixels) {
-  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  return x_high - x_low <= pixels * kSubPixels && y_high - y_low <= pixels * kSubPixels;
+  return largest(t.x) - least(t.x) <= pixels * kSubPixels && largest(t.y) - least(t.y) <= pixels * kSubPixels;
 }
 
 // An edge function of a small triangle: its value at the tile's first sample, and its steps from pixel to pixel.
@@ -127,17 +126,8 @@ SmallEdge small_edge(const std::array<int32_t, 3>& x, const std::array<int32_t, 
   return {edge.ey * edge.x0 - edge.ex * edge.y0 - bias, -edge.ey * kSubPixels, edge.ex * kSubPixels, bias};
 }
 
-// Where a small triangle lies on the grid of samples: the pixels whose samples lie in its box, half open.
-PixelBounds box_of(const Triangle& t) {
-  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  constexpr int32_t center = kSubPixels / 2, last = kSubPixels - 1;
-  return {(x_low - center + last) >> kSubPixelBits, (y_low - center + last) >> kSubPixelBits, ((x_high - center) >> kSubPixelBits) + 1,
-          ((y_high - center) >> kSubPixelBits) + 1};
-}
-
 // A triangle whose box is no larger than a packet: one packet, wherever it lies, is laid over the box; its pixels are then few.
-void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBounds& box, TriangleId id, PassStatistics& statistics) {
+void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBox<int32_t>& box, TriangleId id, PassStatistics& statistics) {
   const int32_t x_first = box.x0 * kSubPixels + kSubPixels / 2, y_first = box.y0 * kSubPixels + kSubPixels / 2;
   std::array<Int, 3> e;
   std::array<int32_t, 3> bias;
@@ -320,8 +310,8 @@ void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, con
 
 void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
   if (t.is(kSmall) && !t.is(kSprite)) {
-    const PixelBounds box = box_of(t);
-    if (box.x1 - box.x0 <= kPacketWidth && box.y1 - box.y0 <= kPacketHeight) return rasterize_tiny(d, t, box, id, statistics);
+    const PixelBox<int32_t> box = pixel_box(t.x, t.y, SampleSpan{}, SampleSpan{});
+    if (box.is_at_most(kPacketWidth, kPacketHeight)) return rasterize_tiny(d, t, box, id, statistics);
     if (spans_at_most(t, kSmallSpan)) return SmallTriangle(d, t, id, statistics).visit();
   }
   const SampleGrid grid(d.tile, 0);
