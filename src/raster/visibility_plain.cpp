@@ -181,16 +181,32 @@ class SmallTriangle {
     const int column0 = rect_.x0 / kPacketWidth, column1 = (rect_.x1 - 1) / kPacketWidth;
     const int row0 = rect_.y0 / kPacketHeight, row1 = (rect_.y1 - 1) / kPacketHeight;
     if ((column1 - column0 + 1) * (row1 - row0 + 1) <= kFewPackets || kLanes == 1) {
-      for (int row = row0; row <= row1; ++row) {
-        for (int column = column0; column <= column1; ++column) visit_packet(column, row);
-      }
+      visit_each(column0, column1, row0, row1);
     } else {
       visit_rows(column0, column1, row0, row1);
     }
   }
 
  private:
-  static constexpr int kFewPackets = 4;
+  static constexpr int kFewPackets = 40;
+
+  void visit_each(int column0, int column1, int row0, int row1) {
+    std::array<Int, 3> start, right, up;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SmallEdge& e = edge_[i];
+      right[i] = Int(e.step_x * kPacketWidth);
+      up[i] = Int(e.step_y * kPacketHeight);
+      start[i] = first_[i] + (e.step_x * (column0 * kPacketWidth) + e.step_y * (row0 * kPacketHeight));
+    }
+    for (int row = row0; row <= row1; ++row) {
+      std::array<Int, 3> e = start;
+      for (int column = column0; column <= column1; ++column) {
+        visit_packet(e, column, row);
+        for (std::size_t i = 0; i < 3; ++i) e[i] = e[i] + right[i];
+      }
+      for (std::size_t i = 0; i < 3; ++i) start[i] = start[i] + up[i];
+    }
+  }
 
   // Row by row of packets: W columns at once are asked whether a packet can hold a covered pixel.
   void visit_rows(int column0, int column1, int row0, int row1) {
@@ -218,6 +234,11 @@ class SmallTriangle {
     for (std::size_t i = 0; i < 3; ++i) {
       e[i] = first_[i] + (edge_[i].step_x * (column * kPacketWidth) + edge_[i].step_y * (row * kPacketHeight));
     }
+    visit_packet(e, column, row);
+  }
+
+  // e: the edges at the packet's pixels.
+  HS_INLINE void visit_packet(const std::array<Int, 3>& e, int column, int row) {
     Mask mask = (e[0] | e[1] | e[2]) >= Int(0);
     if (d_.cut) mask = mask & inside(rect_, column * kPacketWidth, row * kPacketHeight);
     if (none(mask)) return;
