@@ -167,20 +167,24 @@ template <class V>
 class RecentTriangles {
  public:
   HS_INLINE const TriangleScalars<kComponents<V>>& of(const Frame& frame, TriangleId id) {
-    for (std::size_t i = 0; i < used_; ++i) {
-      if (ids_[i] == id) return scalars_[i];
-    }
-    newest_ = (newest_ + 1) % ids_.size();
-    used_ = std::max(used_, newest_ + 1);
+    uint32_t same = 0;
+    for (std::size_t i = 0; i < kMost; i += kLanes) same |= bits(load<Int>(&ids_[i]) == Int(std::bit_cast<int32_t>(id))) << i;
+    if (same != 0) return scalars_[static_cast<std::size_t>(std::countr_zero(same))];
+    newest_ = (newest_ + 1) % kMost;
     ids_[newest_] = id;
     return scalars_[newest_] = scalars_of<V>(frame, id);
   }
 
  private:
-  static constexpr std::size_t kMost = 8;
-  std::array<TriangleId, kMost> ids_;
+  static constexpr std::size_t kMost = 16;
+  static constexpr std::array<TriangleId, kMost> kNone = [] {
+    std::array<TriangleId, kMost> none;
+    none.fill(kNoTriangle);
+    return none;
+  }();
+  std::array<TriangleId, kMost> ids_ = kNone;
   std::array<TriangleScalars<kComponents<V>>, kMost> scalars_;
-  std::size_t used_ = 0, newest_ = kMost - 1;
+  std::size_t newest_ = kMost - 1;
 };
 
 /// Everything a packet needs of its triangles, lane by lane. P: components of the primitive stage's struct.
