@@ -10,6 +10,24 @@
 
 namespace halfspace {
 
+namespace detail {
+inline constexpr int kPacketColumns = kMaxTileSize / kPacketWidth, kPacketRows = kMaxTileSize / kPacketHeight;
+constexpr std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> make_packet_places() {
+  std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> at{};
+  for (int p = 0; p < kPackets; ++p) {
+    at[static_cast<std::size_t>(packet_y(p) / kPacketHeight)][static_cast<std::size_t>(packet_x(p) / kPacketWidth)] =
+        static_cast<uint16_t>(p);
+  }
+  return at;
+}
+inline constexpr auto kPacketPlaces = make_packet_places();
+}  // namespace detail
+
+/// The packet that holds pixel (x, y) of the tile's room.
+HS_INLINE int packet_at(int x, int y) {
+  return detail::kPacketPlaces[static_cast<std::size_t>(y / kPacketHeight)][static_cast<std::size_t>(x / kPacketWidth)];
+}
+
 enum class BlockCoverage : uint8_t { none, some, whole };
 
 struct BlockEdges {

@@ -131,9 +131,18 @@ void visit_packet(const Context& c, int packet, Mask mask, Real z) {
   finish_packet(c, packet, test_depth(c, packet, z, mask), z);
 }
 
+// What is before and after the packets of a block: false if none of its pixels can pass.
+bool enters_block(const Context& c, int block) {
+  return !c.rejects || test_block(c.draw.state.depth.compare, c.tile, block, c.low, c.high) != BlockTest::none_passes;
+}
+void leave_block(const Context& c, int block) {
+  if (!c.writes || c.mode == VisibilityMode::cover_only) return;
+  widen_block_bounds(c.draw.kernels.writes_depth ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
+}
+
 template <bool small>
 void visit_block(const Context& c, const BlockEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool whole, int block) {
-  if (c.rejects && test_block(c.draw.state.depth.compare, c.tile, block, c.low, c.high) == BlockTest::none_passes) return;
+  if (!enters_block(c, block)) return;
   for (int packet = block * kPacketsPerBlock; packet < (block + 1) * kPacketsPerBlock; ++packet) {
     const int x = packet_x(packet), y = packet_y(packet);
     if (x >= rect.x1 || y >= rect.y1 || x + kPacketWidth <= rect.x0 || y + kPacketHeight <= rect.y0) continue;
@@ -141,25 +150,48 @@ void visit_block(const Context& c, const BlockEdges& edges, const DepthPlane<sma
     if (c.cut) mask = mask & inside(rect, x, y);
     if (any(mask)) visit_packet(c, packet, mask, plane.at(edges, x, y));
   }
-  if (c.writes && c.mode != VisibilityMode::cover_only) {
-    widen_block_bounds(c.draw.kernels.writes_depth ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
-  }
+  leave_block(c, block);
+}
+
+constexpr int kBlockMask = ~(kBlockSize - 1);
+
+// Bounds of the depths that may be written: the primitive's, or any.
+void find_depth_bounds(Context& c) {
+  const DepthBounds bounds = depth_bounds(c.triangle, c.draw, c.tile.depth_format);
+  const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
+  c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : bounds.low;
+  c.high = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_high) : bounds.high;
 }
 
 template <bool small>
 void visit_triangle(Context& c, const TileEdges& tile_edges, const TileRect& rect) {
   const DepthPlane<small> plane(c.triangle, tile_edges, c.draw, c.grid, c.tile.depth_format);
-  const DepthBounds bounds = depth_bounds(c.triangle, c.draw, c.tile.depth_format);
-  const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
-  c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : bounds.low;
-  c.high = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_high) : bounds.high;
+  find_depth_bounds(c);
   const BlockEdges edges(tile_edges);
-  constexpr int mask = ~(kBlockSize - 1);
-  for (int y = rect.y0 & mask; y < rect.y1; y += kBlockSize) {
-    for (int x = rect.x0 & mask; x < rect.x1; x += kBlockSize) {
+  for (int y = rect.y0 & kBlockMask; y < rect.y1; y += kBlockSize) {
+    for (int x = rect.x0 & kBlockMask; x < rect.x1; x += kBlockSize) {
       const BlockCoverage coverage = block_coverage(edges, x, y);
       const int block = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
       if (coverage != BlockCoverage::none) visit_block<small>(c, edges, plane, rect, coverage == BlockCoverage::whole, block);
+    }
+  }
+}
+
+// A point is its rectangle, at one depth.
+void visit_sprite(Context& c, const TileRect& rect) {
+  find_depth_bounds(c);
+  const Real z(depth_value(c.tile.depth_format, std::clamp(c.triangle.z0, c.draw.depth_low, c.draw.depth_high)));
+  for (int by = rect.y0 & kBlockMask; by < rect.y1; by += kBlockSize) {
+    for (int bx = rect.x0 & kBlockMask; bx < rect.x1; bx += kBlockSize) {
+      const int block = by / kBlockSize * kBlocksPerRow + bx / kBlockSize;
+      if (!enters_block(c, block)) continue;
+      const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
+      for (int y = std::max(by, rect.y0 & ~(kPacketHeight - 1)); y < y1; y += kPacketHeight) {
+        for (int x = std::max(bx, rect.x0 & ~(kPacketWidth - 1)); x < x1; x += kPacketWidth) {
+          visit_packet(c, packet_at(x, y), inside(rect, x, y), z);
+        }
+      }
+      leave_block(c, block);
     }
   }
 }
@@ -201,9 +233,10 @@ namespace {
 
 void rasterize_sample(Context& c, const PixelBounds& b) {
   const Triangle& t = c.triangle;
+  const TileRect rect{b.x0 - c.grid.x0, b.y0 - c.grid.y0, b.x1 - c.grid.x0, b.y1 - c.grid.y0};
+  if (t.is(kSprite)) return visit_sprite(c, rect);
   const TileEdges edges = tile_edges(c.draw, t, c.grid, c.tile.size);
   if (edges.outside) return;
-  const TileRect rect{b.x0 - c.grid.x0, b.y0 - c.grid.y0, b.x1 - c.grid.x0, b.y1 - c.grid.y0};
   if (t.is(kSmall)) {
     visit_triangle<true>(c, edges, rect);
   } else {

@@ -15,19 +15,6 @@ namespace halfspace {
 
 namespace {
 
-constexpr int kPacketColumns = kMaxTileSize / kPacketWidth, kPacketRows = kMaxTileSize / kPacketHeight;
-
-constexpr std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> make_packet_places() {
-  std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> at{};
-  for (int p = 0; p < kPackets; ++p) {
-    at[static_cast<std::size_t>(packet_y(p) / kPacketHeight)][static_cast<std::size_t>(packet_x(p) / kPacketWidth)] =
-        static_cast<uint16_t>(p);
-  }
-  return at;
-}
-// The packet at a row and column of packets.
-constexpr auto kPacketAt = make_packet_places();
-
 // The pixel (x, y) of a tile is kPixelAt.column[x] + kPixelAt.row[y].
 struct PixelPlaces {
   std::array<uint16_t, kMaxTileSize> column, row;
@@ -244,7 +231,7 @@ class SmallTriangle {
     if (none(mask)) return;
     const Real w1 = to_real<Real>(e[1] + edge_[1].bias), w2 = to_real<Real>(e[2] + edge_[2].bias);
     const Real z = clamp(fma(w1, Real(t_.z_edge1), fma(w2, Real(t_.z_edge2), Real(t_.z0))), Real(d_.draw.depth_low), Real(z_high_));
-    const int packet = kPacketAt[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+    const int packet = packet_at(column * kPacketWidth, row * kPacketHeight);
     const bool passed = writer_.write(packet, mask, depth_value(d_.tile.depth_format, z));
     if (passed && writer_.writes_depth())
       widen_block_bounds(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
