@@ -143,7 +143,7 @@ void Pass::run_post_step(const Tile& tile) const {
 }
 
 // A tile's triangles lie scattered in their chunk: so many are fetched ahead.
-constexpr std::size_t kPrefetch = 6;
+constexpr std::size_t kPrefetch = 12;
 
 // waiting: there are visible pixels of the tile that are not shaded yet.
 void Pass::draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index, bool& waiting, CoverageList& list,
@@ -173,7 +173,9 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
     const std::span<const uint16_t> bin = bin_of(chunk, tile_x, tile_y);
     for (std::size_t i = 0; i < bin.size(); ++i) {
       const uint16_t t = bin[i];
-      __builtin_prefetch(&chunk.triangles[bin[std::min(i + kPrefetch, bin.size() - 1)]]);
+      const Triangle* ahead = &chunk.triangles[bin[std::min(i + kPrefetch, bin.size() - 1)]];
+      __builtin_prefetch(ahead);
+      __builtin_prefetch(&ahead->flags);  // which may lie in the next cache line
       const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
       if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
       const uint64_t passed_before = statistics.samples_passed;
