@@ -11,6 +11,7 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "core/parallel.h"
@@ -144,10 +145,21 @@ class Pass {
   // Fills d.attachments and d.writes_color. Does the draw replace all colours of a pixel?
   bool resolve_attachments(Draw& d) const;
   void run_tiles(const Workers& workers, Round round, PassStatistics& statistics);
-  void run_tile(int index, Round round, PassStatistics& statistics) const;
-  void clear_images(const Tile& tile) const;
-  // Where the tile's only triangle covers it wholly with one colour, and nothing else is to be done: fills the images. Else false.
-  bool fill_images(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const;
+  // The tiles [tile_x0, tile_x1) of a row of tiles.
+  void run_strip(int tile_x0, int tile_x1, int tile_y, Round round, PassStatistics& statistics) const;
+  void run_tile(int tile_x, int tile_y, bool drawn, Round round, PassStatistics& statistics) const;
+  bool is_drawn(int tile_x, int tile_y) const;
+  PixelBounds pixels_of(int tile_x, int tile_y) const;
+  void place_tile(Tile& tile, int tile_x, int tile_y) const;
+  // Pixels that get one colour, and that goes into the images at once: of a draw, or (null) what they are cleared to, with their depth.
+  struct FlatArea {
+    PixelBounds pixels;
+    const Draw* draw;
+  };
+  // What such a tile gets, where nothing is drawn in it, or its only triangle covers it wholly with one colour; and counts what it
+  // draws. Of a pass that runs once and has no post step.
+  std::optional<const Draw*> flat_tile(int tile_x, int tile_y, PassStatistics& statistics) const;
+  void fill_images(const FlatArea& area) const;
   void run_post_step(const Tile& tile) const;
   void draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index, bool& waiting, CoverageList& list,
                      PassStatistics& statistics) const;

@@ -25,11 +25,37 @@ void Pass::keep_between_flushes() {
   spill(depth_, depth_spill_);
 }
 
+// A task takes some neighbouring tiles of a row, so that those of one colour are filled in one go: writes of a few hundred bytes
+// each reach two thirds of memory's speed. But there must be tasks enough for all threads.
+constexpr int kMostTilesATask = 8, kTasksAThread = 8;
+
 void Pass::run_tiles(const Workers& workers, Round round, PassStatistics& statistics) {
   const int tiles = frame_.tiles_x * frame_.tiles_y;
-  std::vector<PassStatistics> by_tile(static_cast<std::size_t>(tiles));
-  workers.for_each(tiles, [&](int i) { run_tile(i, round, by_tile[static_cast<std::size_t>(i)]); });
-  for (const PassStatistics& s : by_tile) statistics += s;
+  const int length = std::clamp(tiles / (workers.threads() * kTasksAThread), 1, kMostTilesATask);
+  const int strips_x = (frame_.tiles_x + length - 1) / length;
+  std::vector<PassStatistics> by_strip(static_cast<std::size_t>(strips_x * frame_.tiles_y));
+  workers.for_each(strips_x * frame_.tiles_y, [&](int i) {
+    const int x0 = i % strips_x * length;
+    run_strip(x0, std::min(x0 + length, frame_.tiles_x), i / strips_x, round, by_strip[static_cast<std::size_t>(i)]);
+  });
+  for (const PassStatistics& s : by_strip) statistics += s;
+}
+
+void Pass::run_strip(int tile_x0, int tile_x1, int tile_y, Round round, PassStatistics& statistics) const {
+  const bool alone = round.first && round.last && post_kernel_ == nullptr;
+  FlatArea area{};  // of the tiles before this one
+  for (int x = tile_x0; x < tile_x1; ++x) {
+    const std::optional<const Draw*> draw = alone ? flat_tile(x, tile_y, statistics) : std::nullopt;
+    const PixelBounds pixels = pixels_of(x, tile_y);
+    if (draw && !area.pixels.empty() && area.draw == *draw) {
+      area.pixels.x1 = pixels.x1;
+      continue;
+    }
+    fill_images(area);
+    area = draw ? FlatArea{pixels, *draw} : FlatArea{};
+    if (!draw) run_tile(x, tile_y, alone || is_drawn(x, tile_y), round, statistics);  // what is alone and not drawn is flat
+  }
+  fill_images(area);
 }
 
 namespace {
@@ -45,10 +71,16 @@ Target between_flushes(Target target, const std::vector<std::byte>& spill) {
 
 }  // namespace
 
-void Pass::run_tile(int index, Round round, PassStatistics& statistics) const {
-  const int tile_x = index % frame_.tiles_x, tile_y = index / frame_.tiles_x;
-  const bool drawn =
-      std::any_of(frame_.chunks.begin(), frame_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
+bool Pass::is_drawn(int tile_x, int tile_y) const {
+  return std::any_of(frame_.chunks.begin(), frame_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
+}
+
+PixelBounds Pass::pixels_of(int tile_x, int tile_y) const {
+  const int x0 = tile_x * frame_.tile_size, y0 = tile_y * frame_.tile_size;
+  return {x0, y0, std::min(x0 + frame_.tile_size, frame_.width), std::min(y0 + frame_.tile_size, frame_.height)};
+}
+
+void Pass::run_tile(int tile_x, int tile_y, bool drawn, Round round, PassStatistics& statistics) const {
   if (drawn) ++statistics.tiles_touched;
   // What was neither cleared nor drawn stays as it is in its image (several samples go through the spill and back); under
   // LoadOp::dont_care the tile does not know it.
@@ -60,18 +92,9 @@ void Pass::run_tile(int index, Round round, PassStatistics& statistics) const {
   if (!changes_color && !changes_depth && !(round.last && post_kernel_ != nullptr)) return;
 
   Tile tile;
-  tile.size = frame_.tile_size;
-  tile.samples = frame_.samples;
-  tile.color_count = static_cast<int>(colors_.size());
-  tile.x0 = tile_x * tile.size;
-  tile.y0 = tile_y * tile.size;
-  tile.width = std::min(tile.size, frame_.width - tile.x0);
-  tile.height = std::min(tile.size, frame_.height - tile.y0);
+  place_tile(tile, tile_x, tile_y);
   const int width = frame_.width, height = frame_.height;
   const Samples kept = frame_.samples > 1 ? Samples::all : Samples::one;
-  if (!drawn && !spills && round.first && round.last && post_kernel_ == nullptr) return clear_images(tile);
-  const bool alone = round.first && round.last && post_kernel_ == nullptr && depth_.format == DepthFormat::none;
-  if (drawn && alone && fill_images(tile, tile_x, tile_y, statistics)) return;
   for (std::size_t i = 0; i < colors_.size(); ++i) {
     if (round.first) load_color(colors_[i], width, height, Samples::one, tile, tile.color[i]);
     if (!round.first) load_color(between_flushes(colors_[i], color_spills_[i]), width, height, kept, tile, tile.color[i]);
@@ -92,42 +115,64 @@ void Pass::run_tile(int index, Round round, PassStatistics& statistics) const {
   if (round.last && post_kernel_ != nullptr) run_post_step(tile);
 }
 
-void Pass::clear_images(const Tile& tile) const {
-  for (const ColorTarget& c : colors_) {
-    const glm::vec4& v = c.clear_value;
-    if (c.load == LoadOp::clear) fill_color(c, frame_.width, frame_.height, tile, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
-  }
-  if (depth_.load == LoadOp::clear) fill_depth(depth_, frame_.width, frame_.height, tile);
+void Pass::place_tile(Tile& tile, int tile_x, int tile_y) const {
+  const PixelBounds pixels = pixels_of(tile_x, tile_y);
+  tile.size = frame_.tile_size;
+  tile.samples = frame_.samples;
+  tile.color_count = static_cast<int>(colors_.size());
+  tile.x0 = pixels.x0;
+  tile.y0 = pixels.y0;
+  tile.width = pixels.x1 - pixels.x0;
+  tile.height = pixels.y1 - pixels.y0;
 }
 
-bool Pass::fill_images(Tile& tile, int tile_x, int tile_y, PassStatistics& statistics) const {
+std::optional<const Draw*> Pass::flat_tile(int tile_x, int tile_y, PassStatistics& statistics) const {
   const Chunk* chunk = nullptr;
   uint16_t index = 0;
   for (const Chunk& c : frame_.chunks) {
     const std::span<const uint16_t> bin = bin_of(c, tile_x, tile_y);
     if (bin.empty()) continue;
-    if (chunk != nullptr || bin.size() > 1) return false;
+    if (chunk != nullptr || bin.size() > 1) return std::nullopt;
     chunk = &c;
     index = bin[0];
   }
+  if (chunk == nullptr) return nullptr;
   const Triangle& t = chunk->triangles[index];
   const Draw& draw = frame_.draws[chunk->segments[t.segment()].draw];
-  if (!draw.deferred || !draw.kernels.is_constant || frame_.samples != 1 || draw.kernels.color_count < static_cast<int>(colors_.size()))
-    return false;
+  if (depth_.format != DepthFormat::none || !draw.deferred || !draw.kernels.is_constant || frame_.samples != 1 ||
+      draw.kernels.color_count < static_cast<int>(colors_.size())) {
+    return std::nullopt;
+  }
+  Tile tile;  // what covers_tile asks of it
+  place_tile(tile, tile_x, tile_y);
   const DrawInTile here(frame_, draw, VisibilityMode::deferred, tile);
   if (!here.is_plain || here.bounds.x1 - here.bounds.x0 != tile.width || here.bounds.y1 - here.bounds.y0 != tile.height ||
       !covers_tile(here, t)) {
-    return false;
+    return std::nullopt;
   }
-  FragmentOutput out;
-  constant_colors(draw, out);
-  for (std::size_t i = 0; i < colors_.size(); ++i) fill_color(colors_[i], frame_.width, frame_.height, tile, out.packet_color(i, 0));
   const auto samples = static_cast<uint64_t>(tile.width) * static_cast<uint64_t>(tile.height);
+  ++statistics.tiles_touched;
   statistics.samples_tested += samples;
   statistics.samples_passed += samples;
   statistics.fragments_shaded += samples;
   if (draw.state.query) statistics.add_to_query(*draw.state.query, samples);
-  return true;
+  return &draw;
+}
+
+void Pass::fill_images(const FlatArea& area) const {
+  if (area.pixels.empty()) return;
+  FragmentOutput out;
+  if (area.draw != nullptr) constant_colors(*area.draw, out);
+  for (std::size_t i = 0; i < colors_.size(); ++i) {
+    const ColorTarget& c = colors_[i];
+    const glm::vec4& v = c.clear_value;
+    if (area.draw != nullptr) {
+      fill_color(c, frame_.width, frame_.height, area.pixels, out.packet_color(i, 0));
+    } else if (c.load == LoadOp::clear) {
+      fill_color(c, frame_.width, frame_.height, area.pixels, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
+    }
+  }
+  if (area.draw == nullptr && depth_.load == LoadOp::clear) fill_depth(depth_, frame_.width, frame_.height, area.pixels);
 }
 
 void Pass::run_post_step(const Tile& tile) const {

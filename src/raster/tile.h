@@ -121,9 +121,9 @@ void load_depth(const DepthTarget& target, int target_width, int target_height, 
 void store_color(const ColorTarget& target, int target_width, int target_height, Samples held, const Tile& tile, const ColorBuffer& color);
 void store_depth(const DepthTarget& target, int target_width, int target_height, Samples held, const Tile& tile);
 
-/// Sets all the tile's pixels in the image at once: to a colour, and to the depth and stencil that the target is cleared to.
-void fill_color(const ColorTarget& target, int target_width, int target_height, const Tile& tile, const PacketColor& color);
-void fill_depth(const DepthTarget& target, int target_width, int target_height, const Tile& tile);
+/// Sets pixels of an image: to a colour, and to the depth and stencil that the target is cleared to.
+void fill_color(const ColorTarget& target, int target_width, int target_height, const PixelBounds& pixels, const PacketColor& color);
+void fill_depth(const DepthTarget& target, int target_width, int target_height, const PixelBounds& pixels);
 
 /// Makes a block's depth bounds exact.
 void refresh_block_bounds(Tile& tile, int block);

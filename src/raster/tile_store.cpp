@@ -88,21 +88,20 @@ void stream_lines(const std::byte* line, std::byte* out, std::size_t bytes) {
   }
 }
 
-// Sets the tile's pixels in an image to one value.
+// Sets pixels of an image to one value.
 template <class T>
-void fill_rows(T value, std::byte* data, int width, int height, const Tile& tile) {
+void fill_rows(T value, std::byte* data, int width, int height, const PixelBounds& pixels) {
   alignas(64) std::array<std::byte, 64> line;
   for (std::size_t i = 0; i < 64; i += sizeof(T)) std::memcpy(&line[i], &value, sizeof(T));
-  const bool aligned =
-      static_cast<std::size_t>(tile.width) * sizeof(T) % 64 == 0 && static_cast<std::size_t>(tile.x0) * sizeof(T) % 64 == 0;
+  const auto first = static_cast<std::size_t>(pixels.x0), count = static_cast<std::size_t>(pixels.x1 - pixels.x0);
+  const bool aligned = count * sizeof(T) % 64 == 0 && first * sizeof(T) % 64 == 0;
   const bool stream = aligned && streams(data, width, height, sizeof(T));
-  for (int y = 0; y < tile.height; ++y) {
-    const std::size_t row = static_cast<std::size_t>(height - 1 - (tile.y0 + y)) * static_cast<std::size_t>(width);
-    std::byte* out = data + (row + static_cast<std::size_t>(tile.x0)) * sizeof(T);
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    std::byte* out = data + (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + first) * sizeof(T);
     if (stream) {
-      stream_lines(line.data(), out, static_cast<std::size_t>(tile.width) * sizeof(T));
+      stream_lines(line.data(), out, count * sizeof(T));
     } else {
-      std::fill_n(reinterpret_cast<T*>(out), tile.width, value);
+      std::fill_n(reinterpret_cast<T*>(out), count, value);
     }
   }
   if (stream) _mm_sfence();
@@ -110,7 +109,7 @@ void fill_rows(T value, std::byte* data, int width, int height, const Tile& tile
 
 }  // namespace
 
-void fill_color(const ColorTarget& target, int width, int height, const Tile& tile, const PacketColor& color) {
+void fill_color(const ColorTarget& target, int width, int height, const PixelBounds& pixels, const PacketColor& color) {
   if (target.store == StoreOp::dont_care || target.data == nullptr) return;
   ColorBuffer one;
   one.format = target.format;
@@ -118,24 +117,24 @@ void fill_color(const ColorTarget& target, int width, int height, const Tile& ti
   switch (target.format) {
     case ColorFormat::none: return;
     case ColorFormat::rgba8:
-    case ColorFormat::srgb8a8: return fill_rows(*planes<uint32_t>(one), target.data, width, height, tile);
+    case ColorFormat::srgb8a8: return fill_rows(*planes<uint32_t>(one), target.data, width, height, pixels);
     case ColorFormat::rgba16f: {
       const uint16_t* p = planes<uint16_t>(one);
       return fill_rows(std::array<uint16_t, 4>{p[0], p[kMaxTilePixels], p[2 * kMaxTilePixels], p[3 * kMaxTilePixels]}, target.data, width,
-                       height, tile);
+                       height, pixels);
     }
     case ColorFormat::rgba32f: {
       const float* p = planes<float>(one);
       return fill_rows(std::array<float, 4>{p[0], p[kMaxTilePixels], p[2 * kMaxTilePixels], p[3 * kMaxTilePixels]}, target.data, width,
-                       height, tile);
+                       height, pixels);
     }
   }
 }
 
-void fill_depth(const DepthTarget& target, int width, int height, const Tile& tile) {
+void fill_depth(const DepthTarget& target, int width, int height, const PixelBounds& pixels) {
   if (target.store == StoreOp::dont_care || target.data == nullptr) return;
   const float clear = depth_value(depth_part(target.format), std::clamp(target.clear_value, 0.0f, 1.0f));
-  with_codec(target.format, [&]<class C>(C) { fill_rows(C::store(clear, target.stencil_clear_value), target.data, width, height, tile); });
+  with_codec(target.format, [&]<class C>(C) { fill_rows(C::store(clear, target.stencil_clear_value), target.data, width, height, pixels); });
 }
 
 void store_color(const ColorTarget& target, int width, int height, Samples held, const Tile& tile, const ColorBuffer& color) {

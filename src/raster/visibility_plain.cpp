@@ -48,13 +48,14 @@ class Writer {
   bool writes_depth() const { return writes_depth_; }
   CompareOp compare_op() const { return compare_; }
 
-  // Covered lanes of a packet at depths z (any, where there is no test); true if one passed.
-  HS_INLINE bool write(int packet, Mask covered, Real z) {
+  // Covered lanes of a packet at the depths z_at(), asked for where there is a test; true if one passed.
+  template <class Z>
+  HS_INLINE bool write(int packet, Mask covered, const Z& z_at) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(bits(covered)));
     float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
     Mask mask = covered;
     if (tests_) {
-      const Real old = load<Real>(depth);
+      const Real old = load<Real>(depth), z = z_at();
       mask = mask & compare(compare_, z, old);
       if (writes_depth_) store(depth, select(mask, z, old));
     }
@@ -78,10 +79,11 @@ class Writer {
   }
 
   // A packet that is covered wholly and passes wholly.
-  HS_INLINE void write_whole(int packet, Real z) {
+  template <class Z>
+  HS_INLINE void write_whole(int packet, const Z& z_at) {
     statistics_.samples_tested += kLanes;
     statistics_.samples_passed += kLanes;
-    if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z);
+    if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z_at());
     if (writes_id_) store(&tile_.id[static_cast<std::size_t>(packet) * kLanes], Int(id_));
   }
 
@@ -229,10 +231,13 @@ class SmallTriangle {
     Mask mask = (e[0] | e[1] | e[2]) >= Int(0);
     if (d_.cut) mask = mask & inside(rect_, column * kPacketWidth, row * kPacketHeight);
     if (none(mask)) return;
-    const Real w1 = to_real<Real>(e[1] + edge_[1].bias), w2 = to_real<Real>(e[2] + edge_[2].bias);
-    const Real z = clamp(fma(w1, Real(t_.z_edge1), fma(w2, Real(t_.z_edge2), Real(t_.z0))), Real(d_.draw.depth_low), Real(z_high_));
+    const auto z_at = [&] {
+      const Real w1 = to_real<Real>(e[1] + edge_[1].bias), w2 = to_real<Real>(e[2] + edge_[2].bias);
+      const Real z = clamp(fma(w1, Real(t_.z_edge1), fma(w2, Real(t_.z_edge2), Real(t_.z0))), Real(d_.draw.depth_low), Real(z_high_));
+      return depth_value(d_.tile.depth_format, z);
+    };
     const int packet = packet_at(column * kPacketWidth, row * kPacketHeight);
-    const bool passed = writer_.write(packet, mask, depth_value(d_.tile.depth_format, z));
+    const bool passed = writer_.write(packet, mask, z_at);
     if (passed && writer_.writes_depth())
       widen_block_bounds(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
   }
@@ -278,7 +283,7 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       if (test == BlockTest::none_passes) continue;
       const int first = block * kPacketsPerBlock;
       if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !cut) {
-        for (int p = first; p < first + kPacketsPerBlock; ++p) writer.write_whole(p, plane.at(edges, packet_x(p), packet_y(p)));
+        for (int p = first; p < first + kPacketsPerBlock; ++p) writer.write_whole(p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
         if (writer.writes_depth()) set_block_bounds(tile, block, low, high);
       } else {
         for (int p = first; p < first + kPacketsPerBlock; ++p) {
@@ -286,7 +291,7 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
           if (px >= rect.x1 || py >= rect.y1 || px + kPacketWidth <= rect.x0 || py + kPacketHeight <= rect.y0) continue;
           Mask mask = coverage == BlockCoverage::whole ? Mask(true) : edges.inside(px, py);
           if (cut) mask = mask & inside(rect, px, py);
-          if (any(mask)) writer.write(p, mask, plane.at(edges, px, py));
+          if (any(mask)) writer.write(p, mask, [&] { return plane.at(edges, px, py); });
         }
         if (writer.writes_depth()) widen_block_bounds(writer.compare_op(), tile, block, low, high);
       }
@@ -311,7 +316,7 @@ void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, con
   const BlockEdges edges(tile_edges);
   PassStatistics counted_before;
   Writer writer(d, id, counted_before);
-  for (int p = 0; p < kPackets; ++p) writer.write_whole(p, plane.at(edges, packet_x(p), packet_y(p)));
+  for (int p = 0; p < kPackets; ++p) writer.write_whole(p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
   if (!writer.writes_depth()) return;
   for (int b = 0; b < kBlocks; ++b) set_block_bounds(d.tile, b, bounds.low, bounds.high);
 }
