@@ -91,14 +91,14 @@ const T* planes(const ColorBuffer& b) {
   return reinterpret_cast<const T*>(b.bytes.data());
 }
 
-// Calls f(first pixel of a quad in the tile, and of its two rows in the image); images of one sample, the first one's.
-// False, and nothing is done, if the tile has half a quad.
-template <class F>
-HS_INLINE bool for_each_quad(const Tile& tile, const ImagePlace& place, F f) {
-  if (tile.samples != 1 || (tile.width | tile.height) % 2 != 0) return false;
+// Calls f(first pixel in the tile, and of its two rows in the image) for each two rows of `columns` pixels, 2 or 4, which lie side by
+// side in the tile, quad by quad; images of one sample, the first one's. False, and nothing is done, if the tile has a part of such.
+template <int columns, class F>
+HS_INLINE bool for_each_two_rows(const Tile& tile, const ImagePlace& place, F f) {
+  if (tile.samples != 1 || tile.width % columns != 0 || tile.height % 2 != 0) return false;
   for (int y = 0; y < tile.height; y += 2) {
     const std::size_t row = static_cast<std::size_t>(place.height - 1 - (tile.y0 + y)) * static_cast<std::size_t>(place.width);
-    for (int x = 0; x < tile.width; x += 2) {
+    for (int x = 0; x < tile.width; x += columns) {
       const std::size_t block = static_cast<std::size_t>(y / kBlockSize * kBlocksPerRow + x / kBlockSize) * kPixelsPerBlock;
       const std::size_t in_tile = block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize + x % kBlockSize)];
       const std::size_t in_image = row + static_cast<std::size_t>(tile.x0 + x);

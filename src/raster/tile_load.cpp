@@ -33,11 +33,29 @@ HS_INLINE void split_quad(const uint16_t* row0, const uint16_t* row1, uint16_t* 
   _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 3 * kMaxTilePixels), _mm_unpackhi_epi64(blue_alpha, blue_alpha));
 }
 
+#ifdef __AVX2__
+// Two quads at once.
+HS_INLINE void split_two_quads(const uint16_t* row0, const uint16_t* row1, uint16_t* to) {
+  const __m256i a = load<__m256i>(row0), b = load<__m256i>(row1);
+  const __m256i even = _mm256_unpacklo_epi16(a, b), odd = _mm256_unpackhi_epi16(a, b);
+  const __m256i red_green = _mm256_permute4x64_epi64(_mm256_unpacklo_epi16(even, odd), 0b11011000);
+  const __m256i blue_alpha = _mm256_permute4x64_epi64(_mm256_unpackhi_epi16(even, odd), 0b11011000);
+  store(to, _mm256_castsi256_si128(red_green));
+  store(to + kMaxTilePixels, _mm256_extracti128_si256(red_green, 1));
+  store(to + 2 * kMaxTilePixels, _mm256_castsi256_si128(blue_alpha));
+  store(to + 3 * kMaxTilePixels, _mm256_extracti128_si256(blue_alpha, 1));
+}
+#endif
+
 void load_half_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
   const auto* image = reinterpret_cast<const uint16_t*>(data);
   uint16_t* to = planes<uint16_t>(color);
+#ifdef __AVX2__
+  const auto two_quads = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_two_quads(image + row0, image + row1, to + t); };
+  if (for_each_two_rows<4>(tile, place, two_quads)) return;
+#endif
   const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_quad(image + row0, image + row1, to + t); };
-  if (!for_each_quad(tile, place, quad)) load_planes<uint16_t>(data, place, tile, color);
+  if (!for_each_two_rows<2>(tile, place, quad)) load_planes<uint16_t>(data, place, tile, color);
 }
 
 // Sets all pixels to the first.

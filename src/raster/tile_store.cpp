@@ -69,11 +69,28 @@ HS_INLINE void join_quad(const uint16_t* from, uint16_t* row0, uint16_t* row1) {
   store(row1, _mm_unpackhi_epi32(red_green, blue_alpha));
 }
 
+#ifdef __AVX2__
+// Two quads at once.
+HS_INLINE void join_two_quads(const uint16_t* from, uint16_t* row0, uint16_t* row1) {
+  // of a plane: the first quad in the low half, the second in the high one
+  const auto plane = [&](int k) {
+    return _mm256_permute4x64_epi64(_mm256_castsi128_si256(load<__m128i>(from + k * kMaxTilePixels)), 0b11011000);
+  };
+  const __m256i red_green = _mm256_unpacklo_epi16(plane(0), plane(1)), blue_alpha = _mm256_unpacklo_epi16(plane(2), plane(3));
+  store(row0, _mm256_unpacklo_epi32(red_green, blue_alpha));
+  store(row1, _mm256_unpackhi_epi32(red_green, blue_alpha));
+}
+#endif
+
 void store_half_planes(std::byte* data, const ImagePlace& place, const Tile& tile, const ColorBuffer& color) {
   auto* image = reinterpret_cast<uint16_t*>(data);
   const uint16_t* from = planes<uint16_t>(color);
+#ifdef __AVX2__
+  const auto two_quads = [&](std::size_t t, std::size_t row0, std::size_t row1) { join_two_quads(from + t, image + row0, image + row1); };
+  if (for_each_two_rows<4>(tile, place, two_quads)) return;
+#endif
   const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { join_quad(from + t, image + row0, image + row1); };
-  if (!for_each_quad(tile, place, quad)) store_planes<uint16_t>(data, place, tile, color);
+  if (!for_each_two_rows<2>(tile, place, quad)) store_planes<uint16_t>(data, place, tile, color);
 }
 
 // Fills bytes, a multiple of 64, with a line of 64.
