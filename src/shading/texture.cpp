@@ -45,17 +45,21 @@ struct Averaging<glm::vec4> {
 template <class Texel>
 using SumOf = typename Averaging<Texel>::Sum;
 
-uint64_t half_bits(const glm::vec4& v) {
-  const auto half = [](float x) { return static_cast<uint64_t>(float_to_finite_half(x)); };
-  return half(v.x) | half(v.y) << 16 | half(v.z) << 32 | half(v.w) << 48;
+// Four channels at once.
+using Channels = RealN<4>;
+
+/// Linear values as they may stand in an rgba32f texel; as the halves of an rgba16f texel.
+Channels held(const glm::vec4& v) {
+  const auto x = load<Channels>(&v.x);
+  return select(x == x, clamp(x, Channels(-kMaxTexel), Channels(kMaxTexel)), Channels(0.0f));
 }
+IntN<4> halves(const glm::vec4& v) { return float_to_finite_half(held(v)); }
+
 /// A linear colour as the format holds it.
 glm::vec4 stored(const glm::vec4& v, TexelFormat format) {
-  const glm::vec4 held = detail::held_texel(v);
-  if (format == TexelFormat::rgba32f) return held;
-  const uint64_t bits = half_bits(held);
-  const auto channel = [bits](int i) { return half_to_float(static_cast<uint16_t>(bits >> (16 * i) & 0xffff)); };
-  return {channel(0), channel(1), channel(2), channel(3)};
+  glm::vec4 r;
+  store(&r.x, format == TexelFormat::rgba32f ? held(v) : half_to_float(halves(v)));
+  return r;
 }
 
 float to_averaged(uint8_t t, TexelFormat) { return t; }
@@ -149,12 +153,11 @@ void put(int32_t* words, std::size_t i, uint16_t t, TexelFormat) {
 }
 void put(int32_t* words, std::size_t i, glm::u8vec4 t, TexelFormat) { words[i] = packed(t); }
 void put(int32_t* words, std::size_t i, const glm::vec4& t, TexelFormat format) {
-  const glm::vec4 v = stored(t, format);
-  if (format == TexelFormat::rgba32f)
-    std::memcpy(words + i * 4, &v.x, 16);
-  else {
-    const uint64_t bits = half_bits(v);
-    std::memcpy(words + i * 2, &bits, 8);
+  if (format == TexelFormat::rgba32f) {
+    store(words + i * 4, held(t));
+  } else {
+    using Shorts __attribute__((vector_size(8))) = uint16_t;
+    store(words + i * 2, __builtin_convertvector(halves(t).v, Shorts));
   }
 }
 
