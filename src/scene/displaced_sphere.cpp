@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/displaced_sphere.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -83,12 +84,15 @@ Image<glm::vec4> slope_map(const HeightField& field, int width, int height, doub
   HS_CHECK_OP(radius, >, 0.0);
   const Relief relief{radius, height_scale, zero_level};
   Image<glm::vec4> map(width, height);
+  std::vector<HeightTaps> taps;
+  for (int x = 0; x < width; ++x) taps.push_back(field.taps((x + 0.5) / width));
   workers.for_each(height, [&](int row) {
     const double v = (row + 0.5) / height;
     const double sin_pi_v = sincos_turns(0.5 * v).sin;
-    for (int x = 0; x < width; ++x) {
-      map.at(x, row) = glm::vec4(glm::vec3(slopes_of(field.at((x + 0.5) / width, v), relief, sin_pi_v)), 0.0f);
-    }
+    std::vector<HeightSample> samples(taps.size());
+    field.at(taps, v, samples);
+    std::transform(samples.begin(), samples.end(), map.row(row).begin(),
+                   [&](const HeightSample& s) { return glm::vec4(glm::vec3(slopes_of(s, relief, sin_pi_v)), 0.0f); });
   });
   return map;
 }

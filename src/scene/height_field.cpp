@@ -154,7 +154,7 @@ Image<float> averaged(const Image<float>& map, int width, int height, const Work
 // The uniform cubic B-spline's four weights at 0 ≤ t < 1 between the middle two control points, and their derivatives
 // by t (Farin, Curves and Surfaces for CAGD, chapter 8).
 struct SplineWeights {
-  double value[4], slope[4];
+  std::array<double, 4> value, slope;
 };
 
 SplineWeights spline_weights(double t) {
@@ -184,29 +184,44 @@ HeightField::HeightField(const Image<float>& map, double smoothing, const Worker
   });
 }
 
-HeightSample HeightField::at(double u, double v) const {
+HeightTaps HeightField::taps(double u) const {
   const double x = (edges_ == MapEdges::sheet ? u : u - std::floor(u)) * width() - 0.5;
+  const double left = std::floor(x);
+  const SplineWeights weights = spline_weights(x - left);
+  HeightTaps taps{{}, weights.value, weights.slope};
+  for (int i = 0; i < 4; ++i) taps.column[static_cast<std::size_t>(i)] = column_at(static_cast<int>(left) - 1 + i, width(), edges_);
+  return taps;
+}
+
+void HeightField::at(std::span<const HeightTaps> taps, double v, std::span<HeightSample> samples) const {
   const double y = (edges_ == MapEdges::torus ? v - std::floor(v) : v) * height() - 0.5;
-  const double left = std::floor(x), top = std::floor(y);
-  const SplineWeights along_u = spline_weights(x - left), along_v = spline_weights(y - top);
-  int columns[4];
-  for (int i = 0; i < 4; ++i) columns[i] = column_at(static_cast<int>(left) - 1 + i, width(), edges_);
-  HeightSample sum{};
-  for (int j = 0; j < 4; ++j) {
-    const FoldedRow from = fold(static_cast<int>(top) - 1 + j, width(), height(), edges_);
+  const double top = std::floor(y);
+  const SplineWeights along_v = spline_weights(y - top);
+  std::fill(samples.begin(), samples.end(), HeightSample{});
+  for (std::size_t j = 0; j < 4; ++j) {
+    const FoldedRow from = fold(static_cast<int>(top) - 1 + static_cast<int>(j), width(), height(), edges_);
     const std::span<const float> row = texels_.row(from.row);
-    double value = 0, slope = 0;
-    for (int i = 0; i < 4; ++i) {
-      const int column = columns[i] + from.shift;
-      const double texel = static_cast<double>(row[static_cast<std::size_t>(column < width() ? column : column - width())]);
-      value += along_u.value[i] * texel;
-      slope += along_u.slope[i] * texel;
+    for (std::size_t k = 0; k < taps.size(); ++k) {
+      double value = 0, slope = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const int column = taps[k].column[i] + from.shift;
+        const double texel = static_cast<double>(row[static_cast<std::size_t>(column < width() ? column : column - width())]);
+        value += taps[k].value[i] * texel;
+        slope += taps[k].slope[i] * texel;
+      }
+      samples[k].value += along_v.value[j] * value;
+      samples[k].du += along_v.value[j] * slope;
+      samples[k].dv += along_v.slope[j] * value;
     }
-    sum.value += along_v.value[j] * value;
-    sum.du += along_v.value[j] * slope;
-    sum.dv += along_v.slope[j] * value;
   }
-  return {static_cast<double>(base_) + sum.value, width() * sum.du, height() * sum.dv};
+  for (HeightSample& s : samples) s = {static_cast<double>(base_) + s.value, width() * s.du, height() * s.dv};
+}
+
+HeightSample HeightField::at(double u, double v) const {
+  const HeightTaps one = taps(u);
+  HeightSample sample;
+  at({&one, 1}, v, {&sample, 1});
+  return sample;
 }
 
 HeightField HeightField::filtered(int max_width, const Workers& workers) const {

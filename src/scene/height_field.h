@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <span>
+#include <vector>
+
 #include "core/image.h"
 #include "core/parallel.h"
 
@@ -10,6 +14,12 @@ namespace halfspace {
 /// the whole map from 0 to 1.
 struct HeightSample {
   double value, du, dv;
+};
+
+/// The four texels of a row that a place along u takes its height from, and their weights: for the value, and for its slope by a texel.
+struct HeightTaps {
+  std::array<int, 4> column;
+  std::array<double, 4> value, slope;
 };
 
 /// How a map goes on beyond its edges, by what it is wrapped round.
@@ -37,6 +47,10 @@ class HeightField {
   /// Any u; v in [−1, 2]. Where u is periodic, u and u + 1 give the same bits wherever both are exact, 0 and 1 among them;
   /// so do v and v + 1 on a torus.
   HeightSample at(double u, double v) const;
+
+  /// Many places of one v, with the same bits as one by one: taps of their u are found once for all rows of a map.
+  HeightTaps taps(double u) const;
+  void at(std::span<const HeightTaps> taps, double v, std::span<HeightSample> samples) const;
 
   /// The field for a tessellation of `max_width` ≥ 2 sectors, or for a map of that width: where this one is wider, it is
   /// averaged by area to the largest even width that is not above it, in the same proportion, and on a sphere smoothed

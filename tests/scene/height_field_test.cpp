@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace halfspace {
 namespace {
@@ -70,6 +71,26 @@ TEST(HeightField, GradientIsThatOfTheValue) {
 }
 
 // Value and gradient go on without a step over texel borders, the seam and the poles.
+TEST(HeightField, ManyPlacesOfARowAreThoseOneByOne) {
+  for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
+    const HeightField field(map_of(34, 17, smooth), 0.7, kWorkers, edges);
+    std::vector<double> places{0.0, 1.0, 0.5, -0.25};
+    for (int x = 0; x < 50; ++x) places.push_back((x + 0.5) / 50);
+    std::vector<HeightTaps> taps;
+    for (const double u : places) taps.push_back(field.taps(u));
+    for (const double v : {-0.3, 0.0, 0.01, 0.5, 0.77, 1.0, 1.2}) {
+      std::vector<HeightSample> samples(taps.size());
+      field.at(taps, v, samples);
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const HeightSample one = field.at(places[i], v);
+        EXPECT_EQ(samples[i].value, one.value);
+        EXPECT_EQ(samples[i].du, one.du);
+        EXPECT_EQ(samples[i].dv, one.dv);
+      }
+    }
+  }
+}
+
 TEST(HeightField, IsSmoothOverSeamAndPoles) {
   const HeightField f(rough_map(32, 16), 0.0, kWorkers);
   const double tiny = 1e-12;
