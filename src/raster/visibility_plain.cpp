@@ -23,7 +23,8 @@ constexpr PixelPlaces make_pixel_places() {
   PixelPlaces at{};
   for (int i = 0; i < kPixelsPerBlock; ++i) {
     for (int block = 0; block < kBlocksPerRow; ++block) {
-      const auto x = static_cast<std::size_t>(block * kBlockSize + block_x(i)), y = static_cast<std::size_t>(block * kBlockSize + block_y(i));
+      const auto x = static_cast<std::size_t>(block * kBlockSize + block_x(i)),
+                 y = static_cast<std::size_t>(block * kBlockSize + block_y(i));
       if (block_y(i) == 0) at.column[x] = static_cast<uint16_t>(block * kPixelsPerBlock + i);
       if (block_x(i) == 0) at.row[y] = static_cast<uint16_t>(block * kBlocksPerRow * kPixelsPerBlock + i);
     }
@@ -283,7 +284,8 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       if (test == BlockTest::none_passes) continue;
       const int first = block * kPacketsPerBlock;
       if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !cut) {
-        for (int p = first; p < first + kPacketsPerBlock; ++p) writer.write_whole(p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
+        for (int p = first; p < first + kPacketsPerBlock; ++p)
+          writer.write_whole(p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
         if (writer.writes_depth()) set_block_bounds(tile, block, low, high);
       } else {
         for (int p = first; p < first + kPacketsPerBlock; ++p) {

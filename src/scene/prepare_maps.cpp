@@ -110,12 +110,12 @@ constexpr double kEarthRelief = 0.02;
 
 Image<glm::vec4> normals_of(const HeightField& field, int width, const Workers& workers) {
   Image<glm::vec4> map = slope_map(field, width, width / 2, 1.0, kEarthRelief, 0.0, workers);
-  for (int y = 0; y < map.height(); ++y) {
+  workers.for_each(map.height(), [&](int y) {
     for (glm::vec4& t : map.row(y)) {
       const glm::vec3 n(-t.x, -t.y, t.z);
       t = glm::vec4(n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) * 0.5f + 0.5f, 1.0f);
     }
-  }
+  });
   return map;
 }
 
@@ -126,15 +126,15 @@ std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& u
   switch (use.texture.source) {
     case TextureSource::file:
       return asset<Texture2D>(recipe("color", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8);
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8, &assets_.workers_);
       });
     case TextureSource::earth_color:
       return asset<Texture2D>(recipe("earth_color", use.width), [&] {
-        return Texture2D(procedural_earth(use.width, use.width / 2, assets_.workers_), TexelFormat::srgb8a8);
+        return Texture2D(procedural_earth(use.width, use.width / 2, assets_.workers_), TexelFormat::srgb8a8, &assets_.workers_);
       });
     case TextureSource::moon_color:
       return asset<Texture2D>(recipe("moon_color", use.width),
-                              [&] { return Texture2D(moon_maps(use.width)->color, TexelFormat::srgb8a8); });
+                              [&] { return Texture2D(moon_maps(use.width)->color, TexelFormat::srgb8a8, &assets_.workers_); });
     default: fail_not(where, use.texture, "a map of colours");
   }
 }
@@ -144,14 +144,14 @@ std::shared_ptr<const Texture2D> ScenePreparation::data_texture(const MapUse& us
   switch (use.texture.source) {
     case TextureSource::file:
       return asset<Texture2D>(recipe("data", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8);
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8, &assets_.workers_);
       });
     case TextureSource::earth_normal:
       return asset<Texture2D>(recipe("earth_normal", use.width), [&] {
         MapUse relief = use;
         relief.texture.source = TextureSource::earth_height;
         const HeightField field(*heights(relief, where), 1.0, assets_.workers_);
-        return Texture2D(normals_of(field, use.width, assets_.workers_), TexelFormat::rgba16f);
+        return Texture2D(normals_of(field, use.width, assets_.workers_), TexelFormat::rgba16f, &assets_.workers_);
       });
     default: fail_not(where, use.texture, "a map of numbers");
   }

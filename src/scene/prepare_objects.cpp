@@ -49,7 +49,7 @@ DetailMap ScenePreparation::slopes_of(const Relief& relief, const ObjectDescript
   d.map = asset<Texture2D>(recipe("slopes", relief.recipe, width, o.radius), [&] {
             const HeightField filtered = relief.field->filtered(width, assets_.workers_);
             return Texture2D(slope_map(filtered, width, std::max(1, width / 2), o.radius, o.height_scale, o.height_zero, assets_.workers_),
-                             TexelFormat::rgba16f);
+                             TexelFormat::rgba16f, &assets_.workers_);
           }).get();
   d.sampler = make_sampler(use_of(o.height, o).texture);
   d.sampler.wrap_t = Wrap::clamp;

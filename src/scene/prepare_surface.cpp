@@ -71,7 +71,7 @@ DetailMap ScenePreparation::bump_map(const ObjectDescription& o, const std::stri
   } else {
     const Wrap s = d.sampler.wrap_s, t = d.sampler.wrap_t;
     d.map = asset<Texture2D>(words("bump_slopes", static_cast<int>(s), static_cast<int>(t)), [&] {
-              return Texture2D(height_slopes(*map(), s, t), TexelFormat::rgba16f);
+              return Texture2D(height_slopes(*map(), s, t), TexelFormat::rgba16f, &assets_.workers_);
             }).get();
   }
   return d;

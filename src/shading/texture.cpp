@@ -78,6 +78,13 @@ glm::u8vec4 to_texel(const glm::vec4& v, TexelFormat format) {
 }
 glm::vec4 to_texel(const glm::dvec4& v, TexelFormat format) { return stored(glm::vec4(v), format); }
 
+// f(row) for every row, by the workers where there are some.
+template <class F>
+void for_each_row(const Workers* workers, int rows, const F& f) {
+  if (workers != nullptr && rows > 1) return workers->for_each(rows, f);
+  for (int row = 0; row < rows; ++row) f(row);
+}
+
 // ---- the next level ---------------------------------------------------------------------------------------------------
 
 /// Which texels of a side one texel of the next level averages, and with which weights (they add up to 1).
@@ -98,14 +105,14 @@ Taps<Number> taps_of(int size, int i) {
 
 /// The next level of a picture of the given size; row(r, buffer) gives its row r, perhaps by filling the buffer.
 template <class Texel, class RowOf>
-Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of) {
+Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const Workers* workers) {
   using Number = typename Averaging<Texel>::Number;
   using Sum = SumOf<Texel>;
   Image<Sum> to(half_size(width), half_size(height));
   std::vector<Taps<Number>> columns;
   for (int x = 0; x < to.width(); ++x) columns.push_back(taps_of<Number>(width, x));
-  std::vector<Sum> buffer(static_cast<std::size_t>(width)), sum(buffer.size());
-  for (int y = 0; y < to.height(); ++y) {
+  for_each_row(workers, to.height(), [&](int y) {
+    std::vector<Sum> buffer(static_cast<std::size_t>(width)), sum(buffer.size());
     const Taps<Number> rows = taps_of<Number>(height, y);
     for (int j = 0; j < rows.count; ++j) {
       const Sum* row = row_of(rows.first + j, buffer.data());
@@ -119,7 +126,7 @@ Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of) {
       for (int i = 1; i < taps.count; ++i) v += taps.weight[i] * from[i];
       *out++ = v;
     }
-  }
+  });
   return to;
 }
 
@@ -164,38 +171,42 @@ void put(int32_t* words, std::size_t i, const glm::vec4& t, TexelFormat format) 
 }  // namespace
 
 template <class Texel>
-std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format) {
+std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format, const Workers* workers) {
   using Sum = SumOf<Texel>;
   std::vector<Image<Texel>> levels;
   if (base.width() <= 1 && base.height() <= 1) return levels;
-  Image<Sum> averaged = next_level<Texel>(base.width(), base.height(), [&](int r, Sum* buffer) {
+  const auto base_row = [&](int r, Sum* buffer) {
     std::transform(base.row(r).begin(), base.row(r).end(), buffer, [format](const Texel& t) { return to_averaged(t, format); });
     return static_cast<const Sum*>(buffer);
-  });
+  };
+  Image<Sum> averaged = next_level<Texel>(base.width(), base.height(), base_row, workers);
   while (true) {
     Image<Texel>& level = levels.emplace_back(averaged.width(), averaged.height());
-    std::transform(averaged.texels().begin(), averaged.texels().end(), level.data(),
-                   [format](const Sum& v) { return to_texel(v, format); });
+    for_each_row(workers, level.height(), [&](int y) {
+      std::transform(averaged.row(y).begin(), averaged.row(y).end(), level.row(y).begin(),
+                     [format](const Sum& v) { return to_texel(v, format); });
+    });
     if (averaged.width() == 1 && averaged.height() == 1) break;
-    averaged = next_level<Texel>(averaged.width(), averaged.height(), [&](int r, Sum*) { return averaged.row(r).data(); });
+    const auto row = [&](int r, Sum*) -> const Sum* { return averaged.row(r).data(); };
+    averaged = next_level<Texel>(averaged.width(), averaged.height(), row, workers);
   }
   return levels;
 }
 
-template std::vector<Image<uint8_t>> mip_chain(const Image<uint8_t>&, TexelFormat);
-template std::vector<Image<uint16_t>> mip_chain(const Image<uint16_t>&, TexelFormat);
-template std::vector<Image<glm::u8vec4>> mip_chain(const Image<glm::u8vec4>&, TexelFormat);
-template std::vector<Image<glm::vec4>> mip_chain(const Image<glm::vec4>&, TexelFormat);
+template std::vector<Image<uint8_t>> mip_chain(const Image<uint8_t>&, TexelFormat, const Workers*);
+template std::vector<Image<uint16_t>> mip_chain(const Image<uint16_t>&, TexelFormat, const Workers*);
+template std::vector<Image<glm::u8vec4>> mip_chain(const Image<glm::u8vec4>&, TexelFormat, const Workers*);
+template std::vector<Image<glm::vec4>> mip_chain(const Image<glm::vec4>&, TexelFormat, const Workers*);
 
-Texture2D::Texture2D(const Image<glm::u8vec4>& base, TexelFormat format) : format_(format) {
+Texture2D::Texture2D(const Image<glm::u8vec4>& base, TexelFormat format, const Workers* workers) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
-  add_chain(base);
+  add_chain(base, workers);
 }
-Texture2D::Texture2D(const Image<uint8_t>& base) : format_(TexelFormat::r8) { add_chain(base); }
-Texture2D::Texture2D(const Image<uint16_t>& base) : format_(TexelFormat::r16) { add_chain(base); }
-Texture2D::Texture2D(const Image<glm::vec4>& base, TexelFormat format) : format_(format) {
+Texture2D::Texture2D(const Image<uint8_t>& base) : format_(TexelFormat::r8) { add_chain(base, nullptr); }
+Texture2D::Texture2D(const Image<uint16_t>& base) : format_(TexelFormat::r16) { add_chain(base, nullptr); }
+Texture2D::Texture2D(const Image<glm::vec4>& base, TexelFormat format, const Workers* workers) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f);
-  add_chain(base);
+  add_chain(base, workers);
 }
 
 Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format) : format_(format) {
@@ -213,19 +224,19 @@ void Texture2D::add_levels(std::span<const Image<Texel>> levels) {
   std::size_t size = 0;
   for (const Image<Texel>& level : levels) size += with_border(level.width(), level.height());
   texels_.reserve(words_of(size, format_));
-  for (const Image<Texel>& level : levels) add_level(level);
+  for (const Image<Texel>& level : levels) add_level(level, nullptr);
 }
 
 template <class Texel>
-void Texture2D::add_chain(const Image<Texel>& base) {
+void Texture2D::add_chain(const Image<Texel>& base, const Workers* workers) {
   const std::size_t size = with_border(base.width(), base.height());
   texels_.reserve(words_of(size + size / 2, format_));
-  add_level(base);  // checks the size
-  for (const Image<Texel>& level : mip_chain(base, format_)) add_level(level);
+  add_level(base, workers);  // checks the size
+  for (const Image<Texel>& level : mip_chain(base, format_, workers)) add_level(level, workers);
 }
 
 template <class Texel>
-void Texture2D::add_level(const Image<Texel>& image) {
+void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
   std::size_t begin = 0;
   if (levels_ == 0) {
     HS_CHECK_OP(std::min(image.width(), image.height()), >=, 1);
@@ -244,13 +255,16 @@ void Texture2D::add_level(const Image<Texel>& image) {
   width_[l] = image.width();
   height_[l] = image.height();
   offset_[l] = static_cast<int32_t>(begin) + image.width() + 3;
+  // Rows of r8 and r16 may share a word: those have no workers.
   const int last_y = image.height() - 1;
-  for (int y = -1; y <= image.height(); ++y) {
-    const std::span<const Texel> row = image.row(y < 0 ? last_y : y > last_y ? 0 : y);
-    put(texels_.data(), begin++, row.back(), format_);
-    for (const Texel& t : row) put(texels_.data(), begin++, t, format_);
-    put(texels_.data(), begin++, row.front(), format_);
-  }
+  const std::size_t pitch = static_cast<std::size_t>(image.width()) + 2;
+  for_each_row(workers, image.height() + 2, [&](int i) {
+    const std::span<const Texel> row = image.row(i == 0 ? last_y : i > image.height() ? 0 : i - 1);
+    std::size_t at = begin + static_cast<std::size_t>(i) * pitch;
+    put(texels_.data(), at++, row.back(), format_);
+    for (const Texel& t : row) put(texels_.data(), at++, t, format_);
+    put(texels_.data(), at, row.front(), format_);
+  });
 }
 
 /// In texels, from the first of level 0.

@@ -23,6 +23,7 @@
 
 #include "core/image.h"
 #include "core/lanes.h"
+#include "core/parallel.h"
 #include "core/srgb.h"
 #include "core/vec.h"
 #include "shading/footprint.h"
@@ -66,11 +67,12 @@ class Texture2D {
   static constexpr int kMaxSize = 32768;  ///< per side; all levels together stay below 8 GiB
 
   /// Level 0 from an image of 1 … kMaxSize texels a side, and all levels below it down to 1 × 1 by mip_chain. rgba8 or
-  /// srgb8a8.
-  Texture2D(const Image<glm::u8vec4>& base, TexelFormat format);
-  explicit Texture2D(const Image<uint8_t>& base);               ///< r8
-  explicit Texture2D(const Image<uint16_t>& base);              ///< r16
-  Texture2D(const Image<glm::vec4>& base, TexelFormat format);  ///< rgba16f or rgba32f; base is linear
+  /// srgb8a8. workers, if any, share the work; the bits are the same.
+  Texture2D(const Image<glm::u8vec4>& base, TexelFormat format, const Workers* workers = nullptr);
+  explicit Texture2D(const Image<uint8_t>& base);   ///< r8
+  explicit Texture2D(const Image<uint16_t>& base);  ///< r16
+  /// rgba16f or rgba32f; base is linear
+  Texture2D(const Image<glm::vec4>& base, TexelFormat format, const Workers* workers = nullptr);
   /// Given levels: level 0 as above, then each half of the one before, rounded down, but at least 1. At least one level;
   /// a shorter chain than down to 1 × 1 is allowed, and then ends the choice of levels.
   Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format);
@@ -125,11 +127,11 @@ class Texture2D {
   };
 
   template <class Texel>
-  void add_chain(const Image<Texel>& base);
+  void add_chain(const Image<Texel>& base, const Workers* workers);
   template <class Texel>
   void add_levels(std::span<const Image<Texel>> levels);
   template <class Texel>
-  void add_level(const Image<Texel>& image);
+  void add_level(const Image<Texel>& image, const Workers* workers);
   std::size_t index_of(int level, int x, int row) const;
 
   /// Whether CommonLookup reads what the sampler asks for.
@@ -181,9 +183,10 @@ class Texture2D {
 /// [i, i + 1]·(2n + 1)/n, that is of three texels with the weights n − i, n, i + 1 over 2n + 1: centred, and every texel
 /// counts the same. srgb8a8 is averaged in linear light. The chain is computed in float (8-bit codes) or double (all else)
 /// from level to level, and only the results are rounded to texels. Channels are averaged one by one (alpha does not
-/// weight colour), as GL's do. Texel is u8vec4 (rgba8, srgb8a8), uint8_t (r8), uint16_t (r16) or vec4 (rgba16f, rgba32f).
+/// weight colour), as GL's do. workers, if any, share the work; the bits are the same. Texel is u8vec4 (rgba8, srgb8a8), uint8_t (r8),
+/// uint16_t (r16) or vec4 (rgba16f, rgba32f).
 template <class Texel>
-std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format);
+std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format, const Workers* workers = nullptr);
 
 // ---- the look-up, inlined into shaders --------------------------------------------------------------------------
 
