@@ -14,6 +14,7 @@
 #include "scene/height_field.h"
 #include "scene/mesh.h"
 #include "scene/prepared_scene.h"
+#include "scene/procedural_earth.h"
 #include "scene/procedural_moon.h"
 #include "scene/procedural_patterns.h"
 #include "scene/relief_detail.h"
@@ -109,6 +110,9 @@ class ScenePreparation {
   const TextureDescription& texture_named(const std::string& name) const;
   MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
   std::shared_ptr<const MoonMaps> moon_maps(int width);
+  std::shared_ptr<const EarthMaps> earth_maps(int width);
+  // Does the scene have a texture from this source?
+  bool has_texture(TextureSource source) const;
   // where: the key's path, for messages.
   std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& where);
   std::shared_ptr<const Texture2D> data_texture(const MapUse& use, const std::string& where);

@@ -97,6 +97,14 @@ std::shared_ptr<const MoonMaps> ScenePreparation::moon_maps(int width) {
   return asset<MoonMaps>(recipe("moon", width), [&] { return procedural_moon(width, assets_.workers_); });
 }
 
+std::shared_ptr<const EarthMaps> ScenePreparation::earth_maps(int width) {
+  return asset<EarthMaps>(recipe("earth", width), [&] { return procedural_earth_maps(width, width / 2, assets_.workers_); });
+}
+
+bool ScenePreparation::has_texture(TextureSource source) const {
+  return std::any_of(scene_.textures.begin(), scene_.textures.end(), [&](const auto& named) { return named.second.source == source; });
+}
+
 namespace {
 
 [[noreturn]] void fail_not(const std::string& where, const TextureDescription& t, const char* expected) {
@@ -130,7 +138,9 @@ std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& u
       });
     case TextureSource::earth_color:
       return asset<Texture2D>(recipe("earth_color", use.width), [&] {
-        return Texture2D(procedural_earth(use.width, use.width / 2, assets_.workers_), TexelFormat::srgb8a8, &assets_.workers_);
+        const bool has_relief = has_texture(TextureSource::earth_height) || has_texture(TextureSource::earth_normal);
+        return Texture2D(has_relief ? earth_maps(use.width)->color : procedural_earth(use.width, use.width / 2, assets_.workers_),
+                         TexelFormat::srgb8a8, &assets_.workers_);
       });
     case TextureSource::moon_color:
       return asset<Texture2D>(recipe("moon_color", use.width),
@@ -167,8 +177,10 @@ std::shared_ptr<const Image<float>> ScenePreparation::heights(const MapUse& use,
       return asset<Image<float>>(recipe("numbers", use.texture.file.path.string()),
                                  [&] { return read_for(where, [&] { return read_gray(use.texture.file.path); }); });
     case TextureSource::earth_height:
-      return asset<Image<float>>(recipe("earth_height", use.width),
-                                 [&] { return procedural_earth_heights(use.width, use.width / 2, assets_.workers_); });
+      return asset<Image<float>>(recipe("earth_height", use.width), [&] {
+        if (has_texture(TextureSource::earth_color)) return earth_maps(use.width)->height;
+        return procedural_earth_heights(use.width, use.width / 2, assets_.workers_);
+      });
     case TextureSource::moon_height:
       return asset<Image<float>>(recipe("moon_height", use.width), [&] { return unit_numbers(moon_maps(use.width)->height); });
     default: fail_not(where, use.texture, "a map of heights");

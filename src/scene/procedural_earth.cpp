@@ -105,33 +105,32 @@ HS_INLINE Vec directions(const Longitudes& longitudes, const SinCosDouble& latit
              ring * load<Real>(longitudes.minus_sin.data() + x));
 }
 
-void fill_row(std::span<glm::u8vec4> out, const Longitudes& longitudes, const SinCosDouble& latitude) {
-  const int width = static_cast<int>(out.size());
-  const float coast = coast_of(width);
-  for (int x = 0; x < width; x += kLanes) {
-    const Terrain t = terrain_at(directions(longitudes, latitude, x), coast);
-    const Real land = step(-coast, coast, t.height);
-    const Vec sea_rgb = sea_color(t);
-    const Vec land_rgb = land_color(t);
-    Int code[3];
-    for (int c = 0; c < 3; ++c) code[c] = round_to_int(clamp(lerp(sea_rgb[c], land_rgb[c], land), Real(0.0f), Real(255.0f)));
-    for (int i = 0; i < kLanes && x + i < width; ++i) {
-      out[static_cast<std::size_t>(x + i)] = glm::u8vec4(lane(code[0], i), lane(code[1], i), lane(code[2], i), 255);
-    }
+// f(first pixel, terrain of W pixels) for a row of `width`.
+template <class F>
+HS_INLINE void for_each_terrain(int width, int row, int height, const Longitudes& longitudes, const F& f) {
+  const SinCosDouble latitude = sincos_turns(0.5 * (row + 0.5) / height);
+  for (int x = 0; x < width; x += kLanes) f(x, terrain_at(directions(longitudes, latitude, x), coast_of(width)));
+}
+
+void put_colors(const Terrain& t, int x, std::span<glm::u8vec4> row) {
+  const float coast = coast_of(static_cast<int>(row.size()));
+  const Real land = step(-coast, coast, t.height);
+  const Vec sea_rgb = sea_color(t);
+  const Vec land_rgb = land_color(t);
+  Int code[3];
+  for (int c = 0; c < 3; ++c) code[c] = round_to_int(clamp(lerp(sea_rgb[c], land_rgb[c], land), Real(0.0f), Real(255.0f)));
+  for (int i = 0; i < kLanes && x + i < static_cast<int>(row.size()); ++i) {
+    row[static_cast<std::size_t>(x + i)] = glm::u8vec4(lane(code[0], i), lane(code[1], i), lane(code[2], i), 255);
   }
 }
 
 // Plains that rise inland, and mountains on them. The sea lies flat.
-void fill_heights(std::span<float> out, const Longitudes& longitudes, const SinCosDouble& latitude) {
-  const int width = static_cast<int>(out.size());
-  const float coast = coast_of(width);
-  for (int x = 0; x < width; x += kLanes) {
-    const Terrain t = terrain_at(directions(longitudes, latitude, x), coast);
-    const Real plain = Real(0.012f) + Real(0.25f) * max(t.height, Real(0.0f)) + Real(0.02f) * t.detail;
-    const Real land = clamp(plain + Real(0.42f) * t.mountains * (Real(1.0f) + Real(0.25f) * t.detail), Real(0.0f), Real(1.0f));
-    const Real height = land * step(-coast, coast, t.height);
-    for (int i = 0; i < kLanes && x + i < width; ++i) out[static_cast<std::size_t>(x + i)] = lane(height, i);
-  }
+void put_heights(const Terrain& t, int x, std::span<float> row) {
+  const float coast = coast_of(static_cast<int>(row.size()));
+  const Real plain = Real(0.012f) + Real(0.25f) * max(t.height, Real(0.0f)) + Real(0.02f) * t.detail;
+  const Real land = clamp(plain + Real(0.42f) * t.mountains * (Real(1.0f) + Real(0.25f) * t.detail), Real(0.0f), Real(1.0f));
+  const Real height = land * step(-coast, coast, t.height);
+  for (int i = 0; i < kLanes && x + i < static_cast<int>(row.size()); ++i) row[static_cast<std::size_t>(x + i)] = lane(height, i);
 }
 
 }  // namespace
@@ -141,7 +140,9 @@ Image<float> procedural_earth_heights(int width, int height, const Workers& work
   HS_CHECK_OP(height, >=, 1);
   Image<float> map(width, height);
   const Longitudes longitudes = longitudes_of(width);
-  workers.for_each(height, [&](int row) { fill_heights(map.row(row), longitudes, sincos_turns(0.5 * (row + 0.5) / height)); });
+  workers.for_each(height, [&](int row) {
+    for_each_terrain(width, row, height, longitudes, [&](int x, const Terrain& t) { put_heights(t, x, map.row(row)); });
+  });
   return map;
 }
 
@@ -150,8 +151,24 @@ Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& worker
   HS_CHECK_OP(height, >=, 1);
   Image<glm::u8vec4> map(width, height);
   const Longitudes longitudes = longitudes_of(width);
-  workers.for_each(height, [&](int row) { fill_row(map.row(row), longitudes, sincos_turns(0.5 * (row + 0.5) / height)); });
+  workers.for_each(height, [&](int row) {
+    for_each_terrain(width, row, height, longitudes, [&](int x, const Terrain& t) { put_colors(t, x, map.row(row)); });
+  });
   return map;
+}
+
+EarthMaps procedural_earth_maps(int width, int height, const Workers& workers) {
+  HS_CHECK_OP(width, >=, 1);
+  HS_CHECK_OP(height, >=, 1);
+  EarthMaps maps{Image<glm::u8vec4>(width, height), Image<float>(width, height)};
+  const Longitudes longitudes = longitudes_of(width);
+  workers.for_each(height, [&](int row) {
+    for_each_terrain(width, row, height, longitudes, [&](int x, const Terrain& t) {
+      put_colors(t, x, maps.color.row(row));
+      put_heights(t, x, maps.height.row(row));
+    });
+  });
+  return maps;
 }
 
 }  // namespace halfspace

@@ -17,4 +17,11 @@ Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& worker
 /// The heights that belong to it: 0 the sea, 1 the highest mountains; not coded. Bits as above.
 Image<float> procedural_earth_heights(int width, int height, const Workers& workers);
 
+/// Both, with the same bits, for little more than one of them costs.
+struct EarthMaps {
+  Image<glm::u8vec4> color;
+  Image<float> height;
+};
+EarthMaps procedural_earth_maps(int width, int height, const Workers& workers);
+
 }  // namespace halfspace

@@ -37,6 +37,14 @@ std::pair<int, double> column_difference(const Image<glm::u8vec4>& map, int a, i
 }
 
 // The same picture with every compiler, lane width and processor.
+TEST(ProceduralEarth, BothMapsAtOnceAreThoseOneByOne) {
+  for (const int width : {1, 37, 200}) {
+    const EarthMaps maps = procedural_earth_maps(width, 50, Workers(2));
+    EXPECT_TRUE(maps.color == procedural_earth(width, 50, Workers(1)));
+    EXPECT_TRUE(maps.height == procedural_earth_heights(width, 50, Workers(1)));
+  }
+}
+
 TEST(ProceduralEarth, SameBitsEverywhere) { EXPECT_EQ(hash_of(procedural_earth(512, 256, Workers(1))), 17696847946922249376u); }
 
 TEST(ProceduralEarth, ThreadsChangeNothing) {
