@@ -43,7 +43,7 @@ fault "interpolation: products rounded separately" src/core/lanes.h 'return fma(
 fault "derivatives: x and y swapped" src/shading/pixel.h 'return derivative(member, dy, triangle->e1y, triangle->e2y, R(256));' 'return derivative(member, dx, triangle->e1x, triangle->e2x, R(-256));'
 fault "cull: winding turned round" src/raster/draw_state.h 'front_facing ? CullMode::front : CullMode::back' 'front_facing ? CullMode::back : CullMode::front'
 fault "provoking vertex: always the last" src/raster/setup.cpp 'provoking_(draw_.state.provoking == ProvokingVertex::first ? 0 : 2)' 'provoking_(2)'
-fault "bins: last column of a triangle's box left out" src/raster/bin.cpp '((b.x1 - 1) >> shift) + 1, ((b.y1 - 1)' '(std::max(b.x0, b.x1 - 2) >> shift) + 1, ((b.y1 - 1)'
+fault "bins: last column of a triangle's box left out" src/raster/bin.cpp '((pixels.x1 - 1) >> shift) + 1, ((pixels.y1 - 1)' '((pixels.x1 - 2) >> shift) + 1, ((pixels.y1 - 1)'
 fault "bins: tile rejected by the wrong corner" src/raster/bin.cpp 'e.ey < 0 ? size - 1 : 0' 'e.ey > 0 ? size - 1 : 0'
 fault "scissor ignored inside a packet" src/raster/visibility_plain.cpp 'if (d_.cut) mask = mask &' 'if (false) mask = mask &'
 fault "blending before the pixels that wait are shaded" src/raster/pass_tiles.cpp 'if (shades && waiting && has_color_) shade_deferred(frame_, d.tile, statistics);' ''
@@ -103,6 +103,11 @@ fault "whole tiles: depth alone hides colours that wait" src/raster/whole_tile.c
 fault "whole tiles: what writes no depth takes the place of what does" src/raster/whole_tile.cpp '(d.tests && d.draw.state.depth.write)' 'd.tests'
 fault "cones: too few bands for their maps" src/scene/chord_error.cpp 'scaled(sectors, 1.0 / 3.0)' 'scaled(sectors, 1.0 / 12.0)'
 fault "exact spheres: an object's scale is lost" src/scene/prepare_spheres.cpp 'o.radius * glm::length(glm::dvec3(world[0]))' 'o.radius'
+fault "small triangles: no edge owns its samples" src/raster/sample_cover.h 'select(owns, I(0), I(1))' 'I(1)'
+fault "small triangles: the last row of samples is not asked" src/raster/sample_cover.h 'r < kCoverSide &&' 'r + 1 < kCoverSide &&'
+fault "tiny triangles: cut at the left border alone" src/raster/visibility_plain.cpp 'box.x0 < b.x0 || box.y0 < b.y0 || box.x1 > b.x1 || box.y1 > b.y1' 'box.x0 < b.x0'
+fault "textures: the border above is the first row" src/shading/texture.cpp 'i == 0 ? last_y :' 'i == 0 ? 0 :'
+fault "flat tiles: the first draw's colour goes on" src/raster/pass_tiles.cpp ' && area.draw == *draw' ''
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "raster/raster_test.h"
 
@@ -60,6 +61,39 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
     ASSERT_TRUE(std::ranges::equal(paint.color.texels(), any.color.texels())) << i;
     ASSERT_EQ(paint.statistics.samples_passed, any.statistics.samples_passed) << i;
     ASSERT_EQ(paint.statistics.fragments_shaded, any.statistics.fragments_shaded) << i;
+  }
+}
+
+// Tiles of one colour go into the image several in a row: each keeps its own, for any number of threads.
+TEST(ConstantShaders, TilesInARowKeepTheirColors) {
+  constexpr int kTile = 64, kWidth = 12 * kTile + 20, kHeight = 2 * kTile + 9;
+  constexpr std::array<int, 13> kColumns{-1, -1, 0, 0, 0, 1, 1, -1, 0, 1, 2, 2, -1};  // the draw that covers a column of tiles, or none
+  const glm::vec4 cleared(0.25f, 0.5f, 0.75f, 1.0f);
+  const auto color_of = [&](int draw) { return draw < 0 ? cleared : glm::vec4(0.1f * static_cast<float>(draw + 1)); };
+  const std::vector<glm::vec4> corners{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+  for (const int threads : {1, 2, 7}) {
+    for (const LoadOp load : {LoadOp::clear, LoadOp::load}) {
+      Image<glm::vec4> image(kWidth, kHeight);
+      ColorTarget target = rgba32f_target(image);
+      target.load = load;
+      target.clear_value = cleared;
+      Pass pass(kWidth, kHeight, target, {});
+      for (std::size_t i = 0; i < kColumns.size(); ++i) {
+        if (kColumns[i] < 0) continue;
+        const int x = static_cast<int>(i) * kTile;
+        DrawState state;
+        state.viewport = Rect{x, 0, std::min(kTile, kWidth - x), kHeight};
+        pass.draw(PaintShader{color_of(kColumns[i])}, vertices(stream(corners)), state);
+      }
+      pass.run(Workers(threads));
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          const int draw = kColumns[static_cast<std::size_t>(x / kTile)];
+          const glm::vec4 want = draw < 0 && load == LoadOp::load ? glm::vec4(0.0f) : color_of(draw);
+          ASSERT_EQ(image.at(x, y), want) << x << ' ' << y << ", threads " << threads;
+        }
+      }
+    }
   }
 }
 
