@@ -149,7 +149,7 @@ class Texture2D {
   template <class R, class Texels>
   struct AnyLookup;
   // The first N channels (3 or 4) of an 8-bit format, by a common sampler.
-  template <int N, TexelFormat format, class R>
+  template <int N, TexelFormat texel_format, class R>
   struct CommonLookup;
   template <class R, class Function>
   vec4<R> with_texels(const Function& function) const;
@@ -261,7 +261,7 @@ HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
 
 }  // namespace detail
 
-template <int N, TexelFormat format, class R>
+template <int N, TexelFormat texel_format, class R>
 struct Texture2D::CommonLookup {
   using Value = glm::vec<N, R>;
 
@@ -277,8 +277,8 @@ struct Texture2D::CommonLookup {
   /// The texels at index and right of it, mixed.
   HS_INLINE Value filter_row(IntOf<R> index, R fraction) const {
     const int32_t* texels = texture.texels_.data();
-    return detail::lerp(detail::decode_rgba8<N, format, R>(gather(texels, index)),
-                        detail::decode_rgba8<N, format, R>(gather(texels + 1, index)), fraction);
+    return detail::lerp(detail::decode_rgba8<N, texel_format, R>(gather(texels, index)),
+                        detail::decode_rgba8<N, texel_format, R>(gather(texels + 1, index)), fraction);
   }
 
   /// One level, in filtering units. st in [0, 1].
@@ -297,7 +297,7 @@ struct Texture2D::CommonLookup {
     return detail::lerp(c, filter(st, min(levels.index + 1, IntOf<R>(texture.levels_ - 1))), levels.fraction);
   }
 
-  HS_INLINE Value finish(const Value& v) const { return detail::rgba8_to_linear<format>(v); }
+  HS_INLINE Value finish(const Value& v) const { return detail::rgba8_to_linear<texel_format>(v); }
 };
 
 /// The level of detail, or 0 where it changes nothing.
