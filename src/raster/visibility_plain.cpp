@@ -116,25 +116,29 @@ SmallEdge small_edge(const std::array<int32_t, 3>& x, const std::array<int32_t, 
   return {edge.ey * edge.x0 - edge.ex * edge.y0 - bias, -edge.ey * kSubPixels, edge.ex * kSubPixels, bias};
 }
 
+// Its depth where edges 1 and 2, less their biases, have the values e1 and e2.
+HS_INLINE Real small_depth(const DrawInTile& d, const Triangle& t, Int e1, Int e2) {
+  const float z_high = std::clamp(t.z_max, d.draw.depth_low, d.draw.depth_high);
+  const Real z = fma(to_real<Real>(e1), Real(t.z_edge1), fma(to_real<Real>(e2), Real(t.z_edge2), Real(t.z0)));
+  return depth_value(d.tile.depth_format, clamp(z, Real(d.draw.depth_low), Real(z_high)));
+}
+
 // A triangle whose box is no larger than a packet: one packet, wherever it lies, is laid over the box; its pixels are then few.
 void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBox<int32_t>& box, TriangleId id, PassStatistics& statistics) {
   const int32_t x_first = box.x0 * kSubPixels + kSubPixels / 2, y_first = box.y0 * kSubPixels + kSubPixels / 2;
+  const std::array<int32_t, 3> x{t.x[0] - x_first, t.x[1] - x_first, t.x[2] - x_first};
+  const std::array<int32_t, 3> y{t.y[0] - y_first, t.y[1] - y_first, t.y[2] - y_first};
+  std::array<SmallEdge, 3> edge;
   std::array<Int, 3> e;
-  std::array<int32_t, 3> bias;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Edge edge = edge_of(t, i);
-    bias[i] = fill_bias(edge);
-    e[i] = lane_x() * (-edge.ey * kSubPixels) + lane_y() * (edge.ex * kSubPixels) +
-           (edge.ex * (y_first - edge.y0) - edge.ey * (x_first - edge.x0) - bias[i]);
+    edge[i] = small_edge(x, y, i);
+    e[i] = lane_x() * edge[i].step_x + lane_y() * edge[i].step_y + edge[i].e;
   }
   Mask mask = (e[0] | e[1] | e[2]) >= Int(0);
   const PixelBounds& b = d.bounds;
   if (box.x0 < b.x0 || box.y0 < b.y0 || box.x1 > b.x1 || box.y1 > b.y1) mask = mask & inside({b.x0, b.y0, b.x1, b.y1}, box.x0, box.y0);
-  const float z_high = std::clamp(t.z_max, d.draw.depth_low, d.draw.depth_high);
-  const Real w1 = to_real<Real>(e[1] + bias[1]), w2 = to_real<Real>(e[2] + bias[2]);
-  const Real depth = clamp(fma(w1, Real(t.z_edge1), fma(w2, Real(t.z_edge2), Real(t.z0))), Real(d.draw.depth_low), Real(z_high));
   alignas(64) std::array<float, kLanes> z;
-  store(z.data(), depth_value(d.tile.depth_format, depth));
+  store(z.data(), small_depth(d, t, e[1] + edge[1].bias, e[2] + edge[2].bias));
   Writer writer(d, id, statistics);
   for (uint32_t rest = bits(mask); rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
@@ -149,20 +153,18 @@ void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBox<int32
 // A small triangle in one tile.
 class SmallTriangle {
  public:
-  SmallTriangle(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics)
+  // box: the pixels whose samples lie in the triangle's box.
+  SmallTriangle(const DrawInTile& d, const Triangle& t, const PixelBox<int32_t>& box, TriangleId id, PassStatistics& statistics)
       : d_(d), t_(t), writer_(d, id, statistics) {
     const Tile& tile = d.tile;
     // Everything from the tile's first sample; the triangle meets the tile and is small, so all fits in 16 bits.
     const int32_t x_first = tile.x0 * kSubPixels + kSubPixels / 2, y_first = tile.y0 * kSubPixels + kSubPixels / 2;
     const std::array<int32_t, 3> x{t.x[0] - x_first, t.x[1] - x_first, t.x[2] - x_first};
     const std::array<int32_t, 3> y{t.y[0] - y_first, t.y[1] - y_first, t.y[2] - y_first};
-    rect_ = {std::max(d.bounds.x0 - tile.x0, (std::min({x[0], x[1], x[2]}) + kSubPixels - 1) >> kSubPixelBits),
-             std::max(d.bounds.y0 - tile.y0, (std::min({y[0], y[1], y[2]}) + kSubPixels - 1) >> kSubPixelBits),
-             std::min(d.bounds.x1 - tile.x0, (std::max({x[0], x[1], x[2]}) >> kSubPixelBits) + 1),
-             std::min(d.bounds.y1 - tile.y0, (std::max({y[0], y[1], y[2]}) >> kSubPixelBits) + 1)};
+    const PixelBox<int32_t> seen = cut(box, d.bounds);
+    rect_ = {seen.x0 - tile.x0, seen.y0 - tile.y0, seen.x1 - tile.x0, seen.y1 - tile.y0};
     for (std::size_t i = 0; i < 3; ++i) edge_[i] = small_edge(x, y, i);
     for (std::size_t i = 0; i < 3; ++i) first_[i] = lane_x() * edge_[i].step_x + lane_y() * edge_[i].step_y + edge_[i].e;
-    z_high_ = std::clamp(t.z_max, d.draw.depth_low, d.draw.depth_high);
     bounds_ = depth_bounds(t, d.draw, tile.depth_format);
   }
 
@@ -232,11 +234,7 @@ class SmallTriangle {
     Mask mask = (e[0] | e[1] | e[2]) >= Int(0);
     if (d_.cut) mask = mask & inside(rect_, column * kPacketWidth, row * kPacketHeight);
     if (none(mask)) return;
-    const auto z_at = [&] {
-      const Real w1 = to_real<Real>(e[1] + edge_[1].bias), w2 = to_real<Real>(e[2] + edge_[2].bias);
-      const Real z = clamp(fma(w1, Real(t_.z_edge1), fma(w2, Real(t_.z_edge2), Real(t_.z0))), Real(d_.draw.depth_low), Real(z_high_));
-      return depth_value(d_.tile.depth_format, z);
-    };
+    const auto z_at = [&] { return small_depth(d_, t_, e[1] + edge_[1].bias, e[2] + edge_[2].bias); };
     const int packet = packet_at(column * kPacketWidth, row * kPacketHeight);
     const bool passed = writer_.write(packet, mask, z_at);
     if (passed && writer_.writes_depth())
@@ -249,7 +247,6 @@ class SmallTriangle {
   TileRect rect_;
   std::array<SmallEdge, 3> edge_;
   std::array<Int, 3> first_;  // the edges in the tile's first packet
-  float z_high_;
   DepthBounds bounds_;
 };
 
@@ -327,7 +324,7 @@ void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, Pass
   if (t.is(kSmall) && !t.is(kSprite)) {
     const PixelBox<int32_t> box = pixel_box(t.x, t.y, SampleSpan{}, SampleSpan{});
     if (box.is_at_most(kPacketWidth, kPacketHeight)) return rasterize_tiny(d, t, box, id, statistics);
-    if (spans_at_most(t, kSmallSpan)) return SmallTriangle(d, t, id, statistics).visit();
+    if (spans_at_most(t, kSmallSpan)) return SmallTriangle(d, t, box, id, statistics).visit();
   }
   const SampleGrid grid(d.tile, 0);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);

@@ -103,10 +103,13 @@ HS_INLINE vec4<R> to_rgba(const vec4<R>& v) {
   return v;
 }
 
-/// Linear values as they may stand in an rgba32f texel.
-inline glm::vec4 held_texel(const glm::vec4& v) {
-  const auto held = [](float x) { return x == x ? clamp(x, -kMaxTexel, kMaxTexel) : 0.0f; };
-  return {held(v.x), held(v.y), held(v.z), held(v.w)};
+/// Four channels at once.
+using Channels = RealN<4>;
+
+/// A linear value as it may stand in an rgba32f texel.
+inline Channels held_texel(const glm::vec4& v) {
+  const auto x = load<Channels>(&v.x);
+  return select(x == x, clamp(x, Channels(-kMaxTexel), Channels(kMaxTexel)), Channels(0.0f));
 }
 
 }  // namespace halfspace::detail

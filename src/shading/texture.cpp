@@ -45,20 +45,13 @@ struct Averaging<glm::vec4> {
 template <class Texel>
 using SumOf = typename Averaging<Texel>::Sum;
 
-// Four channels at once.
-using Channels = RealN<4>;
-
-/// Linear values as they may stand in an rgba32f texel; as the halves of an rgba16f texel.
-Channels held(const glm::vec4& v) {
-  const auto x = load<Channels>(&v.x);
-  return select(x == x, clamp(x, Channels(-kMaxTexel), Channels(kMaxTexel)), Channels(0.0f));
-}
-IntN<4> halves(const glm::vec4& v) { return float_to_finite_half(held(v)); }
+/// As the halves of an rgba16f texel.
+IntN<4> halves(const glm::vec4& v) { return float_to_finite_half(detail::held_texel(v)); }
 
 /// A linear colour as the format holds it.
 glm::vec4 stored(const glm::vec4& v, TexelFormat format) {
   glm::vec4 r;
-  store(&r.x, format == TexelFormat::rgba32f ? held(v) : half_to_float(halves(v)));
+  store(&r.x, format == TexelFormat::rgba32f ? detail::held_texel(v) : half_to_float(halves(v)));
   return r;
 }
 
@@ -161,7 +154,7 @@ void put(int32_t* words, std::size_t i, uint16_t t, TexelFormat) {
 void put(int32_t* words, std::size_t i, glm::u8vec4 t, TexelFormat) { words[i] = packed(t); }
 void put(int32_t* words, std::size_t i, const glm::vec4& t, TexelFormat format) {
   if (format == TexelFormat::rgba32f) {
-    store(words + i * 4, held(t));
+    store(words + i * 4, detail::held_texel(t));
   } else {
     using Shorts __attribute__((vector_size(8))) = uint16_t;
     store(words + i * 2, __builtin_convertvector(halves(t).v, Shorts));

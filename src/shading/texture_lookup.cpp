@@ -37,7 +37,8 @@ HS_INLINE Wrapped<R> wrapped_mirrored(R coordinate) {
 
 /// GL's border values (8.14.2): held to what the format's texels can be.
 glm::vec4 held_border(const glm::vec4& color, TexelFormat format) {
-  const glm::vec4 v = detail::held_texel(color);
+  glm::vec4 v;
+  store(&v.x, detail::held_texel(color));
   if (format == TexelFormat::rgba32f) return v;
   const float most = format == TexelFormat::rgba16f ? kMaxHalf : 1.0f, least = format == TexelFormat::rgba16f ? -kMaxHalf : 0.0f;
   return {clamp(v.x, least, most), clamp(v.y, least, most), clamp(v.z, least, most), clamp(v.w, least, most)};
