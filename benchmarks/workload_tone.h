@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/lane_math.h"
+#include "core/fixed_power.h"
 #include "core/vec.h"
 
 namespace halfspace {
 
 /// Light to a linear code: c/(1 + c) of 0.8 times the light, to the power 1/2.2. Opaque.
 struct WorkloadTone {
+  FixedPower encode{1.0f / 2.2f};
+
   template <class R>
   vec4<R> operator()(const vec4<R>& light) const {
     vec4<R> out(R(0), R(0), R(0), R(1));
     for (int k = 0; k < 3; ++k) {
       const R c = R(0.8f) * light[k];
-      out[k] = unit_pow(c / (R(1) + c), R(1.0f / 2.2f));
+      out[k] = encode(c / (R(1) + c));
     }
     return out;
   }

@@ -108,6 +108,8 @@ fault "small triangles: the last row of samples is not asked" src/raster/sample_
 fault "tiny triangles: cut at the left border alone" src/raster/visibility_plain.cpp 'box.x0 < b.x0 || box.y0 < b.y0 || box.x1 > b.x1 || box.y1 > b.y1' 'box.x0 < b.x0'
 fault "textures: the border above is the first row" src/shading/texture.cpp 'i == 0 ? last_y :' 'i == 0 ? 0 :'
 fault "flat tiles: the first draw's colour goes on" src/raster/pass_tiles.cpp ' && area.draw == *draw' ''
+fault "constant tiles: pairs whose edges only run the same way" src/raster/covered_area.h ' && a->y0 + a->ey == b->y0' ''
+fault "fixed powers: one entry too low" src/core/fixed_power.h 'look_up(high_, (i >> 27) & 15)' 'look_up(high_, (i >> 27) & 7)'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done

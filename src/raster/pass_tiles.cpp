@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "raster/bin.h"
+#include "raster/covered_area.h"
 #include "raster/pass.h"
 #include "raster/resolve.h"
 #include "raster/shade.h"
@@ -127,27 +128,31 @@ void Pass::place_tile(Tile& tile, int tile_x, int tile_y) const {
 }
 
 std::optional<const Draw*> Pass::flat_tile(int tile_x, int tile_y, PassStatistics& statistics) const {
-  const Chunk* chunk = nullptr;
-  uint16_t index = 0;
+  std::array<const Triangle*, 2> triangles{};
+  std::size_t count = 0;
+  const Draw* draw = nullptr;
   for (const Chunk& c : frame_.chunks) {
-    const std::span<const uint16_t> bin = bin_of(c, tile_x, tile_y);
-    if (bin.empty()) continue;
-    if (chunk != nullptr || bin.size() > 1) return std::nullopt;
-    chunk = &c;
-    index = bin[0];
+    for (const uint16_t index : bin_of(c, tile_x, tile_y)) {
+      const Triangle& t = c.triangles[index];
+      const Draw& of = frame_.draws[c.segments[t.segment()].draw];
+      if (count == triangles.size() || (draw != nullptr && draw != &of)) return std::nullopt;
+      draw = &of;
+      triangles[count++] = &t;
+    }
   }
-  if (chunk == nullptr) return nullptr;
-  const Triangle& t = chunk->triangles[index];
-  const Draw& draw = frame_.draws[chunk->segments[t.segment()].draw];
-  if (depth_.format != DepthFormat::none || !draw.deferred || !draw.kernels.is_constant || frame_.samples != 1 ||
-      draw.kernels.color_count < static_cast<int>(colors_.size())) {
+  if (draw == nullptr) return nullptr;
+  if (depth_.format != DepthFormat::none || !draw->deferred || !draw->kernels.is_constant || frame_.samples != 1 ||
+      draw->kernels.color_count < static_cast<int>(colors_.size())) {
     return std::nullopt;
   }
-  Tile tile;  // what covers_tile asks of it
+  Tile tile;  // what the draw is asked for
   place_tile(tile, tile_x, tile_y);
-  const DrawInTile here(frame_, draw, VisibilityMode::deferred, tile);
-  if (!here.is_plain || here.bounds.x1 - here.bounds.x0 != tile.width || here.bounds.y1 - here.bounds.y0 != tile.height ||
-      !covers_tile(here, t)) {
+  const DrawInTile here(frame_, *draw, VisibilityMode::deferred, tile);
+  const PixelBounds area = pixels_of(tile_x, tile_y);
+  const bool is_triangle =
+      std::none_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is(kSprite | kLine); });
+  if (!here.is_plain || here.bounds != area || !is_triangle ||
+      !(count == 1 ? covers(*triangles[0], area) : cover_together(*triangles[0], *triangles[1], area))) {
     return std::nullopt;
   }
   const auto samples = static_cast<uint64_t>(tile.width) * static_cast<uint64_t>(tile.height);
@@ -155,8 +160,8 @@ std::optional<const Draw*> Pass::flat_tile(int tile_x, int tile_y, PassStatistic
   statistics.samples_tested += samples;
   statistics.samples_passed += samples;
   statistics.fragments_shaded += samples;
-  if (draw.state.query) statistics.add_to_query(*draw.state.query, samples);
-  return &draw;
+  if (draw->state.query) statistics.add_to_query(*draw->state.query, samples);
+  return draw;
 }
 
 void Pass::fill_images(const FlatArea& area) const {

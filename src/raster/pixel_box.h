@@ -10,15 +10,6 @@
 
 namespace halfspace {
 
-/// Pixels, half open. I: int32_t or Int.
-template <class I>
-struct PixelBox {
-  I x0, y0, x1, y1;
-
-  auto empty() const { return x0 >= x1 || y0 >= y1; }
-  auto is_at_most(int32_t width, int32_t height) const { return x1 - x0 <= I(width) && y1 - y0 <= I(height); }
-};
-
 template <class T>
 HS_INLINE T least(const std::array<T, 3>& v) {
   return min(v[0], min(v[1], v[2]));

@@ -15,8 +15,7 @@ namespace {
 
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& at_x, const SampleSpan& at_y) {
   if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
-  const PixelBox<int32_t> box = cut(pixel_box(t.x, t.y, at_x, at_y), b);
-  return {box.x0, box.y0, box.x1, box.y1};
+  return cut(pixel_box(t.x, t.y, at_x, at_y), b);
 }
 
 // The smallest depth step that makes a difference: OpenGL 4.6, section 14.6.5.
@@ -84,7 +83,7 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
     out.vertex[i] = index[order[i]];
     if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
   }
-  const PixelBox<int32_t> box = cut(pixel_box(out.x, out.y, frame.samples_at, frame.samples_at), draw.bounds);
+  const PixelBounds box = cut(pixel_box(out.x, out.y, frame.samples_at, frame.samples_at), draw.bounds);
   if (box.empty()) return Cull::no_sample;
   const bool few = frame.samples == 1 && is_small(out) && box.is_at_most(kCoverSide, kCoverSide);
   if (few && !covers_center<float>(out.x, out.y, box)) return Cull::no_sample;

@@ -111,11 +111,16 @@ struct SampleSpan {
   int low = kSubPixels / 2, high = kSubPixels / 2;
 };
 
-/// The pixels a draw may touch, half open.
-struct PixelBounds {
-  int x0, y0, x1, y1;
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
+/// Pixels, half open. I: int32_t, or Int for as many boxes as there are lanes.
+template <class I>
+struct PixelBox {
+  I x0, y0, x1, y1;
+
+  bool operator==(const PixelBox&) const = default;
+  auto empty() const { return x0 >= x1 || y0 >= y1; }
+  auto is_at_most(int32_t width, int32_t height) const { return x1 - x0 <= I(width) && y1 - y0 <= I(height); }
 };
+using PixelBounds = PixelBox<int32_t>;
 
 // ---- clip and setup → bin, visibility, shade -------------------------------------------------------------------
 

@@ -124,7 +124,7 @@ HS_INLINE Real small_depth(const DrawInTile& d, const Triangle& t, Int e1, Int e
 }
 
 // A triangle whose box is no larger than a packet: one packet, wherever it lies, is laid over the box; its pixels are then few.
-void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBox<int32_t>& box, TriangleId id, PassStatistics& statistics) {
+void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBounds& box, TriangleId id, PassStatistics& statistics) {
   const int32_t x_first = box.x0 * kSubPixels + kSubPixels / 2, y_first = box.y0 * kSubPixels + kSubPixels / 2;
   const std::array<int32_t, 3> x{t.x[0] - x_first, t.x[1] - x_first, t.x[2] - x_first};
   const std::array<int32_t, 3> y{t.y[0] - y_first, t.y[1] - y_first, t.y[2] - y_first};
@@ -154,14 +154,14 @@ void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBox<int32
 class SmallTriangle {
  public:
   // box: the pixels whose samples lie in the triangle's box.
-  SmallTriangle(const DrawInTile& d, const Triangle& t, const PixelBox<int32_t>& box, TriangleId id, PassStatistics& statistics)
+  SmallTriangle(const DrawInTile& d, const Triangle& t, const PixelBounds& box, TriangleId id, PassStatistics& statistics)
       : d_(d), t_(t), writer_(d, id, statistics) {
     const Tile& tile = d.tile;
     // Everything from the tile's first sample; the triangle meets the tile and is small, so all fits in 16 bits.
     const int32_t x_first = tile.x0 * kSubPixels + kSubPixels / 2, y_first = tile.y0 * kSubPixels + kSubPixels / 2;
     const std::array<int32_t, 3> x{t.x[0] - x_first, t.x[1] - x_first, t.x[2] - x_first};
     const std::array<int32_t, 3> y{t.y[0] - y_first, t.y[1] - y_first, t.y[2] - y_first};
-    const PixelBox<int32_t> seen = cut(box, d.bounds);
+    const PixelBounds seen = cut(box, d.bounds);
     rect_ = {seen.x0 - tile.x0, seen.y0 - tile.y0, seen.x1 - tile.x0, seen.y1 - tile.y0};
     for (std::size_t i = 0; i < 3; ++i) edge_[i] = small_edge(x, y, i);
     for (std::size_t i = 0; i < 3; ++i) first_[i] = lane_x() * edge_[i].step_x + lane_y() * edge_[i].step_y + edge_[i].e;
@@ -322,7 +322,7 @@ void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, con
 
 void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
   if (t.is(kSmall) && !t.is(kSprite)) {
-    const PixelBox<int32_t> box = pixel_box(t.x, t.y, SampleSpan{}, SampleSpan{});
+    const PixelBounds box = pixel_box(t.x, t.y, SampleSpan{}, SampleSpan{});
     if (box.is_at_most(kPacketWidth, kPacketHeight)) return rasterize_tiny(d, t, box, id, statistics);
     if (spans_at_most(t, kSmallSpan)) return SmallTriangle(d, t, box, id, statistics).visit();
   }

@@ -20,6 +20,7 @@
 
 #include <array>
 
+#include "core/fixed_power.h"
 #include "core/lane_math.h"
 #include "core/vec.h"
 
@@ -100,10 +101,11 @@ HS_INLINE DisplayLight<R> tone_map(const SceneLight<R>& light, const ToneMapping
 /// The sRGB curve (IEC 61966-2-1), as a number between codes. Where whole codes are wanted linear_to_srgb (core/srgb.h) is exact.
 template <Number R>
 HS_INLINE Encoded<R> encode_srgb(const DisplayLight<R>& light) {
+  static constexpr FixedPower power_of(1.0f / 2.4f);
   vec3<R> e;
   for (int k = 0; k < 3; ++k) {
     const R x = light.rgb[k];
-    const R power = fma(R(1.055f), pow(x, R(1.0f / 2.4f)), R(-0.055f));
+    const R power = fma(R(1.055f), power_of(x), R(-0.055f));
     e[k] = min(select(x <= R(0.0031308f), R(12.92f) * x, power), R(1.0f));
   }
   return {e};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "raster/covered_area.h"
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test {
@@ -55,6 +56,13 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
       const Point p{random.integer(-kSize * 256, 2 * kSize * 256), random.integer(-kSize * 256, 2 * kSize * 256)};
       positions.push_back(clip_position(p, kSize, kSize, random.real(-0.9f, 0.9f)));
     }
+    // Half of the time with a second triangle, over an edge of the first or (rarely) anywhere.
+    if (i % 2 == 1) {
+      const auto edge = static_cast<std::size_t>(random.integer(0, 2));
+      const glm::vec4 a = positions[edge], b = positions[(edge + 1) % 3], c = positions[(edge + 2) % 3];
+      const float along = random.real(0.0f, 1.0f), beyond = random.real(0.2f, 2.0f);
+      positions.insert(positions.end(), {b, a, i % 16 == 3 ? c : a + b - c + (b - a) * along + (a - c) * beyond});
+    }
     DrawState state;
     if (i % 4 == 1) state.scissor = Rect{random.integer(0, 100), random.integer(0, 100), random.integer(1, 200), random.integer(1, 200)};
     const Drawn paint = drawn(PaintShader{color}, positions, state), any = drawn(ConstantShader{color}, positions, state);
@@ -62,6 +70,58 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
     ASSERT_EQ(paint.statistics.samples_passed, any.statistics.samples_passed) << i;
     ASSERT_EQ(paint.statistics.fragments_shaded, any.statistics.fragments_shaded) << i;
   }
+}
+
+TEST(CoveredArea, PairsCoverWhatTheirHalvesDo) {
+  Random random(5);
+  const auto turn = [](Triangle t) {
+    if ((t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) < (t.y[1] - t.y[0]) * (t.x[2] - t.x[0])) {
+      std::swap(t.x[1], t.x[2]);
+      std::swap(t.y[1], t.y[2]);
+    }
+    return t;
+  };
+  int together = 0;
+  for (int i = 0; i < effort(200000); ++i) {
+    const auto at = [&] { return random.integer(-3000, 3000); };
+    const auto triangle = [&](std::array<int32_t, 3> x, std::array<int32_t, 3> y) {
+      Triangle made{};
+      made.x = x;
+      made.y = y;
+      return turn(made);
+    };
+    const Triangle t = triangle({at(), at(), at()}, {at(), at(), at()});
+    const std::size_t k = static_cast<std::size_t>(random.integer(0, 2)), n = (k + 1) % 3;
+    // The edge that they share, or (two times in three) one beside it, moved, or turned about one end.
+    std::array<int32_t, 3> ux{t.x[n], t.x[k], at()}, uy{t.y[n], t.y[k], at()};
+    std::array<int32_t, 3>& moved = i % 6 < 3 ? ux : uy;
+    const int by = random.integer(-300, 300);
+    if (i % 3 != 0) moved[i % 4 < 2 ? 0 : 1] += by;
+    if (i % 3 == 1) moved[i % 4 < 2 ? 1 : 0] += by;
+    const Triangle u = triangle(ux, uy);
+    const int x = random.integer(-4, 2), y = random.integer(-4, 2);
+    const PixelBounds area{x, y, x + random.integer(1, 3), y + random.integer(1, 3)};
+    const auto count = [](const Triangle& of, int px, int py) {
+      int inside = 0;
+      for (std::size_t e = 0; e < 3; ++e) {
+        const Edge edge = edge_of(of, e);
+        inside += edge.at(px * kSubPixels + kSubPixels / 2, py * kSubPixels + kSubPixels / 2) >= fill_bias(edge) ? 1 : 0;
+      }
+      return inside == 3 ? 1 : 0;
+    };
+    bool first = true, each_once = true;
+    for (int py = area.y0; py < area.y1; ++py) {
+      for (int px = area.x0; px < area.x1; ++px) {
+        first &= count(t, px, py) == 1;
+        each_once &= count(t, px, py) + count(u, px, py) == 1;
+      }
+    }
+    ASSERT_EQ(covers(t, area), first) << i;
+    // What is told is true; what covers together by other ways than one shared edge need not be told.
+    ASSERT_TRUE(!cover_together(t, u, area) || each_once) << i;
+    together += cover_together(t, u, area) ? 1 : 0;
+  }
+  EXPECT_GT(together, 100);
 }
 
 // Tiles of one colour go into the image several in a row: each keeps its own, for any number of threads.

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/fixed_power.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace halfspace {
+namespace {
+
+constexpr float kExponents[] = {1.0f / 2.2f, 1.0f / 2.4f, 1.0f, 0.5f, 0.9f, 0.01f};
+constexpr uint32_t kStride = 509;  // some four million floats of every exponent
+
+TEST(FixedPower, IsWithinItsError) {
+  for (const float y : kExponents) {
+    const FixedPower power(y);
+    double worst = 0;
+    for (int64_t i = as_int(0x1p-126f); i < as_int(detail::kInfinity); i += kStride) {
+      const float x = as_real(static_cast<int32_t>(i));
+      const double want = std::pow(static_cast<double>(x), static_cast<double>(y));
+      worst = std::max(worst, std::fabs(static_cast<double>(power(x)) - want) / want);
+    }
+    // Two products, two table entries and the polynomial's last step, each rounded to 2^-24, and the rest of the polynomial.
+    EXPECT_LE(worst, 3e-7) << y;
+  }
+}
+
+TEST(FixedPower, HoldsWhatIsNoPositiveNumber) {
+  constexpr FixedPower power(0.4f);  // a constant expression
+  EXPECT_EQ(power(0.0f), 0.0f);
+  EXPECT_EQ(power(-0.0f), 0.0f);
+  EXPECT_EQ(power(0x1p-127f), 0.0f);
+  EXPECT_TRUE(std::isnan(power(-1.0f)));
+  EXPECT_TRUE(std::isnan(power(detail::kNaN)));
+  EXPECT_EQ(power(0.25), pow(0.25, static_cast<double>(0.4f)));
+}
+
+template <int W>
+void expect_bits_of_float(const FixedPower& power) {
+  uint32_t pattern = 1;
+  for (int n = 0; n < 1 << 16; ++n) {
+    RealN<W> x;
+    for (int k = 0; k < W; ++k, pattern += 2654435761u) set_lane(x, k, as_real(static_cast<int32_t>(pattern)));
+    const RealN<W> got = power(x);
+    for (int k = 0; k < W; ++k) {
+      const float want = power(lane(x, k));
+      if (std::isnan(want) && std::isnan(lane(got, k))) continue;
+      ASSERT_EQ(as_int(lane(got, k)), as_int(want)) << "width " << W << ", " << lane(x, k);
+    }
+  }
+}
+
+TEST(FixedPower, LanesHoldTheBitsOfFloat) {
+  const FixedPower power(1.0f / 2.2f);
+  expect_bits_of_float<4>(power);
+  expect_bits_of_float<8>(power);
+  expect_bits_of_float<16>(power);
+}
+
+/// Another compiler or processor, which would build other tables, cannot differ unseen.
+TEST(FixedPower, BitsAreTheCommittedOnes) {
+  uint64_t hash = 14695981039346656037u;
+  for (const float y : kExponents) {
+    const FixedPower power(y);
+    for (int64_t i = as_int(0x1p-126f); i < as_int(detail::kInfinity); i += 100 * kStride) {
+      hash = (hash ^ static_cast<uint32_t>(as_int(power(as_real(static_cast<int32_t>(i)))))) * 1099511628211u;
+    }
+  }
+  EXPECT_EQ(hash, 15098686285919660568u);
+}
+
+}  // namespace
+}  // namespace halfspace
