@@ -81,6 +81,14 @@ HS_INLINE MantissaExponent<R> split_normal(R x) {
   const IntOf<R> i = (as_int(x) & 0x7fffffff) - root_half;  // no sign: no overflow for x < 0
   return {as_real((i & 0x7fffff) + root_half), i >> 23};
 }
+/// log2(x) for 2^-126 <= x < infinity, with an error of at most 1.8·2^-24 of itself. 0 and what is below count as some number below −125,
+/// infinity and NaN as some number from 128 on.
+template <class R>
+HS_INLINE R log2_of_normal(R x) {
+  const MantissaExponent<R> me = split_normal(x);
+  const R f = me.m - R(1.0f);
+  return fma(f, polynomial(f, kLog2), to_real<R>(me.e));
+}
 template <class R>
 HS_INLINE MantissaExponent<R> split(R x) {
   const MaskOf<R> subnormal = x < R(0x1p-126f);
@@ -231,10 +239,7 @@ HS_INLINE R unit_pow(R x, std::type_identity_t<R> y) {
   if constexpr (std::is_same_v<R, double>) {
     return pow(x, y);
   } else {
-    const detail::MantissaExponent<R> me = detail::split_normal(x);
-    const R f = me.m - R(1.0f);
-    const R log_x = fma(f, detail::polynomial(f, detail::kLog2), to_real<R>(me.e));
-    const R product = max(R(-125.0f), y * log_x);
+    const R product = max(R(-125.0f), y * detail::log2_of_normal(x));
     const R shifted = product + R(0x1.8p23f);  // whole numbers are the last bits beside 2^23
     const R power_of_two = as_real((as_int(shifted) + 127) << 23);
     const R r = detail::polynomial(product - (shifted - R(0x1.8p23f)), detail::kExp2) * power_of_two;

@@ -192,8 +192,24 @@ void Pass::run_post_step(const Tile& tile) const {
   store_color(post_target_, frame_.width, frame_.height, Samples::one, tile, finished);
 }
 
-// A tile's triangles lie scattered in their chunk: so many are fetched ahead.
-constexpr std::size_t kPrefetch = 12;
+// A tile's triangles lie scattered in their chunk, and their vertices too: so many are fetched ahead.
+constexpr std::size_t kTrianglesAhead = 12, kVerticesAhead = 3;
+
+void prefetch(const Triangle& t) {
+  __builtin_prefetch(&t);
+  __builtin_prefetch(&t.flags);  // which may lie in the next cache line
+}
+
+// What a shader that decides on visibility reads of a triangle's vertices; of a point's alone, which are few and far between.
+void prefetch_vertices(const Frame& frame, const Chunk& chunk, const Triangle& t) {
+  if (!t.is(kSprite) || t.is(kClipped)) return;
+  const ShadedVertices& shaded = frame.shaded[chunk.segments[t.segment()].draw];
+  const auto count = static_cast<std::size_t>(shaded.varying_count);
+  const float* row = shaded.varyings.get() + t.vertex[0] * count;
+  __builtin_prefetch(&shaded.screen[t.vertex[0]]);
+  __builtin_prefetch(row);
+  __builtin_prefetch(row + count);
+}
 
 // waiting: there are visible pixels of the tile that are not shaded yet.
 void Pass::draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index, bool& waiting, CoverageList& list,
@@ -221,11 +237,11 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
   for (uint32_t c = 0; c < frame_.chunks.size(); ++c) {
     const Chunk& chunk = frame_.chunks[c];
     const std::span<const uint16_t> bin = bin_of(chunk, tile_x, tile_y);
+    const auto ahead = [&](std::size_t i) -> const Triangle& { return chunk.triangles[bin[std::min(i, bin.size() - 1)]]; };
     for (std::size_t i = 0; i < bin.size(); ++i) {
       const uint16_t t = bin[i];
-      const Triangle* ahead = &chunk.triangles[bin[std::min(i + kPrefetch, bin.size() - 1)]];
-      __builtin_prefetch(ahead);
-      __builtin_prefetch(&ahead->flags);  // which may lie in the next cache line
+      prefetch(ahead(i + kTrianglesAhead));
+      if (here && here->asks_shader) prefetch_vertices(frame_, chunk, ahead(i + kVerticesAhead));
       const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
       if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
       const uint64_t passed_before = statistics.samples_passed;

@@ -20,15 +20,20 @@
 
 namespace halfspace {
 
-/// GL's λ (8.14.1, without bias): log2 of the longer of the two lengths that a pixel step to the right or up covers, in
-/// texels of a level 0 of width × height. Zero derivatives give −inf. A step to the right with a NaN in it is passed over, one
-/// up gives NaN.
+/// GL's ρ² (8.14.1): the square of the longer of the two lengths that a pixel step to the right or up covers, in texels of a level 0
+/// of width × height. A step to the right with a NaN in it is passed over, one up gives NaN.
 template <Number R>
-HS_INLINE R level_of_detail(int width, int height, const vec2<R>& duv_dx, const vec2<R>& duv_dy) {
+HS_INLINE R squared_scale_factor(int width, int height, const vec2<R>& duv_dx, const vec2<R>& duv_dy) {
   const R w(static_cast<float>(width)), h(static_cast<float>(height));
   const R ux = duv_dx.x * w, vx = duv_dx.y * h;
   const R uy = duv_dy.x * w, vy = duv_dy.y * h;
-  return R(0.5f) * log2(max(fma(ux, ux, vx * vx), fma(uy, uy, vy * vy)));
+  return max(fma(ux, ux, vx * vx), fma(uy, uy, vy * vy));
+}
+
+/// GL's λ without bias, log2 ρ. Zero derivatives give −inf.
+template <Number R>
+HS_INLINE R level_of_detail(int width, int height, const vec2<R>& duv_dx, const vec2<R>& duv_dy) {
+  return R(0.5f) * log2(squared_scale_factor(width, height, duv_dx, duv_dy));
 }
 
 template <class R>

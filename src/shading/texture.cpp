@@ -247,6 +247,9 @@ void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
   const auto l = static_cast<std::size_t>(levels_++);
   width_[l] = image.width();
   height_[l] = image.height();
+  pitch_[l] = image.width() + 2;
+  columns_[l] = as_int(static_cast<float>(image.width()));
+  rows_[l] = as_int(static_cast<float>(image.height()));
   offset_[l] = static_cast<int32_t>(begin) + image.width() + 3;
   // Rows of r8 and r16 may share a word: those have no workers.
   const int last_y = image.height() - 1;
@@ -265,7 +268,7 @@ std::size_t Texture2D::index_of(int level, int x, int row) const {
   HS_CHECK(level >= 0 && level < levels_);
   HS_CHECK(x >= 0 && x < width(level) && row >= 0 && row < height(level));
   const auto l = static_cast<std::size_t>(level);
-  return static_cast<std::size_t>(offset_[l] + row * (width_[l] + 2) + x);
+  return static_cast<std::size_t>(offset_[l] + row * pitch_[l] + x);
 }
 
 glm::u8vec4 Texture2D::texel(int level, int x, int row) const {

@@ -116,8 +116,8 @@ class Texture2D {
   // What one look-up in one level needs.
   template <class R>
   struct Level {
-    IntOf<R> width, height, offset;
-    IntOf<R> pitch() const { return width + 2; }
+    IntOf<R> width, height, offset, pitch;
+    R columns, rows;  // width and height once more
   };
   // Where a look-up falls on one axis: between texel i (−1 … size − 1) and its neighbour, whose weight is fraction.
   template <class R>
@@ -144,7 +144,7 @@ class Texture2D {
   template <class R>
   vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
-  vec4<R> sample_level_any(const Sampler& sampler, const vec2<R>& uv, const R& lod) const;
+  vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
   // A look-up of any format, written for the texels of one (texels.h).
   template <class R, class Texels>
   struct AnyLookup;
@@ -159,19 +159,23 @@ class Texture2D {
   template <int N, class R>
   glm::vec<N, R> sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
-  R lod_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
+  LevelChoice<R> choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const;
+  /// At a level of detail; and at that of derivatives.
   template <class R>
-  LevelChoice<R> choose_level(const Sampler& sampler, R lod) const;
+  LevelChoice<R> levels_at(const Sampler& sampler, R lod) const;
+  template <class R>
+  LevelChoice<R> levels_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   Level<R> level(IntOf<R> index) const;
   template <class R>
   static R wrapped(R coordinate, Wrap wrap);
   template <class R>
-  static Axis<R> axis(R coordinate, IntOf<R> size);
+  static Axis<R> axis(R coordinate, R size);
 
   TexelFormat format_;
   int levels_ = 0;
-  std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{};  // offset: index of a level's texel (0, 0)
+  std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{}, pitch_{};  // offset: index of a level's texel (0, 0)
+  std::array<int32_t, kMaxLevels> columns_{}, rows_{};                       // width and height as floats' bits
   // All levels, texel after texel as texels.h reads them; red in the low byte. Round each level stands a border of the texels
   // that repeating would show there, so that a texel's neighbours lie beside it, across the seams too.
   std::vector<int32_t, LineAllocator<int32_t>> texels_;
@@ -192,7 +196,12 @@ std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format
 
 template <class R>
 HS_INLINE Texture2D::Level<R> Texture2D::level(IntOf<R> index) const {
-  return {look_up(width_, index), look_up(height_, index), look_up(offset_, index)};
+  return {look_up(width_, index),
+          look_up(height_, index),
+          look_up(offset_, index),
+          look_up(pitch_, index),
+          R(as_real(look_up(columns_, index))),
+          R(as_real(look_up(rows_, index)))};
 }
 
 /// A coordinate brought into [0, 1]: all that follows is then in range. NaN becomes 0.
@@ -203,14 +212,13 @@ HS_INLINE R Texture2D::wrapped(R coordinate, Wrap wrap) {
 
 /// Texel centres lie at i + 1/2. In: a coordinate in [0, 1].
 template <class R>
-HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, IntOf<R> size) {
-  const R n = to_real<R>(size);
+HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, R n) {
   if constexpr (std::is_same_v<R, double>) {
     const double u = coordinate * n - 0.5;
     return {truncate_to_int(floor(u)), u - floor(u)};
   } else {
     constexpr int kBits = 15;  // of the fraction; kMaxSize leaves room for them
-    const IntOf<R> u = round_to_int(fma(coordinate, n * R(1 << kBits), R(-(1 << kBits) / 2)));
+    const IntOf<R> u = round_to_int(fma(coordinate * R(1 << kBits), n, R(-(1 << kBits) / 2)));
     return {u >> kBits, to_real<R>(u & ((1 << kBits) - 1)) * R(1.0f / (1 << kBits))};
   }
 }
@@ -259,6 +267,45 @@ HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
   return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f), lerp(a.w, b.w, f)};
 }
 
+/// Channel k of packed 8-bit texels, plus an offset: what was masked out of a texel is a number once the offset's bits are set above it.
+template <class R>
+struct OffsetCode {
+  R value, offset;
+};
+template <class R>
+HS_INLINE OffsetCode<R> offset_code(IntOf<R> texel, int k) {
+  if (k == 0) return {as_real((texel & 0xff) | 0x4b000000), R(0x1p23f)};
+  return {as_real(((texel >> (8 * (k - 1))) & 0xff00) | 0x47000000), R(0x1p15f)};
+}
+
+/// Two texels of a row.
+template <class I>
+struct TexelPair {
+  I left, right;
+};
+
+/// The mean of 2x2 packed 8-bit texels: the first N channels, as decode_rgba8 has them. along, across: weights of the right and of the
+/// upper.
+template <int N, TexelFormat format, class R>
+HS_INLINE glm::vec<N, R> mixed_rgba8(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across) {
+  if constexpr (format == TexelFormat::srgb8a8 || std::is_same_v<R, double>) {
+    const auto row = [&](const TexelPair<IntOf<R>>& of) {
+      return lerp(decode_rgba8<N, format, R>(of.left), decode_rgba8<N, format, R>(of.right), along);
+    };
+    return lerp(row(lower), row(upper), across);
+  } else {
+    glm::vec<N, R> mean;
+    for (int k = 0; k < N; ++k) {
+      const auto row = [&](const TexelPair<IntOf<R>>& of) {
+        const OffsetCode<R> left = offset_code<R>(of.left, k), right = offset_code<R>(of.right, k);
+        return fma(along, right.value - left.value, left.value - left.offset);  // both differences are exact
+      };
+      mean[k] = lerp(row(lower), row(upper), across);
+    }
+    return mean;
+  }
+}
+
 }  // namespace detail
 
 template <int N, TexelFormat texel_format, class R>
@@ -274,19 +321,18 @@ struct Texture2D::CommonLookup {
     return {max(a.i, IntOf<R>(0)), select(a.i >= 0 && a.i < size - 1, a.fraction, R(0.0f))};
   }
 
-  /// The texels at index and right of it, mixed.
-  HS_INLINE Value filter_row(IntOf<R> index, R fraction) const {
+  /// The texels at index and right of it.
+  HS_INLINE detail::TexelPair<IntOf<R>> pair(IntOf<R> index) const {
     const int32_t* texels = texture.texels_.data();
-    return detail::lerp(detail::decode_rgba8<N, texel_format, R>(gather(texels, index)),
-                        detail::decode_rgba8<N, texel_format, R>(gather(texels + 1, index)), fraction);
+    return {gather(texels, index), gather(texels + 1, index)};
   }
 
   /// One level, in filtering units. st in [0, 1].
   HS_INLINE Value filter(const vec2<R>& st, IntOf<R> level_index) const {
     const Level<R> l = texture.level<R>(level_index);
-    const Axis<R> x = held(axis(st.x, l.width), l.width, sampler.wrap_s), y = held(axis(st.y, l.height), l.height, sampler.wrap_t);
-    const IntOf<R> row = l.offset + y.i * l.pitch() + x.i;
-    return detail::lerp(filter_row(row, x.fraction), filter_row(row + l.pitch(), x.fraction), y.fraction);
+    const Axis<R> x = held(axis(st.x, l.columns), l.width, sampler.wrap_s), y = held(axis(st.y, l.rows), l.height, sampler.wrap_t);
+    const IntOf<R> row = y.i * l.pitch + (l.offset + x.i);  // the product comes last
+    return detail::mixed_rgba8<N, texel_format>(pair(row), pair(row + l.pitch), x.fraction, y.fraction);
   }
 
   /// Mixed of one level or two, in filtering units.
@@ -300,34 +346,52 @@ struct Texture2D::CommonLookup {
   HS_INLINE Value finish(const Value& v) const { return detail::rgba8_to_linear<texel_format>(v); }
 };
 
-/// The level of detail, or 0 where it changes nothing.
+namespace detail {
+
+/// Levels whose fraction is below this are read alone (it would shift a value by less than contrast/16384): a quad drawn at its own size
+/// has a level of detail of some 1e-7.
 template <class R>
-HS_INLINE R Texture2D::lod_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
-  const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
-  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return R(0.0f);
-  return level_of_detail(width(), height(), duv_dx, duv_dy);
+inline constexpr float kLevelSnap = std::is_same_v<R, double> ? 0.0f : 0x1p-14f;
+
+}  // namespace detail
+
+/// whole: floor(lod + kLevelSnap), or for what is no level any other number beyond the ends.
+template <class R>
+HS_INLINE Texture2D::LevelChoice<R> Texture2D::choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const {
+  const MaskOf<R> minified = lod > R(0.0f);
+  const MaskOf<R> nearest = select(minified, MaskOf<R>(sampler.min == Filter::nearest), MaskOf<R>(sampler.mag == Filter::nearest));
+  const int32_t last = sampler.min == Filter::trilinear ? levels_ - 1 : 0;
+  const IntOf<R> index = min(max(whole, IntOf<R>(0)), IntOf<R>(last));
+  const R fraction = lod - to_real<R>(index);
+  const MaskOf<R> between = fraction > R(detail::kLevelSnap<R>) && index < IntOf<R>(last);
+  return {index, select(between, fraction, R(0.0f)), between, nearest};
 }
 
 template <class R>
-HS_INLINE Texture2D::LevelChoice<R> Texture2D::choose_level(const Sampler& sampler, R lod) const {
-  const MaskOf<R> minified = lod > R(0.0f);
-  const MaskOf<R> nearest = select(minified, MaskOf<R>(sampler.min == Filter::nearest), MaskOf<R>(sampler.mag == Filter::nearest));
-  const float last = sampler.min == Filter::trilinear ? static_cast<float>(levels_ - 1) : 0.0f;
-  const R held = clamp(lod, R(0.0f), R(last));
-  // A fraction below 2^-14 is not worth a second level (it would shift a value by less than contrast/16384): a quad drawn
-  // at its own size has a level of detail of some 1e-7.
-  constexpr float kSnap = std::is_same_v<R, double> ? 0.0f : 0x1p-14f;
-  const R whole = floor(held + R(kSnap));
-  const R fraction = held - whole;
-  const MaskOf<R> between = fraction > R(kSnap);
-  return {truncate_to_int(whole), select(between, fraction, R(0.0f)), between, nearest};
+HS_INLINE Texture2D::LevelChoice<R> Texture2D::levels_at(const Sampler& sampler, R lod) const {
+  return choose_level(sampler, lod, truncate_to_int(floor(clamp(lod, R(0.0f), R(kMaxLevels)) + R(detail::kLevelSnap<R>))));
+}
+
+/// The whole part is half of the exponent of ρ²: texels can be fetched before the logarithm is known.
+template <class R>
+HS_INLINE Texture2D::LevelChoice<R> Texture2D::levels_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
+  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return choose_level(sampler, R(0.0f), IntOf<R>(0));
+  const R rho2 = max(squared_scale_factor(width(), height(), duv_dx, duv_dy), R(0x1p-126f));  // NaN too: level 0
+  if constexpr (std::is_same_v<R, double>) {
+    return levels_at(sampler, 0.5 * log2(rho2));
+  } else {
+    constexpr float kSnapFactor = 1.0f + 2 * 0.693147181f * detail::kLevelSnap<R>;
+    const IntOf<R> exponent = (as_int(rho2 * R(kSnapFactor)) >> 23) - 127;
+    return choose_level(sampler, R(0.5f) * detail::log2_of_normal(rho2), exponent >> 1);
+  }
 }
 
 template <Number R>
 vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const {
-  if (format_ != TexelFormat::rgba8 || !is_common(sampler)) return sample_level_any<R>(sampler, uv, lod);
+  if (format_ != TexelFormat::rgba8 || !is_common(sampler)) return sample_levels_any<R>(sampler, uv, levels_at(sampler, lod));
   const CommonLookup<4, TexelFormat::rgba8, R> lookup{*this, sampler};
-  return lookup.finish(lookup(uv, choose_level(sampler, lod)));
+  return lookup.finish(lookup(uv, levels_at(sampler, lod)));
 }
 
 template <int N, class R>
@@ -336,7 +400,7 @@ HS_INLINE glm::vec<N, R> Texture2D::sample_channels(const Sampler& sampler, cons
   if (format_ != TexelFormat::rgba8 || !is_common(sampler) || sampler.anisotropy > 1)
     return glm::vec<N, R>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
   const CommonLookup<N, TexelFormat::rgba8, R> lookup{*this, sampler};
-  return lookup.finish(lookup(uv, choose_level(sampler, lod_of(sampler, duv_dx, duv_dy))));
+  return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
 }
 
 template <Number R>

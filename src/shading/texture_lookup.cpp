@@ -73,7 +73,7 @@ struct Texture2D::AnyLookup {
   }
 
   HS_INLINE static Taps<R> taps(const Wrapped<R>& coordinate, IntOf<R> size, Wrap wrap, MaskOf<R> nearest) {
-    Axis<R> axis = Texture2D::axis<R>(coordinate.at, size);
+    Axis<R> axis = Texture2D::axis<R>(coordinate.at, to_real<R>(size));
     if (any(nearest)) {
       axis.i = select(nearest, texel_at(coordinate, size, wrap), axis.i);
       axis.fraction = select(nearest, R(0.0f), axis.fraction);
@@ -95,7 +95,7 @@ struct Texture2D::AnyLookup {
 
   HS_INLINE Value nearest_texel(const Wrapped<R>& s, const Wrapped<R>& t, const Level<R>& l) const {
     const IntOf<R> x = texel_at(s, l.width, sampler.wrap_s), y = texel_at(t, l.height, sampler.wrap_t);
-    return texel(l.offset + held(y, l.height) * l.pitch() + held(x, l.width), is_inside(x, l.width) && is_inside(y, l.height));
+    return texel(l.offset + held(y, l.height) * l.pitch + held(x, l.width), is_inside(x, l.width) && is_inside(y, l.height));
   }
 
   /// One level, bilinear or one texel.
@@ -103,7 +103,7 @@ struct Texture2D::AnyLookup {
     const Level<R> l = texture.level<R>(level_index);
     if (all(nearest)) return nearest_texel(s, t, l);
     const Taps<R> x = taps(s, l.width, sampler.wrap_s, nearest), y = taps(t, l.height, sampler.wrap_t, nearest);
-    const IntOf<R> row0 = l.offset + y.first * l.pitch(), row1 = l.offset + y.second * l.pitch();
+    const IntOf<R> row0 = l.offset + y.first * l.pitch, row1 = l.offset + y.second * l.pitch;
     const Value first = texel(row0 + x.first, x.first_inside && y.first_inside);
     const Value upper = detail::lerp(first, texel(row0 + x.second, x.second_inside && y.first_inside), x.fraction);
     const Value lower = detail::lerp(texel(row1 + x.first, x.first_inside && y.second_inside),
@@ -149,18 +149,17 @@ HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function&
 }
 
 template <class R>
-vec4<R> Texture2D::sample_level_any(const Sampler& sampler, const vec2<R>& uv, const R& lod) const {
-  const LevelChoice<R> levels = choose_level(sampler, lod);
+vec4<R> Texture2D::sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const {
   return with_lookup<R>(sampler, [&](const auto& lookup) { return lookup.finish(lookup(uv, levels)); });
 }
 
 template <class R>
 vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
-  if (sampler.anisotropy <= 1) return sample_level_any<R>(sampler, uv, lod_of(sampler, duv_dx, duv_dy));
+  if (sampler.anisotropy <= 1) return sample_levels_any<R>(sampler, uv, levels_of(sampler, duv_dx, duv_dy));
 
   HS_DCHECK(sampler.anisotropy <= 16);
   const Footprint<R> area = footprint(width(), height(), duv_dx, duv_dy, sampler.anisotropy);
-  const LevelChoice<R> levels = choose_level(sampler, area.lod);
+  const LevelChoice<R> levels = levels_at(sampler, area.lod);
   const R step = R(1.0f) / max(to_real<R>(area.probes) - R(1.0f), R(1.0f));
   return with_lookup<R>(sampler, [&](const auto& lookup) {
     const auto probe = [&](int i) {
@@ -188,10 +187,10 @@ template vec4<RealN<4>> Texture2D::sample_any(const Sampler&, const vec2<RealN<4
 template vec4<RealN<8>> Texture2D::sample_any(const Sampler&, const vec2<RealN<8>>&, const vec2<RealN<8>>&, const vec2<RealN<8>>&) const;
 template vec4<RealN<16>> Texture2D::sample_any(const Sampler&, const vec2<RealN<16>>&, const vec2<RealN<16>>&,
                                                const vec2<RealN<16>>&) const;
-template vec4<float> Texture2D::sample_level_any(const Sampler&, const vec2<float>&, const float&) const;
-template vec4<double> Texture2D::sample_level_any(const Sampler&, const vec2<double>&, const double&) const;
-template vec4<RealN<4>> Texture2D::sample_level_any(const Sampler&, const vec2<RealN<4>>&, const RealN<4>&) const;
-template vec4<RealN<8>> Texture2D::sample_level_any(const Sampler&, const vec2<RealN<8>>&, const RealN<8>&) const;
-template vec4<RealN<16>> Texture2D::sample_level_any(const Sampler&, const vec2<RealN<16>>&, const RealN<16>&) const;
+template vec4<float> Texture2D::sample_levels_any(const Sampler&, const vec2<float>&, const LevelChoice<float>&) const;
+template vec4<double> Texture2D::sample_levels_any(const Sampler&, const vec2<double>&, const LevelChoice<double>&) const;
+template vec4<RealN<4>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<4>>&, const LevelChoice<RealN<4>>&) const;
+template vec4<RealN<8>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<8>>&, const LevelChoice<RealN<8>>&) const;
+template vec4<RealN<16>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<16>>&, const LevelChoice<RealN<16>>&) const;
 
 }  // namespace halfspace

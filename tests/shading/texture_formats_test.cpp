@@ -404,7 +404,7 @@ TEST(TextureFormats, BitsAreTheCommittedOnes) {
       }
     });
   }
-  EXPECT_EQ(hash, 16879134480049514184u);
+  EXPECT_EQ(hash, 18389565451869513251u);
 }
 
 }  // namespace
