@@ -8,6 +8,7 @@
 #include "raster/line.h"
 #include "raster/pixel_box.h"
 #include "raster/primitive_setup.h"
+#include "raster/triangle_lanes.h"
 
 namespace halfspace {
 
@@ -32,13 +33,7 @@ struct TileRows {
 
 // Those of `count` triangles of one draw from `first` on; of lines nothing is said.
 TileRows tile_rows(const Frame& frame, const Draw& draw, const Triangle* first, std::size_t count) {
-  static_assert(sizeof(Triangle) % sizeof(int32_t) == 0);
-  const Int at = min(iota<Int>(), Int(static_cast<int32_t>(count - 1))) * static_cast<int32_t>(sizeof(Triangle) / sizeof(int32_t));
-  std::array<Int, 3> x, y;
-  for (std::size_t i = 0; i < 3; ++i) {
-    x[i] = gather(&first->x[i], at);
-    y[i] = gather(&first->y[i], at);
-  }
+  const auto [x, y] = load_corners([&](int k) { return first + std::min(static_cast<std::size_t>(k), count - 1); });
   const PixelBox<Int> tiles = tiles_of(frame, cut(pixel_box(x, y, frame.samples_at, frame.samples_at), draw.bounds));
   TileRows rows;
   store(rows.x0.data(), tiles.x0);
@@ -56,9 +51,7 @@ int64_t largest(const Edge& e, int tile_x, int tile_y, int size, const SampleSpa
   return e.at(int64_t{px} * kSubPixels + x, int64_t{py} * kSubPixels + y);
 }
 
-Pair pair_of(int tile_x, int tile_y, uint16_t triangle) {
-  return {static_cast<uint16_t>(tile_x), static_cast<uint16_t>(tile_y), triangle};
-}
+Pair pair_of(int tile_x, int tile_y, uint16_t triangle) { return {static_cast<uint16_t>(tile_x), static_cast<uint16_t>(tile_y), triangle}; }
 
 void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& tiles, uint16_t index, std::vector<Pair>& pairs) {
   const int size = frame.tile_size;
@@ -74,7 +67,8 @@ void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& tiles,
   }
 }
 
-void list_line_tiles(const Frame& frame, const Triangle& t, int pixels, const PixelBounds& tiles, uint16_t index, std::vector<Pair>& pairs) {
+void list_line_tiles(const Frame& frame, const Triangle& t, int pixels, const PixelBounds& tiles, uint16_t index,
+                     std::vector<Pair>& pairs) {
   const int size = frame.tile_size;
   const std::array<BandEdge, 2> band = band_edges(t, pixels);
   for (int y = tiles.y0; y < tiles.y1; ++y) {

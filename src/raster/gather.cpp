@@ -5,38 +5,33 @@
 
 #include "raster/lane_order.h"
 #include "raster/shade.h"
+#include "raster/triangle_lanes.h"
 
 namespace halfspace {
 
 namespace {
 
-// The records of a packet's triangles, field by field.
-struct Records {
-  alignas(64) std::array<std::array<int32_t, kLanes>, 3> x, y, vertex;
-  alignas(64) std::array<int32_t, kLanes> provoking, front;
-};
-
-bool copy_records(const Frame& frame, const TriangleId* ids, uint32_t lanes, Records& r, TriangleRows& rows) {
+// Lane by lane the triangle of ids; where `lanes` has none, the first that there is.
+std::array<const Triangle*, kLanes> triangles_of(const Frame& frame, const TriangleId* ids, uint32_t lanes) {
   const TriangleId first = ids[std::countr_zero(lanes)];
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kLanes); ++i) {
+  std::array<const Triangle*, kLanes> triangles;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
     const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : first;
+    triangles[i] = &frame.chunks[id >> 16].triangles[id & 0xffff];
+  }
+  return triangles;
+}
+
+void find_primitives(const Frame& frame, const TriangleId* ids, uint32_t lanes, const Draw& draw, TriangleRows& rows) {
+  const auto length = static_cast<std::size_t>(draw.kernels.primitive_count);
+  if (length == 0) return;
+  for (std::size_t i = 0; i < rows.primitive.size(); ++i) {
+    const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : ids[std::countr_zero(lanes)];
     const Chunk& chunk = frame.chunks[id >> 16];
     const uint32_t index = id & 0xffff;
-    const Triangle& t = chunk.triangles[index];
-    if (t.is(kClipped | kSprite | kLine)) return false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      r.x[k][i] = t.x[k];
-      r.y[k][i] = t.y[k];
-      r.vertex[k][i] = static_cast<int32_t>(t.vertex[k]);
-    }
-    r.provoking[i] = static_cast<int32_t>(t.vertex[t.provoking()]);
-    r.front[i] = t.is(kFrontFacing) ? 1 : 0;
-    const Segment& segment = chunk.segments[t.segment()];
-    const auto row_length = static_cast<std::size_t>(frame.draws[segment.draw].kernels.primitive_count);
-    if (row_length != 0)
-      rows.primitive[i] = chunk.primitives.data() + segment.first_primitive + (index - segment.first_triangle) * row_length;
+    const Segment& segment = chunk.segments[chunk.triangles[index].segment()];
+    rows.primitive[i] = chunk.primitives.data() + segment.first_primitive + (index - segment.first_triangle) * length;
   }
-  return true;
 }
 
 }  // namespace
@@ -45,21 +40,23 @@ bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, Tria
                  TriangleRows& rows) {
   const Draw& draw = draw_of(frame, ids[std::countr_zero(lanes)]);
   const ShadedVertices& shaded = frame.shaded[static_cast<std::size_t>(&draw - frame.draws.data())];
-  Records r;
-  if (!can_gather(shaded, draw) || !copy_records(frame, ids, lanes, r, rows)) return false;
+  if (!can_gather(shaded, draw)) return false;
+  const std::array<const Triangle*, kLanes> at = triangles_of(frame, ids, lanes);
+  const auto triangle = [&](int k) { return at[static_cast<std::size_t>(k)]; };
+  const std::array<Int, 4> ends = load_vertices_and_flags(triangle);
+  const Int flags = ends[3];
+  if (any((flags & Int(static_cast<int32_t>(kClipped | kSprite | kLine))) != Int(0))) return false;
+  find_primitives(frame, ids, lanes, draw, rows);
+  auto [x, y] = load_corners(triangle);
   rows.varyings = shaded.varyings.get();
-  rows.provoking_row = load<Int>(r.provoking.data());
-  front = load<Int>(r.front.data()) != Int(0);
-  std::array<Int, 3> x, y;
-  std::array<Real, 3> q;
+  rows.row = {ends[0], ends[1], ends[2]};
+  const Int provoking = (flags >> static_cast<int>(kProvokingShift)) & 3;
+  rows.provoking_row = select(provoking == Int(0), ends[0], select(provoking == Int(1), ends[1], ends[2]));
+  front = (flags & Int(static_cast<int32_t>(kFrontFacing))) != Int(0);
   static_assert(sizeof(ScreenVertex) == 4 * sizeof(float));
   const float* inv_w = &shaded.screen[0].inv_w;
-  for (std::size_t k = 0; k < 3; ++k) {
-    x[k] = load<Int>(r.x[k].data());
-    y[k] = load<Int>(r.y[k].data());
-    rows.row[k] = load<Int>(r.vertex[k].data());
-    q[k] = gather(inv_w, rows.row[k] << 2);
-  }
+  std::array<Real, 3> q;
+  for (std::size_t k = 0; k < 3; ++k) q[k] = gather(inv_w, rows.row[k] << 2);
   // Vertex 0 is the one with the smallest 1/w, the first of equals, as in triangle_scalars.
   const Mask two = (q[2] < q[0]) & (q[2] < q[1]), one = (q[1] < q[0]) & !two;
   rotate_lanes(one, two, x);

@@ -246,8 +246,8 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
   }
 }
 
-/// Triangles of a packet from which on they are gathered, not merged one by one (4 and 5 of them: 1 to 2 % slower gathered).
-inline constexpr int kGatherFrom = 5;
+/// Triangles of a packet from which on they are gathered, not merged one by one.
+inline constexpr int kGatherFrom = 4;
 
 /// The triangles of a packet: one, few or many. t.only is the one that t holds already, if it holds one alone.
 template <class V, std::size_t N, std::size_t P>

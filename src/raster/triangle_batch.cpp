@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "core/fours.h"
 #include "raster/lane_order.h"
 #include "raster/pixel_box.h"
 #include "raster/primitive_setup.h"
@@ -19,14 +20,15 @@ bool TriangleBatch::serves(const Draw& draw) {
 void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
                            PassStatistics& statistics) {
   static_assert(sizeof(ScreenVertex) == 4 * sizeof(int32_t));
-  const int32_t* first_x = &shaded.screen[0].x;
-  const int32_t* first_y = &shaded.screen[0].y;
-  const float* first_z = &shaded.screen[0].z;
   std::array<Int, 3> v, x, y;
+  std::array<Real, 3> z;
   for (std::size_t i = 0; i < 3; ++i) {
     v[i] = load<Int>(vertex_[i].data());
-    x[i] = gather(first_x, v[i] << 2);
-    y[i] = gather(first_y, v[i] << 2);
+    const std::array<Int, 4> vertex =
+        load_fours<Int>([&](int k) { return &shaded.screen[static_cast<uint32_t>(vertex_[i][static_cast<std::size_t>(k)])]; });
+    x[i] = vertex[0];
+    y[i] = vertex[1];
+    z[i] = as_real(vertex[2]);
   }
   const uint32_t small = bits(largest(x) - least(x) <= Int(kSmallExtent) && largest(y) - least(y) <= Int(kSmallExtent));
   large_ = lanes & ~small;
@@ -53,8 +55,6 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   if (lanes == 0) return;
 
   // Order: counter-clockwise, starting at the smallest depth; among equals at the first submitted.
-  std::array<Real, 3> z;
-  for (std::size_t i = 0; i < 3; ++i) z[i] = gather(first_z, v[i] << 2);
   std::array<Int, 3> order{Int(0), Int(1), Int(2)};
   swap_lanes(turns_right, z[1], z[2]);
   swap_lanes(turns_right, v[1], v[2]);
