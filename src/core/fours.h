@@ -17,41 +17,70 @@ HS_INLINE T load_at(const void* p) {
   return load<T>(static_cast<const std::byte*>(p));
 }
 
+template <class T>
+HS_INLINE void store_at(void* p, const T& value) {
+  store(static_cast<std::byte*>(p), value);
+}
+
 #ifdef __AVX512F__
-template <class Place>
-HS_INLINE std::array<IntN<16>, 4> load_fours_of_16(const Place& place) {
-  const auto part = [&](int k) {  // records k, 4 + k, 8 + k, 12 + k
-    const __m512 one = _mm512_zextps128_ps512(load_at<__m128>(place(k)));
-    const __m512 two = _mm512_maskz_insertf32x4(kAll16, one, load_at<__m128>(place(k + 4)), 1);
-    const __m512 three = _mm512_maskz_insertf32x4(kAll16, two, load_at<__m128>(place(k + 8)), 2);
-    return _mm512_maskz_insertf32x4(kAll16, three, load_at<__m128>(place(k + 12)), 3);
-  };
-  const __m512 a = part(0), b = part(1), c = part(2), d = part(3);
+/// A 4x4 matrix in each quarter, turned.
+HS_INLINE std::array<IntN<16>, 4> turned_fours(const std::array<IntN<16>, 4>& of) {
+  const auto row = [&](std::size_t i) { return (__m512)of[i].v; };
   const auto pairs = [](__m512 x) { return _mm512_castps_pd(x); };
-  const __m512d low_ab = pairs(_mm512_maskz_unpacklo_ps(kAll16, a, b)), high_ab = pairs(_mm512_maskz_unpackhi_ps(kAll16, a, b));
-  const __m512d low_cd = pairs(_mm512_maskz_unpacklo_ps(kAll16, c, d)), high_cd = pairs(_mm512_maskz_unpackhi_ps(kAll16, c, d));
+  const __m512d low_ab = pairs(_mm512_maskz_unpacklo_ps(kAll16, row(0), row(1)));
+  const __m512d high_ab = pairs(_mm512_maskz_unpackhi_ps(kAll16, row(0), row(1)));
+  const __m512d low_cd = pairs(_mm512_maskz_unpacklo_ps(kAll16, row(2), row(3)));
+  const __m512d high_cd = pairs(_mm512_maskz_unpackhi_ps(kAll16, row(2), row(3)));
   constexpr __mmask8 all8 = 0xff;
   const auto word = [](__m512d x) { return IntN<16>((IntN<16>::V)x); };
   return {word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd)),
           word(_mm512_maskz_unpacklo_pd(all8, high_ab, high_cd)), word(_mm512_maskz_unpackhi_pd(all8, high_ab, high_cd))};
 }
+/// Records k, 4 + k, 8 + k, 12 + k, one a quarter.
+template <class Place>
+HS_INLINE IntN<16> load_quarters(IntN<16>, const Place& place, int k) {
+  const __m512 one = _mm512_zextps128_ps512(load_at<__m128>(place(k)));
+  const __m512 two = _mm512_maskz_insertf32x4(kAll16, one, load_at<__m128>(place(k + 4)), 1);
+  const __m512 three = _mm512_maskz_insertf32x4(kAll16, two, load_at<__m128>(place(k + 8)), 2);
+  return IntN<16>((IntN<16>::V)_mm512_maskz_insertf32x4(kAll16, three, load_at<__m128>(place(k + 12)), 3));
+}
+template <class Place>
+HS_INLINE void store_quarters(IntN<16> records, const Place& place, int k) {
+  const auto all = (__m512)records.v;
+  store_at(place(k), _mm512_maskz_extractf32x4_ps(0xf, all, 0));
+  store_at(place(k + 4), _mm512_maskz_extractf32x4_ps(0xf, all, 1));
+  store_at(place(k + 8), _mm512_maskz_extractf32x4_ps(0xf, all, 2));
+  store_at(place(k + 12), _mm512_maskz_extractf32x4_ps(0xf, all, 3));
+}
 #endif
 
 #ifdef __AVX__
-template <class Place>
-HS_INLINE std::array<IntN<8>, 4> load_fours_of_8(const Place& place) {
-  const auto part = [&](int k) {  // records k, 4 + k
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(load_at<__m128>(place(k))), load_at<__m128>(place(k + 4)), 1);
-  };
-  const __m256 a = part(0), b = part(1), c = part(2), d = part(3);
+/// The same with halves.
+HS_INLINE std::array<IntN<8>, 4> turned_fours(const std::array<IntN<8>, 4>& of) {
+  const auto row = [&](std::size_t i) { return (__m256)of[i].v; };
   const auto pairs = [](__m256 x) { return _mm256_castps_pd(x); };
-  const __m256d low_ab = pairs(_mm256_unpacklo_ps(a, b)), high_ab = pairs(_mm256_unpackhi_ps(a, b));
-  const __m256d low_cd = pairs(_mm256_unpacklo_ps(c, d)), high_cd = pairs(_mm256_unpackhi_ps(c, d));
+  const __m256d low_ab = pairs(_mm256_unpacklo_ps(row(0), row(1))), high_ab = pairs(_mm256_unpackhi_ps(row(0), row(1)));
+  const __m256d low_cd = pairs(_mm256_unpacklo_ps(row(2), row(3))), high_cd = pairs(_mm256_unpackhi_ps(row(2), row(3)));
   const auto word = [](__m256d x) { return IntN<8>((IntN<8>::V)x); };
   return {word(_mm256_unpacklo_pd(low_ab, low_cd)), word(_mm256_unpackhi_pd(low_ab, low_cd)), word(_mm256_unpacklo_pd(high_ab, high_cd)),
           word(_mm256_unpackhi_pd(high_ab, high_cd))};
 }
+template <class Place>
+HS_INLINE IntN<8> load_quarters(IntN<8>, const Place& place, int k) {
+  return IntN<8>((IntN<8>::V)_mm256_insertf128_ps(_mm256_castps128_ps256(load_at<__m128>(place(k))), load_at<__m128>(place(k + 4)), 1));
+}
+template <class Place>
+HS_INLINE void store_quarters(IntN<8> records, const Place& place, int k) {
+  store_at(place(k), _mm256_castps256_ps128((__m256)records.v));
+  store_at(place(k + 4), _mm256_extractf128_ps((__m256)records.v, 1));
+}
 #endif
+
+/// Whether records of as many lanes are turned in registers.
+template <class I>
+inline constexpr bool kTurnsFours = requires(std::array<I, 4> words) {
+  turned_fours(words);
+};
 
 }  // namespace detail
 
@@ -59,19 +88,31 @@ HS_INLINE std::array<IntN<8>, 4> load_fours_of_8(const Place& place) {
 /// bytes must be readable. I: IntN<W> or int32_t.
 template <class I, class Place>
 HS_INLINE std::array<I, 4> load_fours(const Place& place) {
-  constexpr int width = static_cast<int>(sizeof(I) / sizeof(int32_t));
-#ifdef __AVX512F__
-  if constexpr (width == 16) return detail::load_fours_of_16(place);
-#endif
-#ifdef __AVX__
-  if constexpr (width == 8) return detail::load_fours_of_8(place);
-#endif
-  std::array<I, 4> words{};
-  for (int k = 0; k < width; ++k) {
-    const auto record = detail::load_at<std::array<int32_t, 4>>(place(k));
-    for (std::size_t i = 0; i < 4; ++i) set_lane(words[i], k, record[i]);
+  if constexpr (detail::kTurnsFours<I>) {
+    const auto part = [&](int k) { return detail::load_quarters(I{}, place, k); };
+    return detail::turned_fours({part(0), part(1), part(2), part(3)});
+  } else {
+    std::array<I, 4> words{};
+    for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
+      const auto record = detail::load_at<std::array<int32_t, 4>>(place(k));
+      for (std::size_t i = 0; i < 4; ++i) set_lane(words[i], k, record[i]);
+    }
+    return words;
   }
-  return words;
+}
+
+/// The other way: writes lane k of the four words to place(k) … place(k) + 15, in the order of k or any other. Places of several lanes may
+/// be one, where any of them is left.
+template <class I, class Place>
+HS_INLINE void store_fours(const std::array<I, 4>& words, const Place& place) {
+  if constexpr (detail::kTurnsFours<I>) {
+    const std::array<I, 4> records = detail::turned_fours(words);
+    for (int k = 0; k < 4; ++k) detail::store_quarters(records[static_cast<std::size_t>(k)], place, k);
+  } else {
+    for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
+      detail::store_at(place(k), std::array<int32_t, 4>{lane(words[0], k), lane(words[1], k), lane(words[2], k), lane(words[3], k)});
+    }
+  }
 }
 
 }  // namespace halfspace

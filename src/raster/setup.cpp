@@ -85,15 +85,25 @@ class SegmentSetup {
       batch_.put(i, s);
     }
     for (int i = count; i < kLanes; ++i) batch_.put(i, slots[0]);
-    batch_.set_up(frame_, draw_, shaded_, plain, provoking_, chunk_.statistics);
+    batch_.set_up(frame_, draw_, shaded_, plain, provoking_, segment_, chunk_.statistics);
     const uint32_t all = static_cast<uint32_t>((uint64_t{1} << count) - 1);
-    for (uint32_t rest = (all & ~plain) | batch_.large() | batch_.kept(); rest != 0; rest &= rest - 1) {
+    const uint32_t single = (all & ~plain) | batch_.large();
+    const auto kept = static_cast<std::size_t>(std::popcount(batch_.kept()));
+    if (single == 0) {
+      if (kept == 0) return;
+      const std::size_t first = chunk_.triangles.size();
+      chunk_.triangles.resize(first + kept);
+      return batch_.write(&chunk_.triangles[first]);
+    }
+    std::array<Triangle, kLanes> triangles;  // not initialized
+    batch_.write(triangles.data());
+    const Triangle* next = triangles.data();
+    for (uint32_t rest = single | batch_.kept(); rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
-      if ((batch_.kept() >> i & 1) == 0) {
+      if ((single >> i & 1) != 0) {
         submit_triangle(slots[static_cast<std::size_t>(i)]);
       } else {
-        chunk_.triangles.push_back(batch_.triangle(i));
-        chunk_.triangles.back().flags |= segment_ << kSegmentShift;
+        chunk_.triangles.push_back(*next++);
       }
     }
   }
@@ -325,7 +335,8 @@ void set_up_chunk(const Frame& frame, Chunk& chunk) {
     const Draw& draw = frame.draws[segment.draw];
     const Topology topology = draw.state.topology;
     if (topology <= Topology::triangle_fan && TriangleBatch::serves(draw) && can_gather(frame.shaded[segment.draw], draw)) {
-      for (uint32_t i = 0; i < segment.count; i += kLanes) setup.submit_triangles(static_cast<int>(std::min<uint32_t>(kLanes, segment.count - i)));
+      for (uint32_t i = 0; i < segment.count; i += kLanes)
+        setup.submit_triangles(static_cast<int>(std::min<uint32_t>(kLanes, segment.count - i)));
       continue;
     }
     for (uint32_t i = 0; i < segment.count; ++i) {

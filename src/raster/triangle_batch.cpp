@@ -2,6 +2,7 @@
 #include "raster/triangle_batch.h"
 
 #include <bit>
+#include <cstddef>
 
 #include "core/fours.h"
 #include "raster/lane_order.h"
@@ -18,7 +19,7 @@ bool TriangleBatch::serves(const Draw& draw) {
 }
 
 void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
-                           PassStatistics& statistics) {
+                           uint32_t segment, PassStatistics& statistics) {
   static_assert(sizeof(ScreenVertex) == 4 * sizeof(int32_t));
   std::array<Int, 3> v, x, y;
   std::array<Real, 3> z;
@@ -66,40 +67,48 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   rotate_lanes(one, two, z);
   rotate_lanes(one, two, v);
   rotate_lanes(one, two, order);
-  for (std::size_t i = 0; i < 3; ++i) {
-    store(x_[i].data(), x[i]);
-    store(y_[i].data(), y[i]);
-    store(vertex_[i].data(), v[i]);
-  }
+  x_ = x;
+  y_ = y;
+  ordered_vertex_ = v;
+  z0_ = z[0];
+  z_max_ = z_max;
   const Int wanted(static_cast<int32_t>(provoking));
   const Int place = select(order[0] == wanted, Int(0), select(order[1] == wanted, Int(1), Int(2)));
-  store(flags_.data(), place << static_cast<int>(kProvokingShift) | Int(static_cast<int32_t>(kSmall)) |
-                           select(front, Int(static_cast<int32_t>(kFrontFacing)), Int(0)));
-  store(z0_.data(), z[0]);
-  store(z_max_.data(), z_max);
-  alignas(64) Row areas;
-  alignas(64) FloatRow z1, z2;
+  flags_ = (place << static_cast<int>(kProvokingShift)) | Int(static_cast<int32_t>(kSmall | segment << kSegmentShift)) |
+           select(front, Int(static_cast<int32_t>(kFrontFacing)), Int(0));
+  alignas(64) std::array<int32_t, kLanes> areas;
+  alignas(64) std::array<float, kLanes> z0, z1, z2, z_edge1, z_edge2;
   store(areas.data(), max(area, -area));
+  store(z0.data(), z[0]);
   store(z1.data(), z[1]);
   store(z2.data(), z[2]);
   for (std::size_t i = 0; i < static_cast<std::size_t>(kLanes); ++i) {
-    const double z0 = static_cast<double>(z0_[i]), a = static_cast<double>(areas[i]);
-    z_edge1_[i] = static_cast<float>((static_cast<double>(z1[i]) - z0) / a);
-    z_edge2_[i] = static_cast<float>((static_cast<double>(z2[i]) - z0) / a);
+    const double from = static_cast<double>(z0[i]), a = static_cast<double>(areas[i]);
+    z_edge1[i] = static_cast<float>((static_cast<double>(z1[i]) - from) / a);
+    z_edge2[i] = static_cast<float>((static_cast<double>(z2[i]) - from) / a);
   }
+  z_edge1_ = load<Real>(z_edge1.data());
+  z_edge2_ = load<Real>(z_edge2.data());
 }
 
-Triangle TriangleBatch::triangle(int lane) const {
-  const auto i = static_cast<std::size_t>(lane);
-  const auto id = [&](std::size_t k) { return static_cast<uint32_t>(vertex_[k][i]); };
-  return {.x = {x_[0][i], x_[1][i], x_[2][i]},
-          .y = {y_[0][i], y_[1][i], y_[2][i]},
-          .z0 = z0_[i],
-          .z_edge1 = z_edge1_[i],
-          .z_edge2 = z_edge2_[i],
-          .z_max = z_max_[i],
-          .vertex = {id(0), id(1), id(2)},
-          .flags = static_cast<uint32_t>(flags_[i])};
+void TriangleBatch::write(Triangle* out) const {
+  Triangle spare;
+  std::array<Triangle*, kLanes> to;
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    const bool keeps = (kept_ >> k & 1) != 0;
+    to[k] = keeps ? out : &spare;
+    out += keeps ? 1 : 0;
+  }
+  const auto words_from = [&to](std::size_t first) {
+    return [&to, first](int k) { return reinterpret_cast<int32_t*>(to[static_cast<std::size_t>(k)]) + first; };
+  };
+  static_assert(sizeof(Triangle) == 14 * sizeof(int32_t) && offsetof(Triangle, z0) == 6 * sizeof(int32_t) &&
+                offsetof(Triangle, vertex) == 10 * sizeof(int32_t));
+  const auto& v = ordered_vertex_;
+  store_fours<Int>({x_[0], x_[1], x_[2], y_[0]}, words_from(0));
+  store_fours<Int>({y_[1], y_[2], as_int(z0_), as_int(z_edge1_)}, words_from(4));
+  store_fours<Int>({as_int(z_edge2_), as_int(z_max_), v[0], v[1]}, words_from(8));
+  store_fours<Int>({v[0], v[1], v[2], flags_}, words_from(10));
 }
 
 }  // namespace halfspace

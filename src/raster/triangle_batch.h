@@ -20,22 +20,20 @@ class TriangleBatch {
 
   /// Sets up the triangles of `lanes`, whose vertices need no clipping; put() has told the vertices of lane 0 to W − 1. Counts
   /// those it culls. provoking: 0 or 2, the provoking vertex's place.
-  void set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
+  void set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking, uint32_t segment,
               PassStatistics& statistics);
 
   uint32_t kept() const { return kept_; }    ///< lanes that are set up
   uint32_t large() const { return large_; }  ///< lanes that are too large for it: nothing is said of them
-  /// The triangle of a kept lane; its segment is left out.
-  Triangle triangle(int lane) const;
+  /// Writes the kept lanes' triangles to out, in order: popcount(kept()) of them.
+  void write(Triangle* out) const;
 
  private:
-  using Row = std::array<int32_t, kLanes>;
-  using FloatRow = std::array<float, kLanes>;
-
-  alignas(64) std::array<Row, 3> vertex_;
-  alignas(64) std::array<Row, 3> x_, y_;
-  alignas(64) FloatRow z0_, z_edge1_, z_edge2_, z_max_;
-  alignas(64) Row flags_;
+  alignas(64) std::array<std::array<int32_t, kLanes>, 3> vertex_;
+  // Of the kept triangles, as Triangle has them:
+  std::array<Int, 3> x_, y_, ordered_vertex_;
+  Real z0_, z_edge1_, z_edge2_, z_max_;
+  Int flags_;
   uint32_t kept_ = 0, large_ = 0;
 };
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/vertex_stage.h"
 
+#include <algorithm>
+#include <cstddef>
+
+#include "core/fours.h"
 #include "raster/sprite.h"
 
 namespace halfspace {
@@ -57,18 +61,15 @@ void project(const Draw& draw, const float* clip, int count, ScreenVertex* scree
     const Int y_fixed = snap(y, w, inv_w, v.half_height, v.center_y);
     // The bound only matters with depth clamp, where z/w may overflow.
     const Real z_window = clamp(fma(z * inv_w, Real(v.depth_scale), Real(v.depth_bias)), Real(-1e30f), Real(1e30f));
-    alignas(64) std::array<int32_t, kLanes> codes, xs, ys;
-    alignas(64) std::array<float, kLanes> zs, ws;
+    const int rest = std::min(kLanes, count - begin);
+    static_assert(sizeof(ScreenVertex) == 16 && offsetof(ScreenVertex, z) == 8);
+    ScreenVertex spare;
+    store_fours<Int>({x_fixed, y_fixed, as_int(z_window), as_int(inv_w)}, [&](int k) { return k < rest ? &screen[begin + k] : &spare; });
+    alignas(64) std::array<int32_t, kLanes> codes;
     store(codes.data(), code);
-    store(xs.data(), x_fixed);
-    store(ys.data(), y_fixed);
-    store(zs.data(), z_window);
-    store(ws.data(), inv_w);
-    for (int i = 0; i < std::min(kLanes, count - begin); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      screen[begin + i] = {xs[k], ys[k], zs[k], ws[k]};
-      outcodes[begin + i] = static_cast<Outcode>(codes[k]);
-    }
+    std::array<Outcode, kLanes> narrow;
+    for (std::size_t k = 0; k < narrow.size(); ++k) narrow[k] = static_cast<Outcode>(codes[k]);
+    std::copy_n(narrow.begin(), rest, outcodes + begin);
   }
 }
 

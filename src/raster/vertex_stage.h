@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/fours.h"
 #include "raster/stages.h"
 #include "shading/contract.h"
 
@@ -43,13 +44,39 @@ namespace detail {
 template <class A>
 HS_INLINE A load_attributes(const VertexView& view, Int ids) {
   std::array<Real, kComponents<A>> components;
+  alignas(64) std::array<int32_t, kLanes> rows;
   std::size_t c = 0;
   for (int s = 0; s < view.stream_count; ++s) {
     const VertexStream& stream = view.streams[static_cast<std::size_t>(s)];
     const Int row = ids * stream.stride;
-    for (int32_t k = 0; k < stream.components && c < components.size(); ++k) components[c++] = gather(stream.data + k, row);
+    store(rows.data(), row);
+    int32_t k = 0;
+    for (; k + 4 <= stream.components && c + 4 <= components.size(); k += 4) {
+      const std::array<Int, 4> words = load_fours<Int>([&](int i) { return stream.data + k + rows[static_cast<std::size_t>(i)]; });
+      for (const Int& word : words) components[c++] = as_real(word);
+    }
+    for (; k < stream.components && c < components.size(); ++k) components[c++] = gather(stream.data + k, row);
   }
   return from_components<A, Real>(components);
+}
+
+/// Writes varyings to the rows of `count` vertices.
+template <std::size_t N>
+HS_INLINE void store_varyings(const std::array<Real, N>& components, float* const (&row)[kLanes], int count) {
+  if constexpr (N >= 4) {
+    alignas(64) std::array<float, 4> spare;
+    // The last four may hold some of the four before once more.
+    for (std::size_t c = 0; c < N; c += 4) {
+      const std::size_t first = std::min(c, N - 4);
+      store_fours<Int>(
+          {as_int(components[first]), as_int(components[first + 1]), as_int(components[first + 2]), as_int(components[first + 3])},
+          [&](int k) { return k < count ? row[k] + first : spare.data(); });
+    }
+  } else {
+    for (int k = 0; k < count; ++k) {
+      for (std::size_t c = 0; c < N; ++c) row[k][c] = lane(components[c], k);
+    }
+  }
 }
 
 template <std::size_t N>
@@ -84,12 +111,10 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
       if (batch.extra != nullptr) store_extra(vertex, batch.extra + begin);
     }
     if constexpr (with_varyings && n != 0) {
-      std::array<float, n* static_cast<std::size_t>(kLanes)> rows;
-      store(rows.data(), to_components<Real>(out));
-      for (int i = 0; i < count; ++i) {
-        float* row = batch.varyings + static_cast<std::size_t>(static_cast<uint32_t>(lane(ids, i)) - batch.slot_base) * n;
-        for (std::size_t c = 0; c < n; ++c) row[c] = rows[c * static_cast<std::size_t>(kLanes) + static_cast<std::size_t>(i)];
-      }
+      float* row[kLanes];
+      for (int k = 0; k < kLanes; ++k)
+        row[k] = batch.varyings + static_cast<std::size_t>(static_cast<uint32_t>(lane(ids, k)) - batch.slot_base) * n;
+      store_varyings(to_components<Real>(out), row, count);
     }
   }
 }
