@@ -33,6 +33,13 @@ class Assembly {
     return next_of_run();
   }
 
+  /// The 3·count indices of the next `count` triangles where they lie side by side, and past these; else null, and nothing is passed.
+  const uint32_t* next_list(uint32_t count) {
+    const uint32_t* indices = plain_list_ ? draw_.indices->words(std::size_t{primitive_} * 3) : nullptr;
+    if (indices != nullptr) primitive_ += count;
+    return indices;
+  }
+
  private:
   void begin_run(uint32_t primitive);
   std::array<uint32_t, 3> next_of_run();

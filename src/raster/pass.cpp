@@ -132,6 +132,7 @@ bool Pass::resolve_attachments(Draw& d) const {
 void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) {
   struct Task {
     std::size_t draw, begin, end;
+    Outcode any;
   };
   std::vector<Task> tasks;
   frame_.shaded.resize(frame_.draws.size());
@@ -141,12 +142,13 @@ void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) 
     const std::size_t count = draw.indices->used_count() * draw.state.instances;
     statistics.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
     statistics.vertices_shaded += count;
-    for (std::size_t b = 0; b < count; b += kVerticesPerTask) tasks.push_back({d, b, std::min(count, b + kVerticesPerTask)});
+    for (std::size_t b = 0; b < count; b += kVerticesPerTask) tasks.push_back({d, b, std::min(count, b + kVerticesPerTask), 0});
   }
   workers.for_each(static_cast<int>(tasks.size()), [&](int i) {
-    const Task& t = tasks[static_cast<std::size_t>(i)];
-    shade_vertices(frame_.draws[t.draw], t.begin, t.end, frame_.shaded[t.draw]);
+    Task& t = tasks[static_cast<std::size_t>(i)];
+    t.any = shade_vertices(frame_.draws[t.draw], t.begin, t.end, frame_.shaded[t.draw]);
   });
+  for (const Task& t : tasks) frame_.shaded[t.draw].any_outcode |= t.any;
 }
 
 std::vector<std::vector<Segment>> Pass::split_into_chunks() const {

@@ -74,19 +74,9 @@ class SegmentSetup {
   // The next W triangles, or what is left of them.
   void submit_triangles(int count) {
     chunk_.statistics.primitives_in += static_cast<uint64_t>(count);
-    uint32_t plain = 0;  // lanes that need no clipping
-    std::array<std::array<uint32_t, 3>, kLanes> slots;
-    for (int i = 0; i < count; ++i) {
-      std::array<uint32_t, 3>& s = slots[static_cast<std::size_t>(i)];
-      s = next_slots();
-      const Outcode any = shaded_.outcodes[s[0]] | shaded_.outcodes[s[1]] | shaded_.outcodes[s[2]];
-      const Outcode all = shaded_.outcodes[s[0]] & shaded_.outcodes[s[1]] & shaded_.outcodes[s[2]];
-      if ((any & (kOutNonFinite | kOutNeedsClip)) == 0 && (all & kOutView) == 0) plain |= 1u << i;
-      batch_.put(i, s);
-    }
-    for (int i = count; i < kLanes; ++i) batch_.put(i, slots[0]);
-    batch_.set_up(frame_, draw_, shaded_, plain, provoking_, segment_, chunk_.statistics);
     const uint32_t all = static_cast<uint32_t>((uint64_t{1} << count) - 1);
+    const uint32_t plain = put_triangles(count);
+    batch_.set_up(frame_, draw_, shaded_, plain, provoking_, segment_, chunk_.statistics);
     const uint32_t single = (all & ~plain) | batch_.large();
     const auto kept = static_cast<std::size_t>(std::popcount(batch_.kept()));
     if (single == 0) {
@@ -101,7 +91,7 @@ class SegmentSetup {
     for (uint32_t rest = single | batch_.kept(); rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       if ((single >> i & 1) != 0) {
-        submit_triangle(slots[static_cast<std::size_t>(i)]);
+        submit_triangle(batch_.slots(i));
       } else {
         chunk_.triangles.push_back(*next++);
       }
@@ -110,6 +100,26 @@ class SegmentSetup {
 
  private:
   using ClipFunction = ClipPolygon (*)(const Viewport&, const DepthState&, const std::array<glm::vec4, 3>&, const ClipDistances&);
+
+  // Gives the next triangles to the batch. Which of them need no clipping?
+  uint32_t put_triangles(int count) {
+    const uint32_t* list = shaded_.any_outcode == 0 ? assembly_.next_list(static_cast<uint32_t>(count)) : nullptr;
+    if (list != nullptr) {
+      batch_.put_list(list, count, slot_base_);
+      return static_cast<uint32_t>((uint64_t{1} << count) - 1);
+    }
+    uint32_t plain = 0;
+    std::array<uint32_t, 3> slots{};
+    for (int i = 0; i < count; ++i) {
+      slots = next_slots();
+      const Outcode any = shaded_.outcodes[slots[0]] | shaded_.outcodes[slots[1]] | shaded_.outcodes[slots[2]];
+      const Outcode all = shaded_.outcodes[slots[0]] & shaded_.outcodes[slots[1]] & shaded_.outcodes[slots[2]];
+      if ((any & (kOutNonFinite | kOutNeedsClip)) == 0 && (all & kOutView) == 0) plain |= 1u << i;
+      batch_.put(i, slots);
+    }
+    for (int i = count; i < kLanes; ++i) batch_.put(i, slots);
+    return plain;
+  }
 
   std::array<uint32_t, 3> next_slots() {
     std::array<uint32_t, 3> slots = assembly_.next();

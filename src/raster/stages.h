@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/raw_allocator.h"
 #include "raster/draw_state.h"
 #include "raster/statistics.h"
 #include "raster/target.h"
@@ -84,10 +85,11 @@ class Buffer {
 /// The vertices of one draw. A vertex's slot, by which all later stages know it, is (index − first) + instance · count.
 struct ShadedVertices {
   uint32_t first = 0;
-  uint32_t count = 0;                      ///< slots of an instance
-  int varying_count = 0;                   ///< floats per vertex in varyings
-  Buffer<ScreenVertex> screen;             ///< uninitialized where no index refers to it
+  uint32_t count = 0;           ///< slots of an instance
+  int varying_count = 0;        ///< floats per vertex in varyings
+  Buffer<ScreenVertex> screen;  ///< uninitialized where no index refers to it
   Buffer<Outcode> outcodes;
+  Outcode any_outcode = 0;  ///< their union: 0 where the whole draw is in view
   Buffer<float> varyings;
   std::unique_ptr<SpriteRect[]> sprites;  ///< of points alone
   int clip_distance_count = 0;            ///< floats per vertex in clip_distances
@@ -172,7 +174,7 @@ struct Segment {
 /// Up to some thousand submitted triangles, through clip, setup and bin: written by one task, then only read.
 struct Chunk {
   std::vector<Segment> segments;
-  std::vector<Triangle> triangles;
+  std::vector<Triangle, RawAllocator<Triangle>> triangles;
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
   std::vector<ClipSource> clip_sources;
@@ -208,9 +210,9 @@ struct VisibilityBatch;
 /// The thin functions that call one shader; everything else in the pipeline is shared by all shaders.
 struct ShaderKernels {
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
-  void (*position)(const void* shader, const VertexBatch&) = nullptr;         ///< as vertex, without varyings
-  void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;     ///< null: no primitive stage
-  void (*visibility)(const void* shader, VisibilityBatch&) = nullptr;         ///< null: the triangle decides
+  void (*position)(const void* shader, const VertexBatch&) = nullptr;      ///< as vertex, without varyings
+  void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;  ///< null: no primitive stage
+  void (*visibility)(const void* shader, VisibilityBatch&) = nullptr;      ///< null: the triangle decides
   void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
   int varying_count = 0;                          ///< floats per vertex
   int primitive_count = 0;                        ///< floats per triangle

@@ -18,6 +18,13 @@ bool TriangleBatch::serves(const Draw& draw) {
          s.offset.constant == 0.0f;
 }
 
+void TriangleBatch::put_list(const uint32_t* indices, int count, uint32_t base) {
+  const Int first = min(iota<Int>(), Int(count - 1)) * 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    store(vertex_[i].data(), gather(reinterpret_cast<const int32_t*>(indices) + i, first) - static_cast<int32_t>(base));
+  }
+}
+
 void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
                            uint32_t segment, PassStatistics& statistics) {
   static_assert(sizeof(ScreenVertex) == 4 * sizeof(int32_t));

@@ -13,6 +13,12 @@ class TriangleBatch {
   /// May triangles of the draw come here? Not with a depth offset, which asks each for its slope.
   static bool serves(const Draw& draw);
 
+  /// The vertices' slots of all triangles: 3·count indices (count 1 to W) less base. Lanes beyond repeat the last.
+  void put_list(const uint32_t* indices, int count, uint32_t base);
+  std::array<uint32_t, 3> slots(int lane) const {
+    const auto slot = [&](std::size_t i) { return static_cast<uint32_t>(vertex_[i][static_cast<std::size_t>(lane)]); };
+    return {slot(0), slot(1), slot(2)};
+  }
   /// The vertices' slots of a triangle.
   void put(int lane, const std::array<uint32_t, 3>& slots) {
     for (std::size_t i = 0; i < 3; ++i) vertex_[i][static_cast<std::size_t>(lane)] = static_cast<int32_t>(slots[i]);

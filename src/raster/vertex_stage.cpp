@@ -47,9 +47,10 @@ HS_INLINE Int outcode(const Viewport& v, const DepthState& depth, Real x, Real y
   return code | bit(!inside_guard, kOutGuard) | bit(!finite, kOutNonFinite);
 }
 
-// Clip space → window and outcodes, for the vertices whose clip positions are in the rows of `clip`.
-void project(const Draw& draw, const float* clip, int count, ScreenVertex* screen, Outcode* outcodes) {
+// Clip space → window and outcodes, for the vertices whose clip positions are in the rows of `clip`. Gives the outcodes' union.
+Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* screen, Outcode* outcodes) {
   const Viewport& v = draw.viewport;
+  Int any(0);
   for (int begin = 0; begin < count; begin += kLanes) {
     const Real x = load<Real>(clip + begin);
     const Real y = load<Real>(clip + kVertexBatch + begin);
@@ -70,7 +71,11 @@ void project(const Draw& draw, const float* clip, int count, ScreenVertex* scree
     std::array<Outcode, kLanes> narrow;
     for (std::size_t k = 0; k < narrow.size(); ++k) narrow[k] = static_cast<Outcode>(codes[k]);
     std::copy_n(narrow.begin(), rest, outcodes + begin);
+    any = any | select(first_lanes<Mask>(rest), code, Int(0));
   }
+  Outcode all = 0;
+  for (int k = 0; k < kLanes; ++k) all |= static_cast<Outcode>(lane(any, k));
+  return all;
 }
 
 }  // namespace
@@ -100,13 +105,14 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   HS_CHECK_OP(n, <, std::size_t{1} << 32);
   out.screen.reset(n);
   out.outcodes.reset(n);
+  out.any_outcode = 0;
   out.varyings.reset(n * static_cast<std::size_t>(out.varying_count));
   out.clip_distance_count = draw.kernels.clip_distance_count;
   out.clip_distances.reset(out.clip_distance_count == 0 ? nullptr : new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
   out.sprites.reset(draws_points(draw.state) ? new SpriteRect[n] : nullptr);
 }
 
-void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
+Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
   alignas(64) std::array<float, 4 * kVertexBatch> clip{};
   std::array<ScreenVertex, kVertexBatch> screen;
   std::array<Outcode, kVertexBatch> outcodes;
@@ -115,6 +121,7 @@ void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Shaded
   const std::span<const uint32_t> used = draw.indices->used();
   const std::size_t per_instance = draw.indices->used_count();
   VertexView instance_view;
+  Outcode any = 0;
   for (std::size_t b = begin; b < end;) {
     const auto instance = static_cast<uint32_t>(b / per_instance);
     const std::size_t local = b % per_instance;
@@ -142,11 +149,11 @@ void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Shaded
       const std::size_t slot = std::size_t{instance} * out.count + local;
       ScreenVertex* to = out.screen.get() + slot;
       Outcode* codes = out.outcodes.get() + slot;
-      project(draw, clip.data(), count, to, codes);
+      any |= project(draw, clip.data(), count, to, codes);
       if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, to, codes, out.sprites.get() + slot);
       continue;
     }
-    project(draw, clip.data(), count, screen.data(), outcodes.data());
+    any |= project(draw, clip.data(), count, screen.data(), outcodes.data());
     if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
     for (int i = 0; i < count; ++i) {
       if (out.sprites) out.sprites[ids[i] - slot_base] = sprites[static_cast<std::size_t>(i)];
@@ -154,6 +161,7 @@ void shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Shaded
       out.outcodes[ids[i] - slot_base] = outcodes[static_cast<std::size_t>(i)];
     }
   }
+  return any;
 }
 
 }  // namespace halfspace

@@ -111,6 +111,8 @@ class Indices {
 
   std::size_t size() const { return size_; }
   uint32_t operator[](std::size_t i) const { return wide_ ? wide_[i] : narrow_ ? narrow_[i] : static_cast<uint32_t>(i); }
+  /// The list from place i on where it is one of 32-bit indices, else null.
+  const uint32_t* words(std::size_t i) const { return wide_ ? wide_ + i : nullptr; }
   /// The smallest and one past the largest index used.
   uint32_t first_vertex() const { return first_; }
   uint32_t end_vertex() const { return end_; }
