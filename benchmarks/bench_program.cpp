@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_program.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -120,9 +123,17 @@ std::string identity_text(const BenchProgram& program) {
   return text;
 }
 
-// What comes of one workload that has been measured.
+// Memory of the process that is in use, in MiB; 0 where the system does not say.
+double resident_mb() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  statm >> all >> resident;
+  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+// What comes of one workload that has been measured. frames_mb: by how much the process grew while it drew, if that is known of it alone.
 void report(const BenchProgram& program, const BenchArguments& args, const WorkloadKind& kind, const Workload& workload, PictureSize size,
-            int threads, const FrameTimes& times) {
+            int threads, const FrameTimes& times, std::optional<double> frames_mb) {
   std::optional<PictureErrors> errors;
   if (!args.check.empty()) {
     const WorkloadTruth truth = kept_truth(args.check, kind.name, workload, {size.width, size.height});
@@ -130,6 +141,7 @@ void report(const BenchProgram& program, const BenchArguments& args, const Workl
   }
   if (args.json) {
     nlohmann::ordered_json line = json_line(program.identity(), kind.name, size, threads, times);
+    if (frames_mb) line["frames_mb"] = *frames_mb;
     if (errors) line["picture"] = json_of(*errors);
     std::cout << line.dump() << '\n' << std::flush;
   } else {
@@ -163,6 +175,7 @@ void run_bench(const BenchProgram& program, const BenchArguments& args) {
   for (const WorkloadKind* kind : kinds) prepared.push_back(kind->prepare({size.width, size.height}, assets));
   const Workers workers(threads);
   std::vector<FrameTimes> times;
+  const double mb_before = resident_mb();
   {
     Progress progress(Runner::steps(prepared.size(), seconds));
     times = Runner(workers).run(prepared, seconds, [&] { progress.advance(false); });
@@ -171,7 +184,9 @@ void run_bench(const BenchProgram& program, const BenchArguments& args) {
     std::cout << size.width << 'x' << size.height << ", threads: " << threads << identity_text(program)
               << "\nworkload                     ms median       min       max       cpu  frames\n";
   }
-  for (std::size_t i = 0; i < kinds.size(); ++i) report(program, args, *kinds[i], *prepared[i], size, threads, times[i]);
+  std::optional<double> frames_mb;
+  if (kinds.size() == 1) frames_mb = resident_mb() - mb_before;
+  for (std::size_t i = 0; i < kinds.size(); ++i) report(program, args, *kinds[i], *prepared[i], size, threads, times[i], frames_mb);
 }
 
 void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** argv) {

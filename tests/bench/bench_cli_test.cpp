@@ -68,7 +68,18 @@ TEST(BenchCli, JsonIsALineAWorkload) {
     EXPECT_LE(row.at("ms_min"), row.at("ms"));
     EXPECT_LE(row.at("ms"), row.at("ms_max"));
     EXPECT_GE(row.at("cpu_ms"), 0.0);
+    EXPECT_FALSE(row.contains("frames_mb"));  // of one alone
   }
+}
+
+TEST(BenchCli, TellsTheMemoryOfASingleWorkload) {
+  const auto megabytes = [](const std::string& name) {
+    const Outcome outcome = bench("--only " + name + " --size 64x64 --threads 1 --seconds 0 --json");
+    EXPECT_EQ(outcome.exit_code, 0);
+    return nlohmann::json::parse(outcome.text).at("frames_mb").get<double>();
+  };
+  // Three million vertices of 17 bytes; what preparation gave back may serve for some of them. A cleared picture of 64x64 takes almost nothing.
+  EXPECT_GE(megabytes("tiny_1m"), megabytes("clear") + 25);
 }
 
 TEST(BenchCli, EveryRoundCountsAFrame) {

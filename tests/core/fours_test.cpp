@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/fours.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace halfspace {
+namespace {
+
+constexpr std::size_t kWords = 1000;
+
+template <class I>
+constexpr int kWidth = static_cast<int>(sizeof(I) / sizeof(int32_t));
+
+// Places anywhere, also where records overlap or are the same, and the last that there is room for.
+template <class I>
+std::vector<std::size_t> places(std::mt19937& random) {
+  std::vector<std::size_t> at(static_cast<std::size_t>(kWidth<I>));
+  for (std::size_t& a : at) a = std::uniform_int_distribution<std::size_t>(0, kWords - 4)(random);
+  at.back() = kWords - 4;
+  if (at.size() > 2) at[1] = at[2];
+  return at;
+}
+
+template <class I>
+class Fours : public testing::Test {};
+using Widths = testing::Types<int32_t, IntN<4>, IntN<8>, IntN<16>>;
+TYPED_TEST_SUITE(Fours, Widths);
+
+TYPED_TEST(Fours, AreReadFromAnywhere) {
+  std::mt19937 random(1);
+  std::vector<int32_t> memory(kWords);
+  for (int32_t& m : memory) m = static_cast<int32_t>(random());
+  for (int round = 0; round < 100; ++round) {
+    const std::vector<std::size_t> at = places<TypeParam>(random);
+    const auto words = load_fours<TypeParam>([&](int k) { return &memory[at[static_cast<std::size_t>(k)]]; });
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (int k = 0; k < kWidth<TypeParam>; ++k)
+        ASSERT_EQ(lane(words[i], k), memory[at[static_cast<std::size_t>(k)] + i]) << i << ' ' << k;
+    }
+  }
+}
+
+TYPED_TEST(Fours, AreWrittenWhereTheyBelongAndNowhereElse) {
+  std::mt19937 random(2);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<std::size_t> at(kWords / 8);  // five words apart or more
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] = 8 * i + random() % 4;
+    std::shuffle(at.begin(), at.end(), random);
+    std::array<TypeParam, 4> words{};
+    std::vector<int32_t> memory(kWords, -1), want = memory;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (int k = 0; k < kWidth<TypeParam>; ++k) {
+        const auto value = static_cast<int32_t>(random() >> 1);
+        set_lane(words[i], k, value);
+        want[at[static_cast<std::size_t>(k)] + i] = value;
+      }
+    }
+    store_fours<TypeParam>(words, [&](int k) { return &memory[at[static_cast<std::size_t>(k)]]; });
+    ASSERT_EQ(memory, want);
+  }
+}
+
+}  // namespace
+}  // namespace halfspace
