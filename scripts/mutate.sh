@@ -110,6 +110,9 @@ fault "textures: the border above is the first row" src/shading/texture.cpp 'i =
 fault "flat tiles: the first draw's colour goes on" src/raster/pass_tiles.cpp ' && area.draw == *draw' ''
 fault "constant tiles: pairs whose edges only run the same way" src/raster/covered_area.h ' && a->y0 + a->ey == b->y0' ''
 fault "fixed powers: one entry too low" src/core/fixed_power.h 'look_up(high_, (i >> 27) & 15)' 'look_up(high_, (i >> 27) & 7)'
+fault "setup in lanes: outcodes of later vertices forgotten" src/raster/pass.cpp 'frame_.shaded[t.draw].any_outcode |= t.any' 'frame_.shaded[t.draw].any_outcode = 0 & t.any'
+fault "textures: the level is one too small" src/shading/texture.h '>> 23) - 127;' '>> 23) - 129;'
+fault "fours: two words of a record swapped" src/core/fours.h 'word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd))' 'word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd))'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done

@@ -8,7 +8,7 @@
 #include "raster/line.h"
 #include "raster/pixel_box.h"
 #include "raster/primitive_setup.h"
-#include "raster/triangle_lanes.h"
+#include "raster/triangle_records.h"
 
 namespace halfspace {
 

@@ -5,7 +5,7 @@
 
 #include "raster/lane_order.h"
 #include "raster/shade.h"
-#include "raster/triangle_lanes.h"
+#include "raster/triangle_records.h"
 
 namespace halfspace {
 
