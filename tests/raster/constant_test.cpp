@@ -121,7 +121,7 @@ TEST(CoveredArea, PairsCoverWhatTheirHalvesDo) {
     ASSERT_TRUE(!cover_together(t, u, area) || each_once) << i;
     together += cover_together(t, u, area) ? 1 : 0;
   }
-  EXPECT_GT(together, 100);
+  EXPECT_GT(together, effort(200000) / 2000);
 }
 
 // Tiles of one colour go into the image several in a row: each keeps its own, for any number of threads.
