@@ -74,19 +74,17 @@ class SegmentSetup {
   // The next W triangles, or what is left of them.
   void submit_triangles(int count) {
     chunk_.statistics.primitives_in += static_cast<uint64_t>(count);
-    const uint32_t all = static_cast<uint32_t>((uint64_t{1} << count) - 1);
     const uint32_t plain = put_triangles(count);
     batch_.set_up(frame_, draw_, shaded_, plain, provoking_, segment_, chunk_.statistics);
-    const uint32_t single = (all & ~plain) | batch_.large();
-    const auto kept = static_cast<std::size_t>(std::popcount(batch_.kept()));
+    const uint32_t single = (first_lane_bits(count) & ~plain) | batch_.large();  // to be set up one by one
+    if (single == 0 && batch_.kept() == 0) return;
     if (single == 0) {
-      if (kept == 0) return;
       const std::size_t first = chunk_.triangles.size();
-      chunk_.triangles.resize(first + kept);
+      chunk_.triangles.resize(first + static_cast<std::size_t>(std::popcount(batch_.kept())));
       return batch_.write(&chunk_.triangles[first]);
     }
-    std::array<Triangle, kLanes> triangles;  // not initialized
-    batch_.write(triangles.data());
+    std::array<Triangle, kLanes> triangles;  // the kept ones
+    if (batch_.kept() != 0) batch_.write(triangles.data());
     const Triangle* next = triangles.data();
     for (uint32_t rest = single | batch_.kept(); rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
@@ -101,12 +99,14 @@ class SegmentSetup {
  private:
   using ClipFunction = ClipPolygon (*)(const Viewport&, const DepthState&, const std::array<glm::vec4, 3>&, const ClipDistances&);
 
+  static uint32_t first_lane_bits(int count) { return static_cast<uint32_t>((uint64_t{1} << count) - 1); }
+
   // Gives the next triangles to the batch. Which of them need no clipping?
   uint32_t put_triangles(int count) {
     const uint32_t* list = shaded_.any_outcode == 0 ? assembly_.next_list(static_cast<uint32_t>(count)) : nullptr;
     if (list != nullptr) {
       batch_.put_list(list, count, slot_base_);
-      return static_cast<uint32_t>((uint64_t{1} << count) - 1);
+      return first_lane_bits(count);
     }
     uint32_t plain = 0;
     std::array<uint32_t, 3> slots{};

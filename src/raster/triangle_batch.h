@@ -15,6 +15,7 @@ class TriangleBatch {
 
   /// The vertices' slots of all triangles: 3·count indices (count 1 to W) less base. Lanes beyond repeat the last.
   void put_list(const uint32_t* indices, int count, uint32_t base);
+  /// What was put.
   std::array<uint32_t, 3> slots(int lane) const {
     const auto slot = [&](std::size_t i) { return static_cast<uint32_t>(vertex_[i][static_cast<std::size_t>(lane)]); };
     return {slot(0), slot(1), slot(2)};
@@ -25,13 +26,13 @@ class TriangleBatch {
   }
 
   /// Sets up the triangles of `lanes`, whose vertices need no clipping; put() has told the vertices of lane 0 to W − 1. Counts
-  /// those it culls. provoking: 0 or 2, the provoking vertex's place.
+  /// those it culls. provoking: 0 or 2, the provoking vertex's place. segment: the chunk's that they are of.
   void set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking, uint32_t segment,
               PassStatistics& statistics);
 
   uint32_t kept() const { return kept_; }    ///< lanes that are set up
   uint32_t large() const { return large_; }  ///< lanes that are too large for it: nothing is said of them
-  /// Writes the kept lanes' triangles to out, in order: popcount(kept()) of them.
+  /// Writes the kept lanes' triangles, of which there is one at least, to out, in order.
   void write(Triangle* out) const;
 
  private:
