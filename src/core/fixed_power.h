@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// x^y for an exponent 0 < y <= 1 that is known before, as a display's gamma is: at some half of unit_pow's cost.
+/// x^y for an exponent 0 < y <= 1 that is known before, as a display's gamma is: cheaper than unit_pow, which has to find a logarithm.
 ///
 /// x = m·2^e with 1 <= m < 2, so x^y = m^y·2^(e·y): a polynomial of m times one entry for the lower four bits of the exponent's
 /// eight and one for the upper. The constructor calls no library function, so its numbers are the same on every machine.

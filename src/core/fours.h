@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Records that lie anywhere, read by lanes: four neighbouring words of each, and then turned word by word. About a third of what four
-// gathers cost, for a record's words come together.
+// Records that lie anywhere, read and written by lanes: four neighbouring words of each at once, turned word by word in registers, where
+// gathers would fetch every word by itself.
 #pragma once
 
 #include <array>

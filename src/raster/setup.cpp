@@ -76,7 +76,7 @@ class SegmentSetup {
     chunk_.statistics.primitives_in += static_cast<uint64_t>(count);
     const uint32_t plain = put_triangles(count);
     batch_.set_up(frame_, draw_, shaded_, plain, provoking_, segment_, chunk_.statistics);
-    const uint32_t single = (first_lane_bits(count) & ~plain) | batch_.large();  // to be set up one by one
+    const uint32_t single = (bits(first_lanes<Mask>(count)) & ~plain) | batch_.large();  // to be set up one by one
     if (single == 0 && batch_.kept() == 0) return;
     if (single == 0) {
       const std::size_t first = chunk_.triangles.size();
@@ -99,14 +99,12 @@ class SegmentSetup {
  private:
   using ClipFunction = ClipPolygon (*)(const Viewport&, const DepthState&, const std::array<glm::vec4, 3>&, const ClipDistances&);
 
-  static uint32_t first_lane_bits(int count) { return static_cast<uint32_t>((uint64_t{1} << count) - 1); }
-
   // Gives the next triangles to the batch. Which of them need no clipping?
   uint32_t put_triangles(int count) {
     const uint32_t* list = shaded_.any_outcode == 0 ? assembly_.next_list(static_cast<uint32_t>(count)) : nullptr;
     if (list != nullptr) {
       batch_.put_list(list, count, slot_base_);
-      return first_lane_bits(count);
+      return bits(first_lanes<Mask>(count));
     }
     uint32_t plain = 0;
     std::array<uint32_t, 3> slots{};

@@ -24,21 +24,11 @@
 #include "core/image.h"
 #include "core/lanes.h"
 #include "core/parallel.h"
-#include "core/srgb.h"
 #include "core/vec.h"
 #include "shading/footprint.h"
+#include "shading/packed_texels.h"
 
 namespace halfspace {
-
-/// What a texel holds. Formats of one channel read as (r, 0, 0, 1).
-enum class TexelFormat : uint8_t {
-  rgba8,    ///< value = code/255
-  srgb8a8,  ///< red, green and blue sRGB-coded; alpha linear, code/255
-  r8,       ///< value = code/255
-  r16,      ///< value = code/65535
-  rgba16f,  ///< linear halfs, finite: beyond ±65504 become ±65504, NaN becomes 0
-  rgba32f   ///< linear floats within ±kMaxTexel, which hold what is beyond; NaN becomes 0
-};
 
 /// The largest rgba32f texel: half of the largest float, so that the difference of two texels is a float.
 inline constexpr float kMaxTexel = 0x1.fffffep126f;
@@ -222,91 +212,6 @@ HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, R n) {
     return {u >> kBits, to_real<R>(u & ((1 << kBits) - 1)) * R(1.0f / (1 << kBits))};
   }
 }
-
-namespace detail {
-
-/// Packed 8-bit RGBA as the numbers that are filtered: codes, and linear values where the format decodes. The first N channels.
-template <int N, TexelFormat format, class R>
-HS_INLINE glm::vec<N, R> decode_rgba8(IntOf<R> texel) {
-  const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255;
-  vec3<R> color;
-  if constexpr (format == TexelFormat::srgb8a8) {
-    color = {srgb_to_linear<R>(r), srgb_to_linear<R>(g), srgb_to_linear<R>(b)};
-  } else {
-    color = {to_real<R>(r), to_real<R>(g), to_real<R>(b)};
-  }
-  if constexpr (N == 3) {
-    return color;
-  } else {
-    return {color, to_real<R>((texel >> 24) & 255)};
-  }
-}
-/// Filtered numbers as linear values.
-template <TexelFormat format, class R>
-HS_INLINE vec3<R> rgba8_to_linear(const vec3<R>& c) {
-  if constexpr (format == TexelFormat::srgb8a8) return c;
-  return {unorm8_to_linear(c.x), unorm8_to_linear(c.y), unorm8_to_linear(c.z)};
-}
-template <TexelFormat format, class R>
-HS_INLINE vec4<R> rgba8_to_linear(const vec4<R>& c) {
-  return vec4<R>(rgba8_to_linear<format>(vec3<R>(c)), unorm8_to_linear(c.w));
-}
-
-/// a + f·(b − a) for 0 <= f <= 1 − 2^-15. It stays between a and b: the rounding of b − a lengthens it by at most 2^-24 of
-/// itself, f shortens it by more, so before the last rounding, which is monotone, the result is between them.
-template <class R>
-HS_INLINE R lerp(R a, R b, R f) {
-  return fma(f, b - a, a);
-}
-template <class R>
-HS_INLINE vec3<R> lerp(const vec3<R>& a, const vec3<R>& b, R f) {
-  return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f)};
-}
-template <class R>
-HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
-  return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f), lerp(a.w, b.w, f)};
-}
-
-/// Channel k of packed 8-bit texels, plus an offset: what was masked out of a texel is a number once the offset's bits are set above it.
-template <class R>
-struct OffsetCode {
-  R value, offset;
-};
-template <class R>
-HS_INLINE OffsetCode<R> offset_code(IntOf<R> texel, int k) {
-  if (k == 0) return {as_real((texel & 0xff) | 0x4b000000), R(0x1p23f)};
-  return {as_real(((texel >> (8 * (k - 1))) & 0xff00) | 0x47000000), R(0x1p15f)};
-}
-
-/// Two texels of a row.
-template <class I>
-struct TexelPair {
-  I left, right;
-};
-
-/// The mean of 2x2 packed 8-bit texels: the first N channels, as decode_rgba8 has them. along, across: weights of the right and of the
-/// upper.
-template <int N, TexelFormat format, class R>
-HS_INLINE glm::vec<N, R> mixed_rgba8(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across) {
-  if constexpr (format == TexelFormat::srgb8a8 || std::is_same_v<R, double>) {
-    const auto row = [&](const TexelPair<IntOf<R>>& of) {
-      return lerp(decode_rgba8<N, format, R>(of.left), decode_rgba8<N, format, R>(of.right), along);
-    };
-    return lerp(row(lower), row(upper), across);
-  } else {
-    glm::vec<N, R> mean;
-    for (int k = 0; k < N; ++k) {
-      const auto row = [&](const TexelPair<IntOf<R>>& of) {
-        const OffsetCode<R> left = offset_code<R>(of.left, k), right = offset_code<R>(of.right, k);
-        return fma(along, right.value - left.value, left.value - left.offset);  // both differences are exact
-      };
-      mean[k] = lerp(row(lower), row(upper), across);
-    }
-    return mean;
-  }
-}
-
-}  // namespace detail
 
 template <int N, TexelFormat texel_format, class R>
 struct Texture2D::CommonLookup {
