@@ -9,7 +9,7 @@
 
 #include <array>
 
-#include "core/lanes.h"
+#include "core/lane_pairs.h"
 
 namespace halfspace {
 
@@ -49,10 +49,14 @@ HS_INLINE RealN<16> permute_256(const float* table, IntN<16> code) {
 /// The linear value of each sRGB code: the nearest float. Every lane of code must lie in 0 … 255.
 template <Number R>
 HS_INLINE R srgb_to_linear(IntOf<R> code) {
+  if constexpr (kIsPair<R>) {
+    return {srgb_to_linear<typename R::Half>(code.low), srgb_to_linear<typename R::Half>(code.high)};
+  } else {
 #ifdef __AVX512F__
-  if constexpr (std::is_same_v<R, RealN<16>>) return detail::permute_256(kSrgbToLinear.data(), code);
+    if constexpr (std::is_same_v<R, RealN<16>>) return detail::permute_256(kSrgbToLinear.data(), code);
 #endif
-  return R(gather(kSrgbToLinear.data(), code));
+    return R(gather(kSrgbToLinear.data(), code));
+  }
 }
 
 /// The sRGB code 0 … 255 nearest to 255·encode(x), for every float x. Below 0 and NaN: 0; above 1: 255. (A double is

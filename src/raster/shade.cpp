@@ -64,9 +64,8 @@ void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
   }
 }
 
-Real packet_depth(const Pixel<Real>& px) {
-  const auto& packet = *static_cast<const PacketTriangleIds*>(px.z_source);
-  const Real x_sub = px.x * Real(kSubPixels), y_sub = px.y * Real(kSubPixels);
+Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) {
+  const Real x_sub = x * Real(kSubPixels), y_sub = y * Real(kSubPixels);
   Real z(0.0f);
   for (uint32_t rest = packet.lanes; rest != 0;) {
     const TriangleId id = packet.ids == nullptr ? packet.uniform_id : packet.ids[std::countr_zero(rest)];

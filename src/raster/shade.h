@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/lane_pairs.h"
 #include "raster/output.h"
 #include "raster/tile.h"
 #include "raster/visibility.h"
@@ -80,8 +81,8 @@ struct PacketTriangleIds {
   TriangleId uniform_id;
   uint32_t lanes;
 };
-/// The window depth of a packet's pixels, within an ulp of what the visibility stage tested. px.z_source: PacketTriangleIds.
-Real packet_depth(const Pixel<Real>& px);
+/// The window depth of a packet's pixels, at x and y px in the window, within an ulp of what the visibility stage tested.
+Real packet_depth(Real x, Real y, const PacketTriangleIds& ids);
 
 /// Shades all pixels of the tile that wait for it, and writes their colours.
 void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
@@ -187,28 +188,29 @@ class RecentTriangles {
   std::size_t newest_ = kMost - 1;
 };
 
-/// Everything a packet needs of its triangles, lane by lane. P: components of the primitive stage's struct.
+/// Everything two packets need of their triangles, lane by lane. P: components of the primitive stage's struct.
 template <std::size_t N, std::size_t P>
 struct PacketTriangles {
-  TriangleId only = kNoTriangle;  ///< where all lanes show one triangle, that
-  TriangleLanes<Real> lanes;
-  ComponentLanes<Real, N> components;
-  std::array<Real, P> primitive;
-  Mask front;
+  std::array<TriangleId, 2> only{kNoTriangle, kNoTriangle};  ///< where all lanes of a packet show one triangle, that
+  TriangleLanes<FragmentReal> lanes;
+  ComponentLanes<FragmentReal, N> components;
+  std::array<FragmentReal, P> primitive;
+  MaskOf<FragmentReal> front;
 };
 
-/// Spreads one triangle's values: the packet's first to all lanes, so that lanes without a triangle compute with finite
-/// values; the others to the lanes of m.
-template <bool first, std::size_t N, std::size_t P>
+/// Spreads one triangle's values to packet i of the two: the packet's first to all lanes, so that lanes without a triangle compute with
+/// finite values; the others to the lanes of m.
+template <int i, bool first, std::size_t N, std::size_t P>
 HS_INLINE void merge_triangle(const TriangleScalars<N>& s, Mask m, PacketTriangles<N, P>& out) {
-  const auto put = [=](Real& to, float value) {
+  const auto put = [=](FragmentReal& lanes, float value) {
+    Real& to = half<i>(lanes);
     if constexpr (first) {
       to = Real(value);
     } else {
       to = select(m, Real(value), to);
     }
   };
-  TriangleLanes<Real>& t = out.lanes;
+  TriangleLanes<FragmentReal>& t = out.lanes;
   put(t.x0, s.x0);
   put(t.y0, s.y0);
   put(t.e1x, s.e1x);
@@ -220,41 +222,59 @@ HS_INLINE void merge_triangle(const TriangleScalars<N>& s, Mask m, PacketTriangl
   put(t.q1, s.q1);
   put(t.q2, s.q2);
   put(t.q_unscale, s.q_unscale);
-  for (std::size_t i = 0; i < N; ++i) {
-    put(out.components.value0[i], s.value0[i]);
-    put(out.components.delta1[i], s.delta1[i]);
-    put(out.components.delta2[i], s.delta2[i]);
+  for (std::size_t k = 0; k < N; ++k) {
+    put(out.components.value0[k], s.value0[k]);
+    put(out.components.delta1[k], s.delta1[k]);
+    put(out.components.delta2[k], s.delta2[k]);
   }
-  for (std::size_t i = 0; i < P; ++i) put(out.primitive[i], s.primitive[i]);
-  out.front = first ? Mask(s.front) : select(m, Mask(s.front), out.front);
+  for (std::size_t k = 0; k < P; ++k) put(out.primitive[k], s.primitive[k]);
+  Mask& front = half<i>(out.front);
+  front = first ? Mask(s.front) : select(m, Mask(s.front), front);
 }
 
-/// The components of rows, gathered.
-template <class V, std::size_t N, std::size_t P>
+/// The components of rows, gathered into packet i.
+template <int i, class V, std::size_t N, std::size_t P>
 HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>& out) {
   constexpr auto n = static_cast<int32_t>(N);
   const std::array<Int, 4> at{rows.row[0] * n, rows.row[1] * n, rows.row[2] * n, rows.provoking_row * n};
-  for (std::size_t i = 0; i < N; ++i) {
-    const float* column = rows.varyings + i;
-    const bool flat = kInterpolations<V>[i] == Interpolation::flat;
-    out.components.value0[i] = gather(column, flat ? at[3] : at[0]);
-    out.components.delta1[i] = flat ? Real(0.0f) : gather(column, at[1]) - out.components.value0[i];
-    out.components.delta2[i] = flat ? Real(0.0f) : gather(column, at[2]) - out.components.value0[i];
+  for (std::size_t k = 0; k < N; ++k) {
+    const float* column = rows.varyings + k;
+    const bool flat = kInterpolations<V>[k] == Interpolation::flat;
+    const Real value0 = gather(column, flat ? at[3] : at[0]);
+    half<i>(out.components.value0[k]) = value0;
+    half<i>(out.components.delta1[k]) = flat ? Real(0.0f) : gather(column, at[1]) - value0;
+    half<i>(out.components.delta2[k]) = flat ? Real(0.0f) : gather(column, at[2]) - value0;
   }
-  for (std::size_t i = 0; i < P; ++i) {
-    for (int lane = 0; lane < kLanes; ++lane) set_lane(out.primitive[i], lane, rows.primitive[static_cast<std::size_t>(lane)][i]);
+  for (std::size_t k = 0; k < P; ++k) {
+    for (int lane = 0; lane < kLanes; ++lane) set_lane(half<i>(out.primitive[k]), lane, rows.primitive[static_cast<std::size_t>(lane)][k]);
   }
+}
+
+template <int i>
+HS_INLINE void put_triangles(const TriangleLanes<Real>& from, TriangleLanes<FragmentReal>& to) {
+  half<i>(to.x0) = from.x0;
+  half<i>(to.y0) = from.y0;
+  half<i>(to.e1x) = from.e1x;
+  half<i>(to.e1y) = from.e1y;
+  half<i>(to.e2x) = from.e2x;
+  half<i>(to.e2y) = from.e2y;
+  half<i>(to.area) = from.area;
+  half<i>(to.q0) = from.q0;
+  half<i>(to.q1) = from.q1;
+  half<i>(to.q2) = from.q2;
+  half<i>(to.q_unscale) = from.q_unscale;
 }
 
 /// Triangles of a packet from which on they are gathered, not merged one by one.
 inline constexpr int kGatherFrom = 4;
 
-/// The triangles of a packet: one, few or many. t.only is the one that t holds already, if it holds one alone.
-template <class V, std::size_t N, std::size_t P>
+/// The triangles of a packet, the i-th of t: one, few or many. t.only[i] is the one that t holds already, if it holds one alone.
+template <int i, class V, std::size_t N, std::size_t P>
 HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V>& recent, PacketTriangles<N, P>& t) {
+  TriangleId& only = t.only[i];
   if (batch.ids == nullptr) {
-    if (t.only != batch.uniform_id) merge_triangle<true>(recent.of(*batch.frame, batch.uniform_id), Mask(true), t);
-    t.only = batch.uniform_id;
+    if (only != batch.uniform_id) merge_triangle<i, true>(recent.of(*batch.frame, batch.uniform_id), Mask(true), t);
+    only = batch.uniform_id;
     return;
   }
   const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
@@ -264,68 +284,91 @@ HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, Rec
   const auto showing = [&](TriangleId id) { return packet_ids == Int(std::bit_cast<int32_t>(id)); };
   int triangles = 0;
   for (; rest != 0 && triangles < kGatherFrom; ++triangles) rest &= ~bits(showing(next()));
-  if (triangles == 1 && t.only == ids[std::countr_zero(static_cast<uint32_t>(packet.lanes))]) return;
-  t.only = kNoTriangle;
+  if (triangles == 1 && only == ids[std::countr_zero(static_cast<uint32_t>(packet.lanes))]) return;
+  only = kNoTriangle;
   if (triangles == kGatherFrom) {
     TriangleRows rows;
-    if (gather_rows(*batch.frame, ids, packet.lanes, t.lanes, t.front, rows)) return gather_components<V>(rows, t);
+    TriangleLanes<Real> lanes;
+    if (gather_rows(*batch.frame, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
+      put_triangles<i>(lanes, t.lanes);
+      return gather_components<i, V>(rows, t);
+    }
   }
   rest = packet.lanes;
   TriangleId id = next();
-  merge_triangle<true>(recent.of(*batch.frame, id), Mask(true), t);
-  if (triangles == 1) t.only = id;
+  merge_triangle<i, true>(recent.of(*batch.frame, id), Mask(true), t);
+  if (triangles == 1) only = id;
   for (rest &= ~bits(showing(id)); rest != 0; rest &= ~bits(showing(id))) {
     id = next();
-    merge_triangle<false>(recent.of(*batch.frame, id), showing(id), t);
+    merge_triangle<i, false>(recent.of(*batch.frame, id), showing(id), t);
   }
 }
 
-/// Sets up the Pixel of a packet and interpolates its varyings.
+/// A packet's pixels in the window, and where its shader looks.
+struct PacketPlace {
+  int x, y;                         ///< of its first pixel
+  const SamplePosition* centroids;  ///< where centroid varyings are looked up, one a lane; or null: where all are
+};
+/// The place of a batch's n-th packet, which is the tile's `packet`.
+template <class Batch>
+HS_INLINE PacketPlace place_of(const Batch& batch, int n, int packet) {
+  return {batch.tile_x0 + packet_x(packet), batch.tile_y0 + packet_y(packet),
+          batch.centroids == nullptr ? nullptr : batch.centroids + n * kLanes};
+}
+
+/// Sets up the Pixel of two packets and interpolates their varyings. at: where in their pixels; ids: what Pixel::z() reads.
 template <class S, std::size_t N, std::size_t P>
-HS_INLINE typename S::template Varyings<Real> begin_packet(int x, int y, const SamplePosition& at, const SamplePosition* centroids,
-                                                           const PacketTriangles<N, P>& t, const PacketTriangleIds& ids, Pixel<Real>& px) {
-  using V = typename S::template Varyings<Real>;
-  const Int ix = lane_x() + x, iy = lane_y() + y;
-  const Real x_sub = to_real<Real>(ix * kSubPixels + at.x);
-  const Real y_sub = to_real<Real>(iy * kSubPixels + at.y);
+HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::array<PacketPlace, 2>& places, const SamplePosition& at,
+                                                                    const PacketTriangles<N, P>& t,
+                                                                    const std::array<PacketTriangleIds, 2>& ids, Pixel<FragmentReal>& px) {
+  using R = FragmentReal;
+  using I = IntOf<R>;
+  using V = typename S::template Varyings<R>;
+  const I ix(lane_x() + places[0].x, lane_x() + places[1].x), iy(lane_y() + places[0].y, lane_y() + places[1].y);
+  const R x_sub = to_real<R>(ix * kSubPixels + at.x);
+  const R y_sub = to_real<R>(iy * kSubPixels + at.y);
   px.dx = x_sub - t.lanes.x0;
   px.dy = y_sub - t.lanes.y0;
   px.triangle = &t.lanes;
   px.component_lanes = &t.components;
   px.weights = weights_at<kUsesLinear<V>>(t.lanes, px.dx, px.dy);
-  px.x = x_sub * Real(1.0f / kSubPixels);
-  px.y = y_sub * Real(1.0f / kSubPixels);
-  px.quad_x = to_real<Real>(ix & Int(1));
-  px.quad_y = to_real<Real>(iy & Int(1));
-  px.find_z = packet_depth;
+  px.x = x_sub * R(1.0f / kSubPixels);
+  px.y = y_sub * R(1.0f / kSubPixels);
+  px.quad_x = to_real<R>(ix & I(1));
+  px.quad_y = to_real<R>(iy & I(1));
+  px.find_z = [](const Pixel<R>& pixel) {
+    const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(pixel.z_source);
+    return R(packet_depth(pixel.x.low, pixel.y.low, of[0]), packet_depth(pixel.x.high, pixel.y.high, of[1]));
+  };
   px.z_source = &ids;
   px.front_facing = t.front;
   if constexpr (kUsesCentroid<typename S::template Varyings<float>>) {
-    if (centroids != nullptr) {
-      Int cx{}, cy{};
-      for (int i = 0; i < kLanes; ++i) {
-        set_lane(cx, i, centroids[i].x);
-        set_lane(cy, i, centroids[i].y);
+    if (places[0].centroids != nullptr) {
+      I cx(0), cy(0);
+      for (int i = 0; i < kWidthOf<R>; ++i) {
+        const SamplePosition& c = places[static_cast<std::size_t>(i / kLanes)].centroids[i % kLanes];
+        set_lane(cx, i, c.x);
+        set_lane(cy, i, c.y);
       }
-      const Weights<Real> inside =
-          weights_at(t.lanes, to_real<Real>(ix * kSubPixels + cx) - t.lanes.x0, to_real<Real>(iy * kSubPixels + cy) - t.lanes.y0);
+      const Weights<R> inside =
+          weights_at(t.lanes, to_real<R>(ix * kSubPixels + cx) - t.lanes.x0, to_real<R>(iy * kSubPixels + cy) - t.lanes.y0);
       return interpolate_all<V>(px.weights, inside, t.components, std::make_index_sequence<N>());
     }
   }
-  (void)centroids;
   return interpolate_all<V>(px.weights, t.components, std::make_index_sequence<N>());
 }
 
 template <class S>
 HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) {
-  using V = typename S::template Varyings<Real>;
+  using R = FragmentReal;
+  using V = typename S::template Varyings<R>;
   using F = typename S::template Varyings<float>;
-  using P = PrimitiveOf<S, Real>;
+  using P = PrimitiveOf<S, R>;
   constexpr std::size_t n = kComponents<V>;
   constexpr std::size_t p = HasPrimitive<S> ? kComponents<P> : 0;
   const S& s = *static_cast<const S*>(shader);
   if constexpr (kIsConstant<S>) {
-    const auto fragment = s.fragment(V{});
+    const auto fragment = s.fragment(typename S::template Varyings<Real>{});
     for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
       const vec4<Real>& color = nth_color(fragment.color, n_color);
       for (int i = 0; i < batch.count; ++i) {
@@ -334,56 +377,66 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     }
     return;
   }
-  // A packet's interpolation is a long chain of operations that wait for each other, and so is its shading: while one packet is shaded the
-  // next is already interpolated.
-  struct Ready {
-    PacketTriangles<n, p> triangles;
-    PacketTriangleIds ids;
-    Pixel<Real> px;
-    V in;
-  };
-  std::array<Ready, 2> ready;
+  PacketTriangles<n, p> triangles;
   RecentTriangles<F> recent;
-  for (int next = 0; next <= batch.count; ++next) {
-    if (next < batch.count) {
-      Ready& r = ready[static_cast<std::size_t>(next) % 2];
-      const PacketMask packet = batch.packets[next];
-      find_triangles(batch, packet, recent, r.triangles);
-      r.ids = {batch.frame, batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes, batch.uniform_id,
-               packet.lanes};
-      r.in = begin_packet<S>(batch.tile_x0 + packet_x(packet.packet), batch.tile_y0 + packet_y(packet.packet), batch.position,
-                             batch.centroids == nullptr ? nullptr : batch.centroids + next * kLanes, r.triangles, r.ids, r.px);
-    }
-    if (next == 0) continue;
-    const auto at = static_cast<std::size_t>(next - 1);
-    const Ready& r = ready[at % 2];
+  for (int first = 0; first < batch.count; first += 2) {
+    const int second = std::min(first + 1, batch.count - 1);  // the last of an odd number is shaded twice
+    const PacketMask a = batch.packets[first], b = batch.packets[second];
+    find_triangles<0>(batch, a, recent, triangles);
+    find_triangles<1>(batch, b, recent, triangles);
+    const auto ids_of = [&](PacketMask packet) {
+      const TriangleId* ids = batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
+      return PacketTriangleIds{batch.frame, ids, batch.uniform_id, packet.lanes};
+    };
+    const std::array<PacketTriangleIds, 2> ids{ids_of(a), ids_of(b)};
+    Pixel<R> px;
+    const V in =
+        begin_packets<S>({place_of(batch, first, a.packet), place_of(batch, second, b.packet)}, batch.position, triangles, ids, px);
     P face{};
-    if constexpr (p != 0) face = from_components<P, Real>(r.triangles.primitive);
-    const auto fragment = call_fragment<S, Real>(s, r.in, face, r.px);
+    if constexpr (p != 0) face = from_components<P, R>(triangles.primitive);
+    const auto fragment = call_fragment<S, R>(s, in, face, px);
+    const auto i = static_cast<std::size_t>(first);
     for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
-      const vec4<Real>& color = nth_color(fragment.color, n_color);
-      batch.out->packet_color(n_color, at) = {color.x, color.y, color.z, color.w};
+      const vec4<R>& color = nth_color(fragment.color, n_color);
+      batch.out->packet_color(n_color, i) = {color.x.low, color.y.low, color.z.low, color.w.low};
+      batch.out->packet_color(n_color, i + 1) = {color.x.high, color.y.high, color.z.high, color.w.high};
     }
-    if constexpr (kDiscards<S>) batch.out->keep[at] = static_cast<uint16_t>(bits(fragment.keep));
-    if constexpr (kWritesDepth<S>) batch.out->depth[at] = fragment.depth;
+    if constexpr (kDiscards<S>) {
+      batch.out->keep[i] = static_cast<uint16_t>(bits(fragment.keep.low));
+      batch.out->keep[i + 1] = static_cast<uint16_t>(bits(fragment.keep.high));
+    }
+    if constexpr (kWritesDepth<S>) {
+      batch.out->depth[i] = fragment.depth.low;
+      batch.out->depth[i + 1] = fragment.depth.high;
+    }
   }
 }
 
 template <class S>
 HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
-  using V = typename S::template Varyings<Real>;
+  using R = FragmentReal;
+  using V = typename S::template Varyings<R>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
-  merge_triangle<true>(scalars_of<F>(*batch.frame, batch.id), Mask(true), triangles);
-  const PacketTriangleIds ids{batch.frame, nullptr, batch.id, kAllBits<Mask>};
-  for (int i = 0; i < batch.count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    Pixel<Real> px;
-    const V in = begin_packet<S>(batch.tile_x0 + packet_x(batch.packets[at]), batch.tile_y0 + packet_y(batch.packets[at]), batch.position,
-                                 batch.centroids == nullptr ? nullptr : batch.centroids + i * kLanes, triangles, ids, px);
-    const Visibility<Real> v = static_cast<const S*>(shader)->visibility(in, px);
-    if constexpr (kWritesDepth<S>) batch.depth[at] = v.depth;
-    batch.lanes[at] &= bits(v.keep);
+  const TriangleScalars<kComponents<V>> scalars = scalars_of<F>(*batch.frame, batch.id);
+  merge_triangle<0, true>(scalars, Mask(true), triangles);
+  merge_triangle<1, true>(scalars, Mask(true), triangles);
+  const PacketTriangleIds id{batch.frame, nullptr, batch.id, kAllBits<Mask>};
+  const std::array<PacketTriangleIds, 2> ids{id, id};
+  for (int first = 0; first < batch.count; first += 2) {
+    const int second = std::min(first + 1, batch.count - 1);
+    const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
+    Pixel<R> px;
+    const V in = begin_packets<S>({place_of(batch, first, batch.packets[a]), place_of(batch, second, batch.packets[b])}, batch.position,
+                                  triangles, ids, px);
+    const Visibility<R> v = static_cast<const S*>(shader)->visibility(in, px);
+    if constexpr (kWritesDepth<S>) {
+      batch.depth[a] = v.depth.low;
+      batch.depth[b] = v.depth.high;
+    }
+    const uint32_t low = bits(v.keep.low), high = bits(v.keep.high);
+    batch.lanes[a] &= low;
+    batch.lanes[b] &= high;
   }
 }
 

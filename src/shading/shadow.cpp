@@ -7,6 +7,7 @@ namespace halfspace {
 
 template float light_arriving(const Shadow&, const ShadowReceiver<float>&);
 template double light_arriving(const Shadow&, const ShadowReceiver<double>&);
+template FragmentReal light_arriving(const Shadow&, const ShadowReceiver<FragmentReal>&);
 #if HALFSPACE_LANES > 1
 template Real light_arriving(const Shadow&, const ShadowReceiver<Real>&);
 #endif

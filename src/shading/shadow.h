@@ -3,6 +3,7 @@
 // The share of one light that arrives at a point: what a surface's shader asks of a shadow map.
 #pragma once
 
+#include "core/lane_pairs.h"
 #include "shading/shadow_map.h"
 
 namespace halfspace {
@@ -14,6 +15,7 @@ R light_arriving(const Shadow& shadow, const ShadowReceiver<R>& at);
 
 extern template float light_arriving(const Shadow&, const ShadowReceiver<float>&);
 extern template double light_arriving(const Shadow&, const ShadowReceiver<double>&);
+extern template FragmentReal light_arriving(const Shadow&, const ShadowReceiver<FragmentReal>&);
 #if HALFSPACE_LANES > 1
 extern template Real light_arriving(const Shadow&, const ShadowReceiver<Real>&);
 #endif

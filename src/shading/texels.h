@@ -52,7 +52,9 @@ struct R16Texels {
 /// The half in the low 16 bits.
 template <class R>
 HS_INLINE R low_half(IntOf<R> word) {
-  if constexpr (kWidthOf<R> == 1)
+  if constexpr (kIsPair<R>)
+    return {low_half<typename R::Half>(word.low), low_half<typename R::Half>(word.high)};
+  else if constexpr (kWidthOf<R> == 1)
     return R(half_to_float(static_cast<uint16_t>(word & 0xffff)));
   else
     return half_to_float(word);

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/lane_pairs.h"
 #include "core/lanes.h"
 #include "core/parallel.h"
 #include "core/vec.h"

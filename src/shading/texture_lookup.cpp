@@ -187,10 +187,14 @@ template vec4<RealN<4>> Texture2D::sample_any(const Sampler&, const vec2<RealN<4
 template vec4<RealN<8>> Texture2D::sample_any(const Sampler&, const vec2<RealN<8>>&, const vec2<RealN<8>>&, const vec2<RealN<8>>&) const;
 template vec4<RealN<16>> Texture2D::sample_any(const Sampler&, const vec2<RealN<16>>&, const vec2<RealN<16>>&,
                                                const vec2<RealN<16>>&) const;
+template vec4<FragmentReal> Texture2D::sample_any(const Sampler&, const vec2<FragmentReal>&, const vec2<FragmentReal>&,
+                                                  const vec2<FragmentReal>&) const;
 template vec4<float> Texture2D::sample_levels_any(const Sampler&, const vec2<float>&, const LevelChoice<float>&) const;
 template vec4<double> Texture2D::sample_levels_any(const Sampler&, const vec2<double>&, const LevelChoice<double>&) const;
 template vec4<RealN<4>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<4>>&, const LevelChoice<RealN<4>>&) const;
 template vec4<RealN<8>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<8>>&, const LevelChoice<RealN<8>>&) const;
 template vec4<RealN<16>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<16>>&, const LevelChoice<RealN<16>>&) const;
+template vec4<FragmentReal> Texture2D::sample_levels_any(const Sampler&, const vec2<FragmentReal>&,
+                                                         const LevelChoice<FragmentReal>&) const;
 
 }  // namespace halfspace

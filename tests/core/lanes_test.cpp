@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every operation of lanes.h at widths 4, 8 and 16 against the same operation on plain numbers, bit by bit: over special
-// values in all pairs (zeros, infinities, NaN, subnormals, ties, the ends of the int32 range) and over random bits.
-// A NaN result need only be a NaN: the sign and payload of one that an operation makes are not ours to choose.
+// Every operation of lanes.h at widths 4, 8 and 16, and of lane_pairs.h in pairs of these and of plain numbers, against the same
+// operation on plain numbers, bit by bit: over special values in all pairs (zeros, infinities, NaN, subnormals, ties, the ends of the int32
+// range) and over random bits. A NaN result need only be a NaN: the sign and payload of one that an operation makes are not ours to choose.
 #include "core/lanes.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "core/lane_pairs.h"
 #include "core/vec.h"
 
 namespace halfspace {
@@ -48,45 +49,49 @@ bool same(float a, float b) { return (std::isnan(a) && std::isnan(b)) || as_int(
 bool same(int32_t a, int32_t b) { return a == b; }
 bool same(bool a, bool b) { return a == b; }
 
-template <int W>
-RealN<W> pack(const std::vector<float>& v, std::size_t from, std::size_t step) {
-  RealN<W> r;
-  for (int k = 0; k < W; ++k) set_lane(r, k, v[(from + static_cast<std::size_t>(k) * step) % v.size()]);
-  return r;
-}
-template <int W>
-IntN<W> pack(const std::vector<int32_t>& v, std::size_t from, std::size_t step) {
-  IntN<W> r;
-  for (int k = 0; k < W; ++k) set_lane(r, k, v[(from + static_cast<std::size_t>(k) * step) % v.size()]);
+/// A lane's value for each lane of T: every step-th value from one on.
+template <class T, class V>
+T pack(const std::vector<V>& v, std::size_t from, std::size_t step) {
+  T r(0);
+  for (std::size_t k = 0; k < sizeof(T) / sizeof(V); ++k) set_lane(r, static_cast<int>(k), v[(from + k * step) % v.size()]);
   return r;
 }
 
-/// f(a, b, c) on lanes against f on each lane alone, for all pairs (a, b) of the values and some c.
-template <int W, class T, class F>
-void expect_lanes_agree(const char* what, const std::vector<T>& v, F f) {
+/// f(a, b, c) on lanes T against f on each lane alone, for all pairs (a, b) of the values and some c.
+template <class T, class V, class F>
+void expect_lanes_agree(const char* what, const std::vector<V>& v, F f) {
+  constexpr std::size_t kWidth = sizeof(T) / sizeof(V);
   for (std::size_t i = 0; i < v.size(); ++i) {
-    for (std::size_t j = 0; j < v.size(); j += W) {
-      const auto a = pack<W>(v, i, 0), b = pack<W>(v, j, 1), c = pack<W>(v, i + 3 * j, 5);
+    for (std::size_t j = 0; j < v.size(); j += kWidth) {
+      const auto a = pack<T>(v, i, 0), b = pack<T>(v, j, 1), c = pack<T>(v, i + 3 * j, 5);
       const auto got = f(a, b, c);
-      for (int k = 0; k < W; ++k) {
+      for (int k = 0; k < static_cast<int>(kWidth); ++k) {
         const auto want = f(lane(a, k), lane(b, k), lane(c, k));
-        ASSERT_TRUE(same(lane(got, k), want)) << what << " at width " << W << ": " << lane(a, k) << ", " << lane(b, k) << ", " << lane(c, k)
-                                              << " gives " << lane(got, k) << ", not " << want;
+        ASSERT_TRUE(same(lane(got, k), want)) << what << " of " << kWidth << " lanes: " << lane(a, k) << ", " << lane(b, k) << ", "
+                                              << lane(c, k) << " gives " << lane(got, k) << ", not " << want;
       }
     }
   }
 }
+
+/// f.template operator()<R>() for all lanes R.
+template <class F>
+void for_all_lanes(F f) {
+  f.template operator()<RealN<4>>();
+  f.template operator()<RealN<8>>();
+  f.template operator()<RealN<16>>();
+  f.template operator()<RealPair<float>>();
+  f.template operator()<RealPair<RealN<4>>>();
+  f.template operator()<RealPair<RealN<8>>>();
+  f.template operator()<RealPair<RealN<16>>>();
+}
 template <class F>
 void check_real(const char* what, F f) {
-  expect_lanes_agree<4>(what, reals(), f);
-  expect_lanes_agree<8>(what, reals(), f);
-  expect_lanes_agree<16>(what, reals(), f);
+  for_all_lanes([&]<class R>() { expect_lanes_agree<R>(what, reals(), f); });
 }
 template <class F>
 void check_int(const char* what, F f) {
-  expect_lanes_agree<4>(what, ints(), f);
-  expect_lanes_agree<8>(what, ints(), f);
-  expect_lanes_agree<16>(what, ints(), f);
+  for_all_lanes([&]<class R>() { expect_lanes_agree<IntOf<R>>(what, ints(), f); });
 }
 
 TEST(Lanes, ArithmeticIsThatOfFloat) {
@@ -163,14 +168,10 @@ TEST(Lanes, ConversionsAgreeOnTiesNaNAndWhatDoesNotFit) {
   check_real("round_to_int", [](auto, auto b, auto) { return round_to_int(b); });
   check_int("as_real", [](auto, auto b, auto) { return as_real(b); });
   check_real("as_int", [](auto, auto b, auto) { return as_int(b); });
-  expect_lanes_agree<4>("to_real", ints(), [](auto, auto b, auto) {
-    return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<4>>>(b);
-  });
-  expect_lanes_agree<8>("to_real", ints(), [](auto, auto b, auto) {
-    return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<8>>>(b);
-  });
-  expect_lanes_agree<16>("to_real", ints(), [](auto, auto b, auto) {
-    return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, RealN<16>>>(b);
+  for_all_lanes([]<class R>() {
+    expect_lanes_agree<IntOf<R>>("to_real", ints(), [](auto, auto b, auto) {
+      return to_real<std::conditional_t<std::is_same_v<decltype(b), int32_t>, float, R>>(b);
+    });
   });
   for (const float x : {kNaN, kInf, -kInf, 2147483648.0f, -2147483904.0f, 1e30f}) {
     EXPECT_EQ(truncate_to_int(x), kIntMin) << x;
@@ -194,68 +195,98 @@ TEST(Lanes, MinAndMaxReturnTheSecondOfNaN) {
   EXPECT_EQ(clamp(kNaN, 2.0f, 3.0f), 2.0f);
 }
 
-template <int W>
-void check_width() {
-  // Broadcast keeps every bit, the sign of zero among them.
-  for (const float x : reals()) {
-    for (int k = 0; k < W; ++k) EXPECT_TRUE(same(lane(RealN<W>(x), k), x)) << x;
-  }
-  EXPECT_EQ(as_int(lane(RealN<W>(-0.0f), W - 1)), kIntMin);
-  for (const int32_t x : ints()) EXPECT_EQ(lane(IntN<W>(x), W - 1), x);
+TEST(Lanes, BroadcastKeepsEveryBit) {
+  for_all_lanes([]<class R>() {
+    for (int k = 0; k < kWidthOf<R>; ++k) {
+      for (const float x : reals()) EXPECT_TRUE(same(lane(R(x), k), x)) << x;
+      for (const int32_t x : ints()) EXPECT_EQ(lane(IntOf<R>(x), k), x);
+    }
+    EXPECT_EQ(as_int(lane(R(-0.0f), kWidthOf<R> - 1)), kIntMin);  // the sign of a zero too
+  });
+}
 
-  // Memory.
+TEST(Lanes, ReadAndWriteMemory) {
   std::vector<float> table(1000);
   std::vector<int32_t> int_table(1000);
   for (std::size_t i = 0; i < 1000; ++i) {
     table[i] = static_cast<float>(i) * 0.25f;
     int_table[i] = static_cast<int32_t>(i * i);
   }
-  std::mt19937 random(W);
-  for (int trial = 0; trial < 100; ++trial) {
-    IntN<W> index;
-    for (int k = 0; k < W; ++k) set_lane(index, k, static_cast<int32_t>(random() % 500) - 250);
-    const RealN<W> r = gather(table.data() + 250, index);  // negative indices too
-    const IntN<W> n = gather(int_table.data() + 250, index);
-    for (int k = 0; k < W; ++k) {
-      EXPECT_EQ(lane(r, k), gather(table.data() + 250, lane(index, k)));
-      EXPECT_EQ(lane(n, k), gather(int_table.data() + 250, lane(index, k)));
-    }
-  }
   std::array<int32_t, 16> small_table;
   for (std::size_t i = 0; i < 16; ++i) small_table[i] = static_cast<int32_t>(100 - i * i);
-  for (int first = 0; first < 16; ++first) {
-    IntN<W> index;
-    for (int k = 0; k < W; ++k) set_lane(index, k, (first + 5 * k) % 16);
-    const IntN<W> found = look_up(small_table, index);
-    for (int k = 0; k < W; ++k) EXPECT_EQ(lane(found, k), look_up(small_table, lane(index, k)));
-  }
-  const RealN<W> loaded = load<RealN<W>>(table.data() + 3);  // unaligned
-  for (int k = 0; k < W; ++k) EXPECT_EQ(lane(loaded, k), table[static_cast<std::size_t>(3 + k)]);
-  store(table.data() + 7, -loaded);
-  for (int k = 0; k < W; ++k) EXPECT_EQ(table[static_cast<std::size_t>(7 + k)], -lane(loaded, k));
-
-  // Masks.
-  for (uint32_t pattern = 0; pattern < (1u << W); pattern += W == 16 ? 7u : 1u) {
-    MaskN<W> m(false);
-    for (int k = 0; k < W; ++k) m |= (iota<IntN<W>>() == IntN<W>(k)) & MaskN<W>((pattern >> k & 1) != 0);
-    EXPECT_EQ(bits(m), pattern);
-    EXPECT_EQ(any(m), pattern != 0);
-    EXPECT_EQ(none(m), pattern == 0);
-    EXPECT_EQ(all(m), pattern == kAllBits<MaskN<W>>);
-    EXPECT_EQ(bits(!m), ~pattern & kAllBits<MaskN<W>>);
-    EXPECT_EQ(bits(m ^ MaskN<W>(true)), bits(!m));
-    for (int k = 0; k < W; ++k) {
-      EXPECT_EQ(lane(m, k), (pattern >> k & 1) != 0);
-      EXPECT_EQ(lane(as_int(m), k), lane(m, k) ? -1 : 0);
+  for_all_lanes([&]<class R>() {
+    using I = IntOf<R>;
+    std::mt19937 random(kWidthOf<R>);
+    for (int trial = 0; trial < 100; ++trial) {
+      I index(0);
+      for (int k = 0; k < kWidthOf<R>; ++k) set_lane(index, k, static_cast<int32_t>(random() % 500) - 250);
+      const R r = gather(table.data() + 250, index);  // negative indices too
+      const I n = gather(int_table.data() + 250, index);
+      for (int k = 0; k < kWidthOf<R>; ++k) {
+        EXPECT_EQ(lane(r, k), gather(table.data() + 250, lane(index, k)));
+        EXPECT_EQ(lane(n, k), gather(int_table.data() + 250, lane(index, k)));
+      }
     }
-  }
-  EXPECT_TRUE(all(MaskN<W>(true)));
-  for (int n = -1; n <= W + 1; ++n) EXPECT_EQ(bits(first_lanes<MaskN<W>>(n)), n <= 0 ? 0u : n >= W ? kAllBits<MaskN<W>> : (1u << n) - 1u);
+    for (int first = 0; first < 16; ++first) {
+      I index(0);
+      for (int k = 0; k < kWidthOf<R>; ++k) set_lane(index, k, (first + 5 * k) % 16);
+      const I found = look_up(small_table, index);
+      for (int k = 0; k < kWidthOf<R>; ++k) EXPECT_EQ(lane(found, k), look_up(small_table, lane(index, k)));
+    }
+    std::vector<float> memory = table;
+    const R loaded = load<R>(memory.data() + 3);  // unaligned
+    for (int k = 0; k < kWidthOf<R>; ++k) EXPECT_EQ(lane(loaded, k), memory[static_cast<std::size_t>(3 + k)]);
+    store(memory.data() + 7, -loaded);
+    for (int k = 0; k < kWidthOf<R>; ++k) EXPECT_EQ(memory[static_cast<std::size_t>(7 + k)], -lane(loaded, k));
+  });
 }
 
-TEST(Lanes, BroadcastMemoryAndMasksOfWidth4) { check_width<4>(); }
-TEST(Lanes, BroadcastMemoryAndMasksOfWidth8) { check_width<8>(); }
-TEST(Lanes, BroadcastMemoryAndMasksOfWidth16) { check_width<16>(); }
+/// The mask whose bits are those of pattern.
+template <class R>
+MaskOf<R> mask_of(uint64_t pattern) {
+  IntOf<R> number(0);
+  for (int k = 0; k < kWidthOf<R>; ++k) set_lane(number, k, static_cast<int32_t>(pattern >> k & 1));
+  return number == IntOf<R>(1);
+}
+
+TEST(Lanes, MasksAreTheirBits) {
+  for_all_lanes([]<class R>() {
+    using M = MaskOf<R>;
+    constexpr uint64_t kPatterns = uint64_t{1} << kWidthOf<R>;
+    constexpr uint64_t kStep = kPatterns > 65536 ? 999999 : kPatterns > 256 ? 7 : 1;
+    EXPECT_EQ(kAllBits<M>, kPatterns - 1);
+    EXPECT_TRUE(all(M(true)));
+    EXPECT_TRUE(none(M(false)));
+    for (uint64_t pattern = 0; pattern < kPatterns; pattern += kStep) {
+      const M m = mask_of<R>(pattern);
+      EXPECT_EQ(bits(m), pattern);
+      EXPECT_EQ(any(m), pattern != 0);
+      EXPECT_EQ(none(m), pattern == 0);
+      EXPECT_EQ(all(m), pattern == kAllBits<M>);
+      EXPECT_EQ(bits(!m), ~pattern & kAllBits<M>);
+      EXPECT_EQ(bits(m ^ M(true)), bits(!m));
+      M both = m, either = m;
+      EXPECT_EQ(bits(both &= mask_of<R>(pattern >> 1)), pattern & pattern >> 1);
+      EXPECT_EQ(bits(either |= mask_of<R>(pattern >> 1)), pattern | pattern >> 1);
+      for (int k = 0; k < kWidthOf<R>; ++k) EXPECT_EQ(lane(m, k), (pattern >> k & 1) != 0);
+    }
+  });
+}
+
+template <int W>
+void expect_masks_of_lanes() {
+  for (int k = 0; k < W; ++k) {
+    const MaskN<W> m = iota<IntN<W>>() == IntN<W>(k);
+    EXPECT_EQ(bits(m), 1u << k);
+    for (int i = 0; i < W; ++i) EXPECT_EQ(lane(as_int(m), i), i == k ? -1 : 0);
+  }
+  for (int n = -1; n <= W + 1; ++n) EXPECT_EQ(bits(first_lanes<MaskN<W>>(n)), n <= 0 ? 0u : n >= W ? kAllBits<MaskN<W>> : (1u << n) - 1u);
+}
+TEST(Lanes, AreNumberedFromTheLowest) {
+  expect_masks_of_lanes<4>();
+  expect_masks_of_lanes<8>();
+  expect_masks_of_lanes<16>();
+}
 
 TEST(Lanes, WidthOneIsPlainNumbers) {
   EXPECT_EQ(bits(true), 1u);
@@ -263,8 +294,8 @@ TEST(Lanes, WidthOneIsPlainNumbers) {
   EXPECT_TRUE(first_lanes<bool>(1));
   EXPECT_FALSE(first_lanes<bool>(0));
   EXPECT_EQ(iota<int32_t>(), 0);
-  static_assert(kWidthOf<float> == 1 && kWidthOf<double> == 1 && kWidthOf<RealN<8>> == 8);
-  static_assert(Number<float> && Number<double> && Number<RealN<4>> && !Number<int>);
+  static_assert(kWidthOf<float> == 1 && kWidthOf<double> == 1 && kWidthOf<RealN<8>> == 8 && kWidthOf<RealPair<RealN<8>>> == 16);
+  static_assert(Number<float> && Number<double> && Number<RealN<4>> && Number<RealPair<float>> && !Number<int>);
 }
 
 TEST(Lanes, DifferenceOfProductsErrsByAtMostOneAndAHalfUlp) {
@@ -295,17 +326,18 @@ TEST(Vec, UniformsMixWithLanesAsWithFloat) {
   const glm::mat4 m(1.5f, 2.25f, -3.1f, 0.4f, 5.3f, 0.6f, 7.7f, -0.8f, 9.1f, 1.2f, 0.3f, 4.4f, 0.1f, 2.3f, 4.5f, 6.7f);
   const glm::vec4 v(0.3f, -1.7f, 2.9f, 1.1f);
   const glm::vec3 u(0.7f, 0.2f, -0.9f);
-  using R = RealN<8>;
-  const vec4<R> lanes(R(v.x), R(v.y), R(v.z), R(v.w));
-  const vec3<R> three(R(v.x), R(v.y), R(v.z));
-  const vec4<R> product = m * lanes;
-  const vec3<R> turned = glm::mat3(m) * three;
-  for (int c = 0; c < 4; ++c) EXPECT_EQ(as_int(lane(product[c], 5)), as_int((m * v)[c]));
-  for (int c = 0; c < 3; ++c) EXPECT_EQ(as_int(lane(turned[c], 5)), as_int((glm::mat3(m) * glm::vec3(v))[c]));
-  EXPECT_EQ(as_int(lane(dot(three, u), 2)), as_int(glm::dot(glm::vec3(v), u)));
-  EXPECT_EQ(as_int(lane(normalize(three).y, 2)), as_int(glm::normalize(glm::vec3(v)).y));
-  const vec3<R> picked = select(MaskN<8>(true), three, -three);
-  EXPECT_EQ(lane(picked.z, 0), v.z);
+  for_all_lanes([&]<class R>() {
+    const vec4<R> lanes(R(v.x), R(v.y), R(v.z), R(v.w));
+    const vec3<R> three(R(v.x), R(v.y), R(v.z));
+    const vec4<R> product = m * lanes;
+    const vec3<R> turned = glm::mat3(m) * three;
+    for (int c = 0; c < 4; ++c) EXPECT_EQ(as_int(lane(product[c], 1)), as_int((m * v)[c]));
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(as_int(lane(turned[c], 1)), as_int((glm::mat3(m) * glm::vec3(v))[c]));
+    EXPECT_EQ(as_int(lane(dot(three, u), 1)), as_int(glm::dot(glm::vec3(v), u)));
+    EXPECT_EQ(as_int(lane(normalize(three).y, 1)), as_int(glm::normalize(glm::vec3(v)).y));
+    const vec3<R> picked = select(MaskOf<R>(true), three, -three);
+    EXPECT_EQ(lane(picked.z, 0), v.z);
+  });
 }
 
 }  // namespace

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pairs: two lots of lanes computed side by side, operation by operation.
+//
+// A shader is a long chain of operations, each of which needs the one before; a processor that looks some hundred operations ahead finds
+// little else to do. Two chains beside each other keep it busy. RealPair<H>, IntPair<H> and MaskPair<H>, H being float or RealN<W>, are
+// used as lanes are (lanes.h), and each half computes what it would compute alone: the bits are the same.
+#pragma once
+
+#include "core/lanes.h"
+
+namespace halfspace {
+
+template <class H>
+struct RealPair;
+template <class H>
+struct IntPair;
+
+/// Truth values of a RealPair<H>.
+template <class H>
+struct MaskPair {
+  using Half = MaskOf<H>;
+  Half low, high;
+
+  MaskPair() = default;
+  HS_INLINE MaskPair(bool b) : low(b), high(b) {}
+  HS_INLINE static MaskPair of(Half l, Half h) {
+    MaskPair m;
+    m.low = l;
+    m.high = h;
+    return m;
+  }
+
+  friend HS_INLINE MaskPair operator&(MaskPair a, MaskPair b) { return of(Half(a.low & b.low), Half(a.high & b.high)); }
+  friend HS_INLINE MaskPair operator|(MaskPair a, MaskPair b) { return of(Half(a.low | b.low), Half(a.high | b.high)); }
+  friend HS_INLINE MaskPair operator^(MaskPair a, MaskPair b) { return of(Half(a.low ^ b.low), Half(a.high ^ b.high)); }
+  friend HS_INLINE MaskPair operator!(MaskPair a) { return of(!a.low, !a.high); }
+  friend HS_INLINE MaskPair operator&&(MaskPair a, MaskPair b) { return a & b; }
+  friend HS_INLINE MaskPair operator||(MaskPair a, MaskPair b) { return a | b; }
+  HS_INLINE MaskPair& operator&=(MaskPair b) { return *this = *this & b; }
+  HS_INLINE MaskPair& operator|=(MaskPair b) { return *this = *this | b; }
+
+  friend HS_INLINE bool any(MaskPair m) { return halfspace::any(Half(m.low | m.high)); }
+  friend HS_INLINE bool all(MaskPair m) { return halfspace::all(Half(m.low & m.high)); }
+  friend HS_INLINE bool none(MaskPair m) { return !any(m); }
+  friend HS_INLINE MaskPair select(MaskPair m, MaskPair a, MaskPair b) {
+    return of(halfspace::select(m.low, a.low, b.low), halfspace::select(m.high, a.high, b.high));
+  }
+};
+
+/// Integers of a RealPair<H>.
+template <class H>
+struct IntPair {
+  using Half = IntOf<H>;
+  using M = MaskPair<H>;
+  Half low, high;
+
+  IntPair() = default;
+  HS_INLINE IntPair(int32_t s) : low(s), high(s) {}
+  HS_INLINE IntPair(Half l, Half h) : low(l), high(h) {}
+
+  friend HS_INLINE IntPair operator+(IntPair a, IntPair b) { return {a.low + b.low, a.high + b.high}; }
+  friend HS_INLINE IntPair operator-(IntPair a, IntPair b) { return {a.low - b.low, a.high - b.high}; }
+  friend HS_INLINE IntPair operator*(IntPair a, IntPair b) { return {a.low * b.low, a.high * b.high}; }
+  friend HS_INLINE IntPair operator-(IntPair a) { return {-a.low, -a.high}; }
+  friend HS_INLINE IntPair operator&(IntPair a, IntPair b) { return {a.low & b.low, a.high & b.high}; }
+  friend HS_INLINE IntPair operator|(IntPair a, IntPair b) { return {a.low | b.low, a.high | b.high}; }
+  friend HS_INLINE IntPair operator^(IntPair a, IntPair b) { return {a.low ^ b.low, a.high ^ b.high}; }
+  friend HS_INLINE IntPair operator~(IntPair a) { return {~a.low, ~a.high}; }
+  friend HS_INLINE IntPair operator<<(IntPair a, int n) { return {a.low << n, a.high << n}; }
+  friend HS_INLINE IntPair operator>>(IntPair a, int n) { return {a.low >> n, a.high >> n}; }
+  HS_INLINE IntPair& operator+=(IntPair b) { return *this = *this + b; }
+  HS_INLINE IntPair& operator-=(IntPair b) { return *this = *this - b; }
+
+  friend HS_INLINE M operator<(IntPair a, IntPair b) { return M::of(a.low < b.low, a.high < b.high); }
+  friend HS_INLINE M operator<=(IntPair a, IntPair b) { return M::of(a.low <= b.low, a.high <= b.high); }
+  friend HS_INLINE M operator>(IntPair a, IntPair b) { return M::of(a.low > b.low, a.high > b.high); }
+  friend HS_INLINE M operator>=(IntPair a, IntPair b) { return M::of(a.low >= b.low, a.high >= b.high); }
+  friend HS_INLINE M operator==(IntPair a, IntPair b) { return M::of(a.low == b.low, a.high == b.high); }
+  friend HS_INLINE M operator!=(IntPair a, IntPair b) { return M::of(a.low != b.low, a.high != b.high); }
+
+  friend HS_INLINE IntPair min(IntPair a, IntPair b) { return {halfspace::min(a.low, b.low), halfspace::min(a.high, b.high)}; }
+  friend HS_INLINE IntPair max(IntPair a, IntPair b) { return {halfspace::max(a.low, b.low), halfspace::max(a.high, b.high)}; }
+  friend HS_INLINE IntPair select(M m, IntPair a, IntPair b) {
+    return {halfspace::select(m.low, a.low, b.low), halfspace::select(m.high, a.high, b.high)};
+  }
+};
+
+/// Numbers in two halves H.
+template <class H>
+struct RealPair {
+  using Half = H;
+  using I = IntPair<H>;
+  using M = MaskPair<H>;
+  H low, high;
+
+  RealPair() = default;
+  HS_INLINE RealPair(float s) : low(s), high(s) {}
+  HS_INLINE RealPair(H l, H h) : low(l), high(h) {}
+
+  friend HS_INLINE RealPair operator+(RealPair a, RealPair b) { return {a.low + b.low, a.high + b.high}; }
+  friend HS_INLINE RealPair operator-(RealPair a, RealPair b) { return {a.low - b.low, a.high - b.high}; }
+  friend HS_INLINE RealPair operator*(RealPair a, RealPair b) { return {a.low * b.low, a.high * b.high}; }
+  friend HS_INLINE RealPair operator/(RealPair a, RealPair b) { return {a.low / b.low, a.high / b.high}; }
+  friend HS_INLINE RealPair operator-(RealPair a) { return {-a.low, -a.high}; }
+  friend HS_INLINE RealPair operator+(RealPair a) { return a; }
+  HS_INLINE RealPair& operator+=(RealPair b) { return *this = *this + b; }
+  HS_INLINE RealPair& operator-=(RealPair b) { return *this = *this - b; }
+  HS_INLINE RealPair& operator*=(RealPair b) { return *this = *this * b; }
+  HS_INLINE RealPair& operator/=(RealPair b) { return *this = *this / b; }
+
+  friend HS_INLINE M operator<(RealPair a, RealPair b) { return M::of(a.low < b.low, a.high < b.high); }
+  friend HS_INLINE M operator<=(RealPair a, RealPair b) { return M::of(a.low <= b.low, a.high <= b.high); }
+  friend HS_INLINE M operator>(RealPair a, RealPair b) { return M::of(a.low > b.low, a.high > b.high); }
+  friend HS_INLINE M operator>=(RealPair a, RealPair b) { return M::of(a.low >= b.low, a.high >= b.high); }
+  friend HS_INLINE M operator==(RealPair a, RealPair b) { return M::of(a.low == b.low, a.high == b.high); }
+  friend HS_INLINE M operator!=(RealPair a, RealPair b) { return M::of(a.low != b.low, a.high != b.high); }
+
+  friend HS_INLINE RealPair min(RealPair a, RealPair b) { return {halfspace::min(a.low, b.low), halfspace::min(a.high, b.high)}; }
+  friend HS_INLINE RealPair max(RealPair a, RealPair b) { return {halfspace::max(a.low, b.low), halfspace::max(a.high, b.high)}; }
+  friend HS_INLINE RealPair abs(RealPair a) { return {halfspace::abs(a.low), halfspace::abs(a.high)}; }
+  friend HS_INLINE RealPair sqrt(RealPair a) { return {halfspace::sqrt(a.low), halfspace::sqrt(a.high)}; }
+  friend HS_INLINE RealPair floor(RealPair a) { return {halfspace::floor(a.low), halfspace::floor(a.high)}; }
+  friend HS_INLINE RealPair round_even(RealPair a) { return {halfspace::round_even(a.low), halfspace::round_even(a.high)}; }
+  friend HS_INLINE RealPair fma(RealPair a, RealPair b, RealPair c) {
+    return {halfspace::fma(a.low, b.low, c.low), halfspace::fma(a.high, b.high, c.high)};
+  }
+  friend HS_INLINE RealPair select(M m, RealPair a, RealPair b) {
+    return {halfspace::select(m.low, a.low, b.low), halfspace::select(m.high, a.high, b.high)};
+  }
+  friend HS_INLINE I as_int(RealPair a) { return {halfspace::as_int(a.low), halfspace::as_int(a.high)}; }
+  friend HS_INLINE I truncate_to_int(RealPair a) { return {halfspace::truncate_to_int(a.low), halfspace::truncate_to_int(a.high)}; }
+  friend HS_INLINE I round_to_int(RealPair a) { return {halfspace::round_to_int(a.low), halfspace::round_to_int(a.high)}; }
+};
+
+template <class H>
+struct LaneTraits<RealPair<H>> {
+  static constexpr int width = 2 * kWidthOf<H>;
+  using Int = IntPair<H>;
+  using Mask = MaskPair<H>;
+};
+template <class H>
+inline constexpr bool kIsLanes<RealPair<H>> = true;
+template <class R>
+inline constexpr bool kIsPair = false;
+template <class H>
+inline constexpr bool kIsPair<RealPair<H>> = true;
+template <class H>
+inline constexpr uint32_t kAllBits<MaskPair<H>> = kAllBits<MaskOf<H>> << kWidthOf<H> | kAllBits<MaskOf<H>>;
+
+/// Half i of a pair.
+template <int i, class T>
+HS_INLINE auto& half(T& pair) {
+  if constexpr (i == 0) {
+    return pair.low;
+  } else {
+    return pair.high;
+  }
+}
+
+/// What pixels are shaded with: two packets of this build's lanes.
+using FragmentReal = RealPair<Real>;
+
+template <class H>
+HS_INLINE uint32_t bits(MaskPair<H> m) {
+  return bits(m.low) | bits(m.high) << kWidthOf<H>;
+}
+
+template <class H>
+HS_INLINE RealPair<H> gather(const float* base, IntPair<H> i) {
+  return {gather(base, i.low), gather(base, i.high)};
+}
+template <class H>
+HS_INLINE IntPair<H> gather(const int32_t* base, IntPair<H> i) {
+  return {gather(base, i.low), gather(base, i.high)};
+}
+template <class H>
+HS_INLINE IntPair<H> look_up(const std::array<int32_t, 16>& table, IntPair<H> i) {
+  return {look_up(table, i.low), look_up(table, i.high)};
+}
+template <class H>
+HS_INLINE RealPair<H> as_real(IntPair<H> i) {
+  return {as_real(i.low), as_real(i.high)};
+}
+template <class R, class H>
+HS_INLINE RealPair<H> to_real(IntPair<H> i) {
+  return {to_real<H>(i.low), to_real<H>(i.high)};
+}
+template <class H>
+HS_INLINE float lane(RealPair<H> r, int i) {
+  return i < kWidthOf<H> ? lane(r.low, i) : lane(r.high, i - kWidthOf<H>);
+}
+template <class H>
+HS_INLINE int32_t lane(IntPair<H> r, int i) {
+  return i < kWidthOf<H> ? lane(r.low, i) : lane(r.high, i - kWidthOf<H>);
+}
+template <class H>
+HS_INLINE bool lane(MaskPair<H> r, int i) {
+  return i < kWidthOf<H> ? lane(r.low, i) : lane(r.high, i - kWidthOf<H>);
+}
+template <class H>
+HS_INLINE void set_lane(RealPair<H>& r, int i, float x) {
+  i < kWidthOf<H> ? set_lane(r.low, i, x) : set_lane(r.high, i - kWidthOf<H>, x);
+}
+template <class H>
+HS_INLINE void set_lane(IntPair<H>& r, int i, int32_t x) {
+  i < kWidthOf<H> ? set_lane(r.low, i, x) : set_lane(r.high, i - kWidthOf<H>, x);
+}
+
+}  // namespace halfspace
+
+template <class H>
+struct std::numeric_limits<halfspace::RealPair<H>> : std::numeric_limits<float> {};
