@@ -77,23 +77,34 @@ glm::dvec3 slopes_at(const HeightField& field, double u, double v, double radius
   return slopes_of(field.at(u, v), {radius, height_scale, zero_level}, sincos_turns(0.5 * v).sin);
 }
 
-Image<glm::vec4> slope_map(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level,
-                           const Workers& workers) {
+SlopeRows::SlopeRows(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level)
+    : field_(field),
+      height_(height),
+      radius_(radius),
+      height_scale_(height_scale),
+      zero_level_(zero_level),
+      at_texels_(width == field.width() && height == field.height()) {
   HS_CHECK_OP(width, >=, 1);
   HS_CHECK_OP(height, >=, 1);
   HS_CHECK_OP(radius, >, 0.0);
-  const Relief relief{radius, height_scale, zero_level};
+  for (int x = 0; x < width && !at_texels_; ++x) taps_.push_back(field.taps((x + 0.5) / width));
+}
+
+void SlopeRows::operator()(int row, std::span<glm::vec4> slopes) const {
+  const double v = (row + 0.5) / height_;
+  const double sin_pi_v = sincos_turns(0.5 * v).sin;
+  std::vector<HeightSample> samples(slopes.size());
+  at_texels_ ? field_.at_texels(row, samples) : field_.at(taps_, v, samples);
+  const Relief relief{radius_, height_scale_, zero_level_};
+  std::transform(samples.begin(), samples.end(), slopes.begin(),
+                 [&](const HeightSample& s) { return glm::vec4(glm::vec3(slopes_of(s, relief, sin_pi_v)), 0.0f); });
+}
+
+Image<glm::vec4> slope_map(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level,
+                           const Workers& workers) {
+  const SlopeRows rows(field, width, height, radius, height_scale, zero_level);
   Image<glm::vec4> map(width, height);
-  std::vector<HeightTaps> taps;
-  for (int x = 0; x < width; ++x) taps.push_back(field.taps((x + 0.5) / width));
-  workers.for_each(height, [&](int row) {
-    const double v = (row + 0.5) / height;
-    const double sin_pi_v = sincos_turns(0.5 * v).sin;
-    std::vector<HeightSample> samples(taps.size());
-    field.at(taps, v, samples);
-    std::transform(samples.begin(), samples.end(), map.row(row).begin(),
-                   [&](const HeightSample& s) { return glm::vec4(glm::vec3(slopes_of(s, relief, sin_pi_v)), 0.0f); });
-  });
+  workers.for_each(height, [&](int row) { rows(row, map.row(row)); });
   return map;
 }
 

@@ -37,7 +37,21 @@ Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const Heig
 
 /// An equirectangular map of (g_east, g_north, 1 + g/r, 0) at the texels' centres, the numbers of the formula above:
 /// slopes are lengths per length, positive where the ground rises towards the east or north. Give it a field filtered to
-/// `width`. width, height ≥ 1, radius > 0.
+/// `width`. width, height ≥ 1, radius > 0. Row by row, by any number of threads at once; it keeps a reference to the field.
+class SlopeRows {
+ public:
+  SlopeRows(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level);
+  /// slopes: `width` of them.
+  void operator()(int row, std::span<glm::vec4> slopes) const;
+
+ private:
+  const HeightField& field_;
+  int height_;
+  double radius_, height_scale_, zero_level_;
+  bool at_texels_;                ///< the map's texels are the field's
+  std::vector<HeightTaps> taps_;  ///< else
+};
+/// All rows.
 Image<glm::vec4> slope_map(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level,
                            const Workers& workers);
 

@@ -80,7 +80,10 @@ void smooth_row(std::span<float> row, const Kernel& kernel, MapEdges edges) {
   const int count = static_cast<int>(k.weights.size());
   std::vector<double> ring(static_cast<std::size_t>(width + count));
   for (int x = 0; x < width + count; ++x) {
-    ring[static_cast<std::size_t>(x)] = static_cast<double>(row[static_cast<std::size_t>(column_at(x + k.first, width, edges))]);
+    const int column = x + k.first;
+    const bool inside = column >= 0 && column < width;  // the most are: a remainder for each takes longer than all else here
+    ring[static_cast<std::size_t>(x)] =
+        static_cast<double>(row[static_cast<std::size_t>(inside ? column : column_at(column, width, edges))]);
   }
   std::vector<double> sum(static_cast<std::size_t>(width));
   for (std::size_t i = 0; i < k.weights.size(); ++i) {
@@ -97,12 +100,12 @@ Image<float> smooth_columns(const Image<float>& map, const Kernel& k, MapEdges e
     std::vector<double> sum(static_cast<std::size_t>(width));
     for (std::size_t i = 0; i < k.weights.size(); ++i) {
       const FoldedRow from = fold(row + k.first + static_cast<int>(i), width, height, edges);
-      for (int x = 0; x < width; ++x) {
-        const int column = x + from.shift < width ? x + from.shift : x + from.shift - width;
-        sum[static_cast<std::size_t>(x)] += k.weights[i] * static_cast<double>(map.at(column, from.row));
-      }
+      const std::span<const float> texels = map.row(from.row);
+      const auto shift = static_cast<std::size_t>(from.shift), before_seam = sum.size() - shift;
+      for (std::size_t x = 0; x < before_seam; ++x) sum[x] += k.weights[i] * static_cast<double>(texels[x + shift]);
+      for (std::size_t x = before_seam; x < sum.size(); ++x) sum[x] += k.weights[i] * static_cast<double>(texels[x - before_seam]);
     }
-    for (int x = 0; x < width; ++x) out.at(x, row) = static_cast<float>(sum[static_cast<std::size_t>(x)]);
+    std::transform(sum.begin(), sum.end(), out.row(row).begin(), [](double s) { return static_cast<float>(s); });
   });
   return out;
 }
@@ -170,10 +173,10 @@ HeightField::HeightField(const Image<float>& map, double smoothing, const Worker
   HS_CHECK_OP(map.height(), >=, 1);
   HS_CHECK_OP(smoothing, >=, 0.0);
   base_ = map.at(0, 0);
-  texels_ = map;
-  for (int row = 0; row < map.height(); ++row) {
-    for (float& t : texels_.row(row)) t -= base_;
-  }
+  texels_ = Image<float>(map.width(), map.height());
+  workers.for_each(map.height(), [&](int row) {
+    std::transform(map.row(row).begin(), map.row(row).end(), texels_.row(row).begin(), [this](float t) { return t - base_; });
+  });
   const int even_width = map.width() / 2 * 2;
   if (edges == MapEdges::sphere && even_width != map.width()) texels_ = averaged(texels_, even_width, map.height(), workers);
   if (smoothing == 0) return;
@@ -215,6 +218,35 @@ void HeightField::at(std::span<const HeightTaps> taps, double v, std::span<Heigh
     }
   }
   for (HeightSample& s : samples) s = {static_cast<double>(base_) + s.value, width() * s.du, height() * s.dv};
+}
+
+void HeightField::at_texels(int row, std::span<HeightSample> samples) const {
+  const SplineWeights w = spline_weights(0.0);  // the fourth of them is 0
+  const auto n = static_cast<std::size_t>(width());
+  std::array<std::vector<double>, 3> lines;  // the row and its neighbours, with a texel more at either end
+  for (std::size_t j = 0; j < 3; ++j) {
+    const FoldedRow from = fold(row - 1 + static_cast<int>(j), width(), height(), edges_);
+    const std::span<const float> texels = texels_.row(from.row);
+    std::vector<double>& line = lines[j];
+    line.reserve(n + 2);
+    line.push_back(0.0);
+    line.insert(line.end(), texels.begin() + from.shift, texels.end());
+    line.insert(line.end(), texels.begin(), texels.begin() + from.shift);
+    line.front() = edges_ == MapEdges::sheet ? line[1] : line[n];
+    line.push_back(edges_ == MapEdges::sheet ? line[n] : line[1]);
+  }
+  const double columns = width(), rows = height(), base = static_cast<double>(base_);
+  for (std::size_t x = 0; x < n; ++x) {
+    HeightSample s{};
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double* texel = lines[j].data() + x;
+      const double across = w.value[0] * texel[0] + w.value[1] * texel[1] + w.value[2] * texel[2];
+      s.value += w.value[j] * across;
+      s.du += w.value[j] * (w.slope[0] * texel[0] + w.slope[1] * texel[1] + w.slope[2] * texel[2]);
+      s.dv += w.slope[j] * across;
+    }
+    samples[x] = {base + s.value, columns * s.du, rows * s.dv};
+  }
 }
 
 HeightSample HeightField::at(double u, double v) const {

@@ -52,6 +52,9 @@ class HeightField {
   HeightTaps taps(double u) const;
   void at(std::span<const HeightTaps> taps, double v, std::span<HeightSample> samples) const;
 
+  /// At the centres of a row's texels; samples: one a column. What at() gives but for the rounding of its coordinates.
+  void at_texels(int row, std::span<HeightSample> samples) const;
+
   /// The field for a tessellation of `max_width` ≥ 2 sectors, or for a map of that width: where this one is wider, it is
   /// averaged by area to the largest even width that is not above it, in the same proportion, and on a sphere smoothed
   /// along u towards the poles (by half a texel / tan πv), where texels crowd.

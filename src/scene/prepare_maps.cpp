@@ -2,7 +2,6 @@
 //
 // Maps of a scene's objects: read from files, or generated as fine as the view needs.
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/check.h"
@@ -113,20 +112,6 @@ namespace {
   throw InputError(where + ": is " + is + "; expected " + expected);
 }
 
-// Normals of the sphere of radius 1 that the heights raise by kEarthRelief, coded for a normal map.
-constexpr double kEarthRelief = 0.02;
-
-Image<glm::vec4> normals_of(const HeightField& field, int width, const Workers& workers) {
-  Image<glm::vec4> map = slope_map(field, width, width / 2, 1.0, kEarthRelief, 0.0, workers);
-  workers.for_each(map.height(), [&](int y) {
-    for (glm::vec4& t : map.row(y)) {
-      const glm::vec3 n(-t.x, -t.y, t.z);
-      t = glm::vec4(n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) * 0.5f + 0.5f, 1.0f);
-    }
-  });
-  return map;
-}
-
 }  // namespace
 
 std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& use, const std::string& where) {
@@ -160,8 +145,7 @@ std::shared_ptr<const Texture2D> ScenePreparation::data_texture(const MapUse& us
       return asset<Texture2D>(recipe("earth_normal", use.width), [&] {
         MapUse relief = use;
         relief.texture.source = TextureSource::earth_height;
-        const HeightField field(*heights(relief, where), 1.0, assets_.workers_);
-        return Texture2D(normals_of(field, use.width, assets_.workers_), TexelFormat::rgba16f, &assets_.workers_);
+        return Texture2D(procedural_earth_normals(*heights(relief, where), assets_.workers_), TexelFormat::rgba16f, &assets_.workers_);
       });
     default: fail_not(where, use.texture, "a map of numbers");
   }

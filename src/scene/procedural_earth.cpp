@@ -4,8 +4,11 @@
 // along a row; only correctly rounded operations are used, so the map has the same bits at every lane width.
 #include "scene/procedural_earth.h"
 
+#include <cmath>
+
 #include "core/check.h"
 #include "core/trig_double.h"
+#include "scene/displaced_sphere.h"
 #include "scene/noise.h"
 
 namespace halfspace {
@@ -169,6 +172,21 @@ EarthMaps procedural_earth_maps(int width, int height, const Workers& workers) {
     });
   });
   return maps;
+}
+
+Image<glm::vec4> procedural_earth_normals(const Image<float>& heights, const Workers& workers) {
+  constexpr double kSmoothing = 1.0, kRelief = 0.02;  // texels; radii
+  const HeightField field(heights, kSmoothing, workers);
+  Image<glm::vec4> map(heights.width(), heights.height());
+  const SlopeRows slopes(field, map.width(), map.height(), 1.0, kRelief, 0.0);
+  workers.for_each(map.height(), [&](int row) {
+    slopes(row, map.row(row));
+    for (glm::vec4& t : map.row(row)) {
+      const glm::vec3 n(-t.x, -t.y, t.z);
+      t = glm::vec4(n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) * 0.5f + 0.5f, 1.0f);
+    }
+  });
+  return map;
 }
 
 }  // namespace halfspace

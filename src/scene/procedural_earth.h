@@ -24,4 +24,8 @@ struct EarthMaps {
 };
 EarthMaps procedural_earth_maps(int width, int height, const Workers& workers);
 
+/// Normals of the sphere of radius 1 that such heights raise by up to 0.02, coded for a normal map: (n/2 + 1/2, 1) in the frame
+/// (east, north, up). As wide and high as the heights, smoothed by a texel.
+Image<glm::vec4> procedural_earth_normals(const Image<float>& heights, const Workers& workers);
+
 }  // namespace halfspace

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace halfspace {
 namespace {
@@ -37,6 +40,33 @@ TEST(LineAllocator, StartsAtACacheLine) {
     static_cast<char*>(memory)[bytes - 1] = 1;
     free_lines(memory, bytes);
   }
+}
+
+TEST(LineAllocator, GivesZeros) {
+  for (const std::size_t bytes : {std::size_t{1}, std::size_t{1000}, (std::size_t{4} << 20) - 1, std::size_t{9} << 20}) {
+    for (int round = 0; round < 3; ++round) {  // what was given back may be had again
+      auto* memory = static_cast<unsigned char*>(allocate_lines(bytes));
+      EXPECT_EQ(std::count(memory, memory + bytes, 0), static_cast<std::ptrdiff_t>(bytes)) << bytes;
+      std::fill(memory, memory + bytes, static_cast<unsigned char>(255));
+      free_lines(memory, bytes);
+    }
+  }
+}
+
+TEST(LineAllocator, SaysWhatCannotBeHad) {
+  EXPECT_THROW(allocate_lines(SIZE_MAX / 2), std::bad_alloc);
+  EXPECT_THROW(allocate_lines(SIZE_MAX - 1), std::bad_alloc);
+}
+
+TEST(LineAllocator, HoldsValuesThatAreGiven) {
+  std::vector<int, LineAllocator<int>> numbers(1000);
+  EXPECT_EQ(std::count(numbers.begin(), numbers.end(), 0), 1000);
+  numbers.push_back(7);
+  numbers.resize(3000, 9);
+  EXPECT_EQ(numbers[1000], 7);
+  EXPECT_EQ(std::count(numbers.begin() + 1001, numbers.end(), 9), 1999);
+  numbers.resize(6000);
+  EXPECT_EQ(std::count(numbers.begin() + 3000, numbers.end(), 0), 3000);
 }
 
 TEST(LineAllocator, AsksForLargePages) {

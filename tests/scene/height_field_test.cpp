@@ -91,6 +91,28 @@ TEST(HeightField, ManyPlacesOfARowAreThoseOneByOne) {
   }
 }
 
+// Where the size is a power of two the coordinates of the centres are exact, and so are the bits; elsewhere at() looks beside the centre
+// by some 1e-16 of the map.
+TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
+  for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
+    for (const auto& [width, height] : {std::pair(32, 16), std::pair(2, 1), std::pair(30, 11)}) {
+      const HeightField field(rough_map(width, height), 0.0, kWorkers, edges);
+      const bool exact = std::has_single_bit(static_cast<unsigned>(width)) && std::has_single_bit(static_cast<unsigned>(height));
+      std::vector<HeightSample> samples(static_cast<std::size_t>(width));
+      for (int row = 0; row < height; ++row) {
+        field.at_texels(row, samples);
+        for (int x = 0; x < width; ++x) {
+          const HeightSample got = samples[static_cast<std::size_t>(x)], want = field.at((x + 0.5) / width, (row + 0.5) / height);
+          const double tolerance = exact ? 0.0 : 1e-12;  // slopes are up to 30 a map, and their slopes 30² times that 1e-16
+          EXPECT_NEAR(got.value, want.value, tolerance) << width << ' ' << x << ' ' << row;
+          EXPECT_NEAR(got.du, want.du, tolerance) << width << ' ' << x << ' ' << row;
+          EXPECT_NEAR(got.dv, want.dv, tolerance) << width << ' ' << x << ' ' << row;
+        }
+      }
+    }
+  }
+}
+
 TEST(HeightField, IsSmoothOverSeamAndPoles) {
   const HeightField f(rough_map(32, 16), 0.0, kWorkers);
   const double tiny = 1e-12;

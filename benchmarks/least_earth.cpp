@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// halfspace-least-earth: the least that a picture of the Earth needs, to hold `halfspace render earth` against (scripts/start_to_file.py).
+// It makes the scene's maps, waits as long as a frame takes, and writes the pixels of a picture that is there already.
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string_view>
+
+#include "core/parallel.h"
+#include "scene/image_io.h"
+#include "scene/procedural_earth.h"
+
+namespace {
+
+using namespace halfspace;
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+void run(bool with_normals, int width, double frame_ms, const char* from, const char* to) {
+  const Clock::time_point start = Clock::now();
+  const Image<glm::u8vec4> picture = read_image(from);
+  std::printf("%.3f\n", milliseconds_since(start));  // what is not part of the least
+
+  const Workers workers(Workers::cores());
+  const EarthMaps maps = procedural_earth_maps(width, width / 2, workers);
+  Image<glm::vec4> normals;
+  if (with_normals) normals = procedural_earth_normals(maps.height, workers);
+  const Clock::time_point frame = Clock::now();
+  while (milliseconds_since(frame) < frame_ms) {
+  }
+  write_image(to, picture);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view maps = argc == 6 ? argv[1] : "";
+  if (maps != "heights" && maps != "normals") {
+    std::fputs("usage: halfspace-least-earth heights|normals MAP_WIDTH FRAME_MS FROM.png TO.png; prints the ms that reading FROM took\n", stderr);
+    return 2;
+  }
+  try {
+    run(maps == "normals", std::atoi(argv[2]), std::atof(argv[3]), argv[4], argv[5]);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "halfspace-least-earth: %s\n", e.what());
+    return 1;
+  }
+}
