@@ -12,6 +12,7 @@ constexpr std::size_t kMostKept = std::size_t{256} << 20;
 struct Kept {
   std::mutex mutex;
   std::vector<FrameMemory> idle;
+  std::vector<std::vector<Draw>> idle_draws;
   std::size_t bytes = 0;
 };
 Kept& kept() {
@@ -44,6 +45,26 @@ void Chunk::clear() {
 std::size_t Chunk::bytes() const {
   return triangles.capacity() * sizeof(Triangle) + bin_triangles.capacity() * sizeof(uint16_t) + bin_start.capacity() * sizeof(uint32_t) +
          clip_vertices.capacity() * sizeof(ClipVertex) + (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
+}
+
+std::vector<Draw> take_draw_memory() {
+  Kept& k = kept();
+  const std::lock_guard lock(k.mutex);
+  if (k.idle_draws.empty()) return {};
+  std::vector<Draw> draws = std::move(k.idle_draws.back());
+  k.idle_draws.pop_back();
+  k.bytes -= draws.capacity() * sizeof(Draw);
+  return draws;
+}
+
+void keep_draw_memory(std::vector<Draw> draws) {
+  draws.clear();
+  const std::size_t bytes = draws.capacity() * sizeof(Draw);
+  Kept& k = kept();
+  const std::lock_guard lock(k.mutex);
+  if (k.bytes + bytes > kMostKept) return;
+  k.bytes += bytes;
+  k.idle_draws.push_back(std::move(draws));
 }
 
 FrameMemory take_frame_memory() {

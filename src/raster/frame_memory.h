@@ -16,6 +16,10 @@ struct FrameMemory {
   std::vector<ShadedVertices> shaded;
 };
 
+/// Memory of a finished pass's list of draws, empty; and its keeping, as below. A pass fills its list before it runs.
+std::vector<Draw> take_draw_memory();
+void keep_draw_memory(std::vector<Draw> draws);
+
 /// Memory of a finished pass, or empty. Any number of threads may ask.
 FrameMemory take_frame_memory();
 

@@ -86,7 +86,8 @@ void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> sh
   HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count));
   HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count);
   HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
-  Draw d;
+  if (frame_.draws.capacity() == 0) frame_.draws = take_draw_memory();
+  Draw& d = frame_.draws.emplace_back();
   d.kernels = kernels;
   d.shader = std::move(shader);
   d.vertices = vertices;
@@ -112,7 +113,6 @@ void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> sh
   const bool covers_by_alpha = state.alpha_to_coverage && frame_.samples > 1;
   const bool defers = options_.defer && replaces && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   d.deferred = defers || !has_color_;  // without colour there is nothing to blend or to shade at once
-  frame_.draws.push_back(std::move(d));
 }
 
 bool Pass::resolve_attachments(Draw& d) const {
@@ -216,7 +216,7 @@ PassStatistics Pass::run(const Workers& workers) {
     run_tiles(workers, {first_round, last_round}, statistics);
     first_round = false;
   } while (next < work.size());
-  frame_.draws.clear();
+  keep_draw_memory(std::exchange(frame_.draws, {}));
   put_aside(frame_.chunks, memory.chunks);
   memory.shaded = std::exchange(frame_.shaded, {});
   keep_frame_memory(std::move(memory));

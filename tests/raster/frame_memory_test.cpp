@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/frame_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace halfspace {
+namespace {
+
+// What other passes of this process left.
+void forget_draws() {
+  while (take_draw_memory().capacity() != 0) {
+  }
+}
+
+TEST(FrameMemory, ListsOfDrawsComeBackEmptyAndWithTheirRoom) {
+  forget_draws();
+  std::vector<Draw> draws(100);
+  const Draw* const place = draws.data();
+  keep_draw_memory(std::move(draws));
+  const std::vector<Draw> again = take_draw_memory();
+  EXPECT_TRUE(again.empty());
+  EXPECT_GE(again.capacity(), 100u);
+  EXPECT_EQ(again.data(), place);
+  EXPECT_EQ(take_draw_memory().capacity(), 0u);
+}
+
+TEST(FrameMemory, WhatIsTooLargeIsNotKept) {
+  forget_draws();
+  std::vector<Draw> draws;
+  draws.reserve((std::size_t{257} << 20) / sizeof(Draw));
+  keep_draw_memory(std::move(draws));
+  EXPECT_EQ(take_draw_memory().capacity(), 0u);
+}
+
+TEST(FrameMemory, ShadersOfFinishedDrawsAreLetGo) {
+  const auto shader = std::make_shared<const int>(1);
+  std::vector<Draw> draws(1);
+  draws[0].shader = shader;
+  keep_draw_memory(std::move(draws));
+  EXPECT_EQ(shader.use_count(), 1);
+}
+
+}  // namespace
+}  // namespace halfspace
