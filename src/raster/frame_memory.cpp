@@ -62,7 +62,7 @@ void keep_draw_memory(std::vector<Draw> draws) {
   const std::size_t bytes = draws.capacity() * sizeof(Draw);
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);
-  if (k.bytes + bytes > kMostKept) return;
+  if (bytes == 0 || k.bytes + bytes > kMostKept) return;
   k.bytes += bytes;
   k.idle_draws.push_back(std::move(draws));
 }

@@ -145,6 +145,10 @@ class Pass {
   // Fills d.attachments and d.writes_color. Does the draw replace all colours of a pixel?
   bool resolve_attachments(Draw& d) const;
   void run_tiles(const Workers& workers, Round round, PassStatistics& statistics);
+  // Is the round all there is, so that what is flat may go into the images at once?
+  bool is_alone(Round round) const { return round.first && round.last && post_kernel_ == nullptr; }
+  // Fills the rows of tiles that are flat and of one colour, each in one go, which is faster than tile by tile. Which rows are left.
+  std::vector<int> fill_flat_rows(const Workers& workers, PassStatistics& statistics) const;
   // The tiles [tile_x0, tile_x1) of a row of tiles.
   void run_strip(int tile_x0, int tile_x1, int tile_y, Round round, PassStatistics& statistics) const;
   void run_tile(int tile_x, int tile_y, bool drawn, Round round, PassStatistics& statistics) const;
@@ -157,7 +161,7 @@ class Pass {
     const Draw* draw;
   };
   // What such a tile gets, where nothing is drawn in it, or its only triangle covers it wholly with one colour; and counts what it
-  // draws. Of a pass that runs once and has no post step.
+  // draws. Of a round that is alone.
   std::optional<const Draw*> flat_tile(int tile_x, int tile_y, PassStatistics& statistics) const;
   void fill_images(const FlatArea& area) const;
   void run_post_step(const Tile& tile) const;

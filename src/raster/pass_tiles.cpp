@@ -2,6 +2,7 @@
 //
 // The part of a pass that works on tiles: load or clear, draw, resolve, post step, store.
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "raster/bin.h"
@@ -26,24 +27,51 @@ void Pass::keep_between_flushes() {
   spill(depth_, depth_spill_);
 }
 
+std::vector<int> Pass::fill_flat_rows(const Workers& workers, PassStatistics& statistics) const {
+  std::vector<PassStatistics> by_row(static_cast<std::size_t>(frame_.tiles_y));
+  std::vector<uint8_t> filled(by_row.size());
+  workers.for_each(frame_.tiles_y, [&](int y) {
+    PassStatistics& counts = by_row[static_cast<std::size_t>(y)];
+    const std::optional<const Draw*> draw = flat_tile(0, y, counts);
+    bool same = draw.has_value();
+    for (int x = 1; same && x < frame_.tiles_x; ++x) same = flat_tile(x, y, counts) == draw;
+    filled[static_cast<std::size_t>(y)] = same;
+    if (same) fill_images({{0, pixels_of(0, y).y0, frame_.width, pixels_of(0, y).y1}, *draw});
+  });
+  std::vector<int> rest;
+  for (int y = 0; y < frame_.tiles_y; ++y) {
+    const auto row = static_cast<std::size_t>(y);
+    if (filled[row] != 0) {
+      statistics += by_row[row];
+    } else {
+      rest.push_back(y);
+    }
+  }
+  return rest;
+}
+
 // A task takes some neighbouring tiles of a row, so that those of one colour are filled in one go: writes of a few hundred bytes
 // each reach two thirds of memory's speed. But there must be tasks enough for all threads.
 constexpr int kMostTilesATask = 8, kTasksAThread = 8;
 
 void Pass::run_tiles(const Workers& workers, Round round, PassStatistics& statistics) {
-  const int tiles = frame_.tiles_x * frame_.tiles_y;
-  const int length = std::clamp(tiles / (workers.threads() * kTasksAThread), 1, kMostTilesATask);
+  std::vector<int> rows(static_cast<std::size_t>(frame_.tiles_y));
+  std::iota(rows.begin(), rows.end(), 0);
+  if (is_alone(round)) rows = fill_flat_rows(workers, statistics);
+  const int row_count = static_cast<int>(rows.size());
+  const int length = std::clamp(frame_.tiles_x * row_count / (workers.threads() * kTasksAThread), 1, kMostTilesATask);
   const int strips_x = (frame_.tiles_x + length - 1) / length;
-  std::vector<PassStatistics> by_strip(static_cast<std::size_t>(strips_x * frame_.tiles_y));
-  workers.for_each(strips_x * frame_.tiles_y, [&](int i) {
+  std::vector<PassStatistics> by_strip(static_cast<std::size_t>(strips_x * row_count));
+  workers.for_each(strips_x * row_count, [&](int i) {
     const int x0 = i % strips_x * length;
-    run_strip(x0, std::min(x0 + length, frame_.tiles_x), i / strips_x, round, by_strip[static_cast<std::size_t>(i)]);
+    run_strip(x0, std::min(x0 + length, frame_.tiles_x), rows[static_cast<std::size_t>(i / strips_x)], round,
+              by_strip[static_cast<std::size_t>(i)]);
   });
   for (const PassStatistics& s : by_strip) statistics += s;
 }
 
 void Pass::run_strip(int tile_x0, int tile_x1, int tile_y, Round round, PassStatistics& statistics) const {
-  const bool alone = round.first && round.last && post_kernel_ == nullptr;
+  const bool alone = is_alone(round);
   FlatArea area{};  // of the tiles before this one
   for (int x = tile_x0; x < tile_x1; ++x) {
     const std::optional<const Draw*> draw = alone ? flat_tile(x, tile_y, statistics) : std::nullopt;

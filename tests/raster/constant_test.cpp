@@ -157,5 +157,67 @@ TEST(ConstantShaders, TilesInARowKeepTheirColors) {
   }
 }
 
+// Rows of tiles of one colour go into the image in one go, where it is large by the processor's own loop: what is above and below
+// stays. Widths: whole cache lines, and not; heights: the last row of tiles is cut.
+template <class Texel>
+class RowsOfOneColor : public testing::Test {};
+using Texels = testing::Types<glm::u8vec4, U16Vec4, glm::vec4>;
+TYPED_TEST_SUITE(RowsOfOneColor, Texels);
+
+ColorTarget target_of(Image<glm::u8vec4>& image) { return rgba8_target(image); }
+ColorTarget target_of(Image<U16Vec4>& image) { return rgba16f_target(image); }
+ColorTarget target_of(Image<glm::vec4>& image) { return rgba32f_target(image); }
+
+TYPED_TEST(RowsOfOneColor, StayAmongThemselves) {
+  constexpr int kTile = 64;
+  constexpr std::array<int, 17> kRows{-1, 0, 0, 1, -1, 2, -1, -1, 0,
+                                      1,  2, 0, 1, -1, 2, 0,  -1};  // from below: the draw that covers it, or none
+  const glm::vec4 cleared(0.25f, 0.5f, 0.75f, 1.0f);
+  const std::vector<glm::vec4> corners{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+  for (const auto& [width, height] : {std::pair(1024, 16 * kTile + 40), std::pair(1027, 17 * kTile), std::pair(130, 17 * kTile)}) {
+    for (const LoadOp load : {LoadOp::clear, LoadOp::load}) {
+      Image<TypeParam> image(width, height), one(1, 4);  // one: the colours as the format holds them
+      for (int draw = -1; draw < 3; ++draw) {
+        Image<TypeParam> pixel(1, 1);
+        ColorTarget target = target_of(pixel);
+        target.clear_value = draw < 0 ? cleared : glm::vec4(0.2f * static_cast<float>(draw + 1));
+        Pass(1, 1, target, {}).run(one_worker());
+        one.at(0, draw + 1) = draw < 0 && load == LoadOp::load ? TypeParam{} : pixel.at(0, 0);
+      }
+      ColorTarget target = target_of(image);
+      target.load = load;
+      target.clear_value = cleared;
+      Pass pass(width, height, target, {});
+      for (std::size_t i = 0; i < kRows.size(); ++i) {
+        if (kRows[i] < 0) continue;
+        const int y = static_cast<int>(i) * kTile;
+        DrawState state;
+        state.viewport = Rect{0, y, width, std::min(kTile, height - y)};
+        pass.draw(PaintShader{glm::vec4(0.2f * static_cast<float>(kRows[i] + 1))}, vertices(stream(corners)), state);
+      }
+      const PassStatistics statistics = pass.run(Workers(3));
+      uint64_t drawn = 0;
+      for (int y = 0; y < height; ++y) {
+        const int draw = kRows[static_cast<std::size_t>((height - 1 - y) / kTile)];
+        const TypeParam want = one.at(0, draw + 1);
+        ASSERT_EQ(std::count(image.row(y).begin(), image.row(y).end(), want), width) << "row " << y << " of " << width << 'x' << height;
+        if (draw >= 0) drawn += static_cast<uint64_t>(width);
+      }
+      EXPECT_EQ(statistics.samples_passed, drawn);
+      EXPECT_EQ(statistics.fragments_shaded, drawn);
+    }
+  }
+}
+
+TEST(ConstantShaders, DepthOfClearedRowsIsSet) {
+  constexpr int kWidth = 1152, kHeight = 960;  // 4.4 MB
+  Image<float> depth(kWidth, kHeight);
+  DepthTarget target = d32f_target(depth);
+  target.store = StoreOp::store;
+  target.clear_value = 0.375f;
+  Pass(kWidth, kHeight, {}, target).run(Workers(2));
+  EXPECT_EQ(std::count(depth.data(), depth.data() + kWidth * kHeight, 0.375f), kWidth * kHeight);
+}
+
 }  // namespace
 }  // namespace halfspace::raster_test
