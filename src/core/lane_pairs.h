@@ -7,6 +7,8 @@
 // used as lanes are (lanes.h), and each half computes what it would compute alone: the bits are the same.
 #pragma once
 
+#include <functional>
+
 #include "core/lanes.h"
 
 namespace halfspace {
@@ -15,6 +17,20 @@ template <class H>
 struct RealPair;
 template <class H>
 struct IntPair;
+
+namespace detail {
+
+/// f(a, b) for a sum or a product that wraps round, of plain integers too.
+template <class I, class F>
+HS_INLINE I wrapping(I a, I b, F f) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return static_cast<int32_t>(f(static_cast<uint32_t>(a), static_cast<uint32_t>(b)));
+  } else {
+    return f(a, b);
+  }
+}
+
+}  // namespace detail
 
 /// Truth values of a RealPair<H>.
 template <class H>
@@ -59,10 +75,10 @@ struct IntPair {
   HS_INLINE IntPair(int32_t s) : low(s), high(s) {}
   HS_INLINE IntPair(Half l, Half h) : low(l), high(h) {}
 
-  friend HS_INLINE IntPair operator+(IntPair a, IntPair b) { return {a.low + b.low, a.high + b.high}; }
-  friend HS_INLINE IntPair operator-(IntPair a, IntPair b) { return {a.low - b.low, a.high - b.high}; }
-  friend HS_INLINE IntPair operator*(IntPair a, IntPair b) { return {a.low * b.low, a.high * b.high}; }
-  friend HS_INLINE IntPair operator-(IntPair a) { return {-a.low, -a.high}; }
+  friend HS_INLINE IntPair operator+(IntPair a, IntPair b) { return wrapping(a, b, std::plus()); }
+  friend HS_INLINE IntPair operator-(IntPair a, IntPair b) { return wrapping(a, b, std::minus()); }
+  friend HS_INLINE IntPair operator*(IntPair a, IntPair b) { return wrapping(a, b, std::multiplies()); }
+  friend HS_INLINE IntPair operator-(IntPair a) { return IntPair(0) - a; }
   friend HS_INLINE IntPair operator&(IntPair a, IntPair b) { return {a.low & b.low, a.high & b.high}; }
   friend HS_INLINE IntPair operator|(IntPair a, IntPair b) { return {a.low | b.low, a.high | b.high}; }
   friend HS_INLINE IntPair operator^(IntPair a, IntPair b) { return {a.low ^ b.low, a.high ^ b.high}; }
@@ -83,6 +99,12 @@ struct IntPair {
   friend HS_INLINE IntPair max(IntPair a, IntPair b) { return {halfspace::max(a.low, b.low), halfspace::max(a.high, b.high)}; }
   friend HS_INLINE IntPair select(M m, IntPair a, IntPair b) {
     return {halfspace::select(m.low, a.low, b.low), halfspace::select(m.high, a.high, b.high)};
+  }
+
+ private:
+  template <class F>
+  HS_INLINE static IntPair wrapping(IntPair a, IntPair b, F f) {
+    return {detail::wrapping(a.low, b.low, f), detail::wrapping(a.high, b.high, f)};
   }
 };
 
