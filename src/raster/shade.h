@@ -17,7 +17,7 @@
 
 namespace halfspace {
 
-/// Packets that a fragment kernel shades in one call.
+/// Packets that a fragment kernel shades in one call; even, for it shades two at a time.
 inline constexpr int kFragmentBatch = 16;
 
 /// Colours, and where the shader decides them keep masks and depths, of a batch.
@@ -250,6 +250,7 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
   }
 }
 
+/// The lanes of packet i.
 template <int i>
 HS_INLINE void put_triangles(const TriangleLanes<Real>& from, TriangleLanes<FragmentReal>& to) {
   half<i>(to.x0) = from.x0;
