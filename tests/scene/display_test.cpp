@@ -191,7 +191,7 @@ TEST(Display, LinearPicturesAreBeforeExposureAndCurve) {
 
 // How often a block as large as all pixels in `bytes` each is allocated while rendering.
 std::size_t large_blocks(const std::vector<std::string>& settings, std::size_t bytes) {
-  constexpr int kWidth = 640, kHeight = 480;
+  constexpr int kWidth = 480, kHeight = 360;  // of 16 bytes each less than 4 MB: from there on allocate_lines asks the system itself
   const Workers workers(2);
   SceneAssets assets(workers);
   const PreparedScene scene = assets.prepare(bright_scene(settings), kWidth, kHeight);
