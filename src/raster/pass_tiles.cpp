@@ -32,11 +32,15 @@ std::vector<int> Pass::fill_flat_rows(const Workers& workers, PassStatistics& st
   std::vector<uint8_t> filled(by_row.size());
   workers.for_each(frame_.tiles_y, [&](int y) {
     PassStatistics& counts = by_row[static_cast<std::size_t>(y)];
-    const std::optional<const Draw*> draw = flat_tile(0, y, counts);
-    bool same = draw.has_value();
-    for (int x = 1; same && x < frame_.tiles_x; ++x) same = flat_tile(x, y, counts) == draw;
+    const std::optional<const Draw*> first = flat_tile(0, y, counts);
+    const Draw* const draw = first.value_or(nullptr);
+    bool same = first.has_value();
+    for (int x = 1; same && x < frame_.tiles_x; ++x) {
+      const std::optional<const Draw*> next = flat_tile(x, y, counts);
+      same = next.has_value() && *next == draw;
+    }
     filled[static_cast<std::size_t>(y)] = same;
-    if (same) fill_images({{0, pixels_of(0, y).y0, frame_.width, pixels_of(0, y).y1}, *draw});
+    if (same) fill_images({{0, pixels_of(0, y).y0, frame_.width, pixels_of(0, y).y1}, draw});
   });
   std::vector<int> rest;
   for (int y = 0; y < frame_.tiles_y; ++y) {
