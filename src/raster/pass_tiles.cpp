@@ -78,15 +78,16 @@ void Pass::run_strip(int tile_x0, int tile_x1, int tile_y, Round round, PassStat
   const bool alone = is_alone(round);
   FlatArea area{};  // of the tiles before this one
   for (int x = tile_x0; x < tile_x1; ++x) {
-    const std::optional<const Draw*> draw = alone ? flat_tile(x, tile_y, statistics) : std::nullopt;
+    const std::optional<const Draw*> flat = alone ? flat_tile(x, tile_y, statistics) : std::nullopt;
+    const Draw* const draw = flat.value_or(nullptr);
     const PixelBounds pixels = pixels_of(x, tile_y);
-    if (draw && !area.pixels.empty() && area.draw == *draw) {
+    if (flat && !area.pixels.empty() && area.draw == draw) {
       area.pixels.x1 = pixels.x1;
       continue;
     }
     fill_images(area);
-    area = draw ? FlatArea{pixels, *draw} : FlatArea{};
-    if (!draw) run_tile(x, tile_y, alone || is_drawn(x, tile_y), round, statistics);  // what is alone and not drawn is flat
+    area = flat ? FlatArea{pixels, draw} : FlatArea{};
+    if (!flat) run_tile(x, tile_y, alone || is_drawn(x, tile_y), round, statistics);  // what is alone and not drawn is flat
   }
   fill_images(area);
 }
