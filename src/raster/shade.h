@@ -17,8 +17,9 @@
 
 namespace halfspace {
 
-/// Packets that a fragment kernel shades in one call; even, for it shades two at a time.
+/// Packets that a fragment kernel shades in one call.
 inline constexpr int kFragmentBatch = 16;
+static_assert(kFragmentBatch % 2 == 0, "two are shaded at a time");
 
 /// Colours, and where the shader decides them keep masks and depths, of a batch.
 struct FragmentOutput {

@@ -63,7 +63,7 @@ void expect_lanes_agree(const char* what, const std::vector<V>& v, F f) {
   constexpr std::size_t kWidth = sizeof(T) / sizeof(V);
   for (std::size_t i = 0; i < v.size(); ++i) {
     for (std::size_t j = 0; j < v.size(); j += kWidth) {
-      const auto a = pack<T>(v, i, 0), b = pack<T>(v, j, 1), c = pack<T>(v, i + 3 * j, 5);
+      const auto a = pack<T>(v, i, 1), b = pack<T>(v, j, 1), c = pack<T>(v, i + 3 * j, 5);
       const auto got = f(a, b, c);
       for (int k = 0; k < static_cast<int>(kWidth); ++k) {
         const auto want = f(lane(a, k), lane(b, k), lane(c, k));
