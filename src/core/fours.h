@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "core/lanes.h"
 
@@ -76,6 +77,14 @@ HS_INLINE void store_quarters(IntN<8> records, const Place& place, int k) {
 }
 #endif
 
+/// Word I of the threes that lie in three vectors, one after the other. A vector's place: see __builtin_shufflevector.
+template <std::size_t I, class V, std::size_t... K>
+HS_INLINE V third(V a, V b, V c, std::index_sequence<K...>) {
+  constexpr std::size_t w = sizeof...(K);
+  const auto from_ab = __builtin_shufflevector(a, b, (3 * K + I < 2 * w ? 3 * K + I : 0)...);
+  return __builtin_shufflevector(from_ab, c, (3 * K + I < 2 * w ? K : 3 * K + I - w)...);
+}
+
 /// Whether records of as many lanes are turned in registers.
 template <class I>
 inline constexpr bool kTurnsFours = requires(std::array<I, 4> words) {
@@ -98,6 +107,19 @@ HS_INLINE std::array<I, 4> load_fours(const Place& place) {
       for (std::size_t i = 0; i < 4; ++i) set_lane(words[i], k, record[i]);
     }
     return words;
+  }
+}
+
+/// 3W words from p on: lane k of element i holds word 3k + i.
+template <class I>
+HS_INLINE std::array<I, 3> load_threes(const int32_t* p) {
+  constexpr std::size_t w = sizeof(I) / sizeof(int32_t);
+  if constexpr (w == 1) {
+    return {p[0], p[1], p[2]};
+  } else {
+    const auto a = load<I>(p).v, b = load<I>(p + w).v, c = load<I>(p + 2 * w).v;
+    constexpr std::make_index_sequence<w> lanes;
+    return {I(detail::third<0>(a, b, c, lanes)), I(detail::third<1>(a, b, c, lanes)), I(detail::third<2>(a, b, c, lanes))};
   }
 }
 

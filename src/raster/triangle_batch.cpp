@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/triangle_batch.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 
@@ -19,10 +20,14 @@ bool TriangleBatch::serves(const Draw& draw) {
 }
 
 void TriangleBatch::put_list(const uint32_t* indices, int count, uint32_t base) {
-  const Int first = min(iota<Int>(), Int(count - 1)) * 3;
-  for (std::size_t i = 0; i < 3; ++i) {
-    store(vertex_[i].data(), gather(reinterpret_cast<const int32_t*>(indices) + i, first) - static_cast<int32_t>(base));
+  const auto* list = reinterpret_cast<const int32_t*>(indices);
+  std::array<int32_t, 3 * kLanes> few;
+  if (count < kLanes) {
+    for (int i = 0; i < kLanes; ++i) std::copy_n(list + 3 * std::min(i, count - 1), 3, &few[static_cast<std::size_t>(3 * i)]);
+    list = few.data();
   }
+  const std::array<Int, 3> vertex = load_threes<Int>(list);
+  for (std::size_t i = 0; i < 3; ++i) store(vertex_[i].data(), vertex[i] - static_cast<int32_t>(base));
 }
 
 void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
