@@ -91,6 +91,17 @@ inline BlockTest test_bounds(CompareOp op, float low, float high, float block_mi
   return BlockTest::some_may;
 }
 
+/// Remembers that values in [low, high] that passed the test were written to a block.
+HS_INLINE void widen_block_bounds(CompareOp op, Tile& tile, int block, float low, float high) {
+  // What passes LESS only lowers the values, what passes GREATER only raises them.
+  const bool lowers = op == CompareOp::less || op == CompareOp::less_equal;
+  const bool raises = op == CompareOp::greater || op == CompareOp::greater_equal;
+  const auto b = static_cast<std::size_t>(block);
+  if (!raises) tile.block_min[b] = std::min(tile.block_min[b], low);
+  if (!lowers) tile.block_max[b] = std::max(tile.block_max[b], high);
+  if (tile.block_writes[b] < kRefreshAfter) ++tile.block_writes[b];
+}
+
 inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high) {
   const auto b = static_cast<std::size_t>(block);
   if (tile.block_writes[b] >= kRefreshAfter) refresh_block_bounds(tile, block);

@@ -219,16 +219,6 @@ DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, Tile& t)
       is_plain((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && t.samples == 1 && (d.sample_mask & 1) != 0 &&
                !asks_shader && !(d.state.stencil && t.has_stencil)) {}
 
-void widen_block_bounds(CompareOp op, Tile& tile, int block, float low, float high) {
-  // What passes LESS only lowers the values, what passes GREATER only raises them.
-  const bool lowers = op == CompareOp::less || op == CompareOp::less_equal;
-  const bool raises = op == CompareOp::greater || op == CompareOp::greater_equal;
-  const auto b = static_cast<std::size_t>(block);
-  if (!raises) tile.block_min[b] = std::min(tile.block_min[b], low);
-  if (!lowers) tile.block_max[b] = std::max(tile.block_max[b], high);
-  if (tile.block_writes[b] < kRefreshAfter) ++tile.block_writes[b];
-}
-
 namespace {
 
 void rasterize_sample(Context& c, const PixelBounds& b) {

@@ -60,9 +60,6 @@ bool covers_tile(const DrawInTile& d, const Triangle& t);
 /// Writes depth and id of a triangle that covers the tile's room and passes everywhere; bounds: of its depths. Counts nothing.
 void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds);
 
-/// Remembers that values in [low, high] were written to a block.
-void widen_block_bounds(CompareOp op, Tile& tile, int block, float low, float high);
-
 /// The depth test of a packet: which lanes of mask pass, with z as Tile::depth holds it.
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask);
 

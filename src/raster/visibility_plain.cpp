@@ -173,72 +173,83 @@ class SmallTriangle {
     const int column0 = rect_.x0 / kPacketWidth, column1 = (rect_.x1 - 1) / kPacketWidth;
     const int row0 = rect_.y0 / kPacketHeight, row1 = (rect_.y1 - 1) / kPacketHeight;
     if ((column1 - column0 + 1) * (row1 - row0 + 1) <= kFewPackets || kLanes == 1) {
-      visit_each(column0, column1, row0, row1);
+      list_each(column0, column1, row0, row1);
     } else {
-      visit_rows(column0, column1, row0, row1);
+      list_rows(column0, column1, row0, row1);
     }
+    for (std::size_t i = 0; i < listed_; ++i) write(list_[i]);
   }
 
  private:
   static constexpr int kFewPackets = 40;
+  static constexpr std::size_t kMostPackets = (kSmallSpan / kPacketWidth + 2) * (kSmallSpan / kPacketHeight + 2);
 
-  void visit_each(int column0, int column1, int row0, int row1) {
-    std::array<Int, 3> start, right, up;
+  // A packet with covered pixels.
+  struct Covered {
+    int packet;
+    uint32_t lanes;
+    int32_t e1, e2;  // edges 1 and 2: by how much they differ from the tile's first packet
+  };
+
+  void list_each(int column0, int column1, int row0, int row1) {
+    std::array<int32_t, 3> right, up, start;
     for (std::size_t i = 0; i < 3; ++i) {
-      const SmallEdge& e = edge_[i];
-      right[i] = Int(e.step_x * kPacketWidth);
-      up[i] = Int(e.step_y * kPacketHeight);
-      start[i] = first_[i] + (e.step_x * (column0 * kPacketWidth) + e.step_y * (row0 * kPacketHeight));
+      right[i] = edge_[i].step_x * kPacketWidth;
+      up[i] = edge_[i].step_y * kPacketHeight;
+      start[i] = right[i] * column0 + up[i] * row0;
     }
     for (int row = row0; row <= row1; ++row) {
-      std::array<Int, 3> e = start;
+      std::array<int32_t, 3> at = start;
       for (int column = column0; column <= column1; ++column) {
-        visit_packet(e, column, row);
-        for (std::size_t i = 0; i < 3; ++i) e[i] = e[i] + right[i];
+        list(at, column, row);
+        for (std::size_t i = 0; i < 3; ++i) at[i] += right[i];
       }
-      for (std::size_t i = 0; i < 3; ++i) start[i] = start[i] + up[i];
+      for (std::size_t i = 0; i < 3; ++i) start[i] += up[i];
     }
   }
 
   // Row by row of packets: W columns at once are asked whether a packet can hold a covered pixel.
-  void visit_rows(int column0, int column1, int row0, int row1) {
+  void list_rows(int column0, int column1, int row0, int row1) {
     std::array<Int, 3> best;  // the edges' largest values in the packets of row 0
     for (std::size_t i = 0; i < 3; ++i) {
       const SmallEdge& e = edge_[i];
       const int32_t rise = std::max(0, e.step_x * (kPacketWidth - 1)) + std::max(0, e.step_y * (kPacketHeight - 1));
       best[i] = iota<Int>() * (e.step_x * kPacketWidth) + (e.e + rise);
     }
+    const auto step = [&](std::size_t i, int column, int row) {
+      return edge_[i].step_x * (column * kPacketWidth) + edge_[i].step_y * (row * kPacketHeight);
+    };
     for (int row = row0; row <= row1; ++row) {
       for (int group = column0 / kLanes * kLanes; group <= column1; group += kLanes) {
-        std::array<Int, 3> e;
-        for (std::size_t i = 0; i < 3; ++i) {
-          e[i] = best[i] + (edge_[i].step_x * (group * kPacketWidth) + edge_[i].step_y * (row * kPacketHeight));
-        }
         const Int column = iota<Int>() + group;
-        const Mask reaches = ((e[0] | e[1] | e[2]) >= Int(0)) & (column >= Int(column0)) & (column <= Int(column1));
-        for (uint32_t rest = bits(reaches); rest != 0; rest &= rest - 1) visit_packet(group + std::countr_zero(rest), row);
+        const Mask reaches =
+            ((best[0] + step(0, group, row)) | (best[1] + step(1, group, row)) | (best[2] + step(2, group, row))) >= Int(0);
+        const Mask asked = (column >= Int(column0)) & (column <= Int(column1));
+        for (uint32_t rest = bits(reaches & asked); rest != 0; rest &= rest - 1) {
+          const int c = group + std::countr_zero(rest);
+          list({step(0, c, row), step(1, c, row), step(2, c, row)}, c, row);
+        }
       }
     }
   }
 
-  HS_INLINE void visit_packet(int column, int row) {
-    std::array<Int, 3> e;
-    for (std::size_t i = 0; i < 3; ++i) {
-      e[i] = first_[i] + (edge_[i].step_x * (column * kPacketWidth) + edge_[i].step_y * (row * kPacketHeight));
-    }
-    visit_packet(e, column, row);
+  // Lists a packet, at whose pixels the edges differ by `at` from the tile's first packet, if it has covered pixels. Whether it has is as
+  // good as random, so there is no branch on it: it would often be foretold wrongly. All are listed before any is written.
+  HS_INLINE void list(const std::array<int32_t, 3>& at, int column, int row) {
+    Mask mask = ((first_[0] + at[0]) | (first_[1] + at[1]) | (first_[2] + at[2])) >= Int(0);
+    if (d_.cut) mask = mask & inside(rect_, column * kPacketWidth, row * kPacketHeight);
+    const uint32_t lanes = bits(mask);
+    list_[listed_] = {packet_at(column * kPacketWidth, row * kPacketHeight), lanes, at[1], at[2]};
+    listed_ += lanes != 0 ? 1 : 0;
   }
 
-  // e: the edges at the packet's pixels.
-  HS_INLINE void visit_packet(const std::array<Int, 3>& e, int column, int row) {
-    Mask mask = (e[0] | e[1] | e[2]) >= Int(0);
-    if (d_.cut) mask = mask & inside(rect_, column * kPacketWidth, row * kPacketHeight);
-    if (none(mask)) return;
-    const auto z_at = [&] { return small_depth(d_, t_, e[1] + edge_[1].bias, e[2] + edge_[2].bias); };
-    const int packet = packet_at(column * kPacketWidth, row * kPacketHeight);
-    const bool passed = writer_.write(packet, mask, z_at);
+  HS_INLINE void write(const Covered& c) {
+    const auto z_at = [&] {
+      return small_depth(d_, t_, first_[1] + (c.e1 + edge_[1].bias), first_[2] + (c.e2 + edge_[2].bias));
+    };
+    const bool passed = writer_.write(c.packet, mask_from_bits<Mask>(c.lanes), z_at);
     if (passed && writer_.writes_depth())
-      widen_block_bounds(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
+      widen_block_bounds(writer_.compare_op(), d_.tile, c.packet / kPacketsPerBlock, bounds_.low, bounds_.high);
   }
 
   const DrawInTile& d_;
@@ -248,6 +259,8 @@ class SmallTriangle {
   std::array<SmallEdge, 3> edge_;
   std::array<Int, 3> first_;  // the edges in the tile's first packet
   DepthBounds bounds_;
+  std::size_t listed_ = 0;
+  std::array<Covered, kMostPackets + 1> list_;  // one beyond may be written
 };
 
 // Remembers that every value of a block was replaced by one in [low, high].
