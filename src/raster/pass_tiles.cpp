@@ -233,9 +233,9 @@ void prefetch(const Triangle& t) {
   __builtin_prefetch(&t.flags);  // which may lie in the next cache line
 }
 
-// What a shader that decides on visibility reads of a triangle's vertices; of a point's alone, which are few and far between.
-void prefetch_vertices(const Frame& frame, const Chunk& chunk, const Triangle& t) {
-  if (!t.is(kSprite) || t.is(kClipped)) return;
+// What shading, or a shader that decides on visibility, reads of a triangle's first vertex.
+void prefetch_vertex(const Frame& frame, const Chunk& chunk, const Triangle& t) {
+  if (t.is(kClipped)) return;
   const ShadedVertices& shaded = frame.shaded[chunk.segments[t.segment()].draw];
   const auto count = static_cast<std::size_t>(shaded.varying_count);
   const float* row = shaded.varyings.get() + t.vertex[0] * count;
@@ -274,7 +274,7 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
     for (std::size_t i = 0; i < bin.size(); ++i) {
       const uint16_t t = bin[i];
       prefetch(ahead(i + kTrianglesAhead));
-      if (here && here->asks_shader) prefetch_vertices(frame_, chunk, ahead(i + kVerticesAhead));
+      if (here && here->fetches_vertices) prefetch_vertex(frame_, chunk, ahead(i + kVerticesAhead));
       const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
       if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
       const uint64_t passed_before = statistics.samples_passed;

@@ -206,6 +206,17 @@ VisibilityMode visibility_mode(const Draw& draw) {
   return VisibilityMode::early;
 }
 
+namespace {
+
+// Are the vertices of what a deferred draw shows worth fetching ahead? Those of triangles are where several share each, so that it is
+// fetched once for all; a point's are few and far between.
+bool fetches_vertices_ahead(const Draw& draw) {
+  if (draw.kernels.fragment == nullptr || draw.kernels.varying_count == 0) return false;
+  return draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
+}
+
+}  // namespace
+
 DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, Tile& t)
     : frame(f),
       draw(d),
@@ -216,6 +227,7 @@ DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, Tile& t)
       cut(t.size != kMaxTileSize || bounds.x0 > t.x0 || bounds.y0 > t.y0 || d.bounds.x1 < t.x0 + t.size || d.bounds.y1 < t.y0 + t.size),
       tests(tests_depth(d.state.depth, t)),
       asks_shader(m == VisibilityMode::deferred && d.kernels.visibility != nullptr),
+      fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
       is_plain((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && t.samples == 1 && (d.sample_mask & 1) != 0 &&
                !asks_shader && !(d.state.stencil && t.has_stencil)) {}
 

@@ -41,11 +41,12 @@ struct DrawInTile {
   const Draw& draw;
   VisibilityMode mode;
   Tile& tile;
-  PixelBounds bounds;  ///< of the draw in the tile
-  bool cut;            ///< a covered pixel of the tile may lie outside of bounds
-  bool tests;          ///< there is a depth test in this stage (where the stencil does not put it off)
-  bool asks_shader;    ///< the shader's visibility function decides
-  bool is_plain;       ///< one sample a pixel, and only coverage and depth decide
+  PixelBounds bounds;     ///< of the draw in the tile
+  bool cut;               ///< a covered pixel of the tile may lie outside of bounds
+  bool tests;             ///< there is a depth test in this stage (where the stencil does not put it off)
+  bool asks_shader;       ///< the shader's visibility function decides
+  bool fetches_vertices;  ///< vertices are worth fetching ahead: they are points', or several triangles share each
+  bool is_plain;          ///< one sample a pixel, and only coverage and depth decide
 };
 
 /// Rasterizes triangle `index` of chunk `chunk` in the tile. list is needed but for VisibilityMode::deferred and depth_only.

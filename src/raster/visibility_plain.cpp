@@ -244,9 +244,7 @@ class SmallTriangle {
   }
 
   HS_INLINE void write(const Covered& c) {
-    const auto z_at = [&] {
-      return small_depth(d_, t_, first_[1] + (c.e1 + edge_[1].bias), first_[2] + (c.e2 + edge_[2].bias));
-    };
+    const auto z_at = [&] { return small_depth(d_, t_, first_[1] + (c.e1 + edge_[1].bias), first_[2] + (c.e2 + edge_[2].bias)); };
     const bool passed = writer_.write(c.packet, mask_from_bits<Mask>(c.lanes), z_at);
     if (passed && writer_.writes_depth())
       widen_block_bounds(writer_.compare_op(), d_.tile, c.packet / kPacketsPerBlock, bounds_.low, bounds_.high);
