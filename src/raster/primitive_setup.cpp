@@ -86,7 +86,8 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
   const PixelBounds box = cut(pixel_box(out.x, out.y, frame.samples_at, frame.samples_at), draw.bounds);
   if (box.empty()) return Cull::no_sample;
   const bool few = frame.samples == 1 && is_small(out) && box.is_at_most(kCoverSide, kCoverSide);
-  if (few && !covers_center<float>(out.x, out.y, box)) return Cull::no_sample;
+  const int32_t covered = few ? covered_centers<float>(out.x, out.y, box) : 0;
+  if (few && covered == 0) return Cull::no_sample;
 
   const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
                          static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
@@ -100,6 +101,7 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
   out.z_edge2 = static_cast<float>(plane.dz2 / plane.area);
 
   if (is_small(out)) out.flags |= kSmall;
+  out.flags |= static_cast<uint32_t>(covered_flags(box, covered));
   if (front) out.flags |= kFrontFacing;
   return Cull::none;
 }

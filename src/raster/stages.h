@@ -132,7 +132,9 @@ inline constexpr uint32_t kSmall = 4;           ///< every edge function fits in
 inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: which of vertex[] is the provoking vertex
 inline constexpr uint32_t kSprite = 32;         ///< a point: see Triangle
 inline constexpr uint32_t kLine = 64;           ///< a line: see Triangle
-inline constexpr uint32_t kSegmentShift = 8;    ///< the rest: which segment of the chunk
+inline constexpr uint32_t kCoveredShift = 7;    ///< twelve bits: see Triangle::covered
+inline constexpr uint32_t kCoveredBits = 0xfff;
+inline constexpr uint32_t kSegmentShift = 19;  ///< the rest: which segment of the chunk
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
 /// A point (kSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
@@ -149,6 +151,9 @@ struct Triangle {
   uint32_t segment() const { return flags >> kSegmentShift; }
   uint32_t provoking() const { return (flags >> kProvokingShift) & 3; }
   bool is(uint32_t flag) const { return (flags & flag) != 0; }
+  /// Of a small triangle in few pixels (one sample a pixel) those that it covers: bit 4r + c is pixel c of row r of its box within the
+  /// draw's bounds. 0: not said here.
+  uint32_t covered() const { return flags >> kCoveredShift & kCoveredBits; }
 };
 
 /// A vertex made or copied by the clipper. Its flat varyings are those of its triangle's provoking vertex.

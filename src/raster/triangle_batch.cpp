@@ -75,7 +75,11 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   swap_lanes(turns_right, x[1], x[2]);
   swap_lanes(turns_right, y[1], y[2]);
   const Mask few = box.is_at_most(kCoverSide, kCoverSide);
-  if (frame.samples == 1 && (bits(few) & lanes) != 0) take(bits(few && !covers_center<Real>(x, y, box)), statistics.culled_no_sample);
+  Int covered(0);
+  if (frame.samples == 1 && (bits(few) & lanes) != 0) {
+    covered = select(few, covered_centers<Real>(x, y, box), Int(0));
+    take(bits(few && covered == Int(0)), statistics.culled_no_sample);
+  }
   kept_ = lanes;
   if (lanes == 0) return;
 
@@ -99,7 +103,7 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   const Int wanted(static_cast<int32_t>(provoking));
   const Int place = select(order[0] == wanted, Int(0), select(order[1] == wanted, Int(1), Int(2)));
   flags_ = (place << static_cast<int>(kProvokingShift)) | Int(static_cast<int32_t>(kSmall | segment << kSegmentShift)) |
-           select(front, Int(static_cast<int32_t>(kFrontFacing)), Int(0));
+           select(front, Int(static_cast<int32_t>(kFrontFacing)), Int(0)) | covered_flags(box, covered);
   alignas(64) std::array<int32_t, kLanes> areas;
   alignas(64) std::array<float, kLanes> z0, z1, z2, z_edge1, z_edge2;
   store(areas.data(), max(area, -area));

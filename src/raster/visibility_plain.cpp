@@ -9,6 +9,7 @@
 #include "raster/compare.h"
 #include "raster/pixel_box.h"
 #include "raster/primitive_setup.h"
+#include "raster/sample_cover.h"
 #include "raster/visibility.h"
 
 namespace halfspace {
@@ -69,14 +70,16 @@ class Writer {
     return passed != 0;
   }
 
-  // One covered pixel; true if it passed.
-  HS_INLINE bool write_pixel(std::size_t pixel, float z) {
+  // One covered pixel of the tile; keeps the block's bounds true.
+  HS_INLINE void write_pixel(int x, int y, float z) {
+    const auto pixel = static_cast<std::size_t>(kPixelAt.column[static_cast<std::size_t>(x)] + kPixelAt.row[static_cast<std::size_t>(y)]);
     ++statistics_.samples_tested;
-    if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return false;
-    if (writes_depth_) tile_.depth[pixel] = z;
-    if (writes_id_) tile_.id[pixel] = static_cast<TriangleId>(id_);
+    if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
     ++statistics_.samples_passed;
-    return true;
+    if (writes_id_) tile_.id[pixel] = static_cast<TriangleId>(id_);
+    if (!writes_depth_) return;
+    tile_.depth[pixel] = z;
+    widen_block_bounds(compare_, tile_, static_cast<int>(pixel / kPixelsPerBlock), z, z);
   }
 
   // A packet that is covered wholly and passes wholly.
@@ -116,37 +119,28 @@ SmallEdge small_edge(const std::array<int32_t, 3>& x, const std::array<int32_t, 
   return {edge.ey * edge.x0 - edge.ex * edge.y0 - bias, -edge.ey * kSubPixels, edge.ex * kSubPixels, bias};
 }
 
-// Its depth where edges 1 and 2, less their biases, have the values e1 and e2.
-HS_INLINE Real small_depth(const DrawInTile& d, const Triangle& t, Int e1, Int e2) {
+// Its depth where edges 1 and 2, without their biases, have the values e1 and e2. R: Real or float.
+template <class R>
+HS_INLINE R small_depth(const DrawInTile& d, const Triangle& t, IntOf<R> e1, IntOf<R> e2) {
   const float z_high = std::clamp(t.z_max, d.draw.depth_low, d.draw.depth_high);
-  const Real z = fma(to_real<Real>(e1), Real(t.z_edge1), fma(to_real<Real>(e2), Real(t.z_edge2), Real(t.z0)));
-  return depth_value(d.tile.depth_format, clamp(z, Real(d.draw.depth_low), Real(z_high)));
+  const R z = fma(to_real<R>(e1), R(t.z_edge1), fma(to_real<R>(e2), R(t.z_edge2), R(t.z0)));
+  return depth_value(d.tile.depth_format, clamp(z, R(d.draw.depth_low), R(z_high)));
 }
 
-// A triangle whose box is no larger than a packet: one packet, wherever it lies, is laid over the box; its pixels are then few.
-void rasterize_tiny(const DrawInTile& d, const Triangle& t, const PixelBounds& box, TriangleId id, PassStatistics& statistics) {
-  const int32_t x_first = box.x0 * kSubPixels + kSubPixels / 2, y_first = box.y0 * kSubPixels + kSubPixels / 2;
-  const std::array<int32_t, 3> x{t.x[0] - x_first, t.x[1] - x_first, t.x[2] - x_first};
-  const std::array<int32_t, 3> y{t.y[0] - y_first, t.y[1] - y_first, t.y[2] - y_first};
-  std::array<SmallEdge, 3> edge;
-  std::array<Int, 3> e;
-  for (std::size_t i = 0; i < 3; ++i) {
-    edge[i] = small_edge(x, y, i);
-    e[i] = lane_x() * edge[i].step_x + lane_y() * edge[i].step_y + edge[i].e;
-  }
-  Mask mask = (e[0] | e[1] | e[2]) >= Int(0);
-  const PixelBounds& b = d.bounds;
-  if (box.x0 < b.x0 || box.y0 < b.y0 || box.x1 > b.x1 || box.y1 > b.y1) mask = mask & inside({b.x0, b.y0, b.x1, b.y1}, box.x0, box.y0);
-  alignas(64) std::array<float, kLanes> z;
-  store(z.data(), small_depth(d, t, e[1] + edge[1].bias, e[2] + edge[2].bias));
+// A triangle whose covered pixels are known from setup.
+void rasterize_known(const DrawInTile& d, const Triangle& t, const PixelBounds& box, TriangleId id, PassStatistics& statistics) {
+  const auto edge = [&](std::size_t a, std::size_t b, int32_t x, int32_t y) {
+    return (t.x[b] - t.x[a]) * (y - t.y[a]) - (t.y[b] - t.y[a]) * (x - t.x[a]);
+  };
+  const PixelBounds in_draw = cut(box, d.draw.bounds);
   Writer writer(d, id, statistics);
-  for (uint32_t rest = bits(mask); rest != 0; rest &= rest - 1) {
-    const int lane = std::countr_zero(rest);
-    const std::size_t pixel = std::size_t{kPixelAt.column[static_cast<std::size_t>(box.x0 + block_x(lane) - d.tile.x0)]} +
-                              kPixelAt.row[static_cast<std::size_t>(box.y0 + block_y(lane) - d.tile.y0)];
-    const float at = z[static_cast<std::size_t>(lane)];
-    if (writer.write_pixel(pixel, at) && writer.writes_depth())
-      widen_block_bounds(writer.compare_op(), d.tile, static_cast<int>(pixel / kPixelsPerBlock), at, at);
+  for (uint32_t rest = t.covered(); rest != 0; rest &= rest - 1) {
+    const int bit = std::countr_zero(rest);
+    const int x = in_draw.x0 + bit % kCoverSide, y = in_draw.y0 + bit / kCoverSide;
+    if (x < d.bounds.x0 || y < d.bounds.y0 || x >= d.bounds.x1 || y >= d.bounds.y1) continue;
+    const int32_t x_sub = x * kSubPixels + kSubPixels / 2, y_sub = y * kSubPixels + kSubPixels / 2;
+    const float z = small_depth<float>(d, t, edge(2, 0, x_sub, y_sub), edge(0, 1, x_sub, y_sub));
+    writer.write_pixel(x - d.tile.x0, y - d.tile.y0, z);
   }
 }
 
@@ -244,7 +238,7 @@ class SmallTriangle {
   }
 
   HS_INLINE void write(const Covered& c) {
-    const auto z_at = [&] { return small_depth(d_, t_, first_[1] + (c.e1 + edge_[1].bias), first_[2] + (c.e2 + edge_[2].bias)); };
+    const auto z_at = [&] { return small_depth<Real>(d_, t_, first_[1] + (c.e1 + edge_[1].bias), first_[2] + (c.e2 + edge_[2].bias)); };
     const bool passed = writer_.write(c.packet, mask_from_bits<Mask>(c.lanes), z_at);
     if (passed && writer_.writes_depth())
       widen_block_bounds(writer_.compare_op(), d_.tile, c.packet / kPacketsPerBlock, bounds_.low, bounds_.high);
@@ -334,7 +328,7 @@ void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, con
 void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
   if (t.is(kSmall) && !t.is(kSprite)) {
     const PixelBounds box = pixel_box(t.x, t.y, SampleSpan{}, SampleSpan{});
-    if (box.is_at_most(kPacketWidth, kPacketHeight)) return rasterize_tiny(d, t, box, id, statistics);
+    if (t.covered() != 0) return rasterize_known(d, t, box, id, statistics);
     if (spans_at_most(t, kSmallSpan)) return SmallTriangle(d, t, box, id, statistics).visit();
   }
   const SampleGrid grid(d.tile, 0);
