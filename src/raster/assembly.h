@@ -6,6 +6,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "raster/stages.h"
 
@@ -38,6 +40,12 @@ class Assembly {
     const uint32_t* indices = plain_list_ ? draw_.indices->words(std::size_t{primitive_} * 3) : nullptr;
     if (indices != nullptr) primitive_ += count;
     return indices;
+  }
+
+  /// The first index of the next `count` triangles where all theirs follow each other, and past these; else none, and nothing is passed.
+  std::optional<uint32_t> next_count(uint32_t count) {
+    if (!plain_list_ || !draw_.indices->counts()) return std::nullopt;
+    return 3 * std::exchange(primitive_, primitive_ + count);
   }
 
  private:

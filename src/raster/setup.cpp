@@ -101,11 +101,7 @@ class SegmentSetup {
 
   // Gives the next triangles to the batch. Which of them need no clipping?
   uint32_t put_triangles(int count) {
-    const uint32_t* list = shaded_.any_outcode == 0 ? assembly_.next_list(static_cast<uint32_t>(count)) : nullptr;
-    if (list != nullptr) {
-      batch_.put_list(list, count, slot_base_);
-      return bits(first_lanes<Mask>(count));
-    }
+    if (shaded_.any_outcode == 0 && put_at_once(count)) return bits(first_lanes<Mask>(count));
     uint32_t plain = 0;
     std::array<uint32_t, 3> slots{};
     for (int i = 0; i < count; ++i) {
@@ -117,6 +113,17 @@ class SegmentSetup {
     }
     for (int i = count; i < kLanes; ++i) batch_.put(i, slots);
     return plain;
+  }
+
+  // Where the list lets them be found so; false if it does not.
+  bool put_at_once(int count) {
+    if (const uint32_t* list = assembly_.next_list(static_cast<uint32_t>(count))) {
+      batch_.put_list(list, count, slot_base_);
+      return true;
+    }
+    const std::optional<uint32_t> first = assembly_.next_count(static_cast<uint32_t>(count));
+    if (first) batch_.put_count(*first, count, slot_base_);
+    return first.has_value();
   }
 
   std::array<uint32_t, 3> next_slots() {

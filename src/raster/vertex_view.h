@@ -113,6 +113,8 @@ class Indices {
   uint32_t operator[](std::size_t i) const { return wide_ ? wide_[i] : narrow_ ? narrow_[i] : static_cast<uint32_t>(i); }
   /// The list from place i on where it is one of 32-bit indices, else null.
   const uint32_t* words(std::size_t i) const { return wide_ ? wide_ + i : nullptr; }
+  /// Is index i simply i?
+  bool counts() const { return wide_ == nullptr && narrow_ == nullptr; }
   /// The smallest and one past the largest index used.
   uint32_t first_vertex() const { return first_; }
   uint32_t end_vertex() const { return end_; }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "core/fields.h"
 #include "core/vec.h"
@@ -113,6 +114,17 @@ inline constexpr bool kAny = [] {
   }
   return false;
 }();
+
+// One by one where they are large: a single copy would be a call of memcpy, with all that is in registers put aside.
+template <class R, std::size_t... I>
+HS_INLINE void copy_components(const R* from, R* to, std::index_sequence<I...>) {
+  constexpr std::size_t bytes = sizeof...(I) * sizeof(R);
+  if constexpr (bytes <= 768) {
+    std::memcpy(static_cast<void*>(to), from, bytes);
+  } else {
+    ((to[I] = from[I]), ...);
+  }
+}
 }  // namespace detail
 
 /// Is one of them looked up at the centroid?
@@ -129,7 +141,7 @@ HS_INLINE std::array<R, kComponents<T>> to_components(const T& t) {
   if constexpr (kComponents<T> != 0) {
     static_assert(sizeof(T) == sizeof(a),
                   "the members of attributes and varyings are R, vec2<R>, vec3<R>, vec4<R>, Flat, Linear or Centroid of these");
-    std::memcpy(&a, &t, sizeof a);
+    detail::copy_components(reinterpret_cast<const R*>(&t), a.data(), std::make_index_sequence<kComponents<T>>());
   }
   return a;
 }
@@ -140,7 +152,7 @@ HS_INLINE T from_components(const std::array<R, kComponents<T>>& a) {
   T t;
   if constexpr (kComponents<T> != 0) {
     static_assert(sizeof(T) == sizeof(a));
-    std::memcpy(static_cast<void*>(&t), &a, sizeof a);
+    detail::copy_components(a.data(), reinterpret_cast<R*>(&t), std::make_index_sequence<kComponents<T>>());
   }
   return t;
 }
