@@ -64,5 +64,17 @@ TYPED_TEST(Fours, AreWrittenWhereTheyBelongAndNowhereElse) {
   }
 }
 
+TYPED_TEST(Fours, ThreesAreReadInOrder) {
+  std::vector<int32_t> memory(1 + 3 * kWidth<TypeParam>);
+  for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = static_cast<int32_t>(100 + i);
+  for (const int start : {0, 1}) {  // aligned, perhaps, and not
+    const auto words = load_threes<TypeParam>(memory.data() + start);
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < kWidth<TypeParam>; ++k)
+        EXPECT_EQ(lane(words[static_cast<std::size_t>(i)], k), 100 + start + 3 * k + i) << i << ' ' << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace halfspace
