@@ -15,9 +15,9 @@
 #include <span>
 
 #include "core/parallel.h"
+#include "raster/fragment_kernel.h"
 #include "raster/output.h"
 #include "raster/primitive_stage.h"
-#include "raster/shade.h"
 #include "raster/vertex_stage.h"
 
 namespace halfspace {

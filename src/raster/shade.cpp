@@ -2,87 +2,12 @@
 #include "raster/shade.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "raster/centroid.h"
 #include "raster/output.h"
-#include "raster/sprite.h"
 
 namespace halfspace {
-
-namespace {
-
-// The vertices of what is clipped, a point or a line.
-void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, const Draw& draw, TriangleSource& s) {
-  const Triangle& t = *s.triangle;
-  for (std::size_t i = 0; i < (t.is(kLine) ? 2u : 3u); ++i) {
-    if (t.is(kClipped)) {
-      const ClipVertex& v = chunk.clip_vertices[t.vertex[i]];
-      s.vertex[i] = &v.screen;
-      s.varyings[i] = chunk.clip_varyings.data() + v.first_varying;
-    } else {
-      const ShadedVertices& shaded = frame.shaded[segment.draw];
-      s.vertex[i] = &shaded.screen[t.vertex[i]];
-      s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
-    }
-  }
-  if (t.is(kSprite)) {
-    s.corners = sprite_corners(t, *s.vertex[0], draw.state.point_origin);
-    for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
-  }
-  if (t.is(kLine)) {  // the third corner lies beside the first and has its values
-    s.corners[2] = {t.x[2], t.y[2], s.vertex[0]->z, s.vertex[0]->inv_w};
-    s.vertex[2] = &s.corners[2];
-    s.varyings[2] = s.varyings[0];
-    s.z_low = std::clamp(t.z0, draw.depth_low, draw.depth_high);
-  }
-}
-
-}  // namespace
-
-void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
-  const Chunk& chunk = frame.chunks[id >> 16];
-  const uint32_t index = id & 0xffff;
-  const Triangle& t = chunk.triangles[index];
-  const Segment& segment = chunk.segments[t.segment()];
-  const Draw& draw = frame.draws[segment.draw];
-  s.triangle = &t;
-  s.primitive = nullptr;
-  s.z_low = draw.depth_low;
-  if (t.is(kClipped | kSprite | kLine)) {
-    find_rare(frame, chunk, segment, draw, s);
-  } else {
-    const ShadedVertices& shaded = frame.shaded[segment.draw];
-    for (std::size_t i = 0; i < 3; ++i) {
-      s.vertex[i] = &shaded.screen[t.vertex[i]];
-      s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
-    }
-  }
-  s.flat_varyings = s.varyings[t.provoking()];
-  if (draw.kernels.primitive_count != 0) {
-    const std::size_t row = index - segment.first_triangle;
-    s.primitive = chunk.primitives.data() + segment.first_primitive + row * static_cast<std::size_t>(draw.kernels.primitive_count);
-  }
-}
-
-Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) {
-  const Real x_sub = x * Real(kSubPixels), y_sub = y * Real(kSubPixels);
-  Real z(0.0f);
-  for (uint32_t rest = packet.lanes; rest != 0;) {
-    const TriangleId id = packet.ids == nullptr ? packet.uniform_id : packet.ids[std::countr_zero(rest)];
-    const Mask shows = packet.ids == nullptr ? Mask(true) : load<Int>(packet.ids) == Int(std::bit_cast<int32_t>(id));
-    rest &= ~bits(shows);
-    TriangleSource source;
-    find_triangle(*packet.frame, id, source);
-    const Triangle& t = *source.triangle;
-    const auto edge = [](int32_t to, int32_t from) { return Real(static_cast<float>(to - from)); };
-    const Real dx = x_sub - Real(static_cast<float>(t.x[0])), dy = y_sub - Real(static_cast<float>(t.y[0]));
-    const Real e1 = difference_of_products(dx, edge(t.y[2], t.y[0]), dy, edge(t.x[2], t.x[0]));
-    const Real e2 = difference_of_products(edge(t.x[1], t.x[0]), dy, edge(t.y[1], t.y[0]), dx);
-    const float z_high = clamp(t.z_max, draw_of(*packet.frame, id).depth_low, draw_of(*packet.frame, id).depth_high);
-    z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(source.z_low), Real(z_high)), z);
-  }
-  return z;
-}
 
 void constant_colors(const Draw& draw, FragmentOutput& out) {
   draw.kernels.fragment(draw.shader.get(), {.frame = nullptr,

@@ -134,7 +134,7 @@ inline constexpr uint32_t kSprite = 32;         ///< a point: see Triangle
 inline constexpr uint32_t kLine = 64;           ///< a line: see Triangle
 inline constexpr uint32_t kCoveredShift = 7;    ///< twelve bits: see Triangle::covered
 inline constexpr uint32_t kCoveredBits = 0xfff;
-inline constexpr uint32_t kSegmentShift = 19;  ///< the rest: which segment of the chunk
+inline constexpr uint32_t kSegmentShift = 19;  ///< thirteen bits: which segment of the chunk, which has at most 4096 (PassOptions)
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
 /// A point (kSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
