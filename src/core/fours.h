@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Records that lie anywhere, read and written by lanes: four neighbouring words of each at once, turned word by word in registers, where
-// gathers would fetch every word by itself.
+// gathers would fetch every word by itself. And records of three words that lie side by side.
 #pragma once
 
 #include <array>
@@ -77,14 +77,6 @@ HS_INLINE void store_quarters(IntN<8> records, const Place& place, int k) {
 }
 #endif
 
-/// Word I of the threes that lie in three vectors, one after the other. A vector's place: see __builtin_shufflevector.
-template <std::size_t I, class V, std::size_t... K>
-HS_INLINE V third(V a, V b, V c, std::index_sequence<K...>) {
-  constexpr std::size_t w = sizeof...(K);
-  const auto from_ab = __builtin_shufflevector(a, b, (3 * K + I < 2 * w ? 3 * K + I : 0)...);
-  return __builtin_shufflevector(from_ab, c, (3 * K + I < 2 * w ? K : 3 * K + I - w)...);
-}
-
 /// Whether records of as many lanes are turned in registers.
 template <class I>
 inline constexpr bool kTurnsFours = requires(std::array<I, 4> words) {
@@ -110,19 +102,6 @@ HS_INLINE std::array<I, 4> load_fours(const Place& place) {
   }
 }
 
-/// 3W words from p on: lane k of element i holds word 3k + i.
-template <class I>
-HS_INLINE std::array<I, 3> load_threes(const int32_t* p) {
-  constexpr std::size_t w = sizeof(I) / sizeof(int32_t);
-  if constexpr (w == 1) {
-    return {p[0], p[1], p[2]};
-  } else {
-    const auto a = load<I>(p).v, b = load<I>(p + w).v, c = load<I>(p + 2 * w).v;
-    constexpr std::make_index_sequence<w> lanes;
-    return {I(detail::third<0>(a, b, c, lanes)), I(detail::third<1>(a, b, c, lanes)), I(detail::third<2>(a, b, c, lanes))};
-  }
-}
-
 /// The other way: writes lane k of the four words to place(k) … place(k) + 15, in the order of k or any other. Places of several lanes may
 /// be one, where any of them is left.
 template <class I, class Place>
@@ -134,6 +113,32 @@ HS_INLINE void store_fours(const std::array<I, 4>& words, const Place& place) {
     for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
       detail::store_at(place(k), std::array<int32_t, 4>{lane(words[0], k), lane(words[1], k), lane(words[2], k), lane(words[3], k)});
     }
+  }
+}
+
+namespace detail {
+
+/// Word I of each of W threes, which lie in a, b and c one after the other. (Of two vectors that are shuffled the second's lanes count from
+/// W on.)
+template <std::size_t I, class V, std::size_t... K>
+HS_INLINE V third(V a, V b, V c, std::index_sequence<K...>) {
+  constexpr std::size_t w = sizeof...(K);
+  const auto from_ab = __builtin_shufflevector(a, b, (3 * K + I < 2 * w ? 3 * K + I : 0)...);
+  return __builtin_shufflevector(from_ab, c, (3 * K + I < 2 * w ? K : 3 * K + I - w)...);
+}
+
+}  // namespace detail
+
+/// Threes that lie side by side, 3W words from p on: lane k of element i holds word 3k + i.
+template <class I>
+HS_INLINE std::array<I, 3> load_threes(const int32_t* p) {
+  constexpr std::size_t w = sizeof(I) / sizeof(int32_t);
+  if constexpr (w == 1) {
+    return {p[0], p[1], p[2]};
+  } else {
+    const auto a = load<I>(p).v, b = load<I>(p + w).v, c = load<I>(p + 2 * w).v;
+    constexpr std::make_index_sequence<w> lanes;
+    return {I(detail::third<0>(a, b, c, lanes)), I(detail::third<1>(a, b, c, lanes)), I(detail::third<2>(a, b, c, lanes))};
   }
 }
 

@@ -42,9 +42,9 @@ class Assembly {
     return indices;
   }
 
-  /// The first index of the next `count` triangles where all theirs follow each other, and past these; else none, and nothing is passed.
-  std::optional<uint32_t> next_count(uint32_t count) {
-    if (!plain_list_ || !draw_.indices->counts()) return std::nullopt;
+  /// The first index of the next `count` triangles where index i of the draw is i, and past these; else none, and nothing is passed.
+  std::optional<uint32_t> next_sequence(uint32_t count) {
+    if (!plain_list_ || !draw_.indices->is_sequential()) return std::nullopt;
     return 3 * std::exchange(primitive_, primitive_ + count);
   }
 

@@ -4,9 +4,7 @@
 // lanes that show it, or gathered, so that a shader runs once.
 #pragma once
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "core/lane_pairs.h"
 #include "raster/shade.h"

@@ -121,8 +121,8 @@ class SegmentSetup {
       batch_.put_list(list, count, slot_base_);
       return true;
     }
-    const std::optional<uint32_t> first = assembly_.next_count(static_cast<uint32_t>(count));
-    if (first) batch_.put_count(*first, count, slot_base_);
+    const std::optional<uint32_t> first = assembly_.next_sequence(static_cast<uint32_t>(count));
+    if (first) batch_.put_sequence(*first, count, slot_base_);
     return first.has_value();
   }
 

@@ -16,7 +16,7 @@ class TriangleBatch {
   /// The vertices' slots of all triangles: 3·count indices (count 1 to W) less base. Lanes beyond repeat the last.
   void put_list(const uint32_t* indices, int count, uint32_t base);
   /// The same, where they follow each other: first, first + 1, …, less base.
-  void put_count(uint32_t first, int count, uint32_t base);
+  void put_sequence(uint32_t first, int count, uint32_t base);
   /// What was put.
   std::array<uint32_t, 3> slots(int lane) const {
     const auto slot = [&](std::size_t i) { return static_cast<uint32_t>(vertex_[i][static_cast<std::size_t>(lane)]); };

@@ -114,7 +114,7 @@ class Indices {
   /// The list from place i on where it is one of 32-bit indices, else null.
   const uint32_t* words(std::size_t i) const { return wide_ ? wide_ + i : nullptr; }
   /// Is index i simply i?
-  bool counts() const { return wide_ == nullptr && narrow_ == nullptr; }
+  bool is_sequential() const { return wide_ == nullptr && narrow_ == nullptr; }
   /// The smallest and one past the largest index used.
   uint32_t first_vertex() const { return first_; }
   uint32_t end_vertex() const { return end_; }

@@ -129,9 +129,7 @@ HS_INLINE R small_depth(const DrawInTile& d, const Triangle& t, IntOf<R> e1, Int
 
 // A triangle whose covered pixels are known from setup.
 void rasterize_known(const DrawInTile& d, const Triangle& t, const PixelBounds& box, TriangleId id, PassStatistics& statistics) {
-  const auto edge = [&](std::size_t a, std::size_t b, int32_t x, int32_t y) {
-    return (t.x[b] - t.x[a]) * (y - t.y[a]) - (t.y[b] - t.y[a]) * (x - t.x[a]);
-  };
+  const std::array<Edge, 2> edges{edge_of(t, 1), edge_of(t, 2)};
   const PixelBounds in_draw = cut(box, d.draw.bounds);
   Writer writer(d, id, statistics);
   for (uint32_t rest = t.covered(); rest != 0; rest &= rest - 1) {
@@ -139,7 +137,9 @@ void rasterize_known(const DrawInTile& d, const Triangle& t, const PixelBounds& 
     const int x = in_draw.x0 + bit % kCoverSide, y = in_draw.y0 + bit / kCoverSide;
     if (x < d.bounds.x0 || y < d.bounds.y0 || x >= d.bounds.x1 || y >= d.bounds.y1) continue;
     const int32_t x_sub = x * kSubPixels + kSubPixels / 2, y_sub = y * kSubPixels + kSubPixels / 2;
-    const float z = small_depth<float>(d, t, edge(2, 0, x_sub, y_sub), edge(0, 1, x_sub, y_sub));
+    // Edge::at in 32 bits, which is enough for a small triangle (and is faster: tiny_1m 1.05x).
+    const auto at = [&](const Edge& e) { return e.ex * (y_sub - e.y0) - e.ey * (x_sub - e.x0); };
+    const float z = small_depth<float>(d, t, at(edges[0]), at(edges[1]));
     writer.write_pixel(x - d.tile.x0, y - d.tile.y0, z);
   }
 }
