@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/contract.h"
+#include "shading/map_row.h"
 #include "workload_shading.h"
 
 namespace halfspace {
@@ -50,10 +51,7 @@ struct ShadowedShader {
     R sum(0);
     for (int dj = -1; dj <= 1; ++dj) {
       const IntOf<R> row = last - min(max(IntOf<R>(j + dj), first), last);
-      for (int di = -1; di <= 1; ++di) {
-        const IntOf<R> column = min(max(IntOf<R>(i + di), first), last);
-        sum += select(depth <= R(gather(map, IntOf<R>(row * kMapSize + column))), R(1), R(0));
-      }
+      for (const R& nearest : map_row<3, R>(map, kMapSize, i - 1, row)) sum += select(depth <= nearest, R(1), R(0));
     }
     return sum * R(1.0f / 9.0f);
   }

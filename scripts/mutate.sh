@@ -92,7 +92,8 @@ fault "derivatives: quads of half a pixel" src/shading/pixel.h 'const R to_y = (
 fault "exact spheres: near ones as distant ones" src/shading/sphere_lens.h 'R(25) * radius * radius > dot(c, c)' 'R(0) * radius * radius > dot(c, c)'
 fault "exact spheres: the rim is not decided in double" src/shading/sphere_lens.h 'if (any(close_call)) decide_in_double' 'if (false && any(close_call)) decide_in_double'
 fault "shadows: the automatic bias lifts nothing" src/shading/shadow_map.h 'kAutomaticLift = 0.5f' 'kAutomaticLift = 0.0f'
-fault "shadows: where nothing was drawn a steep plane is dark" src/shading/shadow_view.h 'max(depth, R(0)) >= map_depth' 'depth >= map_depth'
+fault "shadows: where nothing was drawn a steep plane is dark" src/shading/shadow_view.h 'max(depth, R(0)) >= nearest' 'depth >= nearest'
+fault "map rows: the last texels are taken for inside" src/shading/map_row.h 'IntOf<R>(width - 4)' 'IntOf<R>(width - 2)'
 fault "differences: one code counts as above" src/scene/image_difference.cpp 'e > 1.0 / 255.0' 'e >= 1.0 / 255.0'
 fault "differences: percentile a rank too low" src/scene/image_difference.cpp 'std::ceil(0.999 * count)) - 1' 'std::ceil(0.999 * count)) - 2'
 fault "differences: alpha never counts" src/scene/image_difference.cpp 'is_opaque(a) && is_opaque(b) ? 3 : 4' 'is_opaque(a) || is_opaque(b) ? 3 : 4'
@@ -115,6 +116,7 @@ fault "constant tiles: pairs whose edges only run the same way" src/raster/cover
 fault "fixed powers: one entry too low" src/core/fixed_power.h 'look_up(high_, (i >> 27) & 15)' 'look_up(high_, (i >> 27) & 7)'
 fault "setup in lanes: outcodes of later vertices forgotten" src/raster/pass.cpp 'frame_.shaded[t.draw].any_outcode |= t.any' 'frame_.shaded[t.draw].any_outcode = 0 & t.any'
 fault "textures: the level is one too small" src/shading/texture.h '>> 23) - 127;' '>> 23) - 129;'
+fault "rows of words: from right to left" src/core/fours.h 'row[n] = words[n];' 'row[n] = words[N - 1 - n];'
 fault "fours: two words of a record swapped" src/core/fours.h 'word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd))' 'word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd))'
 
 if [ "${1:-}" = list ]; then

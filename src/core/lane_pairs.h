@@ -9,7 +9,7 @@
 
 #include <functional>
 
-#include "core/lanes.h"
+#include "core/fours.h"
 
 namespace halfspace {
 
@@ -195,6 +195,13 @@ HS_INLINE RealPair<H> gather(const float* base, IntPair<H> i) {
 template <class H>
 HS_INLINE IntPair<H> gather(const int32_t* base, IntPair<H> i) {
   return {gather(base, i.low), gather(base, i.high)};
+}
+template <int N, class Word, class H>
+HS_INLINE auto gather_row(const Word* base, IntPair<H> i) {
+  const auto low = gather_row<N>(base, i.low), high = gather_row<N>(base, i.high);
+  std::array<decltype(gather(base, i)), N> row;
+  for (std::size_t n = 0; n < N; ++n) row[n] = {low[n], high[n]};
+  return row;
 }
 template <class H>
 HS_INLINE IntPair<H> look_up(const std::array<int32_t, 16>& table, IntPair<H> i) {

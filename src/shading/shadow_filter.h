@@ -54,24 +54,26 @@ HS_INLINE R hard_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
   return lit_by_texel(view, p, truncate_to_int(floor(p.x)), truncate_to_int(floor(p.y)));
 }
 
-/// The mean over a square of `width` x `width` texels round the place: whole texels count 1, those at the square's border by
-/// their part within it. width 1 is bilinear comparison.
-template <class R>
-HS_INLINE R box_shadow(const ShadowView& view, const ShadowPlace<R>& p, int width) {
-  const R left = p.x - R(0.5f * static_cast<float>(width)), low = p.y - R(0.5f * static_cast<float>(width));
+/// The mean over a square of width x width texels round the place: whole texels count 1, those at the square's border by
+/// their part within it. width is odd; 1 is bilinear comparison.
+template <int width, class R>
+HS_INLINE R box_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
+  const R left = p.x - R(0.5f * width), low = p.y - R(0.5f * width);
   const R left_texel = floor(left), low_texel = floor(low);
   const R fx = left - left_texel, fy = low - low_texel;
   const IntOf<R> i0 = truncate_to_int(left_texel), j0 = truncate_to_int(low_texel);
+  constexpr int at_once = width % 4 == 3 ? 4 : 2;
   R sum(0);
   for (int j = 0; j <= width; ++j) {
     R row(0);
-    for (int i = 0; i <= width; ++i) {
-      const R weight = i == 0 ? R(1) - fx : i == width ? fx : R(1);
-      row = fma(weight, lit_by_texel(view, p, IntOf<R>(i0 + i), IntOf<R>(j0 + j)), row);
+    for (int i = 0; i <= width; i += at_once) {
+      const std::array<R, at_once> lit = lit_by_texels<at_once>(view, p, IntOf<R>(i0 + i), IntOf<R>(j0 + j));
+      for (int n = 0; n < at_once; ++n)
+        row = fma(i + n == 0 ? R(1) - fx : i + n == width ? fx : R(1), lit[static_cast<std::size_t>(n)], row);
     }
     sum = fma(j == 0 ? R(1) - fy : j == width ? fy : R(1), row, sum);
   }
-  return sum * R(1.0f / static_cast<float>(width * width));
+  return sum * R(1.0f / (width * width));
 }
 
 /// The mean of nine texels, all alike: the plain form of pcf3, as the day and night's original has it.
@@ -80,7 +82,7 @@ HS_INLINE R nine_texels(const ShadowView& view, const ShadowPlace<R>& p) {
   const IntOf<R> i = truncate_to_int(floor(p.x)), j = truncate_to_int(floor(p.y));
   R sum(0);
   for (int dj = -1; dj <= 1; ++dj) {
-    for (int di = -1; di <= 1; ++di) sum += lit_by_texel(view, p, IntOf<R>(i + di), IntOf<R>(j + dj));
+    for (const R& lit : lit_by_texels<3>(view, p, IntOf<R>(i - 1), IntOf<R>(j + dj))) sum += lit;
   }
   return sum * R(1.0f / 9.0f);
 }
@@ -144,10 +146,10 @@ template <class R>
 HS_INLINE R filtered_shadow(const ShadowView& view, const ShadowSettings& s, const ShadowPlace<R>& p, const ShadowReceiver<R>& at) {
   switch (s.filter) {
     case ShadowFilter::hard: return hard_shadow(view, p);
-    case ShadowFilter::bilinear: return box_shadow(view, p, 1);
-    case ShadowFilter::pcf3: return s.bias == ShadowBias::original ? nine_texels(view, p) : box_shadow(view, p, 3);
-    case ShadowFilter::pcf5: return box_shadow(view, p, 5);
-    case ShadowFilter::pcf7: return box_shadow(view, p, 7);
+    case ShadowFilter::bilinear: return box_shadow<1>(view, p);
+    case ShadowFilter::pcf3: return s.bias == ShadowBias::original ? nine_texels(view, p) : box_shadow<3>(view, p);
+    case ShadowFilter::pcf5: return box_shadow<5>(view, p);
+    case ShadowFilter::pcf7: return box_shadow<7>(view, p);
     case ShadowFilter::vogel: return disk_shadow<16>(view, p, R(s.radius), detail::turn_of(at));
     case ShadowFilter::pcss: return soft_shadow(view, p, s.light_radius, detail::turn_of(at));
     case ShadowFilter::vsm: return chebyshev_shadow(view, p);

@@ -25,10 +25,8 @@ HS_INLINE vec4<R> moments_at(const ShadowView& view, const ShadowPlace<R>& p) {
   const auto texel = [&](IntOf<R> column, IntOf<R> row) {
     column = min(max(column, IntOf<R>(0)), last);
     row = last - min(max(row, IntOf<R>(0)), last);
-    const IntOf<R> first = (row * IntOf<R>(view.size) + column) * IntOf<R>(4);
-    const float* base = &view.moments->x;
-    return vec4<R>(R(gather(base, first)), R(gather(base, IntOf<R>(first + 1))), R(gather(base, IntOf<R>(first + 2))),
-                   R(gather(base, IntOf<R>(first + 3))));
+    const auto m = gather_row<4>(&view.moments->x, IntOf<R>((row * IntOf<R>(view.size) + column) * IntOf<R>(4)));
+    return vec4<R>(R(m[0]), R(m[1]), R(m[2]), R(m[3]));
   };
   const IntOf<R> i1 = i + IntOf<R>(1), j1 = j + IntOf<R>(1);
   const vec4<R> lower = texel(i, j) * (R(1) - fx) + texel(i1, j) * fx;

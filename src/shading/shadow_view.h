@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/lane_math.h"
+#include "shading/map_row.h"
 #include "shading/shadow_map.h"
 
 namespace halfspace {
@@ -50,21 +51,48 @@ HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_ew, con
   p.depth_dy = clamp(plane.y * scale, -limit, limit);
 }
 
+namespace detail {
+
+/// The map's row of texels (…, j); beyond the map's edge the nearest.
+template <class R>
+HS_INLINE IntOf<R> row_of(const ShadowView& view, IntOf<R> j) {
+  const IntOf<R> last(view.size - 1);
+  return last - min(max(j, IntOf<R>(0)), last);
+}
+
+/// 1 where the light reaches the place as far as texel (i, j) of depth `nearest` tells, else 0.
+template <class R>
+HS_INLINE R lit(const ShadowPlace<R>& p, IntOf<R> i, IntOf<R> j, R nearest) {
+  const R dx = to_real<R>(i) + R(0.5f) - p.x, dy = to_real<R>(j) + R(0.5f) - p.y;
+  const R depth = fma(p.depth_dy, dy, fma(p.depth_dx, dx, p.depth));
+  return select(max(depth, R(0)) >= nearest, R(1), R(0));
+}
+
+}  // namespace detail
+
 /// Depth of texel (i, j); beyond the map's edge that of the nearest texel.
 template <class R>
 HS_INLINE R map_depth(const ShadowView& view, IntOf<R> i, IntOf<R> j) {
-  const IntOf<R> last(view.size - 1);
-  const IntOf<R> column = min(max(i, IntOf<R>(0)), last), row = last - min(max(j, IntOf<R>(0)), last);
-  return R(gather(view.depth, IntOf<R>(row * IntOf<R>(view.size) + column)));
+  const IntOf<R> column = min(max(i, IntOf<R>(0)), IntOf<R>(view.size - 1));
+  return R(gather(view.depth, IntOf<R>(detail::row_of<R>(view, j) * IntOf<R>(view.size) + column)));
 }
 
 /// 1 where the light reaches the place as far as texel (i, j) tells, else 0. Where nothing was drawn the texel is 0 and the place is
 /// lit, even if its plane falls beyond the view's far end.
 template <class R>
 HS_INLINE R lit_by_texel(const ShadowView& view, const ShadowPlace<R>& p, IntOf<R> i, IntOf<R> j) {
-  const R dx = to_real<R>(i) + R(0.5f) - p.x, dy = to_real<R>(j) + R(0.5f) - p.y;
-  const R depth = fma(p.depth_dy, dy, fma(p.depth_dx, dx, p.depth));
-  return select(max(depth, R(0)) >= map_depth<R>(view, i, j), R(1), R(0));
+  return detail::lit(p, i, j, map_depth<R>(view, i, j));
+}
+
+/// The same of texels (i, j), …, (i + N − 1, j), N up to 4.
+template <int N, class R>
+HS_INLINE std::array<R, N> lit_by_texels(const ShadowView& view, const ShadowPlace<R>& p, IntOf<R> i, IntOf<R> j) {
+  std::array<R, N> texels = map_row<N, R>(view.depth, view.size, i, detail::row_of<R>(view, j));
+  for (int n = 0; n < N; ++n) {
+    R& texel = texels[static_cast<std::size_t>(n)];
+    texel = detail::lit(p, IntOf<R>(i + IntOf<R>(n)), j, texel);
+  }
+  return texels;
 }
 
 }  // namespace halfspace

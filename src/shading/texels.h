@@ -66,7 +66,7 @@ struct Rgba16fTexels {
   const int32_t* words;
 
   HS_INLINE Value operator()(IntOf<R> i) const {
-    const IntOf<R> rg = gather(words, i << 1), ba = gather(words, (i << 1) + 1);
+    const auto [rg, ba] = gather_row<2>(words, IntOf<R>(i << 1));
     return {low_half<R>(rg), low_half<R>(rg >> 16), low_half<R>(ba), low_half<R>(ba >> 16)};
   }
   HS_INLINE Value to_linear(const Value& v) const { return v; }
@@ -78,7 +78,8 @@ struct Rgba32fTexels {
   const int32_t* words;
 
   HS_INLINE Value operator()(IntOf<R> i) const {
-    const auto channel = [&](int k) { return R(as_real(gather(words, (i << 2) + k))); };
+    const auto texel = gather_row<4>(words, IntOf<R>(i << 2));
+    const auto channel = [&](std::size_t k) { return R(as_real(texel[k])); };
     return {channel(0), channel(1), channel(2), channel(3)};
   }
   HS_INLINE Value to_linear(const Value& v) const { return v; }

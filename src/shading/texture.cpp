@@ -153,6 +153,9 @@ std::size_t words_of(std::size_t texels, TexelFormat format) {
   }
 }
 
+// Look-ups read four words (gather_row) where the last texels may be two.
+constexpr std::size_t kRowSlack = 2;
+
 int32_t packed(glm::u8vec4 t) {
   const uint32_t bits = t.x | static_cast<uint32_t>(t.y) << 8 | static_cast<uint32_t>(t.z) << 16 | static_cast<uint32_t>(t.w) << 24;
   return static_cast<int32_t>(bits);
@@ -230,7 +233,7 @@ void Texture2D::add_levels(std::span<const Image<Texel>> levels) {
   HS_CHECK_OP(levels.size(), >=, 1u);
   std::size_t size = 0;
   for (const Image<Texel>& level : levels) size += with_border(level.width(), level.height());
-  texels_.reserve(words_of(size, format_));
+  texels_.reserve(words_of(size, format_) + kRowSlack);
   for (const Image<Texel>& level : levels) add_level(level, nullptr);
 }
 
@@ -257,7 +260,7 @@ void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
   }
   const std::size_t end = begin + with_border(image.width(), image.height());
   HS_CHECK_OP(words_of(end, format_), <, std::size_t{1} << 31);  // 32-bit indices reach no farther
-  texels_.resize(words_of(end, format_));
+  texels_.resize(words_of(end, format_) + kRowSlack);
   const auto l = static_cast<std::size_t>(levels_++);
   width_[l] = image.width();
   height_[l] = image.height();

@@ -168,7 +168,8 @@ class Texture2D {
   std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{}, pitch_{};  // offset: index of a level's texel (0, 0)
   std::array<int32_t, kMaxLevels> columns_{}, rows_{};                       // width and height as floats' bits
   // All levels, texel after texel as texels.h reads them; red in the low byte. Round each level stands a border of the texels
-  // that repeating would show there, so that a texel's neighbours lie beside it, across the seams too.
+  // that repeating would show there, so that a texel's neighbours lie beside it, across the seams too. Behind the last
+  // are some words that gather_row may read.
   std::vector<int32_t, LineAllocator<int32_t>> texels_;
 };
 
@@ -229,8 +230,8 @@ struct Texture2D::CommonLookup {
 
   /// The texels at index and right of it.
   HS_INLINE detail::TexelPair<IntOf<R>> pair(IntOf<R> index) const {
-    const int32_t* texels = texture.texels_.data();
-    return {gather(texels, index), gather(texels + 1, index)};
+    const auto [left, right] = gather_row<2>(texture.texels_.data(), index);
+    return {left, right};
   }
 
   /// One level, in filtering units. st in [0, 1].

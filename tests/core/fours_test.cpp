@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "core/lane_pairs.h"
+
 namespace halfspace {
 namespace {
 
@@ -73,6 +75,43 @@ TYPED_TEST(Fours, ThreesAreReadInOrder) {
       for (int k = 0; k < kWidth<TypeParam>; ++k)
         EXPECT_EQ(lane(words[static_cast<std::size_t>(i)], k), 100 + start + 3 * k + i) << i << ' ' << k;
     }
+  }
+}
+
+// N neighbouring words by gather_row and by gathers, from random places and from the last that four words can be read from.
+template <int N, class I, class Word>
+void expect_rows(const std::vector<Word>& memory, const std::vector<std::size_t>& at) {
+  I i{};
+  for (int k = 0; k < kWidth<I>; ++k) set_lane(i, k, static_cast<int32_t>(at[static_cast<std::size_t>(k)]));
+  const auto row = gather_row<N>(memory.data(), i);
+  static_assert(std::tuple_size_v<decltype(row)> == N);
+  for (std::size_t n = 0; n < N; ++n) {
+    for (int k = 0; k < kWidth<I>; ++k)
+      ASSERT_EQ(lane(row[n], k), memory[at[static_cast<std::size_t>(k)] + n]) << N << ' ' << n << ' ' << k;
+  }
+}
+
+template <class I>
+class Rows : public testing::Test {};
+using WidthsAndPairs =
+    testing::Types<int32_t, IntN<4>, IntN<8>, IntN<16>, IntPair<float>, IntPair<RealN<4>>, IntPair<RealN<8>>, IntPair<RealN<16>>>;
+TYPED_TEST_SUITE(Rows, WidthsAndPairs);
+
+TYPED_TEST(Rows, AreGathered) {
+  std::mt19937 random(3);
+  std::vector<int32_t> words(kWords);
+  std::vector<float> numbers(kWords);
+  for (std::size_t i = 0; i < kWords; ++i) {
+    words[i] = static_cast<int32_t>(random());
+    numbers[i] = static_cast<float>(words[i]);
+  }
+  for (int round = 0; round < 100; ++round) {
+    const std::vector<std::size_t> at = places<TypeParam>(random);
+    expect_rows<1, TypeParam>(words, at);
+    expect_rows<2, TypeParam>(words, at);
+    expect_rows<3, TypeParam>(words, at);
+    expect_rows<4, TypeParam>(words, at);
+    expect_rows<3, TypeParam>(numbers, at);
   }
 }
 
