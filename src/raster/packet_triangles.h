@@ -215,6 +215,23 @@ HS_INLINE void put_triangles(const TriangleLanes<Real>& from, TriangleLanes<Frag
 /// Triangles of a packet from which on they are gathered, not merged one by one.
 inline constexpr int kGatherFrom = 4;
 
+/// Of the lanes (a bit each) those whose triangle no lower one shows; beyond `most` of them any may be left out.
+HS_INLINE uint32_t first_lanes(Int packet_ids, const TriangleId* ids, uint32_t lanes, int most) {
+#ifdef __AVX512CD__
+  if constexpr (kLanes == 16) {
+    const __m512i equal_before = _mm512_maskz_conflict_epi32(kAll16, (__m512i)packet_ids.v);
+    return lanes & _mm512_testn_epi32_mask(equal_before, _mm512_set1_epi32(static_cast<int32_t>(lanes)));
+  }
+#endif
+  uint32_t firsts = 0;
+  for (uint32_t rest = lanes; rest != 0 && most > 0; --most) {
+    const int lane = std::countr_zero(rest);
+    firsts |= 1u << lane;
+    rest &= ~bits(packet_ids == Int(std::bit_cast<int32_t>(ids[lane])));
+  }
+  return firsts;
+}
+
 /// The triangles of a packet, the i-th of t: one, few or many. t.only[i] is the one that t holds already, if it holds one alone.
 template <int i, class V, std::size_t N, std::size_t P>
 HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V>& recent, PacketTriangles<N, P>& t) {
@@ -226,28 +243,24 @@ HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, Rec
   }
   const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
   const Int packet_ids = load<Int>(ids);
-  uint32_t rest = packet.lanes;
-  const auto next = [&] { return ids[std::countr_zero(rest)]; };
-  const auto showing = [&](TriangleId id) { return packet_ids == Int(std::bit_cast<int32_t>(id)); };
-  int triangles = 0;
-  for (; rest != 0 && triangles < kGatherFrom; ++triangles) rest &= ~bits(showing(next()));
-  if (triangles == 1 && only == ids[std::countr_zero(static_cast<uint32_t>(packet.lanes))]) return;
-  only = kNoTriangle;
-  if (triangles == kGatherFrom) {
+  uint32_t firsts = first_lanes(packet_ids, ids, packet.lanes, kGatherFrom);
+  const TriangleId first = ids[std::countr_zero(firsts)];
+  const int triangles = std::popcount(firsts);
+  if (triangles == 1 && only == first) return;
+  only = triangles == 1 ? first : kNoTriangle;
+  if (triangles >= kGatherFrom) {
     TriangleRows rows;
     TriangleLanes<Real> lanes;
     if (gather_rows(*batch.frame, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
       put_triangles<i>(lanes, t.lanes);
       return gather_components<i, V>(rows, t);
     }
+    firsts = first_lanes(packet_ids, ids, packet.lanes, kLanes);
   }
-  rest = packet.lanes;
-  TriangleId id = next();
-  merge_triangle<i, true>(recent.of(*batch.frame, id), Mask(true), t);
-  if (triangles == 1) only = id;
-  for (rest &= ~bits(showing(id)); rest != 0; rest &= ~bits(showing(id))) {
-    id = next();
-    merge_triangle<i, false>(recent.of(*batch.frame, id), showing(id), t);
+  merge_triangle<i, true>(recent.of(*batch.frame, first), Mask(true), t);
+  for (uint32_t rest = firsts & (firsts - 1); rest != 0; rest &= rest - 1) {
+    const TriangleId id = ids[std::countr_zero(rest)];
+    merge_triangle<i, false>(recent.of(*batch.frame, id), packet_ids == Int(std::bit_cast<int32_t>(id)), t);
   }
 }
 
