@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Records that lie anywhere, read and written by lanes: four neighbouring words of each at once, turned word by word in registers, where
-// gathers would fetch every word by itself. And records of three words that lie side by side.
+// gathers would fetch every word by itself; the same of neighbours by their index; and records of three words that lie side by side.
 #pragma once
 
 #include <array>
@@ -102,28 +102,6 @@ HS_INLINE std::array<I, 4> load_fours(const Place& place) {
   }
 }
 
-/// base[i], …, base[i + N − 1] lane by lane, N up to 4: faster than N gathers where N > 1. Four words from base[i] on must be readable
-/// for every lane, whether its result is used or not.
-template <int N, class Word, class I>
-HS_INLINE auto gather_row(const Word* base, I i) {
-  std::array<decltype(gather(base, i)), N> row;
-  if constexpr (N > 1 && detail::kTurnsFours<I>) {
-    std::array<int32_t, sizeof(I) / sizeof(int32_t)> at;
-    store(at.data(), i);
-    const auto words = load_fours<I>([&](int k) { return base + at[static_cast<std::size_t>(k)]; });
-    for (std::size_t n = 0; n < N; ++n) {
-      if constexpr (std::is_same_v<Word, float>) {
-        row[n] = as_real(words[n]);
-      } else {
-        row[n] = words[n];
-      }
-    }
-  } else {
-    for (std::size_t n = 0; n < N; ++n) row[n] = gather(base + n, i);
-  }
-  return row;
-}
-
 /// The other way: writes lane k of the four words to place(k) … place(k) + 15, in the order of k or any other. Places of several lanes may
 /// be one, where any of them is left.
 template <class I, class Place>
@@ -162,6 +140,28 @@ HS_INLINE std::array<I, 3> load_threes(const int32_t* p) {
     constexpr std::make_index_sequence<w> lanes;
     return {I(detail::third<0>(a, b, c, lanes)), I(detail::third<1>(a, b, c, lanes)), I(detail::third<2>(a, b, c, lanes))};
   }
+}
+
+/// base[i], …, base[i + N − 1] lane by lane, N up to 4: faster than N gathers where N > 1. Four words from base[i] on must be readable
+/// for every lane, whether its result is used or not.
+template <int N, class Word, class I>
+HS_INLINE auto gather_row(const Word* base, I i) {
+  std::array<decltype(gather(base, i)), N> row;
+  if constexpr (N > 1 && detail::kTurnsFours<I>) {
+    std::array<int32_t, sizeof(I) / sizeof(int32_t)> at;
+    store(at.data(), i);
+    const auto words = load_fours<I>([&](int k) { return base + at[static_cast<std::size_t>(k)]; });
+    for (std::size_t n = 0; n < N; ++n) {
+      if constexpr (std::is_same_v<Word, float>) {
+        row[n] = as_real(words[n]);
+      } else {
+        row[n] = words[n];
+      }
+    }
+  } else {
+    for (std::size_t n = 0; n < N; ++n) row[n] = gather(base + n, i);
+  }
+  return row;
 }
 
 }  // namespace halfspace
