@@ -216,9 +216,10 @@ HS_INLINE void put_triangles(const TriangleLanes<Real>& from, TriangleLanes<Frag
 inline constexpr int kGatherFrom = 4;
 
 /// Of the lanes (a bit each) those whose triangle no lower one shows; beyond `most` of them any may be left out.
-HS_INLINE uint32_t first_lanes(Int packet_ids, const TriangleId* ids, uint32_t lanes, int most) {
+template <class I>
+HS_INLINE uint32_t first_lanes(I packet_ids, const TriangleId* ids, uint32_t lanes, int most) {
 #ifdef __AVX512CD__
-  if constexpr (kLanes == 16) {
+  if constexpr (std::is_same_v<I, IntN<16>>) {
     const __m512i equal_before = _mm512_maskz_conflict_epi32(kAll16, (__m512i)packet_ids.v);
     return lanes & _mm512_testn_epi32_mask(equal_before, _mm512_set1_epi32(static_cast<int32_t>(lanes)));
   }
@@ -227,7 +228,7 @@ HS_INLINE uint32_t first_lanes(Int packet_ids, const TriangleId* ids, uint32_t l
   for (uint32_t rest = lanes; rest != 0 && most > 0; --most) {
     const int lane = std::countr_zero(rest);
     firsts |= 1u << lane;
-    rest &= ~bits(packet_ids == Int(std::bit_cast<int32_t>(ids[lane])));
+    rest &= ~bits(packet_ids == I(std::bit_cast<int32_t>(ids[lane])));
   }
   return firsts;
 }
