@@ -42,6 +42,18 @@ target_compile_options(halfspace_flags INTERFACE -march=${HALFSPACE_ARCH} -ffp-c
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-psabi)
 if(arch_macros MATCHES "__AVX512F__")
   target_compile_options(halfspace_flags INTERFACE -mprefer-vector-width=512)
+  set(vector_bits 512)
+elseif(arch_macros MATCHES "__AVX__")
+  set(vector_bits 256)
+else()
+  set(vector_bits 128)
+endif()
+# Vectors are copied whole. For many processors, and for x86-64-v3, g++ 12 copies them in halves or quarters; who then loads the
+# whole vector waits until every part has left the store buffer.
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag("-mmove-max=${vector_bits} -mstore-max=${vector_bits}" HALFSPACE_HAS_MOVE_MAX)
+if(HALFSPACE_HAS_MOVE_MAX)
+  target_compile_options(halfspace_flags INTERFACE -mmove-max=${vector_bits} -mstore-max=${vector_bits})
 endif()
 if(HALFSPACE_WERROR)
   target_compile_options(halfspace_flags INTERFACE -Werror)
