@@ -153,16 +153,17 @@ class Pass {
   void run_strip(int tile_x0, int tile_x1, int tile_y, Round round, PassStatistics& statistics) const;
   void run_tile(int tile_x, int tile_y, bool drawn, Round round, PassStatistics& statistics) const;
   bool is_drawn(int tile_x, int tile_y) const;
-  PixelBounds pixels_of(int tile_x, int tile_y) const;
+  // The pixels of the tiles [tile_x0, tile_x1) of a row of tiles.
+  PixelBounds pixels_of(int tile_x0, int tile_x1, int tile_y) const;
   void place_tile(Tile& tile, int tile_x, int tile_y) const;
   // Pixels that get one colour, and that goes into the images at once: of a draw, or (null) what they are cleared to, with their depth.
   struct FlatArea {
     PixelBounds pixels;
     const Draw* draw;
   };
-  // What such a tile gets, where nothing is drawn in it, or its only triangle covers it wholly with one colour; and counts what it
-  // draws. Of a round that is alone.
-  std::optional<const Draw*> flat_tile(int tile_x, int tile_y, PassStatistics& statistics) const;
+  // What such tiles, [tile_x0, tile_x1) of a row, get, where nothing is drawn in them, or one or two triangles alone cover them wholly with
+  // one colour; and counts what it draws. Of a round that is alone.
+  std::optional<const Draw*> flat_tiles(int tile_x0, int tile_x1, int tile_y, PassStatistics& statistics) const;
   void fill_images(const FlatArea& area) const;
   void run_post_step(const Tile& tile) const;
   void draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index, bool& waiting, CoverageList& list,

@@ -8,6 +8,7 @@
 #include "raster/bin.h"
 #include "raster/covered_area.h"
 #include "raster/pass.h"
+#include "raster/pixel_box.h"
 #include "raster/resolve.h"
 #include "raster/shade.h"
 #include "raster/visibility.h"
@@ -31,16 +32,9 @@ std::vector<int> Pass::fill_flat_rows(const Workers& workers, PassStatistics& st
   std::vector<PassStatistics> by_row(static_cast<std::size_t>(frame_.tiles_y));
   std::vector<uint8_t> filled(by_row.size());
   workers.for_each(frame_.tiles_y, [&](int y) {
-    PassStatistics& counts = by_row[static_cast<std::size_t>(y)];
-    const std::optional<const Draw*> first = flat_tile(0, y, counts);
-    const Draw* const draw = first.value_or(nullptr);
-    bool same = first.has_value();
-    for (int x = 1; same && x < frame_.tiles_x; ++x) {
-      const std::optional<const Draw*> next = flat_tile(x, y, counts);
-      same = next.has_value() && *next == draw;
-    }
-    filled[static_cast<std::size_t>(y)] = same;
-    if (same) fill_images({{0, pixels_of(0, y).y0, frame_.width, pixels_of(0, y).y1}, draw});
+    const std::optional<const Draw*> flat = flat_tiles(0, frame_.tiles_x, y, by_row[static_cast<std::size_t>(y)]);
+    filled[static_cast<std::size_t>(y)] = flat.has_value();
+    if (flat) fill_images({pixels_of(0, frame_.tiles_x, y), *flat});
   });
   std::vector<int> rest;
   for (int y = 0; y < frame_.tiles_y; ++y) {
@@ -78,9 +72,9 @@ void Pass::run_strip(int tile_x0, int tile_x1, int tile_y, Round round, PassStat
   const bool alone = is_alone(round);
   FlatArea area{};  // of the tiles before this one
   for (int x = tile_x0; x < tile_x1; ++x) {
-    const std::optional<const Draw*> flat = alone ? flat_tile(x, tile_y, statistics) : std::nullopt;
+    const std::optional<const Draw*> flat = alone ? flat_tiles(x, x + 1, tile_y, statistics) : std::nullopt;
     const Draw* const draw = flat.value_or(nullptr);
-    const PixelBounds pixels = pixels_of(x, tile_y);
+    const PixelBounds pixels = pixels_of(x, x + 1, tile_y);
     if (flat && !area.pixels.empty() && area.draw == draw) {
       area.pixels.x1 = pixels.x1;
       continue;
@@ -109,9 +103,9 @@ bool Pass::is_drawn(int tile_x, int tile_y) const {
   return std::any_of(frame_.chunks.begin(), frame_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
 }
 
-PixelBounds Pass::pixels_of(int tile_x, int tile_y) const {
-  const int x0 = tile_x * frame_.tile_size, y0 = tile_y * frame_.tile_size;
-  return {x0, y0, std::min(x0 + frame_.tile_size, frame_.width), std::min(y0 + frame_.tile_size, frame_.height)};
+PixelBounds Pass::pixels_of(int tile_x0, int tile_x1, int tile_y) const {
+  const int size = frame_.tile_size;
+  return {tile_x0 * size, tile_y * size, std::min(tile_x1 * size, frame_.width), std::min(tile_y * size + size, frame_.height)};
 }
 
 void Pass::run_tile(int tile_x, int tile_y, bool drawn, Round round, PassStatistics& statistics) const {
@@ -150,7 +144,7 @@ void Pass::run_tile(int tile_x, int tile_y, bool drawn, Round round, PassStatist
 }
 
 void Pass::place_tile(Tile& tile, int tile_x, int tile_y) const {
-  const PixelBounds pixels = pixels_of(tile_x, tile_y);
+  const PixelBounds pixels = pixels_of(tile_x, tile_x + 1, tile_y);
   tile.size = frame_.tile_size;
   tile.samples = frame_.samples;
   tile.color_count = static_cast<int>(colors_.size());
@@ -160,36 +154,35 @@ void Pass::place_tile(Tile& tile, int tile_x, int tile_y) const {
   tile.height = pixels.y1 - pixels.y0;
 }
 
-std::optional<const Draw*> Pass::flat_tile(int tile_x, int tile_y, PassStatistics& statistics) const {
+std::optional<const Draw*> Pass::flat_tiles(int tile_x0, int tile_x1, int tile_y, PassStatistics& statistics) const {
   std::array<const Triangle*, 2> triangles{};
   std::size_t count = 0;
   const Draw* draw = nullptr;
   for (const Chunk& c : frame_.chunks) {
-    for (const uint16_t index : bin_of(c, tile_x, tile_y)) {
-      const Triangle& t = c.triangles[index];
-      const Draw& of = frame_.draws[c.segments[t.segment()].draw];
-      if (count == triangles.size() || (draw != nullptr && draw != &of)) return std::nullopt;
-      draw = &of;
-      triangles[count++] = &t;
+    for (int x = tile_x0; x < tile_x1; ++x) {
+      for (const uint16_t index : bin_of(c, x, tile_y)) {
+        const Triangle& t = c.triangles[index];
+        if (&t == triangles[0] || &t == triangles[1]) continue;
+        const Draw& of = frame_.draws[c.segments[t.segment()].draw];
+        if (count == triangles.size() || (draw != nullptr && draw != &of)) return std::nullopt;
+        draw = &of;
+        triangles[count++] = &t;
+      }
     }
   }
   if (draw == nullptr) return nullptr;
-  if (depth_.format != DepthFormat::none || !draw->deferred || !draw->kernels.is_constant || frame_.samples != 1 ||
-      draw->kernels.color_count < static_cast<int>(colors_.size())) {
-    return std::nullopt;
-  }
-  Tile tile;  // what the draw is asked for
-  place_tile(tile, tile_x, tile_y);
-  const DrawInTile here(frame_, *draw, VisibilityMode::deferred, tile);
-  const PixelBounds area = pixels_of(tile_x, tile_y);
+  const bool is_one_color = draw->deferred && draw->kernels.is_constant && draw->kernels.visibility == nullptr &&
+                            draw->kernels.color_count >= static_cast<int>(colors_.size());
+  if (!is_one_color || depth_.format != DepthFormat::none || frame_.samples != 1) return std::nullopt;
+  const PixelBounds area = pixels_of(tile_x0, tile_x1, tile_y);
   const bool is_triangle =
       std::none_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is(kSprite | kLine); });
-  if (!here.is_plain || here.bounds != area || !is_triangle ||
+  if (cut(area, draw->bounds) != area || !is_triangle ||
       !(count == 1 ? covers(*triangles[0], area) : cover_together(*triangles[0], *triangles[1], area))) {
     return std::nullopt;
   }
-  const auto samples = static_cast<uint64_t>(tile.width) * static_cast<uint64_t>(tile.height);
-  ++statistics.tiles_touched;
+  const auto samples = static_cast<uint64_t>(area.x1 - area.x0) * static_cast<uint64_t>(area.y1 - area.y0);
+  statistics.tiles_touched += static_cast<uint64_t>(tile_x1 - tile_x0);
   statistics.samples_tested += samples;
   statistics.samples_passed += samples;
   statistics.fragments_shaded += samples;
