@@ -185,20 +185,27 @@ using Mask = MaskOf<Real>;
 
 // ---- masks -----------------------------------------------------------------------------------------------------
 
+HS_INLINE uint32_t negative_bits(int32_t i) { return i < 0 ? 1u : 0u; }
+/// The lanes below 0, one bit each, lane 0 lowest.
+template <int W>
+HS_INLINE uint32_t negative_bits(IntN<W> i) {
+#ifdef __AVX512DQ__
+  if constexpr (W == 16) return static_cast<uint32_t>(_mm512_movepi32_mask((__m512i)i.v));
+#endif
+#ifdef __AVX__
+  if constexpr (W == 8) return static_cast<uint32_t>(_mm256_movemask_ps((__m256)i.v));
+#endif
+  if constexpr (W == 4) return static_cast<uint32_t>(_mm_movemask_ps((__m128)i.v));
+  uint32_t b = 0;
+  for (int k = 0; k < W; ++k) b |= (i.v[k] < 0 ? 1u : 0u) << k;
+  return b;
+}
+
 HS_INLINE uint32_t bits(bool m) { return m ? 1u : 0u; }
 /// One bit a lane, lane 0 lowest.
 template <int W>
 HS_INLINE uint32_t bits(MaskN<W> m) {
-#ifdef __AVX512DQ__
-  if constexpr (W == 16) return static_cast<uint32_t>(_mm512_movepi32_mask((__m512i)m.v));
-#endif
-#ifdef __AVX__
-  if constexpr (W == 8) return static_cast<uint32_t>(_mm256_movemask_ps((__m256)m.v));
-#endif
-  if constexpr (W == 4) return static_cast<uint32_t>(_mm_movemask_ps((__m128)m.v));
-  uint32_t b = 0;
-  for (int i = 0; i < W; ++i) b |= (m.v[i] != 0 ? 1u : 0u) << i;
-  return b;
+  return negative_bits(IntN<W>(m.v));
 }
 template <class M>
 inline constexpr uint32_t kAllBits = 1u;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/lanes.h"
 #include "raster/stages.h"
 
 namespace halfspace {
@@ -29,9 +30,16 @@ inline Edge edge_of(const Triangle& t, std::size_t i) {
 /// its right, towards +x) or a horizontal edge with the inside above it in window coordinates (y up). Our images hold
 /// the top row first, so it is the displayed lower edge that owns its samples, not the upper one as in D3D's top-left
 /// rule. tests/mesa shows that Mesa draws by the same rule into a framebuffer object.
-inline bool owns_its_samples(const Edge& e) { return e.ey < 0 || (e.ey == 0 && e.ex > 0); }
+template <class I>
+HS_INLINE auto owns_its_samples(I ex, I ey) {
+  return ey < I(0) || (ey == I(0) && ex > I(0));
+}
 
-/// Inside is E − bias ≥ 0.
-inline int32_t fill_bias(const Edge& e) { return owns_its_samples(e) ? 0 : 1; }
+/// Inside is E − bias ≥ 0. Of an edge (ex, ey), or lane by lane.
+template <class I>
+HS_INLINE I fill_bias(I ex, I ey) {
+  return select(owns_its_samples(ex, ey), I(0), I(1));
+}
+inline int32_t fill_bias(const Edge& e) { return fill_bias(e.ex, e.ey); }
 
 }  // namespace halfspace

@@ -219,9 +219,9 @@ void Pass::run_post_step(const Tile& tile) const {
 }
 
 // A tile's triangles lie scattered in their chunk, and their vertices too: so many are fetched ahead.
-constexpr std::size_t kTrianglesAhead = 12, kVerticesAhead = 3;
+constexpr std::size_t kTrianglesAhead = 16, kVerticesAhead = 3;
 
-void prefetch(const Triangle& t) {
+HS_INLINE void prefetch(const Triangle& t) {
   __builtin_prefetch(&t);
   __builtin_prefetch(&t.flags);  // which may lie in the next cache line
 }
@@ -235,6 +235,15 @@ void prefetch_vertex(const Frame& frame, const Chunk& chunk, const Triangle& t) 
   __builtin_prefetch(&shaded.screen[t.vertex[0]]);
   __builtin_prefetch(row);
   __builtin_prefetch(row + count);
+}
+
+// How many of a list's first triangles are small and of one draw, W at the most.
+std::size_t small_run(const Chunk& chunk, std::span<const uint16_t> bin) {
+  const std::size_t most = std::min(bin.size(), static_cast<std::size_t>(kLanes));
+  const uint32_t segment = chunk.triangles[bin[0]].segment();
+  std::size_t n = 0;
+  while (n < most && is_small_triangle(chunk.triangles[bin[n]]) && chunk.triangles[bin[n]].segment() == segment) ++n;
+  return n;
 }
 
 // waiting: there are visible pixels of the tile that are not shaded yet.
@@ -264,17 +273,27 @@ void Pass::draw_tile(Tile& tile, int tile_x, int tile_y, PassStatistics& statist
     const Chunk& chunk = frame_.chunks[c];
     const std::span<const uint16_t> bin = bin_of(chunk, tile_x, tile_y);
     const auto ahead = [&](std::size_t i) -> const Triangle& { return chunk.triangles[bin[std::min(i, bin.size() - 1)]]; };
-    for (std::size_t i = 0; i < bin.size(); ++i) {
+    for (std::size_t i = 0; i < bin.size();) {
       const uint16_t t = bin[i];
-      prefetch(ahead(i + kTrianglesAhead));
-      if (here && here->fetches_vertices) prefetch_vertex(frame_, chunk, ahead(i + kVerticesAhead));
       const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
       if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
       const uint64_t passed_before = statistics.samples_passed;
-      const bool showed = whole.shows();
-      const bool is_done = whole.take(*here, c, t, statistics);
-      waiting |= showed && !whole.shows();
-      if (!is_done) draw_triangle(*here, c, t, waiting, list, statistics);
+      const std::size_t small = here->is_plain && !whole.waits() ? small_run(chunk, bin.subspan(i)) : 0;
+      for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
+        prefetch(ahead(k + kTrianglesAhead));
+        if (here->fetches_vertices) prefetch_vertex(frame_, chunk, ahead(k + kVerticesAhead));
+      }
+      if (small != 0) {
+        rasterize_small(*here, c, bin.subspan(i, small), statistics);
+        waiting |= here->mode == VisibilityMode::deferred;
+        i += small;
+      } else {
+        const bool showed = whole.shows();
+        const bool is_done = whole.take(*here, c, t, statistics);
+        waiting |= showed && !whole.shows();
+        if (!is_done) draw_triangle(*here, c, t, waiting, list, statistics);
+        ++i;
+      }
       if (draw.state.query) statistics.add_to_query(*draw.state.query, statistics.samples_passed - passed_before);
     }
   }

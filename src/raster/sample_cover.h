@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "core/lanes.h"
+#include "raster/edge.h"
 #include "raster/pixel_box.h"
 
 namespace halfspace {
@@ -26,8 +27,7 @@ HS_INLINE IntOf<R> covered_centers(const std::array<IntOf<R>, 3>& x, const std::
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
     const I ex = x[b] - x[a], ey = y[b] - y[a];
-    const MaskOf<R> owns = ey < I(0) || (ey == I(0) && ex > I(0));
-    row[i] = ex * ((box.y0 << kSubPixelBits) + center - y[a]) - ey * ((box.x0 << kSubPixelBits) + center - x[a]) - select(owns, I(0), I(1));
+    row[i] = ex * ((box.y0 << kSubPixelBits) + center - y[a]) - ey * ((box.x0 << kSubPixelBits) + center - x[a]) - fill_bias(ex, ey);
     step_x[i] = -ey << kSubPixelBits;
     step_y[i] = ex << kSubPixelBits;
   }

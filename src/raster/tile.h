@@ -39,6 +39,14 @@ constexpr int packet_y(int p) {
   return i / kPixelsPerBlock / kBlocksPerRow * kBlockSize + block_y(i % kPixelsPerBlock);
 }
 
+/// Where pixel (x, y) of the tile lies in it. Of one, or lane by lane.
+template <class I>
+HS_INLINE I pixel_at(I x, I y) {
+  const auto spread = [](I i) { return (i & I(1)) | ((i & I(2)) << 1) | ((i & I(4)) << 2); };
+  static_assert(kBlockSize == 8 && kBlocksPerRow == 8);
+  return (((y >> 3 << 3) | (x >> 3)) << 6) | spread(x) | (spread(y) << 1);
+}
+
 /// How many packets after that of sample 0 the packet of another sample's cell lies.
 constexpr int packet_shift(const SampleCell& cell) {
   return (cell.y / kBlockSize * kBlocksPerRow + cell.x / kBlockSize) * kPacketsPerBlock;

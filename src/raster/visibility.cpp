@@ -250,6 +250,10 @@ void rasterize_sample(Context& c, const PixelBounds& b) {
 
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics) {
   const Triangle& t = d.frame.chunks[chunk].triangles[index];
+  if (d.is_plain && is_small_triangle(t)) {
+    const auto one = static_cast<uint16_t>(index);
+    return rasterize_small(d, chunk, {&one, 1}, statistics);
+  }
   if (d.is_plain) return rasterize_plain(d, t, triangle_id(chunk, index), statistics);
   const StencilFace* stencil = stencil_face(d.draw.state, d.tile, t.is(kFrontFacing));
   // A stencil value changes with what becomes of the sample: where the shader speaks later, so do both tests.

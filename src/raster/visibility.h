@@ -7,6 +7,8 @@
 // non-negative terms, so it keeps its relative accuracy: E exact for small triangles, else a difference of products.
 #pragma once
 
+#include <span>
+
 #include "raster/tile.h"
 #include "raster/tile_edges.h"
 
@@ -54,6 +56,11 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
 
 /// The same for a plain draw (visibility_plain.cpp).
 void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
+
+/// Is this for rasterize_small?
+inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kSprite)) == kSmall; }
+/// Rasterizes small triangles of a plain draw in the tile, one after the other: at most W of the chunk's, by their indices, not none.
+void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics);
 
 /// Covers the triangle of a plain draw every pixel of the tile's room?
 bool covers_tile(const DrawInTile& d, const Triangle& t);

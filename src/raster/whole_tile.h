@@ -21,7 +21,9 @@ class WholeTile {
     return take_or_write(d, t, triangle_id(chunk, index), statistics);
   }
 
-  /// Does a triangle wait that is still to be shaded?
+  /// Does a triangle wait?
+  bool waits() const { return waiting_.has_value(); }
+  /// Does one wait that is still to be shaded?
   bool shows() const { return waiting_ && waiting_->draw.mode == VisibilityMode::deferred; }
   /// Writes depth and id of what waits, if something does.
   void write();
