@@ -109,7 +109,7 @@ fault "small triangles: the last row of samples is not asked" src/raster/sample_
 fault "known pixels: cut at the left border alone" src/raster/visibility_small.cpp '&& py >= Int(d.bounds.y0) && px < Int(d.bounds.x1) && py < Int(d.bounds.y1);' ';'
 fault "known pixels: counted from the box that nothing cuts" src/raster/visibility_small.cpp 'find_pixels(d, x, y, cut(box, d.draw.bounds), covered' 'find_pixels(d, x, y, box, covered'
 fault "known pixels: more than there are" src/raster/visibility_small.cpp 'count + select(covered != Int(0), Int(1), Int(0))' 'count + Int(1)'
-fault "small triangles of several draws taken for one draw's" src/raster/pass_tiles.cpp '&& chunk.triangles[bin[n]].segment() == segment) ++n;' ') ++n;'
+fault "small triangles of several draws taken for one draw's" src/raster/pass_tiles.cpp '.segment() == segment) ++n;' '.segment() >= segment) ++n;'
 fault "large ones among the small are left out" src/raster/visibility_small.cpp 'rasterize_plain(d, c.triangles[indices[k]], id, statistics);' ''
 fault "known pixels: also of boxes with too many rows" src/raster/sample_cover.h 'select(box.is_at_most(kCoverSide, rows), centers' 'select(box.is_at_most(kCoverSide, kCoverSide), centers'
 fault "triangles without a list: their first corner thrice" src/raster/triangle_batch.cpp 'corner + static_cast<int32_t>(i)' 'corner'

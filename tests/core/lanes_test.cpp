@@ -273,6 +273,25 @@ TEST(Lanes, MasksAreTheirBits) {
   });
 }
 
+TEST(Lanes, NegativeOnesAreTheirBits) {
+  const auto check = []<class I>(I values) {
+    constexpr int width = static_cast<int>(sizeof(I) / sizeof(int32_t));
+    for (std::size_t first = 0; first < ints().size(); ++first) {
+      uint32_t expected = 0;
+      for (int k = 0; k < width; ++k) {
+        const int32_t value = ints()[(first + static_cast<std::size_t>(k)) % ints().size()];
+        set_lane(values, k, value);
+        expected |= (value < 0 ? 1u : 0u) << k;
+      }
+      EXPECT_EQ(negative_bits(values), expected);
+    }
+  };
+  check(0);
+  check(IntN<4>(0));
+  check(IntN<8>(0));
+  check(IntN<16>(0));
+}
+
 template <int W>
 void expect_masks_of_lanes() {
   for (int k = 0; k < W; ++k) {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Small triangles are rasterized W of a tile's list at once. What they draw must be what they draw one by one, each in a pass of its own:
+// every pixel and depth, and as many samples that pass. Draws alternate, depths tie, and extents go from a pixel to the largest that counts
+// as small and beyond.
+#include <algorithm>
+
+#include "raster/tile.h"
+#include "raster_test.h"
+
+namespace halfspace::raster_test {
+namespace {
+
+constexpr int kSize = 128;
+
+struct Triangles {
+  std::vector<glm::vec4> positions, colors;
+  DrawState state;
+};
+
+// A few triangles of one draw. Their first corner lies in or near the picture, all depths are one of five.
+Triangles random_triangles(Random& r) {
+  Triangles t;
+  const int count = r.integer(1, 3 * kLanes), largest = r.coin() ? 3 : r.coin() ? 16 : 70;
+  for (int i = 0; i < count; ++i) {
+    const Point at{r.integer(-8 * kSubPixels, (kSize + 8) * kSubPixels), r.integer(-8 * kSubPixels, (kSize + 8) * kSubPixels)};
+    const glm::vec4 color(r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 1.0f);
+    for (int corner = 0; corner < 3; ++corner) {
+      const Point p{at.x + r.integer(0, largest * kSubPixels), at.y + r.integer(0, largest * kSubPixels)};
+      t.positions.push_back(clip_position(p, kSize, kSize, 0.25f * static_cast<float>(r.integer(-2, 2))));
+      t.colors.push_back(color);
+    }
+  }
+  t.state.depth.test = r.integer(0, 5) != 0;
+  t.state.depth.write = r.integer(0, 4) != 0;
+  t.state.depth.compare = static_cast<CompareOp>(r.integer(0, 7));
+  if (r.coin()) t.state.scissor = Rect{r.integer(0, 40), r.integer(0, 40), r.integer(1, 90), r.integer(1, 90)};
+  return t;
+}
+
+struct Drawn {
+  Image<glm::vec4> color{kSize, kSize};
+  Image<float> depth{kSize, kSize};
+  PassStatistics statistics;
+};
+
+// Draws into what is there.
+void draw(std::span<const Triangles> draws, Drawn& out) {
+  ColorTarget color = rgba32f_target(out.color);
+  DepthTarget depth = d32f_target(out.depth);
+  color.load = depth.load = LoadOp::load;
+  Pass pass(kSize, kSize, color, depth);
+  for (const Triangles& t : draws) pass.draw(FlatColorShader{}, vertices(stream(t.positions), stream(t.colors)), t.state);
+  out.statistics += pass.run(one_worker());
+}
+
+// The k-th alone.
+Triangles only(const Triangles& t, std::size_t k) {
+  const auto three = [k](const std::vector<glm::vec4>& all) {
+    const std::span part = std::span(all).subspan(3 * k, 3);
+    return std::vector<glm::vec4>(part.begin(), part.end());
+  };
+  return {three(t.positions), three(t.colors), t.state};
+}
+
+TEST(SmallTriangles, AreDrawnTogetherAsOneByOne) {
+  Random random(22);
+  uint64_t passed = 0;
+  for (int i = 0; i < effort(400); ++i) {
+    std::vector<Triangles> draws(static_cast<std::size_t>(random.integer(1, 3)));
+    for (Triangles& t : draws) t = random_triangles(random);
+    Drawn together, single;
+    for (Drawn* d : {&together, &single}) std::fill_n(d->depth.data(), kSize * kSize, 0.5f);
+    draw(draws, together);
+    for (const Triangles& t : draws) {
+      for (std::size_t k = 0; k < t.positions.size() / 3; ++k) draw(std::array{only(t, k)}, single);
+    }
+    ASSERT_TRUE(std::equal(together.color.data(), together.color.data() + kSize * kSize, single.color.data())) << i;
+    ASSERT_TRUE(std::equal(together.depth.data(), together.depth.data() + kSize * kSize, single.depth.data())) << i;
+    ASSERT_EQ(together.statistics.samples_passed, single.statistics.samples_passed) << i;
+    passed += together.statistics.samples_passed;
+  }
+  EXPECT_GT(passed, static_cast<uint64_t>(effort(400)) * 100) << "hardly anything was drawn";
+}
+
+TEST(SmallTriangles, PixelsLieWhereTheirPacketsSay) {
+  for (int p = 0; p < kPackets; ++p) {
+    const Int together = pixel_at(lane_x() + packet_x(p), lane_y() + packet_y(p));
+    for (int k = 0; k < kLanes; ++k) {
+      ASSERT_EQ(lane(together, k), p * kLanes + k);
+      ASSERT_EQ(pixel_at(packet_x(p) + block_x(k), packet_y(p) + block_y(k)), p * kLanes + k);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfspace::raster_test
