@@ -14,9 +14,34 @@ namespace halfspace {
 
 namespace {
 
-struct Pair {
-  uint16_t tile_x, tile_y;
-  uint16_t triangle;
+// Which tile which triangle lies in, in the order of triangles. Neighbours mostly lie in one tile: such runs are kept and sorted as one.
+class TileRuns {
+ public:
+  explicit TileRuns(std::size_t triangles) { triangles_.reserve(triangles + triangles / 2); }
+
+  void put(int tile_x, int tile_y, uint16_t triangle) {
+    if (runs_.empty() || runs_.back().tile_x != tile_x || runs_.back().tile_y != tile_y) {
+      runs_.push_back({static_cast<uint16_t>(tile_x), static_cast<uint16_t>(tile_y), static_cast<uint32_t>(triangles_.size())});
+    }
+    triangles_.push_back(triangle);
+  }
+  std::size_t size() const { return triangles_.size(); }
+  // f(tile's x and y, the triangles of a run) for each.
+  template <class F>
+  void for_each(const F& f) const {
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : triangles_.size();
+      f(runs_[i].tile_x, runs_[i].tile_y, std::span(triangles_).subspan(runs_[i].first, end - runs_[i].first));
+    }
+  }
+
+ private:
+  struct Run {
+    uint16_t tile_x, tile_y;
+    uint32_t first;  // of triangles_
+  };
+  std::vector<Run> runs_;
+  std::vector<uint16_t> triangles_;
 };
 
 // The tiles that pixels lie in, half open. T: PixelBounds, or a PixelBox of lanes.
@@ -51,9 +76,7 @@ int64_t largest(const Edge& e, int tile_x, int tile_y, int size, const SampleSpa
   return e.at(int64_t{px} * kSubPixels + x, int64_t{py} * kSubPixels + y);
 }
 
-Pair pair_of(int tile_x, int tile_y, uint16_t triangle) { return {static_cast<uint16_t>(tile_x), static_cast<uint16_t>(tile_y), triangle}; }
-
-void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& tiles, uint16_t index, std::vector<Pair>& pairs) {
+void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
   const int size = frame.tile_size;
   const bool one_row = tiles.x1 - tiles.x0 == 1 || tiles.y1 - tiles.y0 == 1 || t.is(kSprite);
   const std::array<Edge, 3> edges{edge_of(t, 0), edge_of(t, 1), edge_of(t, 2)};
@@ -62,19 +85,18 @@ void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& tiles,
       // The box of a triangle within one row or column of tiles is near enough.
       const auto inside = [&](const Edge& e) { return largest(e, x, y, size, frame.samples_at) - fill_bias(e) >= 0; };
       if (!one_row && !(inside(edges[0]) && inside(edges[1]) && inside(edges[2]))) continue;
-      pairs.push_back(pair_of(x, y, index));
+      runs.put(x, y, index);
     }
   }
 }
 
-void list_line_tiles(const Frame& frame, const Triangle& t, int pixels, const PixelBounds& tiles, uint16_t index,
-                     std::vector<Pair>& pairs) {
+void list_line_tiles(const Frame& frame, const Triangle& t, int pixels, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
   const int size = frame.tile_size;
   const std::array<BandEdge, 2> band = band_edges(t, pixels);
   for (int y = tiles.y0; y < tiles.y1; ++y) {
     for (int x = tiles.x0; x < tiles.x1; ++x) {
       const auto inside = [&](const BandEdge& e) { return largest(e.edge, x, y, size, frame.samples_at) + e.offset - e.bias >= 0; };
-      if (inside(band[0]) && inside(band[1])) pairs.push_back(pair_of(x, y, index));
+      if (inside(band[0]) && inside(band[1])) runs.put(x, y, index);
     }
   }
 }
@@ -82,8 +104,7 @@ void list_line_tiles(const Frame& frame, const Triangle& t, int pixels, const Pi
 }  // namespace
 
 void bin_chunk(const Frame& frame, Chunk& chunk) {
-  std::vector<Pair> pairs;
-  pairs.reserve(chunk.triangles.size() + chunk.triangles.size() / 2);
+  TileRuns runs(chunk.triangles.size());
   int x0 = frame.tiles_x, y0 = frame.tiles_y, x1 = 0, y1 = 0;
   for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
     const Draw& draw = frame.draws[chunk.segments[s].draw];
@@ -97,11 +118,11 @@ void bin_chunk(const Frame& frame, Chunk& chunk) {
         PixelBounds tiles{rows.x0[i], rows.y0[i], rows.x1[i], rows.y1[i]};
         if (t.is(kLine)) {
           tiles = tiles_of(frame, pixel_bounds(draw, t, draw.bounds, frame.samples_at));
-          list_line_tiles(frame, t, line_pixels(draw.state.line_width), tiles, index, pairs);
+          list_line_tiles(frame, t, line_pixels(draw.state.line_width), tiles, index, runs);
         } else if (tiles.x1 - tiles.x0 == 1 && tiles.y1 - tiles.y0 == 1) {
-          pairs.push_back(pair_of(tiles.x0, tiles.y0, index));
+          runs.put(tiles.x0, tiles.y0, index);
         } else {
-          list_tiles(frame, t, tiles, index, pairs);
+          list_tiles(frame, t, tiles, index, runs);
         }
         x0 = std::min(x0, tiles.x0);
         y0 = std::min(y0, tiles.y0);
@@ -110,23 +131,26 @@ void bin_chunk(const Frame& frame, Chunk& chunk) {
       }
     }
   }
-  chunk.statistics.bin_entries = pairs.size();
+  chunk.statistics.bin_entries = runs.size();
   chunk.tile_x0 = x0;
   chunk.tile_y0 = y0;
   chunk.tile_x1 = x1;
   chunk.tile_y1 = y1;
-  if (pairs.empty()) return;
+  if (runs.size() == 0) return;
 
   const auto width = static_cast<std::size_t>(x1 - x0);
-  const auto tile_of = [&](const Pair& p) {
-    return static_cast<std::size_t>(p.tile_y - y0) * width + static_cast<std::size_t>(p.tile_x - x0);
-  };
+  const auto tile_of = [&](int x, int y) { return static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x - x0); };
   chunk.bin_start.assign(width * static_cast<std::size_t>(y1 - y0) + 1, 0);
-  for (const Pair& p : pairs) ++chunk.bin_start[tile_of(p) + 1];
+  runs.for_each(
+      [&](int x, int y, std::span<const uint16_t> run) { chunk.bin_start[tile_of(x, y) + 1] += static_cast<uint32_t>(run.size()); });
   for (std::size_t i = 1; i < chunk.bin_start.size(); ++i) chunk.bin_start[i] += chunk.bin_start[i - 1];
-  chunk.bin_triangles.resize(pairs.size());
+  chunk.bin_triangles.resize(runs.size());
   std::vector<uint32_t> next(chunk.bin_start.begin(), chunk.bin_start.end() - 1);
-  for (const Pair& p : pairs) chunk.bin_triangles[next[tile_of(p)]++] = p.triangle;
+  runs.for_each([&](int x, int y, std::span<const uint16_t> run) {
+    uint32_t& to = next[tile_of(x, y)];
+    std::copy(run.begin(), run.end(), chunk.bin_triangles.begin() + to);
+    to += static_cast<uint32_t>(run.size());
+  });
 }
 
 std::span<const uint16_t> bin_of(const Chunk& chunk, int tile_x, int tile_y) {
