@@ -18,10 +18,10 @@ struct Triangles {
   DrawState state;
 };
 
-// A few triangles of one draw. Their first corner lies in or near the picture, all depths are one of five.
+// Up to three times W triangles of one draw (W at the most 16). Their first corner lies in or near the picture, all depths are one of five.
 Triangles random_triangles(Random& r) {
   Triangles t;
-  const int count = r.integer(1, 3 * kLanes), largest = r.coin() ? 3 : r.coin() ? 16 : 70;
+  const int count = r.integer(1, 48), largest = r.coin() ? 3 : r.coin() ? 16 : 70;
   for (int i = 0; i < count; ++i) {
     const Point at{r.integer(-8 * kSubPixels, (kSize + 8) * kSubPixels), r.integer(-8 * kSubPixels, (kSize + 8) * kSubPixels)};
     const glm::vec4 color(r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 1.0f);
