@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of small triangles of plain draws: W triangles of a tile's list at once, in int32. What they have in common is computed by
-// lanes; then one after the other they are written, in their order.
+// Visibility of small triangles of plain draws: W triangles of a tile's list at once, in int32. What each of them needs is computed by
+// lanes; then they are written one after the other, in their order.
 #include <algorithm>
 #include <bit>
 
@@ -36,7 +36,7 @@ struct SmallDepth {
   }
 };
 
-// What W small triangles have in common, computed for all at once.
+// What writing W small triangles needs, computed for all at once.
 class SmallTriangles {
  public:
   // indices: at most W, of the chunk's triangles, not none.
