@@ -48,8 +48,8 @@ elseif(arch_macros MATCHES "__AVX__")
 else()
   set(vector_bits 128)
 endif()
-# Vectors are copied whole. For many processors, and for x86-64-v3, g++ 12 copies them in halves or quarters; who then loads the
-# whole vector waits until every part has left the store buffer.
+# Vectors are copied whole. For many processors, and for x86-64-v3, g++ 12 copies them in halves; who then loads the whole waits until
+# both have left the store buffer.
 include(CheckCXXCompilerFlag)
 check_cxx_compiler_flag("-mmove-max=${vector_bits} -mstore-max=${vector_bits}" HALFSPACE_HAS_MOVE_MAX)
 if(HALFSPACE_HAS_MOVE_MAX)

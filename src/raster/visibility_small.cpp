@@ -26,13 +26,13 @@ struct SmallEdge {
   int32_t e, step_x, step_y;
 };
 
-// The plane of a triangle's depths: z0 + e1·z_edge1 + e2·z_edge2 of its edges 1 and 2 without their biases, held to [low, high].
-template <class R>
+// The planes of depths: z0 + e1·z_edge1 + e2·z_edge2 of edges 1 and 2 without their biases, held to [low, high]. Lanes are triangles, or
+// pixels of one.
 struct SmallDepth {
-  R z0, z_edge1, z_edge2, low, high;
+  Real z0, z_edge1, z_edge2, low, high;
 
-  HS_INLINE R at(DepthFormat format, IntOf<R> e1, IntOf<R> e2) const {
-    return depth_value(format, clamp(fma(to_real<R>(e1), z_edge1, fma(to_real<R>(e2), z_edge2, z0)), low, high));
+  HS_INLINE Real at(DepthFormat format, Int e1, Int e2) const {
+    return depth_value(format, clamp(fma(to_real<Real>(e1), z_edge1, fma(to_real<Real>(e2), z_edge2, z0)), low, high));
   }
 };
 
@@ -48,7 +48,7 @@ class SmallTriangles {
     const std::array<Int, 4> depths = load_fours<Int>([&](int k) { return &triangle(k)->z0; });
     const Int flags = load_vertices_and_flags(triangle)[3];
     const Real low(d.draw.depth_low), high = clamp(as_real(depths[3]), low, Real(d.draw.depth_high));
-    const SmallDepth<Real> depth{as_real(depths[0]), as_real(depths[1]), as_real(depths[2]), low, high};
+    const SmallDepth depth{as_real(depths[0]), as_real(depths[1]), as_real(depths[2]), low, high};
 
     const PixelBox<Int> box = pixel_box(x, y, SampleSpan{}, SampleSpan{});
     const Int covered = (flags >> static_cast<int>(kCoveredShift)) & static_cast<int32_t>(kCoveredBits);
@@ -72,10 +72,6 @@ class SmallTriangles {
       store(step_y_[i].data(), ex << kSubPixelBits);
       if (i != 0) store(bias_[i - 1].data(), bias);
     }
-    store(z0_.data(), depth.z0);
-    store(z_edge1_.data(), depth.z_edge1);
-    store(z_edge2_.data(), depth.z_edge2);
-    store(z_high_.data(), depth.high);
   }
 
   bool is_wide(std::size_t k) const { return (wide_ >> k & 1) != 0; }
@@ -93,12 +89,11 @@ class SmallTriangles {
   TileRect rect(std::size_t k) const { return {rect_x0_[k], rect_y0_[k], rect_x1_[k], rect_y1_[k]}; }
   SmallEdge edge(std::size_t i, std::size_t k) const { return {e_[i][k], step_x_[i][k], step_y_[i][k]}; }
   int32_t bias(std::size_t i, std::size_t k) const { return bias_[i - 1][k]; }  // of edge 1 or 2
-  SmallDepth<float> depth(std::size_t k, float low) const { return {z0_[k], z_edge1_[k], z_edge2_[k], low, z_high_[k]}; }
 
  private:
   // box: of the triangles within the draw's bounds, from which `covered` counts.
   void find_pixels(const DrawInTile& d, const std::array<Int, 3>& x, const std::array<Int, 3>& y, const PixelBox<Int>& box, Int covered,
-                   const SmallDepth<Real>& depth) {
+                   const SmallDepth& depth) {
     Int count(0);
     for (std::size_t i = 0; any(covered != Int(0)); ++i) {
       count = count + select(covered != Int(0), Int(1), Int(0));
@@ -120,23 +115,28 @@ class SmallTriangles {
   alignas(64) PerTriangle<int32_t> rect_x0_, rect_y0_, rect_x1_, rect_y1_;
   alignas(64) std::array<PerTriangle<int32_t>, 3> e_, step_x_, step_y_;
   alignas(64) std::array<PerTriangle<int32_t>, 2> bias_;
-  alignas(64) PerTriangle<float> z0_, z_edge1_, z_edge2_, z_high_;
   uint32_t known_, wide_;
 };
 
 // The packets of one of them.
 class TrianglePackets {
  public:
-  TrianglePackets(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, TriangleId id, PlainWriter& writer)
-      : d_(d), id_(id), writer_(writer), rect_(triangles.rect(k)), bias1_(triangles.bias(1, k)), bias2_(triangles.bias(2, k)) {
+  // t: the k-th of triangles.
+  TrianglePackets(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, const Triangle& t, TriangleId id,
+                  PlainWriter& writer)
+      : d_(d),
+        id_(id),
+        writer_(writer),
+        rect_(triangles.rect(k)),
+        bias1_(triangles.bias(1, k)),
+        bias2_(triangles.bias(2, k)),
+        bounds_(depth_bounds(t, d.draw, d.tile.depth_format)) {
     for (std::size_t i = 0; i < 3; ++i) {
       edge_[i] = triangles.edge(i, k);
       first_[i] = lane_x() * edge_[i].step_x + lane_y() * edge_[i].step_y + edge_[i].e;
     }
-    const SmallDepth<float> depth = triangles.depth(k, d.draw.depth_low);
-    const auto held = [&](float z) { return depth_value(d.tile.depth_format, z); };
-    bounds_ = {held(std::clamp(depth.z0, depth.low, depth.high)), held(depth.high)};
-    depth_ = {Real(depth.z0), Real(depth.z_edge1), Real(depth.z_edge2), Real(depth.low), Real(depth.high)};
+    const float low = d.draw.depth_low, high = std::clamp(t.z_max, low, d.draw.depth_high);
+    depth_ = {Real(t.z0), Real(t.z_edge1), Real(t.z_edge2), Real(low), Real(high)};
   }
 
   void visit() {
@@ -227,7 +227,7 @@ class TrianglePackets {
   std::array<SmallEdge, 3> edge_;
   int32_t bias1_, bias2_;
   std::array<Int, 3> first_;  // the edges in the tile's first packet
-  SmallDepth<Real> depth_;
+  SmallDepth depth_;
   DepthBounds bounds_;
   std::size_t listed_ = 0;
   std::array<Covered, kMostPackets + 1> list_;  // one beyond may be written
@@ -246,7 +246,7 @@ void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16
     } else if (triangles.is_wide(k)) {
       rasterize_plain(d, c.triangles[indices[k]], id, statistics);
     } else {
-      TrianglePackets(d, triangles, k, id, writer).visit();
+      TrianglePackets(d, triangles, k, c.triangles[indices[k]], id, writer).visit();
     }
   }
 }
