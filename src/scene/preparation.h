@@ -73,6 +73,9 @@ Sampler make_sampler(const TextureDescription& t);
 /// The radius of the ball round its origin that holds the shape, without heights; units of the object.
 double ball_radius(const ObjectDescription& o);
 
+/// How far at most its heights reach from the undisplaced shape; units of the object.
+double relief_height(const ObjectDescription& o);
+
 /// Columns of the mesh along u.
 int columns_of(const ObjectDescription& o);
 

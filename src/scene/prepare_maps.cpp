@@ -2,6 +2,8 @@
 //
 // Maps of a scene's objects: read from files, or generated as fine as the view needs.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/check.h"
@@ -9,6 +11,7 @@
 #include "scene/image_io.h"
 #include "scene/preparation.h"
 #include "scene/procedural_earth.h"
+#include "scene/shadow_views.h"
 
 namespace halfspace {
 
@@ -55,15 +58,34 @@ Image<float> unit_numbers(const Image<uint16_t>& codes) {
 
 double ball_radius(const ObjectDescription& o) { return extent_of(o).radius; }
 
+double relief_height(const ObjectDescription& o) {
+  return is_map(o.height) ? std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) : 0.0;
+}
+
+namespace {
+
+// How far from the eye the picture may show the object, at the least; units. Of a plane, whose ball often holds the eye, what is in view
+// alone counts; infinite where nothing is.
+double nearest_distance(const ObjectDescription& o, const glm::dmat4& world_from_object, double scale, const View& view) {
+  if (o.shape != Shape::plane) return glm::distance(glm::dvec3(world_from_object[3]), view.eye_ws) - ball_radius(o) * scale;
+  const glm::dvec3 corner(0.5 * o.size, relief_height(o), 0.5 * o.size);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& p : common_corners(frustum_corners(view.clip_from_world * world_from_object), {-corner, corner})) {
+    nearest = std::min(nearest, glm::dot(glm::dvec3(world_from_object * glm::dvec4(p, 1.0)) - view.eye_ws, view.forward_ws));
+  }
+  return nearest;
+}
+
+}  // namespace
+
 // How many texels along u are worth having: where the object is nearest one spans two pixels.
 int ScenePreparation::width_for(const ObjectDescription& o) const {
-  const Extent extent = extent_of(o);
   double most_px = 0.0;
   for (const glm::dmat4& world : places_of(o)) {
     const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
-    const double distance = std::max(glm::distance(glm::dvec3(world[3]), view_.eye_ws) - extent.radius * scale, view_.near);
+    const double distance = std::max(nearest_distance(o, world, scale, view_), view_.near);
     const double height = camera().type == Projection::orthographic ? camera().height : 2.0 * view_.tan_y * distance;
-    most_px = std::max(most_px, extent.map_width * scale / height * view_.height_px);
+    most_px = std::max(most_px, extent_of(o).map_width * scale / height * view_.height_px);
   }
   const auto is_this = [&](const auto& entry) { return &entry.second == &o; };
   const auto expected = assets_.widths_.find(std::ranges::find_if(scene_.objects, is_this)->first);

@@ -120,10 +120,9 @@ struct Presence {
 
 Presence presence_of(const ObjectDescription& o, const View& view, bool casts) {
   Presence p{.is_seen = casts};
-  const double relief = is_map(o.height) ? std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) : 0.0;
   for (const glm::dmat4& world : places_of(o)) {
     const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
-    const double reach = (ball_radius(o) + relief) * scale;
+    const double reach = (ball_radius(o) + relief_height(o)) * scale;
     if (is_outside(view, glm::dvec3(world[3]), reach)) continue;
     p.is_seen = true;
     const double per_unit = (is_ball(o) ? silhouette_pixels_per_unit : pixels_per_unit)(view, glm::dvec3(world[3]), reach);

@@ -213,6 +213,25 @@ TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
   EXPECT_EQ(width_at(together, 1), width_at(alone, 1));
 }
 
+// Seen from 1 above it with a right angle of view, a plane's nearest point in the picture is 1 away along the view: 8 units are 8/2 pictures
+// wide there, and a texel spans at most two pixels. What lies behind the eye, though nearer, does not count.
+TEST(PreparedScene, APlanesMapIsAsFineAsItsPartInViewNeeds) {
+  const Workers workers(1);
+  const auto width_from = [&](double height, const char* target) {
+    SceneAssets assets(workers);
+    const std::string eye = std::to_string(height);
+    const PreparedScene p = assets.prepare(parsed(R"({"version": 1, "cameras": {"c": {"fov": 90, "position": [0, )" + eye +
+                                                  R"(, 0], "target": )" + target +
+                                                  R"(}}, "textures": {"t": {"source": "rock_color"}},
+      "objects": {"a": {"shape": "plane", "size": 8, "color": "t"}}})"),
+                                           512, 512);
+    return surface_of(p.draws.at(0)).factors[kColor].map->width();
+  };
+  EXPECT_EQ(width_from(1.05, "[0, 1.05, -1]"), 1024);  // 8/2.1 · 512 = 1950 px
+  EXPECT_EQ(width_from(0.95, "[0, 0.95, -1]"), 2048);  // 2156 px
+  EXPECT_EQ(width_from(1.05, "[1, 3, -1]"), 256);      // the sky: the least
+}
+
 // Every shape and every map that tiles can be drawn, displaced or not.
 TEST(PreparedScene, EveryShapeAndPatternIsDrawn) {
   const Workers workers(2);
