@@ -28,8 +28,9 @@ struct LayerShader {
     out.base = in.base;
     return clip_from_eye * vec4<R>(in.position_es, R(1));
   }
+  /// Inlined by name: g++ 12 leaves a call to a base class's function of this size in a kernel.
   template <class R>
-  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+  HS_INLINE Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {lit(in.base, phong(unit(in.normal_es), unit(light_es - in.position_es), unit(-in.position_es)))};
   }
 };
