@@ -110,9 +110,14 @@ PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
   return out;
 }
 
+// A colour's four codes, red lowest.
+template <ColorFormat format>
+Int packed_codes(const PacketColor& c) {
+  return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 | encode8(format, c[3], true) << 24;
+}
+
 void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
-  Int packed(0);
-  for (int k = 0; k < 4; ++k) packed = packed | encode8(buffer.format, c[static_cast<std::size_t>(k)], k == 3) << (8 * k);
+  Int packed = buffer.format == ColorFormat::srgb8a8 ? packed_codes<ColorFormat::srgb8a8>(c) : packed_codes<ColorFormat::rgba8>(c);
   int32_t* pixels = plane<int32_t>(buffer, 0) + first;
   const Int old = load<Int>(pixels);
   if (!channels.all()) {
@@ -142,30 +147,28 @@ PacketColor read_color(const ColorBuffer& buffer, int packet) {
 
 void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1,
                  const AttachmentState& state) {
-  PacketColor c = src;
-  if (state.blend) {
-    const bool fixed_point = is_fixed_point(buffer.format);
-    if (fixed_point) {  // OpenGL 4.6, section 17.3.6: clamped before blending
-      for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
-    }
-    const PacketColor dst = read_color(buffer, packet);
-    c = blend_colors(*state.blend, {c, dst, src1, state.blend->constant, fixed_point});
-  }
   const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
-  if (is_fixed_point(buffer.format)) {
-    write_packed(buffer, first, mask, c, state.mask);
-    return;
-  }
-  for (int k = 0; k < 4; ++k) {
-    if (!state.mask[k]) continue;
-    const Real value = c[static_cast<std::size_t>(k)];
-    if (buffer.format == ColorFormat::rgba16f) {
-      store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(value)), mask);
-    } else {
-      float* to = plane<float>(buffer, k) + first;
-      store(to, select(mask, value, load<Real>(to)));
+  const bool fixed_point = is_fixed_point(buffer.format);
+  const auto write = [&](const PacketColor& c) {
+    if (fixed_point) return write_packed(buffer, first, mask, c, state.mask);
+    for (int k = 0; k < 4; ++k) {
+      if (!state.mask[k]) continue;
+      const Real value = c[static_cast<std::size_t>(k)];
+      if (buffer.format == ColorFormat::rgba16f) {
+        store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(value)), mask);
+      } else {
+        float* to = plane<float>(buffer, k) + first;
+        store(to, select(mask, value, load<Real>(to)));
+      }
     }
+  };
+  if (!state.blend) return write(src);
+  PacketColor c = src;
+  if (fixed_point) {  // OpenGL 4.6, section 17.3.6: clamped before blending
+    for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
   }
+  const PacketColor dst = read_color(buffer, packet);
+  write(blend_colors(*state.blend, {c, dst, src1, state.blend->constant, fixed_point}));
 }
 
 bool uses_second_source(const BlendState& blend) {
