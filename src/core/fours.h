@@ -142,6 +142,9 @@ HS_INLINE std::array<I, 3> load_threes(const int32_t* p) {
   }
 }
 
+/// How many words behind the last that is asked for gather_row may read.
+inline constexpr std::size_t kRowSlack = 3;
+
 /// base[i], …, base[i + N − 1] lane by lane, N up to 4: faster than N gathers where N > 1. Four words from base[i] on must be readable
 /// for every lane, whether its result is used or not.
 template <int N, class Word, class I>

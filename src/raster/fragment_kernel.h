@@ -124,8 +124,8 @@ HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
   const TriangleScalars<kComponents<V>> scalars = scalars_of<F>(*batch.frame, batch.id);
-  merge_triangle<0, true>(scalars, Mask(true), triangles);
-  merge_triangle<1, true>(scalars, Mask(true), triangles);
+  spread_triangle<0>(scalars, triangles);
+  spread_triangle<1>(scalars, triangles);
   const PacketTriangleIds id{batch.frame, nullptr, batch.id, kAllBits<Mask>};
   const std::array<PacketTriangleIds, 2> ids{id, id};
   for (int first = 0; first < batch.count; first += 2) {

@@ -119,16 +119,20 @@ bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, Tria
   const Int flags = ends[3];
   if (any((flags & Int(static_cast<int32_t>(kClipped | kSprite | kLine))) != Int(0))) return false;
   find_primitives(frame, ids, lanes, draw, rows);
-  auto [x, y] = load_corners(triangle);
   rows.varyings = shaded.varyings.get();
   rows.row = {ends[0], ends[1], ends[2]};
   const Int provoking = (flags >> static_cast<int>(kProvokingShift)) & 3;
   rows.provoking_row = select(provoking == Int(0), ends[0], select(provoking == Int(1), ends[1], ends[2]));
   front = (flags & Int(static_cast<int32_t>(kFrontFacing))) != Int(0);
   static_assert(sizeof(ScreenVertex) == 4 * sizeof(float));
-  const float* inv_w = &shaded.screen[0].inv_w;
+  std::array<Int, 3> x, y;
   std::array<Real, 3> q;
-  for (std::size_t k = 0; k < 3; ++k) q[k] = gather(inv_w, rows.row[k] << 2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto words = gather_row<4>(&shaded.screen[0].x, rows.row[k] << 2);
+    x[k] = words[0];
+    y[k] = words[1];
+    q[k] = as_real(words[3]);
+  }
   // Vertex 0 is the one with the smallest 1/w, the first of equals, as in triangle_scalars.
   const Mask two = (q[2] < q[0]) & (q[2] < q[1]), one = (q[1] < q[0]) & !two;
   rotate_lanes(one, two, x);

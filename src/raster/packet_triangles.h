@@ -4,8 +4,10 @@
 // lanes that show it, or gathered, so that a shader runs once.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 
+#include "core/fours.h"
 #include "core/lane_pairs.h"
 #include "raster/shade.h"
 #include "shading/contract.h"
@@ -113,13 +115,12 @@ HS_INLINE TriangleScalars<kComponents<V>> scalars_of(const Frame& frame, Triangl
 template <class V>
 class RecentTriangles {
  public:
+  /// What the call before gave is left as it is.
   HS_INLINE const TriangleScalars<kComponents<V>>& of(const Frame& frame, TriangleId id) {
     uint32_t same = 0;
     for (std::size_t i = 0; i < kMost; i += kLanes) same |= bits(load<Int>(&ids_[i]) == Int(std::bit_cast<int32_t>(id))) << i;
-    if (same != 0) return scalars_[static_cast<std::size_t>(std::countr_zero(same))];
-    newest_ = (newest_ + 1) % kMost;
-    ids_[newest_] = id;
-    return scalars_[newest_] = scalars_of<V>(frame, id);
+    same &= ~(1u << next_);  // the call before may have given that
+    return same != 0 ? scalars_[static_cast<std::size_t>(std::countr_zero(same))] : add(frame, id);
   }
 
  private:
@@ -129,9 +130,17 @@ class RecentTriangles {
     none.fill(kNoTriangle);
     return none;
   }();
+
+  __attribute__((noinline)) const TriangleScalars<kComponents<V>>& add(const Frame& frame, TriangleId id) {
+    const std::size_t place = next_;
+    next_ = (next_ + 1) % kMost;
+    ids_[place] = id;
+    return scalars_[place] = scalars_of<V>(frame, id);
+  }
+
   std::array<TriangleId, kMost> ids_ = kNone;
   std::array<TriangleScalars<kComponents<V>>, kMost> scalars_;
-  std::size_t newest_ = kMost - 1;
+  std::size_t next_ = 0;  ///< place of the next to be added
 };
 
 /// Everything two packets need of their triangles, lane by lane. P: components of the primitive stage's struct.
@@ -144,53 +153,91 @@ struct PacketTriangles {
   MaskOf<FragmentReal> front;
 };
 
-/// Spreads one triangle's values to packet i of the two: the packet's first to all lanes, so that lanes without a triangle compute with
-/// finite values; the others to the lanes of m.
-template <int i, bool first, std::size_t N, std::size_t P>
-HS_INLINE void merge_triangle(const TriangleScalars<N>& s, Mask m, PacketTriangles<N, P>& out) {
-  const auto put = [=](FragmentReal& lanes, float value) {
-    Real& to = half<i>(lanes);
-    if constexpr (first) {
-      to = Real(value);
-    } else {
-      to = select(m, Real(value), to);
-    }
-  };
-  TriangleLanes<FragmentReal>& t = out.lanes;
-  put(t.x0, s.x0);
-  put(t.y0, s.y0);
-  put(t.e1x, s.e1x);
-  put(t.e1y, s.e1y);
-  put(t.e2x, s.e2x);
-  put(t.e2y, s.e2y);
-  put(t.area, s.area);
-  put(t.q0, s.q0);
-  put(t.q1, s.q1);
-  put(t.q2, s.q2);
-  put(t.q_unscale, s.q_unscale);
+/// Calls put(lanes of packet i, which number of a TriangleScalars they hold) for all.
+template <int i, std::size_t N, std::size_t P, class F>
+HS_INLINE void for_each_value(PacketTriangles<N, P>& t, F put) {
+  using S = TriangleScalars<N>;
+  put(half<i>(t.lanes.x0), [](const S& s) { return s.x0; });
+  put(half<i>(t.lanes.y0), [](const S& s) { return s.y0; });
+  put(half<i>(t.lanes.e1x), [](const S& s) { return s.e1x; });
+  put(half<i>(t.lanes.e1y), [](const S& s) { return s.e1y; });
+  put(half<i>(t.lanes.e2x), [](const S& s) { return s.e2x; });
+  put(half<i>(t.lanes.e2y), [](const S& s) { return s.e2y; });
+  put(half<i>(t.lanes.area), [](const S& s) { return s.area; });
+  put(half<i>(t.lanes.q0), [](const S& s) { return s.q0; });
+  put(half<i>(t.lanes.q1), [](const S& s) { return s.q1; });
+  put(half<i>(t.lanes.q2), [](const S& s) { return s.q2; });
+  put(half<i>(t.lanes.q_unscale), [](const S& s) { return s.q_unscale; });
   for (std::size_t k = 0; k < N; ++k) {
-    put(out.components.value0[k], s.value0[k]);
-    put(out.components.delta1[k], s.delta1[k]);
-    put(out.components.delta2[k], s.delta2[k]);
+    put(half<i>(t.components.value0[k]), [k](const S& s) { return s.value0[k]; });
+    put(half<i>(t.components.delta1[k]), [k](const S& s) { return s.delta1[k]; });
+    put(half<i>(t.components.delta2[k]), [k](const S& s) { return s.delta2[k]; });
   }
-  for (std::size_t k = 0; k < P; ++k) put(out.primitive[k], s.primitive[k]);
+  for (std::size_t k = 0; k < P; ++k) put(half<i>(t.primitive[k]), [k](const S& s) { return s.primitive[k]; });
+}
+
+/// One triangle's values to all lanes of packet i.
+template <int i, std::size_t N, std::size_t P>
+HS_INLINE void spread_triangle(const TriangleScalars<N>& s, PacketTriangles<N, P>& out) {
+  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = Real(value(s)); });
+  half<i>(out.front) = Mask(s.front);
+}
+
+/// Two triangles' values to packet i: the second's to the lanes that show it, the first's to all others, so that lanes without a triangle
+/// compute with finite values.
+template <int i, std::size_t N, std::size_t P>
+HS_INLINE void merge_two(const TriangleScalars<N>& first, const TriangleScalars<N>& second, Mask shows_second, PacketTriangles<N, P>& out) {
+  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows_second, Real(value(second)), Real(value(first))); });
+  half<i>(out.front) = select(shows_second, Mask(second.front), Mask(first.front));
+}
+
+/// One more triangle's values to the lanes of packet i that show it.
+template <int i, std::size_t N, std::size_t P>
+HS_INLINE void add_triangle(const TriangleScalars<N>& s, Mask shows, PacketTriangles<N, P>& out) {
+  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows, Real(value(s)), lanes); });
   Mask& front = half<i>(out.front);
-  front = first ? Mask(s.front) : select(m, Mask(s.front), front);
+  front = select(shows, Mask(s.front), front);
+}
+
+/// Of up to four components of the rows that begin at `at`, from k on, those that are flat, or those that are not. The others mean nothing.
+template <class V, std::size_t k, bool flat>
+HS_INLINE std::array<Real, 4> row_components(const float* varyings, Int at) {
+  constexpr std::size_t count = std::min<std::size_t>(4, kComponents<V> - k);
+  constexpr auto is_asked = [](std::size_t c) { return (kInterpolations<V>[k + c] == Interpolation::flat) == flat; };
+  constexpr std::size_t asked = [is_asked] {
+    std::size_t n = 0;
+    for (std::size_t c = 0; c < count; ++c) n += is_asked(c) ? 1 : 0;
+    return n;
+  }();
+  std::array<Real, 4> row{};
+  if constexpr (asked > 1) {
+    std::ranges::copy(gather_row<static_cast<int>(count)>(varyings + k, at), row.begin());
+  } else {
+    for (std::size_t c = 0; c < count; ++c) {
+      if (is_asked(c)) row[c] = gather(varyings + k + c, at);
+    }
+  }
+  return row;
 }
 
 /// The components of rows, gathered into packet i.
 template <int i, class V, std::size_t N, std::size_t P>
 HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>& out) {
-  constexpr auto n = static_cast<int32_t>(N);
-  const std::array<Int, 4> at{rows.row[0] * n, rows.row[1] * n, rows.row[2] * n, rows.provoking_row * n};
-  for (std::size_t k = 0; k < N; ++k) {
-    const float* column = rows.varyings + k;
-    const bool flat = kInterpolations<V>[k] == Interpolation::flat;
-    const Real value0 = gather(column, flat ? at[3] : at[0]);
-    half<i>(out.components.value0[k]) = value0;
-    half<i>(out.components.delta1[k]) = flat ? Real(0.0f) : gather(column, at[1]) - value0;
-    half<i>(out.components.delta2[k]) = flat ? Real(0.0f) : gather(column, at[2]) - value0;
-  }
+  const auto gather_four = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
+    const auto smooth = [&](Int row) { return row_components<V, k, false>(rows.varyings, row * static_cast<int32_t>(N)); };
+    const auto v0 = smooth(rows.row[0]), v1 = smooth(rows.row[1]), v2 = smooth(rows.row[2]);
+    const auto held = row_components<V, k, true>(rows.varyings, rows.provoking_row * static_cast<int32_t>(N));
+    for (std::size_t c = 0; c < std::min<std::size_t>(4, N - k); ++c) {
+      const bool flat = kInterpolations<V>[k + c] == Interpolation::flat;
+      half<i>(out.components.value0[k + c]) = flat ? held[c] : v0[c];
+      half<i>(out.components.delta1[k + c]) = flat ? Real(0.0f) : v1[c] - v0[c];
+      half<i>(out.components.delta2[k + c]) = flat ? Real(0.0f) : v2[c] - v0[c];
+    }
+  };
+  const auto gather_all = [&]<std::size_t... n>(std::index_sequence<n...>) {
+    (gather_four(std::integral_constant<std::size_t, 4 * n>{}), ...);
+  };
+  gather_all(std::make_index_sequence<(N + 3) / 4>());
   for (std::size_t k = 0; k < P; ++k) {
     for (int lane = 0; lane < kLanes; ++lane) set_lane(half<i>(out.primitive[k]), lane, rows.primitive[static_cast<std::size_t>(lane)][k]);
   }
@@ -212,9 +259,6 @@ HS_INLINE void put_triangles(const TriangleLanes<Real>& from, TriangleLanes<Frag
   half<i>(to.q_unscale) = from.q_unscale;
 }
 
-/// Triangles of a packet from which on they are gathered, not merged one by one.
-inline constexpr int kGatherFrom = 4;
-
 /// Of the lanes (a bit each) those whose triangle no lower one shows; beyond `most` of them any may be left out.
 template <class I>
 HS_INLINE uint32_t first_lanes(I packet_ids, const TriangleId* ids, uint32_t lanes, int most) {
@@ -233,36 +277,51 @@ HS_INLINE uint32_t first_lanes(I packet_ids, const TriangleId* ids, uint32_t lan
   return firsts;
 }
 
-/// The triangles of a packet, the i-th of t: one, few or many. t.only[i] is the one that t holds already, if it holds one alone.
+/// Triangles of a packet from which on they are gathered, not merged.
+inline constexpr int kGatherFrom = 3;
+
+/// The triangles of packet i, however many: slower than what follows. firsts: a lane of each.
+template <int i, class V, std::size_t N, std::size_t P>
+__attribute__((noinline)) void merge_many(const Frame& frame, const TriangleId* ids, uint32_t firsts, RecentTriangles<V>& recent,
+                                          PacketTriangles<N, P>& t) {
+  const Int packet_ids = load<Int>(ids);
+  spread_triangle<i>(recent.of(frame, ids[std::countr_zero(firsts)]), t);
+  for (uint32_t rest = firsts & (firsts - 1); rest != 0; rest &= rest - 1) {
+    const TriangleId id = ids[std::countr_zero(rest)];
+    add_triangle<i>(recent.of(frame, id), packet_ids == Int(std::bit_cast<int32_t>(id)), t);
+  }
+}
+
+/// The triangles of a packet, the i-th of t: one, two or many. t.only[i] is the one that t holds already, if it holds one alone.
 template <int i, class V, std::size_t N, std::size_t P>
 HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V>& recent, PacketTriangles<N, P>& t) {
   TriangleId& only = t.only[i];
+  const Frame& frame = *batch.frame;
   if (batch.ids == nullptr) {
-    if (only != batch.uniform_id) merge_triangle<i, true>(recent.of(*batch.frame, batch.uniform_id), Mask(true), t);
+    if (only != batch.uniform_id) spread_triangle<i>(recent.of(frame, batch.uniform_id), t);
     only = batch.uniform_id;
     return;
   }
   const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
   const Int packet_ids = load<Int>(ids);
-  uint32_t firsts = first_lanes(packet_ids, ids, packet.lanes, kGatherFrom);
+  const uint32_t firsts = first_lanes(packet_ids, ids, packet.lanes, kGatherFrom);
   const TriangleId first = ids[std::countr_zero(firsts)];
   const int triangles = std::popcount(firsts);
   if (triangles == 1 && only == first) return;
   only = triangles == 1 ? first : kNoTriangle;
-  if (triangles >= kGatherFrom) {
-    TriangleRows rows;
-    TriangleLanes<Real> lanes;
-    if (gather_rows(*batch.frame, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
-      put_triangles<i>(lanes, t.lanes);
-      return gather_components<i, V>(rows, t);
-    }
-    firsts = first_lanes(packet_ids, ids, packet.lanes, kLanes);
+  if (triangles < kGatherFrom) {
+    const TriangleScalars<N>& a = recent.of(frame, first);
+    if (triangles == 1) return spread_triangle<i>(a, t);
+    const TriangleId second = ids[std::countr_zero(firsts & (firsts - 1))];
+    return merge_two<i>(a, recent.of(frame, second), packet_ids == Int(std::bit_cast<int32_t>(second)), t);
   }
-  merge_triangle<i, true>(recent.of(*batch.frame, first), Mask(true), t);
-  for (uint32_t rest = firsts & (firsts - 1); rest != 0; rest &= rest - 1) {
-    const TriangleId id = ids[std::countr_zero(rest)];
-    merge_triangle<i, false>(recent.of(*batch.frame, id), packet_ids == Int(std::bit_cast<int32_t>(id)), t);
+  TriangleRows rows;
+  TriangleLanes<Real> lanes;
+  if (gather_rows(frame, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
+    put_triangles<i>(lanes, t.lanes);
+    return gather_components<i, V>(rows, t);
   }
+  merge_many<i>(frame, ids, first_lanes(packet_ids, ids, packet.lanes, kLanes), recent, t);
 }
 
 }  // namespace detail

@@ -90,7 +90,7 @@ struct ShadedVertices {
   Buffer<ScreenVertex> screen;  ///< uninitialized where no index refers to it
   Buffer<Outcode> outcodes;
   Outcode any_outcode = 0;  ///< their union: 0 where the whole draw is in view
-  Buffer<float> varyings;
+  Buffer<float> varyings;  ///< behind the last row are kRowSlack more (core/fours.h), of any value
   std::unique_ptr<SpriteRect[]> sprites;  ///< of points alone
   int clip_distance_count = 0;            ///< floats per vertex in clip_distances
   std::unique_ptr<float[]> clip_distances;

@@ -106,7 +106,7 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.screen.reset(n);
   out.outcodes.reset(n);
   out.any_outcode = 0;
-  out.varyings.reset(n * static_cast<std::size_t>(out.varying_count));
+  out.varyings.reset(n * static_cast<std::size_t>(out.varying_count) + kRowSlack);
   out.clip_distance_count = draw.kernels.clip_distance_count;
   out.clip_distances.reset(out.clip_distance_count == 0 ? nullptr : new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
   out.sprites.reset(draws_points(draw.state) ? new SpriteRect[n] : nullptr);

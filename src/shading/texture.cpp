@@ -153,9 +153,6 @@ std::size_t words_of(std::size_t texels, TexelFormat format) {
   }
 }
 
-// Look-ups read four words (gather_row) where the last texels may be two.
-constexpr std::size_t kRowSlack = 2;
-
 int32_t packed(glm::u8vec4 t) {
   const uint32_t bits = t.x | static_cast<uint32_t>(t.y) << 8 | static_cast<uint32_t>(t.z) << 16 | static_cast<uint32_t>(t.w) << 24;
   return static_cast<int32_t>(bits);
