@@ -51,6 +51,7 @@ fault "flush forgets the depth" src/raster/pass_tiles.cpp 'if (!round.first) loa
 fault "stencil: increments wrap where they should be held" src/raster/stencil.cpp 'min(value + Int(1), most)' '(value + Int(1)) & most'
 fault "setup in lanes: degenerate triangles are kept" src/raster/triangle_batch.cpp 'take(bits(area == Int(0)), statistics.culled_degenerate);' 'take(0, statistics.culled_degenerate);'
 fault "setup in lanes: the nearest vertex is not the first" src/raster/triangle_batch.cpp 'rotate_lanes(one, two, z);' ''
+fault "recent triangles: the one just given is written over" src/raster/packet_triangles.h 'same &= ~(1u << next_);' ''
 fault "gathered triangles: vertices of equal w out of order" src/raster/packet_triangles.cpp '(q[2] < q[0]) & (q[2] < q[1])' '(q[2] <= q[0]) & (q[2] < q[1])'
 fault "small triangles: a row of packets asked at its first pixels" src/raster/visibility_small.cpp '(e.step_x * kPacketWidth) + (e.e + rise)' '(e.step_x * kPacketWidth) + e.e'
 fault "blocks that may fail the test are written whole" src/raster/block_edges.h 'case CompareOp::less: return say(low >= block_max, high < block_min);' 'case CompareOp::less: return say(low >= block_max, low < block_min);'
