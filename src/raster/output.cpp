@@ -171,6 +171,28 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
   write(blend_colors(*state.blend, {c, dst, src1, state.blend->constant, fixed_point}));
 }
 
+namespace {
+
+template <ColorFormat format>
+void replace_packed(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    int32_t* pixels = plane<int32_t>(buffer, 0) + static_cast<std::size_t>(packets[i].packet) * kLanes;
+    store(pixels, select(mask_from_bits<Mask>(packets[i].lanes), packed_codes<format>(src[i]), load<Int>(pixels)));
+  }
+}
+
+}  // namespace
+
+void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
+                 const AttachmentState& state) {
+  if (!state.blend && state.mask.all()) {
+    if (buffer.format == ColorFormat::rgba8) return replace_packed<ColorFormat::rgba8>(buffer, packets, src);
+    if (buffer.format == ColorFormat::srgb8a8) return replace_packed<ColorFormat::srgb8a8>(buffer, packets, src);
+  }
+  for (std::size_t i = 0; i < packets.size(); ++i)
+    write_color(buffer, packets[i].packet, mask_from_bits<Mask>(packets[i].lanes), src[i], src1[i], state);
+}
+
 bool uses_second_source(const BlendState& blend) {
   const auto second = [](BlendFactor f) { return f >= BlendFactor::src1_color && f <= BlendFactor::one_minus_src1_alpha; };
   return second(blend.source_color) || second(blend.destination_color) || second(blend.source_alpha) || second(blend.destination_alpha);

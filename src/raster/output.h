@@ -4,6 +4,8 @@
 // format and written where the mask says.
 #pragma once
 
+#include <span>
+
 #include "raster/tile.h"
 
 namespace halfspace {
@@ -14,6 +16,10 @@ PacketColor read_color(const ColorBuffer& buffer, int packet);
 /// Writes the channels that the state names of src where mask says: blended with what is there if the state blends, else
 /// replacing it. src1 is the second colour of dual source blending (any, where no factor asks for it).
 void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1, const AttachmentState& state);
+
+/// The same for several packets, of which each has one of src and src1.
+void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
+                 const AttachmentState& state);
 
 /// Does a factor ask for the second colour?
 bool uses_second_source(const BlendState& blend);

@@ -22,12 +22,12 @@ void constant_colors(const Draw& draw, FragmentOutput& out) {
                                             .out = &out});
 }
 
-void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile) {
-  const PacketColor& second = out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);
+void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile) {
+  const PacketColor* second = &out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);
   for (int n = 0; n < std::min(tile.color_count, draw.kernels.color_count); ++n) {
     const auto at = static_cast<std::size_t>(n);
     if (tile.color[at].format == ColorFormat::none) continue;
-    write_color(tile.color[at], packet, mask, out.packet_color(at, i), second, draw.attachments[at]);
+    write_batch(tile.color[at], packets, &out.packet_color(at, i), second, draw.attachments[at]);
   }
 }
 
@@ -94,7 +94,9 @@ void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, c
     const int sample_packet = packet.packet + packet_shift(sample_cell(tile.samples, s, tile.size));
     const Mask shows = load<Int>(&tile.id[static_cast<std::size_t>(sample_packet) * kLanes]) == shaded;
     const Mask mask = shows & mask_from_bits<Mask>(packet.lanes);
-    if (any(mask)) write_colors(draw, out, i, sample_packet, mask, tile);
+    if (!any(mask)) continue;
+    const PacketMask sample{static_cast<uint16_t>(sample_packet), static_cast<uint16_t>(bits(mask))};
+    write_colors(draw, out, i, std::span(&sample, 1), tile);
   }
 }
 
@@ -122,13 +124,10 @@ void run_job(const Frame& frame, Tile& tile, const Job& job, PassStatistics& sta
     }
     draw.kernels.fragment(draw.shader.get(), {&frame, tile.x0 - job.cell.x, tile.y0 - job.cell.y, job.position, job.ids, kNoTriangle,
                                               packets.data(), n, looks_inside ? centroids.data() : nullptr, &out});
-    for (int i = 0; i < n; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      if (job.share == Share::per_pixel && tile.samples > 1) {
-        write_samples(draw, out, at, packets[at], job.ids, tile);
-      } else {
-        write_colors(draw, out, at, packets[at].packet, mask_from_bits<Mask>(packets[at].lanes), tile);
-      }
+    if (job.share == Share::per_pixel && tile.samples > 1) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) write_samples(draw, out, i, packets[i], job.ids, tile);
+    } else {
+      write_colors(draw, out, 0, std::span(packets).first(static_cast<std::size_t>(n)), tile);
     }
     begin += n;
   }
@@ -184,7 +183,7 @@ void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatist
       packets[static_cast<std::size_t>(i)] = {static_cast<uint16_t>(first + i), static_cast<uint16_t>(kAllBits<Mask>)};
     draw.kernels.fragment(draw.shader.get(),
                           {&frame, tile.x0, tile.y0, kPixelCenter, nullptr, id, packets.data(), kFragmentBatch, nullptr, &out});
-    for (int i = 0; i < kFragmentBatch; ++i) write_colors(draw, out, static_cast<std::size_t>(i), first + i, Mask(true), tile);
+    write_colors(draw, out, 0, packets, tile);
   }
 }
 

@@ -4,6 +4,8 @@
 // keep masks and depths. How one shader does it: raster/fragment_kernel.h.
 #pragma once
 
+#include <span>
+
 #include "core/lanes.h"
 #include "raster/output.h"
 #include "raster/tile.h"
@@ -58,7 +60,7 @@ void constant_colors(const Draw& draw, FragmentOutput& out);
 void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      PassStatistics& statistics);
 
-/// Writes all colours of packet i of a batch to the tile's packet where mask says.
-void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Tile& tile);
+/// Writes all colours of a batch, from its packet i on, to packets of the tile.
+void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile);
 
 }  // namespace halfspace

@@ -56,7 +56,8 @@ void finish_sample(const Context& c, const FragmentOutput& out, std::size_t i, i
   Mask mask = mask_from_bits<Mask>(packet.lanes);
   if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
   if (c.mode != VisibilityMode::early) mask = late_tests(c, out, i, packet.packet, mask);
-  write_colors(c.draw, out, i, packet.packet, mask, c.tile);
+  const PacketMask drawn{packet.packet, static_cast<uint16_t>(bits(mask))};
+  write_colors(c.draw, out, i, std::span(&drawn, 1), c.tile);
 }
 
 // Runs the fragment function over packets and hands each to finish(out, its place in the batch, packet).
