@@ -61,7 +61,7 @@ fault "halves: rows of a quad swapped" src/raster/tile_images.h 'f(in_tile, 4 * 
 fault "stencil: rejected blocks forget what failed" src/raster/visibility.cpp '!(d.asks_shader && d.draw.kernels.writes_depth) && !counts_failures &&' '!(d.asks_shader && d.draw.kernels.writes_depth) &&'
 fault "colour mask: deferred draws forget what they keep" src/raster/pass.cpp '!a.blend && a.mask.all()' '!a.blend'
 fault "samples: resolved without their mean in light" src/raster/resolve.cpp 'x = x * share;' 'x = x * share * share;'
-fault "samples: shaded for the first alone" src/raster/shade.cpp 'if (any(mask)) write_colors(draw, out, i, sample_packet, mask, tile);' 'if (any(mask) && s == 0) write_colors(draw, out, i, sample_packet, mask, tile);'
+fault "samples: shaded for the first alone" src/raster/shade.cpp 'shows & mask_from_bits<Mask>(packet.lanes);' 'shows & mask_from_bits<Mask>(s == 0 ? packet.lanes : 0);'
 fault "lines: the last pixel is drawn" src/raster/line.cpp 'end = to - (holds(b, to - 1) ? 1 : 0);' 'end = to;'
 fault "lines: between two pixels always down" src/raster/line.cpp 'const bool raised = y_major || dy > 0;' 'const bool raised = y_major;'
 fault "points: clipped by their centre" src/raster/setup.cpp '(code & (kOutNear | kOutFar)) != 0' '(code & (kOutView)) != 0'

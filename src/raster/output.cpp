@@ -27,9 +27,12 @@ Int encode8(ColorFormat format, Real value, bool alpha) {
 }
 
 Int load_halves(const uint16_t* p) {
-  Int r{};
-  for (int i = 0; i < kLanes; ++i) set_lane(r, i, p[i]);  // one load of them all made the post step 6 % slower
-  return r;
+  if constexpr (kLanes == 1) {
+    return Int(*p);
+  } else {
+    using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
+    return Int(__builtin_convertvector(load<Halves>(p), Int::V));
+  }
 }
 template <class I>
 Real decode_halves(I h) {
@@ -129,19 +132,41 @@ void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const Packe
   store(pixels, select(mask, packed, old));
 }
 
+template <ColorFormat format>
+Real read_channel(const ColorBuffer& buffer, std::size_t first, int k) {
+  if constexpr (format == ColorFormat::rgba32f) {
+    return load<Real>(plane<float>(buffer, k) + first);
+  } else if constexpr (format == ColorFormat::rgba16f) {
+    return decode_halves(load_halves(plane<uint16_t>(buffer, k) + first));
+  } else {
+    return decode8(format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3);
+  }
+}
+
+template <ColorFormat format>
+void read_packets(const ColorBuffer& buffer, std::span<const PacketMask> packets, PacketColor* out) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    for (int k = 0; k < 4; ++k)
+      out[i][static_cast<std::size_t>(k)] = read_channel<format>(buffer, static_cast<std::size_t>(packets[i].packet) * kLanes, k);
+  }
+}
+
 }  // namespace
 
-PacketColor read_color(const ColorBuffer& buffer, int packet) {
-  const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
-  PacketColor c;
-  for (int k = 0; k < 4; ++k) {
-    Real& out = c[static_cast<std::size_t>(k)];
-    switch (buffer.format) {
-      case ColorFormat::rgba32f: out = load<Real>(plane<float>(buffer, k) + first); break;
-      case ColorFormat::rgba16f: out = decode_halves(load_halves(plane<uint16_t>(buffer, k) + first)); break;
-      default: out = decode8(buffer.format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3); break;
-    }
+void read_batch(const ColorBuffer& buffer, std::span<const PacketMask> packets, PacketColor* out) {
+  switch (buffer.format) {
+    case ColorFormat::none: return;
+    case ColorFormat::rgba8: return read_packets<ColorFormat::rgba8>(buffer, packets, out);
+    case ColorFormat::srgb8a8: return read_packets<ColorFormat::srgb8a8>(buffer, packets, out);
+    case ColorFormat::rgba16f: return read_packets<ColorFormat::rgba16f>(buffer, packets, out);
+    case ColorFormat::rgba32f: return read_packets<ColorFormat::rgba32f>(buffer, packets, out);
   }
+}
+
+PacketColor read_color(const ColorBuffer& buffer, int packet) {
+  const PacketMask one{static_cast<uint16_t>(packet), static_cast<uint16_t>(kAllBits<Mask>)};
+  PacketColor c;
+  read_batch(buffer, std::span(&one, 1), &c);
   return c;
 }
 

@@ -13,6 +13,9 @@ namespace halfspace {
 /// The packet's colours, decoded to linear floats.
 PacketColor read_color(const ColorBuffer& buffer, int packet);
 
+/// The same for several packets, one of out each.
+void read_batch(const ColorBuffer& buffer, std::span<const PacketMask> packets, PacketColor* out);
+
 /// Writes the channels that the state names of src where mask says: blended with what is there if the state blends, else
 /// replacing it. src1 is the second colour of dual source blending (any, where no factor asks for it).
 void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1, const AttachmentState& state);

@@ -32,22 +32,33 @@ struct PassOptions {
   bool defer = true;                                ///< false: shade every fragment at once, in order
 };
 
+/// Packets of a tile at the end of the pass, and their colours, which are replaced.
+struct PostBatch {
+  int tile_x0, tile_y0;  ///< window coordinates of the tile's pixel (0, 0)
+  std::span<const PacketMask> packets;
+  PacketColor* colors;  ///< one a packet
+};
+
 /// A functor for the end of the pass: template <class R> vec4<R> operator()(vec4<R> color) const, from the pass's colour
 /// to that of the post target; for tone mapping and encoding while the tile is in cache. It may take the pixel's window
 /// coordinates too: operator()(vec4<R> color, IntOf<R> x, IntOf<R> y).
-using PostKernel = void (*)(const void* function, Int x, Int y, PacketColor& color);
+using PostKernel = void (*)(const void* function, const PostBatch& batch);
 
 namespace detail {
 template <class F>
-void post_kernel(const void* function, [[maybe_unused]] Int x, [[maybe_unused]] Int y, PacketColor& color) {
+void post_kernel(const void* function, const PostBatch& batch) {
   const F& f = *static_cast<const F*>(function);
-  vec4<Real> out(color[0], color[1], color[2], color[3]);
-  if constexpr (requires { f(out, x, y); }) {
-    out = f(out, x, y);
-  } else {
-    out = f(out);
+  for (std::size_t i = 0; i < batch.packets.size(); ++i) {
+    PacketColor& color = batch.colors[i];
+    vec4<Real> out(color[0], color[1], color[2], color[3]);
+    if constexpr (std::invocable<const F&, vec4<Real>, Int, Int>) {
+      const int packet = batch.packets[i].packet;
+      out = f(out, Int(batch.tile_x0 + packet_x(packet)) + lane_x(), Int(batch.tile_y0 + packet_y(packet)) + lane_y());
+    } else {
+      out = f(out);
+    }
+    color = {out.x, out.y, out.z, out.w};
   }
-  for (int k = 0; k < 4; ++k) color[static_cast<std::size_t>(k)] = out[k];
 }
 
 /// The kernels of a shader: what it lacks is left null.

@@ -209,11 +209,19 @@ void Pass::fill_images(const FlatArea& area) const {
 void Pass::run_post_step(const Tile& tile) const {
   ColorBuffer finished;
   finished.format = post_target_.format;
+  std::array<PacketMask, kFragmentBatch> packets;
+  std::array<PacketColor, kFragmentBatch> colors;
+  std::size_t count = 0;
   for (int p = 0; p < kPackets; ++p) {
-    if (packet_x(p) >= tile.width || packet_y(p) >= tile.height) continue;
-    PacketColor c = read_color(tile.color[0], p);
-    post_kernel_(post_function_.get(), Int(tile.x0 + packet_x(p)) + lane_x(), Int(tile.y0 + packet_y(p)) + lane_y(), c);
-    write_color(finished, p, Mask(true), c, c, {});
+    const bool is_last = p == kPackets - 1;
+    if (packet_x(p) < tile.width && packet_y(p) < tile.height)
+      packets[count++] = {static_cast<uint16_t>(p), static_cast<uint16_t>(kAllBits<Mask>)};
+    if (count < packets.size() && !is_last) continue;
+    const std::span<const PacketMask> batch = std::span(packets).first(count);
+    read_batch(tile.color[0], batch, colors.data());
+    post_kernel_(post_function_.get(), {tile.x0, tile.y0, batch, colors.data()});
+    write_batch(finished, batch, colors.data(), colors.data(), {});
+    count = 0;
   }
   store_color(post_target_, frame_.width, frame_.height, Samples::one, tile, finished);
 }
