@@ -50,7 +50,7 @@ def nearest_float(x):
 def show(name, fit):
     c, error = fit
     digits = ", ".join("%.9gf" % nearest_float(x) for x in c)
-    print("%-10s relative error 2^%.1f\n  {%s}" % (name, float(log(error) / LN2), digits))
+    print("%-12s relative error 2^%.1f\n  {%s}" % (name, float(log(error) / LN2), digits))
 
 
 def float_sum(name, x, bits=24):
@@ -87,3 +87,6 @@ show("cos", remez(lambda z: (cos(sqrt(z)) - 1 + z / 2) / z**2, lambda z: z**2 / 
 float_sum("pi/2", mp.pi / 2)
 show("atan", remez(lambda z: (atan(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sqrt(z) / atan(sqrt(z)), tiny, mpf(1), 8))
 show("asin", remez(lambda z: (asin(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sqrt(z) / asin(sqrt(z)), tiny, mpf(1) / 4, 4))
+# The guess of inverse_sqrt leaves r = 1 - x*y^2 within [-0.0691, 0.0676].
+guess = remez(lambda r: (1 / sqrt(1 - r) - 1) / r, lambda r: fabs(r) * sqrt(1 - r), mpf("-0.0691"), mpf("0.0676") + tiny, 3)
+show("inverse_sqrt", guess)

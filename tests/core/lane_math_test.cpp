@@ -72,14 +72,14 @@ void expect_at_most(double bound, const char* what, const Worst& worst) {
   EXPECT_LE(worst.ulp, bound) << what << ": " << worst;
 }
 
-TEST(LaneMath, InverseSqrtIsWithin113Ulp) {
+TEST(LaneMath, InverseSqrtIsWithin132Ulp) {
   const auto f = [](float x) { return inverse_sqrt(x); };
   const auto g = [](double x) { return 1.0 / std::sqrt(x); };
   // Every float of two binades, which is every mantissa with an even and an odd exponent; then all exponents.
   Worst worst;
   for (int32_t i = as_int(1.0f); i < as_int(4.0f); ++i) worst.add(ulps(f(as_real(i)), g(static_cast<double>(as_real(i)))), as_real(i));
-  expect_at_most(1.13, "inverse_sqrt 1 to 4", worst);
-  expect_at_most(1.13, "inverse_sqrt", sweep(f, g, 0x1p-126f, 0x1.fffffep127f));
+  expect_at_most(1.32, "inverse_sqrt 1 to 4", worst);
+  expect_at_most(1.32, "inverse_sqrt", sweep(f, g, 0x1p-126f, 0x1.fffffep127f));
   for (float x = 0x1p-127f; x > 0.0f; x *= 0.5f) EXPECT_TRUE(f(x) > 0.0f && f(x) <= g(static_cast<double>(x))) << x;
 }
 
