@@ -90,3 +90,8 @@ show("asin", remez(lambda z: (asin(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sq
 # The guess of inverse_sqrt leaves r = 1 - x*y^2 within [-0.0691, 0.0676].
 guess = remez(lambda r: (1 / sqrt(1 - r) - 1) / r, lambda r: fabs(r) * sqrt(1 - r), mpf("-0.0691"), mpf("0.0676") + tiny, 3)
 show("inverse_sqrt", guess)
+# What unit_pow and levels of detail make of less: their logarithms and powers of two need no full precision.
+log2_over_f = (lambda f: log(1 + f) / LN2 / f, lambda f: fabs(f * LN2 / log(1 + f)), lo, hi)
+show("unit_pow: log2", remez(*log2_over_f, 6))
+show("unit_pow: exp2", remez(lambda f: (2**f - 1) / f, lambda f: fabs(f) / 2**f, -third, third + tiny, 4))
+show("level of detail: log2", remez(*log2_over_f, 4))

@@ -260,6 +260,9 @@ namespace detail {
 template <class R>
 inline constexpr float kLevelSnap = std::is_same_v<R, double> ? 0.0f : 0x1p-14f;
 
+/// log2(1 + f)/f for log2_of_normal: levels of detail within 2^-16, which shifts a value by less than contrast/65536.
+inline constexpr float kLevelLog2[] = {1.44264627f, -0.720555007f, 0.485306472f, -0.390892416f, 0.254752129f};
+
 }  // namespace detail
 
 /// whole: floor(lod + kLevelSnap), or for what is no level any other number beyond the ends.
@@ -290,7 +293,7 @@ HS_INLINE Texture2D::LevelChoice<R> Texture2D::levels_of(const Sampler& sampler,
   } else {
     constexpr float kSnapFactor = 1.0f + 2 * 0.693147181f * detail::kLevelSnap<R>;
     const IntOf<R> exponent = (as_int(rho2 * R(kSnapFactor)) >> 23) - 127;
-    return choose_level(sampler, R(0.5f) * detail::log2_of_normal(rho2), exponent >> 1);
+    return choose_level(sampler, R(0.5f) * detail::log2_of_normal(rho2, detail::kLevelLog2), exponent >> 1);
   }
 }
 

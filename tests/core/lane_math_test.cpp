@@ -83,7 +83,7 @@ TEST(LaneMath, InverseSqrtIsWithin132Ulp) {
   for (float x = 0x1p-127f; x > 0.0f; x *= 0.5f) EXPECT_TRUE(f(x) > 0.0f && f(x) <= g(static_cast<double>(x))) << x;
 }
 
-TEST(LaneMath, UnitPowIsWithin15e8OfPow) {
+TEST(LaneMath, UnitPowIsWithin6e7OfPow) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f), exponent(-7.0f, 17.0f);
   double worst = 0.0;
@@ -93,7 +93,8 @@ TEST(LaneMath, UnitPowIsWithin15e8OfPow) {
     const float x = (i & 1) != 0 ? unit(random) : 1.0f - unit(random) * std::min(1.0f, 8.0f / y);
     worst = std::max(worst, std::fabs(static_cast<double>(unit_pow(x, y)) - std::pow(static_cast<double>(x), static_cast<double>(y))));
   }
-  EXPECT_LE(worst, 1.5e-7);  // see unit_pow; 6e-8 of it is the rounding of a result near 1
+  if (std::getenv("HALFSPACE_PRINT_ULPS") != nullptr) std::cout << "unit_pow: " << worst << '\n';
+  EXPECT_LE(worst, 6e-7);  // see unit_pow
   EXPECT_GT(worst, 1e-8);    // the pairs are not all at the ends
   EXPECT_EQ(unit_pow(0.0f, 0.0f), 1.0f);
   EXPECT_EQ(unit_pow(0.5f, 0.0f), 1.0f);
