@@ -6,6 +6,7 @@ For each size and workload the programs take turns, round after round, so that a
 """
 import argparse
 import datetime
+import itertools
 import json
 import os
 import platform
@@ -111,22 +112,19 @@ def contenders(args):
 
 
 def measure_rounds(runners, names, sizes, rounds, seconds, extra=(), progress=None):
-    """Lines of (contender, workload, size): the median over rounds of each round's median, and how far rounds lie apart."""
-    rows = []
-    for size in sizes:
-        for name in names:
-            lines = {r.key: [] for r in runners if r.draws(name)}
-            for _ in range(rounds):
-                for r in runners:
-                    if r.key not in lines:
-                        continue
-                    got = r.run("--only", name, "--size", size, "--seconds", str(seconds), *extra)
-                    if got:
-                        lines[r.key].append(got[0])
-                    if progress:
-                        progress.step(f"{size} {name} {r.key}")
-            rows += [row_of(key, of_rounds) for key, of_rounds in lines.items() if of_rounds]
-    return rows
+    """Lines of (contender, workload, size): the median over rounds of each round's median, and how far rounds lie apart. A round goes
+    through everything, so that what disturbs the machine for a minute meets one round of a line, not all of them."""
+    lines = {}
+    for _ in range(rounds):
+        for size, name, r in itertools.product(sizes, names, runners):
+            if not r.draws(name):
+                continue
+            got = r.run("--only", name, "--size", size, "--seconds", str(seconds), *extra)
+            if got:
+                lines.setdefault((size, name, r.key), []).append(got[0])
+            if progress:
+                progress.step(f"{size} {name} {r.key}")
+    return [row_of(contender, of_rounds) for (_, _, contender), of_rounds in lines.items()]
 
 
 def row_of(key, lines):
