@@ -26,12 +26,13 @@ Int encode8(ColorFormat format, Real value, bool alpha) {
   return format == ColorFormat::srgb8a8 && !alpha ? linear_to_srgb(value) : linear_to_unorm8(value);
 }
 
-Int load_halves(const uint16_t* p) {
-  if constexpr (kLanes == 1) {
-    return Int(*p);
+template <class I>
+I load_halves(const uint16_t* p) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return *p;
   } else {
     using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
-    return Int(__builtin_convertvector(load<Halves>(p), Int::V));
+    return I(__builtin_convertvector(load<Halves>(p), typename I::V));
   }
 }
 template <class I>
@@ -137,7 +138,7 @@ Real read_channel(const ColorBuffer& buffer, std::size_t first, int k) {
   if constexpr (format == ColorFormat::rgba32f) {
     return load<Real>(plane<float>(buffer, k) + first);
   } else if constexpr (format == ColorFormat::rgba16f) {
-    return decode_halves(load_halves(plane<uint16_t>(buffer, k) + first));
+    return decode_halves(load_halves<Int>(plane<uint16_t>(buffer, k) + first));
   } else {
     return decode8(format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3);
   }
