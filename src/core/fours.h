@@ -142,11 +142,11 @@ HS_INLINE std::array<I, 3> load_threes(const int32_t* p) {
   }
 }
 
-/// How many words behind the last that is asked for gather_row may read.
-inline constexpr std::size_t kRowSlack = 3;
+/// How many words behind the last that is asked for gather_row may read: it reads four where two are asked for.
+inline constexpr std::size_t kRowSlack = 2;
 
-/// base[i], …, base[i + N − 1] lane by lane, N up to 4: faster than N gathers where N > 1. Four words from base[i] on must be readable
-/// for every lane, whether its result is used or not.
+/// base[i], …, base[i + N − 1] lane by lane, N up to 4: faster than N gathers where N > 1, for which four words from base[i]
+/// on must be readable for every lane, whether its result is used or not.
 template <int N, class Word, class I>
 HS_INLINE auto gather_row(const Word* base, I i) {
   std::array<decltype(gather(base, i)), N> row;

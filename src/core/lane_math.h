@@ -234,18 +234,20 @@ HS_INLINE R pow(R x, std::type_identity_t<R> y) {
 /// x^y for 0 <= x <= 1 and y >= 0, as highlights ask: absolute error at most 6e-7 (pow's is relative), at a fifth of pow's cost (alone,
 /// 16 lanes). unit_pow(x, 0) = 1, unit_pow(0, y) = 0 for y > 0. NaN gives NaN, but y = 0 always 1. What is below 2^-126 counts as 0.
 ///
-/// y·log2 x errs by 2^-19.8 of itself, the result by that times ln 2·2^(y·log2 x): t·2^-t is 0.54 at most.
+/// y·log2 x errs by 2^-19.8 of itself, the result by that times ln 2·2^(y·log2 x): t·2^-t is 0.54 at most, which makes 4.1e-7. The power of
+/// two errs by 1.1e-7 of the result; together they are 4.6e-7 at most, beside roundings of some 1e-7.
 template <Number R>
 HS_INLINE R unit_pow(R x, std::type_identity_t<R> y) {
   if constexpr (std::is_same_v<R, double>) {
     return pow(x, y);
   } else {
-    static constexpr float kLog2[] = {1.44269645f, -0.721363604f, 0.480626762f, -0.359371722f, 0.295699507f, -0.269319504f, 0.171623692f};
-    static constexpr float kExp2[] = {1.0f, 0.693147004f, 0.240222424f, 0.0555073358f, 0.00967151485f, 0.00132647296f};
-    const R product = max(R(-125.0f), y * detail::log2_of_normal(x, kLog2));
+    static constexpr float kCoarseLog2[] = {1.44269645f,  -0.721363604f, 0.480626762f, -0.359371722f,
+                                            0.295699507f, -0.269319504f, 0.171623692f};
+    static constexpr float kCoarseExp2[] = {1.0f, 0.693147004f, 0.240222424f, 0.0555073358f, 0.00967151485f, 0.00132647296f};
+    const R product = max(R(-125.0f), y * detail::log2_of_normal(x, kCoarseLog2));
     const R shifted = product + R(0x1.8p23f);  // whole numbers are the last bits beside 2^23
     const R power_of_two = as_real((as_int(shifted) + 127) << 23);
-    const R r = detail::polynomial(product - (shifted - R(0x1.8p23f)), kExp2) * power_of_two;
+    const R r = detail::polynomial(product - (shifted - R(0x1.8p23f)), kCoarseExp2) * power_of_two;
     return select(y == R(0.0f), R(1.0f), select(x >= R(0x1p-126f), r, x - x));
   }
 }

@@ -117,7 +117,8 @@ PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
 // A colour's four codes, red lowest.
 template <ColorFormat format>
 Int packed_codes(const PacketColor& c) {
-  return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 | encode8(format, c[3], true) << 24;
+  return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
+         encode8(format, c[3], true) << 24;
 }
 
 void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
@@ -131,6 +132,14 @@ void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const Packe
     packed = (old & keep) | (packed & ~keep);
   }
   store(pixels, select(mask, packed, old));
+}
+
+template <ColorFormat format>
+void replace_packed(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    int32_t* pixels = plane<int32_t>(buffer, 0) + static_cast<std::size_t>(packets[i].packet) * kLanes;
+    store(pixels, select(mask_from_bits<Mask>(packets[i].lanes), packed_codes<format>(src[i]), load<Int>(pixels)));
+  }
 }
 
 template <ColorFormat format>
@@ -196,18 +205,6 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
   const PacketColor dst = read_color(buffer, packet);
   write(blend_colors(*state.blend, {c, dst, src1, state.blend->constant, fixed_point}));
 }
-
-namespace {
-
-template <ColorFormat format>
-void replace_packed(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src) {
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    int32_t* pixels = plane<int32_t>(buffer, 0) + static_cast<std::size_t>(packets[i].packet) * kLanes;
-    store(pixels, select(mask_from_bits<Mask>(packets[i].lanes), packed_codes<format>(src[i]), load<Int>(pixels)));
-  }
-}
-
-}  // namespace
 
 void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                  const AttachmentState& state) {

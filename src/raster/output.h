@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// The packet's colours, decoded to linear floats.
+/// The packet's colours, decoded to linear floats. The buffer's format is not none.
 PacketColor read_color(const ColorBuffer& buffer, int packet);
 
 /// The same for several packets, one of out each.

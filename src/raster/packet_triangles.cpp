@@ -128,7 +128,10 @@ bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, Tria
   std::array<Int, 3> x, y;
   std::array<Real, 3> q;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto words = gather_row<4>(&shaded.screen[0].x, rows.row[k] << 2);
+    std::array<int32_t, kLanes> vertex;
+    store(vertex.data(), rows.row[k]);
+    const auto words =
+        load_fours<Int>([&](int lane) { return &shaded.screen[static_cast<std::size_t>(vertex[static_cast<std::size_t>(lane)])]; });
     x[k] = words[0];
     y[k] = words[1];
     q[k] = as_real(words[3]);

@@ -153,21 +153,27 @@ struct PacketTriangles {
   MaskOf<FragmentReal> front;
 };
 
-/// Calls put(lanes of packet i, which number of a TriangleScalars they hold) for all.
+/// Calls put(lanes of packet i, which member of a struct with the same members they come from) for all.
+template <int i, class F>
+HS_INLINE void for_each_corner_value(TriangleLanes<FragmentReal>& t, F put) {
+  put(half<i>(t.x0), [](const auto& s) { return s.x0; });
+  put(half<i>(t.y0), [](const auto& s) { return s.y0; });
+  put(half<i>(t.e1x), [](const auto& s) { return s.e1x; });
+  put(half<i>(t.e1y), [](const auto& s) { return s.e1y; });
+  put(half<i>(t.e2x), [](const auto& s) { return s.e2x; });
+  put(half<i>(t.e2y), [](const auto& s) { return s.e2y; });
+  put(half<i>(t.area), [](const auto& s) { return s.area; });
+  put(half<i>(t.q0), [](const auto& s) { return s.q0; });
+  put(half<i>(t.q1), [](const auto& s) { return s.q1; });
+  put(half<i>(t.q2), [](const auto& s) { return s.q2; });
+  put(half<i>(t.q_unscale), [](const auto& s) { return s.q_unscale; });
+}
+
+/// The same for all of a TriangleScalars.
 template <int i, std::size_t N, std::size_t P, class F>
 HS_INLINE void for_each_value(PacketTriangles<N, P>& t, F put) {
   using S = TriangleScalars<N>;
-  put(half<i>(t.lanes.x0), [](const S& s) { return s.x0; });
-  put(half<i>(t.lanes.y0), [](const S& s) { return s.y0; });
-  put(half<i>(t.lanes.e1x), [](const S& s) { return s.e1x; });
-  put(half<i>(t.lanes.e1y), [](const S& s) { return s.e1y; });
-  put(half<i>(t.lanes.e2x), [](const S& s) { return s.e2x; });
-  put(half<i>(t.lanes.e2y), [](const S& s) { return s.e2y; });
-  put(half<i>(t.lanes.area), [](const S& s) { return s.area; });
-  put(half<i>(t.lanes.q0), [](const S& s) { return s.q0; });
-  put(half<i>(t.lanes.q1), [](const S& s) { return s.q1; });
-  put(half<i>(t.lanes.q2), [](const S& s) { return s.q2; });
-  put(half<i>(t.lanes.q_unscale), [](const S& s) { return s.q_unscale; });
+  for_each_corner_value<i>(t.lanes, put);
   for (std::size_t k = 0; k < N; ++k) {
     put(half<i>(t.components.value0[k]), [k](const S& s) { return s.value0[k]; });
     put(half<i>(t.components.delta1[k]), [k](const S& s) { return s.delta1[k]; });
@@ -243,22 +249,6 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
   }
 }
 
-/// The lanes of packet i.
-template <int i>
-HS_INLINE void put_triangles(const TriangleLanes<Real>& from, TriangleLanes<FragmentReal>& to) {
-  half<i>(to.x0) = from.x0;
-  half<i>(to.y0) = from.y0;
-  half<i>(to.e1x) = from.e1x;
-  half<i>(to.e1y) = from.e1y;
-  half<i>(to.e2x) = from.e2x;
-  half<i>(to.e2y) = from.e2y;
-  half<i>(to.area) = from.area;
-  half<i>(to.q0) = from.q0;
-  half<i>(to.q1) = from.q1;
-  half<i>(to.q2) = from.q2;
-  half<i>(to.q_unscale) = from.q_unscale;
-}
-
 /// Of the lanes (a bit each) those whose triangle no lower one shows; beyond `most` of them any may be left out.
 template <class I>
 HS_INLINE uint32_t first_lanes(I packet_ids, const TriangleId* ids, uint32_t lanes, int most) {
@@ -280,7 +270,7 @@ HS_INLINE uint32_t first_lanes(I packet_ids, const TriangleId* ids, uint32_t lan
 /// Triangles of a packet from which on they are gathered, not merged.
 inline constexpr int kGatherFrom = 3;
 
-/// The triangles of packet i, however many: slower than what follows. firsts: a lane of each.
+/// The triangles of packet i one after the other, where gather_rows refuses them. firsts: a lane of each.
 template <int i, class V, std::size_t N, std::size_t P>
 __attribute__((noinline)) void merge_many(const Frame& frame, const TriangleId* ids, uint32_t firsts, RecentTriangles<V>& recent,
                                           PacketTriangles<N, P>& t) {
@@ -318,7 +308,7 @@ HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, Rec
   TriangleRows rows;
   TriangleLanes<Real> lanes;
   if (gather_rows(frame, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
-    put_triangles<i>(lanes, t.lanes);
+    for_each_corner_value<i>(t.lanes, [&](Real& to, auto value) { to = value(lanes); });
     return gather_components<i, V>(rows, t);
   }
   merge_many<i>(frame, ids, first_lanes(packet_ids, ids, packet.lanes, kLanes), recent, t);

@@ -124,9 +124,10 @@ class Pass {
     add(shader, vertices, std::shared_ptr<const Indices>(std::shared_ptr<void>(), &indices), state);
   }
 
-  /// Sends the finished first colour of every pixel through function into another target of the same size.
+  /// Sends the finished first colour of every pixel through function into another target of the same size. The pass must have one.
   template <class F>
   void post(const F& function, const ColorTarget& target) {
+    HS_CHECK(!colors_.empty() && colors_[0].format != ColorFormat::none);
     post_function_ = std::make_shared<const F>(function);
     post_kernel_ = detail::post_kernel<F>;
     post_target_ = target;

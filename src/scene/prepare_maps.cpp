@@ -64,10 +64,13 @@ double relief_height(const ObjectDescription& o) {
 
 namespace {
 
-// How far from the eye the picture may show the object, at the least; units. Of a plane, whose ball often holds the eye, what is in view
-// alone counts; infinite where nothing is.
-double nearest_distance(const ObjectDescription& o, const glm::dmat4& world_from_object, double scale, const View& view) {
-  if (o.shape != Shape::plane) return glm::distance(glm::dvec3(world_from_object[3]), view.eye_ws) - ball_radius(o) * scale;
+// How far from the eye the object's ball is; units.
+double distance_of_ball(const ObjectDescription& o, const glm::dmat4& world_from_object, double scale, const View& view) {
+  return glm::distance(glm::dvec3(world_from_object[3]), view.eye_ws) - ball_radius(o) * scale;
+}
+
+// How far along the view the nearest part of a plane lies that is in view; units; infinite where none is. (Its ball often holds the eye.)
+double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_object, const View& view) {
   const glm::dvec3 corner(0.5 * o.size, relief_height(o), 0.5 * o.size);
   double nearest = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& p : common_corners(frustum_corners(view.clip_from_world * world_from_object), {-corner, corner})) {
@@ -80,10 +83,13 @@ double nearest_distance(const ObjectDescription& o, const glm::dmat4& world_from
 
 // How many texels along u are worth having: where the object is nearest one spans two pixels.
 int ScenePreparation::width_for(const ObjectDescription& o) const {
+  // Heights out of view shade what is in view.
+  const bool shades = is_map(o.height) && o.casts_shadow && scene_.shadow.method != ShadowMethod::none;
   double most_px = 0.0;
   for (const glm::dmat4& world : places_of(o)) {
     const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
-    const double distance = std::max(nearest_distance(o, world, scale, view_), view_.near);
+    const double nearest = o.shape == Shape::plane && !shades ? depth_of_plane(o, world, view_) : distance_of_ball(o, world, scale, view_);
+    const double distance = std::max(nearest, view_.near);
     const double height = camera().type == Projection::orthographic ? camera().height : 2.0 * view_.tan_y * distance;
     most_px = std::max(most_px, extent_of(o).map_width * scale / height * view_.height_px);
   }

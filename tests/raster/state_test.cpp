@@ -403,6 +403,13 @@ TEST(LoadStore, TargetsWithoutImages) {
   for (const glm::u8vec4& p : out.texels()) ASSERT_EQ(p, glm::u8vec4(255));
 }
 
+TEST(PostDeathTest, NeedsAColour) {
+  Image<float> depth(8, 8);
+  Image<glm::u8vec4> out(8, 8);
+  Pass pass(8, 8, {}, d32f_target(depth));
+  EXPECT_DEATH(pass.post([]<class R>(const vec4<R>& c) { return c; }, rgba8_target(out)), "ColorFormat::none");
+}
+
 TEST(Post, RunsOnEveryPixelOnce) {
   Image<glm::vec4> image(70, 40), out(70, 40);
   ColorTarget target = rgba32f_target(image);

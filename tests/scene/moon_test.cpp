@@ -213,23 +213,35 @@ TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
   EXPECT_EQ(width_at(together, 1), width_at(alone, 1));
 }
 
-// Seen from 1 above it with a right angle of view, a plane's nearest point in the picture is 1 away along the view: 8 units are 8/2 pictures
-// wide there, and a texel spans at most two pixels. What lies behind the eye, though nearer, does not count.
+// Seen from 1 above it with a right angle of view, a plane's nearest point in the picture is 1 away along the view: 8 units are 8/2
+// pictures wide there, and a texel spans at most two pixels. What lies behind the eye, though nearer, does not count.
 TEST(PreparedScene, APlanesMapIsAsFineAsItsPartInViewNeeds) {
   const Workers workers(1);
-  const auto width_from = [&](double height, const char* target) {
+  const auto width_from = [&](const char* eye, const char* target, const std::string& plane, const std::string& more = "") {
     SceneAssets assets(workers);
-    const std::string eye = std::to_string(height);
-    const PreparedScene p = assets.prepare(parsed(R"({"version": 1, "cameras": {"c": {"fov": 90, "position": [0, )" + eye +
-                                                  R"(, 0], "target": )" + target +
-                                                  R"(}}, "textures": {"t": {"source": "rock_color"}},
-      "objects": {"a": {"shape": "plane", "size": 8, "color": "t"}}})"),
-                                           512, 512);
+    const PreparedScene p = assets.prepare(
+        parsed(std::string(R"({"version": 1, "cameras": {"c": {"fov": 90, "position": )") + eye + R"(, "target": )" + target + R"(}},
+          "textures": {"t": {"source": "rock_color"}, "h": {"source": "rock_height"}},
+          "objects": {"a": {"shape": "plane", "color": "t", )" +
+               plane + "}}" + more + "}"),
+        512, 512);
     return surface_of(p.draws.at(0)).factors[kColor].map->width();
   };
-  EXPECT_EQ(width_from(1.05, "[0, 1.05, -1]"), 1024);  // 8/2.1 · 512 = 1950 px
-  EXPECT_EQ(width_from(0.95, "[0, 0.95, -1]"), 2048);  // 2156 px
-  EXPECT_EQ(width_from(1.05, "[1, 3, -1]"), 256);      // the sky: the least
+  const std::string plain = R"("size": 8)";
+  EXPECT_EQ(width_from("[0, 1.05, 0]", "[0, 1.05, -1]", plain), 1024);  // 8/2.1 · 512 = 1950 px
+  EXPECT_EQ(width_from("[0, 0.95, 0]", "[0, 0.95, -1]", plain), 2048);  // 2156 px
+  EXPECT_EQ(width_from("[0, 1.05, 0]", "[1, 3, -1]", plain), 256);      // the sky: the least
+
+  const std::string placed = R"("size": 4, "scale": [2, 2, 2], "rotation": [0, 30, 0], "position": [0.5, 2, 0.5])";
+  EXPECT_EQ(width_from("[0, 3.05, 0]", "[0, 3.05, -1]", placed), 1024);
+  EXPECT_EQ(width_from("[0, 2.95, 0]", "[0, 2.95, -1]", placed), 2048);
+
+  const std::string relief = R"("size": 8, "segments": 4, "height": "h", "height_scale": 0.5, "height_zero": 0)";  // to 0.5 above it
+  EXPECT_EQ(width_from("[0, 1.55, 0]", "[0, 1.55, -1]", relief), 1024);
+  EXPECT_EQ(width_from("[0, 1.45, 0]", "[0, 1.45, -1]", relief), 2048);
+  const std::string shadow = R"(, "lights": {"l": {}}, "shadow": {"method": "pcf3"})";
+  EXPECT_EQ(width_from("[0, 1.55, 0]", "[1, 3, -1]", relief), 256);
+  EXPECT_EQ(width_from("[0, 1.55, 0]", "[1, 3, -1]", relief, shadow), 2048);  // it may shade what is seen: as fine as a pattern can be
 }
 
 // Every shape and every map that tiles can be drawn, displaced or not.
