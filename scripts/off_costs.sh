@@ -38,7 +38,7 @@ echo "whole         $whole instructions"
 
 failed=()
 for feature in "$@"; do
-  patch -s -p1 -d "$tree" < "tests/off/$feature.patch"
+  patch -s -p1 --fuzz=0 -d "$tree" < "tests/off/$feature.patch"
   build_program
   without=$(instructions)
   # Statistics are no pixels; no patch may change any.
@@ -46,7 +46,7 @@ for feature in "$@"; do
   awk -v f="$feature" -v a="$whole" -v b="$without" \
     'BEGIN { printf "%-13s %s without its code path: %+.3f %% for being off\n", f, b, 100 * (a / b - 1); exit a > 1.01 * b }' ||
     failed+=("$feature")
-  patch -s -R -p1 -d "$tree" < "tests/off/$feature.patch"
+  patch -s -R -p1 --fuzz=0 -d "$tree" < "tests/off/$feature.patch"
 done
 if [ ${#failed[@]} -gt 0 ]; then
   echo "failed: ${failed[*]}"

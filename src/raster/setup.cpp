@@ -33,7 +33,6 @@ class SegmentSetup {
         provoking_(draw_.state.provoking == ProvokingVertex::first ? 0 : 2) {}
 
   void submit_point() {
-    ++chunk_.statistics.primitives_in;
     const uint32_t id = next_slots()[0];
     const Outcode code = shaded_.outcodes[id];
     const float inv_w = shaded_.screen[id].inv_w;
@@ -47,7 +46,6 @@ class SegmentSetup {
   }
 
   void submit_line() {
-    ++chunk_.statistics.primitives_in;
     const std::array<uint32_t, 3> id = next_slots();
     const Outcode any = shaded_.outcodes[id[0]] | shaded_.outcodes[id[1]];
     const Outcode all = shaded_.outcodes[id[0]] & shaded_.outcodes[id[1]] & kOutView;
@@ -66,14 +64,10 @@ class SegmentSetup {
     }
   }
 
-  void submit_triangle() {
-    ++chunk_.statistics.primitives_in;
-    submit_triangle(next_slots());
-  }
+  void submit_triangle() { submit_triangle(next_slots()); }
 
   // The next W triangles, or what is left of them.
   void submit_triangles(int count) {
-    chunk_.statistics.primitives_in += static_cast<uint64_t>(count);
     const uint32_t plain = put_triangles(count);
     batch_.set_up(frame_, draw_, shaded_, plain, provoking_, segment_, chunk_.statistics);
     const uint32_t single = (bits(first_lanes<Mask>(count)) & ~plain) | batch_.large();  // to be set up one by one
@@ -345,6 +339,7 @@ void set_up_chunk(const Frame& frame, Chunk& chunk) {
   for (uint32_t s = 0; s < chunk.segments.size(); ++s) {
     Segment& segment = chunk.segments[s];
     segment.first_triangle = static_cast<uint32_t>(chunk.triangles.size());
+    chunk.statistics.primitives_in += segment.count;
     chunk.triangles.reserve(chunk.triangles.size() + segment.count);
     SegmentSetup setup(frame, chunk, s);
     const Draw& draw = frame.draws[segment.draw];

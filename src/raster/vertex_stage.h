@@ -52,9 +52,11 @@ HS_INLINE A load_attributes(const VertexView& view, Int ids) {
     const Int row = ids * stream.stride;
     store(rows.data(), row);
     int32_t k = 0;
-    for (; k + 4 <= stream.components && c + 4 <= components.size(); k += 4) {
-      const std::array<Int, 4> words = load_fours<Int>([&](int i) { return stream.data + k + rows[static_cast<std::size_t>(i)]; });
-      for (const Int& word : words) components[c++] = as_real(word);
+    if constexpr (kComponents<A> >= 4) {
+      for (; k + 4 <= stream.components && c + 4 <= components.size(); k += 4) {
+        const std::array<Int, 4> words = load_fours<Int>([&](int i) { return stream.data + k + rows[static_cast<std::size_t>(i)]; });
+        for (const Int& word : words) components[c++] = as_real(word);
+      }
     }
     for (; k < stream.components && c < components.size(); ++k) components[c++] = gather(stream.data + k, row);
   }
