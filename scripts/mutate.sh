@@ -59,7 +59,7 @@ fault "a tile's depth bounds are those of a few blocks" src/raster/block_edges.h
 fault "constant tiles: a triangle that covers half of one fills it" src/raster/visibility_plain.cpp 'whole &= edges.e[i] == 0 &&' 'whole &= edges.e[i] >= 0 ||'
 fault "halves: rows of a quad swapped" src/raster/tile_images.h 'f(in_tile, 4 * in_image, 4 * (in_image - static_cast<std::size_t>(place.width)));' 'f(in_tile, 4 * (in_image - static_cast<std::size_t>(place.width)), 4 * in_image);'
 fault "stencil: rejected blocks forget what failed" src/raster/visibility.cpp '!(d.asks_shader && d.draw.kernels.writes_depth) && !counts_failures &&' '!(d.asks_shader && d.draw.kernels.writes_depth) &&'
-fault "colour mask: deferred draws forget what they keep" src/raster/pass.cpp '!a.blend && a.mask.all()' '!a.blend'
+fault "colour mask: deferred draws forget what they keep" src/raster/pass.cpp '!blend && mask.all()' '!blend'
 fault "samples: resolved without their mean in light" src/raster/resolve.cpp 'x = x * share;' 'x = x * share * share;'
 fault "samples: shaded for the first alone" src/raster/shade.cpp 'shows & mask_from_bits<Mask>(packet.lanes);' 'shows & mask_from_bits<Mask>(s == 0 ? packet.lanes : 0);'
 fault "lines: the last pixel is drawn" src/raster/line.cpp 'end = to - (holds(b, to - 1) ? 1 : 0);' 'end = to;'

@@ -166,6 +166,11 @@ struct DrawState {
   std::optional<uint32_t> query{};  ///< an occlusion query: samples that pass are counted in PassStatistics::queries[query]
 };
 
+/// How colour attachment i takes what is drawn.
+constexpr AttachmentState attachment_state(const DrawState& s, std::size_t i) {
+  return s.attachments[i] ? *s.attachments[i] : AttachmentState{s.blend, s.color_mask};
+}
+
 /// Are there points among what is drawn?
 constexpr bool draws_points(const DrawState& s) {
   return s.topology == Topology::points || (!is_lines(s.topology) && s.polygon_mode == PolygonMode::point);

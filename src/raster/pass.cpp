@@ -17,6 +17,10 @@ namespace {
 
 constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
 constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
+// Primitives of a chunk: few at first, so that every thread has work in a small pass, then a share of those before it, so that a large
+// one has few chunks (each tile looks into all of them).
+constexpr uint64_t kSmallestChunk = 2048;
+constexpr uint64_t kChunkShare = 8;
 // Bytes of a tile's memory, so that it stays in the cache next to the core (L2).
 constexpr int kTileBudget = 160 << 10;
 // Chunks that go through setup between two looks at the budget.
@@ -37,6 +41,13 @@ void put_aside(std::vector<Chunk>& chunks, std::vector<Chunk>& to) {
   chunks.clear();
 }
 
+VertexStreams keep_streams(const VertexView& view, std::pmr::memory_resource& memory) {
+  const auto count = static_cast<std::size_t>(view.stream_count);
+  auto* const kept = static_cast<VertexStream*>(memory.allocate(count * sizeof(VertexStream), alignof(VertexStream)));
+  std::uninitialized_copy_n(view.streams.begin(), count, kept);
+  return {{kept, count}, view.has_instance_streams};
+}
+
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
 
 void check_rect(const Rect& r, int smallest) {
@@ -53,7 +64,7 @@ Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const Dep
     : colors_(colors.begin(), colors.end()), depth_(depth), options_(options) {
   HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize);
   HS_CHECK(options.tile_size == 8 || options.tile_size == 16 || options.tile_size == 32 || options.tile_size == 64);
-  HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= 4096);
+  HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= 8192);
   HS_CHECK(options.samples == 1 || options.samples == 2 || options.samples == 4 || options.samples == 8);
   HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets});
   for (const ColorTarget& c : colors) {
@@ -61,6 +72,7 @@ Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const Dep
     has_color_ |= c.format != ColorFormat::none;
   }
   HS_CHECK(depth.data != nullptr || depth.format == DepthFormat::none || (depth.load != LoadOp::load && depth.store == StoreOp::dont_care));
+  frame_.memory = std::make_unique<std::pmr::monotonic_buffer_resource>();
   frame_.width = width;
   frame_.height = height;
   frame_.samples = options.samples;
@@ -79,112 +91,131 @@ int Pass::tile_size() const {
   return size;
 }
 
-void Pass::add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> shader, const VertexView& vertices,
-                    std::shared_ptr<const Indices> indices, const DrawState& state) {
-  const FloatMode mode;  // the viewport transform is computed here, not in a task
+void Pass::add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
+                    const DrawState& state) {
   HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0);
   HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count));
   HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count);
   HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
+  if (state.viewport) check_rect(*state.viewport, 1);
+  if (state.scissor) check_rect(*state.scissor, 0);
   if (frame_.draws.capacity() == 0) frame_.draws = take_draw_memory();
-  Draw& d = frame_.draws.emplace_back();
-  d.kernels = kernels;
-  d.shader = std::move(shader);
-  d.vertices = vertices;
-  d.indices = std::move(indices);
-  d.state = state;
+  Draw& d = frame_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, *frame_.memory), state);
+  d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
-  const Rect whole{0, 0, frame_.width, frame_.height};
-  const Rect viewport = state.viewport.value_or(whole);
-  check_rect(viewport, 1);
-  d.viewport = make_viewport(viewport, state.depth);
-  Rect bounds = intersect(whole, viewport);
-  if (state.scissor) {
-    check_rect(*state.scissor, 0);
-    bounds = intersect(bounds, *state.scissor);
-  }
-  d.bounds = to_bounds(bounds);
-  d.depth_low = std::min(state.depth.range_near, state.depth.range_far);
-  d.depth_high = std::max(state.depth.range_near, state.depth.range_far);
   d.shades_samples = frame_.samples > 1 && (state.sample_shading || options_.supersample);
   d.sample_mask = frame_.samples == 1 ? 1u : state.sample_mask & ((1u << frame_.samples) - 1);
-  const bool replaces = resolve_attachments(d);
+  const bool replaces = look_at_attachments(d);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
   const bool covers_by_alpha = state.alpha_to_coverage && frame_.samples > 1;
   const bool defers = options_.defer && replaces && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   d.deferred = defers || !has_color_;  // without colour there is nothing to blend or to shade at once
+  if (state.query) submitted_.queries.resize(std::max(submitted_.queries.size(), std::size_t{*state.query} + 1));
+  add_vertex_tasks(frame_.draws.size() - 1);
+  add_segments(static_cast<uint32_t>(frame_.draws.size() - 1));
 }
 
-bool Pass::resolve_attachments(Draw& d) const {
+void Pass::place_draw(Draw& d) const {
+  const Rect whole{0, 0, frame_.width, frame_.height};
+  const Rect viewport = d.state.viewport.value_or(whole);
+  d.viewport = make_viewport(viewport, d.state.depth);
+  Rect bounds = intersect(whole, viewport);
+  if (d.state.scissor) bounds = intersect(bounds, *d.state.scissor);
+  d.bounds = to_bounds(bounds);
+  d.depth_low = std::min(d.state.depth.range_near, d.state.depth.range_far);
+  d.depth_high = std::max(d.state.depth.range_near, d.state.depth.range_far);
+}
+
+bool Pass::look_at_attachments(Draw& d) const {
   bool replaces = true;
   for (std::size_t i = 0; i < colors_.size(); ++i) {
-    AttachmentState& a = d.attachments[i];
-    a = d.state.attachments[i].value_or(AttachmentState{d.state.blend, d.state.color_mask});
-    if (a.blend && uses_second_source(*a.blend)) HS_CHECK(d.kernels.color_count > 1 && colors_.size() == 1);
+    const std::optional<AttachmentState>& own = d.state.attachments[i];
+    const std::optional<BlendState>& blend = own ? own->blend : d.state.blend;
+    const ColorMask& mask = own ? own->mask : d.state.color_mask;
+    if (blend && uses_second_source(*blend)) HS_CHECK(d.kernels.color_count > 1 && colors_.size() == 1);
     if (colors_[i].format == ColorFormat::none) continue;
     const bool has_color = d.kernels.fragment != nullptr && static_cast<int>(i) < d.kernels.color_count;
-    replaces &= has_color && !a.blend && a.mask.all();
-    d.writes_color |= has_color && (a.mask.r || a.mask.g || a.mask.b || a.mask.a);
+    replaces &= has_color && !blend && mask.all();
+    d.writes_color |= has_color && (mask.r || mask.g || mask.b || mask.a);
   }
   return replaces;
 }
 
-void Pass::run_vertex_stage(const Workers& workers, PassStatistics& statistics) {
-  struct Task {
-    std::size_t draw, begin, end;
-    Outcode any;
-  };
-  std::vector<Task> tasks;
-  frame_.shaded.resize(frame_.draws.size());
-  for (std::size_t d = 0; d < frame_.draws.size(); ++d) {
-    const Draw& draw = frame_.draws[d];
-    allocate_vertices(draw, frame_.shaded[d]);
-    const std::size_t count = draw.indices->used_count() * draw.state.instances;
-    statistics.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
-    statistics.vertices_shaded += count;
-    for (std::size_t b = 0; b < count; b += kVerticesPerTask) tasks.push_back({d, b, std::min(count, b + kVerticesPerTask), 0});
+void Pass::add_vertex_tasks(std::size_t draw) {
+  const Draw& d = frame_.draws[draw];
+  const std::size_t count = d.vertex_count;
+  submitted_.vertices_in += (d.indices->size() - d.indices->restarts().size()) * d.state.instances;
+  submitted_.vertices_shaded += count;
+  if (count > kVerticesPerTask) {
+    for (std::size_t b = 0; b < count; b += kVerticesPerTask)
+      vertex_tasks_.push_back({draw, draw + 1, b, std::min(count, b + kVerticesPerTask), true});
+    return;
   }
-  workers.for_each(static_cast<int>(tasks.size()), [&](int i) {
-    Task& t = tasks[static_cast<std::size_t>(i)];
-    t.any = shade_vertices(frame_.draws[t.draw], t.begin, t.end, frame_.shaded[t.draw]);
-  });
-  for (const Task& t : tasks) frame_.shaded[t.draw].any_outcode |= t.any;
-}
-
-std::vector<std::vector<Segment>> Pass::split_into_chunks() const {
-  std::vector<std::vector<Segment>> chunks;
-  uint32_t room = 0;     // for primitives in the last chunk
-  uint32_t records = 0;  // for what they may become
-  for (uint32_t d = 0; d < frame_.draws.size(); ++d) {
-    const Draw& draw = frame_.draws[d];
-    const uint32_t each = most_records(draw, frame_.samples);
-    for (uint32_t instance = 0; instance < draw.state.instances; ++instance) {
-      for (uint32_t first = 0; first < draw.primitive_count;) {
-        if (room == 0 || records < each) {
-          chunks.emplace_back();
-          room = options_.chunk_triangles;
-          records = kMaxTrianglesPerChunk;
-        }
-        const uint32_t n = std::min({room, records / each, draw.primitive_count - first});
-        chunks.back().push_back({d, instance, first, n});
-        first += n;
-        room -= n;
-        records -= n * each;
-      }
+  if (!vertex_tasks_.empty()) {
+    VertexTask& last = vertex_tasks_.back();
+    if (!last.is_part && last.end + count <= kVerticesPerTask) {
+      last.end_draw = draw + 1;
+      last.end += count;
+      return;
     }
   }
-  return chunks;
+  vertex_tasks_.push_back({draw, draw + 1, 0, count, false});
+}
+
+void Pass::run_vertex_stage(const Workers& workers) {
+  const FloatMode mode;  // large draws are placed here, not in a task
+  frame_.shaded.resize(frame_.draws.size());
+  const auto begin_draw = [this](std::size_t draw) {
+    place_draw(frame_.draws[draw]);
+    allocate_vertices(frame_.draws[draw], frame_.shaded[draw]);
+  };
+  for (const VertexTask& t : vertex_tasks_) {
+    if (t.is_part && t.begin == 0) begin_draw(t.draw);
+  }
+  workers.for_each(static_cast<int>(vertex_tasks_.size()), [&](int i) {
+    VertexTask& t = vertex_tasks_[static_cast<std::size_t>(i)];
+    if (t.is_part) {
+      t.any = shade_vertices(frame_.draws[t.draw], t.begin, t.end, frame_.shaded[t.draw]);
+      return;
+    }
+    for (std::size_t d = t.draw; d < t.end_draw; ++d) {
+      begin_draw(d);
+      frame_.shaded[d].any_outcode = shade_vertices(frame_.draws[d], 0, frame_.draws[d].vertex_count, frame_.shaded[d]);
+    }
+  });
+  for (const VertexTask& t : vertex_tasks_) {
+    if (t.is_part) frame_.shaded[t.draw].any_outcode |= t.any;
+  }
+  vertex_tasks_.clear();
+}
+
+void Pass::add_segments(uint32_t draw) {
+  const Draw& d = frame_.draws[draw];
+  const uint32_t each = most_records(d, frame_.samples);
+  for (uint32_t instance = 0; instance < d.state.instances; ++instance) {
+    for (uint32_t first = 0; first < d.primitive_count;) {
+      if (plan_.room == 0 || plan_.records < each) {
+        plan_.chunks.emplace_back();
+        plan_.room =
+            static_cast<uint32_t>(std::min<uint64_t>(options_.chunk_triangles, std::max(kSmallestChunk, plan_.primitives / kChunkShare)));
+        plan_.records = kMaxTrianglesPerChunk;
+      }
+      const uint32_t n = std::min({plan_.room, plan_.records / each, d.primitive_count - first});
+      plan_.chunks.back().push_back({draw, instance, first, n});
+      first += n;
+      plan_.primitives += n;
+      plan_.room -= n;
+      plan_.records -= n * each;
+    }
+  }
 }
 
 PassStatistics Pass::run(const Workers& workers) {
-  PassStatistics statistics;
-  for (const Draw& d : frame_.draws) {
-    if (d.state.query) statistics.queries.resize(std::max(statistics.queries.size(), std::size_t{*d.state.query} + 1));
-  }
+  PassStatistics statistics = std::exchange(submitted_, {});
   FrameMemory memory = take_frame_memory();
   frame_.shaded = std::move(memory.shaded);
-  run_vertex_stage(workers, statistics);
-  const std::vector<std::vector<Segment>> work = split_into_chunks();
+  run_vertex_stage(workers);
+  const std::vector<std::vector<Segment>> work = std::exchange(plan_, {}).chunks;
   bool first_round = true;
   std::size_t next = 0;
   do {
@@ -217,6 +248,7 @@ PassStatistics Pass::run(const Workers& workers) {
     first_round = false;
   } while (next < work.size());
   keep_draw_memory(std::exchange(frame_.draws, {}));
+  frame_.memory->release();
   put_aside(frame_.chunks, memory.chunks);
   memory.shaded = std::exchange(frame_.shaded, {});
   keep_frame_memory(std::move(memory));

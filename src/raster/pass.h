@@ -27,7 +27,7 @@ struct PassOptions {
   int samples = 1;                  ///< 1, 2, 4 or 8, at the standard positions; their mean is stored (of depth and stencil the first)
   bool supersample = false;         ///< every draw is shaded for each sample, as by DrawState::sample_shading
   int tile_size = kMaxTileSize;     ///< 8, 16, 32 or 64 px; smaller where samples and attachments need the room
-  uint32_t chunk_triangles = 4096;  ///< submitted primitives per setup task, 1 … 4096
+  uint32_t chunk_triangles = 8192;  ///< submitted primitives per setup task, at the most; 1 … 8192
   std::size_t bin_budget = std::size_t{256} << 20;  ///< bytes of set-up triangles and bins before the tiles are flushed
   bool defer = true;                                ///< false: shade every fragment at once, in order
 };
@@ -63,7 +63,7 @@ void post_kernel(const void* function, const PostBatch& batch) {
 
 /// The kernels of a shader: what it lacks is left null.
 template <class S>
-ShaderKernels kernels_of() {
+constexpr ShaderKernels kernels_of() {
   using V = typename S::template Varyings<float>;
   ShaderKernels k;
   k.vertex = vertex_kernel<S, true>;
@@ -89,6 +89,14 @@ ShaderKernels kernels_of() {
   }
   if constexpr (HasVisibilityFunction<S>) k.visibility = visibility_kernel<S>;
   return k;
+}
+template <class S>
+inline constexpr ShaderKernels kKernels = kernels_of<S>();
+
+/// A copy of the shader in memory that outlives it.
+template <class S>
+KeptShader keep_shader(const S& shader, std::pmr::memory_resource& memory) {
+  return {new (memory.allocate(sizeof(S), alignof(S))) S(shader), [](const void* kept) { static_cast<const S*>(kept)->~S(); }};
 }
 }  // namespace detail
 
@@ -142,20 +150,30 @@ class Pass {
   template <class S>
   void add(const S& shader, const VertexView& vertices, std::shared_ptr<const Indices> indices, const DrawState& state) {
     HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<typename S::template Attributes<float>>));
-    add_draw(detail::kernels_of<S>(), std::make_shared<const S>(shader), vertices, std::move(indices), state);
+    add_draw(detail::kKernels<S>, detail::keep_shader(shader, *frame_.memory), vertices, std::move(indices), state);
   }
-  void add_draw(const ShaderKernels& kernels, std::shared_ptr<const void> shader, const VertexView& vertices,
-                std::shared_ptr<const Indices> indices, const DrawState& state);
+  void add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
+                const DrawState& state);
 
-  void run_vertex_stage(const Workers& workers, PassStatistics& statistics);
-  std::vector<std::vector<Segment>> split_into_chunks() const;
+  // Work for one thread: some of a large draw's vertices, or all of the small draws [draw, end_draw).
+  struct VertexTask {
+    std::size_t draw, end_draw;
+    std::size_t begin, end;  ///< of the vertices that the draw's indices use; of small draws all together
+    bool is_part;
+    Outcode any = 0;  ///< the union of a part's outcodes
+  };
+  void add_vertex_tasks(std::size_t draw);
+  void run_vertex_stage(const Workers& workers);
+  void add_segments(uint32_t draw);
   // The tiles run once, or several times where the bins outgrow their budget.
   struct Round {
     bool first, last;
   };
   int tile_size() const;
-  // Fills d.attachments and d.writes_color. Does the draw replace all colours of a pixel?
-  bool resolve_attachments(Draw& d) const;
+  // Sets d.viewport, d.bounds and the depth range.
+  void place_draw(Draw& d) const;
+  // Sets d.writes_color. Does the draw replace all colours of a pixel?
+  bool look_at_attachments(Draw& d) const;
   void run_tiles(const Workers& workers, Round round, PassStatistics& statistics);
   // Is the round all there is, so that what is flat may go into the images at once?
   bool is_alone(Round round) const { return round.first && round.last && post_kernel_ == nullptr; }
@@ -184,6 +202,16 @@ class Pass {
   void keep_between_flushes();
 
   Frame frame_;
+  // What is to be done for the draws so far, kept up as they come.
+  std::vector<VertexTask> vertex_tasks_;
+  struct ChunkPlan {
+    std::vector<std::vector<Segment>> chunks;
+    uint64_t primitives = 0;  ///< so far
+    uint32_t room = 0;        ///< for primitives in the last chunk
+    uint32_t records = 0;     ///< for what they may become
+  };
+  ChunkPlan plan_;
+  PassStatistics submitted_;
   std::vector<ColorTarget> colors_;
   bool has_color_ = false;
   DepthTarget depth_;

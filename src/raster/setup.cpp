@@ -225,9 +225,9 @@ class SegmentSetup {
   void clip(const std::array<uint32_t, 3>& id, ClipFunction clip_primitive, bool needed) {
     alignas(64) std::array<float, 4 * kVertexBatch> rows{};
     const std::array<uint32_t, 3> index{id[0] + slot_base_, id[1] + slot_base_, id[2] + slot_base_};
-    const VertexView view = at_instance(draw_.vertices, instance_);
-    draw_.kernels.position(draw_.shader.get(), {&view, index.data(), 0, 3, 0, draw_.state.base_vertex, static_cast<int32_t>(instance_),
-                                                nullptr, rows.data(), nullptr});
+    StreamRoom room;
+    draw_.kernels.position(draw_.shader.get(), {at_instance(draw_.vertices, instance_, room), index.data(), 0, 3, 0,
+                                                draw_.state.base_vertex, static_cast<int32_t>(instance_), nullptr, rows.data(), nullptr});
     std::array<glm::vec4, 3> pos_clip;
     for (std::size_t i = 0; i < 3; ++i) {
       pos_clip[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};

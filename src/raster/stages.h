@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <memory_resource>
+#include <utility>
 #include <vector>
 
 #include "core/raw_allocator.h"
@@ -89,8 +91,8 @@ struct ShadedVertices {
   int varying_count = 0;        ///< floats per vertex in varyings
   Buffer<ScreenVertex> screen;  ///< uninitialized where no index refers to it
   Buffer<Outcode> outcodes;
-  Outcode any_outcode = 0;  ///< their union: 0 where the whole draw is in view
-  Buffer<float> varyings;  ///< behind the last row are kRowSlack more (core/fours.h), of any value
+  Outcode any_outcode = 0;                ///< their union: 0 where the whole draw is in view
+  Buffer<float> varyings;                 ///< behind the last row are kRowSlack more (core/fours.h), of any value
   std::unique_ptr<SpriteRect[]> sprites;  ///< of points alone
   int clip_distance_count = 0;            ///< floats per vertex in clip_distances
   std::unique_ptr<float[]> clip_distances;
@@ -134,7 +136,7 @@ inline constexpr uint32_t kSprite = 32;         ///< a point: see Triangle
 inline constexpr uint32_t kLine = 64;           ///< a line: see Triangle
 inline constexpr uint32_t kCoveredShift = 7;    ///< twelve bits: see Triangle::covered
 inline constexpr uint32_t kCoveredBits = 0xfff;
-inline constexpr uint32_t kSegmentShift = 19;  ///< thirteen bits: which segment of the chunk, which has at most 4096 (PassOptions)
+inline constexpr uint32_t kSegmentShift = 19;  ///< thirteen bits: which segment of the chunk, which has at most 8192 (PassOptions)
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
 /// A point (kSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
@@ -238,12 +240,16 @@ struct IndexRun {
   uint32_t first_index;      ///< its place in the index list
 };
 
-/// A draw as the pass keeps it: its arguments, and what follows from them once for all triangles.
+/// A copy of the caller's shader, so that uniforms may change after draw(). Its memory is the frame's; the deleter ends its life alone.
+using KeptShader = std::unique_ptr<const void, void (*)(const void*)>;
+
+/// A draw as the pass keeps it: its arguments, and what follows from them once for all triangles. A pass may have many thousands, so it
+/// holds no more than it needs: streams and shader lie in the frame's memory, one behind the other.
 struct Draw {
-  ShaderKernels kernels;
-  std::shared_ptr<const void> shader;  ///< a copy of the caller's, so that uniforms may change after draw()
-  VertexView vertices;
+  const ShaderKernels& kernels;  ///< one for each type of shader, for ever
+  KeptShader shader;
   std::shared_ptr<const Indices> indices;
+  VertexStreams vertices;
   DrawState state;
 
   Viewport viewport{};
@@ -254,10 +260,14 @@ struct Draw {
   bool writes_color = false;    ///< some channel of some attachment
   bool shades_samples = false;  ///< the fragment function runs for each sample, not for each pixel
   uint32_t sample_mask = 1;     ///< samples that may be drawn
-  std::array<AttachmentState, kMaxColorTargets> attachments{};
 
+  std::size_t vertex_count = 0;  ///< that its indices use, of all instances
   uint32_t primitive_count = 0;  ///< of one instance
-  std::vector<IndexRun> runs;    ///< those with a primitive in them; empty where no index is a restart
+  std::vector<IndexRun> runs{};  ///< those with a primitive in them; empty where no index is a restart
+
+  Draw(const ShaderKernels& kernels_, KeptShader shader_, std::shared_ptr<const Indices> indices_, const VertexStreams& vertices_,
+       const DrawState& state_)
+      : kernels(kernels_), shader(std::move(shader_)), indices(std::move(indices_)), vertices(vertices_), state(state_) {}
 };
 
 /// Are a draw's vertices few enough that a row's place in their arrays fits in a gather's index?
@@ -268,6 +278,7 @@ inline bool can_gather(const ShadedVertices& v, const Draw& draw) {
 
 /// Everything the stages after the vertex stage read.
 struct Frame {
+  std::unique_ptr<std::pmr::monotonic_buffer_resource> memory;  ///< of the draws' shaders and streams
   std::vector<Draw> draws;
   std::vector<ShadedVertices> shaded;  ///< one a draw
   std::vector<Chunk> chunks;

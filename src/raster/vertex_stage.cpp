@@ -113,29 +113,25 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
 }
 
 Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
-  alignas(64) std::array<float, 4 * kVertexBatch> clip{};
+  alignas(64) std::array<float, 4 * kVertexBatch> clip;
   std::array<ScreenVertex, kVertexBatch> screen;
   std::array<Outcode, kVertexBatch> outcodes;
   alignas(64) std::array<float, kMostExtraRows * kVertexBatch> extra;
   std::array<SpriteRect, kVertexBatch> sprites;
   const std::span<const uint32_t> used = draw.indices->used();
   const std::size_t per_instance = draw.indices->used_count();
-  VertexView instance_view;
+  StreamRoom room;
   Outcode any = 0;
   for (std::size_t b = begin; b < end;) {
     const auto instance = static_cast<uint32_t>(b / per_instance);
     const std::size_t local = b % per_instance;
     const int count = static_cast<int>(std::min<std::size_t>(kVertexBatch, std::min(end - b, per_instance - local)));
     b += static_cast<std::size_t>(count);
-    const VertexView* view = &draw.vertices;
-    if (view->has_instance_streams) {
-      instance_view = at_instance(draw.vertices, instance);
-      view = &instance_view;
-    }
     const uint32_t slot_base = out.first - instance * out.count;
     const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
-    draw.kernels.vertex(draw.shader.get(), {view, ids, out.first + static_cast<uint32_t>(local), count, slot_base, draw.state.base_vertex,
-                                            static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
+    draw.kernels.vertex(draw.shader.get(),
+                        {at_instance(draw.vertices, instance, room), ids, out.first + static_cast<uint32_t>(local), count, slot_base,
+                         draw.state.base_vertex, static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
     if (out.clip_distances) {
       for (int i = 0; i < count; ++i) {
         const uint32_t slot = (ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base;

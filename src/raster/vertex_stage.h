@@ -15,7 +15,7 @@ namespace halfspace {
 /// Up to kVertexBatch vertices for a vertex kernel.
 inline constexpr int kVertexBatch = 256;
 struct VertexBatch {
-  const VertexView* vertices;
+  std::span<const VertexStream> streams;
   const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
   uint32_t first;
   int count;
@@ -43,12 +43,11 @@ namespace detail {
 
 /// The attributes of W vertices; lanes beyond the batch repeat its last vertex.
 template <class A>
-HS_INLINE A load_attributes(const VertexView& view, Int ids) {
+HS_INLINE A load_attributes(std::span<const VertexStream> streams, Int ids) {
   std::array<Real, kComponents<A>> components;
   alignas(64) std::array<int32_t, kLanes> rows;
   std::size_t c = 0;
-  for (int s = 0; s < view.stream_count; ++s) {
-    const VertexStream& stream = view.streams[static_cast<std::size_t>(s)];
+  for (const VertexStream& stream : streams) {
     const Int row = ids * stream.stride;
     store(rows.data(), row);
     int32_t k = 0;
@@ -107,7 +106,7 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
         batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index) : lane_index + static_cast<int32_t>(batch.first);
     Varyings out;
     const VertexId<Real> id{ids + batch.base_vertex, batch.instance};
-    const auto vertex = call_vertex<S, Real>(s, load_attributes<Attributes>(*batch.vertices, id.vertex), id, out);
+    const auto vertex = call_vertex<S, Real>(s, load_attributes<Attributes>(batch.streams, id.vertex), id, out);
     const vec4<Real> clip = position_of(vertex);
     for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
     if constexpr (with_varyings && !std::is_same_v<std::remove_const_t<decltype(vertex)>, vec4<Real>>) {

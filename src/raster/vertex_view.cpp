@@ -53,15 +53,16 @@ void Indices::scan(std::span<const T> list, std::size_t vertex_count, PrimitiveR
   }
 }
 
-VertexView at_instance(const VertexView& view, uint32_t instance) {
-  VertexView v = view;
-  for (int i = 0; i < v.stream_count; ++i) {
-    VertexStream& s = v.streams[static_cast<std::size_t>(i)];
+std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room) {
+  if (!vertices.has_instance_streams) return vertices.streams;
+  std::copy(vertices.streams.begin(), vertices.streams.end(), room.begin());
+  const std::span<VertexStream> moved(room.data(), vertices.streams.size());
+  for (VertexStream& s : moved) {
     if (s.divisor == 0) continue;
     s.data += static_cast<std::size_t>(instance / s.divisor) * static_cast<std::size_t>(s.stride);
     s.stride = 0;
   }
-  return v;
+  return moved;
 }
 
 }  // namespace halfspace

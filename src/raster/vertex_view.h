@@ -69,8 +69,16 @@ struct VertexView {
   int components = 0;
 };
 
-/// The view as the vertices of one instance see it: streams of one row for several instances stand still.
-VertexView at_instance(const VertexView& view, uint32_t instance);
+/// The streams of a view, wherever they are kept.
+struct VertexStreams {
+  std::span<const VertexStream> streams{};
+  bool has_instance_streams = false;
+};
+
+/// The streams as the vertices of one instance see them: those of one row for several instances stand still. Where there are such, the
+/// answer lies in `room`.
+using StreamRoom = std::array<VertexStream, kMostStreams>;
+std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room);
 
 /// Binds streams to Attributes in order. Streams of one row a vertex hold the same number of vertices; at most 2^31 floats
 /// each.

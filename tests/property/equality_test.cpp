@@ -27,7 +27,7 @@ struct Variant {
 PassOptions random_options(Random& random) {
   PassOptions o;
   o.tile_size = random.pick({8, 16, 32, 64});
-  o.chunk_triangles = random.pick({1u, 7u, 4096u});
+  o.chunk_triangles = random.pick({1u, 7u, 8192u});
   o.defer = random.once_in(2);
   if (random.once_in(2)) o.bin_budget = random.pick({1u, 1000u, 20000u});
   return o;

@@ -16,9 +16,21 @@ void forget_draws() {
   }
 }
 
+struct Holder {
+  std::shared_ptr<const int> held;
+};
+
+// A draw whose shader, kept on the heap, holds something.
+Draw draw_of(std::shared_ptr<const int> held) {
+  static constexpr ShaderKernels kNone;
+  return {kNone, {new Holder{std::move(held)}, [](const void* kept) { delete static_cast<const Holder*>(kept); }}, nullptr, {}, {}};
+}
+
 TEST(FrameMemory, ListsOfDrawsComeBackEmptyAndWithTheirRoom) {
   forget_draws();
-  std::vector<Draw> draws(100);
+  std::vector<Draw> draws;
+  draws.reserve(100);
+  draws.push_back(draw_of(std::make_shared<const int>(1)));
   const Draw* const place = draws.data();
   keep_draw_memory(std::move(draws));
   const std::vector<Draw> again = take_draw_memory();
@@ -38,8 +50,9 @@ TEST(FrameMemory, WhatIsTooLargeIsNotKept) {
 
 TEST(FrameMemory, ShadersOfFinishedDrawsAreLetGo) {
   const auto shader = std::make_shared<const int>(1);
-  std::vector<Draw> draws(1);
-  draws[0].shader = shader;
+  std::vector<Draw> draws;
+  draws.push_back(draw_of(shader));
+  EXPECT_EQ(shader.use_count(), 2);
   keep_draw_memory(std::move(draws));
   EXPECT_EQ(shader.use_count(), 1);
 }

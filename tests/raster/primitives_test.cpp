@@ -119,7 +119,7 @@ TEST(Primitives, InstancesKnowTheirNumberAndReadTheirRow) {
   const std::vector<glm::vec4> p = zigzag(), c{red_at(10.0f), red_at(20.0f)};
   const std::vector<uint32_t> list{0, 1, 2, 3};
   const Indices indices(list, p.size());
-  for (const uint32_t chunk : {1u, 3u, 4096u}) {
+  for (const uint32_t chunk : {1u, 3u, 8192u}) {
     Image<glm::vec4> image(32, 16);
     Pass pass(32, 16, rgba32f_target(image), {}, {.chunk_triangles = chunk});
     pass.draw(ColumnShader{}, vertices(stream(p), per_instance(stream(c), 2)), indices,

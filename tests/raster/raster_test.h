@@ -137,12 +137,10 @@ inline PassStatistics draw_colors(Image<glm::vec4>& image, std::span<const Point
 /// The vertex stage alone, on every vertex of the view.
 template <class S>
 ShadedVertices shade(const S& shader, const VertexView& view, const Rect& viewport, const DrawState& state = {}) {
-  Draw draw;
-  draw.kernels = detail::kernels_of<S>();
-  draw.shader = std::make_shared<const S>(shader);
-  draw.vertices = view;
-  draw.indices = std::make_shared<const Indices>(Indices::sequential(view.vertex_count));
-  draw.state = state;
+  std::pmr::monotonic_buffer_resource memory;
+  Draw draw(detail::kKernels<S>, detail::keep_shader(shader, memory),
+            std::make_shared<const Indices>(Indices::sequential(view.vertex_count)),
+            {std::span(view.streams).first(static_cast<std::size_t>(view.stream_count)), view.has_instance_streams}, state);
   draw.viewport = make_viewport(viewport, state.depth);
   ShadedVertices out;
   allocate_vertices(draw, out);

@@ -719,7 +719,7 @@ TEST(StateDeathTest, Passes) {
   EXPECT_DEATH(Pass(16, 16385, rgba32f_target(image), {}), "check failed");
   EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.tile_size = 24}), "check failed");
   EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 0}), "check failed");
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 4097}), "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 8193}), "check failed");
   EXPECT_DEATH(Pass(16, 16, {.format = ColorFormat::rgba8}, {}),
                "check failed");  // would be stored, but where?
   EXPECT_DEATH(Pass(16, 16, {.format = ColorFormat::rgba8, .load = LoadOp::load, .store = StoreOp::dont_care}, {}), "check failed");
