@@ -122,6 +122,8 @@ fault "setup in lanes: outcodes of later vertices forgotten" src/raster/pass.cpp
 fault "textures: the level is one too small" src/shading/texture.h '>> 23) - 127;' '>> 23) - 129;'
 fault "rows of words: from right to left" src/core/fours.h 'row[n] = words[n];' 'row[n] = words[N - 1 - n];'
 fault "fours: two words of a record swapped" src/core/fours.h 'word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd))' 'word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd))'
+fault "small draws: outcodes forgotten" src/raster/pass.cpp '.any_outcode = shade_vertices(' '.any_outcode = 0 & shade_vertices('
+fault "small draws: the last of a task is left out" src/raster/pass.cpp 'last.end_draw = draw + 1;' 'last.end_draw = draw;'
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done

@@ -167,8 +167,11 @@ struct DrawState {
 };
 
 /// How colour attachment i takes what is drawn.
-constexpr AttachmentState attachment_state(const DrawState& s, std::size_t i) {
-  return s.attachments[i] ? *s.attachments[i] : AttachmentState{s.blend, s.color_mask};
+constexpr const std::optional<BlendState>& blend_of(const DrawState& s, std::size_t i) {
+  return s.attachments[i] ? s.attachments[i]->blend : s.blend;
+}
+constexpr const ColorMask& color_mask_of(const DrawState& s, std::size_t i) {
+  return s.attachments[i] ? s.attachments[i]->mask : s.color_mask;
 }
 
 /// Are there points among what is drawn?

@@ -64,7 +64,7 @@ Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const Dep
     : colors_(colors.begin(), colors.end()), depth_(depth), options_(options) {
   HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize);
   HS_CHECK(options.tile_size == 8 || options.tile_size == 16 || options.tile_size == 32 || options.tile_size == 64);
-  HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= 8192);
+  HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= kMaxPrimitivesPerChunk);
   HS_CHECK(options.samples == 1 || options.samples == 2 || options.samples == 4 || options.samples == 8);
   HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets});
   for (const ColorTarget& c : colors) {
@@ -110,7 +110,8 @@ void Pass::add_draw(const ShaderKernels& kernels, KeptShader shader, const Verte
   const bool covers_by_alpha = state.alpha_to_coverage && frame_.samples > 1;
   const bool defers = options_.defer && replaces && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   d.deferred = defers || !has_color_;  // without colour there is nothing to blend or to shade at once
-  if (state.query) submitted_.queries.resize(std::max(submitted_.queries.size(), std::size_t{*state.query} + 1));
+  std::vector<uint64_t>& queries = plan_.submitted.queries;
+  if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));
   add_vertex_tasks(frame_.draws.size() - 1);
   add_segments(static_cast<uint32_t>(frame_.draws.size() - 1));
 }
@@ -129,9 +130,8 @@ void Pass::place_draw(Draw& d) const {
 bool Pass::look_at_attachments(Draw& d) const {
   bool replaces = true;
   for (std::size_t i = 0; i < colors_.size(); ++i) {
-    const std::optional<AttachmentState>& own = d.state.attachments[i];
-    const std::optional<BlendState>& blend = own ? own->blend : d.state.blend;
-    const ColorMask& mask = own ? own->mask : d.state.color_mask;
+    const std::optional<BlendState>& blend = blend_of(d.state, i);
+    const ColorMask& mask = color_mask_of(d.state, i);
     if (blend && uses_second_source(*blend)) HS_CHECK(d.kernels.color_count > 1 && colors_.size() == 1);
     if (colors_[i].format == ColorFormat::none) continue;
     const bool has_color = d.kernels.fragment != nullptr && static_cast<int>(i) < d.kernels.color_count;
@@ -144,36 +144,37 @@ bool Pass::look_at_attachments(Draw& d) const {
 void Pass::add_vertex_tasks(std::size_t draw) {
   const Draw& d = frame_.draws[draw];
   const std::size_t count = d.vertex_count;
-  submitted_.vertices_in += (d.indices->size() - d.indices->restarts().size()) * d.state.instances;
-  submitted_.vertices_shaded += count;
+  plan_.submitted.vertices_in += (d.indices->size() - d.indices->restarts().size()) * d.state.instances;
+  plan_.submitted.vertices_shaded += count;
+  std::vector<VertexTask>& tasks = plan_.vertex_tasks;
   if (count > kVerticesPerTask) {
     for (std::size_t b = 0; b < count; b += kVerticesPerTask)
-      vertex_tasks_.push_back({draw, draw + 1, b, std::min(count, b + kVerticesPerTask), true});
+      tasks.push_back({draw, draw + 1, b, std::min(count, b + kVerticesPerTask), true});
     return;
   }
-  if (!vertex_tasks_.empty()) {
-    VertexTask& last = vertex_tasks_.back();
+  if (!tasks.empty()) {
+    VertexTask& last = tasks.back();
     if (!last.is_part && last.end + count <= kVerticesPerTask) {
       last.end_draw = draw + 1;
       last.end += count;
       return;
     }
   }
-  vertex_tasks_.push_back({draw, draw + 1, 0, count, false});
+  tasks.push_back({draw, draw + 1, 0, count, false});
 }
 
-void Pass::run_vertex_stage(const Workers& workers) {
+void Pass::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers) {
   const FloatMode mode;  // large draws are placed here, not in a task
   frame_.shaded.resize(frame_.draws.size());
   const auto begin_draw = [this](std::size_t draw) {
     place_draw(frame_.draws[draw]);
     allocate_vertices(frame_.draws[draw], frame_.shaded[draw]);
   };
-  for (const VertexTask& t : vertex_tasks_) {
+  for (const VertexTask& t : tasks) {
     if (t.is_part && t.begin == 0) begin_draw(t.draw);
   }
-  workers.for_each(static_cast<int>(vertex_tasks_.size()), [&](int i) {
-    VertexTask& t = vertex_tasks_[static_cast<std::size_t>(i)];
+  workers.for_each(static_cast<int>(tasks.size()), [&](int i) {
+    VertexTask& t = tasks[static_cast<std::size_t>(i)];
     if (t.is_part) {
       t.any = shade_vertices(frame_.draws[t.draw], t.begin, t.end, frame_.shaded[t.draw]);
       return;
@@ -183,10 +184,9 @@ void Pass::run_vertex_stage(const Workers& workers) {
       frame_.shaded[d].any_outcode = shade_vertices(frame_.draws[d], 0, frame_.draws[d].vertex_count, frame_.shaded[d]);
     }
   });
-  for (const VertexTask& t : vertex_tasks_) {
+  for (const VertexTask& t : tasks) {
     if (t.is_part) frame_.shaded[t.draw].any_outcode |= t.any;
   }
-  vertex_tasks_.clear();
 }
 
 void Pass::add_segments(uint32_t draw) {
@@ -211,24 +211,25 @@ void Pass::add_segments(uint32_t draw) {
 }
 
 PassStatistics Pass::run(const Workers& workers) {
-  PassStatistics statistics = std::exchange(submitted_, {});
+  Plan plan = std::exchange(plan_, {});
+  PassStatistics statistics = std::move(plan.submitted);
   FrameMemory memory = take_frame_memory();
   frame_.shaded = std::move(memory.shaded);
-  run_vertex_stage(workers);
-  const std::vector<std::vector<Segment>> work = std::exchange(plan_, {}).chunks;
+  run_vertex_stage(plan.vertex_tasks, workers);
   bool first_round = true;
   std::size_t next = 0;
   do {
     // Waves of chunks (at least one) until the budget or the ids are used up, or all is set up.
     std::size_t bytes = 0;
     put_aside(frame_.chunks, memory.chunks);
-    while (next < work.size() && (frame_.chunks.empty() || bytes < options_.bin_budget) && frame_.chunks.size() + kWave <= kMaxChunks) {
+    while (next < plan.chunks.size() && (frame_.chunks.empty() || bytes < options_.bin_budget) &&
+           frame_.chunks.size() + kWave <= kMaxChunks) {
       const std::size_t begin = frame_.chunks.size();
-      const std::size_t count = std::min(kWave, work.size() - next);
+      const std::size_t count = std::min(kWave, plan.chunks.size() - next);
       for (std::size_t i = 0; i < count; ++i) frame_.chunks.push_back(take_or_make(memory.chunks));
       workers.for_each(static_cast<int>(count), [&](int i) {
         Chunk& chunk = frame_.chunks[begin + static_cast<std::size_t>(i)];
-        chunk.segments = work[next + static_cast<std::size_t>(i)];
+        chunk.segments = std::move(plan.chunks[next + static_cast<std::size_t>(i)]);
         set_up_chunk(frame_, chunk);
         run_primitive_stage(frame_, chunk);
         bin_chunk(frame_, chunk);
@@ -239,14 +240,14 @@ PassStatistics Pass::run(const Workers& workers) {
         statistics += frame_.chunks[c].statistics;
       }
     }
-    const bool last_round = next == work.size();
+    const bool last_round = next == plan.chunks.size();
     if (!last_round) {
       keep_between_flushes();
       ++statistics.flushes;
     }
     run_tiles(workers, {first_round, last_round}, statistics);
     first_round = false;
-  } while (next < work.size());
+  } while (next < plan.chunks.size());
   keep_draw_memory(std::exchange(frame_.draws, {}));
   frame_.memory->release();
   put_aside(frame_.chunks, memory.chunks);

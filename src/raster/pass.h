@@ -24,12 +24,12 @@ namespace halfspace {
 
 /// How many samples a pixel has, and how a pass does its work. But for the samples, none of these changes a pixel.
 struct PassOptions {
-  int samples = 1;                  ///< 1, 2, 4 or 8, at the standard positions; their mean is stored (of depth and stencil the first)
-  bool supersample = false;         ///< every draw is shaded for each sample, as by DrawState::sample_shading
-  int tile_size = kMaxTileSize;     ///< 8, 16, 32 or 64 px; smaller where samples and attachments need the room
-  uint32_t chunk_triangles = 8192;  ///< submitted primitives per setup task, at the most; 1 … 8192
-  std::size_t bin_budget = std::size_t{256} << 20;  ///< bytes of set-up triangles and bins before the tiles are flushed
-  bool defer = true;                                ///< false: shade every fragment at once, in order
+  int samples = 1;               ///< 1, 2, 4 or 8, at the standard positions; their mean is stored (of depth and stencil the first)
+  bool supersample = false;      ///< every draw is shaded for each sample, as by DrawState::sample_shading
+  int tile_size = kMaxTileSize;  ///< 8, 16, 32 or 64 px; smaller where samples and attachments need the room
+  uint32_t chunk_triangles = kMaxPrimitivesPerChunk;  ///< submitted primitives per setup task, at the most; 1 … kMaxPrimitivesPerChunk
+  std::size_t bin_budget = std::size_t{256} << 20;    ///< bytes of set-up triangles and bins before the tiles are flushed
+  bool defer = true;                                  ///< false: shade every fragment at once, in order
 };
 
 /// Packets of a tile at the end of the pass, and their colours, which are replaced.
@@ -96,7 +96,7 @@ inline constexpr ShaderKernels kKernels = kernels_of<S>();
 /// A copy of the shader in memory that outlives it.
 template <class S>
 KeptShader keep_shader(const S& shader, std::pmr::memory_resource& memory) {
-  return {new (memory.allocate(sizeof(S), alignof(S))) S(shader), [](const void* kept) { static_cast<const S*>(kept)->~S(); }};
+  return {::new (memory.allocate(sizeof(S), alignof(S))) S(shader), [](const void* kept) { static_cast<const S*>(kept)->~S(); }};
 }
 }  // namespace detail
 
@@ -113,6 +113,8 @@ class Pass {
       : Pass(std::span<const ColorTarget>(colors), width, height, depth, options) {}
   Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {})
       : Pass(std::span(&color, 1), width, height, depth, options) {}
+  Pass(Pass&&) = default;  ///< what was moved from may only be destroyed
+  Pass& operator=(Pass&&) = delete;
 
   /// Adds a draw. The shader is copied; the vertices' and indices' memory, and whatever the shader points to, must stay
   /// unchanged until run() returns. Indices that make no whole primitive are ignored, as GL does.
@@ -141,7 +143,8 @@ class Pass {
     post_target_ = target;
   }
 
-  /// Runs the draws and returns what was done. The pass is then empty and may be filled again.
+  /// Runs the draws and returns what was done. The pass is then empty and may be filled again; after an exception (no memory) it may
+  /// only be destroyed.
   PassStatistics run(const Workers& workers);
 
  private:
@@ -162,8 +165,17 @@ class Pass {
     bool is_part;
     Outcode any = 0;  ///< the union of a part's outcodes
   };
+  // What is to be done for the draws, kept up as they come.
+  struct Plan {
+    std::vector<VertexTask> vertex_tasks;
+    std::vector<std::vector<Segment>> chunks;
+    uint64_t primitives = 0;  ///< in all chunks
+    uint32_t room = 0;        ///< for primitives in the last chunk
+    uint32_t records = 0;     ///< for what they may become
+    PassStatistics submitted;
+  };
   void add_vertex_tasks(std::size_t draw);
-  void run_vertex_stage(const Workers& workers);
+  void run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers);
   void add_segments(uint32_t draw);
   // The tiles run once, or several times where the bins outgrow their budget.
   struct Round {
@@ -202,16 +214,7 @@ class Pass {
   void keep_between_flushes();
 
   Frame frame_;
-  // What is to be done for the draws so far, kept up as they come.
-  std::vector<VertexTask> vertex_tasks_;
-  struct ChunkPlan {
-    std::vector<std::vector<Segment>> chunks;
-    uint64_t primitives = 0;  ///< so far
-    uint32_t room = 0;        ///< for primitives in the last chunk
-    uint32_t records = 0;     ///< for what they may become
-  };
-  ChunkPlan plan_;
-  PassStatistics submitted_;
+  Plan plan_;
   std::vector<ColorTarget> colors_;
   bool has_color_ = false;
   DepthTarget depth_;

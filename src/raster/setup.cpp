@@ -223,7 +223,7 @@ class SegmentSetup {
 
   // Clips a triangle or line, where it needs to be, and appends what is left of it.
   void clip(const std::array<uint32_t, 3>& id, ClipFunction clip_primitive, bool needed) {
-    alignas(64) std::array<float, 4 * kVertexBatch> rows{};
+    alignas(64) std::array<float, 4 * kVertexBatch> rows;
     const std::array<uint32_t, 3> index{id[0] + slot_base_, id[1] + slot_base_, id[2] + slot_base_};
     StreamRoom room;
     draw_.kernels.position(draw_.shader.get(), {at_instance(draw_.vertices, instance_, room), index.data(), 0, 3, 0,
@@ -336,11 +336,13 @@ class SegmentSetup {
 }  // namespace
 
 void set_up_chunk(const Frame& frame, Chunk& chunk) {
+  std::size_t primitives = 0;
+  for (const Segment& segment : chunk.segments) primitives += segment.count;
+  chunk.triangles.reserve(primitives);
+  chunk.statistics.primitives_in = primitives;
   for (uint32_t s = 0; s < chunk.segments.size(); ++s) {
     Segment& segment = chunk.segments[s];
     segment.first_triangle = static_cast<uint32_t>(chunk.triangles.size());
-    chunk.statistics.primitives_in += segment.count;
-    chunk.triangles.reserve(chunk.triangles.size() + segment.count);
     SegmentSetup setup(frame, chunk, s);
     const Draw& draw = frame.draws[segment.draw];
     const Topology topology = draw.state.topology;

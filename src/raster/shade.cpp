@@ -27,7 +27,7 @@ void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, st
   for (int n = 0; n < std::min(tile.color_count, draw.kernels.color_count); ++n) {
     const auto at = static_cast<std::size_t>(n);
     if (tile.color[at].format == ColorFormat::none) continue;
-    write_batch(tile.color[at], packets, &out.packet_color(at, i), second, attachment_state(draw.state, at));
+    write_batch(tile.color[at], packets, &out.packet_color(at, i), second, {blend_of(draw.state, at), color_mask_of(draw.state, at)});
   }
 }
 

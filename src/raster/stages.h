@@ -136,7 +136,7 @@ inline constexpr uint32_t kSprite = 32;         ///< a point: see Triangle
 inline constexpr uint32_t kLine = 64;           ///< a line: see Triangle
 inline constexpr uint32_t kCoveredShift = 7;    ///< twelve bits: see Triangle::covered
 inline constexpr uint32_t kCoveredBits = 0xfff;
-inline constexpr uint32_t kSegmentShift = 19;  ///< thirteen bits: which segment of the chunk, which has at most 8192 (PassOptions)
+inline constexpr uint32_t kSegmentShift = 19;  ///< thirteen bits: which segment of the chunk
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
 /// A point (kSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
@@ -205,6 +205,8 @@ using TriangleId = uint32_t;
 inline constexpr TriangleId kNoTriangle = 0xffffffffu;
 inline constexpr uint32_t kMaxChunks = 0xffff;
 inline constexpr uint32_t kMaxTrianglesPerChunk = 0xffff;
+/// Submitted, one a segment at the least. Filled triangles end a chunk at 4369: clipping may make 15 of one.
+inline constexpr uint32_t kMaxPrimitivesPerChunk = 1u << (32 - kSegmentShift);
 constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chunk << 16 | triangle; }
 
 // ---- a draw ----------------------------------------------------------------------------------------------------
@@ -252,6 +254,7 @@ struct Draw {
   VertexStreams vertices;
   DrawState state;
 
+  // These are set when the draw's vertices are shaded.
   Viewport viewport{};
   PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
   float depth_low = 0.0f;  ///< depth range in order

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pass shares its work among threads: large draws are split, small ones put together. None of it may show.
+// A pass shares its work among threads: large draws are split, small ones put together, chunks grow. None of it may show.
 #include <algorithm>
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 #include "raster_test.h"
 
@@ -11,23 +13,28 @@ namespace {
 
 constexpr int kSize = 96;
 
-struct Triangles {
-  std::vector<glm::vec4> positions, colors;  // three a triangle
+struct Primitives {
+  Topology topology;
+  std::size_t corners;  ///< of each
+  std::vector<glm::vec4> positions{}, colors{};
+
+  std::size_t count() const { return positions.size() / corners; }
 };
 
-// Of some pixels each, one behind the other: their order shows in every pixel. Enough that chunks grow.
-Triangles many_triangles() {
+// Small, one behind the other: their order shows in every pixel. Every fiftieth has a corner behind the eye.
+Primitives many(Topology topology, std::size_t corners, int count) {
   Random random(31);
-  Triangles t;
-  for (int i = 0; i < 40000; ++i) {
+  Primitives p{topology, corners};
+  for (int i = 0; i < count; ++i) {
     const glm::vec4 color(static_cast<float>(i), random.real(0.0f, 1.0f), 0.0f, 1.0f);
     const glm::vec2 center(random.real(-1.0f, 1.0f), random.real(-1.0f, 1.0f));
-    for (int k = 0; k < 3; ++k) {
-      t.positions.emplace_back(center.x + random.real(-0.1f, 0.1f), center.y + random.real(-0.1f, 0.1f), 0.0f, 1.0f);
-      t.colors.push_back(color);
+    for (std::size_t k = 0; k < corners; ++k) {
+      const float w = i % 50 == 0 && k == 0 ? -0.01f : 1.0f;
+      p.positions.emplace_back(center.x + random.real(-0.1f, 0.1f), center.y + random.real(-0.1f, 0.1f), 0.0f, w);
+      p.colors.push_back(color);
     }
   }
-  return t;
+  return p;
 }
 
 struct Drawn {
@@ -35,53 +42,71 @@ struct Drawn {
   PassStatistics statistics;
 };
 
-// The triangles in draws of these many, over and over.
-Drawn draw_in_parts(const Triangles& t, const std::vector<std::size_t>& sizes, int threads) {
+// The primitives in draws of these many, over and over.
+Drawn draw_in_parts(const Primitives& p, const std::vector<std::size_t>& sizes, int threads, const PassOptions& options = {}) {
   Drawn drawn;
-  Pass pass(kSize, kSize, rgba32f_target(drawn.image), {});
+  Pass pass(kSize, kSize, rgba32f_target(drawn.image), {}, options);
   std::size_t first = 0;
-  for (std::size_t i = 0; first < t.positions.size(); ++i) {
-    const std::size_t n = std::min(3 * sizes[i % sizes.size()], t.positions.size() - first);
-    pass.draw(FlatColorShader{}, vertices(stream(std::span(t.positions).subspan(first, n)), stream(std::span(t.colors).subspan(first, n))));
+  for (std::size_t i = 0; first < p.positions.size(); ++i) {
+    const std::size_t n = std::min(p.corners * sizes[i % sizes.size()], p.positions.size() - first);
+    pass.draw(FlatColorShader{}, vertices(stream(std::span(p.positions).subspan(first, n)), stream(std::span(p.colors).subspan(first, n))),
+              {.topology = p.topology});
     first += n;
   }
   drawn.statistics = pass.run(Workers(threads));
   return drawn;
 }
 
-TEST(Draws, OfAnySizeAreDrawnInTheirOrder) {
-  const Triangles t = many_triangles();
-  const Drawn whole = draw_in_parts(t, {t.positions.size()}, 1);
-  EXPECT_EQ(whole.statistics.vertices_shaded, t.positions.size());
-  const std::vector<std::vector<std::size_t>> splits{{1}, {1, 0, 5, 1000, 2, 3000, 0, 0, 700}, {683, 682}, {0, 20000}};
+void expect_same(const Drawn& a, const Drawn& b) {
+  EXPECT_TRUE(std::ranges::equal(a.image.texels(), b.image.texels()));
+  EXPECT_EQ(a.statistics, b.statistics);
+}
+
+// Whole, in chunks of the pass's own choice and in the smallest, and in parts.
+void expect_any_parts_are_the_same(const Primitives& p, const std::vector<std::vector<std::size_t>>& splits) {
+  const Drawn whole = draw_in_parts(p, {p.count()}, 1);
+  EXPECT_EQ(whole.statistics.primitives_in, p.count());
+  EXPECT_EQ(whole.statistics.vertices_shaded, p.positions.size());
+  EXPECT_GT(whole.statistics.fragments_shaded, 0u);
+  expect_same(draw_in_parts(p, {p.count()}, 1, {.chunk_triangles = 7}), whole);
   for (const std::vector<std::size_t>& sizes : splits) {
     for (const int threads : {1, 3}) {
-      SCOPED_TRACE(testing::Message() << "draws from " << sizes.front() << " triangles on, " << threads << " threads");
-      const Drawn parts = draw_in_parts(t, sizes, threads);
-      EXPECT_TRUE(std::ranges::equal(parts.image.texels(), whole.image.texels()));
-      EXPECT_EQ(parts.statistics.vertices_in, whole.statistics.vertices_in);
-      EXPECT_EQ(parts.statistics.vertices_shaded, whole.statistics.vertices_shaded);
-      EXPECT_EQ(parts.statistics.fragments_shaded, whole.statistics.fragments_shaded);
+      SCOPED_TRACE(testing::Message() << "draws from " << sizes.front() << " primitives on, " << threads << " threads");
+      expect_same(draw_in_parts(p, sizes, threads), whole);
     }
   }
 }
 
+// 45,000 triangles fill a chunk to the 4369 that always fit; draws of more than 2048 vertices are split.
+TEST(Draws, OfTrianglesAreDrawnInTheirOrder) {
+  expect_any_parts_are_the_same(many(Topology::triangles, 3, 45000), {{1}, {1, 0, 5, 1000, 2, 3000, 0, 0, 700}, {683, 682}, {0, 20000}});
+}
+
+// 80,000 points of a draw each fill a chunk with the most segments that it has.
+TEST(Draws, OfPointsAreDrawnInTheirOrder) { expect_any_parts_are_the_same(many(Topology::points, 1, 80000), {{1}, {2049, 2048}}); }
+
+// A shader that owns something, in memory of its own alignment.
+struct alignas(64) Holder : ConstantShader {
+  std::shared_ptr<const int> held;
+  explicit Holder(std::shared_ptr<const int> held_) : held(std::move(held_)) {}
+  Holder(const Holder& other) : ConstantShader(other), held(other.held) { EXPECT_EQ(reinterpret_cast<uintptr_t>(this) % 64, 0u); }
+};
+
 TEST(Draws, KeepTheirShaderUntilThePassHasRun) {
-  struct Holder : ConstantShader {
-    std::shared_ptr<const int> held;
-  };
+  static_assert(!std::is_move_assignable_v<Pass>);  // draws would outlive the memory of their shaders
   const auto held = std::make_shared<const int>(1);
   const std::vector<glm::vec4> positions{{-1, -1, 0, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}};
   Image<glm::vec4> image(8, 8);
-  Pass pass(8, 8, rgba32f_target(image), {});
-  for (int i = 0; i < 5; ++i) pass.draw(Holder{{}, held}, vertices(stream(positions)));
-  EXPECT_EQ(held.use_count(), 6);
-  pass.run(one_worker());
-  EXPECT_EQ(held.use_count(), 1);
   {
-    Pass never_run(8, 8, rgba32f_target(image), {});
-    never_run.draw(Holder{{}, held}, vertices(stream(positions)));
-    EXPECT_EQ(held.use_count(), 2);
+    Pass pass(8, 8, rgba32f_target(image), {});
+    for (int i = 0; i < 5; ++i) pass.draw(Holder(held), vertices(stream(positions)));
+    EXPECT_EQ(held.use_count(), 6);
+    Pass moved(std::move(pass));
+    moved.draw(Holder(held), vertices(stream(positions)));
+    moved.run(one_worker());
+    EXPECT_EQ(held.use_count(), 1);
+    moved.draw(Holder(held), vertices(stream(positions)));
+    EXPECT_EQ(held.use_count(), 2);  // and this one never runs
   }
   EXPECT_EQ(held.use_count(), 1);
 }
