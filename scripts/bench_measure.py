@@ -57,6 +57,20 @@ class Progress:
             print("\r\033[K", end="", file=sys.stderr)
 
 
+def cpu_name(cpuinfo):
+    """The processor's name with its family and model: a name alone ("AMD EPYC") may stand for cores of half another's rate.
+
+    cpuinfo: the text of /proc/cpuinfo."""
+    fields = {}
+    for line in cpuinfo.splitlines():
+        key, _, value = line.partition(":")
+        fields.setdefault(key.strip(), value.strip())
+    name = fields.get("model name", platform.machine())
+    if "cpu family" not in fields:
+        return name
+    return f"{name} (family {fields['cpu family']}, model {fields['model']})"
+
+
 def machine():
     def first_line(command):
         try:
@@ -64,9 +78,8 @@ def machine():
         except (OSError, IndexError):
             return ""
 
-    cpu = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.machine())
     return {
-        "cpu": cpu,
+        "cpu": cpu_name(Path("/proc/cpuinfo").read_text()),
         "cores": len(os.sched_getaffinity(0)),
         "system": next((line.split("=", 1)[1].strip().strip('"') for line in open("/etc/os-release") if line.startswith("PRETTY_NAME")), ""),
         "compiler": first_line(["c++", "--version"]),

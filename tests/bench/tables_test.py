@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of scripts/bench_tables.py: what they compute, and when a ratio counts."""
+"""The tables of scripts/bench_tables.py: what they compute, and when a ratio counts; what scripts/bench_measure.py calls a processor."""
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 sys.dont_write_bytecode = True
+import bench_measure  # noqa: E402
 import bench_report  # noqa: E402
 import bench_tables  # noqa: E402
 
@@ -71,6 +72,12 @@ class Tables(unittest.TestCase):
         self.assertNotIn("Other work", bench_tables.source_line(quiet))
         quiet.raw["machine"]["busy_after"] = 0.5
         self.assertIn("Other work ran beside it (it kept 0.5 cores busy)", bench_tables.source_line(quiet))
+
+    def test_processors_of_one_name_are_told_apart(self):
+        of_cores = "processor\t: 0\ncpu family\t: {}\nmodel\t\t: 17\nmodel name\t: AMD EPYC\n\nprocessor\t: 1\ncpu family\t: 9\nmodel name\t: other\n"
+        self.assertEqual("AMD EPYC (family 25, model 17)", bench_measure.cpu_name(of_cores.format(25)))
+        self.assertEqual("AMD EPYC (family 26, model 17)", bench_measure.cpu_name(of_cores.format(26)))
+        self.assertEqual("Some core", bench_measure.cpu_name("model name : Some core\n"))
 
     def test_every_section_is_made(self):
         for name, text in bench_tables.sections(results()).items():
