@@ -124,6 +124,7 @@ fault "rows of words: from right to left" src/core/fours.h 'row[n] = words[n];' 
 fault "fours: two words of a record swapped" src/core/fours.h 'word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd))' 'word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd))'
 fault "small draws: outcodes forgotten" src/raster/pass.cpp '.any_outcode = shade_vertices(' '.any_outcode = 0 & shade_vertices('
 fault "small draws: the last of a task is left out" src/raster/pass.cpp 'last.end_draw = draw + 1;' 'last.end_draw = draw;'
+fault "an interrupted program leaves what it had begun to write" src/scene/output_file.cpp 'if (unfinished) ::unlink(unfinished_name);' ''
 
 if [ "${1:-}" = list ]; then
   for i in "${!names[@]}"; do echo "$((i + 1)) ${names[$i]}"; done
@@ -143,6 +144,7 @@ mkdir -p "$work/build"
 # The test programs that may notice a fault in a file, in the order in which they are asked: most fall in the first.
 tests_of() {
   case $1 in
+    src/scene/output_file.cpp) echo scene apps ;;
     src/scene/*) echo scene ;;
     src/study/*) echo study ;;
     src/reference/*) echo reference ;;
