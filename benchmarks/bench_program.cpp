@@ -12,13 +12,13 @@
 #include <optional>
 #include <string>
 
-#include "halfspace/arguments.h"
-#include "halfspace/frames.h"
+#include "cli/arguments.h"
+#include "cli/frames.h"
+#include "halfspace/core/text.h"
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/image/image_io.h"
 #include "picture_errors.h"
 #include "runner.h"
-#include "scene/image_io.h"
-#include "scene/nearest_name.h"
-#include "scene/output_file.h"
 #include "workload_assets.h"
 
 namespace halfspace {

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "halfspace/command_line.h"
+#include "cli/command_line.h"
 #include "sweeps.h"
 #include "workload.h"
 

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "families.h"
+#include "halfspace/shading/depth_only.h"
 #include "layer_mesh.h"
-#include "shading/depth_only.h"
 
 namespace halfspace {
 

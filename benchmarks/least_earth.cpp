@@ -8,9 +8,9 @@
 #include <exception>
 #include <string_view>
 
-#include "core/parallel.h"
-#include "scene/image_io.h"
-#include "scene/procedural_earth.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/procedural/earth.h"
 
 namespace {
 
@@ -39,7 +39,8 @@ void run(bool with_normals, int width, double frame_ms, const char* from, const 
 int main(int argc, char** argv) {
   const std::string_view maps = argc == 6 ? argv[1] : "";
   if (maps != "heights" && maps != "normals") {
-    std::fputs("usage: halfspace-least-earth heights|normals MAP_WIDTH FRAME_MS FROM.png TO.png; prints the ms that reading FROM took\n", stderr);
+    std::fputs("usage: halfspace-least-earth heights|normals MAP_WIDTH FRAME_MS FROM.png TO.png; prints the ms that reading FROM took\n",
+               stderr);
     return 2;
   }
   try {

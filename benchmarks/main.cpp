@@ -2,7 +2,7 @@
 //
 // halfspace-bench: draws the workloads, measures their frames, prints a table or JSON, writes their pictures.
 #include "bench_program.h"
-#include "core/lanes.h"
+#include "halfspace/core/lanes.h"
 
 int main(int argc, char** argv) {
   using namespace halfspace;

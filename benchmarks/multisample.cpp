@@ -2,7 +2,7 @@
 //
 // msaa4_200k: the sphere with four samples a pixel, shaded once a pixel and triangle.
 #include "families.h"
-#include "raster/sample_pattern.h"
+#include "halfspace/raster/pipeline/sample_pattern.h"
 #include "sphere_camera.h"
 
 namespace halfspace {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <optional>
 
-#include "core/check.h"
-#include "scene/output_file.h"
+#include "halfspace/core/check.h"
+#include "halfspace/image/atomic_output.h"
 
 namespace halfspace {
 

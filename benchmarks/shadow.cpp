@@ -2,7 +2,7 @@
 //
 // shadow_200k: a depth map drawn from the light, and a picture that asks it nine times a pixel.
 #include "families.h"
-#include "shading/depth_only.h"
+#include "halfspace/shading/depth_only.h"
 #include "workload_geometry.h"
 #include "workload_shadow.h"
 

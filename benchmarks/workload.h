@@ -9,9 +9,9 @@
 #include <span>
 #include <string>
 
-#include "core/image.h"
-#include "core/parallel.h"
-#include "raster/naive.h"
+#include "halfspace/core/image.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/raster/naive.h"
 
 namespace halfspace {
 

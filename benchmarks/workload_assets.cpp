@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/trig_double.h"
+#include "halfspace/core/trig_double.h"
 
 namespace halfspace {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "raster/vertex_view.h"
-#include "shading/texture.h"
+#include "halfspace/raster/vertex_input.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace {
 

@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "raster/pass.h"
-#include "scene/camera.h"
+#include "halfspace/geometry/camera.h"
+#include "halfspace/raster/pass.h"
 #include "workload.h"
 
 namespace halfspace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shading/contract.h"
-#include "shading/texture.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace {
 

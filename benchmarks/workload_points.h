@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shading/contract.h"
+#include "halfspace/shading/contract.h"
 #include "workload_shading.h"
 
 namespace halfspace {

@@ -3,8 +3,8 @@
 // Light as the workloads' formulas have it.
 #pragma once
 
-#include "core/lane_math.h"
-#include "core/vec.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/vec.h"
 
 namespace halfspace {
 

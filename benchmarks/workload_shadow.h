@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shading/contract.h"
-#include "shading/map_row.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/map_row.h"
 #include "workload_shading.h"
 
 namespace halfspace {

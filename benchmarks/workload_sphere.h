@@ -3,8 +3,8 @@
 // The textured sphere, lit by pixel, by vertex, or by triangle (from its provoking vertex).
 #pragma once
 
-#include "shading/contract.h"
-#include "shading/texture.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/texture.h"
 #include "workload_shading.h"
 
 namespace halfspace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/fixed_power.h"
-#include "core/vec.h"
+#include "halfspace/core/fixed_power.h"
+#include "halfspace/core/vec.h"
 
 namespace halfspace {
 

@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "shading/contract.h"
+#include "halfspace/shading/contract.h"
 
 namespace halfspace {
 

@@ -33,7 +33,10 @@ endif()
 message(STATUS "halfspace: ${HALFSPACE_ARCH}, ${lanes} lanes")
 
 add_library(halfspace_flags INTERFACE)
-target_include_directories(halfspace_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+# Headers are included as "halfspace/MODULE/FILE.h": in the build tree by a link, in an installation by a folder of that name.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/include/halfspace SYMBOLIC)
+target_include_directories(halfspace_flags INTERFACE ${PROJECT_BINARY_DIR}/include)
 target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes} HALFSPACE_ARCH="${HALFSPACE_ARCH}"
   GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR)
 # No contraction of a*b + c, no errno: the first would change bits with the compiler, the second only costs.

@@ -12,7 +12,7 @@ function(halfspace_embed_scenes out)
   endforeach()
   file(CONFIGURE OUTPUT ${out} CONTENT [[
 // Written by cmake/embed_scenes.cmake from scenes/*.json.
-#include "scene/scene_file.h"
+#include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstring>
 
-#include "core/lanes.h"
-#include "limits.h"
+#include "halfspace/core/lanes.h"
+#include "limits/limits.h"
 
 namespace halfspace {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
-#include "core/lane_math.h"
-#include "core/lanes.h"
-#include "limits.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/lanes.h"
+#include "limits/limits.h"
 
 namespace halfspace {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "limits.h"
+#include "limits/limits.h"
 
 namespace halfspace {
 

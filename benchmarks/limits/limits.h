@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel.h"
+#include "halfspace/core/parallel.h"
 
 namespace halfspace {
 

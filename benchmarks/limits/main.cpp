@@ -6,10 +6,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "core/lanes.h"
-#include "halfspace/arguments.h"
-#include "halfspace/command_line.h"
-#include "limits.h"
+#include "cli/arguments.h"
+#include "cli/command_line.h"
+#include "halfspace/core/lanes.h"
+#include "limits/limits.h"
 
 namespace halfspace {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Vertex, clip, set-up, bin and visibility stage. Items are vertices or triangles.
-#include "raster/clip.h"
-#include "shading/depth_only.h"
+#include "halfspace/raster/primitives/clip.h"
+#include "halfspace/shading/depth_only.h"
 #include "sphere_camera.h"
-#include "stage_pass.h"
+#include "stages/stage_pass.h"
 
 namespace halfspace {
 

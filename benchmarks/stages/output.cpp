@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Blend, resolve, tone map and store. Items are pixels.
-#include "shading/tone.h"
-#include "stage_pass.h"
+#include "halfspace/shading/tone.h"
+#include "stages/stage_pass.h"
 #include "workload_constant.h"
 #include "workload_tone.h"
 

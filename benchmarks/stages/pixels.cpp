@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Interpolation, shaders and texture look-ups. Items are pixels.
-#include "shading/star_sky.h"
-#include "shading/surface_shader.h"
+#include "halfspace/shading/star_sky.h"
+#include "halfspace/shading/surface_shader.h"
 #include "sphere_camera.h"
-#include "stage_pass.h"
+#include "stages/stage_pass.h"
 #include "workload_constant.h"
 #include "workload_floor.h"
 #include "workload_layers.h"

@@ -5,7 +5,7 @@
 // has no name there for F16C, LZCNT and MOVBE, which x86-64-v3 code uses.
 //
 // Bits: Intel SDM volume 2A, CPUID; AMD APM volume 3, appendix E. State: SDM volume 1, section 13.3 (XCR0).
-#include "core/cpu.h"
+#include "halfspace/core/cpu.h"
 
 #include <cpuid.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "core/lane_math.h"
+#include "halfspace/core/lane_math.h"
 
 namespace halfspace {
 

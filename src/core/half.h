@@ -6,7 +6,7 @@
 // Lanes hold one half an int, in the low 16 bits; the high 16 bits are 0 in results and ignored in arguments.
 #pragma once
 
-#include "core/lanes.h"
+#include "halfspace/core/lanes.h"
 
 namespace halfspace {
 

@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-#include "core/lanes.h"
+#include "halfspace/core/lanes.h"
 
 namespace halfspace {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/check.h"
-#include "core/line_allocator.h"
+#include "halfspace/core/cache_line_allocator.h"
+#include "halfspace/core/check.h"
 
 namespace halfspace {
 

@@ -19,7 +19,7 @@
 
 #include <array>
 
-#include "core/lanes.h"
+#include "halfspace/core/lanes.h"
 
 namespace halfspace {
 

@@ -9,7 +9,7 @@
 
 #include <functional>
 
-#include "core/fours.h"
+#include "halfspace/core/transpose.h"
 
 namespace halfspace {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/parallel.h"
+#include "halfspace/core/parallel.h"
 
 #include <thread>
 
-#include "core/check.h"
-#include "core/float_mode.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 
 #ifdef HALFSPACE_STD_THREADS
 

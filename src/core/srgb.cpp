@@ -3,7 +3,7 @@
 // The two tables of srgb.h, made by the compiler. decode(v) is needed to a float's 24 bits; double arithmetic gives it
 // to about 2^-50. Should an exact value lie so near to a rounding boundary that this could matter, the test with long
 // double would say so: the nearest is 2^-35 away, relative to the value.
-#include "core/srgb.h"
+#include "halfspace/core/srgb.h"
 
 namespace halfspace {
 

@@ -9,7 +9,7 @@
 
 #include <array>
 
-#include "core/lane_pairs.h"
+#include "halfspace/core/lane_pairs.h"
 
 namespace halfspace {
 

@@ -7,7 +7,7 @@
 // of operations, so that float and lanes give the same bits.
 #pragma once
 
-#include "core/lanes.h"
+#include "halfspace/core/lanes.h"
 
 // Before GLM: its vec of lanes must find the scalar functions above by their argument's namespace.
 #include <glm/glm.hpp>
@@ -126,5 +126,8 @@ HS_INLINE glm::vec<L, R> select(MaskOf<R> m, const glm::vec<L, R>& a, const glm:
   for (glm::length_t i = 0; i < L; ++i) r[i] = select(m, a[i], b[i]);
   return r;
 }
+
+/// v divided by its length. No intermediate overflows or underflows, whatever v's size; the zero vector stays zero.
+glm::dvec3 unit_or_zero(const glm::dvec3& v);
 
 }  // namespace halfspace

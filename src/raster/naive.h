@@ -11,11 +11,11 @@
 #include <cmath>
 #include <vector>
 
-#include "core/image.h"
-#include "raster/compare.h"
-#include "raster/draw_state.h"
-#include "raster/vertex_view.h"
-#include "shading/contract.h"
+#include "halfspace/core/image.h"
+#include "halfspace/raster/draw_state.h"
+#include "halfspace/raster/vertex_input.h"
+#include "halfspace/raster/visibility/compare.h"
+#include "halfspace/shading/contract.h"
 
 namespace halfspace {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raster/pass.h"
+#include "halfspace/raster/pass.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "core/float_mode.h"
-#include "raster/assembly.h"
-#include "raster/bin.h"
-#include "raster/frame_memory.h"
-#include "raster/primitive_setup.h"
-#include "raster/setup.h"
+#include "halfspace/core/float_mode.h"
+#include "halfspace/raster/pipeline/pass_memory.h"
+#include "halfspace/raster/primitives/bin.h"
+#include "halfspace/raster/primitives/primitive_assembly.h"
+#include "halfspace/raster/primitives/setup.h"
+#include "halfspace/raster/primitives/setup_scalar.h"
 
 namespace halfspace {
 

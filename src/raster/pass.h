@@ -14,11 +14,11 @@
 #include <optional>
 #include <span>
 
-#include "core/parallel.h"
-#include "raster/fragment_kernel.h"
-#include "raster/output.h"
-#include "raster/primitive_stage.h"
-#include "raster/vertex_stage.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/raster/primitives/primitive_stage.h"
+#include "halfspace/raster/primitives/vertex_stage.h"
+#include "halfspace/raster/shade/fragment_kernel.h"
+#include "halfspace/raster/tile/blend.h"
 
 namespace halfspace {
 

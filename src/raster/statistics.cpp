@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raster/statistics.h"
+#include "halfspace/raster/statistics.h"
 
 namespace halfspace {
 

@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "core/image.h"
+#include "halfspace/core/image.h"
 
 namespace halfspace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/edge_distance.h"
+#include "halfspace/reference/edge_distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "core/image.h"
+#include "halfspace/core/image.h"
 
 namespace halfspace {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shading/depth_only.h"
-#include "shading/sphere_depth.h"
+#include "halfspace/shading/depth_only.h"
+#include "halfspace/shading/sphere_depth.h"
 
 namespace halfspace {
 

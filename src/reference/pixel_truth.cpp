@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/pixel_truth.h"
+#include "halfspace/reference/pixel_truth.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
 
-#include "core/hash.h"
-#include "core/trig_double.h"
-#include "scene/camera.h"
+#include "halfspace/core/hash.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/geometry/camera.h"
 
 namespace halfspace {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/image.h"
-#include "core/parallel.h"
-#include "reference/ray_scene.h"
-#include "scene/view.h"
+#include "halfspace/core/image.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/reference/ray_scene.h"
+#include "halfspace/render/view.h"
 
 namespace halfspace {
 

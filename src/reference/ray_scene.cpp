@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/ray_scene.h"
+#include "halfspace/reference/ray_scene.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "core/check.h"
-#include "core/float_mode.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 
 namespace halfspace {
 

@@ -11,7 +11,7 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/prepared_scene.h"
+#include "halfspace/render/prepared_scene.h"
 
 namespace halfspace {
 

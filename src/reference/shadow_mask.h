@@ -4,8 +4,8 @@
 // the light's shadow map says.
 #pragma once
 
-#include "shading/contract.h"
-#include "shading/lighting.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/lighting.h"
 
 namespace halfspace {
 

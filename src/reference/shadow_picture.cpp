@@ -4,10 +4,10 @@
 #include <chrono>
 #include <vector>
 
-#include "raster/pass.h"
-#include "reference/pixel_truth.h"
-#include "reference/shadow_mask.h"
-#include "scene/mesh.h"
+#include "halfspace/geometry/mesh.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/reference/pixel_truth.h"
+#include "halfspace/reference/shadow_mask.h"
 
 namespace halfspace {
 

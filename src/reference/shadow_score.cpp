@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/shadow_score.h"
+#include "halfspace/reference/shadow_score.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "core/trig_double.h"
-#include "scene/camera.h"
-#include "scene/shadow_views.h"
-#include "shading/shadow_bias.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/geometry/camera.h"
+#include "halfspace/render/shadow/shadow_views.h"
+#include "halfspace/shading/shadow_bias.h"
 
 namespace halfspace {
 

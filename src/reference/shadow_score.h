@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "reference/edge_distance.h"
-#include "reference/pixel_truth.h"
+#include "halfspace/reference/edge_distance.h"
+#include "halfspace/reference/pixel_truth.h"
 
 namespace halfspace {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/shadow_table.h"
+#include "halfspace/reference/shadow_table.h"
 
 #include <fmt/format.h>
 #include <cmath>
 #include <numbers>
 
-#include "core/trig_double.h"
-#include "scene/scene_file.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
 

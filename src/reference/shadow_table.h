@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/validation.h"
+#include "halfspace/reference/validation.h"
 
 namespace halfspace {
 

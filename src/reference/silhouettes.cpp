@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/silhouettes.h"
+#include "halfspace/reference/silhouettes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
-#include "raster/pass.h"
-#include "reference/numbered_mesh.h"
-#include "scene/sphere_camera.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/reference/numbered_mesh.h"
+#include "halfspace/render/sphere_camera.h"
 
 namespace halfspace {
 

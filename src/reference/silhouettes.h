@@ -3,10 +3,10 @@
 // How far the outlines of a scene's objects lie from those by another model of it.
 #pragma once
 
-#include "core/image.h"
-#include "core/parallel.h"
-#include "reference/edge_distance.h"
-#include "scene/prepared_scene.h"
+#include "halfspace/core/image.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/reference/edge_distance.h"
+#include "halfspace/render/prepared_scene.h"
 
 namespace halfspace {
 

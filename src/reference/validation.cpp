@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/validation.h"
+#include "halfspace/reference/validation.h"
 
 #include <fmt/format.h>
 #include <algorithm>

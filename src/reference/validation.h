@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/shadow_score.h"
+#include "halfspace/reference/shadow_score.h"
 
 namespace halfspace {
 

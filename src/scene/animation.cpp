@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/animation.h"
+#include "halfspace/scene/animation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
-#include "core/trig_double.h"
-#include "scene/scene_paths.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/description.h"
+#include "halfspace/scene/description.h"
 
 namespace halfspace {
 

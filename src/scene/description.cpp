@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The tables of all keys. A scene file, --set, `halfspace list` and the JSON Schema know no others.
-#include "scene/description.h"
+#include "halfspace/scene/description.h"
 
 namespace halfspace {
 

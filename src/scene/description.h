@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A scene as its file describes it: plain values with their defaults. The tables in description.cpp name each of them
-// as a key. What they mean for drawing is told in scene/prepared_scene.h.
+// as a key. What they mean for drawing is told in render/prepared_scene.h.
 #pragma once
 
 #include <string>
@@ -9,11 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "scene/keys.h"
-#include "shading/lighting.h"
-#include "shading/shadow_map.h"
-#include "shading/texture.h"
-#include "shading/tone.h"
+#include "halfspace/scene/keys.h"
+#include "halfspace/shading/light_types.h"
+#include "halfspace/shading/sampler.h"
+#include "halfspace/shading/tone_types.h"
 
 namespace halfspace {
 
@@ -71,7 +70,7 @@ enum class TextureSource : uint8_t {
   hills_height
 };
 
-/// Is it a map of scene/procedural_patterns.h, which tiles?
+/// Is it a map of procedural/patterns.h, which tiles?
 inline bool is_pattern(TextureSource source) { return source >= TextureSource::checkerboard; }
 
 struct TextureDescription {
@@ -234,9 +233,12 @@ struct ShadowDescription {
 };
 
 enum class ParticleSprite : uint8_t { original, exact };
+/// The largest number of spheres that a particle system may have.
+inline constexpr int kMaxParticles = 1000000;
+
 enum class ParticleArrangement : uint8_t { helix, grid, ball, galaxy };
 
-/// Spheres drawn as points (scene/particles.h, shading/sphere_sprite.h).
+/// Spheres drawn as points (render/particles.h, shading/sphere_sprite.h).
 struct ParticlesDescription {
   ParticleSprite sprite = ParticleSprite::original;
   int count = 0;  ///< of generated ones; 0: none

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The tables of keys, continued from description.cpp: particles, what surrounds a scene, and how it is shown.
-#include "scene/particles.h"
+#include "halfspace/scene/description.h"
 
 namespace halfspace {
 
@@ -43,7 +43,7 @@ Section section_of(ParticlesDescription& p) {
   using T = ParticlesDescription;
   static const std::vector<Key> keys{
       key<&T::sprite>("sprite", "A circle sized by the centre alone, or the sphere as it projects"),
-      key<&T::count>("count", "How many spheres are generated; 0: none", {.low = 0, .high = kMostParticles}),
+      key<&T::count>("count", "How many spheres are generated; 0: none", {.low = 0, .high = kMaxParticles}),
       key<&T::arrangement>("arrangement", "Where generated spheres are"),
       key<&T::file>("file", "File of rows x,y,z[,radius[,r,g,b]] (.csv), instead of generated spheres"),
       key<&T::radius>("radius", "Radius of the spheres; 0: a fifth of orbit_radius for 12, smaller for more",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/keys.h"
+#include "halfspace/scene/keys.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/check.h"
-#include "core/srgb.h"
-#include "scene/nearest_name.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/core/text.h"
 
 namespace halfspace {
 

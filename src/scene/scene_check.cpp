@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene_check.h"
+#include "halfspace/scene/scene_check.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "core/check.h"
-#include "scene/animation.h"
-#include "scene/camera.h"
-#include "scene/nearest_name.h"
-#include "scene/scene_paths.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/text.h"
+#include "halfspace/core/vec.h"
+#include "halfspace/scene/animation.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 

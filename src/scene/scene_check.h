@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/description.h"
+#include "halfspace/scene/description.h"
 
 namespace halfspace {
 
@@ -12,8 +12,8 @@ namespace halfspace {
 /// InputError that begins with `source`.
 void check_scene(SceneDescription& scene, const std::string& source);
 
-/// The first of an object's keys that asks for a mesh, so that Shape::sphere cannot show it: maps, reflection, light by vertex or triangle, a back
-/// face, a scale that is not the same every way. Empty where none does.
+/// The first of an object's keys that asks for a mesh, so that Shape::sphere cannot show it: maps, reflection, light by vertex or triangle,
+/// a back face, a scale that is not the same every way. Empty where none does.
 std::string_view key_for_meshes(const ObjectDescription& o);
 
 /// That all objects together ask for no more memory than is bearable. Throws as above.

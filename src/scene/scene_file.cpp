@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene_file.h"
+#include "halfspace/scene/scene_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -7,11 +7,11 @@
 #include <fstream>
 #include <set>
 
-#include "core/check.h"
-#include "scene/animation.h"
-#include "scene/nearest_name.h"
-#include "scene/scene_check.h"
-#include "scene/scene_paths.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/text.h"
+#include "halfspace/scene/animation.h"
+#include "halfspace/scene/scene_check.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/description.h"
+#include "halfspace/scene/description.h"
 
 namespace halfspace {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene_paths.h"
+#include "halfspace/scene/scene_paths.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "core/check.h"
-#include "scene/nearest_name.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/text.h"
 
 namespace halfspace {
 

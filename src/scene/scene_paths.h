@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/description.h"
+#include "halfspace/scene/description.h"
 
 namespace halfspace {
 

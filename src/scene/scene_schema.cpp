@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene_file.h"
-#include "scene/scene_paths.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 

@@ -30,7 +30,7 @@
 
 #include <array>
 
-#include "shading/pixel.h"
+#include "halfspace/shading/pixel.h"
 
 namespace halfspace {
 

@@ -3,7 +3,7 @@
 // Draws a mesh's depth and nothing else: for shadow maps.
 #pragma once
 
-#include "shading/contract.h"
+#include "halfspace/shading/contract.h"
 
 namespace halfspace {
 

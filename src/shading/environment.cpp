@@ -2,13 +2,13 @@
 //
 // EnvironmentMap's look-up, compiled once for all shaders. Lanes do not touch each other: where they fall on different
 // images, each image is asked in turn and a lane keeps what its own said.
-#include "shading/environment.h"
+#include "halfspace/shading/environment.h"
 
 #include <algorithm>
 #include <bit>
 #include <numbers>
 
-#include "core/lane_math.h"
+#include "halfspace/core/lane_math.h"
 
 namespace halfspace {
 

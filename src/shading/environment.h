@@ -20,7 +20,7 @@
 #include <array>
 #include <vector>
 
-#include "shading/texture.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace {
 
@@ -84,9 +84,6 @@ class EnvironmentMap {
   int levels_ = 0;
   std::vector<Texture2D> images_;  // with borders, of one level each; level by level, face by face
 };
-
-/// The direction in map space through (s, t) in [−1, 1] of a cube's face, t downwards; the component of the face is ±1.
-glm::dvec3 cube_direction(int face, double s, double t);
 
 /// An environment in its place.
 struct Environment {

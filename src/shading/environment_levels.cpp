@@ -3,9 +3,10 @@
 // EnvironmentMap's levels: averaged, low-passed towards a panorama's poles, and given their borders.
 #include <algorithm>
 
-#include "core/check.h"
-#include "core/trig_double.h"
-#include "shading/environment.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/cube_map.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/shading/environment.h"
 
 namespace halfspace {
 
@@ -122,17 +123,6 @@ Image<Texel> bordered(const Faces<Texel>& faces, int face) {
 }
 
 }  // namespace
-
-glm::dvec3 cube_direction(int face, double s, double t) {
-  switch (face) {
-    case 0: return {1, -t, -s};
-    case 1: return {-1, -t, s};
-    case 2: return {s, 1, t};
-    case 3: return {s, -1, -t};
-    case 4: return {s, -t, 1};
-    default: return {-s, -t, -1};
-  }
-}
 
 template <class Texel>
 EnvironmentMap::EnvironmentMap(const Image<Texel>& panorama, TexelFormat format) : layout_(EnvironmentLayout::panorama) {

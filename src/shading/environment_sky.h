@@ -4,10 +4,10 @@
 // own before its map, as sharp as the picture (star_sky.h); they go down at its horizon.
 #pragma once
 
-#include "core/lane_math.h"
-#include "shading/contract.h"
-#include "shading/environment.h"
-#include "shading/star_sky.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/environment.h"
+#include "halfspace/shading/star_sky.h"
 
 namespace halfspace {
 

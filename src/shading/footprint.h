@@ -15,8 +15,8 @@
 // and no more. So where the ratio of the axes tends to 1 the probes meet, and nothing jumps between one and two.
 #pragma once
 
-#include "core/lane_math.h"
-#include "core/vec.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/vec.h"
 
 namespace halfspace {
 

@@ -17,25 +17,12 @@
 #include <limits>
 #include <span>
 
-#include "core/lane_math.h"
-#include "core/vec.h"
-#include "shading/shadow.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/vec.h"
+#include "halfspace/shading/light_types.h"
+#include "halfspace/shading/shadow.h"
 
 namespace halfspace {
-
-enum class LightType : uint8_t { directional, point, spot };
-
-/// How often light is computed (shading/surface_shader.h).
-enum class ShadingRate : uint8_t {
-  none,       ///< no light: colour and emission
-  flat,       ///< once a triangle that survives culling, at its middle, with the normal of its face
-  provoking,  ///< by vertex, and the provoking vertex's light for all the triangle (GL's flat shading)
-  gouraud,    ///< by vertex, interpolated
-  phong       ///< by pixel, with the interpolated normal
-};
-
-/// Which highlight a surface has: none, by the reflected ray, or by the half vector.
-enum class LightModel : uint8_t { lambert, phong, blinn_phong };
 
 /// One light. Colours are linear, intensity included. The suffix _ew says: the world's axes, but the eye as origin, so that
 /// floats are finest where the eye is.

@@ -10,9 +10,9 @@
 
 #include <array>
 
-#include "shading/environment.h"
-#include "shading/lighting.h"
-#include "shading/texture.h"
+#include "halfspace/shading/environment.h"
+#include "halfspace/shading/lighting.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace {
 

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "core/lane_pairs.h"
+#include "halfspace/core/lane_pairs.h"
 
 namespace halfspace {
 

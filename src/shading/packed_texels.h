@@ -3,9 +3,9 @@
 // What texels hold, and how those of 8 bits a channel, packed into a word with red lowest, become the numbers that are filtered.
 #pragma once
 
-#include "core/lanes.h"
-#include "core/srgb.h"
-#include "core/vec.h"
+#include "halfspace/core/lanes.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/core/vec.h"
 
 namespace halfspace {
 

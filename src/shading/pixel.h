@@ -19,7 +19,7 @@
 #include <array>
 #include <type_traits>
 
-#include "shading/varyings.h"
+#include "halfspace/shading/varyings.h"
 
 namespace halfspace {
 

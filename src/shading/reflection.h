@@ -7,8 +7,8 @@
 //   r' = d' − 2 ((d'·n + d·n') n + (d·n) n').
 #pragma once
 
-#include "core/lane_math.h"
-#include "shading/environment.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/shading/environment.h"
 
 namespace halfspace {
 

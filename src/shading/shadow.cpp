@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shading/shadow.h"
+#include "halfspace/shading/shadow.h"
 
-#include "shading/shadow_lookup.h"
+#include "halfspace/shading/shadow_lookup.h"
 
 namespace halfspace {
 

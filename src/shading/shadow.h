@@ -3,8 +3,8 @@
 // The share of one light that arrives at a point: what a surface's shader asks of a shadow map.
 #pragma once
 
-#include "core/lane_pairs.h"
-#include "shading/shadow_map.h"
+#include "halfspace/core/lane_pairs.h"
+#include "halfspace/shading/shadow_map.h"
 
 namespace halfspace {
 

@@ -5,7 +5,7 @@
 // the surface's depth where the map took its own.
 #pragma once
 
-#include "shading/shadow_view.h"
+#include "halfspace/shading/shadow_view.h"
 
 namespace halfspace {
 

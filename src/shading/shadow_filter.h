@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "shading/shadow_moments.h"
-#include "shading/shadow_view.h"
+#include "halfspace/shading/shadow_moments.h"
+#include "halfspace/shading/shadow_view.h"
 
 namespace halfspace {
 

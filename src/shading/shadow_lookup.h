@@ -3,9 +3,9 @@
 // The body of light_arriving (shading/shadow.h). Compiled once, in shadow.cpp: shaders call it, and do not grow by it.
 #pragma once
 
-#include "shading/shadow.h"
-#include "shading/shadow_bias.h"
-#include "shading/shadow_filter.h"
+#include "halfspace/shading/shadow.h"
+#include "halfspace/shading/shadow_bias.h"
+#include "halfspace/shading/shadow_filter.h"
 
 namespace halfspace {
 

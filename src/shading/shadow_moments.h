@@ -4,7 +4,7 @@
 // d being the linear depth from 0 (near) to 1 (far); the light that arrives at depth d is bounded by them.
 #pragma once
 
-#include "shading/shadow_view.h"
+#include "halfspace/shading/shadow_view.h"
 
 namespace halfspace {
 

@@ -3,9 +3,9 @@
 // Where a point lies on a shadow map.
 #pragma once
 
-#include "core/lane_math.h"
-#include "shading/map_row.h"
-#include "shading/shadow_map.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/shading/map_row.h"
+#include "halfspace/shading/shadow_map.h"
 
 namespace halfspace {
 

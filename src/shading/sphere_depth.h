@@ -3,8 +3,8 @@
 // Draws spheres' depth and nothing else: for shadow maps.
 #pragma once
 
-#include "shading/contract.h"
-#include "shading/sphere_lens.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/sphere_lens.h"
 
 namespace halfspace {
 

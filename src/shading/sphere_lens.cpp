@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shading/sphere_lens.h"
+#include "halfspace/shading/sphere_lens.h"
 
 #include <cmath>
 

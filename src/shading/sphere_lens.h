@@ -18,8 +18,8 @@
 // the depth needs more of δ than a float: one step of Newton from s + δ, in sums of two floats again, has it.
 #pragma once
 
-#include "core/lane_math.h"
-#include "core/vec.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/vec.h"
 
 namespace halfspace {
 

@@ -12,9 +12,9 @@
 
 #include <span>
 
-#include "shading/contract.h"
-#include "shading/lighting.h"
-#include "shading/sphere_depth.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/lighting.h"
+#include "halfspace/shading/sphere_depth.h"
 
 namespace halfspace {
 
@@ -70,8 +70,7 @@ struct SphereSprite : SphereSprites {
     if constexpr (exact) lit_cs = c + h.n_cs * in.radius.value;
     const vec3<R> position_ew = world_from_camera * lit_cs, n_ws = world_from_camera * h.n_cs;
     const vec3<R> v_ws = lens.perspective ? normalize_or_zero(-position_ew) : vec3<R>(to_eye_ws);
-    const Illumination<R> light =
-        illuminate(lights, model, R(shininess), SurfacePoint<R>{position_ew, n_ws, v_ws, n_ws, px.x, px.y});
+    const Illumination<R> light = illuminate(lights, model, R(shininess), SurfacePoint<R>{position_ew, n_ws, v_ws, n_ws, px.x, px.y});
     const vec3<R> color = in.color.value * (ambient + diffuse * light.diffuse) + specular * light.specular + emissive;
     return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t, h.t_low)};
   }

@@ -9,8 +9,8 @@
 
 #include <array>
 
-#include "core/hash.h"
-#include "shading/contract.h"
+#include "halfspace/core/hash.h"
+#include "halfspace/shading/contract.h"
 
 namespace halfspace {
 

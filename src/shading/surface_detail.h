@@ -4,8 +4,8 @@
 // All results have any length; where a map says nothing, they are the normal that went in.
 #pragma once
 
-#include "shading/lit_surface.h"
-#include "shading/pixel.h"
+#include "halfspace/shading/lit_surface.h"
+#include "halfspace/shading/pixel.h"
 
 namespace halfspace {
 
@@ -63,7 +63,7 @@ HS_INLINE vec3<R> normal_from_heights(const vec3<R>& n, const HeightSteps<R>& h,
 }
 
 /// The displaced sphere's normal where the sphere's unit normal is n, y towards the north pole, and slope is
-/// (∂g/∂east, ∂g/∂north, 1 + g/r): n·(1 + g/r) − east·∂g/∂east − north·∂g/∂north (scene/height_field.h derives it). At the
+/// (∂g/∂east, ∂g/∂north, 1 + g/r): n·(1 + g/r) − east·∂g/∂east − north·∂g/∂north (geometry/height_field.h derives it). At the
 /// poles themselves, which have no east, n.
 template <class R>
 HS_INLINE vec3<R> normal_from_slopes(const vec3<R>& n, const vec3<R>& slope) {

@@ -4,9 +4,9 @@
 // rate that the first parameter says. Maps are read by pixel at every rate; what a variant does not need it does not carry.
 #pragma once
 
-#include "shading/contract.h"
-#include "shading/reflection.h"
-#include "shading/surface_detail.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/reflection.h"
+#include "halfspace/shading/surface_detail.h"
 
 namespace halfspace {
 

@@ -10,8 +10,8 @@
 // in the low half of the first. rgba32f: four words.
 #pragma once
 
-#include "core/half.h"
-#include "shading/texture.h"
+#include "halfspace/core/half.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace::detail {
 

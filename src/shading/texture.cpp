@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Texture2D's levels: taken over or computed, checked, and packed into one allocation.
-#include "shading/texture.h"
+#include "halfspace/shading/texture.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "core/half.h"
-#include "core/raw_allocator.h"
-#include "shading/texels.h"
+#include "halfspace/core/default_init_allocator.h"
+#include "halfspace/core/half.h"
+#include "halfspace/shading/texels.h"
 
 namespace halfspace {
 

@@ -21,36 +21,19 @@
 #include <span>
 #include <vector>
 
-#include "core/image.h"
-#include "core/lane_pairs.h"
-#include "core/lanes.h"
-#include "core/parallel.h"
-#include "core/vec.h"
-#include "shading/footprint.h"
-#include "shading/packed_texels.h"
+#include "halfspace/core/image.h"
+#include "halfspace/core/lane_pairs.h"
+#include "halfspace/core/lanes.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/core/vec.h"
+#include "halfspace/shading/footprint.h"
+#include "halfspace/shading/packed_texels.h"
+#include "halfspace/shading/sampler.h"
 
 namespace halfspace {
 
 /// The largest rgba32f texel: half of the largest float, so that the difference of two texels is a float.
 inline constexpr float kMaxTexel = 0x1.fffffep126f;
-
-/// GL's NEAREST and LINEAR (both of level 0) and LINEAR_MIPMAP_LINEAR. As a magnification filter trilinear means bilinear.
-enum class Filter : uint8_t { nearest, bilinear, trilinear };
-/// GL's REPEAT, MIRRORED_REPEAT, CLAMP_TO_EDGE and CLAMP_TO_BORDER.
-enum class Wrap : uint8_t { repeat, mirrored, clamp, border };
-
-/// How a texture is read: uniform state, kept apart from the texture as in GL's sampler objects.
-struct Sampler {
-  Filter mag = Filter::bilinear;   ///< where a texel is larger than a pixel (level of detail <= 0)
-  Filter min = Filter::trilinear;  ///< where it is smaller
-  Wrap wrap_s = Wrap::repeat;
-  Wrap wrap_t = Wrap::repeat;
-  /// At most so many probes along a long footprint (footprint.h): 1 (isotropic) … 16. Ignored by sample_level.
-  int anisotropy = 1;
-  /// Linear; what lies outside of the image where an axis wraps by border. Used as the texture's format could hold it: of
-  /// the coded formats held to [0, 1], of those of one channel the red alone.
-  glm::vec4 border_color{0.0f};
-};
 
 /// An immutable texture. It owns its texels; any number of threads may read it at once.
 class Texture2D {

@@ -3,8 +3,8 @@
 // Texture2D's look-up for every format, wrap and anisotropy. What is common runs inlined (texture.h) and only with anisotropy
 // here. Lanes do not touch each other: a lane's probes, levels and texels are its own, and where lanes wait for
 // others their results are kept.
-#include "shading/texels.h"
-#include "shading/texture.h"
+#include "halfspace/shading/texels.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace {
 
@@ -194,7 +194,6 @@ template vec4<double> Texture2D::sample_levels_any(const Sampler&, const vec2<do
 template vec4<RealN<4>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<4>>&, const LevelChoice<RealN<4>>&) const;
 template vec4<RealN<8>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<8>>&, const LevelChoice<RealN<8>>&) const;
 template vec4<RealN<16>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<16>>&, const LevelChoice<RealN<16>>&) const;
-template vec4<FragmentReal> Texture2D::sample_levels_any(const Sampler&, const vec2<FragmentReal>&,
-                                                         const LevelChoice<FragmentReal>&) const;
+template vec4<FragmentReal> Texture2D::sample_levels_any(const Sampler&, const vec2<FragmentReal>&, const LevelChoice<FragmentReal>&) const;
 
 }  // namespace halfspace

@@ -20,9 +20,10 @@
 
 #include <array>
 
-#include "core/fixed_power.h"
-#include "core/lane_math.h"
-#include "core/vec.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/srgb_curve.h"
+#include "halfspace/core/vec.h"
+#include "halfspace/shading/tone_types.h"
 
 namespace halfspace {
 
@@ -37,16 +38,6 @@ struct DisplayLight {
 template <class R>
 struct Encoded {
   vec3<R> rgb;  ///< in [0, 1]
-};
-
-enum class ToneCurve : uint8_t { none, reinhard, reinhard_extended, exponential, aces };
-enum class ToneOn : uint8_t { luminance, channel };
-
-struct ToneMapping {
-  float exposure = 1.0f;  ///< factor of the light, 0 to 1e9
-  ToneCurve curve = ToneCurve::none;
-  ToneOn on = ToneOn::channel;
-  float white = 4.0f;  ///< of reinhard_extended: the exposed light that becomes 1; 1e-3 to 1e6
 };
 
 /// Light beyond it counts as this much: enough for every curve to end, little enough for their squares to be floats.
@@ -98,16 +89,11 @@ HS_INLINE DisplayLight<R> tone_map(const SceneLight<R>& light, const ToneMapping
   return {c};
 }
 
-/// The sRGB curve (IEC 61966-2-1), as a number between codes. Where whole codes are wanted linear_to_srgb (core/srgb.h) is exact.
+/// The sRGB curve of each channel (core/srgb_curve.h).
 template <Number R>
 HS_INLINE Encoded<R> encode_srgb(const DisplayLight<R>& light) {
-  static constexpr FixedPower power_of(1.0f / 2.4f);
   vec3<R> e;
-  for (int k = 0; k < 3; ++k) {
-    const R x = light.rgb[k];
-    const R power = fma(R(1.055f), power_of(x), R(-0.055f));
-    e[k] = min(select(x <= R(0.0031308f), R(12.92f) * x, power), R(1.0f));
-  }
+  for (int k = 0; k < 3; ++k) e[k] = srgb_curve(light.rgb[k]);
   return {e};
 }
 

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <utility>
 
-#include "core/fields.h"
-#include "core/vec.h"
+#include "halfspace/core/aggregate_reflection.h"
+#include "halfspace/core/vec.h"
 
 namespace halfspace {
 

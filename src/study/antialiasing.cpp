@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/trig_double.h"
-#include "raster/pass.h"
-#include "study/pictures.h"
-#include "study/polygon_area.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/study/pictures.h"
+#include "halfspace/study/polygon_area.h"
 
 namespace halfspace {
 

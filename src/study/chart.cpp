@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/chart.h"
+#include "halfspace/study/chart.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "study/study.h"
+#include "halfspace/study/study.h"
 
 namespace halfspace {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "study/chart.h"
+#include "halfspace/study/chart.h"
 
 namespace halfspace {
 

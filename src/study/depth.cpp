@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "raster/pass.h"
-#include "scene/camera.h"
-#include "study/pictures.h"
+#include "halfspace/geometry/camera.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/study/pictures.h"
 
 namespace halfspace {
 

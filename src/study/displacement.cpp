@@ -3,8 +3,8 @@
 // The Moon: how fine a mesh its relief needs, by where normals come from.
 #include <fmt/format.h>
 
-#include "scene/scene_file.h"
-#include "study/pictures.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/study/pictures.h"
 
 namespace halfspace {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/lanes.h"
-#include "shading/pixel.h"
-#include "study/study.h"
+#include "halfspace/core/lanes.h"
+#include "halfspace/shading/pixel.h"
+#include "halfspace/study/study.h"
 
 namespace halfspace {
 

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include "scene/chord_error.h"
-#include "scene/scene_file.h"
-#include "study/pictures.h"
+#include "halfspace/render/model/chord_error.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/study/pictures.h"
 
 namespace halfspace {
 

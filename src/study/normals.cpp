@@ -3,8 +3,8 @@
 // The Earth's mountains by every kind of normal, and as a displaced surface.
 #include <fmt/format.h>
 
-#include "scene/scene_file.h"
-#include "study/pictures.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/study/pictures.h"
 
 namespace halfspace {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/pictures.h"
+#include "halfspace/study/pictures.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/srgb.h"
-#include "scene/image_difference.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/image/image_difference.h"
 
 namespace halfspace {
 

@@ -3,8 +3,8 @@
 // What studies of pictures share: a scene's light with its time, and a picture's error against the truth.
 #pragma once
 
-#include "scene/prepared_scene.h"
-#include "study/study.h"
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/study/study.h"
 
 namespace halfspace {
 

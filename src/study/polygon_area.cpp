@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/polygon_area.h"
+#include "halfspace/study/polygon_area.h"
 
 #include <algorithm>
 #include <cmath>

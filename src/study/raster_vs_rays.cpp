@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/pixel_truth.h"
-#include "scene/scene_file.h"
-#include "study/study.h"
+#include "halfspace/reference/pixel_truth.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/study/study.h"
 
 namespace halfspace {
 

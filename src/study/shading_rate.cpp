@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/scene_file.h"
-#include "scene/shapes.h"
-#include "study/pictures.h"
+#include "halfspace/geometry/shapes.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/study/pictures.h"
 
 namespace halfspace {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "reference/shadow_table.h"
-#include "study/study.h"
+#include "halfspace/reference/shadow_table.h"
+#include "halfspace/study/study.h"
 
 namespace halfspace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "study/shadow_study.h"
+#include "halfspace/study/shadow_study.h"
 
 namespace halfspace {
 

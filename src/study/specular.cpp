@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/lane_math.h"
-#include "study/study.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/study/study.h"
 
 namespace halfspace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/study.h"
+#include "halfspace/study/study.h"
 
 #include <algorithm>
 #include <chrono>

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/image.h"
-#include "core/parallel.h"
+#include "halfspace/core/image.h"
+#include "halfspace/core/parallel.h"
 
 namespace halfspace {
 

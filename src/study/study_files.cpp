@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/study_files.h"
+#include "halfspace/study/study_files.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
-#include "scene/image_io.h"
-#include "scene/output_file.h"
-#include "study/chart.h"
+#include "halfspace/core/check.h"
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/study/chart.h"
 
 namespace halfspace {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "study/study.h"
+#include "halfspace/study/study.h"
 
 namespace halfspace {
 

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
-#include "scene/output_file.h"
-#include "study/study_files.h"
+#include "halfspace/core/check.h"
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/study/study_files.h"
 
 namespace halfspace {
 

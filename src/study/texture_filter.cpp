@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "raster/pass.h"
-#include "scene/camera.h"
-#include "scene/procedural_patterns.h"
-#include "study/pictures.h"
+#include "halfspace/geometry/camera.h"
+#include "halfspace/procedural/patterns.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/study/pictures.h"
 
 namespace halfspace {
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "core/srgb.h"
-#include "shading/tone.h"
-#include "study/study.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/shading/tone.h"
+#include "halfspace/study/study.h"
 
 namespace halfspace {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "program.h"
+#include "bench/program.h"
 
 namespace halfspace {
 
@@ -78,7 +78,8 @@ TEST(BenchCli, TellsTheMemoryOfASingleWorkload) {
     EXPECT_EQ(outcome.exit_code, 0);
     return nlohmann::json::parse(outcome.text).at("frames_mb").get<double>();
   };
-  // Three million vertices of 17 bytes; what preparation gave back may serve for some of them. A cleared picture of 64x64 takes almost nothing.
+  // Three million vertices of 17 bytes; what preparation gave back may serve for some of them. A cleared picture of 64x64 takes almost
+  // nothing.
   EXPECT_GE(megabytes("tiny_1m"), megabytes("clear") + 25);
 }
 

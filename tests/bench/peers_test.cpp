@@ -4,7 +4,7 @@
 // those that are built; the others' tests are skipped.
 #include <gtest/gtest.h>
 
-#include "program.h"
+#include "bench/program.h"
 #include "sweeps.h"
 
 #ifndef HALFSPACE_BENCH_GL_PROGRAM

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "bench/program.h"
 #include "picture_errors.h"
-#include "program.h"
 #include "sweeps.h"
 #include "workload_assets.h"
 

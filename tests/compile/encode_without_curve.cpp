@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light of a scene that is encoded without a tone curve: must not compile, and the message must name: SceneLight.
-#include "shading/tone.h"
+#include "halfspace/shading/tone.h"
 
 using namespace halfspace;
 

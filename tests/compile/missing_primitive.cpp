@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader without the primitive function of its Primitive struct: must not compile, and
 // the message must name: primitive(const Varyings.
-#include "raster/pass.h"
+#include "halfspace/raster/pass.h"
 
 using namespace halfspace;
 

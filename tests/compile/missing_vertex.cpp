@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader that lacks its vertex function: must not compile, and the message must name: vertex(const Attributes.
-#include "raster/pass.h"
+#include "halfspace/raster/pass.h"
 
 using namespace halfspace;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader whose vertex function does not return a clip-space vec4: must not compile, and
 // the message must name: vertex(const Attributes.
-#include "raster/pass.h"
+#include "halfspace/raster/pass.h"
 
 using namespace halfspace;
 

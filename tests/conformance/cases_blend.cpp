@@ -4,7 +4,7 @@
 
 #include "conformance/geometry.h"
 #include "conformance/groups.h"
-#include "core/srgb.h"
+#include "halfspace/core/srgb.h"
 
 namespace halfspace::conformance {
 

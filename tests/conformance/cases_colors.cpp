@@ -5,7 +5,7 @@
 #include "conformance/geometry.h"
 #include "conformance/groups.h"
 #include "conformance/topologies.h"
-#include "core/trig_double.h"
+#include "halfspace/core/trig_double.h"
 
 namespace halfspace::conformance {
 

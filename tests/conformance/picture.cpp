@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "conformance/shaders.h"
-#include "core/half.h"
+#include "halfspace/core/half.h"
 
 namespace halfspace::conformance {
 

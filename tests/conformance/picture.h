@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/shading/texture.h"
 #include "property/scene.h"
-#include "shading/texture.h"
 
 namespace halfspace::conformance {
 

@@ -3,7 +3,7 @@
 // The kinds of triangles and lines, by name.
 #pragma once
 
-#include "raster/draw_state.h"
+#include "halfspace/raster/draw_state.h"
 
 namespace halfspace::conformance {
 

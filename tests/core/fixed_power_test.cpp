@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fixed_power.h"
+#include "halfspace/core/fixed_power.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // Half precision against its definition (IEEE 754-2008, section 3.6), computed in double, and the bit operations
 // against the instructions.
-#include "core/half.h"
+#include "halfspace/core/half.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 // values), rounded up: the sweeps here, of some 2^22 floats each, cannot exceed them, for the bits are the same on every
 // machine. Those of pow and atan2, which only random pairs can try, have 0.1 ulp of room over the largest error found.
 // Correct rounding would have 0.5.
-#include "core/lane_math.h"
+#include "halfspace/core/lane_math.h"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ TEST(LaneMath, UnitPowIsWithin6e7OfPow) {
   }
   if (std::getenv("HALFSPACE_PRINT_ULPS") != nullptr) std::cout << "unit_pow: " << worst << '\n';
   EXPECT_LE(worst, 6e-7);  // see unit_pow; 5.1e-7 is the largest found, by random pairs
-  EXPECT_GT(worst, 1e-8);    // the pairs are not all at the ends
+  EXPECT_GT(worst, 1e-8);  // the pairs are not all at the ends
   EXPECT_EQ(unit_pow(0.0f, 0.0f), 1.0f);
   EXPECT_EQ(unit_pow(0.5f, 0.0f), 1.0f);
   EXPECT_EQ(unit_pow(0.0f, 3.0f), 0.0f);

@@ -3,7 +3,7 @@
 // Every operation of lanes.h at widths 4, 8 and 16, and of lane_pairs.h in pairs of these and of plain numbers, against the same
 // operation on plain numbers, bit by bit: over special values in all pairs (zeros, infinities, NaN, subnormals, ties, the ends of the int32
 // range) and over random bits. A NaN result need only be a NaN: the sign and payload of one that an operation makes are not ours to choose.
-#include "core/lanes.h"
+#include "halfspace/core/lanes.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <random>
 #include <vector>
 
-#include "core/lane_pairs.h"
-#include "core/vec.h"
+#include "halfspace/core/lane_pairs.h"
+#include "halfspace/core/vec.h"
 
 namespace halfspace {
 namespace {

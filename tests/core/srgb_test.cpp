@@ -3,13 +3,13 @@
 // The sRGB tables against the curve in long double (64 bits; powl errs by less than 2^-62), whose distance to every
 // rounding boundary is checked to be far larger than that: the tables are then proven correctly rounded. Encoding is
 // tried on every float that has a code above 0.
-#include "core/srgb.h"
+#include "halfspace/core/srgb.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/half.h"
+#include "halfspace/core/half.h"
 
 namespace halfspace {
 namespace {

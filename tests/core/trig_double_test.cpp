@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/trig_double.h"
+#include "halfspace/core/trig_double.h"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 
 #include "conformance/groups.h"
 #include "conformance/random_state.h"
-#include "conformance_glsl.h"
-#include "core/srgb.h"
-#include "mesa_context.h"
-#include "mesa_draw.h"
+#include "halfspace/core/srgb.h"
+#include "mesa/conformance_glsl.h"
+#include "mesa/mesa_context.h"
+#include "mesa/mesa_draw.h"
 
 namespace halfspace::test {
 

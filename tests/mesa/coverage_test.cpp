@@ -2,10 +2,10 @@
 //
 // Coverage alone: every fragment adds 1/255, so a pixel holds the number of triangles that cover it, and a fragment
 // that only one renderer draws cannot hide behind another.
-#include "mesa_context.h"
-#include "scenes.h"
-#include "twin_pass.h"
-#include "twin_shaders.h"
+#include "mesa/mesa_context.h"
+#include "mesa/scenes.h"
+#include "mesa/twin_pass.h"
+#include "mesa/twin_shaders.h"
 
 namespace halfspace::test {
 

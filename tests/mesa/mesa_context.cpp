@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesa_context.h"
+#include "mesa/mesa_context.h"
 
 #include <cstdlib>
 #include <string_view>

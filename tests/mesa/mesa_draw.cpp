@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesa_draw.h"
+#include "mesa/mesa_draw.h"
 
 #include <array>
 #include <optional>
@@ -8,7 +8,7 @@
 
 #include <epoxy/gl.h>
 
-#include "mesa_state.h"
+#include "mesa/mesa_state.h"
 
 namespace halfspace::test {
 

@@ -8,11 +8,11 @@
 #include <map>
 #include <vector>
 
-#include "core/image.h"
-#include "raster/draw_state.h"
-#include "raster/target.h"
-#include "raster/vertex_view.h"
-#include "shading/texture.h"
+#include "halfspace/core/image.h"
+#include "halfspace/raster/draw_state.h"
+#include "halfspace/raster/target.h"
+#include "halfspace/raster/vertex_input.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesa_state.h"
+#include "mesa/mesa_state.h"
 
 #include <array>
 #include <optional>

@@ -5,7 +5,7 @@
 
 #include <epoxy/gl.h>
 
-#include "mesa_draw.h"
+#include "mesa/mesa_draw.h"
 
 namespace halfspace::test {
 

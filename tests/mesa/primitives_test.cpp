@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Strips, fans, points, lines and outlines, and what blending and masks make of them, drawn by both.
-#include "mesa_context.h"
-#include "scenes.h"
-#include "twin_pass.h"
-#include "twin_shaders.h"
+#include "mesa/mesa_context.h"
+#include "mesa/scenes.h"
+#include "mesa/twin_pass.h"
+#include "mesa/twin_shaders.h"
 
 namespace halfspace::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenes.h"
+#include "mesa/scenes.h"
 
 #include <cmath>
 #include <numbers>

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "core/image.h"
-#include "core/vec.h"
-#include "raster/vertex_view.h"
+#include "halfspace/core/image.h"
+#include "halfspace/core/vec.h"
+#include "halfspace/raster/vertex_input.h"
 
 namespace halfspace::test {
 

@@ -2,9 +2,9 @@
 //
 // The states of a draw, one by one, on a heap of triangles of every winding and depth. Window and viewports measure
 // powers of two and vertices lie on the 1/256 px grid, so that snapping moves nothing and depths agree too.
-#include "mesa_context.h"
-#include "scenes.h"
-#include "twin_pass.h"
+#include "mesa/mesa_context.h"
+#include "mesa/scenes.h"
+#include "mesa/twin_pass.h"
 
 namespace halfspace::test {
 

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <vector>
 
-#include "mesa_draw.h"
-#include "shading/contract.h"
+#include "halfspace/shading/contract.h"
+#include "mesa/mesa_draw.h"
 
 namespace halfspace::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "twin_pass.h"
+#include "mesa/twin_pass.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "mesa_draw.h"
-#include "raster/pass.h"
-#include "truth.h"
-#include "twin_shaders.h"
+#include "halfspace/raster/pass.h"
+#include "mesa/mesa_draw.h"
+#include "mesa/truth.h"
+#include "mesa/twin_shaders.h"
 
 namespace halfspace::test {
 

@@ -4,8 +4,8 @@
 // each kVertexGlsl and kFragmentGlsl; uniforms() names every member for GLSL.
 #pragma once
 
-#include "shading/contract.h"
-#include "shading/texture.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace::test {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/srgb.h"
+#include "halfspace/core/srgb.h"
 
 namespace halfspace::oracle {
 

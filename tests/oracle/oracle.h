@@ -6,7 +6,8 @@
 // no lanes, tiles, bins, stepping, deferral or bounds on depth.
 //
 // Where a result depends on the order of float operations, the oracle follows what is written down in shading/pixel.h
-// (weights and components), raster/visibility.h and raster/stages.h (depth) and raster/clip.h (clipping).
+// (weights and components), raster/visibility/visibility.h and raster/pipeline/pipeline_data.h (depth) and raster/primitives/clip.h
+// (clipping).
 #pragma once
 
 #include <array>
@@ -16,9 +17,9 @@
 #include <span>
 #include <vector>
 
-#include "raster/draw_state.h"
-#include "raster/target.h"
-#include "shading/contract.h"
+#include "halfspace/raster/draw_state.h"
+#include "halfspace/raster/target.h"
+#include "halfspace/shading/contract.h"
 
 namespace halfspace::oracle {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/raster/pass.h"
 #include "oracle/oracle.h"
 #include "property/test_shaders.h"
-#include "raster/pass.h"
 
 namespace halfspace {
 

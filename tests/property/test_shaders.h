@@ -4,7 +4,7 @@
 // range, so that no picture holds a NaN (whose bits an instruction's operand order decides).
 #pragma once
 
-#include "raster/pass.h"
+#include "halfspace/raster/pass.h"
 
 namespace halfspace {
 

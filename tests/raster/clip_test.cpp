@@ -3,13 +3,13 @@
 // The clip stage: by hand, by its invariants, and through whole passes against an exact homogeneous rasterizer (after
 // Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997): no divide, no clipping, no
 // snapping, every sign decided in 128-bit whole numbers.
-#include "raster/clip.h"
+#include "halfspace/raster/primitives/clip.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 
-#include "raster_test.h"
+#include "raster/raster_test.h"
 
 namespace halfspace::raster_test {
 namespace {

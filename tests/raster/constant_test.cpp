@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "raster/covered_area.h"
+#include "halfspace/raster/visibility/covered_area.h"
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test {

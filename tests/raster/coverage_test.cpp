@@ -6,7 +6,7 @@
 // Each triangle has a random weight of its own in each channel. In the blended (immediate) draw a pixel must hold the
 // sum of the weights of the triangles that cover it, so that no two errors cancel; in the replacing (deferred) draw
 // that of the last one. All sums stay below 2^24, where floats add whole numbers exactly.
-#include "raster_test.h"
+#include "raster/raster_test.h"
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ __extension__ using Wide = __int128;
 /// at. Orientation does not matter.
 ///
 /// A centre on an edge is decided as if all centres lay a little further right and, by far less, further up: then none
-/// is on an edge, and of two triangles that share an edge exactly one gets it. (That is the rule of raster/edge.h, told
+/// is on an edge, and of two triangles that share an edge exactly one gets it. (That is the rule of raster/pipeline/edge.h, told
 /// in another way.)
 template <class F>
 int64_t brute_force(const PointTriangle& t, int x0, int y0, int x1, int y1, F covered) {

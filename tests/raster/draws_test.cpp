@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "raster_test.h"
+#include "raster/raster_test.h"
 
 namespace halfspace::raster_test {
 namespace {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "raster/pass.h"
+#include "halfspace/raster/pass.h"
 #include "support/sanitized.h"
 
 namespace halfspace::raster_test {

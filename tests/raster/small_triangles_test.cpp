@@ -5,8 +5,8 @@
 // as small and beyond.
 #include <algorithm>
 
-#include "raster/tile.h"
-#include "raster_test.h"
+#include "halfspace/raster/tile/tile.h"
+#include "raster/raster_test.h"
 
 namespace halfspace::raster_test {
 namespace {

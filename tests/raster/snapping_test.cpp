@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The vertex stage's window positions against exact arithmetic: x/w·half + center, rounded to 1/256 px.
-#include "raster_test.h"
+#include "raster/raster_test.h"
 
 #include <cmath>
 #include <limits>

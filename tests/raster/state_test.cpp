@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "raster_test.h"
+#include "raster/raster_test.h"
 
 namespace halfspace::raster_test {
 namespace {

@@ -8,12 +8,12 @@
 #include <cstdlib>
 #include <random>
 
-#include "core/trig_double.h"
-#include "reference/silhouettes.h"
-#include "reference/validation.h"
-#include "scene/chord_error.h"
-#include "scene/image_difference.h"
-#include "scene/scene_file.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/image/image_difference.h"
+#include "halfspace/reference/silhouettes.h"
+#include "halfspace/reference/validation.h"
+#include "halfspace/render/model/chord_error.h"
+#include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
 namespace {

@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "halfspace/reference/validation.h"
+#include "halfspace/scene/scene_file.h"
 #include "property/random.h"
-#include "reference/validation.h"
-#include "scene/scene_file.h"
 
 namespace halfspace {
 namespace {

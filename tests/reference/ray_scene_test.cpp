@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/ray_scene.h"
+#include "halfspace/reference/ray_scene.h"
 
 #include <gtest/gtest.h>
 
-#include "scene/shapes.h"
+#include "halfspace/geometry/shapes.h"
 
 namespace halfspace {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/validation.h"
-#include "scene/scene_file.h"
+#include "halfspace/reference/validation.h"
+#include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "reference/numbered_mesh.h"
-#include "reference/ray_scene.h"
-#include "scene/scene_file.h"
-#include "shading/sphere_sprite.h"
+#include "halfspace/reference/numbered_mesh.h"
+#include "halfspace/reference/ray_scene.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/shading/sphere_sprite.h"
 
 namespace halfspace {
 namespace {

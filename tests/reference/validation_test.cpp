@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shadow maps against rays, on small pictures of the shipped scenes.
-#include "reference/validation.h"
+#include "halfspace/reference/validation.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include <nlohmann/json.hpp>
-#include "reference/shadow_table.h"
-#include "scene/scene_file.h"
+#include "halfspace/reference/shadow_table.h"
+#include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene_file.h"
+#include "halfspace/scene/scene_file.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
 
-#include "core/check.h"
-#include "scene/scene_paths.h"
+#include "halfspace/core/check.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 namespace {

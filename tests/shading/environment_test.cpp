@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Environments: where texels lie, that nothing jumps, and which level is taken.
-#include "shading/environment.h"
+#include "halfspace/shading/environment.h"
 
 #include <gtest/gtest.h>
 

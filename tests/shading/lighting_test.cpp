@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Light at a point: closed forms, in double where nothing but the formula counts, and the guards in float.
-#include "shading/lighting.h"
+#include "halfspace/shading/lighting.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shadow look-ups against brute force and closed forms, on maps made by hand.
-#include "shading/shadow.h"
+#include "halfspace/shading/shadow.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "shading/shadow_lookup.h"
+#include "halfspace/shading/shadow_lookup.h"
 
 namespace halfspace {
 namespace {

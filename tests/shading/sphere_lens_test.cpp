@@ -2,7 +2,7 @@
 //
 // Rays against spheres in float: inside, depth and normal as the textbook's quadratic has them in long double, which knows nothing
 // of the way they are found here; and bounds that hold every pixel.
-#include "shading/sphere_lens.h"
+#include "halfspace/shading/sphere_lens.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Normals from maps, against what they must be.
-#include "shading/surface_detail.h"
+#include "halfspace/shading/surface_detail.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // bits at every width. tests/shading/texture_test.cpp looks closer at 8-bit RGBA, anisotropy_test.cpp at anisotropy.
 #include <gtest/gtest.h>
 
-#include "core/half.h"
+#include "halfspace/core/half.h"
 #include "shading/texture_reference.h"
 
 namespace halfspace {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "shading/texture.h"
+#include "halfspace/shading/texture.h"
 
 namespace halfspace::test {
 

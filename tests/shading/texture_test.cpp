@@ -2,7 +2,7 @@
 //
 // Texture2D: hand values, the invariants that its header promises, an independent reference in double, and the same
 // bits at every width.
-#include "shading/texture.h"
+#include "halfspace/shading/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tone curves over every half, display encodings, dithering.
-#include "shading/tone.h"
+#include "halfspace/shading/tone.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/half.h"
-#include "core/srgb.h"
+#include "halfspace/core/half.h"
+#include "halfspace/core/srgb.h"
 
 namespace halfspace {
 namespace {

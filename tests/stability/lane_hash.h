@@ -7,9 +7,9 @@
 #include <cstring>
 #include <vector>
 
-#include "core/lane_math.h"
-#include "core/srgb.h"
-#include "shading/pixel.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/shading/pixel.h"
 
 namespace halfspace::stability {
 

@@ -8,13 +8,13 @@
 #include <limits>
 #include <random>
 
-#include "core/lane_math.h"
-#include "core/srgb.h"
-#include "judge.h"
-#include "lane_hash.h"
-#include "shading/lighting.h"
-#include "shading/surface_detail.h"
-#include "shading/tone.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/shading/lighting.h"
+#include "halfspace/shading/surface_detail.h"
+#include "halfspace/shading/tone.h"
+#include "stability/judge.h"
+#include "stability/lane_hash.h"
 
 namespace halfspace::stability {
 namespace {

@@ -3,9 +3,9 @@
 // What targets store, and in which order: light beyond a half, blending on several threads.
 #include <limits>
 
-#include "core/half.h"
-#include "judge.h"
+#include "halfspace/core/half.h"
 #include "raster/raster_test.h"
+#include "stability/judge.h"
 
 namespace halfspace::stability {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "judge.h"
-#include "raster/pass.h"
-#include "scene/camera.h"
-#include "scene/height_slopes.h"
-#include "scene/shapes.h"
-#include "shading/surface_detail.h"
+#include "halfspace/geometry/camera.h"
+#include "halfspace/geometry/height_slopes.h"
+#include "halfspace/geometry/shapes.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/shading/surface_detail.h"
+#include "stability/judge.h"
 
 namespace halfspace::stability {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include "judge.h"
+#include "halfspace/geometry/shapes.h"
+#include "halfspace/reference/pixel_truth.h"
 #include "raster/raster_test.h"
-#include "reference/pixel_truth.h"
-#include "scene/shapes.h"
+#include "stability/judge.h"
 
 namespace halfspace::stability {
 namespace {

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <set>
 
-#include "judge.h"
-#include "scene/prepared_scene.h"
-#include "scene/scene_file.h"
-#include "study/study.h"
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/study/study.h"
+#include "stability/judge.h"
 
 namespace halfspace::stability {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "judge.h"
-#include "reference/validation.h"
-#include "scene/scene_file.h"
+#include "halfspace/reference/validation.h"
+#include "halfspace/scene/scene_file.h"
+#include "stability/judge.h"
 
 namespace halfspace::stability {
 namespace {
@@ -98,8 +98,7 @@ TEST(Stability, LightLeaks) {
 TEST(Stability, LightLeaksOfMoments) {
   const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), moments = most_light_in_shadow(compared(two_plates("moments")));
   // Four moments hold two depths exactly (Peters and Klein 2015); what is left is what keeps their equations solvable, some 1e-5.
-  judge({3, "light leaks", "the same; variance (two moments) against four moments", "most light in full shadow"}, vsm, 0.02, moments,
-        1e-4);
+  judge({3, "light leaks", "the same; variance (two moments) against four moments", "most light in full shadow"}, vsm, 0.02, moments, 1e-4);
 }
 
 TEST(Stability, PerspectiveAliasing) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "judge.h"
 #include "raster/raster_test.h"
+#include "stability/judge.h"
 
 namespace halfspace::stability {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The pieces that studies share, against what follows by hand.
-#include "study/study.h"
+#include "halfspace/study/study.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <numbers>
 #include <set>
 
-#include "study/chart.h"
-#include "study/polygon_area.h"
-#include "study/shadow_study.h"
-#include "study/study_files.h"
+#include "halfspace/study/chart.h"
+#include "halfspace/study/polygon_area.h"
+#include "halfspace/study/shadow_study.h"
+#include "halfspace/study/study_files.h"
 
 namespace halfspace {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "embree_workload.h"
+#include "peers/embree/embree_workload.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "ray_packet.h"
+#include "peers/embree/ray_packet.h"
 #include "sphere_camera.h"
 
 namespace halfspace {

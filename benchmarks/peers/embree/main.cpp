@@ -2,8 +2,8 @@
 //
 // halfspace-bench-embree: the sphere workloads by rays.
 #include "bench_program.h"
-#include "core/lanes.h"
-#include "embree_workload.h"
+#include "halfspace/core/lanes.h"
+#include "peers/embree/embree_workload.h"
 
 int main(int argc, char** argv) {
   using namespace halfspace;

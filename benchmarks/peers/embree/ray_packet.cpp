@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ray_packet.h"
+#include "peers/embree/ray_packet.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -12,7 +12,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "core/check.h"
+#include "halfspace/core/check.h"
 
 namespace halfspace {
 

@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "core/lanes.h"
-#include "core/vec.h"
+#include "halfspace/core/lanes.h"
+#include "halfspace/core/vec.h"
 #include "workload_assets.h"
 
 namespace halfspace {

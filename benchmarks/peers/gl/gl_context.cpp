@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gl_context.h"
+#include "peers/gl/gl_context.h"
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "core/check.h"
+#include "halfspace/core/check.h"
 
 namespace halfspace {
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "gl_workload.h"
+#include "peers/gl/gl_workload.h"
 #include "sphere_camera.h"
 
 namespace halfspace::gl {

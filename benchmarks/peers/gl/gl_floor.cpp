@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // aniso_floor: a textured plane to just below the horizon, filtered along the footprint of each pixel.
-#include "gl_families.h"
-#include "gl_workload.h"
+#include "peers/gl/gl_families.h"
+#include "peers/gl/gl_workload.h"
 #include "workload_geometry.h"
 
 namespace halfspace::gl {

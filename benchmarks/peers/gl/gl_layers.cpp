@@ -3,10 +3,10 @@
 // layers_b2f, layers_f2b, blend_10, alpha_test, depth_prepass: ten quads over the whole picture.
 #include <optional>
 
-#include "gl_families.h"
-#include "gl_workload.h"
-#include "glsl_light.h"
 #include "layer_mesh.h"
+#include "peers/gl/gl_families.h"
+#include "peers/gl/gl_workload.h"
+#include "peers/gl/glsl_light.h"
 
 namespace halfspace::gl {
 

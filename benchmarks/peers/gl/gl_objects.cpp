@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gl_objects.h"
+#include "peers/gl/gl_objects.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "core/check.h"
+#include "halfspace/core/check.h"
 
 namespace halfspace {
 

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/image.h"
-#include "shading/texture.h"
+#include "halfspace/core/image.h"
+#include "halfspace/shading/texture.h"
 #include "workload.h"
 
 namespace halfspace {

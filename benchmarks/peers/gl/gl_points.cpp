@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // points_100k: point sprites that look like spheres and write their depth.
-#include "gl_families.h"
-#include "gl_workload.h"
-#include "glsl_light.h"
+#include "peers/gl/gl_families.h"
+#include "peers/gl/gl_workload.h"
+#include "peers/gl/glsl_light.h"
 #include "workload_geometry.h"
 
 namespace halfspace::gl {

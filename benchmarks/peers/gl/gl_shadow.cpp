@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // shadow_200k: a depth map drawn from the light, and a picture that asks it nine times a pixel.
-#include "gl_families.h"
-#include "gl_workload.h"
-#include "glsl_light.h"
+#include "peers/gl/gl_families.h"
+#include "peers/gl/gl_workload.h"
+#include "peers/gl/glsl_light.h"
 #include "workload_geometry.h"
 #include "workload_shadow.h"
 

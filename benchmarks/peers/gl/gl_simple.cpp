@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // clear, fill, tiny_1m, draws_10k, the series triangle_size: one colour a draw, positions in normalized device coordinates.
-#include "gl_families.h"
-#include "gl_workload.h"
+#include "peers/gl/gl_families.h"
+#include "peers/gl/gl_workload.h"
 #include "workload_geometry.h"
 
 namespace halfspace::gl {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // sphere_phong, sphere_gouraud, sphere_flat, near_clip, msaa4_200k; hdr_200k and tonemap, which draw the sphere into half floats.
-#include "gl_families.h"
-#include "gl_workload.h"
-#include "glsl_light.h"
+#include "peers/gl/gl_families.h"
+#include "peers/gl/gl_workload.h"
+#include "peers/gl/glsl_light.h"
 #include "workload_geometry.h"
 
 namespace halfspace::gl {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The series varyings: floats handed from vertex to fragment (workload_varyings.h).
-#include "gl_families.h"
-#include "gl_workload.h"
+#include "peers/gl/gl_families.h"
+#include "peers/gl/gl_workload.h"
 
 namespace halfspace::gl {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gl_workload.h"
+#include "peers/gl/gl_workload.h"
 
 #include <functional>
 #include <map>
 
-#include "gl_families.h"
 #include "layer_mesh.h"
+#include "peers/gl/gl_families.h"
 
 namespace halfspace {
 

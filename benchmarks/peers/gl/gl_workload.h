@@ -3,7 +3,7 @@
 // What the OpenGL programs of all workloads share.
 #pragma once
 
-#include "gl_objects.h"
+#include "peers/gl/gl_objects.h"
 #include "sweeps.h"
 #include "workload.h"
 #include "workload_assets.h"

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "bench_program.h"
-#include "gl_context.h"
-#include "gl_workload.h"
+#include "peers/gl/gl_context.h"
+#include "peers/gl/gl_workload.h"
 
 namespace halfspace {
 

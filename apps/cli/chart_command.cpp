@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `halfspace chart STUDY|all`: what each way of drawing costs and how right it is, as data, charts and a page.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/charting.h"
+#include "cli/commands.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/core/text.h"
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/study/study_files.h"
+
+namespace halfspace {
+
+namespace {
+
+struct ChartArguments {
+  std::string study, out = "charts", threads;
+  bool quick = false;
+};
+
+std::vector<StudyEntry> chosen_studies(const std::string& name) {
+  std::vector<StudyEntry> all = studies();
+  if (name == "all") return all;
+  std::vector<std::string_view> names{"all"};
+  for (const StudyEntry& s : all) {
+    if (s.name == name) return {s};
+    names.push_back(s.name);
+  }
+  throw UsageError("unknown study '" + name + "'" + suggestion(name, names));
+}
+
+void chart_command(const ChartArguments& args) {
+  const std::vector<StudyEntry> chosen = chosen_studies(args.study);
+  const Workers workers(parse_threads(args.threads));
+  const std::filesystem::path folder = args.out;
+  make_directory(folder);
+  check_writable(folder / "index.html");
+  const std::string command = "halfspace chart " + args.study + (args.quick ? " --quick" : "");
+  bool drawn = true;
+  for (const StudyEntry& entry : chosen) {
+    drawn = write_charted(entry.run({args.quick}, workers), command, args.quick, workers, folder) && drawn;
+    std::cout << entry.name << ": " << (folder / entry.name).string() << ".json" << std::endl;
+  }
+  write_index(folder);
+  if (!drawn) std::cout << kNoGnuplot;
+  std::cout << (folder / "index.html").string() << '\n';
+}
+
+// Their names, in lines of less than 80 characters.
+std::string study_lines() {
+  std::string text;
+  std::size_t width = 80;
+  for (const StudyEntry& s : studies()) {
+    if (width + s.name.size() + 1 >= 76) {
+      text += "\n ";
+      width = 1;
+    }
+    text += " " + std::string(s.name);
+    width += s.name.size() + 1;
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_chart_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("chart", "Measure error against time, as charts");
+  const auto args = std::make_shared<ChartArguments>();
+  command->add_option("STUDY", args->study, "all, or one of those below")->required()->type_name("");
+  command->add_option("-o,--output", args->out, "Folder (default charts)")->type_name("DIR");
+  command->add_flag("--quick", args->quick, "Small pictures: to see that it works");
+  command->add_option("--threads", args->threads, "Default: one per core")->type_name("N");
+  command->footer("Studies:" + study_lines() +
+                  "\nExamples:\n"
+                  "  halfspace chart all -o charts\n"
+                  "  halfspace chart shading_rate --quick");
+  command->callback([args] { chart_command(*args); });
+}
+
+}  // namespace halfspace

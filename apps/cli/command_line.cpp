@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/command_line.h"
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/frames.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/text.h"
+#include "halfspace/image/atomic_output.h"
+
+namespace halfspace {
+
+namespace {
+
+// An interrupted program leaves no partial file, and dies of the signal as its parent expects. The handler is used
+// once (SA_RESETHAND), so the second raise, delivered when it returns, ends the program.
+extern "C" void on_signal(int signal) {
+  remove_unfinished_output();
+  clear_progress();
+  std::raise(signal);
+}
+
+void handle_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction old = {};
+    if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;  // nohup, background jobs
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+// The names that begin with "--" in a parser's options, or the names of its subcommands.
+std::vector<std::string> names_of(const CLI::App& app, bool options) {
+  std::vector<std::string> names;
+  if (options) {
+    for (const CLI::Option* option : app.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  } else {
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  }
+  return names;
+}
+
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return halfspace::suggestion(wrong, views);
+}
+
+std::string see_help(const CLI::App& program) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  return "; see '" + program.get_name() + " " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help'";
+}
+
+// What remained unparsed, as an error that names the nearest right word.
+UsageError unknown_argument(const CLI::App& program) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& app = chosen.empty() ? program : *chosen.front();
+  std::vector<std::string> rest = app.remaining();
+  if (rest.empty()) rest = program.remaining();
+  const std::string word = rest.empty() ? "" : rest.front();
+  if (word.starts_with("-"))
+    return UsageError("unknown option '" + word + "'" + suggestion(word.substr(0, word.find('=')), names_of(app, true)));
+  if (chosen.empty() && !names_of(program, false).empty())
+    return UsageError("unknown command '" + word + "'" + suggested_command(word, program));
+  return UsageError((chosen.empty() ? "" : app.get_name() + ": ") + "unexpected argument '" + word + "'" + see_help(program));
+}
+
+// CLI11's messages may have several lines.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  while (text.ends_with(' ') || text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+// One line, whatever stood in a file or an argument.
+int report(const CLI::App& program, ExitCode code, std::string_view what) {
+  std::string line = program.get_name() + ": ";
+  for (const char c : what) {
+    if (static_cast<unsigned char>(c) < 32 || c == 127) {
+      constexpr const char* digits = "0123456789abcdef";
+      line += {'\\', 'x', digits[static_cast<unsigned char>(c) >> 4], digits[c & 15]};
+    } else {
+      line += c;
+    }
+  }
+  std::fputs((line + "\n").c_str(), stderr);
+  return code;
+}
+
+// CLI11 shows a flag's default value in braces; here it stands for "no value given".
+class HelpFormatter : public CLI::Formatter {
+  // Below the usage that names them, without a headline.
+  std::string make_positionals(const CLI::App* app) const override {
+    const std::string text = CLI::Formatter::make_positionals(app);
+    return text.empty() ? text : text.substr(text.find(":\n") + 2);
+  }
+  std::string make_option_name(const CLI::Option* option, bool positional) const override {
+    const std::string name = CLI::Formatter::make_option_name(option, positional);
+    return name.substr(0, name.find('{'));
+  }
+};
+
+}  // namespace
+
+std::string suggested_command(std::string_view wrong, const CLI::App& program) { return suggestion(wrong, names_of(program, false)); }
+
+void set_common_options(CLI::App& program) {
+  program.set_help_flag("-h,--help", "Print this help and exit");
+  program.set_version_flag("--version", program.get_name() + " " HALFSPACE_VERSION, "Print the version and exit");
+  program.formatter(std::make_shared<HelpFormatter>());
+  program.get_formatter()->column_width(28);
+}
+
+int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {
+  handle_signals();
+  try {
+    parse_and_run();
+  } catch (const CLI::ExtrasError&) {
+    return report(program, kUsage, unknown_argument(program).what());
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() != 0) return report(program, kUsage, one_line(e.what()) + see_help(program));
+    program.exit(e, std::cout, std::cerr);  // --help
+  } catch (const UsageError& e) {
+    return report(program, kUsage, e.what());
+  } catch (const DifferenceError& e) {
+    return report(program, kDiffers, e.what());
+  } catch (const InputError& e) {
+    return report(program, kBadInput, e.what());
+  } catch (const OutputError& e) {
+    return report(program, kCannotWrite, e.what());
+  } catch (const std::bad_alloc&) {
+    return report(program, kBadInput, "not enough memory; expected a smaller --size or map");
+  } catch (const std::exception& e) {
+    return report(program, kBadInput, std::string("the system refused: ") + e.what());
+  }
+  std::cout.flush();
+  if (!std::cout) return report(program, kCannotWrite, "standard output: cannot write");
+  return kOk;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `halfspace compare A B`: how far two pictures are from each other.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/image/image_difference.h"
+#include "halfspace/image/image_io.h"
+
+namespace halfspace {
+
+namespace {
+
+struct CompareArguments {
+  std::string a, b, out, tolerance;
+  bool json = false;
+};
+
+// What was compared: linear light where both files hold it, else 8-bit codes.
+struct Comparison {
+  ImageDifference difference;
+  int width, height;
+  bool linear;
+};
+
+std::string number(const char* format, double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, x);
+  return text;
+}
+
+std::string text_report(const CompareArguments& args, const Comparison& c) {
+  const ImageDifference& d = c.difference;
+  return args.a + " against " + args.b + ", " + std::to_string(c.width) + "x" + std::to_string(c.height) +
+         (c.linear ? ", linear light" : ", 8-bit codes over 255") + (d.channels == 4 ? ", with alpha" : "") +  //
+         "\nrmse         " + number("%.6g", d.rmse) +                                                          //
+         "\nmean         " + number("%.6g", d.mean) +                                                          //
+         "\npsnr         " + (std::isinf(d.psnr_db) ? "infinite" : number("%.2f dB", d.psnr_db)) +             //
+         "\nmax          " + number("%.6g", d.max) +                                                           //
+         "\np99.9        " + number("%.6g", d.p999) +                                                          //
+         "\nabove 1/255  " + number("%.4f %%", 100.0 * d.share_above) +                                        //
+         "\nssim         " + number("%.6f", d.ssim) + "\n";
+}
+
+std::string json_report(const CompareArguments& args, const Comparison& c) {
+  const ImageDifference& d = c.difference;
+  nlohmann::ordered_json json = {{"a", args.a},
+                                 {"b", args.b},
+                                 {"width", c.width},
+                                 {"height", c.height},
+                                 {"values", c.linear ? "linear" : "codes"},
+                                 {"channels", d.channels},
+                                 {"rmse", d.rmse},
+                                 {"mean", d.mean},
+                                 {"psnr_db", nullptr},
+                                 {"max", d.max},
+                                 {"p999", d.p999},
+                                 {"share_above_1_255", d.share_above},
+                                 {"ssim", d.ssim}};
+  if (!std::isinf(d.psnr_db)) json["psnr_db"] = d.psnr_db;
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+template <class Texel>
+Comparison compare_files(const CompareArguments& args, const Image<Texel>& a, const Image<Texel>& b) {
+  if (a.width() != b.width() || a.height() != b.height()) {
+    const auto size = [](const Image<Texel>& i) { return std::to_string(i.width()) + "x" + std::to_string(i.height()); };
+    throw InputError(args.b + ": is " + size(b) + "; expected " + size(a) + ", the size of " + args.a);
+  }
+  if (!args.out.empty()) write_png(args.out, difference_colors(difference_map(a, b)));
+  return {compare_images(a, b), a.width(), a.height(), std::is_same_v<Texel, glm::vec4>};
+}
+
+// A picture as codes, whatever the file holds: linear light is encoded to sRGB.
+Image<glm::u8vec4> read_codes(const std::string& path, bool linear) {
+  if (!linear) return read_image(path);
+  const Image<glm::vec4> light = read_linear(path);
+  Image<glm::u8vec4> codes(light.width(), light.height());
+  std::ranges::transform(light.texels(), codes.data(), [](const glm::vec4& c) {
+    return glm::u8vec4(linear_to_srgb(c.x), linear_to_srgb(c.y), linear_to_srgb(c.z), linear_to_unorm8(c.w));
+  });
+  return codes;
+}
+
+void compare_command(const CompareArguments& args) {
+  const double tolerance =
+      args.tolerance.empty() ? -1.0 : parse_real("--tolerance", args.tolerance, 0, 1e9, "a difference of 0 or more, for example 0.004");
+  if (!args.out.empty()) check_writable(args.out);
+  const bool a_linear = holds_linear_numbers(args.a), b_linear = holds_linear_numbers(args.b);
+  const Comparison c = a_linear && b_linear ? compare_files(args, read_linear(args.a), read_linear(args.b))
+                                            : compare_files(args, read_codes(args.a, a_linear), read_codes(args.b, b_linear));
+  std::cout << (args.json ? json_report(args, c) : text_report(args, c));
+  if (tolerance >= 0.0 && c.difference.max > tolerance) {
+    throw DifferenceError(args.b + ": differs from " + args.a + " by " + number("%.6g", c.difference.max) + "; expected at most " +
+                          args.tolerance);
+  }
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("compare", "Tell how far two pictures are from each other");
+  const auto args = std::make_shared<CompareArguments>();
+  command->add_option("A", args->a, "A picture")->required()->type_name("");
+  command->add_option("B", args->b, "Another one of the same size")->required()->type_name("");
+  command->add_flag("--json", args->json, "Report as JSON");
+  command->add_option("-o,--output", args->out, "Write the differences as colours (PNG)")->type_name("DIFF");
+  command->add_option("--tolerance", args->tolerance, "Exit 1 where a channel differs by more")->type_name("T");
+  command->footer(
+      "Examples:\n"
+      "  halfspace compare before.png after.png -o difference.png\n"
+      "  halfspace compare golden.exr moon.exr --tolerance 0.004 --json");
+  command->callback([args] { compare_command(*args); });
+}
+
+}  // namespace halfspace

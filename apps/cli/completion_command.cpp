@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `halfspace completion SHELL`: a script that completes commands, options, scenes, cameras and keys.
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "halfspace/study/study.h"
+
+namespace halfspace {
+
+namespace {
+
+// Words come from the program itself, so that the script never lags behind it.
+constexpr const char* kBash = R"script(# halfspace: completion for bash. Use: source <(halfspace completion bash)
+_halfspace() {
+  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]} scene=${COMP_WORDS[2]}
+  COMPREPLY=()
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    COMPREPLY=($(compgen -W "$(halfspace completion words)" -- "$cur"))
+  elif [ "$prev" = --set ]; then
+    compopt -o nospace
+    COMPREPLY=($(compgen -S = -W "$(halfspace list "$scene" --names 2> /dev/null)" -- "$cur"))
+  elif [[ $cur == -* ]]; then
+    COMPREPLY=($(compgen -W "$(halfspace completion words "$command")" -- "$cur"))
+  elif [ "$COMP_CWORD" -eq 2 ] && [[ $command == render || $command == list ]]; then
+    COMPREPLY=($(compgen -W "$(halfspace list --names)" -- "$cur") $(compgen -f -X '!*.json' -- "$cur"))
+  elif [ "$COMP_CWORD" -eq 2 ] && [ "$command" = chart ]; then
+    COMPREPLY=($(compgen -W "$(halfspace completion studies)" -- "$cur"))
+  else
+    COMPREPLY=($(compgen -f -- "$cur"))
+  fi
+}
+complete -F _halfspace halfspace
+)script";
+
+constexpr const char* kZsh = R"script(# halfspace: completion for zsh. Use: source <(halfspace completion zsh)
+autoload -U +X bashcompinit && bashcompinit
+)script";
+
+constexpr const char* kFish = R"script(# halfspace: completion for fish. Use: halfspace completion fish | source
+complete -c halfspace -f
+complete -c halfspace -n __fish_use_subcommand -a '(halfspace completion words)'
+complete -c halfspace -n '__fish_seen_subcommand_from render list' -a '(halfspace list --names)'
+complete -c halfspace -n '__fish_seen_subcommand_from render' -l set -x -a '(halfspace list (commandline -opc)[3] --names 2> /dev/null)'
+complete -c halfspace -n '__fish_seen_subcommand_from chart' -a '(halfspace completion studies)'
+complete -c halfspace -n '__fish_seen_subcommand_from convert-normal compare' -F
+complete -c halfspace -n 'not __fish_use_subcommand' -a '(halfspace completion words (commandline -opc)[2])'
+)script";
+
+// The words that may follow: commands, or a command's options.
+void print_words(const CLI::App& program, const std::string& command) {
+  const auto all = [](const CLI::App*) { return true; };
+  for (const CLI::App* c : program.get_subcommands(all)) {
+    if (command.empty()) std::cout << c->get_name() << '\n';
+    if (c->get_name() != command) continue;
+    for (const CLI::Option* option : c->get_options()) {
+      for (const std::string& name : option->get_lnames()) std::cout << "--" << name << '\n';
+    }
+  }
+}
+
+void print_studies() {
+  std::cout << "all\n";
+  if constexpr (HALFSPACE_HAS_RAYS)
+    for (const StudyEntry& s : studies()) std::cout << s.name << '\n';
+}
+
+}  // namespace
+
+void add_completion_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("completion", "Print a script that completes words in a shell");
+  struct Arguments {
+    std::string shell, command;
+  };
+  const auto args = std::make_shared<Arguments>();
+  command->add_option("SHELL", args->shell, "bash, zsh or fish; words or studies for a list")->required()->type_name("");
+  command->add_option("COMMAND", args->command, "With words: the command whose options to print")->type_name("");
+  command->footer(
+      "Examples:\n  halfspace completion bash >> ~/.bashrc\n  halfspace completion fish | "
+      "source");
+  command->callback([args, &program] {
+    if (args->shell == "bash") {
+      std::cout << kBash;
+    } else if (args->shell == "zsh") {
+      std::cout << kZsh << kBash;
+    } else if (args->shell == "fish") {
+      std::cout << kFish;
+    } else if (args->shell == "words") {
+      print_words(program, args->command);
+    } else if (args->shell == "studies") {
+      print_studies();
+    } else {
+      throw UsageError("completion: no shell '" + args->shell + "'; expected bash, zsh or fish");
+    }
+  });
+}
+
+}  // namespace halfspace

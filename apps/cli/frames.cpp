@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/frames.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+
+namespace halfspace {
+
+namespace {
+constexpr int kMostFrames = 10000000;
+}
+
+FrameRange parse_frames(std::string_view text) {
+  const std::size_t dots = text.find("..");
+  if (dots != std::string_view::npos) {
+    const FrameRange range{parse_number(text.substr(0, dots)), parse_number(text.substr(dots + 2))};
+    if (range.first >= 0 && range.last >= range.first && range.last < kMostFrames) return range;
+  }
+  throw UsageError("--frames is '" + std::string(text) + "'; expected FIRST..LAST, for example 0..47");
+}
+
+std::filesystem::path frame_path(const std::filesystem::path& out, int frame, const FrameRange& range) {
+  const std::size_t digits = std::max<std::size_t>(4, std::to_string(range.last).size());
+  std::string number = std::to_string(frame);
+  number.insert(0, digits - std::min(digits, number.size()), '0');
+  return out.parent_path() / (out.stem().string() + "_" + number + out.extension().string());
+}
+
+namespace {
+
+// Is there a line to be cleared? For the signal handler.
+std::atomic<bool> line_shown = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Columns of the terminal; 80 where it does not tell.
+int terminal_columns() {
+  winsize size = {};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+// "1:05", "2:00:07".
+std::string time_text(int seconds) {
+  char text[32];
+  if (seconds < 3600) {
+    std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%d:%02d:%02d", seconds / 3600, seconds / 60 % 60, seconds % 60);
+  }
+  return text;
+}
+
+}  // namespace
+
+void clear_progress() noexcept {
+  constexpr char kClear[] = {'\r', '\033', '[', 'K'};
+  if (line_shown.exchange(false)) (void)!::write(STDERR_FILENO, kClear, sizeof kClear);
+}
+
+Progress::Progress(int total)
+    : on_terminal_(::isatty(STDERR_FILENO) == 1 && total > 1), total_(total), start_(std::chrono::steady_clock::now()) {
+  show();
+}
+
+Progress::~Progress() { clear_progress(); }
+
+void Progress::advance(bool skipped) {
+  ++done_;
+  rendered_ += skipped ? 0 : 1;
+  show();
+}
+
+void Progress::show() const {
+  if (!on_terminal_) return;
+  std::string text = " " + std::to_string(done_) + "/" + std::to_string(total_);
+  if (rendered_ > 0) {
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    text += "  " + time_text(static_cast<int>(std::min(spent / rendered_ * (total_ - done_) + 0.5, 1e9))) + " left";
+  }
+  // A line that wraps could not be written over: the bar gives way.
+  constexpr int kWidest = 30;
+  const int width = std::min(kWidest, terminal_columns() - 3 - static_cast<int>(text.size()));
+  std::string line = "\r\033[K";
+  if (width > 0) {
+    const auto filled = static_cast<std::size_t>(static_cast<int64_t>(width) * done_ / total_);
+    line += "[" + std::string(filled, '#') + std::string(static_cast<std::size_t>(width) - filled, '.') + "]";
+  }
+  std::fputs((line + text).c_str(), stderr);
+  std::fflush(stderr);
+  line_shown = true;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `halfspace info`: what this program is and what it found on this machine.
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "halfspace/core/cpu.h"
+#include "halfspace/core/lanes.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/image/image_tool.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr const char* kCompiler =
+#ifdef __clang__
+    "Clang " __clang_version__;
+#else
+    "GCC " __VERSION__;
+#endif
+
+void print_text() {
+  const std::filesystem::path tool = find_image_tool();
+  std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
+            << "build         " << build_description() << ", " << kCompiler << '\n'
+            << "cores         " << Workers::cores() << '\n'
+            << "image tool    " << (tool.empty() ? "absent: pictures can be read and written as PNG only" : tool.string()) << '\n';
+}
+
+void print_json() {
+  const std::filesystem::path tool = find_image_tool();
+  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", HALFSPACE_ARCH},    {"lanes", kLanes},
+                                 {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_tool", nullptr}};
+  if (!tool.empty()) json["image_tool"] = tool.string();
+  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("info", "Tell version, instruction set, compiler, cores and modules");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "As JSON");
+  command->footer("Examples:\n  halfspace info\n  halfspace info --json");
+  command->callback([json] { *json ? print_json() : print_text(); });
+}
+
+}  // namespace halfspace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `halfspace list [SCENE]`: the scenes that ship, or every key of one scene.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "halfspace/core/check.h"
+#include "halfspace/scene/scene_file.h"
+#include "halfspace/scene/scene_paths.h"
+
+namespace halfspace {
+
+namespace {
+
+void list_scenes(bool names) {
+  std::size_t width = 0;
+  for (const ShippedScene& scene : shipped_scenes()) width = std::max(width, scene.name.size());
+  for (const ShippedScene& scene : shipped_scenes()) {
+    std::cout << scene.name;
+    if (!names) {
+      std::cout << std::string(width + 2 - scene.name.size(), ' ') << SceneFile::open(std::string(scene.name)).description().head.title;
+    }
+    std::cout << '\n';
+  }
+}
+
+// "uv_sphere", "[0, 0, 1]", without JSON's quotation marks.
+std::string shown(const Json& value) {
+  if (!value.is_string()) return value.dump();
+  const std::string text = value.get<std::string>();
+  return text.empty() ? "none" : text;
+}
+
+void list_keys(const std::string& name) {
+  SceneDescription scene = SceneFile::open(name).description();
+  std::cout << name << ": " << scene.head.title
+            << "\nSet a key by --set PATH.KEY=VALUE; a collection (cameras, lights, ...) may be left out of the path.\n";
+  for (const NamedSection& s : sections_of(scene)) {
+    std::cout << '\n' << (s.path.empty() ? "(top)" : s.path) << "  -- " << s.help << '\n';
+    for (const Field& field : fields_of(s.section)) {
+      const std::string key = field.key->name;
+      std::cout << "  " << key << std::string(key.size() < 18 ? 18 - key.size() : 1, ' ') << shown(value_of(field)) << " (default "
+                << shown(s.defaults[key]) << ")\n"
+                << std::string(20, ' ') << field.key->help << ": " << expectation(*field.key) << '\n';
+    }
+  }
+}
+
+// Dotted paths as --set takes them, without the collection where there is one.
+void list_paths(const std::string& name) {
+  SceneDescription scene = SceneFile::open(name).description();
+  for (const NamedSection& s : sections_of(scene)) {
+    const std::string start = s.path.empty() ? "" : s.path + ".";
+    const std::string short_start = start.substr(s.path.find('.') + 1);  // all of it where there is no dot
+    for (const Field& field : fields_of(s.section)) {
+      const std::string key = field.key->name;
+      bool is_short = true;
+      try {
+        find_key(scene, short_start + key, "");
+      } catch (const InputError&) {
+        is_short = false;  // the name is in two collections
+      }
+      std::cout << (is_short ? short_start : start) << key << '\n';
+    }
+  }
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("list", "List the scenes, or the keys of a scene");
+  struct Arguments {
+    std::string scene;
+    bool names = false, schema = false;
+  };
+  const auto args = std::make_shared<Arguments>();
+  command->add_option("SCENE", args->scene, "A scene's name or file: list its keys")->type_name("");
+  command->add_flag("--names", args->names, "Names alone, one a line");
+  command->add_flag("--schema", args->schema, "The JSON Schema of scene files instead");
+  command->footer("Examples:\n  halfspace list\n  halfspace list moon");
+  command->callback([args] {
+    if (args->schema) {
+      std::cout << scene_schema();
+    } else if (args->scene.empty()) {
+      list_scenes(args->names);
+    } else {
+      args->names ? list_paths(args->scene) : list_keys(args->scene);
+    }
+  });
+}
+
+}  // namespace halfspace

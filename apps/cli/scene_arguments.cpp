@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/scene_arguments.h"
+
+#include <algorithm>
+
+#include "cli/commands.h"
+#include "halfspace/core/check.h"
+#include "halfspace/core/text.h"
+#include "halfspace/scene/scene_file.h"
+
+namespace halfspace {
+
+namespace {
+
+void set_camera(SceneFile& scene, const std::string& name) {
+  if (name.empty()) return;
+  std::vector<std::string_view> names;
+  for (const auto& [camera, description] : scene.description().cameras) names.push_back(camera);
+  if (std::ranges::find(names, name) == names.end()) throw InputError("--camera: no camera '" + name + "'" + suggestion(name, names));
+  scene.set("camera=" + name);
+}
+
+}  // namespace
+
+void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
+  command->add_option("--set", settings, "Set a key ('halfspace list SCENE' tells all)")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera) {
+  SceneFile file = SceneFile::open(scene);
+  for (const std::string& setting : settings) {
+    if (setting.find('=') == std::string::npos || setting.starts_with('=')) {
+      throw UsageError("--set is '" + setting + "'; expected KEY=VALUE, for example camera=main");
+    }
+  }
+  file.set(settings);
+  set_camera(file, camera);
+  return file;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The members of a plain struct, counted and visited at compile time, so that a shader's attributes and varyings
+// need no registration: field_count<T>() and tie_fields(t). T is an aggregate of at most 12 members, none an array.
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "halfspace/core/lanes.h"
+
+namespace halfspace {
+
+namespace detail {
+
+// Converts to anything: T{AnyField, AnyField} compiles while T has at least that many members.
+struct AnyField {
+  template <class T>
+  operator T() const;
+};
+
+template <class T, std::size_t... I>
+constexpr bool has_fields(std::index_sequence<I...>) {
+  return requires { T{((void)I, AnyField{})...}; };
+}
+
+template <class T, std::size_t N>
+constexpr std::size_t count_fields() {
+  if constexpr (has_fields<T>(std::make_index_sequence<N>{})) {
+    return N;
+  } else {
+    return count_fields<T, N - 1>();
+  }
+}
+
+}  // namespace detail
+
+inline constexpr std::size_t kMostFields = 12;
+
+/// The number of members of the aggregate T.
+template <class T>
+constexpr std::size_t field_count() {
+  static_assert(std::is_aggregate_v<T>, "attributes and varyings are plain structs without constructors");
+  static_assert(!detail::has_fields<T>(std::make_index_sequence<kMostFields + 1>{}),
+                "a struct of attributes or varyings has at most 12 members");
+  return detail::count_fields<T, kMostFields>();
+}
+
+/// A tuple of references to the members of t, in order of declaration.
+template <class T>
+HS_INLINE constexpr auto tie_fields(T& t) {
+  constexpr std::size_t n = field_count<std::remove_const_t<T>>();
+  if constexpr (n == 0) {
+    return std::tie();
+  } else if constexpr (n == 1) {
+    auto& [a] = t;
+    return std::tie(a);
+  } else if constexpr (n == 2) {
+    auto& [a, b] = t;
+    return std::tie(a, b);
+  } else if constexpr (n == 3) {
+    auto& [a, b, c] = t;
+    return std::tie(a, b, c);
+  } else if constexpr (n == 4) {
+    auto& [a, b, c, d] = t;
+    return std::tie(a, b, c, d);
+  } else if constexpr (n == 5) {
+    auto& [a, b, c, d, e] = t;
+    return std::tie(a, b, c, d, e);
+  } else if constexpr (n == 6) {
+    auto& [a, b, c, d, e, f] = t;
+    return std::tie(a, b, c, d, e, f);
+  } else if constexpr (n == 7) {
+    auto& [a, b, c, d, e, f, g] = t;
+    return std::tie(a, b, c, d, e, f, g);
+  } else if constexpr (n == 8) {
+    auto& [a, b, c, d, e, f, g, h] = t;
+    return std::tie(a, b, c, d, e, f, g, h);
+  } else if constexpr (n == 9) {
+    auto& [a, b, c, d, e, f, g, h, i] = t;
+    return std::tie(a, b, c, d, e, f, g, h, i);
+  } else if constexpr (n == 10) {
+    auto& [a, b, c, d, e, f, g, h, i, j] = t;
+    return std::tie(a, b, c, d, e, f, g, h, i, j);
+  } else if constexpr (n == 11) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k] = t;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k);
+  } else {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l] = t;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
+  }
+}
+
+}  // namespace halfspace

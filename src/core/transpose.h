@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Records that lie anywhere, read and written by lanes: four neighbouring words of each at once, turned word by word in registers, where
+// gathers would fetch every word by itself; the same of neighbours by their index; and records of three words that lie side by side.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "halfspace/core/lanes.h"
+
+namespace halfspace {
+
+namespace detail {
+
+template <class T>
+HS_INLINE T load_at(const void* p) {
+  return load<T>(static_cast<const std::byte*>(p));
+}
+
+template <class T>
+HS_INLINE void store_at(void* p, const T& value) {
+  store(static_cast<std::byte*>(p), value);
+}
+
+#ifdef __AVX512F__
+/// A 4x4 matrix in each quarter, turned.
+HS_INLINE std::array<IntN<16>, 4> turned_fours(const std::array<IntN<16>, 4>& of) {
+  const auto row = [&](std::size_t i) { return (__m512)of[i].v; };
+  const auto pairs = [](__m512 x) { return _mm512_castps_pd(x); };
+  const __m512d low_ab = pairs(_mm512_maskz_unpacklo_ps(kAll16, row(0), row(1)));
+  const __m512d high_ab = pairs(_mm512_maskz_unpackhi_ps(kAll16, row(0), row(1)));
+  const __m512d low_cd = pairs(_mm512_maskz_unpacklo_ps(kAll16, row(2), row(3)));
+  const __m512d high_cd = pairs(_mm512_maskz_unpackhi_ps(kAll16, row(2), row(3)));
+  constexpr __mmask8 all8 = 0xff;
+  const auto word = [](__m512d x) { return IntN<16>((IntN<16>::V)x); };
+  return {word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd)),
+          word(_mm512_maskz_unpacklo_pd(all8, high_ab, high_cd)), word(_mm512_maskz_unpackhi_pd(all8, high_ab, high_cd))};
+}
+/// Records k, 4 + k, 8 + k, 12 + k, one a quarter.
+template <class Place>
+HS_INLINE IntN<16> load_quarters(IntN<16>, const Place& place, int k) {
+  const __m512 one = _mm512_zextps128_ps512(load_at<__m128>(place(k)));
+  const __m512 two = _mm512_maskz_insertf32x4(kAll16, one, load_at<__m128>(place(k + 4)), 1);
+  const __m512 three = _mm512_maskz_insertf32x4(kAll16, two, load_at<__m128>(place(k + 8)), 2);
+  return IntN<16>((IntN<16>::V)_mm512_maskz_insertf32x4(kAll16, three, load_at<__m128>(place(k + 12)), 3));
+}
+template <class Place>
+HS_INLINE void store_quarters(IntN<16> records, const Place& place, int k) {
+  const auto all = (__m512)records.v;
+  store_at(place(k), _mm512_maskz_extractf32x4_ps(0xf, all, 0));
+  store_at(place(k + 4), _mm512_maskz_extractf32x4_ps(0xf, all, 1));
+  store_at(place(k + 8), _mm512_maskz_extractf32x4_ps(0xf, all, 2));
+  store_at(place(k + 12), _mm512_maskz_extractf32x4_ps(0xf, all, 3));
+}
+#endif
+
+#ifdef __AVX__
+/// The same with halves.
+HS_INLINE std::array<IntN<8>, 4> turned_fours(const std::array<IntN<8>, 4>& of) {
+  const auto row = [&](std::size_t i) { return (__m256)of[i].v; };
+  const auto pairs = [](__m256 x) { return _mm256_castps_pd(x); };
+  const __m256d low_ab = pairs(_mm256_unpacklo_ps(row(0), row(1))), high_ab = pairs(_mm256_unpackhi_ps(row(0), row(1)));
+  const __m256d low_cd = pairs(_mm256_unpacklo_ps(row(2), row(3))), high_cd = pairs(_mm256_unpackhi_ps(row(2), row(3)));
+  const auto word = [](__m256d x) { return IntN<8>((IntN<8>::V)x); };
+  return {word(_mm256_unpacklo_pd(low_ab, low_cd)), word(_mm256_unpackhi_pd(low_ab, low_cd)), word(_mm256_unpacklo_pd(high_ab, high_cd)),
+          word(_mm256_unpackhi_pd(high_ab, high_cd))};
+}
+template <class Place>
+HS_INLINE IntN<8> load_quarters(IntN<8>, const Place& place, int k) {
+  return IntN<8>((IntN<8>::V)_mm256_insertf128_ps(_mm256_castps128_ps256(load_at<__m128>(place(k))), load_at<__m128>(place(k + 4)), 1));
+}
+template <class Place>
+HS_INLINE void store_quarters(IntN<8> records, const Place& place, int k) {
+  store_at(place(k), _mm256_castps256_ps128((__m256)records.v));
+  store_at(place(k + 4), _mm256_extractf128_ps((__m256)records.v, 1));
+}
+#endif
+
+/// Whether records of as many lanes are turned in registers.
+template <class I>
+inline constexpr bool kTurnsFours = requires(std::array<I, 4> words) {
+  turned_fours(words);
+};
+
+}  // namespace detail
+
+/// Four neighbouring 32-bit words of each lane's record: lane k of element i holds word i from place(k) on, a pointer to anything. All 16
+/// bytes must be readable. I: IntN<W> or int32_t.
+template <class I, class Place>
+HS_INLINE std::array<I, 4> load_fours(const Place& place) {
+  if constexpr (detail::kTurnsFours<I>) {
+    const auto part = [&](int k) { return detail::load_quarters(I{}, place, k); };
+    return detail::turned_fours({part(0), part(1), part(2), part(3)});
+  } else {
+    std::array<I, 4> words{};
+    for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
+      const auto record = detail::load_at<std::array<int32_t, 4>>(place(k));
+      for (std::size_t i = 0; i < 4; ++i) set_lane(words[i], k, record[i]);
+    }
+    return words;
+  }
+}
+
+/// The other way: writes lane k of the four words to place(k) … place(k) + 15, in the order of k or any other. Places of several lanes may
+/// be one, where any of them is left.
+template <class I, class Place>
+HS_INLINE void store_fours(const std::array<I, 4>& words, const Place& place) {
+  if constexpr (detail::kTurnsFours<I>) {
+    const std::array<I, 4> records = detail::turned_fours(words);
+    for (int k = 0; k < 4; ++k) detail::store_quarters(records[static_cast<std::size_t>(k)], place, k);
+  } else {
+    for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
+      detail::store_at(place(k), std::array<int32_t, 4>{lane(words[0], k), lane(words[1], k), lane(words[2], k), lane(words[3], k)});
+    }
+  }
+}
+
+namespace detail {
+
+/// Word I of each of W threes, which lie in a, b and c one after the other. (Of two vectors that are shuffled the second's lanes count from
+/// W on.)
+template <std::size_t I, class V, std::size_t... K>
+HS_INLINE V third(V a, V b, V c, std::index_sequence<K...>) {
+  constexpr std::size_t w = sizeof...(K);
+  const auto from_ab = __builtin_shufflevector(a, b, (3 * K + I < 2 * w ? 3 * K + I : 0)...);
+  return __builtin_shufflevector(from_ab, c, (3 * K + I < 2 * w ? K : 3 * K + I - w)...);
+}
+
+}  // namespace detail
+
+/// Threes that lie side by side, 3W words from p on: lane k of element i holds word 3k + i.
+template <class I>
+HS_INLINE std::array<I, 3> load_threes(const int32_t* p) {
+  constexpr std::size_t w = sizeof(I) / sizeof(int32_t);
+  if constexpr (w == 1) {
+    return {p[0], p[1], p[2]};
+  } else {
+    const auto a = load<I>(p).v, b = load<I>(p + w).v, c = load<I>(p + 2 * w).v;
+    constexpr std::make_index_sequence<w> lanes;
+    return {I(detail::third<0>(a, b, c, lanes)), I(detail::third<1>(a, b, c, lanes)), I(detail::third<2>(a, b, c, lanes))};
+  }
+}
+
+/// How many words behind the last that is asked for gather_row may read: it reads four where two are asked for.
+inline constexpr std::size_t kRowSlack = 2;
+
+/// base[i], …, base[i + N − 1] lane by lane, N up to 4: faster than N gathers where N > 1, for which four words from base[i]
+/// on must be readable for every lane, whether its result is used or not.
+template <int N, class Word, class I>
+HS_INLINE auto gather_row(const Word* base, I i) {
+  std::array<decltype(gather(base, i)), N> row;
+  if constexpr (N > 1 && detail::kTurnsFours<I>) {
+    std::array<int32_t, sizeof(I) / sizeof(int32_t)> at;
+    store(at.data(), i);
+    const auto words = load_fours<I>([&](int k) { return base + at[static_cast<std::size_t>(k)]; });
+    for (std::size_t n = 0; n < N; ++n) {
+      if constexpr (std::is_same_v<Word, float>) {
+        row[n] = as_real(words[n]);
+      } else {
+        row[n] = words[n];
+      }
+    }
+  } else {
+    for (std::size_t n = 0; n < N; ++n) row[n] = gather(base + n, i);
+  }
+  return row;
+}
+
+}  // namespace halfspace

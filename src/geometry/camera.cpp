@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/geometry/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/core/vec.h"
+
+namespace halfspace {
+
+namespace {
+
+glm::dvec3 unit(const glm::dvec3& v) {
+  const glm::dvec3 u = unit_or_zero(v);
+  const double length = glm::dot(u, u);
+  HS_CHECK_OP(length, >, 0.0);
+  return u;
+}
+
+// A projection whose clip w is −z: x and y scaled so that the angle fovy fills [−w, w], depth row z·a + b.
+glm::dmat4 perspective(double fovy, double aspect, double a, double b) {
+  HS_CHECK_OP(fovy, >, 0.0);
+  HS_CHECK_OP(fovy, <, std::numbers::pi);
+  HS_CHECK_OP(aspect, >, 0.0);
+  const SinCosDouble half = sincos_radians(0.5 * fovy);
+  glm::dmat4 m(0.0);
+  m[0][0] = half.cos / (half.sin * aspect);
+  m[1][1] = half.cos / half.sin;
+  m[2][2] = a;
+  m[2][3] = -1.0;
+  m[3][2] = b;
+  return m;
+}
+
+glm::dmat4 orthographic(double height, double aspect, double a, double b) {
+  HS_CHECK_OP(height, >, 0.0);
+  HS_CHECK_OP(aspect, >, 0.0);
+  glm::dmat4 m(1.0);
+  m[0][0] = 2.0 / (height * aspect);
+  m[1][1] = 2.0 / height;
+  m[2][2] = a;
+  m[3][2] = b;
+  return m;
+}
+
+}  // namespace
+
+glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
+  const glm::dvec3 back = unit(eye - target);
+  const glm::dvec3 right = unit(glm::cross(up, back));
+  const glm::dvec3 true_up = glm::cross(back, right);
+  glm::dmat4 m(1.0);
+  for (int i = 0; i < 3; ++i) {
+    m[i][0] = right[i];
+    m[i][1] = true_up[i];
+    m[i][2] = back[i];
+  }
+  m[3] = glm::dvec4(-glm::dot(right, eye), -glm::dot(true_up, eye), -glm::dot(back, eye), 1.0);
+  return m;
+}
+
+// Depth rows: with w = −z, a·z + b must be −w at z = −near and w at z = −far.
+glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far) {
+  HS_CHECK_OP(near, >, 0.0);
+  HS_CHECK_OP(near, <, far);
+  HS_CHECK_OP(far, <, std::numeric_limits<double>::infinity());
+  return perspective(fovy, aspect, -(far + near) / (far - near), -2.0 * far * near / (far - near));
+}
+
+// w at z = −near, 0 at z = −far; in the limit of an infinite far plane a = 0 and b = near.
+glm::dmat4 perspective_reversed(double fovy, double aspect, double near, double far) {
+  HS_CHECK_OP(near, >, 0.0);
+  HS_CHECK_OP(near, <, far);
+  if (std::isinf(far)) return perspective(fovy, aspect, 0.0, near);
+  return perspective(fovy, aspect, near / (far - near), far * near / (far - near));
+}
+
+glm::dmat4 orthographic_gl(double height, double aspect, double near, double far) {
+  HS_CHECK_OP(near, <, far);
+  return orthographic(height, aspect, -2.0 / (far - near), -(far + near) / (far - near));
+}
+
+glm::dmat4 orthographic_reversed(double height, double aspect, double near, double far) {
+  HS_CHECK_OP(near, <, far);
+  return orthographic(height, aspect, 1.0 / (far - near), far / (far - near));
+}
+
+}  // namespace halfspace

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/geometry/displaced_sphere.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/geometry/shapes.h"
+
+namespace halfspace {
+
+namespace {
+
+struct Relief {
+  double radius, height_scale, zero_level;
+};
+
+double height_of(const HeightSample& s, const Relief& r) { return r.height_scale * (s.value - r.zero_level); }
+
+// (g_east, g_north, 1 + g/r)
+glm::dvec3 slopes_of(const HeightSample& s, const Relief& r, double sin_pi_v) {
+  const double east = r.height_scale * s.du / (2.0 * std::numbers::pi * r.radius * sin_pi_v);
+  const double north = -r.height_scale * s.dv / (std::numbers::pi * r.radius);
+  return {east, north, 1.0 + height_of(s, r) / r.radius};
+}
+
+// + 0.0: no negative zeros, so that equal vectors have equal bits.
+glm::vec3 rounded(const glm::dvec3& v) { return glm::vec3(v + 0.0); }
+
+// GLM divides by an inverse square root of its own making; this one is correctly rounded step by step.
+glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+void displace_row(Mesh& mesh, const SphereRow& row, const HeightField& field, const Relief& relief, ReliefNormals normals) {
+  const SinCosDouble pi_v = sincos_turns(0.5 * row.v);
+  for (int j = 0; j < row.count; ++j) {
+    const std::size_t vertex = static_cast<std::size_t>(row.first + j);
+    const SphereFrame frame = sphere_frame(sincos_turns(row.u(j)), pi_v);
+    const HeightSample sample = field.at(row.u(j), row.v);
+    mesh.positions[vertex] = rounded((relief.radius + height_of(sample, relief)) * frame.normal);
+    if (normals == ReliefNormals::undisplaced) continue;
+    const glm::dvec3 slopes = slopes_of(sample, relief, pi_v.sin);
+    mesh.normals[vertex] = rounded(unit(slopes.z * frame.normal - slopes.x * frame.east - slopes.y * frame.north));
+    // P'u over 2πrs.
+    mesh.tangents[vertex] = glm::vec4(rounded(unit(slopes.z * frame.east + slopes.x * frame.normal)), 1.0f);
+  }
+}
+
+void displace_pole(Mesh& mesh, const SphereRow& row, const HeightField& field, const Relief& relief) {
+  double sum = 0;
+  for (int j = 0; j < row.count; ++j) sum += height_of(field.at(row.u(j), row.v), relief);
+  const double y = relief.radius + sum / row.count;
+  for (int j = 0; j < row.count; ++j) {
+    mesh.positions[static_cast<std::size_t>(row.first + j)] = rounded({0.0, row.v == 0.0 ? y : -y, 0.0});
+  }
+}
+
+}  // namespace
+
+Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const HeightField& field, double height_scale, double zero_level,
+                         const Workers& workers, ReliefNormals normals) {
+  const Relief relief{static_cast<double>(radius), height_scale, zero_level};
+  Mesh mesh = uv_sphere(latitudes, longitudes, radius);
+  workers.for_each(latitudes + 1, [&](int i) {
+    const SphereRow row = uv_sphere_row(i, latitudes, longitudes);
+    if (row.is_pole) {
+      displace_pole(mesh, row, field, relief);
+    } else {
+      displace_row(mesh, row, field, relief, normals);
+    }
+  });
+  return mesh;
+}
+
+glm::dvec3 slopes_at(const HeightField& field, double u, double v, double radius, double height_scale, double zero_level) {
+  return slopes_of(field.at(u, v), {radius, height_scale, zero_level}, sincos_turns(0.5 * v).sin);
+}
+
+SlopeRows::SlopeRows(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level)
+    : field_(field),
+      height_(height),
+      radius_(radius),
+      height_scale_(height_scale),
+      zero_level_(zero_level),
+      at_texels_(width == field.width() && height == field.height()) {
+  HS_CHECK_OP(width, >=, 1);
+  HS_CHECK_OP(height, >=, 1);
+  HS_CHECK_OP(radius, >, 0.0);
+  for (int x = 0; x < width && !at_texels_; ++x) taps_.push_back(field.taps((x + 0.5) / width));
+}
+
+void SlopeRows::operator()(int row, std::span<glm::vec4> slopes) const {
+  const double v = (row + 0.5) / height_;
+  const double sin_pi_v = sincos_turns(0.5 * v).sin;
+  std::vector<HeightSample> samples(slopes.size());
+  at_texels_ ? field_.at_texels(row, samples) : field_.at(taps_, v, samples);
+  const Relief relief{radius_, height_scale_, zero_level_};
+  std::transform(samples.begin(), samples.end(), slopes.begin(),
+                 [&](const HeightSample& s) { return glm::vec4(glm::vec3(slopes_of(s, relief, sin_pi_v)), 0.0f); });
+}
+
+Image<glm::vec4> slope_map(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level,
+                           const Workers& workers) {
+  const SlopeRows rows(field, width, height, radius, height_scale, zero_level);
+  Image<glm::vec4> map(width, height);
+  workers.for_each(height, [&](int row) { rows(row, map.row(row)); });
+  return map;
+}
+
+}  // namespace halfspace

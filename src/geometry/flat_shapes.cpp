@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Plane and cube: square faces.
+#include <algorithm>
+
+#include "halfspace/core/check.h"
+#include "halfspace/geometry/shapes.h"
+
+namespace halfspace {
+
+namespace {
+
+// Unit vectors of a face as seen from the front, where the map's first row is at the top.
+struct Face {
+  glm::dvec3 center, right, up;
+};
+
+// The fade towards the nearer of the edges at 0 and 1.
+FadeStep fade_from_edges(double x) {
+  const FadeStep f = fade_in(std::min(x, 1.0 - x));
+  return {f.value, x < 0.5 ? f.slope : -f.slope};
+}
+
+Fade fade_of_face(double u, double v) {
+  const FadeStep across = fade_from_edges(u), down = fade_from_edges(v);
+  return {across.value * down.value, across.slope * down.value, across.value * down.slope};
+}
+
+// A face with half edge h round h·center. 2u − 1 as a ratio of whole numbers has the same bits, but for the sign, from either
+// side: neighbours meet exactly.
+void add_face(SurfaceMesh& mesh, double h, const Face& face, int segments, bool fades) {
+  int first = -1;
+  const auto coordinate = [&](int i) { return static_cast<double>(2 * i - segments) / segments; };
+  for (int i = 0; i <= segments; ++i) {
+    for (int j = 0; j <= segments; ++j) {
+      MeshPoint p{};
+      p.uv = {static_cast<double>(j) / segments, static_cast<double>(i) / segments};
+      p.position = h * (face.center + face.right * coordinate(j) - face.up * coordinate(i));
+      p.du = 2.0 * h * face.right;
+      p.dv = -2.0 * h * face.up;
+      p.normal = glm::cross(face.right, face.up);
+      if (fades) p.fade = fade_of_face(p.uv.x, p.uv.y);
+      const int index = mesh.add(p);
+      if (first < 0) first = index;
+    }
+  }
+  mesh.add_grid(first, segments, segments);
+}
+
+}  // namespace
+
+Mesh plane(float size, int segments, const Displacement* displacement) {
+  HS_CHECK_OP(size, >, 0.0f);
+  HS_CHECK_OP(segments, >=, 1);
+  SurfaceMesh mesh(displacement);
+  add_face(mesh, 0.5 * static_cast<double>(size), {{0, 0, 0}, {1, 0, 0}, {0, 0, -1}}, segments, false);
+  return mesh.take();
+}
+
+Mesh cube(float size, int segments, const Displacement* displacement) {
+  HS_CHECK_OP(size, >, 0.0f);
+  HS_CHECK_OP(segments, >=, 1);
+  SurfaceMesh mesh(displacement);
+  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  for (const Face& face : {Face{x, -z, y}, Face{-x, z, y}, Face{y, x, -z}, Face{-y, x, z}, Face{z, x, y}, Face{-z, -x, y}}) {
+    add_face(mesh, 0.5 * static_cast<double>(size), face, segments, true);
+  }
+  return mesh.take();
+}
+
+}  // namespace halfspace

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cylinder, cone and torus: surfaces of revolution round the y axis, with caps where they are open.
+#include <cmath>
+#include <numbers>
+
+#include "halfspace/core/check.h"
+#include "halfspace/geometry/shapes.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+// At longitude 2πu: outward, its derivative by u, and that derivative's direction.
+struct Meridian {
+  glm::dvec3 out, out_du, east;
+};
+
+Meridian meridian(double u) {
+  const SinCosDouble a = sincos_turns(u);
+  const glm::dvec3 east(-a.sin, 0, -a.cos);
+  return {glm::dvec3(a.cos, 0, -a.sin), kTurn * east, east};
+}
+
+constexpr glm::dvec3 kUp(0, 1, 0);
+
+// Towards v = 0 and v = 1.
+Fade fade_along_v(double v) {
+  const FadeStep f = fade_in(v > 0.5 ? 1.0 - v : v);
+  return {f.value, 0.0, v > 0.5 ? -f.slope : f.slope};
+}
+
+// A row of a side: sectors + 1 points from u = 0 to 1.
+template <class F>
+int add_row(SurfaceMesh& mesh, int sectors, F point) {
+  int first = -1;
+  for (int j = 0; j <= sectors; ++j) {
+    const int index = mesh.add(point(static_cast<double>(j) / sectors));
+    if (j == 0) first = index;
+  }
+  return first;
+}
+
+// The disc at height y, facing up (up = 1) or down (−1), its rim at `radius`: x = r·(2u − 1), z = up·r·(2v − 1). Heights fade
+// with the distance ρ from the middle, in parts of the radius; ∂ρ/∂u = 2(2u − 1)/ρ, and so by v.
+class Cap {
+ public:
+  Cap(double radius, double y, double up) : radius_(radius), y_(y), up_(up) {}
+
+  MeshPoint at(double rho, const Meridian& m) const {
+    MeshPoint p{};
+    const double x = rho * m.out.x, z = up_ * rho * m.out.z;  // 2u − 1, 2v − 1
+    p.uv = {0.5 + 0.5 * x, 0.5 + 0.5 * z};
+    p.position = (rho * radius_) * m.out + y_ * kUp;
+    p.du = {2.0 * radius_, 0, 0};
+    p.dv = {0, 0, up_ * 2.0 * radius_};
+    p.normal = up_ * kUp;
+    const FadeStep f = fade_in(1.0 - rho);
+    p.fade = {f.value, f.slope == 0.0 ? 0.0 : -f.slope * 2.0 * x / rho, f.slope == 0.0 ? 0.0 : -f.slope * 2.0 * z / rho};
+    return p;
+  }
+
+ private:
+  double radius_, y_, up_;
+};
+
+void add_cap(SurfaceMesh& mesh, double radius, double y, bool faces_up, int rings, int sectors) {
+  const Cap cap(radius, y, faces_up ? 1.0 : -1.0);
+  const int center = mesh.add(cap.at(0.0, meridian(0.0)));
+  for (int i = 1; i <= rings; ++i) {
+    for (int j = 0; j < sectors; ++j) mesh.add(cap.at(static_cast<double>(i) / rings, meridian(static_cast<double>(j) / sectors)));
+  }
+  const auto triangle = [&](int a, int b, int c) { faces_up ? mesh.add_triangle(a, b, c) : mesh.add_triangle(a, c, b); };
+  const auto vertex = [&](int ring, int j) { return center + 1 + (ring - 1) * sectors + j % sectors; };
+  for (int j = 0; j < sectors; ++j) triangle(center, vertex(1, j), vertex(1, j + 1));
+  for (int i = 2; i <= rings; ++i) {
+    for (int j = 0; j < sectors; ++j) {
+      triangle(vertex(i - 1, j), vertex(i, j), vertex(i, j + 1));
+      triangle(vertex(i - 1, j), vertex(i, j + 1), vertex(i - 1, j + 1));
+    }
+  }
+}
+
+void check_counts(int bands, int sectors, int least_bands) {
+  HS_CHECK_OP(bands, >=, least_bands);
+  HS_CHECK_OP(sectors, >=, 3);
+}
+
+}  // namespace
+
+Mesh cylinder(float radius, float length, int bands, int sectors, const Displacement* displacement) {
+  HS_CHECK_OP(radius, >, 0.0f);
+  HS_CHECK_OP(length, >, 0.0f);
+  check_counts(bands, sectors, 1);
+  const double r = static_cast<double>(radius), l = static_cast<double>(length);
+  SurfaceMesh mesh(displacement);
+  for (int i = 0; i <= bands; ++i) {
+    const double v = static_cast<double>(i) / bands;
+    add_row(mesh, sectors, [&](double u) {
+      const Meridian m = meridian(u);
+      MeshPoint p{};
+      p.uv = {u, v};
+      p.position = r * m.out + (l * (0.5 - v)) * kUp;
+      p.du = r * m.out_du;
+      p.dv = -l * kUp;
+      p.normal = m.out;
+      p.normal_du = m.out_du;
+      p.fade = fade_along_v(v);
+      return p;
+    });
+  }
+  mesh.add_grid(0, sectors, bands);
+  add_cap(mesh, r, 0.5 * l, true, bands, sectors);
+  add_cap(mesh, r, -0.5 * l, false, bands, sectors);
+  return mesh.take();
+}
+
+Mesh cone(float radius, float length, int bands, int sectors, const Displacement* displacement) {
+  HS_CHECK_OP(radius, >, 0.0f);
+  HS_CHECK_OP(length, >, 0.0f);
+  check_counts(bands, sectors, 1);
+  const double r = static_cast<double>(radius), l = static_cast<double>(length), slant = std::sqrt(r * r + l * l);
+  const auto at = [&](double u, double v) {
+    const Meridian m = meridian(u);
+    MeshPoint p{};
+    p.uv = {u, v};
+    p.position = (v * r) * m.out + (l * (0.5 - v)) * kUp;
+    p.du = (v * r) * m.out_du;
+    p.dv = r * m.out - l * kUp;
+    p.normal = (l * m.out + r * kUp) / slant;
+    p.normal_du = (l / slant) * m.out_du;
+    p.tangent = m.east;
+    p.fade = fade_along_v(v);
+    return p;
+  };
+  SurfaceMesh mesh(displacement);
+  for (int j = 0; j < sectors; ++j) mesh.add_pole(at((j + 0.5) / sectors, 0.0), 0.0);
+  for (int i = 1; i <= bands; ++i) add_row(mesh, sectors, [&](double u) { return at(u, static_cast<double>(i) / bands); });
+  for (int j = 0; j < sectors; ++j) mesh.add_triangle(j, sectors + j, sectors + j + 1);
+  mesh.add_grid(sectors, sectors, bands - 1);
+  add_cap(mesh, r, -0.5 * l, false, bands, sectors);
+  return mesh.take();
+}
+
+Mesh torus(float radius, float tube, int bands, int sectors, const Displacement* displacement) {
+  HS_CHECK_OP(tube, >, 0.0f);
+  HS_CHECK_OP(radius, >, tube);
+  check_counts(bands, sectors, 3);
+  const double r = static_cast<double>(radius), t = static_cast<double>(tube);
+  SurfaceMesh mesh(displacement);
+  for (int i = 0; i <= bands; ++i) {
+    const double v = static_cast<double>(i) / bands;
+    const SinCosDouble b = sincos_turns(v);
+    add_row(mesh, sectors, [&](double u) {
+      const Meridian m = meridian(u);
+      MeshPoint p{};
+      p.uv = {u, v};
+      p.normal = -b.cos * m.out + b.sin * kUp;
+      p.normal_du = -b.cos * m.out_du;
+      p.normal_dv = kTurn * (b.sin * m.out + b.cos * kUp);
+      p.position = r * m.out + t * p.normal;
+      p.du = r * m.out_du + t * p.normal_du;
+      p.dv = t * p.normal_dv;
+      return p;
+    });
+  }
+  mesh.add_grid(0, sectors, bands);
+  return mesh.take();
+}
+
+}  // namespace halfspace

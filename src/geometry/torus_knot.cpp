@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A tube along a trefoil: the curve runs twice round the y axis and three times round the tube of a torus.
+//
+//   C(u) = (R + r cos φ) e(θ) + r sin φ k,   θ = 4πu, φ = 6πu, e(θ) = (cos θ, 0, −sin θ), k = up
+//
+// It lies on the torus, whose normal n = cos φ e + sin φ k is therefore square to it and, with b = T × n, gives a frame that
+// closes. A tube's radial normal is square to both of its derivatives, whatever the frame's turn.
+#include <numbers>
+
+#include "halfspace/core/check.h"
+#include "halfspace/geometry/shapes.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr double kThetaRate = 4.0 * std::numbers::pi, kPhiRate = 6.0 * std::numbers::pi;
+constexpr double kRingShare = 0.4;  // r / R
+
+// A place on the curve, and its frame with derivatives by u.
+struct Along {
+  glm::dvec3 point, tangent_length;  // C, C'
+  glm::dvec3 n, b, n_du, b_du;
+};
+
+Along along(double radius, double u) {
+  const auto turns = [&](double times) { return sincos_turns(times * u - static_cast<int>(times * u)); };
+  const SinCosDouble theta = turns(2.0), phi = turns(3.0);
+  const double r = kRingShare * radius, ring = radius + r * phi.cos;
+  const glm::dvec3 e(theta.cos, 0, -theta.sin), e1(-theta.sin, 0, -theta.cos), k(0, 1, 0);
+  Along a;
+  a.point = ring * e + r * phi.sin * k;
+  a.tangent_length = (-r * kPhiRate * phi.sin) * e + (ring * kThetaRate) * e1 + (r * kPhiRate * phi.cos) * k;
+  const glm::dvec3 second = (-r * kPhiRate * kPhiRate * phi.cos - ring * kThetaRate * kThetaRate) * e -
+                            (2.0 * r * kPhiRate * kThetaRate * phi.sin) * e1 - (r * kPhiRate * kPhiRate * phi.sin) * k;
+  const double length = glm::length(a.tangent_length);
+  const glm::dvec3 t = a.tangent_length / length, t_du = (second - t * glm::dot(t, second)) / length;
+  a.n = phi.cos * e + phi.sin * k;
+  a.n_du = (-kPhiRate * phi.sin) * e + (phi.cos * kThetaRate) * e1 + (kPhiRate * phi.cos) * k;
+  a.b = glm::cross(t, a.n);
+  a.b_du = glm::cross(t_du, a.n) + glm::cross(t, a.n_du);
+  return a;
+}
+
+}  // namespace
+
+Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displacement* displacement) {
+  HS_CHECK_OP(tube, >, 0.0f);
+  HS_CHECK_OP(radius, >, tube);
+  HS_CHECK_OP(bands, >=, 3);
+  HS_CHECK_OP(sectors, >=, 3);
+  const double t = static_cast<double>(tube), turn = 2.0 * std::numbers::pi;
+  std::vector<Along> curve;
+  for (int j = 0; j <= sectors; ++j) curve.push_back(along(static_cast<double>(radius), static_cast<double>(j % sectors) / sectors));
+  SurfaceMesh mesh(displacement);
+  for (int i = 0; i <= bands; ++i) {
+    const SinCosDouble b = sincos_turns(static_cast<double>(i % bands) / bands);
+    for (int j = 0; j <= sectors; ++j) {
+      const Along& a = curve[static_cast<std::size_t>(j)];
+      MeshPoint p{};
+      p.uv = {static_cast<double>(j) / sectors, static_cast<double>(i) / bands};
+      p.normal = b.cos * a.n + b.sin * a.b;
+      p.normal_du = b.cos * a.n_du + b.sin * a.b_du;
+      p.normal_dv = turn * (b.cos * a.b - b.sin * a.n);
+      p.position = a.point + t * p.normal;
+      p.du = a.tangent_length + t * p.normal_du;
+      p.dv = t * p.normal_dv;
+      mesh.add(p);
+    }
+  }
+  mesh.add_grid(0, sectors, bands);
+  return mesh.take();
+}
+
+}  // namespace halfspace

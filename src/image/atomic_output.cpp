@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/image/atomic_output.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "halfspace/core/check.h"
+
+namespace halfspace {
+
+namespace {
+
+// The file being written aside, for the signal handler. The flag is set while the name is whole.
+char unfinished_name[4096];
+std::atomic<bool> unfinished = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+std::mutex writing;  // one file at a time
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) { throw OutputError(path.string() + ": " + what); }
+
+[[noreturn]] void fail_errno(const std::filesystem::path& path, int error) {
+  fail(path, std::string("cannot write (") + std::strerror(error) + ")");
+}
+
+// What stands at the path, symbolic links followed; empty where nothing does.
+std::optional<struct stat> status_of(const std::filesystem::path& path) {
+  struct stat s = {};
+  if (::stat(path.c_str(), &s) == 0) return s;
+  if (errno != ENOENT) fail_errno(path, errno);
+  return std::nullopt;
+}
+
+// Where the bytes will really go: a link's target is replaced, not the link.
+std::filesystem::path real_path(const std::filesystem::path& path, bool exists) {
+  if (!exists) return path;
+  char* resolved = ::realpath(path.c_str(), nullptr);
+  if (resolved == nullptr) fail_errno(path, errno);
+  std::filesystem::path result = resolved;
+  std::free(resolved);
+  return result;
+}
+
+std::filesystem::path directory_of(const std::filesystem::path& path) {
+  const std::filesystem::path parent = path.parent_path();
+  return parent.empty() ? "." : parent;
+}
+
+// An open file descriptor.
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+// 0, or the errno of the first write that failed. In pieces: a signal is heard only between two writes to a disk.
+int write_all(int fd, std::span<const std::byte> bytes) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), kPiece));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return 0;
+}
+
+// Creates a file of a new name beside path; the name is left in unfinished_name.
+int create_aside(const std::filesystem::path& path) {
+  static std::atomic<unsigned> counter = 0;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    const std::string name = ".halfspace-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
+    const std::string full = (directory_of(path) / name).string();
+    if (full.size() >= sizeof unfinished_name) return errno = ENAMETOOLONG, -1;
+    std::memcpy(unfinished_name, full.c_str(), full.size() + 1);
+    unfinished = true;  // before the file exists: a signal in between finds nothing to remove
+    const int fd = ::open(unfinished_name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd >= 0) return fd;
+    unfinished = false;
+    if (errno != EEXIST) return -1;
+  }
+  return -1;
+}
+
+// Opening a pipe that no one reads would wait for ever: without waiting it is an error. Writing then waits for the reader.
+void write_in_place(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  const Descriptor file{::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)};
+  if (file.fd < 0 && errno == ENXIO) fail(path, "no one reads from it; expected a program that does, or a file name");
+  if (file.fd < 0) fail_errno(path, errno);
+  const int flags = ::fcntl(file.fd, F_GETFL);
+  if (flags < 0 || ::fcntl(file.fd, F_SETFL, flags & ~O_NONBLOCK) != 0) fail_errno(path, errno);
+  if (const int error = write_all(file.fd, bytes); error != 0) fail_errno(path, error);
+}
+
+}  // namespace
+
+bool is_standard_output(const std::filesystem::path& path) {
+  struct stat file = {}, out = {};
+  return ::stat(path.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 && file.st_dev == out.st_dev && file.st_ino == out.st_ino;
+}
+
+void make_directory(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw OutputError(path.string() + ": cannot make the directory (" + error.message() + ")");
+}
+
+void check_writable(const std::filesystem::path& path) {
+  if (path.empty()) throw OutputError("the output has no name; expected a file name");
+  const auto status = status_of(path);
+  if (status && S_ISDIR(status->st_mode)) fail(path, "is a directory; expected a file name");
+  if (status && ::access(path.c_str(), W_OK) != 0) fail_errno(path, errno);
+  if (status && !S_ISREG(status->st_mode)) return;
+  const std::filesystem::path directory = directory_of(real_path(path, status.has_value()));
+  if (::access(directory.c_str(), F_OK) != 0) fail(path, "cannot write (there is no directory " + directory.string() + ")");
+  if (::access(directory.c_str(), W_OK | X_OK) != 0) fail_errno(path, errno);
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  const std::lock_guard lock(writing);
+  check_writable(path);
+  if (is_standard_output(path)) {
+    if (const int error = write_all(STDOUT_FILENO, bytes); error != 0) fail_errno(path, error);
+    return;
+  }
+  const auto status = status_of(path);
+  if (status && !S_ISREG(status->st_mode)) return write_in_place(path, bytes);
+
+  const std::filesystem::path target = real_path(path, status.has_value());
+  const int fd = create_aside(target);
+  if (fd < 0) fail_errno(path, errno);
+  int error = write_all(fd, bytes);
+  if (error == 0 && status && ::fchmod(fd, status->st_mode & 07777) != 0) error = errno;
+  if (::close(fd) != 0 && error == 0) error = errno;  // some file systems say only now that the disk is full
+  if (error == 0 && ::rename(unfinished_name, target.c_str()) != 0) error = errno;
+  if (error != 0) ::unlink(unfinished_name);
+  unfinished = false;
+  if (error != 0) fail_errno(path, error);
+}
+
+void remove_unfinished_output() noexcept {
+  if (unfinished) ::unlink(unfinished_name);
+}
+
+}  // namespace halfspace

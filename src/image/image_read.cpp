@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "halfspace/core/check.h"
+#include "halfspace/image/image_format.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/image/image_samples.h"
+#include "halfspace/image/image_tool.h"
+#include "halfspace/image/png.h"
+
+namespace halfspace {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) { throw InputError(path.string() + ": " + what); }
+
+[[noreturn]] void fail_memory(const std::filesystem::path& path) {
+  fail(path, "needs more memory than there is; expected a smaller picture");
+}
+
+[[noreturn]] void fail_linear(const std::filesystem::path& path, const std::string& what) {
+  fail(path, what + "; expected 8- or 16-bit codes: " + kCodeFormats);
+}
+
+uint64_t checked_file_size(const std::filesystem::path& path, const char* expected) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) fail(path, "no such file; expected an image");
+  if (error) fail(path, "cannot be read (" + error.message() + "); expected an image");
+  // A pipe or device could go on for ever.
+  if (status.type() == std::filesystem::file_type::directory) fail(path, "is a directory; expected an image file");
+  if (status.type() != std::filesystem::file_type::regular) fail(path, "is no regular file; expected an image file");
+  const uint64_t size = std::filesystem::file_size(path, error);
+  if (error) fail(path, "cannot be read (" + error.message() + "); expected an image");
+  if (size == 0) fail(path, std::string("is empty; expected ") + expected);
+  if (size > uint64_t{1} << 31) fail(path, "has more than 2 GiB; expected a smaller image");
+  return size;
+}
+
+std::vector<std::byte> read_bytes(const std::filesystem::path& path, uint64_t count) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(path, std::string("cannot be read (") + std::strerror(errno) + "); expected an image");
+  std::vector<std::byte> bytes(count);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+// A file that is there and begins like an image.
+struct Source {
+  uint64_t bytes = 0;
+  /// Nothing where it is PNG.
+  std::optional<ToolFormat> tool_format;
+};
+
+Source open_source(const std::filesystem::path& path, const char* expected) {
+  Source source{checked_file_size(path, expected), {}};
+  const std::vector<std::byte> start = read_bytes(path, std::min<uint64_t>(source.bytes, 16));
+  if (is_png(start)) return source;
+  source.tool_format = find_tool_format(path, std::string_view(reinterpret_cast<const char*>(start.data()), start.size()));
+  if (!source.tool_format) fail(path, std::string("is no image that can be read; expected ") + expected);
+  return source;
+}
+
+ColorPicture read_color(const std::filesystem::path& path, const Source& source) {
+  if (source.tool_format) return read_color_by_tool(path, source.tool_format->name, source.bytes);
+  return decode_png(read_bytes(path, source.bytes), path.string());
+}
+
+}  // namespace
+
+bool holds_linear_numbers(const std::filesystem::path& path) {
+  const Source source = open_source(path, kAllFormats);
+  return source.tool_format && source.tool_format->linear_name != nullptr;
+}
+
+Image<glm::u8vec4> read_image(const std::filesystem::path& path) try {
+  const Source source = open_source(path, kCodeFormats);
+  if (source.tool_format && source.tool_format->linear_name != nullptr) {
+    fail_linear(path, std::string("is ") + source.tool_format->linear_name + ", which holds linear numbers");
+  }
+  ColorPicture picture = read_color(path, source);
+  if (const auto* wide = std::get_if<Image<glm::u16vec4>>(&picture)) return round_to_8_bits(*wide);
+  if (auto* codes = std::get_if<Image<glm::u8vec4>>(&picture)) return std::move(*codes);
+  fail_linear(path, "holds linear numbers");
+} catch (const std::bad_alloc&) {
+  fail_memory(path);
+}
+
+Image<float> read_gray(const std::filesystem::path& path) try {
+  const Source source = open_source(path, kAllFormats);
+  if (source.tool_format) return to_numbers(read_gray_by_tool(path, source.tool_format->name, source.bytes), path.string());
+  return to_numbers(first_channel(read_color(path, source)), path.string());
+} catch (const std::bad_alloc&) {
+  fail_memory(path);
+}
+
+Image<glm::vec4> read_linear(const std::filesystem::path& path) try {
+  const Source source = open_source(path, kAllFormats);
+  const bool premultiplied = source.tool_format && source.tool_format->name == std::string_view("openexr");
+  return to_linear(read_color(path, source), premultiplied, path.string());
+} catch (const std::bad_alloc&) {
+  fail_memory(path);
+}
+
+}  // namespace halfspace

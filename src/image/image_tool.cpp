@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/image/image_tool.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "halfspace/core/check.h"
+#include "halfspace/image/image_limits.h"
+#include "halfspace/image/tool_process.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr const char* kOtherVersion = " is of another version than this program";
+
+[[noreturn]] void fail_reading(const std::filesystem::path& path, const std::string& what) {
+  throw InputError(path.string() + ": " + what);
+}
+[[noreturn]] void fail_writing(const std::filesystem::path& path, const std::string& what) {
+  throw OutputError(path.string() + ": cannot write (" + what + ")");
+}
+
+std::optional<std::string> receive_message(ToolProcess& tool, uint32_t bytes) {
+  std::string message(std::min<std::size_t>(bytes, 1000), '\0');
+  if (!tool.receive(message.data(), message.size())) return std::nullopt;
+  return message;
+}
+
+template <class Picture, std::size_t kSample>
+std::optional<Picture> receive_pixels(ToolProcess& tool, int width, int height) {
+  std::variant_alternative_t<kSample, Picture> image(width, height);
+  if (!tool.receive(image.data(), image.texels().size_bytes())) return std::nullopt;
+  return image;
+}
+
+// The decoder's answer, or nothing where it ended before all was said.
+template <class Picture>
+std::optional<Picture> receive_picture(ToolProcess& tool, uint32_t channels, const std::filesystem::path& path) {
+  PictureHeader h;
+  if (!tool.receive(&h, sizeof h)) return std::nullopt;
+  const std::string other_version = std::string("cannot be read: ") + kImageToolName + kOtherVersion;
+  if (h.magic != kImageToolMagic) fail_reading(path, other_version);
+  if (h.width == 0) {
+    const std::optional<std::string> message = receive_message(tool, h.message_bytes);
+    if (!message) return std::nullopt;
+    fail_reading(path, *message);
+  }
+  check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), path.string());
+  if (h.channels != channels) fail_reading(path, other_version);
+  switch (h.sample) {
+    case Sample::code8: return receive_pixels<Picture, 0>(tool, h.width, h.height);
+    case Sample::code16: return receive_pixels<Picture, 1>(tool, h.width, h.height);
+    case Sample::number: return receive_pixels<Picture, 2>(tool, h.width, h.height);
+    case Sample::half: break;
+  }
+  fail_reading(path, other_version);
+}
+
+template <class Picture>
+Picture read_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes, uint32_t channels) {
+  const std::filesystem::path program = find_image_tool();
+  if (program.empty()) {
+    fail_reading(path, std::string("is ") + format + ", and " + kImageToolName +
+                           " is not installed; expected PNG, or that program (built where OpenImageIO is)");
+  }
+  ToolProcess tool;
+  // "./": a name that begins with a dash stays a name.
+  const std::string name = path.is_absolute() ? path.string() : "./" + path.string();
+  const int error = tool.start(
+      program, {"read", name, format, channels == 1 ? "gray" : "rgba", std::to_string(file_bytes), std::to_string(kMostImagePixels)});
+  if (error != 0) fail_reading(path, "cannot be read: " + program.string() + " does not start (" + std::strerror(error) + ")");
+  tool.end_sending();
+  if (std::optional<Picture> picture = receive_picture<Picture>(tool, channels, path)) return *std::move(picture);
+  fail_reading(path,
+               std::string("cannot be read as ") + format + " (the decoder " + tool.how_it_ended() + "); expected a whole image file");
+}
+
+// False where the encoder has ended.
+bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::function<void(int y, std::span<std::byte> row)>& fill_row) {
+  std::vector<std::byte> row(row_bytes(header));
+  for (int y = 0; y < header.height; ++y) {
+    fill_row(y, row);
+    if (!tool.send(row.data(), row.size())) return false;
+  }
+  return true;
+}
+
+// The encoder's answer, or nothing where it ended before all was said.
+std::optional<std::vector<std::byte>> receive_file(ToolProcess& tool, uint64_t most_bytes, const std::filesystem::path& path) {
+  FileHeader h;
+  if (!tool.receive(&h, sizeof h)) return std::nullopt;
+  if (h.magic != kImageToolMagic || h.file_bytes > most_bytes) fail_writing(path, std::string(kImageToolName) + kOtherVersion);
+  if (h.file_bytes == 0) {
+    const std::optional<std::string> message = receive_message(tool, h.message_bytes);
+    if (!message) return std::nullopt;
+    fail_writing(path, *message);
+  }
+  std::vector<std::byte> bytes(h.file_bytes);
+  if (!tool.receive(bytes.data(), bytes.size())) return std::nullopt;
+  return bytes;
+}
+
+}  // namespace
+
+ColorPicture read_color_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes) {
+  return read_by_tool<ColorPicture>(path, format, file_bytes, 4);
+}
+
+GrayPicture read_gray_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes) {
+  return read_by_tool<GrayPicture>(path, format, file_bytes, 1);
+}
+
+std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, const PictureHeader& header,
+                                      const std::function<void(int y, std::span<std::byte> row)>& fill_row) {
+  const std::filesystem::path program = find_image_tool();
+  if (program.empty()) {
+    fail_writing(path, std::string(kImageToolName) + " is not installed; expected a name that ends in .png, or that program");
+  }
+  ToolProcess tool;
+  const int error = tool.start(program, {"write", format});
+  if (error != 0) fail_writing(path, program.string() + " does not start: " + std::strerror(error));
+  // An encoder that refuses ends before it has heard all; its answer says why.
+  const bool sent = tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
+  tool.end_sending();
+  const uint64_t most_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + (1 << 20);
+  std::optional<std::vector<std::byte>> file = receive_file(tool, most_bytes, path);
+  if (sent && file) return *std::move(file);
+  fail_writing(path, std::string("the encoder of ") + format + " " + tool.how_it_ended());
+}
+
+std::filesystem::path find_image_tool() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) return {};
+  const std::filesystem::path directory = program.parent_path();
+  for (const std::filesystem::path& place : {directory, directory / "../lib/halfspace"}) {
+    const std::filesystem::path candidate = (place / kImageToolName).lexically_normal();
+    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+  }
+  return {};
+}
+
+}  // namespace halfspace

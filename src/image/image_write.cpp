@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/half.h"
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/image/image_format.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/image/image_tool.h"
+#include "halfspace/image/png.h"
+
+namespace halfspace {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) { throw OutputError(path.string() + ": " + what); }
+
+ImageFile checked_image_file(const std::filesystem::path& path, bool linear) {
+  const char* expected = linear ? "a name that ends in .exr or .hdr" : "a name that ends in .png, .jpg or .tif";
+  const std::optional<ImageFile> file = image_file_of(path);
+  if (!file) fail(path, std::string("its name tells no format of pictures; expected ") + expected);
+  if (is_linear(*file) != linear)
+    fail(path, std::string("holds ") + (linear ? "8-bit codes" : "linear numbers") + "; expected " + expected);
+  return *file;
+}
+
+template <class T>
+PictureHeader header_of(const Image<T>& image, uint32_t channels, Sample sample) {
+  HS_CHECK(!image.empty());
+  PictureHeader header;
+  header.width = image.width();
+  header.height = image.height();
+  header.channels = channels;
+  header.sample = sample;
+  return header;
+}
+
+// Encodes the image and writes the file. samples(texel) gives an array of Sample-sized channels; the header's number of
+// them is sent.
+template <class T, class F>
+void write_by_tool(const std::filesystem::path& path, const char* format, const Image<T>& image, const PictureHeader& header, F&& samples) {
+  check_writable(path);
+  const std::size_t texel_bytes = header.channels * sample_bytes(header.sample);
+  write_file(path, encode_by_tool(path, format, header, [&](int y, std::span<std::byte> row) {
+               std::byte* to = row.data();
+               for (const T& texel : image.row(y)) {
+                 const auto channels = samples(texel);
+                 std::memcpy(to, &channels, texel_bytes);
+                 to += texel_bytes;
+               }
+             }));
+}
+
+void write_codes(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image, bool alpha) {
+  write_by_tool(path, format, image, header_of(image, alpha ? 4 : 3, Sample::code8), [](const glm::u8vec4& t) { return t; });
+}
+
+float number_or_0(float x) { return std::isnan(x) ? 0.0f : x; }
+
+// Premultiplied; an infinity times an alpha of 0 is NaN and becomes 0 too.
+glm::u16vec4 exr_texel(const glm::vec4& t) {
+  const float alpha = number_or_0(t.w);
+  glm::u16vec4 halves;
+  for (int c = 0; c < 3; ++c) halves[c] = float_to_finite_half(number_or_0(t[c] * alpha));
+  halves[3] = float_to_finite_half(alpha);
+  return halves;
+}
+
+void write_exr(const std::filesystem::path& path, const Image<glm::vec4>& image) {
+  const bool opaque = std::ranges::all_of(image.texels(), [](const glm::vec4& t) { return t.w == 1.0f; });
+  write_by_tool(path, "openexr", image, header_of(image, opaque ? 3 : 4, Sample::half), exr_texel);
+}
+
+// The nearest numbers that RGBE has: whole multiples, up to 255, of 2^(e − 8), where 2^(e − 1) <= largest < 2^e. OpenImageIO
+// cuts the fractions off, an error of up to 1/128 of the largest; of these numbers nothing is left to cut. Rounded, the
+// error is half a step, 2^(e − 9), at most 1/256 of the largest.
+glm::vec3 rgbe_texel(const glm::vec4& t) {
+  constexpr float kLargest = 0x1p126f;    // the exponent's byte ends there
+  constexpr float kSmallest = 0x1p-105f;  // OpenImageIO writes 0 for less than 1e-32
+  glm::vec3 color;
+  for (int c = 0; c < 3; ++c) {
+    const float x = t[c] == std::numeric_limits<float>::infinity() ? kMaxHalf : number_or_0(t[c]);
+    color[c] = std::clamp(x, 0.0f, kLargest);
+  }
+  const float largest = std::max({color.x, color.y, color.z});
+  if (largest < kSmallest) return glm::vec3(0.0f);
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  float step = std::ldexp(1.0f, exponent - 8);
+  if (std::floor(largest / step + 0.5f) > 255.0f) step *= 2.0f;  // the largest rounds up to a power of two
+  for (int c = 0; c < 3; ++c) color[c] = std::floor(color[c] / step + 0.5f) * step;
+  return color;
+}
+
+void write_hdr(const std::filesystem::path& path, const Image<glm::vec4>& image) {
+  write_by_tool(path, "hdr", image, header_of(image, 3, Sample::number), rgbe_texel);
+}
+
+[[noreturn]] void fail_memory(const std::filesystem::path& path) {
+  fail(path, "cannot write (needs more memory than there is); expected a smaller picture");
+}
+
+}  // namespace
+
+std::optional<ImageFile> image_file_of(const std::filesystem::path& path) {
+  const std::string extension = small_extension(path);
+  if (extension == ".png") return ImageFile::png;
+  if (extension == ".jpg" || extension == ".jpeg") return ImageFile::jpeg;
+  if (extension == ".tif" || extension == ".tiff") return ImageFile::tiff;
+  if (extension == ".exr") return ImageFile::exr;
+  if (extension == ".hdr") return ImageFile::hdr;
+  return std::nullopt;
+}
+
+bool is_linear(ImageFile file) { return file == ImageFile::exr || file == ImageFile::hdr; }
+
+void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image) { write_file(path, encode_png(image)); }
+
+void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
+  write_file(path, encode_png(image, PngCodes::numbers));
+}
+
+void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image) try {
+  const ImageFile file = checked_image_file(path, false);
+  if (file == ImageFile::png) return write_png(path, image);
+  if (file == ImageFile::jpeg) return write_codes(path, "jpeg", image, false);
+  write_codes(path, "tiff", image, std::ranges::any_of(image.texels(), [](const glm::u8vec4& t) { return t.w != 255; }));
+} catch (const std::bad_alloc&) {
+  fail_memory(path);
+}
+
+void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image) try {
+  checked_image_file(path, true) == ImageFile::exr ? write_exr(path, image) : write_hdr(path, image);
+} catch (const std::bad_alloc&) {
+  fail_memory(path);
+}
+
+void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth) try {
+  write_by_tool(path, "openexr", depth, header_of(depth, 1, Sample::number), [](float z) { return z; });
+} catch (const std::bad_alloc&) {
+  fail_memory(path);
+}
+
+}  // namespace halfspace

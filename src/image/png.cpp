@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/image/png.h"
+
+#include <spng.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+#include "halfspace/image/image_limits.h"
+
+namespace halfspace {
+
+namespace {
+
+struct FreeContext {
+  void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using Context = std::unique_ptr<spng_ctx, FreeContext>;
+
+Context new_context(int flags) {
+  Context context(spng_ctx_new(flags));
+  if (context == nullptr) throw std::bad_alloc();
+  return context;
+}
+
+void check_encoding(int result) {
+  if (result != SPNG_OK) throw OutputError(std::string("PNG encoder: ") + spng_strerror(result));
+}
+
+void check_decoding(int result, const std::string& name) {
+  if (result == SPNG_EMEM) throw std::bad_alloc();
+  if (result != SPNG_OK) throw InputError(name + ": damaged PNG (" + spng_strerror(result) + "); expected a whole PNG file");
+}
+
+// Rows of the image, of RGB bytes where it is opaque: a copy of all of it could need gigabytes.
+void encode_rows(spng_ctx* context, const Image<glm::u8vec4>& image, bool opaque) {
+  check_encoding(spng_encode_image(context, nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
+  std::vector<glm::u8vec3> rgb(opaque ? static_cast<std::size_t>(image.width()) : 0);
+  for (int y = 0; y < image.height(); ++y) {
+    const std::span<const glm::u8vec4> row = image.row(y);
+    if (opaque) std::ranges::transform(row, rgb.begin(), [](const glm::u8vec4& t) { return glm::u8vec3(t); });
+    const std::span<const std::byte> bytes = opaque ? std::as_bytes(std::span(rgb)) : std::as_bytes(row);
+    const int result = spng_encode_row(context, bytes.data(), bytes.size());
+    const bool last = y + 1 == image.height();
+    if (!(last && result == SPNG_EOI)) check_encoding(result);
+  }
+}
+
+// Deflate shrinks at most 1032 times: a file that claims more than that is a bomb or is cut.
+void check_claimed_size(const spng_ihdr& header, std::size_t file_bytes, const std::string& name) {
+  check_image_size(header.width, header.height, name);
+  constexpr uint64_t kChannels[] = {1, 1, 3, 1, 2, 1, 4};
+  const uint64_t bits = uint64_t{header.bit_depth} * kChannels[header.color_type];
+  const uint64_t raw = (uint64_t{header.width} * bits + 7) / 8 * header.height;
+  if (raw / 1032 > file_bytes) {
+    throw InputError(name + ": claims " + std::to_string(header.width) + "x" + std::to_string(header.height) + " pixels but has only " +
+                     std::to_string(file_bytes) + " bytes; expected a whole PNG file");
+  }
+}
+
+template <class Texel>
+Image<Texel> decode_texels(spng_ctx* context, const spng_ihdr& header, spng_format format, const std::string& name) {
+  Image<Texel> image(static_cast<int>(header.width), static_cast<int>(header.height));
+  check_decoding(spng_decode_image(context, image.data(), image.texels().size_bytes(), format, SPNG_DECODE_TRNS), name);
+  return image;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes) {
+  HS_CHECK(!image.empty());
+  const bool opaque = std::ranges::all_of(image.texels(), [](const glm::u8vec4& t) { return t.w == 255; });
+  const Context context = new_context(SPNG_CTX_ENCODER);
+  spng_ihdr header = {};
+  header.width = static_cast<uint32_t>(image.width());
+  header.height = static_cast<uint32_t>(image.height());
+  header.bit_depth = 8;
+  header.color_type = opaque ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
+  check_encoding(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
+  // Measured on a map of 1024x512: 29 ms and 596 kB; level 6 with all filters takes 151 ms and 521 kB.
+  check_encoding(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1));
+  check_encoding(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB));
+  check_encoding(spng_set_ihdr(context.get(), &header));
+  if (codes == PngCodes::srgb) check_encoding(spng_set_srgb(context.get(), 0));
+  encode_rows(context.get(), image, opaque);
+  std::size_t size = 0;
+  int error = 0;
+  const std::unique_ptr<void, decltype(&std::free)> buffer(spng_get_png_buffer(context.get(), &size, &error), &std::free);
+  check_encoding(error);
+  const std::byte* first = static_cast<const std::byte*>(buffer.get());
+  return std::vector<std::byte>(first, first + size);
+}
+
+bool is_png(std::span<const std::byte> bytes) {
+  constexpr unsigned char kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
+}
+
+ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name) {
+  const Context context = new_context(0);
+  check_decoding(spng_set_image_limits(context.get(), kMostImageEdge, kMostImageEdge), name);
+  check_decoding(spng_set_chunk_limits(context.get(), std::size_t{1} << 26, std::size_t{1} << 26), name);
+  check_decoding(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()), name);
+  spng_ihdr header = {};
+  check_decoding(spng_get_ihdr(context.get(), &header), name);
+  check_claimed_size(header, bytes.size(), name);
+  if (header.bit_depth == 16) return decode_texels<glm::u16vec4>(context.get(), header, SPNG_FMT_RGBA16, name);
+  return decode_texels<glm::u8vec4>(context.get(), header, SPNG_FMT_RGBA8, name);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/image/tool/read.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "halfspace/image/tool/failure.h"
+#include "halfspace/image/tool/protocol.h"
+
+namespace halfspace {
+
+namespace {
+
+// A picture may claim this many pixels for each byte of its file (constant JPEG: about 100; bilevel TIFF: 8000).
+constexpr uint64_t kMostPixelsPerByte = 8192;
+constexpr int kMostChannels = 64;
+
+// A decoded picture with the channels that were asked for: all of the file's, or the first alone.
+struct Picture {
+  int width = 0, height = 0, channels = 0, alpha_channel = -1;
+  Sample sample = Sample::code8;
+  std::vector<std::byte> pixels;
+};
+
+Failure damaged(const ReadRequest& request, const std::string& why) {
+  return {"cannot be read as " + request.format + " (" + one_line(why) + "); expected a whole image file"};
+}
+
+void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
+  const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels";
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1) throw Failure{"has " + size + "; expected a flat picture of at least 1x1"};
+  const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
+  if (pixels > request.most_pixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 on an edge"};
+  if (pixels > (1u << 20) && pixels / kMostPixelsPerByte > request.file_bytes) {
+    throw Failure{"claims " + size + " but has only " + std::to_string(request.file_bytes) + " bytes; expected a whole image file"};
+  }
+  if (spec.nchannels < 1 || spec.nchannels > kMostChannels) {
+    throw Failure{"has " + std::to_string(spec.nchannels) + " channels; expected 1 to " + std::to_string(kMostChannels)};
+  }
+  const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) * static_cast<uint64_t>(std::max(spec.tile_height, 0));
+  if (spec.deep || tile > request.most_pixels) throw Failure{"has deep pixels or oversized tiles; expected a flat picture"};
+}
+
+// Codes of up to 16 bits stay codes; everything else is a number (signed and 32-bit integers: scaled to 1).
+Sample sample_of(const OIIO::TypeDesc& type) {
+  if (type.basetype == OIIO::TypeDesc::UINT8) return Sample::code8;
+  return type.basetype == OIIO::TypeDesc::UINT16 ? Sample::code16 : Sample::number;
+}
+
+OIIO::TypeDesc type_of(Sample sample) {
+  if (sample == Sample::code8) return OIIO::TypeDesc::UINT8;
+  return sample == Sample::code16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+}
+
+Picture read_picture(const ReadRequest& request) {
+  // create, not open: open would try every other reader on a file that the right one refuses.
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(request.format);
+  if (input == nullptr) throw Failure{"is " + request.format + ", which this OpenImageIO cannot read; expected PNG or JPEG"};
+  OIIO::ImageSpec spec;
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);  // straight alpha stays straight
+  if (!input->open(request.path, spec, hints)) throw damaged(request, input->geterror());
+  check_spec(spec, request);
+  Picture p{spec.width, spec.height, request.gray ? 1 : spec.nchannels, request.gray ? -1 : spec.alpha_channel, sample_of(spec.format), {}};
+  p.pixels.resize(static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height) * static_cast<std::size_t>(p.channels) *
+                  sample_bytes(p.sample));
+  if (!input->read_image(0, 0, 0, p.channels, type_of(p.sample), p.pixels.data())) throw damaged(request, input->geterror());
+  return p;
+}
+
+// One channel of one pixel that is fully opaque, in the bytes of the sample.
+std::vector<std::byte> opaque(Sample sample) {
+  std::vector<std::byte> bytes(sample_bytes(sample), std::byte{255});
+  const float one = 1.0f;
+  if (sample == Sample::number) std::memcpy(bytes.data(), &one, sizeof one);
+  return bytes;
+}
+
+// Row by row, so that no second picture is held: three colours, or one repeated; a missing alpha is opaque.
+void put_rgba(const Picture& p) {
+  const int colors = p.channels - (p.alpha_channel >= 0 ? 1 : 0);
+  const int from[4] = {0, colors >= 3 ? 1 : 0, colors >= 3 ? 2 : 0, p.alpha_channel};
+  const std::size_t size = sample_bytes(p.sample);
+  const std::size_t stride = size * static_cast<std::size_t>(p.channels);
+  const std::vector<std::byte> one = opaque(p.sample);
+  std::vector<std::byte> row(static_cast<std::size_t>(p.width) * 4 * size);
+  for (std::size_t pixel = 0; pixel < p.pixels.size();) {
+    for (std::byte* to = row.data(); to != row.data() + row.size(); pixel += stride) {
+      for (const int channel : from) {
+        const std::byte* sample = channel < 0 ? one.data() : p.pixels.data() + pixel + size * static_cast<std::size_t>(channel);
+        to = std::copy_n(sample, size, to);
+      }
+    }
+    std::fwrite(row.data(), 1, row.size(), stdout);
+  }
+}
+
+void refuse(const std::string& message) {
+  PictureHeader header;
+  header.message_bytes = static_cast<uint32_t>(message.size());
+  put_answer(header, message);
+}
+
+}  // namespace
+
+void read_and_answer(const ReadRequest& request) {
+  try {
+    const Picture p = read_picture(request);
+    put_answer(PictureHeader{kImageToolMagic, p.width, p.height, request.gray ? 1u : 4u, p.sample, 0}, "");
+    if (request.gray) {
+      std::fwrite(p.pixels.data(), 1, p.pixels.size(), stdout);
+    } else {
+      put_rgba(p);
+    }
+  } catch (const Failure& failure) {
+    refuse(failure.text);
+  } catch (const std::bad_alloc&) {
+    refuse("needs more memory than there is; expected a smaller picture");
+  } catch (const std::exception& e) {
+    refuse(damaged(request, e.what()).text);
+  }
+}
+
+}  // namespace halfspace

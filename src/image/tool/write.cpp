@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/image/tool/write.h"
+
+#include <OpenImageIO/imageio.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "halfspace/image/image_limits.h"
+#include "halfspace/image/tool/failure.h"
+#include "halfspace/image/tool/protocol.h"
+
+namespace halfspace {
+
+namespace {
+
+// Rows that are received, converted and handed to the encoder together: a multiple of the 16 rows of an EXR block.
+constexpr int kBandRows = 64;
+
+// The file while it is encoded. Encoders need one that they can seek in, which a pipe is not; this one has no name.
+class MemoryFile {
+ public:
+  MemoryFile() : fd_(::memfd_create("halfspace", MFD_CLOEXEC)) {
+    if (fd_ < 0) throw Failure{std::string("there is no memory for the file (") + std::strerror(errno) + ")"};
+  }
+  ~MemoryFile() { ::close(fd_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string name() const { return "/proc/self/fd/" + std::to_string(fd_); }
+
+  uint64_t size() const {
+    struct stat s = {};
+    return ::fstat(fd_, &s) == 0 ? static_cast<uint64_t>(s.st_size) : 0;
+  }
+
+  void copy_to_output() const {
+    std::vector<char> buffer(1 << 20);
+    off_t offset = 0;
+    for (ssize_t n = 0; (n = ::pread(fd_, buffer.data(), buffer.size(), offset)) > 0; offset += n) {
+      std::fwrite(buffer.data(), 1, static_cast<std::size_t>(n), stdout);
+    }
+  }
+
+ private:
+  int fd_;
+};
+
+void receive(void* memory, std::size_t bytes) {
+  if (std::fread(memory, 1, bytes, stdin) != bytes) throw Failure{"the picture ends early"};
+}
+
+PictureHeader receive_header() {
+  PictureHeader h;
+  receive(&h, sizeof h);
+  if (h.magic != kImageToolMagic) throw Failure{std::string(kImageToolName) + " is of another version than the program that started it"};
+  check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), "picture");
+  if ((h.channels != 1 && h.channels != 3 && h.channels != 4) || h.sample > Sample::number)
+    throw Failure{"the picture's header is damaged"};
+  return h;
+}
+
+OIIO::TypeDesc type_of(Sample sample) {
+  if (sample == Sample::code8) return OIIO::TypeDesc::UINT8;
+  if (sample == Sample::code16) return OIIO::TypeDesc::UINT16;
+  return sample == Sample::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+}
+
+OIIO::ImageSpec spec_of(const PictureHeader& h, const std::string& format) {
+  OIIO::ImageSpec spec(h.width, h.height, static_cast<int>(h.channels), type_of(h.sample));
+  if (h.channels == 1) spec.channelnames = {"Z"};
+  spec.attribute("oiio:ColorSpace", h.sample == Sample::code8 ? "sRGB" : "Linear");
+  spec.attribute("oiio:UnassociatedAlpha", format == "tiff" ? 1 : 0);  // pixels go into the file as they come
+  spec.attribute("DateTime", "");  // OpenImageIO would write the present: the same picture would be another file
+  spec.attribute("compression", format == "jpeg" ? "jpeg:95" : "zip");
+  spec.attribute("jpeg:subsampling", "4:4:4");  // edges between colours stay sharp
+  return spec;
+}
+
+void encode(const std::string& format, const MemoryFile& file) {
+  const PictureHeader h = receive_header();
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+  if (output == nullptr) throw Failure{"this OpenImageIO does not write " + format};
+  const auto check = [&](bool ok) {
+    if (!ok) throw Failure{"the encoder of " + format + " says: " + one_line(output->geterror())};
+  };
+  check(output->open(file.name(), spec_of(h, format)));
+  std::vector<std::byte> band(row_bytes(h) * static_cast<std::size_t>(std::min(h.height, kBandRows)));
+  for (int top = 0; top < h.height; top += kBandRows) {
+    const int end = std::min(top + kBandRows, h.height);
+    receive(band.data(), row_bytes(h) * static_cast<std::size_t>(end - top));
+    check(output->write_scanlines(top, end, 0, type_of(h.sample), band.data()));
+  }
+  check(output->close());
+}
+
+void refuse(const std::string& message) { put_answer(FileHeader{kImageToolMagic, static_cast<uint32_t>(message.size()), 0}, message); }
+
+}  // namespace
+
+void write_and_answer(const std::string& format) {
+  try {
+    const MemoryFile file;
+    encode(format, file);
+    put_answer(FileHeader{kImageToolMagic, 0, file.size()}, "");
+    file.copy_to_output();
+  } catch (const Failure& failure) {
+    refuse(failure.text);
+  } catch (const std::exception& e) {
+    refuse("the encoder of " + format + " says: " + one_line(e.what()));
+  }
+}
+
+}  // namespace halfspace

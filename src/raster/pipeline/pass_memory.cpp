@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/pipeline/pass_memory.h"
+
+#include <mutex>
+
+namespace halfspace {
+
+namespace {
+
+constexpr std::size_t kMostKept = std::size_t{256} << 20;
+
+struct Kept {
+  std::mutex mutex;
+  std::vector<FrameMemory> idle;
+  std::vector<std::vector<Draw>> idle_draws;
+  std::size_t bytes = 0;
+};
+Kept& kept() {
+  static Kept k;
+  return k;
+}
+
+std::size_t bytes_of(const FrameMemory& m) {
+  std::size_t bytes = 0;
+  for (const Chunk& c : m.chunks) bytes += c.bytes();
+  for (const ShadedVertices& v : m.shaded) bytes += v.bytes();
+  return bytes;
+}
+
+}  // namespace
+
+void Chunk::clear() {
+  segments.clear();
+  triangles.clear();
+  clip_vertices.clear();
+  clip_varyings.clear();
+  clip_sources.clear();
+  primitives.clear();
+  bin_start.clear();
+  bin_triangles.clear();
+  tile_x0 = tile_y0 = tile_x1 = tile_y1 = 0;
+  statistics = {};
+}
+
+std::size_t Chunk::bytes() const {
+  return triangles.capacity() * sizeof(Triangle) + bin_triangles.capacity() * sizeof(uint16_t) + bin_start.capacity() * sizeof(uint32_t) +
+         clip_vertices.capacity() * sizeof(ClipVertex) + (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
+}
+
+std::vector<Draw> take_draw_memory() {
+  Kept& k = kept();
+  const std::lock_guard lock(k.mutex);
+  if (k.idle_draws.empty()) return {};
+  std::vector<Draw> draws = std::move(k.idle_draws.back());
+  k.idle_draws.pop_back();
+  k.bytes -= draws.capacity() * sizeof(Draw);
+  return draws;
+}
+
+void keep_draw_memory(std::vector<Draw> draws) {
+  draws.clear();
+  const std::size_t bytes = draws.capacity() * sizeof(Draw);
+  Kept& k = kept();
+  const std::lock_guard lock(k.mutex);
+  if (bytes == 0 || k.bytes + bytes > kMostKept) return;
+  k.bytes += bytes;
+  k.idle_draws.push_back(std::move(draws));
+}
+
+FrameMemory take_frame_memory() {
+  Kept& k = kept();
+  const std::lock_guard lock(k.mutex);
+  if (k.idle.empty()) return {};
+  FrameMemory memory = std::move(k.idle.back());
+  k.idle.pop_back();
+  k.bytes -= bytes_of(memory);
+  return memory;
+}
+
+void keep_frame_memory(FrameMemory memory) {
+  const std::size_t bytes = bytes_of(memory);
+  Kept& k = kept();
+  const std::lock_guard lock(k.mutex);
+  if (k.bytes + bytes > kMostKept) return;
+  k.bytes += bytes;
+  k.idle.push_back(std::move(memory));
+}
+
+}  // namespace halfspace

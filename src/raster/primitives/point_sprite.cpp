@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/primitives/point_sprite.h"
+
+#include <cmath>
+
+#include "halfspace/raster/primitives/vertex_stage.h"
+
+namespace halfspace {
+
+namespace {
+
+// Window coordinate in 1/256 px of a normalized device coordinate, to the nearest, held to ±2^28; NaN gives −2^28.
+int32_t snap(double ndc, float half, float center) {
+  const double sub = (ndc * static_cast<double>(half) + static_cast<double>(center)) * kSubPixels;
+  return static_cast<int32_t>(std::nearbyint(std::fmin(std::fmax(sub, -0x1p28), 0x1p28)));
+}
+
+}  // namespace
+
+void make_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen, const Outcode* outcodes,
+                  SpriteRect* out) {
+  const Viewport& v = draw.viewport;
+  const auto row = [](const float* rows, int k, int i) { return static_cast<double>(rows[k * kVertexBatch + i]); };
+  for (int i = 0; i < count; ++i) {
+    if (draw.kernels.gives_sprite) {
+      out[i] = {snap(row(extra, 0, i), v.half_width, v.center_x), snap(row(extra, 1, i), v.half_height, v.center_y),
+                snap(row(extra, 2, i), v.half_width, v.center_x), snap(row(extra, 3, i), v.half_height, v.center_y)};
+      continue;
+    }
+    const double size = draw.kernels.gives_point_size ? row(extra, 0, i) : static_cast<double>(draw.state.point_size);
+    const auto side = static_cast<int32_t>(std::nearbyint(std::fmin(std::fmax(size * kSubPixels, 0.0), 0x1p28)));
+    int32_t x = screen[i].x, y = screen[i].y;
+    if ((outcodes[i] & kOutGuard) != 0) {  // the vertex stage gives no place to a centre so far out
+      x = snap(row(clip, 0, i) / row(clip, 3, i), v.half_width, v.center_x);
+      y = snap(row(clip, 1, i) / row(clip, 3, i), v.half_height, v.center_y);
+    }
+    const int32_t x0 = x - side / 2, y0 = y - side / 2;
+    out[i] = {x0, y0, x0 + side, y0 + side};
+  }
+}
+
+std::array<ScreenVertex, 3> sprite_corners(const Triangle& t, const ScreenVertex& point, PointOrigin origin) {
+  const int32_t x0 = t.x[0], x1 = t.x[1] + 1;
+  const bool upper = origin == PointOrigin::upper_left;
+  const int32_t first_y = upper ? t.y[1] + 1 : t.y[0], other_y = upper ? t.y[0] : t.y[1] + 1;
+  return {ScreenVertex{x0, first_y, point.z, point.inv_w}, {x1, first_y, point.z, point.inv_w}, {x0, other_y, point.z, point.inv_w}};
+}
+
+}  // namespace halfspace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/primitives/primitive_stage.h"
+
+namespace halfspace {
+
+namespace {
+
+// The vertices of an unclipped triangle in the order in which they were submitted: setup turned them round so that they
+// are counter-clockwise from the smallest depth, and left a note of where the provoking vertex went.
+std::array<uint32_t, 3> submitted_order(const Triangle& t, const DrawState& state) {
+  const uint32_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
+  const bool kept_winding = t.is(kFrontFacing) == (state.front == Winding::counter_clockwise);
+  std::array<uint32_t, 3> vertex;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const uint32_t steps = kept_winding ? i + 3 - provoking : provoking + 3 - i;
+    vertex[i] = t.vertex[(t.provoking() + steps) % 3];
+  }
+  return vertex;
+}
+
+class SegmentPrimitives {
+ public:
+  SegmentPrimitives(const Frame& frame, const Chunk& chunk, const Segment& segment)
+      : chunk_(chunk), draw_(frame.draws[segment.draw]), shaded_(frame.shaded[segment.draw]) {}
+
+  // Rows of the varyings of triangle i's vertices as submitted; call for rising i.
+  std::array<const float*, 3> rows(uint32_t i) {
+    const Triangle& t = chunk_.triangles[i];
+    const bool is_piece = t.is(kClipped | kLine);
+    const std::array<uint32_t, 3> vertex = is_piece ? source(i) : submitted_order(t, draw_.state);
+    std::array<const float*, 3> r;
+    for (std::size_t k = 0; k < 3; ++k) {
+      r[k] = shaded_.varyings.get() + std::size_t{vertex[k]} * static_cast<std::size_t>(shaded_.varying_count);
+    }
+    return r;
+  }
+
+ private:
+  std::array<uint32_t, 3> source(uint32_t i) {
+    const auto after = std::upper_bound(chunk_.clip_sources.begin(), chunk_.clip_sources.end(), i,
+                                        [](uint32_t triangle, const ClipSource& s) { return triangle < s.triangle; });
+    return (after - 1)->vertex;
+  }
+
+  const Chunk& chunk_;
+  const Draw& draw_;
+  const ShadedVertices& shaded_;
+};
+
+}  // namespace
+
+void run_primitive_stage(const Frame& frame, Chunk& chunk) {
+  std::vector<std::array<const float*, 3>> rows;
+  for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
+    Segment& segment = chunk.segments[s];
+    const Draw& draw = frame.draws[segment.draw];
+    const auto end = s + 1 < chunk.segments.size() ? chunk.segments[s + 1].first_triangle : static_cast<uint32_t>(chunk.triangles.size());
+    if (draw.kernels.primitive == nullptr || segment.first_triangle == end) continue;
+    rows.clear();
+    SegmentPrimitives segment_rows(frame, chunk, segment);
+    for (uint32_t i = segment.first_triangle; i < end; ++i) rows.push_back(segment_rows.rows(i));
+    segment.first_primitive = static_cast<uint32_t>(chunk.primitives.size());
+    chunk.primitives.resize(chunk.primitives.size() + rows.size() * static_cast<std::size_t>(draw.kernels.primitive_count));
+    draw.kernels.primitive(draw.shader.get(),
+                           {rows.data(), static_cast<int>(rows.size()), chunk.primitives.data() + segment.first_primitive});
+  }
+}
+
+}  // namespace halfspace

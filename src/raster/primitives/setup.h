@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Setup. In: a chunk's segments of index lists, and the shaded vertices. Out: Chunk::triangles (culled, clipped where
+// needed, wound counter-clockwise, with their depth coefficients; points and lines too), clip vertices and statistics.
+#pragma once
+
+#include "halfspace/raster/pipeline/pipeline_data.h"
+
+namespace halfspace {
+
+/// Fills chunk.triangles from chunk.segments.
+void set_up_chunk(const Frame& frame, Chunk& chunk);
+
+}  // namespace halfspace

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/primitives/setup_scalar.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "halfspace/raster/pipeline/line.h"
+#include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/primitives/clip.h"
+#include "halfspace/raster/primitives/small_coverage.h"
+
+namespace halfspace {
+
+namespace {
+
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& at_x, const SampleSpan& at_y) {
+  if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
+  return cut(pixel_box(t.x, t.y, at_x, at_y), b);
+}
+
+// The smallest depth step that makes a difference: OpenGL 4.6, section 14.6.5.
+double smallest_depth_step(DepthFormat format, float largest_z) {
+  switch (format) {
+    case DepthFormat::d16: return 1.0 / 65535.0;
+    case DepthFormat::d24: return 1.0 / 16777215.0;
+    default: return std::ldexp(1.0, (std::fabs(largest_z) > 0.0f ? std::ilogb(largest_z) : -126) - 23);
+  }
+}
+
+struct DepthPlane {
+  double dz1, dz2;  // depth differences of vertices 1, 2 to vertex 0
+  double area;      // in (1/256 px)²
+};
+
+float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, const DepthPlane& p, float largest_z) {
+  if (o.slope == 0.0f && o.constant == 0.0f) return 0.0f;
+  double offset = 0.0;
+  if (o.slope != 0.0f) {  // 0·Inf is not NaN here: no slope term where none is asked for
+    const double e1x = t.x[1] - t.x[0], e1y = t.y[1] - t.y[0], e2x = t.x[2] - t.x[0], e2y = t.y[2] - t.y[0];
+    const double dz_dx = (e2y * p.dz1 - e1y * p.dz2) / p.area * kSubPixels;
+    const double dz_dy = (e1x * p.dz2 - e2x * p.dz1) / p.area * kSubPixels;
+    offset += static_cast<double>(o.slope) * std::max(std::fabs(dz_dx), std::fabs(dz_dy));
+  }
+  offset += static_cast<double>(o.constant) * smallest_depth_step(format, largest_z);
+  if (o.clamp > 0.0f) offset = std::min(offset, static_cast<double>(o.clamp));
+  if (o.clamp < 0.0f) offset = std::max(offset, static_cast<double>(o.clamp));
+  return static_cast<float>(offset);
+}
+
+bool is_small(const Triangle& t) { return largest(t.x) - least(t.x) <= kSmallExtent && largest(t.y) - least(t.y) <= kSmallExtent; }
+
+}  // namespace
+
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& span) {
+  return pixel_bounds(draw, t, b, span, span);
+}
+
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SamplePosition& at) {
+  return pixel_bounds(draw, t, b, {at.x, at.x}, {at.y, at.y});
+}
+
+Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 3>& v,
+                     const std::array<uint32_t, 3>& index, uint32_t provoking, Facing facing, Triangle& out) {
+  const int64_t e1x = v[1]->x - v[0]->x, e1y = v[1]->y - v[0]->y;
+  const int64_t e2x = v[2]->x - v[0]->x, e2y = v[2]->y - v[0]->y;
+  const int64_t area = e1x * e2y - e1y * e2x;
+  if (area == 0) return Cull::degenerate;
+  bool front = facing != Facing::back;
+  if (facing == Facing::by_winding) {
+    front = (area > 0) == (draw.state.front == Winding::counter_clockwise);
+    if (is_culled(draw.state.cull, front)) return Cull::face;
+  }
+
+  // Order: counter-clockwise, starting at the smallest depth; among equals at the first submitted.
+  std::array<std::size_t, 3> order{0, 1, 2};
+  if (area < 0) std::swap(order[1], order[2]);
+  const float z_min = std::min({v[0]->z, v[1]->z, v[2]->z});
+  while (v[order[0]]->z != z_min) std::rotate(order.begin(), order.begin() + 1, order.end());
+
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.x[i] = v[order[i]]->x;
+    out.y[i] = v[order[i]]->y;
+    out.vertex[i] = index[order[i]];
+    if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
+  }
+  const PixelBounds box = cut(pixel_box(out.x, out.y, frame.samples_at, frame.samples_at), draw.bounds);
+  if (box.empty()) return Cull::no_sample;
+  const bool few = frame.samples == 1 && is_small(out) && box.is_at_most(kCoverSide, kCoverSide);
+  const int32_t covered = few ? covered_centers<float>(out.x, out.y, box) : 0;
+  if (few && covered == 0) return Cull::no_sample;
+
+  const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
+                         static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
+  const float z_max = std::max({v[0]->z, v[1]->z, v[2]->z});
+  const float offset = facing != Facing::by_winding
+                           ? 0.0f
+                           : depth_offset(draw.state.offset, frame.depth_format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
+  out.z0 = z_min + offset;
+  out.z_max = z_max + offset;
+  out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
+  out.z_edge2 = static_cast<float>(plane.dz2 / plane.area);
+
+  if (is_small(out)) out.flags |= kSmall;
+  out.flags |= static_cast<uint32_t>(covered_flags(box, covered));
+  if (front) out.flags |= kFrontFacing;
+  return Cull::none;
+}
+
+Cull set_up_line(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 2>& v, const std::array<uint32_t, 2>& index,
+                 uint32_t provoking, Facing facing, Triangle& out) {
+  const LineRange range = line_range(*v[0], *v[1], line_pixels(draw.state.line_width));
+  const std::size_t near = v[1]->z < v[0]->z ? 1 : 0;
+  const ScreenVertex &a = *v[near], &b = *v[1 - near];
+  const int32_t dx = b.x - a.x, dy = b.y - a.y;
+  if (dx == 0 && dy == 0) return Cull::degenerate;
+  out.x = {a.x, b.x, a.x - dy};
+  out.y = {a.y, b.y, a.y + dx};
+  out.z0 = a.z;
+  out.z_max = b.z;
+  const double length2 = static_cast<double>(int64_t{dx} * dx + int64_t{dy} * dy);
+  out.z_edge1 = static_cast<float>((static_cast<double>(b.z) - static_cast<double>(a.z)) / length2);
+  out.z_edge2 = 0.0f;
+  out.vertex = {index[near], index[1 - near], range.packed()};
+  out.flags = kLine | (provoking == near ? 0u : 1u) << kProvokingShift | (facing == Facing::back ? 0u : kFrontFacing);
+  return pixel_bounds(draw, out, draw.bounds, frame.samples_at).empty() ? Cull::no_sample : Cull::none;
+}
+
+std::array<ScreenVertex, 4> line_rectangle(const ScreenVertex& a, const ScreenVertex& b, float width) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double scale = static_cast<double>(std::clamp(width, 0.0f, 4096.0f)) * (kSubPixels / 2) / std::sqrt(dx * dx + dy * dy);
+  const auto nx = static_cast<int32_t>(std::nearbyint(-dy * scale)), ny = static_cast<int32_t>(std::nearbyint(dx * scale));
+  return {ScreenVertex{a.x - nx, a.y - ny, a.z, a.inv_w},
+          {b.x - nx, b.y - ny, b.z, b.inv_w},
+          {b.x + nx, b.y + ny, b.z, b.inv_w},
+          {a.x + nx, a.y + ny, a.z, a.inv_w}};
+}
+
+uint32_t most_records(const Draw& draw, int samples) {
+  const uint32_t by_line = samples > 1 ? 2 : 1;
+  if (draw.state.topology == Topology::points) return 1;
+  if (is_lines(draw.state.topology)) return by_line;
+  const auto corners = static_cast<uint32_t>(most_corners(draw.kernels.clip_distance_count));
+  switch (draw.state.polygon_mode) {
+    case PolygonMode::fill: return corners - 2;
+    case PolygonMode::line: return corners * by_line;
+    case PolygonMode::point: return 3;
+  }
+  return corners;
+}
+
+}  // namespace halfspace

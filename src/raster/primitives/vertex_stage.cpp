@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/primitives/vertex_stage.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "halfspace/core/transpose.h"
+#include "halfspace/raster/primitives/point_sprite.h"
+
+namespace halfspace {
+
+namespace {
+
+// w below this is clipped: 1/w and x/w stay finite for all |x| ≤ guard·w.
+constexpr float kMinW = 0x1p-96f;
+
+// x/w·half + center in 1/256 px, rounded to the nearest whole number. The float quotient alone would err by up to half
+// a sub-pixel near the guard band; its remainder and the rounding of each step are kept, so that the result is that of
+// exact arithmetic but for ties within 2^-20 of a sub-pixel. half and center are multiples of 1/2 px.
+HS_INLINE Int snap(Real x, Real w, Real inv_w, float half, float center) {
+  const Real half_sub(half * static_cast<float>(kSubPixels));
+  const Real center_sub(center * static_cast<float>(kSubPixels));
+  const Real quotient = x * inv_w;
+  const Real quotient_low = fma(-quotient, w, x) * inv_w;
+  const Real scaled = quotient * half_sub;
+  const Real scaled_low = fma(quotient, half_sub, -scaled);
+  const Real sum = scaled + center_sub;
+  const Real back = sum - scaled;
+  const Real sum_low = (scaled - (sum - back)) + (center_sub - back);        // Knuth's two-sum
+  const Real whole = clamp(round_even(sum), Real(-0x1p24f), Real(0x1p24f));  // only matters beyond the guard band
+  const Real rest = clamp((sum - whole) + (sum_low + fma(quotient_low, half_sub, scaled_low)), Real(-2.0f), Real(2.0f));
+  return round_to_int(whole) + round_to_int(rest);
+}
+
+HS_INLINE Int bit(Mask m, Outcode code) { return select(m, Int(code), Int(0)); }
+
+HS_INLINE Int outcode(const Viewport& v, const DepthState& depth, Real x, Real y, Real z, Real w) {
+  const Real zero(0.0f);
+  const Mask finite = (x - x == zero) & (y - y == zero) & (z - z == zero) & (w - w == zero);
+  const Real z_low = depth.clip == ClipDepth::negative_one_to_one ? -w : zero;
+  // fma: the sign of x − guard·w must be the exact one, which the clip stage sees too. Were a vertex inside here and
+  // outside there, one of two neighbours would be cut at it and the other not.
+  const Mask inside_guard = (fma(w, Real(-v.guard_left), x) >= zero) && (fma(w, Real(-v.guard_right), x) <= zero) &&
+                            (fma(w, Real(-v.guard_bottom), y) >= zero) && (fma(w, Real(-v.guard_top), y) <= zero) && (w >= Real(kMinW));
+  Int code = bit(x < -w, kOutLeft) | bit(x > w, kOutRight) | bit(y < -w, kOutBottom) | bit(y > w, kOutTop);
+  if (!depth.clamp) code = code | bit(z < z_low, kOutNear) | bit(z > w, kOutFar);
+  return code | bit(!inside_guard, kOutGuard) | bit(!finite, kOutNonFinite);
+}
+
+// Clip space → window and outcodes, for the vertices whose clip positions are in the rows of `clip`. Gives the outcodes' union.
+Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* screen, Outcode* outcodes) {
+  const Viewport& v = draw.viewport;
+  Int any(0);
+  for (int begin = 0; begin < count; begin += kLanes) {
+    const Real x = load<Real>(clip + begin);
+    const Real y = load<Real>(clip + kVertexBatch + begin);
+    const Real z = load<Real>(clip + 2 * kVertexBatch + begin);
+    const Real w = load<Real>(clip + 3 * kVertexBatch + begin);
+    const Int code = outcode(v, draw.state.depth, x, y, z, w);
+    const Real inv_w = Real(1.0f) / w;
+    const Int x_fixed = snap(x, w, inv_w, v.half_width, v.center_x);
+    const Int y_fixed = snap(y, w, inv_w, v.half_height, v.center_y);
+    // The bound only matters with depth clamp, where z/w may overflow.
+    const Real z_window = clamp(fma(z * inv_w, Real(v.depth_scale), Real(v.depth_bias)), Real(-1e30f), Real(1e30f));
+    const int rest = std::min(kLanes, count - begin);
+    static_assert(sizeof(ScreenVertex) == 16 && offsetof(ScreenVertex, z) == 8);
+    ScreenVertex spare;
+    store_fours<Int>({x_fixed, y_fixed, as_int(z_window), as_int(inv_w)}, [&](int k) { return k < rest ? &screen[begin + k] : &spare; });
+    alignas(64) std::array<int32_t, kLanes> codes;
+    store(codes.data(), code);
+    std::array<Outcode, kLanes> narrow;
+    for (std::size_t k = 0; k < narrow.size(); ++k) narrow[k] = static_cast<Outcode>(codes[k]);
+    std::copy_n(narrow.begin(), rest, outcodes + begin);
+    any = any | select(first_lanes<Mask>(rest), code, Int(0));
+  }
+  Outcode all = 0;
+  for (int k = 0; k < kLanes; ++k) all |= static_cast<Outcode>(lane(any, k));
+  return all;
+}
+
+}  // namespace
+
+Viewport make_viewport(const Rect& r, const DepthState& depth) {
+  Viewport v{};
+  v.half_width = 0.5f * static_cast<float>(r.width);
+  v.half_height = 0.5f * static_cast<float>(r.height);
+  v.center_x = static_cast<float>(r.x) + v.half_width;
+  v.center_y = static_cast<float>(r.y) + v.half_height;
+  const float range = depth.range_far - depth.range_near;
+  const bool gl = depth.clip == ClipDepth::negative_one_to_one;
+  v.depth_scale = gl ? 0.5f * range : range;
+  v.depth_bias = gl ? 0.5f * (depth.range_near + depth.range_far) : depth.range_near;
+  v.guard_left = (-kGuardBand - v.center_x) / v.half_width;
+  v.guard_right = (kGuardBand - v.center_x) / v.half_width;
+  v.guard_bottom = (-kGuardBand - v.center_y) / v.half_height;
+  v.guard_top = (kGuardBand - v.center_y) / v.half_height;
+  return v;
+}
+
+void allocate_vertices(const Draw& draw, ShadedVertices& out) {
+  out.first = draw.indices->first_vertex();
+  out.count = draw.indices->end_vertex() - out.first;
+  out.varying_count = draw.kernels.varying_count;
+  const std::size_t n = out.count * std::size_t{draw.state.instances};
+  HS_CHECK_OP(n, <, std::size_t{1} << 32);
+  out.screen.reset(n);
+  out.outcodes.reset(n);
+  out.any_outcode = 0;
+  out.varyings.reset(n * static_cast<std::size_t>(out.varying_count) + kRowSlack);
+  out.clip_distance_count = draw.kernels.clip_distance_count;
+  out.clip_distances.reset(out.clip_distance_count == 0 ? nullptr : new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
+  out.sprites.reset(draws_points(draw.state) ? new SpriteRect[n] : nullptr);
+}
+
+Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
+  alignas(64) std::array<float, 4 * kVertexBatch> clip;
+  std::array<ScreenVertex, kVertexBatch> screen;
+  std::array<Outcode, kVertexBatch> outcodes;
+  alignas(64) std::array<float, kMostExtraRows * kVertexBatch> extra;
+  std::array<SpriteRect, kVertexBatch> sprites;
+  const std::span<const uint32_t> used = draw.indices->used();
+  const std::size_t per_instance = draw.indices->used_count();
+  StreamRoom room;
+  Outcode any = 0;
+  for (std::size_t b = begin; b < end;) {
+    const auto instance = static_cast<uint32_t>(b / per_instance);
+    const std::size_t local = b % per_instance;
+    const int count = static_cast<int>(std::min<std::size_t>(kVertexBatch, std::min(end - b, per_instance - local)));
+    b += static_cast<std::size_t>(count);
+    const uint32_t slot_base = out.first - instance * out.count;
+    const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
+    draw.kernels.vertex(draw.shader.get(),
+                        {at_instance(draw.vertices, instance, room), ids, out.first + static_cast<uint32_t>(local), count, slot_base,
+                         draw.state.base_vertex, static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
+    if (out.clip_distances) {
+      for (int i = 0; i < count; ++i) {
+        const uint32_t slot = (ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base;
+        for (int k = 0; k < out.clip_distance_count; ++k) {
+          const std::size_t at = std::size_t{slot} * static_cast<std::size_t>(out.clip_distance_count) + static_cast<std::size_t>(k);
+          out.clip_distances[at] = extra[static_cast<std::size_t>((k + 1) * kVertexBatch + i)];
+        }
+      }
+    }
+    if (ids == nullptr) {
+      const std::size_t slot = std::size_t{instance} * out.count + local;
+      ScreenVertex* to = out.screen.get() + slot;
+      Outcode* codes = out.outcodes.get() + slot;
+      any |= project(draw, clip.data(), count, to, codes);
+      if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, to, codes, out.sprites.get() + slot);
+      continue;
+    }
+    any |= project(draw, clip.data(), count, screen.data(), outcodes.data());
+    if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
+    for (int i = 0; i < count; ++i) {
+      if (out.sprites) out.sprites[ids[i] - slot_base] = sprites[static_cast<std::size_t>(i)];
+      out.screen[ids[i] - slot_base] = screen[static_cast<std::size_t>(i)];
+      out.outcodes[ids[i] - slot_base] = outcodes[static_cast<std::size_t>(i)];
+    }
+  }
+  return any;
+}
+
+}  // namespace halfspace

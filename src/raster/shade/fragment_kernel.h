@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A shader's fragment and visibility functions on the packets of a batch, two side by side.
+#pragma once
+
+#include <algorithm>
+
+#include "halfspace/raster/shade/packet_triangles.h"
+
+namespace halfspace::detail {
+
+/// A packet's pixels in the window, and where its shader looks.
+struct PacketPlace {
+  int x, y;                         ///< of its first pixel
+  const SamplePosition* centroids;  ///< where centroid varyings are looked up, one a lane; or null: where all are
+};
+/// The place of a batch's n-th packet, which is the tile's `packet`.
+template <class Batch>
+HS_INLINE PacketPlace place_of(const Batch& batch, int n, int packet) {
+  return {batch.tile_x0 + packet_x(packet), batch.tile_y0 + packet_y(packet),
+          batch.centroids == nullptr ? nullptr : batch.centroids + n * kLanes};
+}
+
+/// Sets up the Pixel of two packets and interpolates their varyings. at: where in their pixels; ids: what Pixel::z() reads.
+template <class S, std::size_t N, std::size_t P>
+HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::array<PacketPlace, 2>& places, const SamplePosition& at,
+                                                                    const PacketTriangles<N, P>& t,
+                                                                    const std::array<PacketTriangleIds, 2>& ids, Pixel<FragmentReal>& px) {
+  using R = FragmentReal;
+  using I = IntOf<R>;
+  using V = typename S::template Varyings<R>;
+  const I ix(lane_x() + places[0].x, lane_x() + places[1].x), iy(lane_y() + places[0].y, lane_y() + places[1].y);
+  const R x_sub = to_real<R>(ix * kSubPixels + at.x);
+  const R y_sub = to_real<R>(iy * kSubPixels + at.y);
+  px.dx = x_sub - t.lanes.x0;
+  px.dy = y_sub - t.lanes.y0;
+  px.triangle = &t.lanes;
+  px.component_lanes = &t.components;
+  px.weights = weights_at<kUsesLinear<V>>(t.lanes, px.dx, px.dy);
+  px.x = x_sub * R(1.0f / kSubPixels);
+  px.y = y_sub * R(1.0f / kSubPixels);
+  px.quad_x = to_real<R>(ix & I(1));
+  px.quad_y = to_real<R>(iy & I(1));
+  px.find_z = [](const Pixel<R>& pixel) {
+    const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(pixel.z_source);
+    return R(packet_depth(pixel.x.low, pixel.y.low, of[0]), packet_depth(pixel.x.high, pixel.y.high, of[1]));
+  };
+  px.z_source = &ids;
+  px.front_facing = t.front;
+  if constexpr (kUsesCentroid<typename S::template Varyings<float>>) {
+    if (places[0].centroids != nullptr) {
+      I cx(0), cy(0);
+      for (int i = 0; i < kWidthOf<R>; ++i) {
+        const SamplePosition& c = places[static_cast<std::size_t>(i / kLanes)].centroids[i % kLanes];
+        set_lane(cx, i, c.x);
+        set_lane(cy, i, c.y);
+      }
+      const Weights<R> inside =
+          weights_at(t.lanes, to_real<R>(ix * kSubPixels + cx) - t.lanes.x0, to_real<R>(iy * kSubPixels + cy) - t.lanes.y0);
+      return interpolate_all<V>(px.weights, inside, t.components, std::make_index_sequence<N>());
+    }
+  }
+  return interpolate_all<V>(px.weights, t.components, std::make_index_sequence<N>());
+}
+
+template <class S>
+HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) {
+  using R = FragmentReal;
+  using V = typename S::template Varyings<R>;
+  using F = typename S::template Varyings<float>;
+  using P = PrimitiveOf<S, R>;
+  constexpr std::size_t n = kComponents<V>;
+  constexpr std::size_t p = HasPrimitive<S> ? kComponents<P> : 0;
+  const S& s = *static_cast<const S*>(shader);
+  if constexpr (kIsConstant<S>) {
+    const auto fragment = s.fragment(typename S::template Varyings<Real>{});
+    for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
+      const vec4<Real>& color = nth_color(fragment.color, n_color);
+      for (int i = 0; i < batch.count; ++i) {
+        batch.out->packet_color(n_color, static_cast<std::size_t>(i)) = {color.x, color.y, color.z, color.w};
+      }
+    }
+    return;
+  }
+  PacketTriangles<n, p> triangles;
+  RecentTriangles<F> recent;
+  for (int first = 0; first < batch.count; first += 2) {
+    const int second = std::min(first + 1, batch.count - 1);  // the last of an odd number is shaded twice
+    const PacketMask a = batch.packets[first], b = batch.packets[second];
+    find_triangles<0>(batch, a, recent, triangles);
+    find_triangles<1>(batch, b, recent, triangles);
+    const auto ids_of = [&](PacketMask packet) {
+      const TriangleId* ids = batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
+      return PacketTriangleIds{batch.frame, ids, batch.uniform_id, packet.lanes};
+    };
+    const std::array<PacketTriangleIds, 2> ids{ids_of(a), ids_of(b)};
+    Pixel<R> px;
+    const V in =
+        begin_packets<S>({place_of(batch, first, a.packet), place_of(batch, second, b.packet)}, batch.position, triangles, ids, px);
+    P face{};
+    if constexpr (p != 0) face = from_components<P, R>(triangles.primitive);
+    const auto fragment = call_fragment<S, R>(s, in, face, px);
+    const auto i = static_cast<std::size_t>(first);
+    for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
+      const vec4<R>& color = nth_color(fragment.color, n_color);
+      batch.out->packet_color(n_color, i) = {color.x.low, color.y.low, color.z.low, color.w.low};
+      batch.out->packet_color(n_color, i + 1) = {color.x.high, color.y.high, color.z.high, color.w.high};
+    }
+    if constexpr (kDiscards<S>) {
+      batch.out->keep[i] = static_cast<uint16_t>(bits(fragment.keep.low));
+      batch.out->keep[i + 1] = static_cast<uint16_t>(bits(fragment.keep.high));
+    }
+    if constexpr (kWritesDepth<S>) {
+      batch.out->depth[i] = fragment.depth.low;
+      batch.out->depth[i + 1] = fragment.depth.high;
+    }
+  }
+}
+
+template <class S>
+HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
+  using R = FragmentReal;
+  using V = typename S::template Varyings<R>;
+  using F = typename S::template Varyings<float>;
+  PacketTriangles<kComponents<V>, 0> triangles;
+  const TriangleScalars<kComponents<V>> scalars = scalars_of<F>(*batch.frame, batch.id);
+  spread_triangle<0>(scalars, triangles);
+  spread_triangle<1>(scalars, triangles);
+  const PacketTriangleIds id{batch.frame, nullptr, batch.id, kAllBits<Mask>};
+  const std::array<PacketTriangleIds, 2> ids{id, id};
+  for (int first = 0; first < batch.count; first += 2) {
+    const int second = std::min(first + 1, batch.count - 1);
+    const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
+    Pixel<R> px;
+    const V in = begin_packets<S>({place_of(batch, first, batch.packets[a]), place_of(batch, second, batch.packets[b])}, batch.position,
+                                  triangles, ids, px);
+    const Visibility<R> v = static_cast<const S*>(shader)->visibility(in, px);
+    if constexpr (kWritesDepth<S>) {
+      batch.depth[a] = v.depth.low;
+      batch.depth[b] = v.depth.high;
+    }
+    const uint32_t low = bits(v.keep.low), high = bits(v.keep.high);
+    batch.lanes[a] &= low;
+    batch.lanes[b] &= high;
+  }
+}
+
+}  // namespace halfspace::detail

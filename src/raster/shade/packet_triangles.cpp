@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/shade/packet_triangles.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "halfspace/raster/pipeline/lane_order.h"
+#include "halfspace/raster/pipeline/triangle_lanes.h"
+#include "halfspace/raster/primitives/point_sprite.h"
+
+namespace halfspace {
+
+namespace {
+
+// The vertices of what is clipped, a point or a line.
+void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, const Draw& draw, TriangleSource& s) {
+  const Triangle& t = *s.triangle;
+  for (std::size_t i = 0; i < (t.is(kLine) ? 2u : 3u); ++i) {
+    if (t.is(kClipped)) {
+      const ClipVertex& v = chunk.clip_vertices[t.vertex[i]];
+      s.vertex[i] = &v.screen;
+      s.varyings[i] = chunk.clip_varyings.data() + v.first_varying;
+    } else {
+      const ShadedVertices& shaded = frame.shaded[segment.draw];
+      s.vertex[i] = &shaded.screen[t.vertex[i]];
+      s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
+    }
+  }
+  if (t.is(kSprite)) {
+    s.corners = sprite_corners(t, *s.vertex[0], draw.state.point_origin);
+    for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
+  }
+  if (t.is(kLine)) {  // the third corner lies beside the first and has its values
+    s.corners[2] = {t.x[2], t.y[2], s.vertex[0]->z, s.vertex[0]->inv_w};
+    s.vertex[2] = &s.corners[2];
+    s.varyings[2] = s.varyings[0];
+    s.z_low = std::clamp(t.z0, draw.depth_low, draw.depth_high);
+  }
+}
+
+// Lane by lane the triangle of ids; where `lanes` has none, the first that there is.
+std::array<const Triangle*, kLanes> triangles_of(const Frame& frame, const TriangleId* ids, uint32_t lanes) {
+  const TriangleId first = ids[std::countr_zero(lanes)];
+  std::array<const Triangle*, kLanes> triangles;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : first;
+    triangles[i] = &frame.chunks[id >> 16].triangles[id & 0xffff];
+  }
+  return triangles;
+}
+
+void find_primitives(const Frame& frame, const TriangleId* ids, uint32_t lanes, const Draw& draw, TriangleRows& rows) {
+  const auto length = static_cast<std::size_t>(draw.kernels.primitive_count);
+  if (length == 0) return;
+  for (std::size_t i = 0; i < rows.primitive.size(); ++i) {
+    const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : ids[std::countr_zero(lanes)];
+    const Chunk& chunk = frame.chunks[id >> 16];
+    const uint32_t index = id & 0xffff;
+    const Segment& segment = chunk.segments[chunk.triangles[index].segment()];
+    rows.primitive[i] = chunk.primitives.data() + segment.first_primitive + (index - segment.first_triangle) * length;
+  }
+}
+
+}  // namespace
+
+void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
+  const Chunk& chunk = frame.chunks[id >> 16];
+  const uint32_t index = id & 0xffff;
+  const Triangle& t = chunk.triangles[index];
+  const Segment& segment = chunk.segments[t.segment()];
+  const Draw& draw = frame.draws[segment.draw];
+  s.triangle = &t;
+  s.primitive = nullptr;
+  s.z_low = draw.depth_low;
+  if (t.is(kClipped | kSprite | kLine)) {
+    find_rare(frame, chunk, segment, draw, s);
+  } else {
+    const ShadedVertices& shaded = frame.shaded[segment.draw];
+    for (std::size_t i = 0; i < 3; ++i) {
+      s.vertex[i] = &shaded.screen[t.vertex[i]];
+      s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
+    }
+  }
+  s.flat_varyings = s.varyings[t.provoking()];
+  if (draw.kernels.primitive_count != 0) {
+    const std::size_t row = index - segment.first_triangle;
+    s.primitive = chunk.primitives.data() + segment.first_primitive + row * static_cast<std::size_t>(draw.kernels.primitive_count);
+  }
+}
+
+Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) {
+  const Real x_sub = x * Real(kSubPixels), y_sub = y * Real(kSubPixels);
+  Real z(0.0f);
+  for (uint32_t rest = packet.lanes; rest != 0;) {
+    const TriangleId id = packet.ids == nullptr ? packet.uniform_id : packet.ids[std::countr_zero(rest)];
+    const Mask shows = packet.ids == nullptr ? Mask(true) : load<Int>(packet.ids) == Int(std::bit_cast<int32_t>(id));
+    rest &= ~bits(shows);
+    TriangleSource source;
+    find_triangle(*packet.frame, id, source);
+    const Triangle& t = *source.triangle;
+    const auto edge = [](int32_t to, int32_t from) { return Real(static_cast<float>(to - from)); };
+    const Real dx = x_sub - Real(static_cast<float>(t.x[0])), dy = y_sub - Real(static_cast<float>(t.y[0]));
+    const Real e1 = difference_of_products(dx, edge(t.y[2], t.y[0]), dy, edge(t.x[2], t.x[0]));
+    const Real e2 = difference_of_products(edge(t.x[1], t.x[0]), dy, edge(t.y[1], t.y[0]), dx);
+    const float z_high = clamp(t.z_max, draw_of(*packet.frame, id).depth_low, draw_of(*packet.frame, id).depth_high);
+    z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(source.z_low), Real(z_high)), z);
+  }
+  return z;
+}
+
+bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
+                 TriangleRows& rows) {
+  const Draw& draw = draw_of(frame, ids[std::countr_zero(lanes)]);
+  const ShadedVertices& shaded = frame.shaded[static_cast<std::size_t>(&draw - frame.draws.data())];
+  if (!can_gather(shaded, draw)) return false;
+  const std::array<const Triangle*, kLanes> at = triangles_of(frame, ids, lanes);
+  const auto triangle = [&](int k) { return at[static_cast<std::size_t>(k)]; };
+  const std::array<Int, 4> ends = load_vertices_and_flags(triangle);
+  const Int flags = ends[3];
+  if (any((flags & Int(static_cast<int32_t>(kClipped | kSprite | kLine))) != Int(0))) return false;
+  find_primitives(frame, ids, lanes, draw, rows);
+  rows.varyings = shaded.varyings.get();
+  rows.row = {ends[0], ends[1], ends[2]};
+  const Int provoking = (flags >> static_cast<int>(kProvokingShift)) & 3;
+  rows.provoking_row = select(provoking == Int(0), ends[0], select(provoking == Int(1), ends[1], ends[2]));
+  front = (flags & Int(static_cast<int32_t>(kFrontFacing))) != Int(0);
+  static_assert(sizeof(ScreenVertex) == 4 * sizeof(float));
+  std::array<Int, 3> x, y;
+  std::array<Real, 3> q;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::array<int32_t, kLanes> vertex;
+    store(vertex.data(), rows.row[k]);
+    const auto words =
+        load_fours<Int>([&](int lane) { return &shaded.screen[static_cast<std::size_t>(vertex[static_cast<std::size_t>(lane)])]; });
+    x[k] = words[0];
+    y[k] = words[1];
+    q[k] = as_real(words[3]);
+  }
+  // Vertex 0 is the one with the smallest 1/w, the first of equals, as in triangle_scalars.
+  const Mask two = (q[2] < q[0]) & (q[2] < q[1]), one = (q[1] < q[0]) & !two;
+  rotate_lanes(one, two, x);
+  rotate_lanes(one, two, y);
+  rotate_lanes(one, two, q);
+  rotate_lanes(one, two, rows.row);
+  const detail::ScaledInverseW<Real> w = detail::scaled(q[0], q[1], q[2]);
+  const auto real = [](Int i) { return to_real<Real>(i); };
+  triangles = {real(x[0]), real(y[0]), real(x[1] - x[0]), real(y[1] - y[0]), real(x[2] - x[0]), real(y[2] - y[0]), Real(0.0f), w.q0,
+               w.q1,       w.q2,       w.unscale};
+  triangles.area = difference_of_products(triangles.e1x, triangles.e2y, triangles.e1y, triangles.e2x);
+  return true;
+}
+
+}  // namespace halfspace

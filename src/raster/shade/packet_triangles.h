@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The triangles of packets. A packet may show one triangle, a few, or a different one in every lane: the values of each are merged into the
+// lanes that show it, or gathered, so that a shader runs once.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+
+#include "halfspace/core/lane_pairs.h"
+#include "halfspace/core/transpose.h"
+#include "halfspace/raster/shade/shade.h"
+#include "halfspace/shading/contract.h"
+
+namespace halfspace {
+
+/// What the kernels read of one triangle, wherever it is kept.
+struct TriangleSource {
+  const Triangle* triangle;
+  std::array<const ScreenVertex*, 3> vertex;
+  std::array<ScreenVertex, 3> corners;  ///< what vertex points to, of points and lines
+  std::array<const float*, 3> varyings;
+  const float* flat_varyings;  ///< the provoking vertex's row
+  const float* primitive;      ///< the primitive stage's row, or null
+  float z_low;                 ///< the least depth in the window
+};
+void find_triangle(const Frame& frame, TriangleId id, TriangleSource& out);
+
+/// What the kernels read where each lane may show another triangle: which rows of the draw's varyings.
+struct TriangleRows {
+  const float* varyings;
+  std::array<Int, 3> row;  ///< of the vertices, in the order of TriangleLanes
+  Int provoking_row;
+  std::array<const float*, kLanes> primitive;  ///< the primitive stage's rows
+};
+/// Gathers the triangles of `lanes` (not empty; all of one draw); other lanes repeat the first. False, and nothing is said, if
+/// one of them is clipped, a point or a line, or the draw has too many vertices for gathers.
+bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
+                 TriangleRows& rows);
+
+/// Where Pixel::z() of a packet looks: the triangles of `lanes`.
+struct PacketTriangleIds {
+  const Frame* frame;
+  const TriangleId* ids;  ///< or null: uniform_id everywhere
+  TriangleId uniform_id;
+  uint32_t lanes;
+};
+/// The window depth of a packet's pixels, at x and y px in the window, within an ulp of what the visibility stage tested.
+Real packet_depth(Real x, Real y, const PacketTriangleIds& ids);
+
+namespace detail {
+
+/// 1/w of three vertices over a power of two near the largest: products with areas up to 2^47 then neither overflow nor underflow.
+template <class R>
+struct ScaledInverseW {
+  R q0, q1, q2, unscale;
+};
+template <class R>
+HS_INLINE ScaledInverseW<R> scaled(R q0, R q1, R q2) {
+  const IntOf<R> exponent = as_int(max(q0, max(q1, q2))) & 0x7f800000;
+  const R scale = as_real(IntOf<R>(0x7f000000) - exponent);  // 2^(127 − e) for the largest in [2^(e−127), 2^(e−126))
+  return {q0 * scale, q1 * scale, q2 * scale, as_real(exponent)};
+}
+
+/// What interpolation needs of one triangle, before it is spread to lanes. Vertex 0 is the one with the smallest 1/w.
+template <std::size_t N>
+struct TriangleScalars {
+  float x0, y0, e1x, e1y, e2x, e2y, area, q0, q1, q2, q_unscale;
+  std::array<float, N> value0, delta1, delta2;
+  const float* primitive;  ///< the primitive stage's row, or null
+  bool front;
+};
+
+/// V is the Varyings struct with R = float, which tells how each component is interpolated.
+template <class V, std::size_t N = kComponents<V>>
+HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
+  std::size_t a = 0;
+  if (s.vertex[1]->inv_w < s.vertex[a]->inv_w) a = 1;
+  if (s.vertex[2]->inv_w < s.vertex[a]->inv_w) a = 2;
+  const std::size_t b = a == 2 ? 0 : a + 1;
+  const std::size_t c = b == 2 ? 0 : b + 1;
+  const ScreenVertex &v0 = *s.vertex[a], &v1 = *s.vertex[b], &v2 = *s.vertex[c];
+  TriangleScalars<N> r;
+  r.x0 = static_cast<float>(v0.x);
+  r.y0 = static_cast<float>(v0.y);
+  r.e1x = static_cast<float>(v1.x - v0.x);
+  r.e1y = static_cast<float>(v1.y - v0.y);
+  r.e2x = static_cast<float>(v2.x - v0.x);
+  r.e2y = static_cast<float>(v2.y - v0.y);
+  r.area = difference_of_products(r.e1x, r.e2y, r.e1y, r.e2x);
+  const ScaledInverseW<float> q = scaled(v0.inv_w, v1.inv_w, v2.inv_w);
+  r.q_unscale = q.unscale;
+  r.q0 = q.q0;
+  r.q1 = q.q1;
+  r.q2 = q.q2;
+  for (std::size_t i = 0; i < N; ++i) {
+    const bool flat = kInterpolations<V>[i] == Interpolation::flat;
+    r.value0[i] = flat ? s.flat_varyings[i] : s.varyings[a][i];
+    r.delta1[i] = flat ? 0.0f : s.varyings[b][i] - s.varyings[a][i];
+    r.delta2[i] = flat ? 0.0f : s.varyings[c][i] - s.varyings[a][i];
+  }
+  r.primitive = s.primitive;
+  r.front = s.triangle->is(kFrontFacing);
+  return r;
+}
+
+template <class V>
+HS_INLINE TriangleScalars<kComponents<V>> scalars_of(const Frame& frame, TriangleId id) {
+  TriangleSource source;
+  find_triangle(frame, id, source);
+  return triangle_scalars<V>(source);
+}
+
+/// The scalars of the triangles that were asked for last: neighbouring packets show the same ones.
+template <class V>
+class RecentTriangles {
+ public:
+  /// What the call before gave is left as it is.
+  HS_INLINE const TriangleScalars<kComponents<V>>& of(const Frame& frame, TriangleId id) {
+    uint32_t same = 0;
+    for (std::size_t i = 0; i < kMost; i += kLanes) same |= bits(load<Int>(&ids_[i]) == Int(std::bit_cast<int32_t>(id))) << i;
+    same &= ~(1u << next_);  // the call before may have given that
+    return same != 0 ? scalars_[static_cast<std::size_t>(std::countr_zero(same))] : add(frame, id);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16;
+  static constexpr std::array<TriangleId, kMost> kNone = [] {
+    std::array<TriangleId, kMost> none;
+    none.fill(kNoTriangle);
+    return none;
+  }();
+
+  __attribute__((noinline)) const TriangleScalars<kComponents<V>>& add(const Frame& frame, TriangleId id) {
+    const std::size_t place = next_;
+    next_ = (next_ + 1) % kMost;
+    ids_[place] = id;
+    return scalars_[place] = scalars_of<V>(frame, id);
+  }
+
+  std::array<TriangleId, kMost> ids_ = kNone;
+  std::array<TriangleScalars<kComponents<V>>, kMost> scalars_;
+  std::size_t next_ = 0;  ///< place of the next to be added
+};
+
+/// Everything two packets need of their triangles, lane by lane. P: components of the primitive stage's struct.
+template <std::size_t N, std::size_t P>
+struct PacketTriangles {
+  std::array<TriangleId, 2> only{kNoTriangle, kNoTriangle};  ///< where all lanes of a packet show one triangle, that
+  TriangleLanes<FragmentReal> lanes;
+  ComponentLanes<FragmentReal, N> components;
+  std::array<FragmentReal, P> primitive;
+  MaskOf<FragmentReal> front;
+};
+
+/// Calls put(lanes of packet i, which member of a struct with the same members they come from) for all.
+template <int i, class F>
+HS_INLINE void for_each_corner_value(TriangleLanes<FragmentReal>& t, F put) {
+  put(half<i>(t.x0), [](const auto& s) { return s.x0; });
+  put(half<i>(t.y0), [](const auto& s) { return s.y0; });
+  put(half<i>(t.e1x), [](const auto& s) { return s.e1x; });
+  put(half<i>(t.e1y), [](const auto& s) { return s.e1y; });
+  put(half<i>(t.e2x), [](const auto& s) { return s.e2x; });
+  put(half<i>(t.e2y), [](const auto& s) { return s.e2y; });
+  put(half<i>(t.area), [](const auto& s) { return s.area; });
+  put(half<i>(t.q0), [](const auto& s) { return s.q0; });
+  put(half<i>(t.q1), [](const auto& s) { return s.q1; });
+  put(half<i>(t.q2), [](const auto& s) { return s.q2; });
+  put(half<i>(t.q_unscale), [](const auto& s) { return s.q_unscale; });
+}
+
+/// The same for all of a TriangleScalars.
+template <int i, std::size_t N, std::size_t P, class F>
+HS_INLINE void for_each_value(PacketTriangles<N, P>& t, F put) {
+  using S = TriangleScalars<N>;
+  for_each_corner_value<i>(t.lanes, put);
+  for (std::size_t k = 0; k < N; ++k) {
+    put(half<i>(t.components.value0[k]), [k](const S& s) { return s.value0[k]; });
+    put(half<i>(t.components.delta1[k]), [k](const S& s) { return s.delta1[k]; });
+    put(half<i>(t.components.delta2[k]), [k](const S& s) { return s.delta2[k]; });
+  }
+  for (std::size_t k = 0; k < P; ++k) put(half<i>(t.primitive[k]), [k](const S& s) { return s.primitive[k]; });
+}
+
+/// One triangle's values to all lanes of packet i.
+template <int i, std::size_t N, std::size_t P>
+HS_INLINE void spread_triangle(const TriangleScalars<N>& s, PacketTriangles<N, P>& out) {
+  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = Real(value(s)); });
+  half<i>(out.front) = Mask(s.front);
+}
+
+/// Two triangles' values to packet i: the second's to the lanes that show it, the first's to all others, so that lanes without a triangle
+/// compute with finite values.
+template <int i, std::size_t N, std::size_t P>
+HS_INLINE void merge_two(const TriangleScalars<N>& first, const TriangleScalars<N>& second, Mask shows_second, PacketTriangles<N, P>& out) {
+  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows_second, Real(value(second)), Real(value(first))); });
+  half<i>(out.front) = select(shows_second, Mask(second.front), Mask(first.front));
+}
+
+/// One more triangle's values to the lanes of packet i that show it.
+template <int i, std::size_t N, std::size_t P>
+HS_INLINE void add_triangle(const TriangleScalars<N>& s, Mask shows, PacketTriangles<N, P>& out) {
+  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows, Real(value(s)), lanes); });
+  Mask& front = half<i>(out.front);
+  front = select(shows, Mask(s.front), front);
+}
+
+/// Of up to four components of the rows that begin at `at`, from k on, those that are flat, or those that are not. The others mean nothing.
+template <class V, std::size_t k, bool flat>
+HS_INLINE std::array<Real, 4> row_components(const float* varyings, Int at) {
+  constexpr std::size_t count = std::min<std::size_t>(4, kComponents<V> - k);
+  constexpr auto is_asked = [](std::size_t c) { return (kInterpolations<V>[k + c] == Interpolation::flat) == flat; };
+  constexpr std::size_t asked = [is_asked] {
+    std::size_t n = 0;
+    for (std::size_t c = 0; c < count; ++c) n += is_asked(c) ? 1 : 0;
+    return n;
+  }();
+  std::array<Real, 4> row{};
+  if constexpr (asked > 1) {
+    std::ranges::copy(gather_row<static_cast<int>(count)>(varyings + k, at), row.begin());
+  } else {
+    for (std::size_t c = 0; c < count; ++c) {
+      if (is_asked(c)) row[c] = gather(varyings + k + c, at);
+    }
+  }
+  return row;
+}
+
+/// The components of rows, gathered into packet i.
+template <int i, class V, std::size_t N, std::size_t P>
+HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>& out) {
+  const auto gather_four = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
+    const auto smooth = [&](Int row) { return row_components<V, k, false>(rows.varyings, row * static_cast<int32_t>(N)); };
+    const auto v0 = smooth(rows.row[0]), v1 = smooth(rows.row[1]), v2 = smooth(rows.row[2]);
+    const auto held = row_components<V, k, true>(rows.varyings, rows.provoking_row * static_cast<int32_t>(N));
+    for (std::size_t c = 0; c < std::min<std::size_t>(4, N - k); ++c) {
+      const bool flat = kInterpolations<V>[k + c] == Interpolation::flat;
+      half<i>(out.components.value0[k + c]) = flat ? held[c] : v0[c];
+      half<i>(out.components.delta1[k + c]) = flat ? Real(0.0f) : v1[c] - v0[c];
+      half<i>(out.components.delta2[k + c]) = flat ? Real(0.0f) : v2[c] - v0[c];
+    }
+  };
+  const auto gather_all = [&]<std::size_t... n>(std::index_sequence<n...>) {
+    (gather_four(std::integral_constant<std::size_t, 4 * n>{}), ...);
+  };
+  gather_all(std::make_index_sequence<(N + 3) / 4>());
+  for (std::size_t k = 0; k < P; ++k) {
+    for (int lane = 0; lane < kLanes; ++lane) set_lane(half<i>(out.primitive[k]), lane, rows.primitive[static_cast<std::size_t>(lane)][k]);
+  }
+}
+
+/// Of the lanes (a bit each) those whose triangle no lower one shows; beyond `most` of them any may be left out.
+template <class I>
+HS_INLINE uint32_t first_lanes(I packet_ids, const TriangleId* ids, uint32_t lanes, int most) {
+#ifdef __AVX512CD__
+  if constexpr (std::is_same_v<I, IntN<16>>) {
+    const __m512i equal_before = _mm512_maskz_conflict_epi32(kAll16, (__m512i)packet_ids.v);
+    return lanes & _mm512_testn_epi32_mask(equal_before, _mm512_set1_epi32(static_cast<int32_t>(lanes)));
+  }
+#endif
+  uint32_t firsts = 0;
+  for (uint32_t rest = lanes; rest != 0 && most > 0; --most) {
+    const int lane = std::countr_zero(rest);
+    firsts |= 1u << lane;
+    rest &= ~bits(packet_ids == I(std::bit_cast<int32_t>(ids[lane])));
+  }
+  return firsts;
+}
+
+/// Triangles of a packet from which on they are gathered, not merged.
+inline constexpr int kGatherFrom = 3;
+
+/// The triangles of packet i one after the other, where gather_rows refuses them. firsts: a lane of each.
+template <int i, class V, std::size_t N, std::size_t P>
+__attribute__((noinline)) void merge_many(const Frame& frame, const TriangleId* ids, uint32_t firsts, RecentTriangles<V>& recent,
+                                          PacketTriangles<N, P>& t) {
+  const Int packet_ids = load<Int>(ids);
+  spread_triangle<i>(recent.of(frame, ids[std::countr_zero(firsts)]), t);
+  for (uint32_t rest = firsts & (firsts - 1); rest != 0; rest &= rest - 1) {
+    const TriangleId id = ids[std::countr_zero(rest)];
+    add_triangle<i>(recent.of(frame, id), packet_ids == Int(std::bit_cast<int32_t>(id)), t);
+  }
+}
+
+/// The triangles of a packet, the i-th of t: one, two or many. t.only[i] is the one that t holds already, if it holds one alone.
+template <int i, class V, std::size_t N, std::size_t P>
+HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V>& recent, PacketTriangles<N, P>& t) {
+  TriangleId& only = t.only[i];
+  const Frame& frame = *batch.frame;
+  if (batch.ids == nullptr) {
+    if (only != batch.uniform_id) spread_triangle<i>(recent.of(frame, batch.uniform_id), t);
+    only = batch.uniform_id;
+    return;
+  }
+  const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
+  const Int packet_ids = load<Int>(ids);
+  const uint32_t firsts = first_lanes(packet_ids, ids, packet.lanes, kGatherFrom);
+  const TriangleId first = ids[std::countr_zero(firsts)];
+  const int triangles = std::popcount(firsts);
+  if (triangles == 1 && only == first) return;
+  only = triangles == 1 ? first : kNoTriangle;
+  if (triangles < kGatherFrom) {
+    const TriangleScalars<N>& a = recent.of(frame, first);
+    if (triangles == 1) return spread_triangle<i>(a, t);
+    const TriangleId second = ids[std::countr_zero(firsts & (firsts - 1))];
+    return merge_two<i>(a, recent.of(frame, second), packet_ids == Int(std::bit_cast<int32_t>(second)), t);
+  }
+  TriangleRows rows;
+  TriangleLanes<Real> lanes;
+  if (gather_rows(frame, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
+    for_each_corner_value<i>(t.lanes, [&](Real& to, auto value) { to = value(lanes); });
+    return gather_components<i, V>(rows, t);
+  }
+  merge_many<i>(frame, ids, first_lanes(packet_ids, ids, packet.lanes, kLanes), recent, t);
+}
+
+}  // namespace detail
+
+}  // namespace halfspace

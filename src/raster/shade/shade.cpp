@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/shade/shade.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "halfspace/raster/tile/blend.h"
+#include "halfspace/raster/visibility/centroid.h"
+
+namespace halfspace {
+
+void constant_colors(const Draw& draw, FragmentOutput& out) {
+  draw.kernels.fragment(draw.shader.get(), {.frame = nullptr,
+                                            .tile_x0 = 0,
+                                            .tile_y0 = 0,
+                                            .position = {},
+                                            .ids = nullptr,
+                                            .uniform_id = kNoTriangle,
+                                            .packets = nullptr,
+                                            .count = 1,
+                                            .centroids = nullptr,
+                                            .out = &out});
+}
+
+void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile) {
+  const PacketColor* second = &out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);
+  for (int n = 0; n < std::min(tile.color_count, draw.kernels.color_count); ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    if (tile.color[at].format == ColorFormat::none) continue;
+    write_batch(tile.color[at], packets, &out.packet_color(at, i), second, {blend_of(draw.state, at), color_mask_of(draw.state, at)});
+  }
+}
+
+namespace {
+
+// One packet's pixels of one draw.
+struct Work {
+  const Draw* draw;
+  PacketMask packet;
+};
+
+// Which of the pixels that wait are shaded: those of draws that are shaded for each sample, or the others.
+enum class Share : uint8_t { per_pixel, per_sample };
+
+// The triangles of a cell of pixels that wait, and where they go.
+struct Job {
+  const TriangleId* ids;  // by packet of the tile's room
+  SampleCell cell;
+  SamplePosition position;
+  Share share;
+};
+
+bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
+
+// The pixels that wait, packet by packet; a packet that shows several draws appears once for each.
+int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<Work, kMaxTilePixels>& work) {
+  int count = 0;
+  const bool whole = tile.size == kMaxTileSize;
+  const int shift = packet_shift(job.cell);
+  const Draw* only_draw =
+      frame.draws.size() == 1 && !frame.draws[0].shades_samples && job.share == Share::per_pixel ? &frame.draws[0] : nullptr;
+  for (int pixels = 0; pixels < kPackets; ++pixels) {
+    if (!whole && !is_in_cell(tile, pixels)) continue;
+    const int p = pixels + shift;
+    const TriangleId* ids = job.ids + static_cast<std::size_t>(p) * kLanes;
+    const Int packet_ids = load<Int>(ids);
+    uint32_t rest = bits(packet_ids != Int(std::bit_cast<int32_t>(kNoTriangle)));
+    const int first = count;
+    if (rest != 0 && only_draw != nullptr) {
+      work[static_cast<std::size_t>(count++)] = {only_draw, {static_cast<uint16_t>(p), static_cast<uint16_t>(rest)}};
+      continue;
+    }
+    while (rest != 0) {
+      const TriangleId id = ids[std::countr_zero(rest)];
+      const uint32_t same = bits(packet_ids == Int(std::bit_cast<int32_t>(id)));
+      rest &= ~same;
+      const Draw* draw = &draw_of(frame, id);
+      if (draw->shades_samples != (job.share == Share::per_sample)) continue;
+      int i = first;
+      while (i < count && work[static_cast<std::size_t>(i)].draw != draw) ++i;
+      if (i == count) work[static_cast<std::size_t>(count++)] = {draw, {static_cast<uint16_t>(p), 0}};
+      Work& w = work[static_cast<std::size_t>(i)];
+      w.packet.lanes = static_cast<uint16_t>(w.packet.lanes | same);
+    }
+  }
+  return count;
+}
+
+// Writes what was shaded once for a pixel to all its samples that show the triangle it was shaded for.
+void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, const PacketMask& packet, const TriangleId* ids,
+                   Tile& tile) {
+  const Int shaded = load<Int>(ids + static_cast<std::size_t>(packet.packet) * kLanes);
+  for (int s = 0; s < tile.samples; ++s) {
+    const int sample_packet = packet.packet + packet_shift(sample_cell(tile.samples, s, tile.size));
+    const Mask shows = load<Int>(&tile.id[static_cast<std::size_t>(sample_packet) * kLanes]) == shaded;
+    const Mask mask = shows & mask_from_bits<Mask>(packet.lanes);
+    if (!any(mask)) continue;
+    const PacketMask sample{static_cast<uint16_t>(sample_packet), static_cast<uint16_t>(bits(mask))};
+    write_colors(draw, out, i, std::span(&sample, 1), tile);
+  }
+}
+
+void run_job(const Frame& frame, Tile& tile, const Job& job, PassStatistics& statistics) {
+  std::array<Work, kMaxTilePixels> work;
+  const int count = list_work(frame, tile, job, work);
+  // By draw, so that each shader runs on full batches; pixels are independent, so the order makes no difference.
+  const auto by_draw = [](const Work& a, const Work& b) { return a.draw < b.draw; };
+  if (!std::is_sorted(work.begin(), work.begin() + count, by_draw)) std::stable_sort(work.begin(), work.begin() + count, by_draw);
+  FragmentOutput out;
+  std::array<PacketMask, kFragmentBatch> packets;
+  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
+  for (int begin = 0; begin < count;) {
+    const Draw& draw = *work[static_cast<std::size_t>(begin)].draw;
+    int n = 0;
+    while (n < kFragmentBatch && begin + n < count && work[static_cast<std::size_t>(begin + n)].draw == &draw) {
+      packets[static_cast<std::size_t>(n)] = work[static_cast<std::size_t>(begin + n)].packet;
+      statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[static_cast<std::size_t>(n)].lanes));
+      ++n;
+    }
+    const bool looks_inside = draw.kernels.uses_centroid && tile.samples > 1 && job.share == Share::per_pixel;
+    for (std::size_t i = 0; looks_inside && i < static_cast<std::size_t>(n); ++i) {
+      const int p = packets[i].packet;
+      find_centroids(frame, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
+    }
+    draw.kernels.fragment(draw.shader.get(), {&frame, tile.x0 - job.cell.x, tile.y0 - job.cell.y, job.position, job.ids, kNoTriangle,
+                                              packets.data(), n, looks_inside ? centroids.data() : nullptr, &out});
+    if (job.share == Share::per_pixel && tile.samples > 1) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) write_samples(draw, out, i, packets[i], job.ids, tile);
+    } else {
+      write_colors(draw, out, 0, std::span(packets).first(static_cast<std::size_t>(n)), tile);
+    }
+    begin += n;
+  }
+}
+
+constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
+
+// Takes from the samples of each pixel one triangle that is still to be shaded, by its first sample; false if there is none.
+// taken: the samples whose triangle has had its turn, as bits.
+bool next_layer(const Frame& frame, const Tile& tile, std::array<uint8_t, kMaxTilePixels>& taken,
+                std::array<TriangleId, kMaxTilePixels>& layer) {
+  bool found = false;
+  for (int packet = 0; packet < kPackets; ++packet) {
+    if (!is_in_cell(tile, packet)) continue;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const auto pixel = static_cast<std::size_t>(packet * kLanes + lane);
+      layer[pixel] = kNoTriangle;
+      for (int s = 0; s < tile.samples; ++s) {
+        if ((taken[pixel] >> s & 1) != 0) continue;
+        const auto shift = static_cast<std::size_t>(packet_shift(sample_cell(tile.samples, s, tile.size))) * kLanes;
+        const TriangleId id = tile.id[pixel + shift];
+        const bool waits = id != kNoTriangle && (layer[pixel] == kNoTriangle ? !draw_of(frame, id).shades_samples : id == layer[pixel]);
+        if (waits) layer[pixel] = id;
+        if (waits || id == kNoTriangle) taken[pixel] = static_cast<uint8_t>(taken[pixel] | 1 << s);
+      }
+      found |= layer[pixel] != kNoTriangle;
+    }
+  }
+  return found;
+}
+
+void shade_deferred_samples(const Frame& frame, Tile& tile, PassStatistics& statistics) {
+  for (int s = 0; s < tile.samples; ++s) {
+    run_job(frame, tile, {tile.id.data(), sample_cell(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample},
+            statistics);
+  }
+  std::array<uint8_t, kMaxTilePixels> taken{};
+  std::array<TriangleId, kMaxTilePixels> layer;
+  while (next_layer(frame, tile, taken, layer)) {
+    run_job(frame, tile, {layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, statistics);
+  }
+}
+
+}  // namespace
+
+void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatistics& statistics) {
+  const Draw& draw = draw_of(frame, id);
+  statistics.fragments_shaded += kMaxTilePixels;
+  FragmentOutput out;
+  std::array<PacketMask, kFragmentBatch> packets;
+  for (int first = 0; first < kPackets; first += kFragmentBatch) {
+    for (int i = 0; i < kFragmentBatch; ++i)
+      packets[static_cast<std::size_t>(i)] = {static_cast<uint16_t>(first + i), static_cast<uint16_t>(kAllBits<Mask>)};
+    draw.kernels.fragment(draw.shader.get(),
+                          {&frame, tile.x0, tile.y0, kPixelCenter, nullptr, id, packets.data(), kFragmentBatch, nullptr, &out});
+    write_colors(draw, out, 0, packets, tile);
+  }
+}
+
+void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics) {
+  if (tile.samples == 1) {
+    run_job(frame, tile, {tile.id.data(), {0, 0}, kPixelCenter, Share::per_pixel}, statistics);
+  } else {
+    shade_deferred_samples(frame, tile, statistics);
+  }
+  tile.id.fill(kNoTriangle);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shading at once, in order: what blends, and what only its fragment function can decide.
+#include <algorithm>
+
+#include "halfspace/raster/shade/shade.h"
+#include "halfspace/raster/visibility/centroid.h"
+#include "halfspace/raster/visibility/depth_stencil_test.h"
+
+namespace halfspace {
+
+namespace {
+
+// What the samples of one primitive share.
+struct Context {
+  const Frame& frame;
+  const Draw& draw;
+  TriangleId id;
+  VisibilityMode mode;
+  const CoverageList& list;
+  Tile& tile;
+  const StencilFace* stencil;  // null: no stencil test after shading
+  PassStatistics& statistics;
+};
+
+// OpenGL 4.6, section 17.3.1: the larger alpha, the more samples: the first round(alpha · samples).
+Mask alpha_covers(Real alpha, int samples, int sample) {
+  return alpha * Real(static_cast<float>(samples)) >= Real(static_cast<float>(sample) + 0.5f);
+}
+
+// The tests that wait for the shader: which lanes of mask are drawn. Writes depth and stencil.
+Mask late_tests(const Context& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask) {
+  const DepthState& state = c.draw.state.depth;
+  Real z(0.0f);
+  if (c.mode == VisibilityMode::cover_only) {
+    z = depth_value(c.tile.depth_format, clamp(out.depth[i], Real(c.draw.depth_low), Real(c.draw.depth_high)));
+  } else {
+    z = load<Real>(&c.list.depth[static_cast<std::size_t>(packet) * kLanes]);
+  }
+  if (c.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
+  if (c.stencil != nullptr) {
+    const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
+    const Mask passed = depth_test(state, c.tile, packet, z, stencil_passed);
+    update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
+    mask = passed;
+  } else if (c.mode == VisibilityMode::cover_only) {
+    mask = depth_test(state, c.tile, packet, z, mask);
+  }
+  c.statistics.samples_passed += static_cast<uint64_t>(std::popcount(bits(mask)));
+  write_depth(state, c.tile, packet, z, mask);
+  return mask;
+}
+
+// Sample s of what was shaded as packet i of a batch.
+void finish_sample(const Context& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
+  Mask mask = mask_from_bits<Mask>(packet.lanes);
+  if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
+  if (c.mode != VisibilityMode::early) mask = late_tests(c, out, i, packet.packet, mask);
+  const PacketMask drawn{packet.packet, static_cast<uint16_t>(bits(mask))};
+  write_colors(c.draw, out, i, std::span(&drawn, 1), c.tile);
+}
+
+// Runs the fragment function over packets and hands each to finish(out, its place in the batch, packet).
+template <class F>
+void shade_packets(const Context& c, const PacketMask* packets, int count, const SampleCell& cell, const SamplePosition& at, F finish) {
+  FragmentOutput out;
+  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
+  for (int begin = 0; begin < count; begin += kFragmentBatch) {
+    const int n = std::min(kFragmentBatch, count - begin);
+    const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
+    for (int i = 0; looks_inside && i < n; ++i) {
+      const int p = packets[begin + i].packet;
+      find_centroids(c.frame, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
+                     &centroids[static_cast<std::size_t>(i * kLanes)]);
+    }
+    c.draw.kernels.fragment(c.draw.shader.get(), {&c.frame, c.tile.x0 - cell.x, c.tile.y0 - cell.y, at, nullptr, c.id, packets + begin, n,
+                                                  looks_inside ? centroids.data() : nullptr, &out});
+    for (int i = 0; i < n; ++i) {
+      const PacketMask& packet = packets[begin + i];
+      c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packet.lanes));
+      finish(out, static_cast<std::size_t>(i), packet);
+    }
+  }
+}
+
+// Each sample by itself.
+void shade_samples(const Context& c) {
+  int begin = 0;
+  for (int s = 0; s < c.tile.samples; ++s) {
+    const int end = c.list.sample_end[static_cast<std::size_t>(s)];
+    shade_packets(c, &c.list.packets[static_cast<std::size_t>(begin)], end - begin, sample_cell(c.tile.samples, s, c.tile.size),
+                  sample_position(c.tile.samples, s),
+                  [&](const FragmentOutput& out, std::size_t i, const PacketMask& p) { finish_sample(c, out, i, s, p); });
+    begin = end;
+  }
+}
+
+// Each pixel with a covered sample once.
+void shade_pixels(const Context& c) {
+  std::array<uint16_t, kPackets> covered{};  // by packet of the room
+  std::array<uint16_t, kPackets> any_sample{};
+  int begin = 0;
+  for (int s = 0; s < c.tile.samples; ++s) {
+    const int shift = packet_shift(sample_cell(c.tile.samples, s, c.tile.size));
+    for (; begin < c.list.sample_end[static_cast<std::size_t>(s)]; ++begin) {
+      const PacketMask& p = c.list.packets[static_cast<std::size_t>(begin)];
+      covered[p.packet] = p.lanes;
+      uint16_t& pixels = any_sample[static_cast<std::size_t>(p.packet - shift)];
+      pixels = static_cast<uint16_t>(pixels | p.lanes);
+    }
+  }
+  std::array<PacketMask, kPackets> packets;
+  int count = 0;
+  for (std::size_t p = 0; p < kPackets; ++p) {
+    if (any_sample[p] != 0) packets[static_cast<std::size_t>(count++)] = {static_cast<uint16_t>(p), any_sample[p]};
+  }
+  shade_packets(c, packets.data(), count, {0, 0}, {kSubPixels / 2, kSubPixels / 2},
+                [&](const FragmentOutput& out, std::size_t i, const PacketMask& p) {
+                  for (int s = 0; s < c.tile.samples; ++s) {
+                    const auto packet = static_cast<uint16_t>(p.packet + packet_shift(sample_cell(c.tile.samples, s, c.tile.size)));
+                    if (covered[packet] != 0) finish_sample(c, out, i, s, {packet, covered[packet]});
+                  }
+                });
+}
+
+}  // namespace
+
+void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
+                     PassStatistics& statistics) {
+  const Triangle& t = frame.chunks[id >> 16].triangles[id & 0xffff];
+  const bool late_stencil = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only;
+  const StencilFace* stencil = late_stencil ? stencil_face(draw.state, tile, t.is(kFrontFacing)) : nullptr;
+  const Context c{frame, draw, id, mode, list, tile, stencil, statistics};
+  if (tile.samples == 1 || draw.shades_samples) {
+    shade_samples(c);
+  } else {
+    shade_pixels(c);
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/tile/blend.h"
+
+#include <cstring>
+
+#include "halfspace/core/half.h"
+#include "halfspace/core/srgb.h"
+
+namespace halfspace {
+
+namespace {
+
+template <class T>
+T* plane(ColorBuffer& b, int k) {
+  return reinterpret_cast<T*>(b.bytes.data()) + k * kMaxTilePixels;
+}
+template <class T>
+const T* plane(const ColorBuffer& b, int k) {
+  return reinterpret_cast<const T*>(b.bytes.data()) + k * kMaxTilePixels;
+}
+
+Real decode8(ColorFormat format, Int code, bool alpha) {
+  return format == ColorFormat::srgb8a8 && !alpha ? srgb_to_linear<Real>(code) : unorm8_to_linear(to_real<Real>(code));
+}
+Int encode8(ColorFormat format, Real value, bool alpha) {
+  return format == ColorFormat::srgb8a8 && !alpha ? linear_to_srgb(value) : linear_to_unorm8(value);
+}
+
+template <class I>
+I load_halves(const uint16_t* p) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return *p;
+  } else {
+    using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
+    return I(__builtin_convertvector(load<Halves>(p), typename I::V));
+  }
+}
+template <class I>
+Real decode_halves(I h) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return half_to_float(static_cast<uint16_t>(h));
+  } else {
+    return half_to_float(h);
+  }
+}
+template <class I, class M>
+void store_halves(uint16_t* p, I h, M mask) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    if (any(mask)) *p = static_cast<uint16_t>(h);
+  } else {
+    using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
+    const Halves lanes = __builtin_convertvector(mask.v, Halves), old = load<Halves>(p);
+    store(p, (__builtin_convertvector(h.v, Halves) & lanes) | (old & ~lanes));
+  }
+}
+
+// What the factors are made of. Of fixed-point targets the last two are still to be clamped.
+struct BlendSources {
+  const PacketColor &src, &dst, &src1;
+  const glm::vec4& constant;
+  bool fixed_point;
+
+  Real held(Real x) const { return fixed_point ? clamp(x, Real(0.0f), Real(1.0f)) : x; }
+};
+
+Real factor(BlendFactor f, const BlendSources& s, std::size_t k) {
+  const Real one(1.0f);
+  const auto constant = [&](std::size_t i) { return s.held(Real(s.constant[static_cast<int>(i)])); };
+  switch (f) {
+    case BlendFactor::zero: return Real(0.0f);
+    case BlendFactor::one: return one;
+    case BlendFactor::src_color: return s.src[k];
+    case BlendFactor::one_minus_src_color: return one - s.src[k];
+    case BlendFactor::dst_color: return s.dst[k];
+    case BlendFactor::one_minus_dst_color: return one - s.dst[k];
+    case BlendFactor::src_alpha: return s.src[3];
+    case BlendFactor::one_minus_src_alpha: return one - s.src[3];
+    case BlendFactor::dst_alpha: return s.dst[3];
+    case BlendFactor::one_minus_dst_alpha: return one - s.dst[3];
+    case BlendFactor::constant_color: return constant(k);
+    case BlendFactor::one_minus_constant_color: return one - constant(k);
+    case BlendFactor::constant_alpha: return constant(3);
+    case BlendFactor::one_minus_constant_alpha: return one - constant(3);
+    case BlendFactor::src_alpha_saturate: return k == 3 ? one : min(s.src[3], one - s.dst[3]);
+    case BlendFactor::src1_color: return s.held(s.src1[k]);
+    case BlendFactor::one_minus_src1_color: return one - s.held(s.src1[k]);
+    case BlendFactor::src1_alpha: return s.held(s.src1[3]);
+    case BlendFactor::one_minus_src1_alpha: return one - s.held(s.src1[3]);
+  }
+  return one;
+}
+
+Real combine(BlendEquation e, Real src, Real src_factor, Real dst, Real dst_factor) {
+  switch (e) {
+    case BlendEquation::add: return src * src_factor + dst * dst_factor;
+    case BlendEquation::subtract: return src * src_factor - dst * dst_factor;
+    case BlendEquation::reverse_subtract: return dst * dst_factor - src * src_factor;
+    case BlendEquation::min: return min(src, dst);
+    case BlendEquation::max: return max(src, dst);
+  }
+  return src;
+}
+
+bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
+
+PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
+  PacketColor out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool alpha = k == 3;
+    const BlendFactor sf = alpha ? s.source_alpha : s.source_color;
+    const BlendFactor df = alpha ? s.destination_alpha : s.destination_color;
+    out[k] = combine(alpha ? s.alpha_equation : s.color_equation, from.src[k], factor(sf, from, k), from.dst[k], factor(df, from, k));
+  }
+  return out;
+}
+
+// A colour's four codes, red lowest.
+template <ColorFormat format>
+Int packed_codes(const PacketColor& c) {
+  return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
+         encode8(format, c[3], true) << 24;
+}
+
+void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
+  Int packed = buffer.format == ColorFormat::srgb8a8 ? packed_codes<ColorFormat::srgb8a8>(c) : packed_codes<ColorFormat::rgba8>(c);
+  int32_t* pixels = plane<int32_t>(buffer, 0) + first;
+  const Int old = load<Int>(pixels);
+  if (!channels.all()) {
+    uint32_t kept = 0;
+    for (int k = 0; k < 4; ++k) kept |= channels[k] ? 0u : 0xffu << (8 * k);
+    const Int keep(static_cast<int32_t>(kept));
+    packed = (old & keep) | (packed & ~keep);
+  }
+  store(pixels, select(mask, packed, old));
+}
+
+template <ColorFormat format>
+void replace_packed(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    int32_t* pixels = plane<int32_t>(buffer, 0) + static_cast<std::size_t>(packets[i].packet) * kLanes;
+    store(pixels, select(mask_from_bits<Mask>(packets[i].lanes), packed_codes<format>(src[i]), load<Int>(pixels)));
+  }
+}
+
+template <ColorFormat format>
+Real read_channel(const ColorBuffer& buffer, std::size_t first, int k) {
+  if constexpr (format == ColorFormat::rgba32f) {
+    return load<Real>(plane<float>(buffer, k) + first);
+  } else if constexpr (format == ColorFormat::rgba16f) {
+    return decode_halves(load_halves<Int>(plane<uint16_t>(buffer, k) + first));
+  } else {
+    return decode8(format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3);
+  }
+}
+
+template <ColorFormat format>
+void read_packets(const ColorBuffer& buffer, std::span<const PacketMask> packets, PacketColor* out) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    for (int k = 0; k < 4; ++k)
+      out[i][static_cast<std::size_t>(k)] = read_channel<format>(buffer, static_cast<std::size_t>(packets[i].packet) * kLanes, k);
+  }
+}
+
+}  // namespace
+
+void read_batch(const ColorBuffer& buffer, std::span<const PacketMask> packets, PacketColor* out) {
+  switch (buffer.format) {
+    case ColorFormat::none: return;
+    case ColorFormat::rgba8: return read_packets<ColorFormat::rgba8>(buffer, packets, out);
+    case ColorFormat::srgb8a8: return read_packets<ColorFormat::srgb8a8>(buffer, packets, out);
+    case ColorFormat::rgba16f: return read_packets<ColorFormat::rgba16f>(buffer, packets, out);
+    case ColorFormat::rgba32f: return read_packets<ColorFormat::rgba32f>(buffer, packets, out);
+  }
+}
+
+PacketColor read_color(const ColorBuffer& buffer, int packet) {
+  const PacketMask one{static_cast<uint16_t>(packet), static_cast<uint16_t>(kAllBits<Mask>)};
+  PacketColor c;
+  read_batch(buffer, std::span(&one, 1), &c);
+  return c;
+}
+
+void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1,
+                 const AttachmentState& state) {
+  const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
+  const bool fixed_point = is_fixed_point(buffer.format);
+  const auto write = [&](const PacketColor& c) {
+    if (fixed_point) return write_packed(buffer, first, mask, c, state.mask);
+    for (int k = 0; k < 4; ++k) {
+      if (!state.mask[k]) continue;
+      const Real value = c[static_cast<std::size_t>(k)];
+      if (buffer.format == ColorFormat::rgba16f) {
+        store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(value)), mask);
+      } else {
+        float* to = plane<float>(buffer, k) + first;
+        store(to, select(mask, value, load<Real>(to)));
+      }
+    }
+  };
+  if (!state.blend) return write(src);
+  PacketColor c = src;
+  if (fixed_point) {  // OpenGL 4.6, section 17.3.6: clamped before blending
+    for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
+  }
+  const PacketColor dst = read_color(buffer, packet);
+  write(blend_colors(*state.blend, {c, dst, src1, state.blend->constant, fixed_point}));
+}
+
+void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
+                 const AttachmentState& state) {
+  if (!state.blend && state.mask.all()) {
+    if (buffer.format == ColorFormat::rgba8) return replace_packed<ColorFormat::rgba8>(buffer, packets, src);
+    if (buffer.format == ColorFormat::srgb8a8) return replace_packed<ColorFormat::srgb8a8>(buffer, packets, src);
+  }
+  for (std::size_t i = 0; i < packets.size(); ++i)
+    write_color(buffer, packets[i].packet, mask_from_bits<Mask>(packets[i].lanes), src[i], src1[i], state);
+}
+
+bool uses_second_source(const BlendState& blend) {
+  const auto second = [](BlendFactor f) { return f >= BlendFactor::src1_color && f <= BlendFactor::one_minus_src1_alpha; };
+  return second(blend.source_color) || second(blend.destination_color) || second(blend.source_alpha) || second(blend.destination_alpha);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/tile/tile.h"
+
+namespace halfspace {
+
+void refresh_block_bounds(Tile& tile, int block) {
+  const float* depth = &tile.depth[static_cast<std::size_t>(block) * kPixelsPerBlock];
+  Real low = load<Real>(depth), high = low;
+  for (int p = 1; p < kPacketsPerBlock; ++p) {
+    const Real z = load<Real>(depth + p * kLanes);
+    low = min(low, z);
+    high = max(high, z);
+  }
+  // Minimum and maximum are exact, so their order makes no difference: halves against halves.
+  alignas(64) std::array<float, kLanes> lows, highs;
+  store(lows.data(), low);
+  store(highs.data(), high);
+  for (std::size_t half = kLanes / 2; half != 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) {
+      lows[i] = min(lows[i], lows[i + half]);
+      highs[i] = max(highs[i], highs[i + half]);
+    }
+  }
+  const auto b = static_cast<std::size_t>(block);
+  tile.block_min[b] = lows[0];
+  tile.block_max[b] = highs[0];
+  tile.block_writes[b] = 0;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where the pixels of a tile lie in an image, and what images hold of them: for tile_load.cpp and tile_store.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+
+#include "halfspace/raster/tile/tile.h"
+
+namespace halfspace {
+
+constexpr std::array<uint8_t, kPixelsPerBlock> make_z_order() {
+  std::array<uint8_t, kPixelsPerBlock> place{};
+  for (int i = 0; i < kPixelsPerBlock; ++i) place[static_cast<std::size_t>(block_y(i) * kBlockSize + block_x(i))] = static_cast<uint8_t>(i);
+  return place;
+}
+// Where pixel (x, y) of a block lies: [8·y + x].
+inline constexpr std::array<uint8_t, kPixelsPerBlock> kZOrder = make_z_order();
+
+// Calls f(pixel of the tile, pixel of the image, count) for every row of every block, cut to the target: count pixels, whose
+// places in the tile are the first one's plus kZOrder[0 … count − 1]. So for every sample; images of one sample give and
+// take the first one's.
+template <class F>
+HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_height, Samples held, int samples, F f) {
+  for (int s = 0; s < samples; ++s) {
+    const SampleCell cell = sample_cell(tile.samples, s, tile.size);
+    const std::size_t shift = static_cast<std::size_t>(packet_shift(cell)) * kLanes;
+    const std::size_t image = held == Samples::one ? 0 : static_cast<std::size_t>(s) * static_cast<std::size_t>(target_height);
+    for (int y = 0; y < tile.height; ++y) {
+      const std::size_t row =
+          (image + static_cast<std::size_t>(target_height - 1 - (tile.y0 + y))) * static_cast<std::size_t>(target_width);
+      const std::size_t out = row + static_cast<std::size_t>(tile.x0);
+      for (int x = 0; x < tile.width; x += kBlockSize) {
+        const std::size_t block = static_cast<std::size_t>(y / kBlockSize * kBlocksPerRow + x / kBlockSize) * kPixelsPerBlock;
+        f(shift + block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize)], out + static_cast<std::size_t>(x),
+          std::min(kBlockSize, tile.width - x));
+      }
+    }
+  }
+}
+
+// Calls f(pixel of the tile, pixel of the image) for each.
+template <class F>
+HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_height, Samples held, int samples, F f) {
+  for_each_row(tile, target_width, target_height, held, samples, [&](std::size_t first, std::size_t out, int pixels) {
+    if (pixels == kBlockSize) {  // places known when compiling
+      for (std::size_t i = 0; i < kBlockSize; ++i) f(first + kZOrder[i], out + i);
+    } else {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(pixels); ++i) f(first + kZOrder[i], out + i);
+    }
+  });
+}
+
+// for_each_pixel for images of 32 bits a pixel: two neighbours, which lie side by side in both, at a time. load: image to
+// tile, else tile to image.
+template <bool load, class TileBytes, class ImageBytes>
+void copy_words(const Tile& tile, int target_width, int target_height, Samples held, int samples, TileBytes* in_tile,
+                ImageBytes* in_image) {
+  const auto copy = [&]<std::size_t bytes>(std::integral_constant<std::size_t, bytes>, std::size_t t, std::size_t i) {
+    if constexpr (load) {
+      std::memcpy(in_tile + 4 * t, in_image + 4 * i, bytes);
+    } else {
+      std::memcpy(in_image + 4 * i, in_tile + 4 * t, bytes);
+    }
+  };
+  for_each_row(tile, target_width, target_height, held, samples, [&](std::size_t first, std::size_t out, int pixels) {
+    if (pixels == kBlockSize) {
+      for (std::size_t i = 0; i < kBlockSize; i += 2) copy(std::integral_constant<std::size_t, 8>(), first + kZOrder[i], out + i);
+    } else {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(pixels); ++i) {
+        copy(std::integral_constant<std::size_t, 4>(), first + kZOrder[i], out + i);
+      }
+    }
+  });
+}
+
+// An image that a tile is loaded from or stored to.
+struct ImagePlace {
+  int width, height;
+  Samples held;
+};
+
+// Planes of T in the tile ↔ T[4] a pixel in the image.
+template <class T>
+T* planes(ColorBuffer& b) {
+  return reinterpret_cast<T*>(b.bytes.data());
+}
+template <class T>
+const T* planes(const ColorBuffer& b) {
+  return reinterpret_cast<const T*>(b.bytes.data());
+}
+
+// Calls f(first pixel in the tile, and of its two rows in the image) for each two rows of `columns` pixels, 2 or 4, which lie side by
+// side in the tile, quad by quad; images of one sample, the first one's. False, and nothing is done, if the tile has a part of such.
+template <int columns, class F>
+HS_INLINE bool for_each_two_rows(const Tile& tile, const ImagePlace& place, F f) {
+  if (tile.samples != 1 || tile.width % columns != 0 || tile.height % 2 != 0) return false;
+  for (int y = 0; y < tile.height; y += 2) {
+    const std::size_t row = static_cast<std::size_t>(place.height - 1 - (tile.y0 + y)) * static_cast<std::size_t>(place.width);
+    for (int x = 0; x < tile.width; x += columns) {
+      const std::size_t block = static_cast<std::size_t>(y / kBlockSize * kBlocksPerRow + x / kBlockSize) * kPixelsPerBlock;
+      const std::size_t in_tile = block + kZOrder[static_cast<std::size_t>(y % kBlockSize * kBlockSize + x % kBlockSize)];
+      const std::size_t in_image = row + static_cast<std::size_t>(tile.x0 + x);
+      f(in_tile, 4 * in_image, 4 * (in_image - static_cast<std::size_t>(place.width)));
+    }
+  }
+  return true;
+}
+
+// One pixel's depth and stencil, as an image holds them and as a tile does.
+struct Depth16 {
+  using Image = uint16_t;
+  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }
+  static Image store(float depth, uint8_t) { return static_cast<Image>(depth); }
+};
+struct Depth24 {
+  using Image = uint32_t;
+  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }
+  static Image store(float depth, uint8_t) { return static_cast<Image>(depth); }
+};
+struct Depth32 {
+  using Image = float;
+  static void load(Image i, float& depth, uint8_t&) { depth = i; }
+  static Image store(float depth, uint8_t) { return depth; }
+};
+struct Depth24Stencil8 {
+  using Image = uint32_t;
+  static void load(Image i, float& depth, uint8_t& stencil) {
+    depth = static_cast<float>(i >> 8);
+    stencil = static_cast<uint8_t>(i);
+  }
+  static Image store(float depth, uint8_t stencil) { return static_cast<Image>(depth) << 8 | stencil; }
+};
+struct Depth32Stencil8 {
+  using Image = DepthStencil;
+  static void load(const Image& i, float& depth, uint8_t& stencil) {
+    depth = i.depth;
+    stencil = static_cast<uint8_t>(i.stencil);
+  }
+  static Image store(float depth, uint8_t stencil) { return {depth, stencil}; }
+};
+
+// Calls f with the codec of a format.
+template <class F>
+void with_codec(DepthFormat format, F f) {
+  switch (format) {
+    case DepthFormat::none: return;
+    case DepthFormat::d16: return f(Depth16{});
+    case DepthFormat::d24: return f(Depth24{});
+    case DepthFormat::d32f: return f(Depth32{});
+    case DepthFormat::d24s8: return f(Depth24Stencil8{});
+    case DepthFormat::d32fs8: return f(Depth32Stencil8{});
+  }
+}
+
+}  // namespace halfspace

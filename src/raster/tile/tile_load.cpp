@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "halfspace/raster/tile/blend.h"
+#include "halfspace/raster/tile/tile_layout.h"
+
+namespace halfspace {
+
+namespace {
+
+template <class F>
+HS_INLINE void for_each_load(const Tile& tile, const ImagePlace& p, F f) {
+  for_each_pixel(tile, p.width, p.height, p.held, tile.samples, f);
+}
+
+template <class T>
+void load_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
+  const T* image = reinterpret_cast<const T*>(data);
+  T* to = planes<T>(color);
+  for_each_load(tile, place, [&](std::size_t t, std::size_t i) {
+    for (std::size_t k = 0; k < 4; ++k) to[k * kMaxTilePixels + t] = image[4 * i + k];
+  });
+}
+
+// Pixels of four 16-bit values, a quad at a time: two pixels of a row above two of the next, side by side in the tile.
+HS_INLINE void split_quad(const uint16_t* row0, const uint16_t* row1, uint16_t* to) {
+  const __m128i a = load<__m128i>(row0), b = load<__m128i>(row1);
+  const __m128i even = _mm_unpacklo_epi16(a, b), odd = _mm_unpackhi_epi16(a, b);  // r0 r2 g0 g2 …, r1 r3 g1 g3 …
+  const __m128i red_green = _mm_unpacklo_epi16(even, odd), blue_alpha = _mm_unpackhi_epi16(even, odd);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to), red_green);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + kMaxTilePixels), _mm_unpackhi_epi64(red_green, red_green));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 2 * kMaxTilePixels), blue_alpha);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 3 * kMaxTilePixels), _mm_unpackhi_epi64(blue_alpha, blue_alpha));
+}
+
+#ifdef __AVX2__
+// Two quads at once.
+HS_INLINE void split_two_quads(const uint16_t* row0, const uint16_t* row1, uint16_t* to) {
+  const __m256i a = load<__m256i>(row0), b = load<__m256i>(row1);
+  const __m256i even = _mm256_unpacklo_epi16(a, b), odd = _mm256_unpackhi_epi16(a, b);
+  const __m256i red_green = _mm256_permute4x64_epi64(_mm256_unpacklo_epi16(even, odd), 0b11011000);
+  const __m256i blue_alpha = _mm256_permute4x64_epi64(_mm256_unpackhi_epi16(even, odd), 0b11011000);
+  store(to, _mm256_castsi256_si128(red_green));
+  store(to + kMaxTilePixels, _mm256_extracti128_si256(red_green, 1));
+  store(to + 2 * kMaxTilePixels, _mm256_castsi256_si128(blue_alpha));
+  store(to + 3 * kMaxTilePixels, _mm256_extracti128_si256(blue_alpha, 1));
+}
+#endif
+
+void load_half_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
+  const auto* image = reinterpret_cast<const uint16_t*>(data);
+  uint16_t* to = planes<uint16_t>(color);
+#ifdef __AVX2__
+  const auto two_quads = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_two_quads(image + row0, image + row1, to + t); };
+  if (for_each_two_rows<4>(tile, place, two_quads)) return;
+#endif
+  const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_quad(image + row0, image + row1, to + t); };
+  if (!for_each_two_rows<2>(tile, place, quad)) load_planes<uint16_t>(data, place, tile, color);
+}
+
+// Sets all pixels to the first.
+void repeat_first_pixel(ColorBuffer& color) {
+  const auto repeat = []<class T>(T* values, int count) { std::fill_n(values, count, *values); };
+  switch (color.format) {
+    case ColorFormat::rgba32f:
+      for (int k = 0; k < 4; ++k) repeat(planes<float>(color) + k * kMaxTilePixels, kMaxTilePixels);
+      break;
+    case ColorFormat::rgba16f:
+      for (int k = 0; k < 4; ++k) repeat(planes<uint16_t>(color) + k * kMaxTilePixels, kMaxTilePixels);
+      break;
+    default: repeat(planes<uint32_t>(color), kMaxTilePixels); break;
+  }
+}
+
+}  // namespace
+
+void load_color(const ColorTarget& target, int width, int height, Samples held, const Tile& tile, ColorBuffer& color) {
+  color.format = target.format;
+  if (target.format == ColorFormat::none) return;
+  if (target.load == LoadOp::dont_care) {  // zeros, so that even pixels that nothing draws are the same in every run
+    std::fill_n(color.bytes.data(), kMaxTilePixels * bytes_per_pixel(target.format), std::byte{0});
+    return;
+  }
+  if (target.load == LoadOp::clear) {
+    const PacketColor c{Real(target.clear_value.x), Real(target.clear_value.y), Real(target.clear_value.z), Real(target.clear_value.w)};
+    write_color(color, 0, Mask(true), c, c, {});
+    repeat_first_pixel(color);
+    return;
+  }
+  const ImagePlace place{width, height, held};
+  switch (target.format) {
+    case ColorFormat::rgba32f: load_planes<float>(target.data, place, tile, color); break;
+    case ColorFormat::rgba16f: load_half_planes(target.data, place, tile, color); break;
+    default: copy_words<true>(tile, width, height, held, tile.samples, color.bytes.data(), target.data); break;
+  }
+}
+
+void load_depth(const DepthTarget& target, int width, int height, Samples held, Tile& tile) {
+  tile.depth_format = depth_part(target.format);
+  tile.has_stencil = has_stencil(target.format);
+  if (target.format == DepthFormat::none) return;
+  const float clear = depth_value(tile.depth_format, std::clamp(target.clear_value, 0.0f, 1.0f));
+  if (target.load != LoadOp::load) {
+    tile.depth.fill(clear);
+    tile.block_min.fill(clear);
+    tile.block_max.fill(clear);
+    tile.block_writes.fill(0);
+    if (tile.has_stencil) tile.stencil.fill(target.stencil_clear_value);
+    return;
+  }
+  tile.depth.fill(0.0f);  // pixels beyond the target
+  if (tile.has_stencil) tile.stencil.fill(0);
+  with_codec(target.format, [&]<class C>(C) {
+    const auto* image = reinterpret_cast<const typename C::Image*>(target.data);
+    for_each_load(tile, {width, height, held}, [&](std::size_t t, std::size_t i) { C::load(image[i], tile.depth[t], tile.stencil[t]); });
+  });
+  for (int b = 0; b < kBlocks; ++b) refresh_block_bounds(tile, b);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/vertex_input.h"
+
+#include <limits>
+
+namespace halfspace {
+
+Indices Indices::sequential(std::size_t vertex_count) {
+  HS_CHECK_OP(vertex_count, <, std::size_t{1} << 32);
+  Indices i;
+  i.size_ = vertex_count;
+  i.end_ = static_cast<uint32_t>(vertex_count);
+  return i;
+}
+
+Indices::Indices(std::span<const uint32_t> list, std::size_t vertex_count, PrimitiveRestart restart)
+    : wide_(list.data()), size_(list.size()) {
+  scan(list, vertex_count, restart);
+}
+
+Indices::Indices(std::span<const uint16_t> list, std::size_t vertex_count, PrimitiveRestart restart)
+    : narrow_(list.data()), size_(list.size()) {
+  scan(list, vertex_count, restart);
+}
+
+template <class T>
+void Indices::scan(std::span<const T> list, std::size_t vertex_count, PrimitiveRestart restart) {
+  const auto is_restart = [restart](T i) { return restart == PrimitiveRestart::on && i == std::numeric_limits<T>::max(); };
+  T low = std::numeric_limits<T>::max(), high = 0;
+  for (std::size_t place = 0; place < list.size(); ++place) {
+    if (is_restart(list[place])) {
+      restarts_.push_back(static_cast<uint32_t>(place));
+      continue;
+    }
+    low = std::min(low, list[place]);
+    high = std::max(high, list[place]);
+  }
+  if (restarts_.size() == list.size()) return;
+  HS_CHECK_OP(high, <, vertex_count);
+  first_ = low;
+  end_ = static_cast<uint32_t>(high) + 1;
+  std::vector<bool> seen(end_ - first_);
+  std::size_t distinct = 0;
+  for (const T i : list) {
+    if (is_restart(i)) continue;
+    if (!seen[i - first_]) ++distinct;
+    seen[i - first_] = true;
+  }
+  if (distinct == seen.size()) return;
+  used_.reserve(distinct);
+  for (uint32_t i = 0; i < seen.size(); ++i) {
+    if (seen[i]) used_.push_back(first_ + i);
+  }
+}
+
+std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room) {
+  if (!vertices.has_instance_streams) return vertices.streams;
+  std::copy(vertices.streams.begin(), vertices.streams.end(), room.begin());
+  const std::span<VertexStream> moved(room.data(), vertices.streams.size());
+  for (VertexStream& s : moved) {
+    if (s.divisor == 0) continue;
+    s.data += static_cast<std::size_t>(instance / s.divisor) * static_cast<std::size_t>(s.stride);
+    s.stride = 0;
+  }
+  return moved;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/visibility/depth_stencil_test.h"
+
+#include "halfspace/raster/visibility/compare.h"
+
+namespace halfspace {
+
+namespace {
+
+Int load_values(const Tile& tile, int packet) {
+  const uint8_t* p = &tile.stencil[static_cast<std::size_t>(packet) * kLanes];
+  Int r{};
+  for (int i = 0; i < kLanes; ++i) set_lane(r, i, p[i]);
+  return r;
+}
+
+Int apply(StencilOp op, Int value, Int reference) {
+  const Int most(0xff);
+  switch (op) {
+    case StencilOp::keep: return value;
+    case StencilOp::zero: return Int(0);
+    case StencilOp::replace: return reference;
+    case StencilOp::increment_clamp: return min(value + Int(1), most);
+    case StencilOp::decrement_clamp: return max(value - Int(1), Int(0));
+    case StencilOp::invert: return value ^ most;
+    case StencilOp::increment_wrap: return (value + Int(1)) & most;
+    case StencilOp::decrement_wrap: return (value - Int(1)) & most;
+  }
+  return value;
+}
+
+}  // namespace
+
+Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask) {
+  const Int read(face.read_mask);
+  const Real reference = to_real<Real>(Int(face.reference) & read);  // whole numbers to 255 are exact
+  return mask & compare(face.compare, reference, to_real<Real>(load_values(tile, packet) & read));
+}
+
+void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed, Mask depth_failed, Mask passed) {
+  const Int old = load_values(tile, packet), reference(face.reference), write(face.write_mask);
+  Int value = select(failed, apply(face.fail, old, reference), old);
+  value = select(depth_failed, apply(face.depth_fail, old, reference), value);
+  value = select(passed, apply(face.pass, old, reference), value);
+  value = (value & write) | (old & ~write);
+  uint8_t* p = &tile.stencil[static_cast<std::size_t>(packet) * kLanes];
+  for (int i = 0; i < kLanes; ++i) p[i] = static_cast<uint8_t>(lane(value, i));
+}
+
+}  // namespace halfspace

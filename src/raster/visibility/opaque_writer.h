@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Depth test and writes of plain draws, which most are: one sample a pixel, and only coverage and depth decide.
+#pragma once
+
+#include <bit>
+
+#include "halfspace/raster/visibility/block_edges.h"
+#include "halfspace/raster/visibility/compare.h"
+#include "halfspace/raster/visibility/visibility.h"
+
+namespace halfspace {
+
+/// What the triangles of a plain draw do to the tile.
+class PlainWriter {
+ public:
+  PlainWriter(const DrawInTile& d, PassStatistics& statistics)
+      : tile_(d.tile),
+        statistics_(statistics),
+        compare_(d.draw.state.depth.compare),
+        tests_(d.tests),
+        writes_depth_(d.tests && d.draw.state.depth.write),
+        writes_id_(d.mode == VisibilityMode::deferred) {}
+
+  bool tests() const { return tests_; }
+  bool writes_depth() const { return writes_depth_; }
+  CompareOp compare_op() const { return compare_; }
+
+  /// Covered lanes of a packet, a bit each, at the depths z_at(), asked for where there is a test; true if one passed.
+  template <class Z>
+  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+    statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
+    float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
+    uint32_t passed = covered;
+    if (tests_) {
+      const Real old = load<Real>(depth), z = z_at();
+      passed &= bits(compare(compare_, z, old));
+      if (writes_depth_) store(depth, select(mask_from_bits<Mask>(passed), z, old));
+    }
+    statistics_.samples_passed += static_cast<uint64_t>(std::popcount(passed));
+    if (writes_id_ && passed != 0) {
+      TriangleId* ids = &tile_.id[static_cast<std::size_t>(packet) * kLanes];
+      store(ids, select(mask_from_bits<Mask>(passed), Int(std::bit_cast<int32_t>(id)), load<Int>(ids)));
+    }
+    return passed != 0;
+  }
+
+  /// One covered pixel of the tile; keeps the block's bounds true.
+  HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
+    ++statistics_.samples_tested;
+    if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
+    ++statistics_.samples_passed;
+    if (writes_id_) tile_.id[pixel] = id;
+    if (!writes_depth_) return;
+    tile_.depth[pixel] = z;
+    widen_block_bounds(compare_, tile_, static_cast<int>(pixel / kPixelsPerBlock), z, z);
+  }
+
+  /// A packet that is covered wholly and passes wholly.
+  template <class Z>
+  HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) {
+    statistics_.samples_tested += kLanes;
+    statistics_.samples_passed += kLanes;
+    if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z_at());
+    if (writes_id_) store(&tile_.id[static_cast<std::size_t>(packet) * kLanes], Int(std::bit_cast<int32_t>(id)));
+  }
+
+ private:
+  Tile& tile_;
+  PassStatistics& statistics_;
+  CompareOp compare_;
+  bool tests_, writes_depth_, writes_id_;
+};
+
+}  // namespace halfspace

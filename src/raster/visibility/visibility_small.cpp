@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Visibility of small triangles of plain draws: W triangles of a tile's list at once, in int32. What each of them needs is computed by
+// lanes; then they are written one after the other, in their order.
+#include <algorithm>
+#include <bit>
+
+#include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/pipeline/triangle_lanes.h"
+#include "halfspace/raster/primitives/small_coverage.h"
+#include "halfspace/raster/visibility/opaque_writer.h"
+
+namespace halfspace {
+
+namespace {
+
+// Larger ones are better asked by blocks.
+constexpr int kMostSpan = 48;  // px
+constexpr int kMostCovered = std::popcount(kCoveredBits);
+
+template <class T>
+using PerTriangle = std::array<T, static_cast<std::size_t>(kLanes)>;
+
+// An edge function of one triangle: its value at the tile's first sample, and its steps from pixel to pixel.
+struct SmallEdge {
+  int32_t e, step_x, step_y;
+};
+
+// The planes of depths: z0 + e1·z_edge1 + e2·z_edge2 of edges 1 and 2 without their biases, held to [low, high]. Lanes are triangles, or
+// pixels of one.
+struct SmallDepth {
+  Real z0, z_edge1, z_edge2, low, high;
+
+  HS_INLINE Real at(DepthFormat format, Int e1, Int e2) const {
+    return depth_value(format, clamp(fma(to_real<Real>(e1), z_edge1, fma(to_real<Real>(e2), z_edge2, z0)), low, high));
+  }
+};
+
+// What writing W small triangles needs, computed for all at once.
+class SmallTriangles {
+ public:
+  // indices: at most W, of the chunk's triangles, not none.
+  SmallTriangles(const DrawInTile& d, const Chunk& chunk, std::span<const uint16_t> indices) {
+    const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
+    static_assert(offsetof(Triangle, z_edge1) == offsetof(Triangle, z0) + sizeof(float) &&
+                  offsetof(Triangle, z_max) == offsetof(Triangle, z0) + 3 * sizeof(float));
+    const auto [x, y] = load_corners(triangle);
+    const std::array<Int, 4> depths = load_fours<Int>([&](int k) { return &triangle(k)->z0; });
+    const Int flags = load_vertices_and_flags(triangle)[3];
+    const Real low(d.draw.depth_low), high = clamp(as_real(depths[3]), low, Real(d.draw.depth_high));
+    const SmallDepth depth{as_real(depths[0]), as_real(depths[1]), as_real(depths[2]), low, high};
+
+    const PixelBox<Int> box = pixel_box(x, y, SampleSpan{}, SampleSpan{});
+    const Int covered = (flags >> static_cast<int>(kCoveredShift)) & static_cast<int32_t>(kCoveredBits);
+    known_ = bits(covered != Int(0));
+    wide_ = bits(largest(x) - least(x) > Int(kMostSpan * kSubPixels) || largest(y) - least(y) > Int(kMostSpan * kSubPixels)) & ~known_;
+    if (known_ != 0) find_pixels(d, x, y, cut(box, d.draw.bounds), covered, depth);
+    if ((known_ | wide_) == kAllBits<Mask>) return;
+    const PixelBox<Int> seen = cut(box, d.bounds);
+    store(rect_x0_.data(), seen.x0 - d.tile.x0);
+    store(rect_y0_.data(), seen.y0 - d.tile.y0);
+    store(rect_x1_.data(), seen.x1 - d.tile.x0);
+    store(rect_y1_.data(), seen.y1 - d.tile.y0);
+    // Everything from the tile's first sample; a triangle meets the tile and is small, so all fits in 16 bits.
+    const Int x_first(d.tile.x0 * kSubPixels + kSubPixels / 2), y_first(d.tile.y0 * kSubPixels + kSubPixels / 2);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+      const Int ex = x[b] - x[a], ey = y[b] - y[a];
+      const Int bias = fill_bias(ex, ey);
+      store(e_[i].data(), ey * (x[a] - x_first) - ex * (y[a] - y_first) - bias);
+      store(step_x_[i].data(), -ey << kSubPixelBits);
+      store(step_y_[i].data(), ex << kSubPixelBits);
+      if (i != 0) store(bias_[i - 1].data(), bias);
+    }
+  }
+
+  bool is_wide(std::size_t k) const { return (wide_ >> k & 1) != 0; }
+  bool is_known(std::size_t k) const { return (known_ >> k & 1) != 0; }
+
+  // Of a triangle whose pixels are known from setup: f(pixel of the tile, depth) for each that lies in the draw's bounds.
+  template <class F>
+  HS_INLINE void for_each_pixel(std::size_t k, const F& f) const {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_[k]); ++i) {
+      if (pixel_[i][k] >= 0) f(static_cast<std::size_t>(pixel_[i][k]), z_[i][k]);
+    }
+  }
+
+  // Of the others.
+  TileRect rect(std::size_t k) const { return {rect_x0_[k], rect_y0_[k], rect_x1_[k], rect_y1_[k]}; }
+  SmallEdge edge(std::size_t i, std::size_t k) const { return {e_[i][k], step_x_[i][k], step_y_[i][k]}; }
+  int32_t bias(std::size_t i, std::size_t k) const { return bias_[i - 1][k]; }  // of edge 1 or 2
+
+ private:
+  // box: of the triangles within the draw's bounds, from which `covered` counts.
+  void find_pixels(const DrawInTile& d, const std::array<Int, 3>& x, const std::array<Int, 3>& y, const PixelBox<Int>& box, Int covered,
+                   const SmallDepth& depth) {
+    Int count(0);
+    for (std::size_t i = 0; any(covered != Int(0)); ++i) {
+      count = count + select(covered != Int(0), Int(1), Int(0));
+      const Int bit = (as_int(to_real<Real>(covered & -covered)) >> 23) - 127;  // the exponent of a power of two
+      covered = covered & (covered - 1);
+      const Int px = box.x0 + (bit & (kCoverSide - 1)), py = box.y0 + (bit >> std::countr_zero(unsigned{kCoverSide}));
+      const Int x_sub = (px << kSubPixelBits) + kSubPixels / 2, y_sub = (py << kSubPixelBits) + kSubPixels / 2;
+      const auto edge = [&](std::size_t a, std::size_t b) { return (x[b] - x[a]) * (y_sub - y[a]) - (y[b] - y[a]) * (x_sub - x[a]); };
+      store(z_[i].data(), depth.at(d.tile.depth_format, edge(2, 0), edge(0, 1)));
+      const Mask seen = px >= Int(d.bounds.x0) && py >= Int(d.bounds.y0) && px < Int(d.bounds.x1) && py < Int(d.bounds.y1);
+      store(pixel_[i].data(), select(seen, pixel_at(px - d.tile.x0, py - d.tile.y0), Int(-1)));
+    }
+    store(count_.data(), count);
+  }
+
+  alignas(64) std::array<PerTriangle<int32_t>, kMostCovered> pixel_;
+  alignas(64) std::array<PerTriangle<float>, kMostCovered> z_;
+  alignas(64) PerTriangle<int32_t> count_;
+  alignas(64) PerTriangle<int32_t> rect_x0_, rect_y0_, rect_x1_, rect_y1_;
+  alignas(64) std::array<PerTriangle<int32_t>, 3> e_, step_x_, step_y_;
+  alignas(64) std::array<PerTriangle<int32_t>, 2> bias_;
+  uint32_t known_, wide_;
+};
+
+// The packets of one of them.
+class TrianglePackets {
+ public:
+  // t: the k-th of triangles.
+  TrianglePackets(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, const Triangle& t, TriangleId id,
+                  PlainWriter& writer)
+      : d_(d),
+        id_(id),
+        writer_(writer),
+        rect_(triangles.rect(k)),
+        bias1_(triangles.bias(1, k)),
+        bias2_(triangles.bias(2, k)),
+        bounds_(depth_bounds(t, d.draw, d.tile.depth_format)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      edge_[i] = triangles.edge(i, k);
+      first_[i] = lane_x() * edge_[i].step_x + lane_y() * edge_[i].step_y + edge_[i].e;
+    }
+    const float low = d.draw.depth_low, high = std::clamp(t.z_max, low, d.draw.depth_high);
+    depth_ = {Real(t.z0), Real(t.z_edge1), Real(t.z_edge2), Real(low), Real(high)};
+  }
+
+  void visit() {
+    if (rect_.x0 >= rect_.x1 || rect_.y0 >= rect_.y1) return;
+    const int column0 = rect_.x0 / kPacketWidth, column1 = (rect_.x1 - 1) / kPacketWidth;
+    const int row0 = rect_.y0 / kPacketHeight, row1 = (rect_.y1 - 1) / kPacketHeight;
+    if ((column1 - column0 + 1) * (row1 - row0 + 1) <= kFewPackets || kLanes == 1) {
+      list_each(column0, column1, row0, row1);
+    } else {
+      list_rows(column0, column1, row0, row1);
+    }
+    for (std::size_t i = 0; i < listed_; ++i) write(list_[i]);
+  }
+
+ private:
+  static constexpr int kFewPackets = 40;
+  static constexpr std::size_t kMostPackets = (kMostSpan / kPacketWidth + 2) * (kMostSpan / kPacketHeight + 2);
+
+  // A packet with covered pixels.
+  struct Covered {
+    int packet;
+    uint32_t lanes;
+    int32_t e1, e2;  // edges 1 and 2: by how much they differ from the tile's first packet
+  };
+
+  void list_each(int column0, int column1, int row0, int row1) {
+    std::array<int32_t, 3> right, up, start;
+    for (std::size_t i = 0; i < 3; ++i) {
+      right[i] = edge_[i].step_x * kPacketWidth;
+      up[i] = edge_[i].step_y * kPacketHeight;
+      start[i] = right[i] * column0 + up[i] * row0;
+    }
+    for (int row = row0; row <= row1; ++row) {
+      std::array<int32_t, 3> at = start;
+      for (int column = column0; column <= column1; ++column) {
+        list(at, column, row);
+        for (std::size_t i = 0; i < 3; ++i) at[i] += right[i];
+      }
+      for (std::size_t i = 0; i < 3; ++i) start[i] += up[i];
+    }
+  }
+
+  // Row by row of packets: W columns at once are asked whether a packet can hold a covered pixel.
+  void list_rows(int column0, int column1, int row0, int row1) {
+    std::array<Int, 3> best;  // the edges' largest values in the packets of row 0
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SmallEdge& e = edge_[i];
+      const int32_t rise = std::max(0, e.step_x * (kPacketWidth - 1)) + std::max(0, e.step_y * (kPacketHeight - 1));
+      best[i] = iota<Int>() * (e.step_x * kPacketWidth) + (e.e + rise);
+    }
+    const auto step = [&](std::size_t i, int column, int row) {
+      return edge_[i].step_x * (column * kPacketWidth) + edge_[i].step_y * (row * kPacketHeight);
+    };
+    for (int row = row0; row <= row1; ++row) {
+      for (int group = column0 / kLanes * kLanes; group <= column1; group += kLanes) {
+        const Int column = iota<Int>() + group;
+        const Mask reaches =
+            ((best[0] + step(0, group, row)) | (best[1] + step(1, group, row)) | (best[2] + step(2, group, row))) >= Int(0);
+        const Mask asked = (column >= Int(column0)) & (column <= Int(column1));
+        for (uint32_t rest = bits(reaches & asked); rest != 0; rest &= rest - 1) {
+          const int c = group + std::countr_zero(rest);
+          list({step(0, c, row), step(1, c, row), step(2, c, row)}, c, row);
+        }
+      }
+    }
+  }
+
+  // Lists a packet, at whose pixels the edges differ by `at` from the tile's first packet, if it has covered pixels. Whether it has is as
+  // good as random, so there is no branch on it: it would often be foretold wrongly. All are listed before any is written.
+  HS_INLINE void list(const std::array<int32_t, 3>& at, int column, int row) {
+    uint32_t lanes = kAllBits<Mask> & ~negative_bits((first_[0] + at[0]) | (first_[1] + at[1]) | (first_[2] + at[2]));
+    if (d_.cut) lanes &= bits(inside(rect_, column * kPacketWidth, row * kPacketHeight));
+    list_[listed_] = {packet_at(column * kPacketWidth, row * kPacketHeight), lanes, at[1], at[2]};
+    listed_ += lanes != 0 ? 1 : 0;
+  }
+
+  HS_INLINE void write(const Covered& c) {
+    const auto z_at = [&] { return depth_.at(d_.tile.depth_format, first_[1] + (c.e1 + bias1_), first_[2] + (c.e2 + bias2_)); };
+    const bool passed = writer_.write(id_, c.packet, c.lanes, z_at);
+    if (passed && writer_.writes_depth())
+      widen_block_bounds(writer_.compare_op(), d_.tile, c.packet / kPacketsPerBlock, bounds_.low, bounds_.high);
+  }
+
+  const DrawInTile& d_;
+  TriangleId id_;
+  PlainWriter& writer_;
+  TileRect rect_;
+  std::array<SmallEdge, 3> edge_;
+  int32_t bias1_, bias2_;
+  std::array<Int, 3> first_;  // the edges in the tile's first packet
+  SmallDepth depth_;
+  DepthBounds bounds_;
+  std::size_t listed_ = 0;
+  std::array<Covered, kMostPackets + 1> list_;  // one beyond may be written
+};
+
+}  // namespace
+
+void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
+  const Chunk& c = d.frame.chunks[chunk];
+  const SmallTriangles triangles(d, c, indices);
+  PlainWriter writer(d, statistics);
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const TriangleId id = triangle_id(chunk, indices[k]);
+    if (triangles.is_known(k)) {
+      triangles.for_each_pixel(k, [&](std::size_t pixel, float z) { writer.write_pixel(id, pixel, z); });
+    } else if (triangles.is_wide(k)) {
+      rasterize_plain(d, c.triangles[indices[k]], id, statistics);
+    } else {
+      TrianglePackets(d, triangles, k, c.triangles[indices[k]], id, writer).visit();
+    }
+  }
+}
+
+}  // namespace halfspace

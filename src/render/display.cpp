@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/display.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <vector>
+
+#include "halfspace/core/half.h"
+
+namespace halfspace {
+
+namespace {
+
+// Of the squares whose sums are added up: their own, so that the bits do not depend on a pass's tiles.
+constexpr int kMeterTile = 64;
+
+glm::vec3 rgb_of(const glm::vec4& c) { return glm::vec3(c); }
+glm::vec3 rgb_of(const U16Vec4& c) { return {half_to_float(c.x), half_to_float(c.y), half_to_float(c.z)}; }
+
+// The sum of log(kLeastLuminance + luminance) over a square of the picture, from its first row on: logarithms by lanes, their sum in
+// the order of the pixels, so that lanes of any width give the same bits.
+template <class Pixel>
+double log_sum(const Image<Pixel>& light, int x0, int y0) {
+  const int width = std::min(kMeterTile, light.width() - x0), y1 = std::min(y0 + kMeterTile, light.height());
+  std::array<float, kMeterTile> values{};
+  double sum = 0.0;
+  for (int y = y0; y < y1; ++y) {
+    const Pixel* pixels = light.row(y).data() + x0;
+    for (int x = 0; x < width; ++x) values[static_cast<std::size_t>(x)] = luminance<float>(rgb_of(pixels[x]));
+    for (float* v = values.data(); v < values.data() + kMeterTile; v += kLanes) {
+      store(v, log(Real(kLeastLuminance) + clamp(load<Real>(v), 0.0f, kMaxHalf)));
+    }
+    for (int x = 0; x < width; ++x) sum += static_cast<double>(values[static_cast<std::size_t>(x)]);
+  }
+  return sum;
+}
+
+template <class Pixel>
+double log_average(const Image<Pixel>& light, const Workers& workers) {
+  const auto tiles_along = [](int size) { return (size + kMeterTile - 1) / kMeterTile; };
+  const int columns = tiles_along(light.width()), rows = tiles_along(light.height());
+  std::vector<double> sums(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  workers.for_each(columns * rows, [&](int tile) {
+    sums[static_cast<std::size_t>(tile)] = log_sum(light, tile % columns * kMeterTile, tile / columns * kMeterTile);
+  });
+  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+  return static_cast<double>(exp(static_cast<float>(sum / (static_cast<double>(light.width()) * light.height()))));
+}
+
+ToneMapping tone_of(const PostDescription& post, double exposure) {
+  // Beyond 1e9 nothing is left to be told apart, and an infinity would make NaN of black.
+  return {static_cast<float>(std::min(exposure, 1e9)), post.tone, post.tone_on, static_cast<float>(post.white)};
+}
+
+// To light on the display, for a target that encodes it exactly.
+struct ToDisplayLight {
+  ToneMapping tone;
+
+  template <class R>
+  vec4<R> operator()(const vec4<R>& color) const {
+    return vec4<R>(tone_map(SceneLight<R>{vec3<R>(color)}, tone).rgb, color.w);
+  }
+};
+
+// To codes over 255, for a target that stores them as they are.
+struct ToCodes {
+  ToneMapping tone;
+  DisplayEncoding encode;
+  float gamma;
+  bool dither;
+
+  template <class R>
+  vec4<R> operator()(const vec4<R>& color, IntOf<R> x, IntOf<R> y) const {
+    const DisplayLight<R> light = tone_map(SceneLight<R>{vec3<R>(color)}, tone);
+    Encoded<R> e = encode == DisplayEncoding::srgb ? encode_srgb(light) : encode_gamma(light, gamma);
+    if (dither) e = dithered(e, dither_threshold<R>(x, y));
+    return vec4<R>(e.rgb, color.w);
+  }
+};
+
+}  // namespace
+
+double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers) { return log_average(light, workers); }
+double log_average_luminance(const Image<glm::vec4>& light, const Workers& workers) { return log_average(light, workers); }
+
+void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture) {
+  const ToneMapping tone = tone_of(post, exposure);
+  if (post.encode == DisplayEncoding::srgb && !post.dither) {
+    pass.post(ToDisplayLight{tone}, srgb8a8_target(picture));
+  } else {
+    pass.post(ToCodes{tone, post.encode, static_cast<float>(post.gamma), post.dither}, rgba8_target(picture));
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/model/chord_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "halfspace/core/trig_double.h"
+
+namespace halfspace {
+
+namespace {
+
+// Between an arc of 2π/n and its chord.
+double chord_error_of_circle(double radius, int n) {
+  const double s = sincos_turns(0.25 / n).sin;
+  return 2.0 * radius * s * s;  // 1 − cos x = 2 sin²(x/2)
+}
+
+// Along a trefoil (torus_knot.cpp): an eighth of the curve's second derivative over n², where that is largest. There, at the
+// outmost place, the middle line turns by 36.8π²·R and the tube's radius by 52π²·t.
+double chord_error_along_knot(double radius, double tube, int n) {
+  return std::numbers::pi * std::numbers::pi * (4.6 * radius + 6.5 * tube) / (static_cast<double>(n) * n);
+}
+
+// Of an icosphere of radius 1 at level 0, and at level 1 times 4: further levels quarter it.
+constexpr double kIcosahedronError = 0.2054, kIcosphereError = 0.292;
+
+}  // namespace
+
+double chord_error(const ObjectDescription& o) {
+  switch (o.shape) {
+    case Shape::uv_sphere: {
+      // The triangle's circle goes through the ends of its diagonal.
+      const double along = 1.0 / (4.0 * o.latitudes), across = 1.0 / (2.0 * o.longitudes);  // turns to the diagonal's middle
+      const double s = sincos_turns(0.5 * std::sqrt(along * along + across * across)).sin;
+      return 2.0 * o.radius * s * s;
+    }
+    case Shape::icosphere: return o.radius * (o.level == 0 ? kIcosahedronError : kIcosphereError / static_cast<double>(1 << (2 * o.level)));
+    case Shape::cylinder:
+    case Shape::cone: return chord_error_of_circle(o.radius, o.longitudes);
+    case Shape::torus: return chord_error_of_circle(o.tube, o.latitudes) + chord_error_of_circle(o.radius + o.tube, o.longitudes);
+    case Shape::torus_knot: return chord_error_of_circle(o.tube, o.latitudes) + chord_error_along_knot(o.radius, o.tube, o.longitudes);
+    case Shape::sphere:
+    case Shape::plane:
+    case Shape::cube: break;
+  }
+  return 0.0;
+}
+
+int part_step(int least) {
+  int power = 1;
+  while (2 * power <= least) power *= 2;
+  if (least <= power) return power;
+  return 2 * least <= 3 * power ? 3 * power / 2 : 2 * power;
+}
+
+namespace {
+
+int scaled(int parts, double factor) { return std::max(3, static_cast<int>(std::ceil(parts * factor))); }
+
+// Of cylinders and cones, which are straight from top to bottom.
+int rows_of_cone(const ObjectDescription& o, int sectors, bool places_maps) {
+  if (is_map(o.height)) return scaled(sectors, static_cast<double>(o.latitudes) / o.longitudes);
+  // s/4n = 2πr/(4·sectors·sectors/3) is 4.7 r/sectors²; the chord error is 4.9.
+  if (places_maps && o.shape == Shape::cone && !first_map(o.surface).empty()) return scaled(sectors, 1.0 / 3.0);
+  return 2;
+}
+
+}  // namespace
+
+ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps) {
+  switch (o.shape) {
+    case Shape::uv_sphere:
+      o.latitudes = parts;
+      o.longitudes = 2 * parts;
+      break;
+    case Shape::icosphere:
+      o.level = 0;
+      while (o.level < 8 && (1 << o.level) < parts) ++o.level;
+      break;
+    case Shape::cylinder:
+    case Shape::cone:
+      o.latitudes = rows_of_cone(o, parts, places_maps);
+      o.longitudes = std::max(3, parts);
+      break;
+    case Shape::torus:
+      o.latitudes = std::max(3, parts);
+      o.longitudes = scaled(parts, std::sqrt((o.radius + o.tube) / o.tube));
+      break;
+    case Shape::torus_knot:
+      // t·(π/n)²/2 round the tube
+      o.latitudes = std::max(3, parts);
+      o.longitudes = scaled(parts, std::sqrt(2.0 * (4.6 * o.radius + 6.5 * o.tube) / o.tube));
+      break;
+    case Shape::plane:
+    case Shape::cube: o.segments = parts; break;
+    case Shape::sphere: break;
+  }
+  return o;
+}
+
+int most_parts(const ObjectDescription& o) {
+  switch (o.shape) {
+    case Shape::icosphere: return 1 << 8;
+    case Shape::plane:
+    case Shape::cube: return 1024;
+    case Shape::cylinder:
+    case Shape::cone: return 8192;
+    case Shape::torus: return 512;
+    case Shape::torus_knot: return 256;
+    case Shape::uv_sphere:
+    case Shape::sphere: break;
+  }
+  return 1536;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The cheapest model that is right enough. In: a scene, the picture's size, and how far the picture may be from that by the finest
+// models. Out: the scene with other counts, maps, filters and samples, and why. The constants are fitted to the figures of
+// docs/accuracy.md; nothing is timed.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "halfspace/render/model/chord_error.h"
+#include "halfspace/render/particles.h"
+#include "halfspace/render/preparation.h"
+#include "halfspace/scene/scene_check.h"
+#include "halfspace/shading/tone.h"
+
+namespace halfspace {
+
+namespace {
+
+// Fewer bands leave the normals of a sphere's vertices so far apart that even their mean is visibly wrong between them.
+constexpr int kLeastParts = 8;
+
+// Of a textured and shaded globe, against 1024 bands: 2, 8 and 33 codes (99.9th percentile) at 128, 64 and 32 bands. The angle
+// between the ends of a quad's diagonal counts squared.
+constexpr double kCodesPerSquaredAngle = 1700.0;
+
+// How many pixels of a thousand may show another surface, so that the 99.9th percentile is not an edge's. (Of 208 random views with 8 codes
+// asked three were beyond by 0.5, by this two: bricks in relief, seen at a grazing angle, 11 codes.)
+constexpr double kEdgePixels = 0.35;
+
+// By bilinear comparison a shadow's edge lies within this part of a texel's width, where light does more than graze the surface. (With a
+// half, 14 of 208 random views were off by more than asked, 2 of them by more than twice that; with this one, by an eighth of a pixel.)
+constexpr double kShadowEdgeTexels = 1.25;
+
+// What one vertex costs in pixels shaded (docs/performance.md: some 10 ns beside 2.5 that light by vertex saves a pixel).
+constexpr double kPixelsPerVertex = 4.0;
+
+// Study texture_filter, 99.9th percentile of linear light at full contrast.
+struct FilterError {
+  int anisotropy;
+  double linear;
+};
+constexpr std::array<FilterError, 4> kFilterErrors{{{1, 0.408}, {2, 0.314}, {4, 0.209}, {8, 0.111}}};
+constexpr int kMostAnisotropy = 16;
+
+std::string rounded_text(double x) { return number_text(std::round(x * 1000.0) / 1000.0); }
+
+// Codes by which light that differs by `linear` can differ: the curve is steepest at black.
+double codes_of(double linear) {
+  const glm::vec3 light(static_cast<float>(std::min(1.0, linear)));
+  return 255.0 * static_cast<double>(encode_srgb(DisplayLight<float>{light}).rgb.x);
+}
+
+// What edges may differ by where only colours are asked for: all edges of a picture together are taken to be twice its frame.
+double edge_for_color(const View& v) {
+  const double pixels = static_cast<double>(v.width_px) * v.height_px;
+  return kEdgePixels * 1e-3 * pixels / (4.0 * (v.width_px + v.height_px));
+}
+
+bool is_faceted(const ObjectDescription& o) {
+  return o.surface.shading == ShadingRate::flat || o.surface.shading == ShadingRate::provoking;
+}
+bool is_plane(Shape shape) { return shape == Shape::plane || shape == Shape::cube; }
+bool is_ball(const ObjectDescription& o) { return (o.shape == Shape::uv_sphere || o.shape == Shape::icosphere) && !is_map(o.height); }
+
+// Do vertices tell more than places? Then the mesh is part of how the object looks.
+bool shades_by_vertex(const ObjectDescription& o) {
+  if (o.surface.shading == ShadingRate::gouraud) return true;
+  return is_map(o.height) && !(o.shape == Shape::uv_sphere && o.normals == NormalSource::pixel);
+}
+
+// Between a shape's normals at the ends of a quad's diagonal; 0 where it has plane faces.
+double diagonal_angle(const ObjectDescription& o) {
+  constexpr double kPi = std::numbers::pi;
+  switch (o.shape) {
+    case Shape::sphere:
+    case Shape::plane:
+    case Shape::cube: return 0.0;
+    case Shape::icosphere: return 1.33 / static_cast<double>(1 << o.level);
+    case Shape::uv_sphere: return glm::length(glm::dvec2(kPi / o.latitudes, 2.0 * kPi / o.longitudes));
+    case Shape::cylinder:
+    case Shape::cone: return 2.0 * kPi / o.longitudes;
+    case Shape::torus:
+    case Shape::torus_knot: break;
+  }
+  return glm::length(glm::dvec2(2.0 * kPi / o.latitudes, 2.0 * kPi / o.longitudes));
+}
+
+// The largest channel of the light that reaches a surface.
+double most_light(const SceneDescription& scene) {
+  glm::dvec3 sum(0.0);
+  for (const auto& [name, l] : scene.lights) sum += l.color.linear * l.intensity * l.diffuse;
+  return std::max({sum.x, sum.y, sum.z}) * (scene.post.hdr ? scene.post.exposure : 1.0);
+}
+
+// Is diffuse light from far away all that pixels differ by?
+bool may_shade_by_vertex(const ObjectDescription& o, const SceneDescription& scene) {
+  const SurfaceDescription& s = o.surface;
+  const bool is_smooth = !is_map(o.height) && !is_map(s.normal_map) && !is_map(s.bump_map) && s.specular.linear == glm::dvec3(0.0) &&
+                         s.reflection.linear == glm::dvec3(0.0);
+  const bool is_shadowed = scene.shadow.method != ShadowMethod::none && o.receives_shadow;
+  const bool is_metered = scene.post.hdr && scene.post.auto_exposure;
+  return s.shading == ShadingRate::phong && is_smooth && !is_shadowed && !is_metered &&
+         std::ranges::all_of(scene.lights, [](const auto& light) { return light.second.type == LightType::directional; });
+}
+
+double vertices_of(const ObjectDescription& o) {
+  if (is_plane(o.shape)) return static_cast<double>(o.segments) * o.segments;
+  if (o.shape == Shape::icosphere) return 10.0 * static_cast<double>(1 << (2 * o.level));
+  return static_cast<double>(o.latitudes) * o.longitudes;
+}
+
+// How an object stands in the picture.
+struct Presence {
+  double px_per_unit = 0.0;  // of the object, the most
+  double pixels = 0.0;       // that its ball covers, at most the picture's
+  bool is_seen = false;      // or may throw a shadow
+};
+
+Presence presence_of(const ObjectDescription& o, const View& view, bool casts) {
+  Presence p{.is_seen = casts};
+  for (const glm::dmat4& world : places_of(o)) {
+    const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
+    const double reach = (ball_radius(o) + relief_height(o)) * scale;
+    if (is_outside(view, glm::dvec3(world[3]), reach)) continue;
+    p.is_seen = true;
+    const double per_unit = (is_ball(o) ? silhouette_pixels_per_unit : pixels_per_unit)(view, glm::dvec3(world[3]), reach);
+    p.px_per_unit = std::max(p.px_per_unit, scale * per_unit);
+    p.pixels += std::numbers::pi * reach * reach * per_unit * per_unit;
+  }
+  p.pixels = std::min(p.pixels, static_cast<double>(view.width_px) * view.height_px);
+  return p;
+}
+
+}  // namespace
+
+std::shared_ptr<const ReliefDetail> ScenePreparation::relief_detail(const ObjectDescription& o, const std::string& path) {
+  if (!is_map(o.height)) return nullptr;
+  const MapUse use = use_of(o.height, o);
+  return asset<ReliefDetail>(
+      recipe("detail", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing),
+      [&] { return ReliefDetail(*heights(use, path + ".height"), o.height_smoothing, assets_.workers_); });
+}
+
+// authored: one of the scene's own, since what is asked of its maps depends on its place there.
+ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, const std::string& path, double edge_px,
+                                           std::optional<double> color, std::vector<ModelChoice>& choices) {
+  if (is_faceted(authored) || authored.shape == Shape::sphere) return authored;
+  if (is_ball(authored) && key_for_meshes(authored).empty()) {
+    // Study sphere_model: 1.52 ms, a mesh of eight bands 1.41, one of 64 bands 6.5.
+    ObjectDescription sphere = authored;
+    sphere.shape = Shape::sphere;
+    choices.push_back({path + ".shape", "sphere", "a ray a pixel: exact, at about the cost of the coarsest mesh"});
+    return sphere;
+  }
+  const Presence presence = presence_of(authored, view_, scene_.shadow.method != ShadowMethod::none && authored.casts_shadow);
+  const std::shared_ptr<const ReliefDetail> detail = presence.is_seen ? relief_detail(authored, path) : nullptr;
+  const auto off_px = [&](const ObjectDescription& o) {
+    const double relief = detail == nullptr ? 0.0 : std::fabs(o.height_scale) * detail->error(columns_of(o));
+    return (chord_error(o) + relief) * presence.px_per_unit;
+  };
+  const auto is_enough = [&](const ObjectDescription& o) {
+    const double angle = diagonal_angle(o);
+    return off_px(o) <= edge_px && (!color || kCodesPerSquaredAngle * angle * angle <= *color);
+  };
+  const bool has_curves = !is_plane(authored.shape) || is_map(authored.height);
+  int parts = has_curves ? kLeastParts : 1;
+  ObjectDescription o = with_parts(authored, parts, color.has_value());
+  while (presence.is_seen && has_curves && parts < most_parts(o) && !is_enough(o)) {
+    parts = std::min(part_step(parts + 1), most_parts(o));
+    o = with_parts(authored, parts, color.has_value());
+  }
+  if (shades_by_vertex(authored) && columns_of(o) <= columns_of(authored)) return authored;
+  const std::string why = !presence.is_seen ? "not in the picture"
+                          : !has_curves     ? "its faces are plane"
+                          : is_enough(o)    ? "at most " + rounded_text(off_px(o)) + " px off"
+                                            : "the most there are: up to " + rounded_text(off_px(o)) + " px off";
+  const auto tell = [&](const char* key, int from, int to) {
+    if (from != to) choices.push_back({path + "." + key, std::to_string(to), why});
+  };
+  tell("latitudes", authored.latitudes, o.latitudes);
+  tell("longitudes", authored.longitudes, o.longitudes);
+  tell("level", authored.level, o.level);
+  tell("segments", authored.segments, o.segments);
+  // A cosine between two vertices lies off the straight line by an eighth of the angle's square at the most.
+  const double angle = diagonal_angle(o), light_error = codes_of(most_light(scene_) * angle * angle / 8.0);
+  if (color && may_shade_by_vertex(o, scene_) && light_error <= *color && kPixelsPerVertex * vertices_of(o) <= presence.pixels) {
+    o.surface.shading = ShadingRate::gouraud;
+    choices.push_back({path + ".shading", "gouraud", "up to " + rounded_text(light_error) + " codes off"});
+  }
+  return o;
+}
+
+namespace {
+
+// Edges lie where samples say, so they are known to half the distance of samples.
+void fit_samples(SceneHead& head, double edge_px, std::vector<ModelChoice>& choices) {
+  int samples = 1;
+  while (samples < 8 && 0.5 / std::sqrt(samples) > edge_px) samples *= 2;
+  if (samples == head.samples) return;
+  head.samples = samples;
+  const double half = 0.5 / std::sqrt(samples);
+  choices.push_back({"samples", std::to_string(samples),
+                     "they place an edge to " + rounded_text(half) + " px" + (half > edge_px ? ", the least there is" : "")});
+}
+
+bool compares(ShadowMethod m) { return m != ShadowMethod::none && m <= ShadowMethod::vogel; }
+
+void fit_shadow(ShadowDescription& shadow, double edge_px, std::vector<ModelChoice>& choices) {
+  if (shadow.method == ShadowMethod::none) return;
+  if (compares(shadow.method) && shadow.method != ShadowMethod::bilinear) {
+    shadow.method = ShadowMethod::bilinear;
+    choices.push_back({"shadow.method", "bilinear", "the narrowest filter: its edges lie nearest to the true ones"});
+  }
+  shadow.resolution = 0;
+  shadow.footprint = std::clamp(edge_px / kShadowEdgeTexels, 0.1, 100.0);
+  const std::string why = "as fine as edges within " + rounded_text(shadow.footprint * kShadowEdgeTexels) + " px ask, at most " +
+                          std::to_string(kMostShadowTexels) + " texels";
+  choices.push_back({"shadow.resolution", "0", why});
+  choices.push_back({"shadow.footprint", rounded_text(shadow.footprint), why});
+}
+
+// How far the circle of an original sprite lies from the sphere's ellipse, in pixels, at the most. On the line from the picture's
+// middle the ellipse reaches from tan(θ − α) to tan(θ + α), sin α = r/d, the circle r/z to both sides of tan θ.
+double original_error_px(const View& v, const Particles& particles) {
+  if (v.to_eye_ws != glm::dvec3(0.0)) return 0.0;
+  const double focal_px = 0.5 * v.height_px / v.tan_y;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < particles.centers_ws.size(); ++i) {
+    const glm::dvec3 from_eye = particles.centers_ws[i] - v.eye_ws;
+    const double z = glm::dot(from_eye, v.forward_ws), squared = glm::dot(from_eye, from_eye), r = static_cast<double>(particles.radii[i]);
+    if (z + r <= v.near || is_outside(v, particles.centers_ws[i], r)) continue;
+    const double tan_center = std::sqrt(std::max(0.0, squared - z * z)) / z, tan_radius = r / std::sqrt(squared - r * r);
+    if (z - r <= v.near || tan_center * tan_radius >= 1.0) return INFINITY;  // no ellipse
+    const double outer = (tan_center + tan_radius) / (1.0 - tan_center * tan_radius);
+    worst = std::max(worst, focal_px * std::fabs(outer - tan_center - r / z));
+  }
+  return worst;
+}
+
+void fit_particles(ParticlesDescription& p, double error_px, double edge_px, std::vector<ModelChoice>& choices) {
+  if (p.sprite == ParticleSprite::exact || error_px <= edge_px) return;
+  p.sprite = ParticleSprite::exact;
+  const std::string how_far = std::isfinite(error_px) ? "up to " + rounded_text(error_px) + " px" : std::string("any distance");
+  choices.push_back({"particles.sprite", "exact", "circles lie " + how_far + " off the spheres' ellipses"});
+}
+
+void fit_textures(Named<TextureDescription>& textures, double color, std::vector<ModelChoice>& choices) {
+  const auto enough = std::ranges::find_if(kFilterErrors, [&](const FilterError& e) { return codes_of(e.linear) <= color; });
+  const int anisotropy = enough == kFilterErrors.end() ? kMostAnisotropy : enough->anisotropy;
+  for (auto& [name, t] : textures) {
+    if (t.filter != Filter::trilinear || t.anisotropy == anisotropy) continue;
+    t.anisotropy = anisotropy;
+    const std::string why =
+        anisotropy == kMostAnisotropy ? "the most there are" : "up to " + rounded_text(codes_of(enough->linear)) + " codes";
+    choices.push_back({"textures." + name + ".anisotropy", std::to_string(anisotropy), why});
+  }
+}
+
+// Halves hold light to 2^-12 of itself, a 16th of a code at the most.
+void fit_post(PostDescription& post, double color, std::vector<ModelChoice>& choices) {
+  const LightFormat format = color >= 1.0 / 16.0 ? LightFormat::rgba16f : LightFormat::rgba32f;
+  if (!post.hdr || post.format == format) return;
+  post.format = format;
+  choices.push_back({"post.format", format == LightFormat::rgba16f ? "rgba16f" : "rgba32f", "halves are a 16th of a code off"});
+}
+
+}  // namespace
+
+FittedScene ScenePreparation::fit(const AllowedError& allowed) {
+  FittedScene out{scene_, {}};
+  SceneDescription& scene = out.scene;
+  if (allowed.edge_px) fit_samples(scene.head, *allowed.edge_px, out.choices);
+  const double edge_px = allowed.edge_px ? *allowed.edge_px : edge_for_color(view_);
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+    const auto& [name, authored] = scene_.objects[i];
+    if (authored.visible) scene.objects[i].second = fitted(authored, "objects." + name, edge_px, allowed.color, out.choices);
+  }
+  fit_shadow(scene.shadow, edge_px, out.choices);
+  if (const auto spheres = particles()) fit_particles(scene.particles, original_error_px(view_, *spheres), edge_px, out.choices);
+  if (allowed.color) {
+    fit_textures(scene.textures, *allowed.color, out.choices);
+    fit_post(scene.post, *allowed.color, out.choices);
+  }
+  check_room(scene.objects, "the cheapest model");  // thousands of copies of a fine mesh may want more room than there is
+  return out;
+}
+
+FittedScene SceneAssets::fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed) {
+  return ScenePreparation(*this, scene, width, height).fit(allowed);
+}
+
+}  // namespace halfspace

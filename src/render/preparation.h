@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
+// prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp,
+// prepare_background.cpp, prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp.
+// Included by these alone.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "halfspace/core/check.h"
+#include "halfspace/geometry/height_field.h"
+#include "halfspace/geometry/mesh.h"
+#include "halfspace/geometry/relief_detail.h"
+#include "halfspace/procedural/earth.h"
+#include "halfspace/procedural/moon.h"
+#include "halfspace/procedural/patterns.h"
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/shadow/shadow_views.h"
+#include "halfspace/render/view.h"
+
+namespace halfspace {
+
+// A mesh with its indices checked once.
+struct MeshAsset {
+  explicit MeshAsset(Mesh m) : mesh(std::move(m)), indices(mesh.indices, mesh.positions.size()) {}
+  Mesh mesh;
+  Indices indices;
+};
+
+// What an asset is made from, in words: the key it is kept by.
+template <class... T>
+std::string recipe(const T&... parts) {
+  std::string text;
+  const auto add = [&](const auto& part) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(part)>>) {
+      text += number_text(static_cast<double>(part)) + " ";
+    } else {
+      text += std::string(part) + " ";
+    }
+  };
+  (add(parts), ...);
+  return text;
+}
+
+// Reads a file; what is wrong with it is told with the key that asks for it.
+template <class F>
+auto read_for(const std::string& key, F read) {
+  try {
+    return read();
+  } catch (const InputError& e) {
+    throw InputError(key + ": " + e.what());
+  }
+}
+
+// A map as one object needs it.
+struct MapUse {
+  TextureDescription texture;
+  int width;  // of a generated map, else 0
+};
+
+/// Is the source a pattern's map of heights?
+bool is_pattern_height(TextureSource source);
+
+/// How the map goes on beyond its edges on that shape.
+MapEdges edges_of(Shape shape);
+
+/// How the shader reads a texture.
+Sampler make_sampler(const TextureDescription& t);
+
+/// The radius of the ball round its origin that holds the shape, without heights; units of the object.
+double ball_radius(const ObjectDescription& o);
+
+/// How far at most its heights reach from the undisplaced shape; units of the object.
+double relief_height(const ObjectDescription& o);
+
+/// Columns of the mesh along u.
+int columns_of(const ObjectDescription& o);
+
+/// World from object, for each copy.
+std::vector<glm::dmat4> places_of(const ObjectDescription& o);
+
+class ScenePreparation {
+ public:
+  ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height);
+  PreparedScene prepare();
+  void expect();
+  FittedScene fit(const AllowedError& allowed);
+
+ private:
+  // What displaces an object.
+  struct Relief {
+    std::shared_ptr<const HeightField> field;  // null: nothing does
+    std::string recipe;
+  };
+
+  const CameraDescription& camera() const;
+
+  // The asset made from `recipe`, made now if it is not there.
+  template <class T, class F>
+  std::shared_ptr<const T> asset(const std::string& recipe, F make) {
+    auto found = assets_.entries_.find(recipe);
+    if (found == assets_.entries_.end())
+      found = assets_.entries_.emplace(recipe, SceneAssets::Entry{std::make_shared<const T>(make()), true}).first;
+    found->second.wanted = true;
+    out_.assets.push_back(found->second.asset);
+    return std::static_pointer_cast<const T>(found->second.asset);
+  }
+  // prepare_maps.cpp
+  int width_for(const ObjectDescription& o) const;
+  const TextureDescription& texture_named(const std::string& name) const;
+  MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
+  std::shared_ptr<const MoonMaps> moon_maps(int width);
+  std::shared_ptr<const EarthMaps> earth_maps(int width);
+  // Does the scene have a texture from this source?
+  bool has_texture(TextureSource source) const;
+  // where: the key's path, for messages.
+  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Texture2D> data_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Image<float>> heights(const MapUse& use, const std::string& where);
+  std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& where);
+
+  // prepare_surface.cpp
+  void add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map, const ObjectDescription& o,
+                  const std::string& where);
+  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  DetailMap normal_map(const ObjectDescription& o, const std::string& where);
+  DetailMap bump_map(const ObjectDescription& o, const std::string& where);
+
+  // prepare_patterns.cpp
+  std::shared_ptr<const PatternMaps> pattern_maps(const MapUse& use);
+  std::shared_ptr<const Texture2D> pattern_texture(const MapUse& use);
+
+  // prepare_meshes.cpp
+  std::shared_ptr<const MeshAsset> mesh_of(const ObjectDescription& o, const Relief& relief);
+  std::shared_ptr<const MeshAsset> sphere_of(const ObjectDescription& o, const Relief& relief);
+
+  // prepare_objects.cpp
+  // object: its place among the scene's.
+  void add_object(int object);
+  Relief relief_of(const ObjectDescription& o, const std::string& path);
+  DetailMap slopes_of(const Relief& relief, const ObjectDescription& o);
+  NormalDetail add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path);
+  void place(LitSurface& s, glm::dmat4 world) const;
+
+  // prepare_shadows.cpp: fills the shadows' views, once all objects are placed
+  void add_shadows();
+  std::vector<LightView> shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const;
+  int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
+
+  // prepare_models.cpp
+  ObjectDescription fitted(const ObjectDescription& authored, const std::string& path, double edge_px, std::optional<double> color,
+                           std::vector<ModelChoice>& choices);
+  std::shared_ptr<const ReliefDetail> relief_detail(const ObjectDescription& o, const std::string& path);
+
+  // prepare_spheres.cpp
+  SphereSprites sphere_sprites(bool receives_shadow) const;
+  void draw_spheres(const Particles& spheres, const glm::dvec3& color, const SceneShader& shader);
+  void add_exact_spheres(int object, const std::string& path, const ObjectDescription& o);
+
+  // prepare_particles.cpp
+  void add_particles();
+  std::shared_ptr<const Particles> particles();  // null: none
+
+  // prepare_background.cpp
+  void add_background();
+  StarSky star_sky(double density, double brightness) const;
+  EnvironmentSky environment_sky();
+
+  // prepare_environments.cpp
+  const std::pair<std::string, EnvironmentDescription>& environment_named(const std::string& name) const;
+  EnvironmentBlend background_light();
+  const EnvironmentBlend* surroundings();
+  Environment environment_of(const std::string& name, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> generated_sky(const EnvironmentDescription& e);
+  int panorama_width() const;
+  int face_size() const;
+
+  SceneAssets& assets_;
+  const SceneDescription& scene_;
+  View view_;
+  std::span<Shadow> shadows_;  // by light, as out_.lights
+  std::span<const Light> lights_;
+  std::span<const Light> shadowless_lights_;  // for what receives no shadow
+  glm::dvec3 ambient_;
+  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not asked for yet
+  PreparedScene out_;
+};
+
+}  // namespace halfspace

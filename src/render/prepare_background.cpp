@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is seen where no object is.
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+namespace {
+
+// Which way a background looks.
+template <class Sky>
+void set_view(Sky& sky, const View& view) {
+  sky.forward_ws = glm::vec3(view.forward_ws);
+  sky.right_ws = glm::vec3(view.right_ws * view.tan_x);
+  sky.up_ws = glm::vec3(view.up_ws * view.tan_y);
+}
+
+}  // namespace
+
+StarSky ScenePreparation::star_sky(double density, double brightness) const {
+  StarSky sky;
+  set_view(sky, view_);
+  sky.brightness = static_cast<float>(brightness);
+  sky.density = static_cast<float>(density);
+  sky.pixel = static_cast<float>(2.0 * view_.tan_y / view_.height_px);
+  return sky;
+}
+
+EnvironmentSky ScenePreparation::environment_sky() {
+  const BackgroundDescription& b = scene_.background;
+  EnvironmentSky sky;
+  set_view(sky, view_);
+  sky.environment = background_light();
+  const auto stars_of = [&](const std::string& name) {
+    const EnvironmentDescription& e = environment_named(name).second;
+    return e.type == EnvironmentType::night_sky ? star_sky(e.stars, e.star_brightness) : StarSky{.density = 0.0f};
+  };
+  sky.first_stars = stars_of(b.environment);
+  sky.second_stars = stars_of(b.second);
+  return sky;
+}
+
+// One triangle behind everything.
+void ScenePreparation::add_background() {
+  DrawState state;
+  state.depth.clip = ClipDepth::zero_to_one;
+  state.depth.compare = CompareOp::greater_equal;  // where nothing is nearer than the farthest
+  state.depth.write = false;
+  static const std::vector<glm::vec2> corners(StarSky::kCorners.begin(), StarSky::kCorners.end());
+  const auto add = [&](const auto& sky) {
+    out_.draws.push_back({sky, vertices(stream(corners)), std::make_shared<const Indices>(Indices::sequential(3)), state});
+  };
+  switch (scene_.background.type) {
+    case BackgroundType::color: break;  // the clear colour
+    case BackgroundType::stars: {
+      StarSky sky = star_sky(scene_.background.density, scene_.background.brightness);
+      sky.color = glm::vec3(scene_.background.color.linear);
+      add(sky);
+      break;
+    }
+    case BackgroundType::environment: add(environment_sky()); break;
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Environments: read from files, or generated as fine as the view needs.
+#include <algorithm>
+#include <numbers>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/half.h"
+#include "halfspace/geometry/camera.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/procedural/earth.h"
+#include "halfspace/procedural/sky.h"
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 6> kFaceNames{"right", "left", "top", "bottom", "front", "back"};
+
+// A face or a panorama, as its file holds it.
+using Picture = std::variant<Image<glm::u8vec4>, Image<glm::vec4>>;
+
+Picture read_picture(const fs::path& path) {
+  if (holds_linear_numbers(path)) return read_linear(path);
+  return read_image(path);
+}
+
+TexelFormat format_for(const Image<glm::u8vec4>&) { return TexelFormat::srgb8a8; }
+// Halfs, where they reach.
+TexelFormat format_for(const Image<glm::vec4>& image) {
+  const bool wide = std::ranges::any_of(image.texels(), [](const glm::vec4& t) { return std::max({t.x, t.y, t.z}) > kMaxHalf; });
+  return wide ? TexelFormat::rgba32f : TexelFormat::rgba16f;
+}
+
+// The one file of the folder that is called NAME.anything.
+fs::path face_in(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  fs::path found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().stem() != name) continue;
+    if (!found.empty()) throw InputError(folder.string() + ": has two files for the face " + name + "; expected one");
+    found = entry.path();
+  }
+  if (error) throw InputError(folder.string() + ": cannot be read (" + error.message() + "); expected a folder of six faces");
+  if (found.empty()) throw InputError(folder.string() + ": has no file for the face " + name + "; expected " + name + ".png or the like");
+  return found;
+}
+
+std::array<fs::path, 6> face_files(const EnvironmentDescription& e) {
+  const std::array<const FilePath*, 6> own{&e.right, &e.left, &e.top, &e.bottom, &e.front, &e.back};
+  std::array<fs::path, 6> files;
+  for (std::size_t f = 0; f < 6; ++f) {
+    if (own[f]->path.empty() && e.folder.path.empty())
+      throw InputError(std::string("the face ") + kFaceNames[f] + " is missing; expected an image file, or a folder of six");
+    files[f] = own[f]->path.empty() ? face_in(e.folder.path, kFaceNames[f]) : own[f]->path;
+  }
+  return files;
+}
+
+template <class Texel>
+EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture, 6>& pictures) {
+  std::array<Image<Texel>, 6> faces;
+  TexelFormat format = std::is_same_v<Texel, glm::u8vec4> ? TexelFormat::srgb8a8 : TexelFormat::rgba16f;
+  for (std::size_t f = 0; f < 6; ++f) {
+    auto* face = std::get_if<Image<Texel>>(&pictures[f]);
+    if (face == nullptr) throw InputError(files[f].string() + ": one face holds linear numbers and another codes; expected six of a kind");
+    faces[f] = std::move(*face);
+    const int size = faces[0].width();
+    if (faces[f].width() != size || faces[f].height() != size) {
+      throw InputError(files[f].string() + ": is " + std::to_string(faces[f].width()) + "x" + std::to_string(faces[f].height()) +
+                       "; expected a square face, all six of one size");
+    }
+    format = std::max(format, format_for(faces[f]));
+  }
+  return EnvironmentMap(faces, format);
+}
+
+EnvironmentMap read_cube(const std::array<fs::path, 6>& files) {
+  std::array<Picture, 6> pictures;
+  std::ranges::transform(files, pictures.begin(), read_picture);
+  return std::holds_alternative<Image<glm::u8vec4>>(pictures[0]) ? cube_of<glm::u8vec4>(files, pictures)
+                                                                 : cube_of<glm::vec4>(files, pictures);
+}
+
+EnvironmentMap read_panorama(const fs::path& path, const std::string& where) {
+  return read_for(
+      where, [&] { return std::visit([](const auto& image) { return EnvironmentMap(image, format_for(image)); }, read_picture(path)); });
+}
+
+EnvironmentMap uniform(const Color& color) {
+  Image<glm::vec4> one(1, 1);
+  one.at(0, 0) = glm::vec4(glm::vec3(color.linear), 1.0f);
+  return EnvironmentMap(one, TexelFormat::rgba32f);
+}
+
+}  // namespace
+
+// How many texels round the whole sky are worth having: in the picture's middle one spans two pixels.
+int ScenePreparation::panorama_width() const {
+  const double circumference_px = std::numbers::pi / view_.tan_y * view_.height_px;
+  int width = std::max(256, assets_.panorama_width_);
+  while (width < 4096 && 2 * width < circumference_px) width *= 2;
+  return width;
+}
+
+// The same of a cube's face, whose texels are largest in its middle.
+int ScenePreparation::face_size() const {
+  int size = std::max(64, assets_.face_size_);
+  while (size < 1024 && size < view_.height_px / (2.0 * view_.tan_y)) size *= 2;
+  return size;
+}
+
+std::shared_ptr<const EnvironmentMap> ScenePreparation::environment_map(const std::string& path, const EnvironmentDescription& e) {
+  switch (e.type) {
+    case EnvironmentType::equirect:
+    case EnvironmentType::globe: return panorama(path, e);
+    case EnvironmentType::cube: {
+      const std::array<fs::path, 6> files = read_for(path, [&] { return face_files(e); });
+      std::string words = "cube ";
+      for (const fs::path& file : files) words += recipe(file.string());
+      return asset<EnvironmentMap>(words, [&] { return read_for(path, [&] { return read_cube(files); }); });
+    }
+    default: return generated_sky(e);
+  }
+}
+
+std::shared_ptr<const EnvironmentMap> ScenePreparation::panorama(const std::string& path, const EnvironmentDescription& e) {
+  if (const auto* color = std::get_if<Color>(&e.map)) {
+    const glm::dvec3& c = color->linear;
+    return asset<EnvironmentMap>(recipe("uniform", c.x, c.y, c.z), [&] { return uniform(*color); });
+  }
+  TextureDescription texture;
+  if (const auto* file = std::get_if<FilePath>(&e.map)) {
+    texture.file = *file;
+  } else {
+    texture = texture_named(std::get<TextureName>(e.map).name);
+  }
+  const int width = texture.width != 0 ? texture.width : panorama_width();
+  switch (texture.source) {
+    case TextureSource::file:
+      return asset<EnvironmentMap>(recipe("panorama", texture.file.path.string()),
+                                   [&] { return read_panorama(texture.file.path, path + ".map"); });
+    case TextureSource::earth_color:
+      return asset<EnvironmentMap>(recipe("earth_color panorama", width), [&] {
+        return EnvironmentMap(procedural_earth(width, width / 2, assets_.workers_), TexelFormat::srgb8a8);
+      });
+    case TextureSource::moon_color:
+      return asset<EnvironmentMap>(recipe("moon_color panorama", width),
+                                   [&] { return EnvironmentMap(moon_maps(width)->color, TexelFormat::srgb8a8); });
+    default: throw InputError(path + ".map: is no map of colours; expected one");
+  }
+}
+
+std::shared_ptr<const EnvironmentMap> ScenePreparation::generated_sky(const EnvironmentDescription& e) {
+  const int size = e.size != 0 ? e.size : face_size();
+  if (e.type == EnvironmentType::night_sky) {
+    return asset<EnvironmentMap>(recipe("night_sky", size, e.milky_way), [&] {
+      const NightSky sky{static_cast<float>(e.milky_way)};
+      return EnvironmentMap(procedural_night_sky(size, sky, assets_.workers_), TexelFormat::rgba16f);
+    });
+  }
+  // The sun is a place in the world: turning the sky turns clouds, not it.
+  const glm::dvec3 sun = unit_or_zero(glm::transpose(glm::dmat3(world_from_object({.rotation = e.rotation}))) * e.sun);
+  return asset<EnvironmentMap>(recipe("day_sky", size, sun.x, sun.y, sun.z, e.clouds), [&] {
+    const DaySky sky{kMapFromWorld * glm::vec3(sun), static_cast<float>(e.clouds)};
+    return EnvironmentMap(procedural_day_sky(size, sky, assets_.workers_), TexelFormat::rgba16f);
+  });
+}
+
+Environment ScenePreparation::environment_of(const std::string& name, const EnvironmentDescription& e) {
+  Environment out;
+  out.map = environment_map("environments." + name, e).get();
+  const glm::mat3 world_from_turned(glm::dmat3(world_from_object({.rotation = e.rotation})));
+  out.map_from_world = (e.type == EnvironmentType::globe ? kMapFromGlobe : kMapFromWorld) * glm::transpose(world_from_turned);
+  out.brightness = static_cast<float>(e.brightness);
+  return out;
+}
+
+// The first where the name is empty.
+const std::pair<std::string, EnvironmentDescription>& ScenePreparation::environment_named(const std::string& name) const {
+  const auto found = std::ranges::find_if(scene_.environments, [&](const auto& e) { return e.first == name; });
+  return found == scene_.environments.end() ? scene_.environments.front() : *found;
+}
+
+// Of two environments only those are made that are seen.
+EnvironmentBlend ScenePreparation::background_light() {
+  const BackgroundDescription& b = scene_.background;
+  const auto make = [&](const std::string& name) {
+    const auto& [found, e] = environment_named(name);
+    return environment_of(found, e);
+  };
+  EnvironmentBlend light;
+  light.weight = b.second.empty() ? 0.0f : static_cast<float>(b.weight);
+  if (light.weight < 1.0f) light.first = make(b.environment);
+  if (light.weight > 0.0f) light.second = make(b.second);
+  return light;
+}
+
+// What surfaces mirror; null where reflections are off.
+const EnvironmentBlend* ScenePreparation::surroundings() {
+  if (!scene_.reflections.on) return nullptr;
+  if (surroundings_ == nullptr) {
+    EnvironmentBlend light;
+    if (const std::string& name = scene_.reflections.environment; !name.empty()) {
+      light.first = environment_of(name, environment_named(name).second);
+    } else if (scene_.background.type == BackgroundType::environment) {
+      light = background_light();
+    } else {
+      EnvironmentDescription color;
+      color.map = scene_.background.color;
+      light.first = environment_of("background", color);
+    }
+    surroundings_ = std::make_shared<const EnvironmentBlend>(light);
+    out_.assets.push_back(surroundings_);
+  }
+  return surroundings_.get();
+}
+
+}  // namespace halfspace

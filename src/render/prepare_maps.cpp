@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Maps of a scene's objects: read from files, or generated as fine as the view needs.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "halfspace/core/check.h"
+#include "halfspace/geometry/displaced_sphere.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/procedural/earth.h"
+#include "halfspace/render/preparation.h"
+#include "halfspace/render/shadow/shadow_views.h"
+
+namespace halfspace {
+
+Sampler make_sampler(const TextureDescription& t) {
+  Sampler s;
+  s.mag = t.filter == Filter::nearest ? Filter::nearest : Filter::bilinear;
+  s.min = t.filter;
+  s.wrap_s = t.wrap_s;
+  s.wrap_t = t.wrap_t;
+  s.anisotropy = t.anisotropy;
+  return s;
+}
+
+namespace {
+
+// What the map spans from left to right on the object, and the radius of the ball that holds the object; units.
+struct Extent {
+  double map_width, radius;
+};
+
+Extent extent_of(const ObjectDescription& o) {
+  const auto round = [](double radius) { return 2.0 * std::numbers::pi * radius; };
+  switch (o.shape) {
+    case Shape::uv_sphere:
+    case Shape::icosphere:
+    case Shape::sphere: return {round(o.radius), o.radius};
+    case Shape::plane: return {o.size, o.size * std::numbers::sqrt2 / 2.0};
+    case Shape::cube: return {o.size, o.size * std::numbers::sqrt3 / 2.0};
+    case Shape::torus: return {round(o.radius + o.tube), o.radius + o.tube};
+    case Shape::torus_knot: return {round(3.0 * o.radius), 1.4 * o.radius + o.tube};  // the knot is about 3 circles long
+    case Shape::cylinder:
+    case Shape::cone: break;
+  }
+  return {round(o.radius), glm::length(glm::dvec2(o.radius, 0.5 * o.length))};
+}
+
+Image<float> unit_numbers(const Image<uint16_t>& codes) {
+  Image<float> map(codes.width(), codes.height());
+  std::ranges::transform(codes.texels(), map.data(), [](uint16_t code) { return static_cast<float>(code) / 65535.0f; });
+  return map;
+}
+
+}  // namespace
+
+double ball_radius(const ObjectDescription& o) { return extent_of(o).radius; }
+
+double relief_height(const ObjectDescription& o) {
+  return is_map(o.height) ? std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) : 0.0;
+}
+
+namespace {
+
+// How far from the eye the object's ball is; units.
+double distance_of_ball(const ObjectDescription& o, const glm::dmat4& world_from_object, double scale, const View& view) {
+  return glm::distance(glm::dvec3(world_from_object[3]), view.eye_ws) - ball_radius(o) * scale;
+}
+
+// How far along the view the nearest part of a plane lies that is in view; units; infinite where none is. (Its ball often holds the eye.)
+double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_object, const View& view) {
+  const glm::dvec3 corner(0.5 * o.size, relief_height(o), 0.5 * o.size);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& p : common_corners(frustum_corners(view.clip_from_world * world_from_object), {-corner, corner})) {
+    nearest = std::min(nearest, glm::dot(glm::dvec3(world_from_object * glm::dvec4(p, 1.0)) - view.eye_ws, view.forward_ws));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+// How many texels along u are worth having: where the object is nearest one spans two pixels.
+int ScenePreparation::width_for(const ObjectDescription& o) const {
+  // Heights out of view shade what is in view.
+  const bool shades = is_map(o.height) && o.casts_shadow && scene_.shadow.method != ShadowMethod::none;
+  double most_px = 0.0;
+  for (const glm::dmat4& world : places_of(o)) {
+    const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
+    const double nearest = o.shape == Shape::plane && !shades ? depth_of_plane(o, world, view_) : distance_of_ball(o, world, scale, view_);
+    const double distance = std::max(nearest, view_.near);
+    const double height = camera().type == Projection::orthographic ? camera().height : 2.0 * view_.tan_y * distance;
+    most_px = std::max(most_px, extent_of(o).map_width * scale / height * view_.height_px);
+  }
+  const auto is_this = [&](const auto& entry) { return &entry.second == &o; };
+  const auto expected = assets_.widths_.find(std::ranges::find_if(scene_.objects, is_this)->first);
+  int width = expected == assets_.widths_.end() ? 256 : expected->second;
+  while (width < 4096 && 2 * width < most_px) width *= 2;
+  return width;
+}
+
+const TextureDescription& ScenePreparation::texture_named(const std::string& name) const {
+  const TextureDescription& t = std::ranges::find_if(scene_.textures, [&](const auto& entry) { return entry.first == name; })->second;
+  if (t.source == TextureSource::file && t.file.path.empty())
+    throw InputError("textures." + name + ".file: missing; expected an image file");
+  return t;
+}
+
+MapUse ScenePreparation::use_of(const MapValue& map, const ObjectDescription& o) const {
+  TextureDescription t;
+  if (const auto* file = std::get_if<FilePath>(&map)) {
+    t.file = *file;
+    if (edges_of(o.shape) == MapEdges::sphere) t.wrap_t = Wrap::clamp;  // nothing lies beyond the poles
+  } else {
+    t = texture_named(std::get<TextureName>(map).name);
+  }
+  if (t.source == TextureSource::file) return {t, 0};
+  if (t.width != 0) return {t, t.width};
+  return {t, is_pattern(t.source) ? std::clamp(width_for(o) / o.tiles_u, kLeastPattern, kMostPattern) : width_for(o)};
+}
+
+std::shared_ptr<const MoonMaps> ScenePreparation::moon_maps(int width) {
+  return asset<MoonMaps>(recipe("moon", width), [&] { return procedural_moon(width, assets_.workers_); });
+}
+
+std::shared_ptr<const EarthMaps> ScenePreparation::earth_maps(int width) {
+  return asset<EarthMaps>(recipe("earth", width), [&] { return procedural_earth_maps(width, width / 2, assets_.workers_); });
+}
+
+bool ScenePreparation::has_texture(TextureSource source) const {
+  return std::any_of(scene_.textures.begin(), scene_.textures.end(), [&](const auto& named) { return named.second.source == source; });
+}
+
+namespace {
+
+[[noreturn]] void fail_not(const std::string& where, const TextureDescription& t, const char* expected) {
+  const bool heights = t.source == TextureSource::earth_height || t.source == TextureSource::moon_height || is_pattern_height(t.source);
+  const char* is = t.source == TextureSource::earth_normal ? "a normal map" : heights ? "a map of heights" : "a map of colours";
+  throw InputError(where + ": is " + is + "; expected " + expected);
+}
+
+}  // namespace
+
+std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& use, const std::string& where) {
+  if (is_pattern(use.texture.source) && !is_pattern_height(use.texture.source)) return pattern_texture(use);
+  switch (use.texture.source) {
+    case TextureSource::file:
+      return asset<Texture2D>(recipe("color", use.texture.file.path.string()), [&] {
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8, &assets_.workers_);
+      });
+    case TextureSource::earth_color:
+      return asset<Texture2D>(recipe("earth_color", use.width), [&] {
+        const bool has_relief = has_texture(TextureSource::earth_height) || has_texture(TextureSource::earth_normal);
+        return Texture2D(has_relief ? earth_maps(use.width)->color : procedural_earth(use.width, use.width / 2, assets_.workers_),
+                         TexelFormat::srgb8a8, &assets_.workers_);
+      });
+    case TextureSource::moon_color:
+      return asset<Texture2D>(recipe("moon_color", use.width),
+                              [&] { return Texture2D(moon_maps(use.width)->color, TexelFormat::srgb8a8, &assets_.workers_); });
+    default: fail_not(where, use.texture, "a map of colours");
+  }
+}
+
+// Numbers as they stand in the file: normals, exponents.
+std::shared_ptr<const Texture2D> ScenePreparation::data_texture(const MapUse& use, const std::string& where) {
+  switch (use.texture.source) {
+    case TextureSource::file:
+      return asset<Texture2D>(recipe("data", use.texture.file.path.string()), [&] {
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8, &assets_.workers_);
+      });
+    case TextureSource::earth_normal:
+      return asset<Texture2D>(recipe("earth_normal", use.width), [&] {
+        MapUse relief = use;
+        relief.texture.source = TextureSource::earth_height;
+        return Texture2D(procedural_earth_normals(*heights(relief, where), assets_.workers_), TexelFormat::rgba16f, &assets_.workers_);
+      });
+    default: fail_not(where, use.texture, "a map of numbers");
+  }
+}
+
+std::shared_ptr<const Image<float>> ScenePreparation::heights(const MapUse& use, const std::string& where) {
+  if (is_pattern_height(use.texture.source)) {
+    return asset<Image<float>>(recipe("pattern heights", static_cast<int>(use.texture.source), use.width),
+                               [&] { return unit_numbers(pattern_maps(use)->height); });
+  }
+  switch (use.texture.source) {
+    case TextureSource::file:
+      return asset<Image<float>>(recipe("numbers", use.texture.file.path.string()),
+                                 [&] { return read_for(where, [&] { return read_gray(use.texture.file.path); }); });
+    case TextureSource::earth_height:
+      return asset<Image<float>>(recipe("earth_height", use.width), [&] {
+        if (has_texture(TextureSource::earth_color)) return earth_maps(use.width)->height;
+        return procedural_earth_heights(use.width, use.width / 2, assets_.workers_);
+      });
+    case TextureSource::moon_height:
+      return asset<Image<float>>(recipe("moon_height", use.width), [&] { return unit_numbers(moon_maps(use.width)->height); });
+    default: fail_not(where, use.texture, "a map of heights");
+  }
+}
+
+// The map of heights, smoothed, as a function on the object's surface.
+std::shared_ptr<const HeightField> ScenePreparation::height_field(const MapUse& use, const ObjectDescription& o, const std::string& where) {
+  const std::shared_ptr<const Image<float>> map = heights(use, where);
+  if (map->width() < 2) throw InputError(where + ": " + use.texture.file.path.string() + ": is one texel wide; expected a map of heights");
+  const MapEdges edges = edges_of(o.shape);
+  return asset<HeightField>(recipe("field", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width,
+                                   o.height_smoothing, static_cast<int>(edges)),
+                            [&] { return HeightField(*map, o.height_smoothing, assets_.workers_, edges); });
+}
+
+}  // namespace halfspace

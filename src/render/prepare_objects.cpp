@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Objects of a scene: surface, place, and the shader that draws them.
+#include <algorithm>
+
+#include "halfspace/core/check.h"
+#include "halfspace/geometry/displaced_sphere.h"
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+namespace {
+
+bool is_displaced(const ObjectDescription& o) { return is_map(o.height); }
+
+}  // namespace
+
+std::vector<glm::dmat4> places_of(const ObjectDescription& o) {
+  const glm::dmat4 whole = world_from_object(o.placement);
+  if (o.instances.empty()) return {whole};
+  std::vector<glm::dmat4> places;
+  for (const Placement& p : o.instances) places.push_back(whole * world_from_object(p));
+  return places;
+}
+
+void ScenePreparation::place(LitSurface& s, glm::dmat4 world) const {
+  s.clip_from_object = glm::mat4(view_.clip_from_world * world);
+  world[3] -= glm::dvec4(view_.eye_ws, 0.0);
+  s.world_from_object = glm::mat4(world);
+  s.normal_from_object = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world))));
+  s.handedness = glm::determinant(glm::dmat3(world)) < 0 ? -1.0f : 1.0f;
+}
+
+ScenePreparation::Relief ScenePreparation::relief_of(const ObjectDescription& o, const std::string& path) {
+  if (!is_displaced(o)) return {};
+  const MapUse use = use_of(o.height, o);
+  Relief r;
+  r.field = height_field(use, o, path + ".height");
+  r.recipe = recipe(static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing, o.height_scale,
+                    o.height_zero);
+  return r;
+}
+
+// The slopes of a displaced sphere, for normals by pixel; a null map where they come with the mesh.
+DetailMap ScenePreparation::slopes_of(const Relief& relief, const ObjectDescription& o) {
+  DetailMap d;
+  if (relief.field == nullptr || o.shape != Shape::uv_sphere || o.normals != NormalSource::pixel) return d;
+  const int width = std::min(width_for(o), relief.field->width());
+  d.map = asset<Texture2D>(recipe("slopes", relief.recipe, width, o.radius), [&] {
+            const HeightField filtered = relief.field->filtered(width, assets_.workers_);
+            return Texture2D(slope_map(filtered, width, std::max(1, width / 2), o.radius, o.height_scale, o.height_zero, assets_.workers_),
+                             TexelFormat::rgba16f, &assets_.workers_);
+          }).get();
+  d.sampler = make_sampler(use_of(o.height, o).texture);
+  d.sampler.wrap_t = Wrap::clamp;
+  return d;
+}
+
+namespace {
+
+// The mesh's streams in the order of the shader's attributes.
+template <class S>
+VertexView view_of(const Mesh& m) {
+  if constexpr (S::kTangents) return vertices(stream(m.positions), stream(m.normals), stream(m.tangents), stream(m.uvs));
+  if constexpr (S::kNormals && S::kMapped) return vertices(stream(m.positions), stream(m.normals), stream(m.uvs));
+  if constexpr (S::kNormals) return vertices(stream(m.positions), stream(m.normals));
+  if constexpr (S::kMapped) return vertices(stream(m.positions), stream(m.uvs));
+  return vertices(stream(m.positions));
+}
+
+template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none, bool highlight = true>
+PreparedDraw draw_of(const LitSurface& surface, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices) {
+  using S = SurfaceShader<rate, mapped, detail, highlight>;
+  return {S{surface}, view_of<S>(mesh.mesh), indices,
+          opaque_state(surface.two_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f)};
+}
+
+// The variant of the shader that carries what the surface needs, and no more.
+PreparedDraw draw_of(const LitSurface& s, ShadingRate rate, NormalDetail detail, const MeshAsset& mesh,
+                     const std::shared_ptr<const Indices>& indices) {
+  const bool mapped = std::ranges::any_of(s.factors, [](const Factor& f) { return f.map != nullptr; });
+  switch (rate) {
+    case ShadingRate::none: return (mapped ? draw_of<ShadingRate::none, true> : draw_of<ShadingRate::none, false>)(s, mesh, indices);
+    case ShadingRate::flat: return (mapped ? draw_of<ShadingRate::flat, true> : draw_of<ShadingRate::flat, false>)(s, mesh, indices);
+    case ShadingRate::provoking:
+      return (mapped ? draw_of<ShadingRate::provoking, true> : draw_of<ShadingRate::provoking, false>)(s, mesh, indices);
+    case ShadingRate::gouraud:
+      if (mapped && s.model == LightModel::lambert) return draw_of<ShadingRate::gouraud, true, NormalDetail::none, false>(s, mesh, indices);
+      return (mapped ? draw_of<ShadingRate::gouraud, true> : draw_of<ShadingRate::gouraud, false>)(s, mesh, indices);
+    case ShadingRate::phong: break;
+  }
+  switch (detail) {
+    case NormalDetail::map: return draw_of<ShadingRate::phong, true, NormalDetail::map>(s, mesh, indices);
+    case NormalDetail::bump: return draw_of<ShadingRate::phong, true, NormalDetail::bump>(s, mesh, indices);
+    case NormalDetail::slopes: return draw_of<ShadingRate::phong, true, NormalDetail::slopes>(s, mesh, indices);
+    case NormalDetail::none: break;
+  }
+  return (mapped ? draw_of<ShadingRate::phong, true> : draw_of<ShadingRate::phong, false>)(s, mesh, indices);
+}
+
+}  // namespace
+
+// The map that tells the normals of an object's pixels, if one does.
+NormalDetail ScenePreparation::add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path) {
+  const SurfaceDescription& d = o.surface;
+  if (d.shading != ShadingRate::phong) return NormalDetail::none;
+  const bool automatic = d.normal == DetailChoice::automatic;
+  if (d.normal == DetailChoice::map || (automatic && is_map(d.normal_map))) {
+    if (!is_map(d.normal_map))
+      throw InputError(path + ".normal: is map, and normal_map is none; expected a texture or an image file as normal_map");
+    s.detail = normal_map(o, path + ".normal_map");
+    return NormalDetail::map;
+  }
+  if (d.normal == DetailChoice::bump || (automatic && is_map(d.bump_map))) {
+    if (!is_map(d.bump_map))
+      throw InputError(path + ".normal: is bump, and bump_map is none; expected a texture or an image file as bump_map");
+    s.detail = bump_map(o, path + ".bump_map");
+    return NormalDetail::bump;
+  }
+  s.detail = slopes_of(relief, o);
+  return s.detail.map != nullptr ? NormalDetail::slopes : NormalDetail::none;
+}
+
+void ScenePreparation::add_object(int object) {
+  const auto& [name, o] = scene_.objects[static_cast<std::size_t>(object)];
+  const std::string path = "objects." + name;
+  if (o.shape == Shape::sphere) return add_exact_spheres(object, path, o);
+  const Relief relief = relief_of(o, path);
+  const std::shared_ptr<const MeshAsset> mesh = mesh_of(o, relief);
+  const std::shared_ptr<const Indices> indices(mesh, &mesh->indices);
+  LitSurface surface = surface_of(o, path);
+  const NormalDetail detail = add_detail(surface, o, relief, path);
+  for (const glm::dmat4& world : places_of(o)) {
+    place(surface, world);
+    out_.draws.push_back(draw_of(surface, o.surface.shading, detail, *mesh, indices));
+    out_.meshes.push_back({&mesh->mesh, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
+  }
+}
+
+}  // namespace halfspace

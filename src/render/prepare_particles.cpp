@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The particles of a scene: one draw of points for all of them.
+#include "halfspace/render/particles.h"
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+std::shared_ptr<const Particles> ScenePreparation::particles() {
+  const ParticlesDescription& p = scene_.particles;
+  if (!p.file.path.empty()) {
+    return asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
+                            [&] { return read_for("particles.file", [&] { return read_particles(p.file.path, p); }); });
+  }
+  return p.count == 0 ? nullptr : std::make_shared<const Particles>(make_particles(p));
+}
+
+void ScenePreparation::add_particles() {
+  const ParticlesDescription& p = scene_.particles;
+  const std::shared_ptr<const Particles> particles = this->particles();
+  if (particles == nullptr) return;
+  const bool exact = p.sprite == ParticleSprite::exact;
+  SphereSprites s = sphere_sprites(exact && p.receives_shadow);
+  s.point_scale = p.point_scale > 0.0 ? static_cast<float>(p.point_scale) : static_cast<float>(view_.width_px);
+  s.ambient = glm::vec3(p.ambient.linear * ambient_);
+  s.diffuse = glm::vec3(p.diffuse.linear);
+  s.specular = glm::vec3(p.specular.linear);
+  s.shininess = static_cast<float>(p.shininess);
+  if (s.specular == glm::vec3(0.0f)) s.model = LightModel::lambert;
+  if (exact) {
+    out_.spheres.push_back({particles, p.casts_shadow, p.receives_shadow});
+    draw_spheres(*particles, p.color.linear, SphereSprite<true>{s});
+  } else {
+    draw_spheres(*particles, p.color.linear, SphereSprite<false>{s});
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Maps that tile, made as fine as the view needs, as textures.
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+namespace {
+
+// The pattern that the source is a map of.
+Pattern pattern_of(TextureSource source) {
+  switch (source) {
+    case TextureSource::checkerboard: return Pattern::checkerboard;
+    case TextureSource::grass_color: return Pattern::grass;
+    case TextureSource::bark_color:
+    case TextureSource::bark_height: return Pattern::bark;
+    case TextureSource::bricks_color:
+    case TextureSource::bricks_height: return Pattern::bricks;
+    case TextureSource::facade_color:
+    case TextureSource::facade_specular:
+    case TextureSource::facade_emissive: return Pattern::facade;
+    case TextureSource::rock_color:
+    case TextureSource::rock_height: return Pattern::rock;
+    default: return Pattern::hills;
+  }
+}
+
+}  // namespace
+
+bool is_pattern_height(TextureSource source) {
+  return source == TextureSource::bark_height || source == TextureSource::bricks_height || source == TextureSource::rock_height ||
+         source == TextureSource::hills_height;
+}
+
+std::shared_ptr<const PatternMaps> ScenePreparation::pattern_maps(const MapUse& use) {
+  const Pattern pattern = pattern_of(use.texture.source);
+  return asset<PatternMaps>(recipe("pattern", static_cast<int>(pattern), use.width),
+                            [&] { return procedural_pattern(pattern, use.width, assets_.workers_); });
+}
+
+// Colours are decoded from sRGB, factors are not.
+std::shared_ptr<const Texture2D> ScenePreparation::pattern_texture(const MapUse& use) {
+  const TextureSource source = use.texture.source;
+  return asset<Texture2D>(recipe("pattern texture", static_cast<int>(source), use.width), [&] {
+    const std::shared_ptr<const PatternMaps> maps = pattern_maps(use);
+    if (source == TextureSource::facade_specular) return Texture2D(maps->specular, TexelFormat::rgba8);
+    return Texture2D(source == TextureSource::facade_emissive ? maps->emissive : maps->color, TexelFormat::srgb8a8);
+  });
+}
+
+}  // namespace halfspace

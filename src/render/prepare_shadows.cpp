@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shadow maps of a scene: for each light that casts, views that hold what the picture shows of the receivers, and the depth of
+// the casters in each. In: placed meshes and lights. Out: Light::shadow.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+#include "halfspace/core/trig_double.h"
+#include "halfspace/render/preparation.h"
+#include "halfspace/render/shadow/moment_map.h"
+#include "halfspace/render/shadow/shadow_fit.h"
+#include "halfspace/render/sphere_camera.h"
+#include "halfspace/shading/depth_only.h"
+#include "halfspace/shading/shadow_bias.h"
+#include "halfspace/shading/sphere_depth.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+// A light's maps: what its shadow points to.
+struct ShadowMaps {
+  std::vector<Image<float>> depths;
+  std::vector<Image<glm::vec4>> moments;
+  std::vector<ShadowView> views;
+};
+
+bool is_moment_filter(ShadowFilter f) { return f == ShadowFilter::vsm || f == ShadowFilter::moments; }
+
+ShadowSettings settings_of(const ShadowDescription& d, const LightDescription& light) {
+  ShadowSettings s;
+  static_assert(static_cast<int>(ShadowMethod::hard) == static_cast<int>(ShadowFilter::hard) + 1 &&
+                static_cast<int>(ShadowMethod::moments) == static_cast<int>(ShadowFilter::moments) + 1);
+  s.filter = static_cast<ShadowFilter>(static_cast<int>(d.method) - 1);
+  s.bias = d.bias;
+  s.constant = static_cast<float>(d.constant);
+  s.slope = static_cast<float>(d.slope);
+  s.max_slope = static_cast<float>(d.max_slope);
+  s.radius = static_cast<float>(d.radius);
+  if (light.type == LightType::directional) {
+    const SinCosDouble half = sincos_radians(light.size * kRadiansPerDegree);
+    s.light_radius = static_cast<float>(half.sin / half.cos);
+  } else {
+    s.light_radius = static_cast<float>(light.size);
+  }
+  return s;
+}
+
+ShadowView to_shading(const LightView& v, int size, const glm::dvec3& eye_ws) {
+  glm::dmat4 world_from_ew(1.0);
+  world_from_ew[3] = glm::dvec4(eye_ws, 1.0);
+  const glm::dmat4 clip_from_ew = v.clip_from_world * world_from_ew;
+  ShadowView s;
+  s.clip_from_ew = glm::mat4(clip_from_ew);
+  s.clip_plane_from_ew = glm::mat4(glm::transpose(glm::inverse(clip_from_ew)));
+  s.texel_per_w = static_cast<float>(v.texel_per_w);
+  s.depth_per_unit = static_cast<float>(v.depth_per_unit);
+  s.perspective = v.perspective;
+  s.near = static_cast<float>(v.near);
+  s.far = static_cast<float>(v.far);
+  s.size = size;
+  return s;
+}
+
+// What depth is drawn of.
+struct Placed {
+  const std::vector<PlacedMesh>& meshes;
+  const std::vector<PlacedSpheres>& spheres;
+};
+
+// Draws the depth of meshes and spheres as it is seen from a light, or from the eye. Of spheres the front is drawn, whatever `faces` says.
+PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double far, const Placed& placed, bool casters_only,
+                          ShadowFaces faces, Image<float>& depth, const Workers& workers) {
+  DepthTarget target = d32f_target(depth);
+  target.clear_value = 0.0f;
+  Pass pass(depth.width(), depth.height(), {}, target);
+  std::deque<std::vector<glm::vec3>> centers_cs;  // the pass points into them
+  const SphereCamera camera(clip_from_world, near, far);
+  for (const PlacedSpheres& spheres : placed.spheres) {
+    if (casters_only && !spheres.casts_shadow) continue;
+    const auto& centers = centers_cs.emplace_back(camera.centers_cs(*spheres.particles));
+    pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})}, vertices(stream(centers), stream(spheres.particles->radii)),
+              sprite_state());
+  }
+  for (const PlacedMesh& m : placed.meshes) {
+    if (casters_only && !m.casts_shadow) continue;
+    const CullMode cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
+                          : faces == ShadowFaces::front             ? CullMode::back
+                                                                    : CullMode::front;
+    pass.draw_depth(DepthOnly{glm::mat4(clip_from_world * m.world_from_object)}, vertices(stream(m.mesh->positions)), *m.indices,
+                    opaque_state(cull, m.mirrored()));
+  }
+  return pass.run(workers);
+}
+
+// Places of receivers that the picture shows, and the width of a pixel there: from a coarse picture of their depth.
+struct SeenPlace {
+  glm::dvec3 position_ew;
+  double pixel;
+};
+std::vector<SeenPlace> seen_places(const View& view, const Placed& placed, const Workers& workers) {
+  constexpr int kWidth = 96, kHeight = 54;
+  Image<float> depth(kWidth, kHeight);
+  draw_depth(view.clip_from_world, view.near, view.far, placed, false, ShadowFaces::front, depth, workers);
+  const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
+  std::vector<SeenPlace> places;
+  for (int row = 0; row < kHeight; ++row) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (depth.at(x, row) == 0.0f) continue;
+      const glm::dvec4 p = world_from_clip * glm::dvec4((x + 0.5) / kWidth * 2.0 - 1.0, 1.0 - (row + 0.5) / kHeight * 2.0,
+                                                        static_cast<double>(depth.at(x, row)), 1.0);
+      const glm::dvec3 position_ew = glm::dvec3(p) / p.w - view.eye_ws;
+      places.push_back({position_ew, pixel_width(view, position_ew)});
+    }
+  }
+  return places;
+}
+
+// What a texel spans, in pixels, on all but a twentieth of the places; 0 where no view holds any.
+double footprint_of(const std::vector<ShadowView>& views, const std::vector<SeenPlace>& places, float margin) {
+  std::vector<double> footprints;
+  for (const SeenPlace& place : places) {
+    for (const ShadowView& view : views) {
+      const ShadowPlace<float> p = place_on(view, glm::vec3(place.position_ew));
+      if (!holds(view, p, margin)) continue;
+      footprints.push_back(static_cast<double>(view.texel_per_w * p.w) / place.pixel);
+      break;
+    }
+  }
+  if (footprints.empty()) return 0.0;
+  const auto nth = footprints.begin() + static_cast<std::ptrdiff_t>((footprints.size() - 1) * 95 / 100);
+  std::ranges::nth_element(footprints, nth);
+  return *nth;
+}
+
+}  // namespace
+
+std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const {
+  // Half a texel more than the filter asks: rounding must not push a point on a face's edge out of both faces.
+  return fitted_views(view_, out_.meshes, out_.spheres, light, scene_.shadow, size, static_cast<double>(filter_reach(settings)) + 0.5);
+}
+
+int ScenePreparation::shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const {
+  if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
+  const std::vector<SeenPlace> places = seen_places(view_, {out_.meshes, out_.spheres}, assets_.workers_);
+  int size = 256;
+  for (; size < kMostShadowTexels; size *= 2) {
+    std::vector<ShadowView> views;
+    for (const LightView& view : shadow_views(light, settings, size)) views.push_back(to_shading(view, size, view_.eye_ws));
+    if (footprint_of(views, places, filter_reach(settings)) <= scene_.shadow.footprint) break;
+  }
+  return size;
+}
+
+void ScenePreparation::add_shadows() {
+  const ShadowDescription& d = scene_.shadow;
+  if (d.method == ShadowMethod::none) return;
+  for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+    const LightDescription& l = out_.lights[i].description;
+    if (!l.shadow) continue;
+    const auto start = std::chrono::steady_clock::now();
+    Shadow& shadow = shadows_[i];
+    shadow.settings = settings_of(d, l);
+    const int size = shadow_resolution(l, shadow.settings);
+    const std::vector<LightView> views = shadow_views(l, shadow.settings, size);
+    const auto maps = std::make_shared<ShadowMaps>();
+    for (const LightView& view : views) {
+      maps->views.push_back(to_shading(view, size, view_.eye_ws));
+      ShadowView& s = maps->views.back();
+      Image<float>& depth = maps->depths.emplace_back(size, size);
+      out_.shadow_statistics +=
+          draw_depth(view.clip_from_world, view.near, view.far, {out_.meshes, out_.spheres}, true, d.faces, depth, assets_.workers_);
+      s.depth = depth.data();
+      if (!is_moment_filter(shadow.settings.filter)) continue;
+      s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(d.radius)), assets_.workers_)).data();
+    }
+    shadow.views = maps->views;
+    out_.assets.push_back(maps);
+    out_.lights[i].map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Spheres that are drawn as points, a draw for many: a scene's particles, and objects of the shape sphere.
+#include "halfspace/render/particles.h"
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+namespace {
+
+// What the sprites' vertices are made from, one row a sphere.
+struct SphereRows {
+  std::vector<glm::vec3> centers_cs;
+  std::vector<float> radii;
+  std::vector<glm::vec3> colors;
+};
+
+SphereRows rows_of(const Particles& spheres, const View& view, const glm::dvec3& color) {
+  SphereRows rows;
+  rows.radii = spheres.radii;
+  rows.centers_cs.reserve(spheres.centers_ws.size());
+  rows.colors.reserve(spheres.colors.size());
+  for (const glm::dvec3& center_ws : spheres.centers_ws) {
+    const glm::dvec3 from_eye = center_ws - view.eye_ws;
+    rows.centers_cs.emplace_back(glm::dot(from_eye, view.right_ws), glm::dot(from_eye, view.up_ws), glm::dot(from_eye, view.forward_ws));
+  }
+  for (const glm::vec3& c : spheres.colors) rows.colors.emplace_back(glm::dvec3(c) * color);
+  return rows;
+}
+
+SphereLens lens_of(const CameraDescription& c, const View& view) {
+  const bool perspective = c.type == Projection::perspective;
+  const double half_height = 0.5 * c.height, aspect = static_cast<double>(view.width_px) / view.height_px;
+  const glm::dvec2 half = perspective ? glm::dvec2(view.tan_x, view.tan_y) : glm::dvec2(half_height * aspect, half_height);
+  return {perspective, half, view.near, view.far, {view.width_px, view.height_px}};
+}
+
+}  // namespace
+
+SphereSprites ScenePreparation::sphere_sprites(bool receives_shadow) const {
+  SphereSprites s;
+  s.lens = lens_of(camera(), view_);
+  s.world_from_camera = glm::mat3(glm::dmat3(view_.right_ws, view_.up_ws, view_.forward_ws));
+  s.to_eye_ws = glm::vec3(view_.to_eye_ws);
+  s.lights = receives_shadow ? lights_ : shadowless_lights_;
+  return s;
+}
+
+void ScenePreparation::draw_spheres(const Particles& spheres, const glm::dvec3& color, const SceneShader& shader) {
+  const auto rows = std::make_shared<const SphereRows>(rows_of(spheres, view_, color));
+  out_.assets.push_back(rows);
+  out_.draws.push_back({shader, vertices(stream(rows->centers_cs), stream(rows->radii), stream(rows->colors)),
+                        std::make_shared<const Indices>(Indices::sequential(rows->radii.size())), sprite_state()});
+}
+
+void ScenePreparation::add_exact_spheres(int object, const std::string& path, const ObjectDescription& o) {
+  const auto spheres = std::make_shared<Particles>();
+  for (const glm::dmat4& world : places_of(o)) {
+    spheres->centers_ws.emplace_back(world[3]);
+    spheres->radii.push_back(static_cast<float>(o.radius * glm::length(glm::dvec3(world[0]))));
+    spheres->colors.emplace_back(1.0f);
+  }
+  const LitSurface surface = surface_of(o, path);
+  SphereSprites s = sphere_sprites(o.receives_shadow);
+  s.ambient = surface.factors[kAmbient].constant;
+  s.diffuse = surface.factors[kDiffuse].constant;
+  s.specular = surface.factors[kSpecular].constant;
+  s.emissive = surface.factors[kEmissive].constant;
+  s.shininess = surface.factors[kShininess].constant.x;
+  s.model = surface.model;
+  draw_spheres(*spheres, glm::dvec3(surface.factors[kColor].constant), SphereSprite<true>{s});
+  out_.spheres.push_back({spheres, o.casts_shadow, o.receives_shadow, object});
+}
+
+}  // namespace halfspace

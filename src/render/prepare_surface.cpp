@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What an object's surface looks like: its factors, and the maps that tell its pixels' normals.
+#include "halfspace/geometry/height_slopes.h"
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+// A factor of nothing has no map, nor has one that the shading rate does not read.
+void ScenePreparation::add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map,
+                                  const ObjectDescription& o, const std::string& where) {
+  Factor& f = s.factors[factor];
+  f.constant = glm::vec3(constant);
+  if (const auto* color = std::get_if<Color>(&map)) f.constant = glm::vec3(constant * color->linear);
+  const bool unread = o.surface.shading == ShadingRate::none && factor != kColor && factor != kEmissive;
+  if (!is_map(map) || unread || f.constant == glm::vec3(0.0f) || (!o.surface.textured && factor != kShininess)) return;
+  const MapUse use = use_of(map, o);
+  f.map = (factor == kShininess ? data_texture(use, where) : color_texture(use, where)).get();
+  f.sampler = make_sampler(use.texture);
+}
+
+LitSurface ScenePreparation::surface_of(const ObjectDescription& o, const std::string& path) {
+  const SurfaceDescription& d = o.surface;
+  LitSurface s;
+  s.to_eye_ws = glm::vec3(view_.to_eye_ws);
+  s.lights = o.receives_shadow ? lights_ : shadowless_lights_;
+  s.shadowed = o.receives_shadow && std::ranges::any_of(lights_, [](const Light& l) { return l.shadow != nullptr; });
+  s.two_sided = d.two_sided || o.shape == Shape::plane;
+  add_factor(s, kColor, d.tint.linear, d.color, o, path + ".color");
+  add_factor(s, kAmbient, d.ambient.linear * ambient_, d.ambient_map, o, path + ".ambient_map");
+  add_factor(s, kDiffuse, d.diffuse.linear, d.diffuse_map, o, path + ".diffuse_map");
+  add_factor(s, kSpecular, d.specular.linear, d.specular_map, o, path + ".specular_map");
+  add_factor(s, kEmissive, d.emissive.linear, d.emissive_map, o, path + ".emissive_map");
+  if (d.reflection.linear != glm::dvec3(0.0) && d.shading == ShadingRate::phong) {
+    s.surroundings = surroundings();
+    s.reflection = glm::vec3(d.reflection.linear);
+  }
+  s.model = s.factors[kSpecular].constant == glm::vec3(0.0f) ? LightModel::lambert : d.model;
+  if (s.model == LightModel::lambert) return s;
+  add_factor(s, kShininess, glm::dvec3(d.shininess), d.shininess_map, o, path + ".shininess_map");
+  Factor& shininess = s.factors[kShininess];
+  if (d.shading != ShadingRate::phong && shininess.map != nullptr) {  // a vertex or triangle has the exponent of the map's mean
+    shininess.constant *= shininess.map->value(shininess.map->levels() - 1, 0, 0).x;
+    shininess.map = nullptr;
+  }
+  return s;
+}
+
+DetailMap ScenePreparation::normal_map(const ObjectDescription& o, const std::string& where) {
+  const MapUse use = use_of(o.surface.normal_map, o);
+  DetailMap d;
+  d.map = data_texture(use, where).get();
+  d.sampler = make_sampler(use.texture);
+  d.strength = static_cast<float>(o.surface.normal_strength);
+  d.flip_green = o.surface.normal_flip_green;
+  return d;
+}
+
+DetailMap ScenePreparation::bump_map(const ObjectDescription& o, const std::string& where) {
+  const MapUse use = use_of(o.surface.bump_map, o);
+  DetailMap d;
+  d.sampler = make_sampler(use.texture);
+  d.strength = static_cast<float>(o.surface.bump_scale);
+  d.difference = o.surface.bump_method == BumpMethod::difference;
+  const auto words = [&](const char* what, auto... more) {
+    return recipe(what, static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, more...);
+  };
+  const auto map = [&] { return heights(use, where); };
+  if (d.difference) {
+    d.map = asset<Texture2D>(words("bumps"), [&] { return Texture2D(codes16(*map())); }).get();
+  } else {
+    const Wrap s = d.sampler.wrap_s, t = d.sampler.wrap_t;
+    d.map = asset<Texture2D>(words("bump_slopes", static_cast<int>(s), static_cast<int>(t)), [&] {
+              return Texture2D(height_slopes(*map(), s, t), TexelFormat::rgba16f, &assets_.workers_);
+            }).get();
+  }
+  return d;
+}
+
+}  // namespace halfspace

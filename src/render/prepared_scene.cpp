@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/prepared_scene.h"
+
+#include <algorithm>
+
+#include "halfspace/core/trig_double.h"
+#include "halfspace/geometry/camera.h"
+#include "halfspace/render/display.h"
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+namespace {
+
+Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
+  constexpr double kLeastCone = 1e-6;  // in cosines: a sharp edge
+  const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
+  const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
+  Light light;
+  light.type = d.type;
+  light.place_ew = glm::vec3(d.type == LightType::directional ? towards : d.position - eye_ws);
+  light.diffuse = glm::vec3(color * d.diffuse);
+  light.specular = glm::vec3(color * d.specular);
+  light.attenuation = d.falloff == Falloff::physical ? glm::vec3(0, 0, 1) : glm::vec3(d.attenuation);
+  light.axis_ws = glm::vec3(towards);
+  light.cos_outer = static_cast<float>(cos_outer);
+  light.cone_scale = static_cast<float>(1.0 / std::max(cos_inner - cos_outer, kLeastCone));
+  return light;
+}
+
+// The lights that give any light besides their ambient part.
+std::vector<PreparedLight> shining_lights(const SceneDescription& scene, const glm::dvec3& eye_ws) {
+  std::vector<PreparedLight> lights;
+  for (const auto& [name, d] : scene.lights) {
+    const Light light = make_light(d, eye_ws);
+    if (light.diffuse != glm::vec3(0.0f) || light.specular != glm::vec3(0.0f)) lights.push_back({name, light, d});
+  }
+  return lights;
+}
+
+// Ambient light reaches every point alike, whatever light it is told by.
+glm::dvec3 ambient_of(const SceneDescription& scene) {
+  glm::dvec3 sum = scene.head.ambient.linear;
+  for (const auto& [name, light] : scene.lights) sum += light.color.linear * light.intensity * light.ambient;
+  return sum;
+}
+
+}  // namespace
+
+DrawState opaque_state(CullMode cull, bool mirrored) {
+  DrawState state;
+  state.cull = cull;
+  if (mirrored) state.front = Winding::clockwise;
+  state.depth.clip = ClipDepth::zero_to_one;
+  state.depth.compare = CompareOp::greater;
+  return state;
+}
+
+DrawState sprite_state() {
+  DrawState state = opaque_state(CullMode::none, false);
+  state.topology = Topology::points;
+  return state;
+}
+
+ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height)
+    : assets_(assets), scene_(scene), view_(make_view(camera(), width, height)), ambient_(ambient_of(scene)) {
+  out_.view = view_;
+  out_.lights = shining_lights(scene, view_.eye_ws);
+  const auto shadows = std::make_shared<std::vector<Shadow>>(out_.lights.size());
+  const auto lights = std::make_shared<std::vector<Light>>(), shadowless = std::make_shared<std::vector<Light>>();
+  for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+    PreparedLight& light = out_.lights[i];
+    shadowless->push_back(light.light);
+    if (scene.shadow.method != ShadowMethod::none && light.description.shadow) light.light.shadow = &(*shadows)[i];
+    lights->push_back(light.light);
+  }
+  shadows_ = *shadows;
+  lights_ = *lights;
+  shadowless_lights_ = *shadowless;
+  out_.assets.insert(out_.assets.end(), {shadows, lights, shadowless});
+}
+
+PreparedScene ScenePreparation::prepare() {
+  out_.clear_color = glm::vec4(glm::vec3(scene_.background.color.linear), 1.0f);
+  out_.post = scene_.post;
+  out_.samples = scene_.head.samples;
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+    if (scene_.objects[i].second.visible) add_object(static_cast<int>(i));
+  }
+  add_particles();
+  add_background();
+  add_shadows();
+  return std::move(out_);
+}
+
+const CameraDescription& ScenePreparation::camera() const {
+  for (const auto& [name, camera] : scene_.cameras) {
+    if (name == scene_.head.camera) return camera;
+  }
+  return scene_.cameras.front().second;
+}
+
+void ScenePreparation::expect() {
+  for (const auto& [name, object] : scene_.objects) {
+    if (object.visible) assets_.widths_[name] = width_for(object);
+  }
+  assets_.panorama_width_ = panorama_width();
+  assets_.face_size_ = face_size();
+}
+
+void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }
+
+PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
+  PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();
+  std::erase_if(entries_, [](const auto& entry) { return !entry.second.wanted; });
+  for (auto& [recipe, entry] : entries_) entry.wanted = false;
+  return prepared;
+}
+
+namespace {
+
+constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
+
+// A pass that holds the scene's draws.
+Pass pass_of(const PreparedScene& scene, int width, int height, ColorTarget color) {
+  color.clear_value = scene.clear_color;
+  Pass pass(width, height, color, kDepth, {.samples = scene.samples});
+  for (const PreparedDraw& draw : scene.draws) add_draw(pass, draw);
+  return pass;
+}
+
+// Light in the tiles alone.
+PassStatistics render_exposed(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {
+  const ColorFormat format = scene.post.format == LightFormat::rgba16f ? ColorFormat::rgba16f : ColorFormat::rgba32f;
+  Pass pass = pass_of(scene, picture.width(), picture.height(), {.format = format, .store = StoreOp::dont_care});
+  show(pass, scene.post, scene.post.exposure, picture);
+  return pass.run(workers);
+}
+
+// Light of the whole picture, measured, then shown by a pass that draws nothing.
+template <class Pixel>
+PassStatistics render_metered(const PreparedScene& scene, ColorTarget (*target)(Image<Pixel>&), Image<glm::u8vec4>& picture,
+                              const Workers& workers) {
+  const int width = picture.width(), height = picture.height();
+  Image<Pixel> light(width, height);
+  const PassStatistics statistics = pass_of(scene, width, height, target(light)).run(workers);
+  const double exposure = scene.post.exposure * scene.post.key_value / log_average_luminance(light, workers);
+  ColorTarget whole = target(light);
+  whole.load = LoadOp::load;
+  whole.store = StoreOp::dont_care;
+  Pass pass(width, height, whole, {});
+  show(pass, scene.post, exposure, picture);
+  pass.run(workers);
+  return statistics;
+}
+
+}  // namespace
+
+PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {
+  if (!scene.post.hdr) return pass_of(scene, picture.width(), picture.height(), srgb8a8_target(picture)).run(workers);
+  if (!scene.post.auto_exposure) return render_exposed(scene, picture, workers);
+  return scene.post.format == LightFormat::rgba16f ? render_metered<U16Vec4>(scene, rgba16f_target, picture, workers)
+                                                   : render_metered<glm::vec4>(scene, rgba32f_target, picture, workers);
+}
+
+PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers) {
+  return pass_of(scene, picture.width(), picture.height(), rgba32f_target(picture)).run(workers);
+}
+
+}  // namespace halfspace

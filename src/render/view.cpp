@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "halfspace/core/trig_double.h"
+#include "halfspace/geometry/camera.h"
+
+namespace halfspace {
+
+namespace {
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+}  // namespace
+
+View make_view(const CameraDescription& c, int width, int height) {
+  const double aspect = static_cast<double>(width) / height;
+  const glm::dmat4 view = look_at(c.position, c.target, c.up);
+  const glm::dvec3 right(view[0][0], view[1][0], view[2][0]), up(view[0][1], view[1][1], view[2][1]),
+      back(view[0][2], view[1][2], view[2][2]);
+  const SinCosDouble half = sincos_radians(0.5 * c.fov * kRadiansPerDegree);
+  View v{{}, c.position, glm::dvec3(0.0), -back, right, up, 0.0, half.sin / half.cos, c.near, c.far, width, height};
+  if (c.type == Projection::perspective) {
+    v.clip_from_world = perspective_reversed(c.fov * kRadiansPerDegree, aspect, c.near, c.far) * view;
+  } else {
+    v.clip_from_world = orthographic_reversed(c.height, aspect, c.near, c.far) * view;
+    v.to_eye_ws = back;
+  }
+  v.tan_x = v.tan_y * aspect;
+  return v;
+}
+
+double pixel_width(const View& view, const glm::dvec3& position_ew) {
+  const glm::dmat4& m = view.clip_from_world;
+  const double spanned = view.to_eye_ws == glm::dvec3(0.0) ? 2.0 * view.tan_y * glm::dot(position_ew, view.forward_ws)
+                                                           : 2.0 / glm::length(glm::dvec3(m[0][1], m[1][1], m[2][1]));
+  return spanned / view.height_px;
+}
+
+namespace {
+
+double corner_tangent_squared(const View& v) { return v.tan_x * v.tan_x + v.tan_y * v.tan_y; }
+double focal_px(const View& v) { return 0.5 * v.height_px / v.tan_y; }
+bool is_orthographic(const View& v) { return v.to_eye_ws != glm::dvec3(0.0); }
+
+glm::dvec4 row_of(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
+
+}  // namespace
+
+double pixels_per_unit(const View& v, const glm::dvec3& center_ws, double radius) {
+  if (is_orthographic(v)) return 1.0 / pixel_width(v, {});
+  const double nearest = std::max(v.near, glm::dot(center_ws - v.eye_ws, v.forward_ws) - radius);
+  // A move along the ray of a corner shows √(1 + tan²) of itself over the depth at the most.
+  return focal_px(v) * std::sqrt(1.0 + corner_tangent_squared(v)) / nearest;
+}
+
+double silhouette_pixels_per_unit(const View& v, const glm::dvec3& center_ws, double radius) {
+  if (is_orthographic(v)) return 1.0 / pixel_width(v, {});
+  const glm::dvec3 from_eye = center_ws - v.eye_ws;
+  const double distance_squared = glm::dot(from_eye, from_eye), depth = glm::dot(from_eye, v.forward_ws);
+  if (distance_squared <= radius * radius) return pixels_per_unit(v, center_ws, radius);
+  // The silhouette is seen at the angle α from the centre, sin α = r/d; less radius by δ turns it by δ/√(d² − r²). The picture
+  // stretches angles by 1 + tan²θ, θ from its middle.
+  const double tangent_length = std::sqrt(distance_squared - radius * radius);
+  const double corner = std::sqrt(corner_tangent_squared(v));
+  double farthest = corner;
+  if (depth > 0.0) {
+    const double center = std::sqrt(std::max(0.0, distance_squared - depth * depth)) / depth, own = radius / tangent_length;
+    if (center * own < 1.0) farthest = std::min(corner, (center + own) / (1.0 - center * own));
+  }
+  return focal_px(v) * (1.0 + farthest * farthest) / tangent_length;
+}
+
+bool is_outside(const View& v, const glm::dvec3& center_ws, double radius) {
+  const glm::dvec4 w = row_of(v.clip_from_world, 3);
+  for (const int axis : {0, 1}) {
+    for (const double side : {-1.0, 1.0}) {
+      const glm::dvec4 plane = w + side * row_of(v.clip_from_world, axis);
+      if (glm::dot(plane, glm::dvec4(center_ws, 1.0)) < -radius * glm::length(glm::dvec3(plane))) return true;
+    }
+  }
+  return false;
+}
+
+namespace {
+
+glm::dmat3 rotation_about(int axis, double degrees) {
+  const double turns = degrees / 360.0;
+  const SinCosDouble a = sincos_turns(turns - std::floor(turns));
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  glm::dmat3 m(1.0);
+  m[i][i] = m[j][j] = a.cos;
+  m[i][j] = a.sin;
+  m[j][i] = -a.sin;
+  return m;
+}
+
+}  // namespace
+
+glm::dmat4 world_from_object(const Placement& p) {
+  const glm::dmat3 turn = rotation_about(1, p.rotation.y) * rotation_about(0, p.rotation.x) * rotation_about(2, p.rotation.z);
+  glm::dmat4 m(1.0);
+  for (int k = 0; k < 3; ++k) m[k] = glm::dvec4(turn[k] * p.scale[k], 0.0);
+  m[3] = glm::dvec4(p.position, 1.0);
+  return m;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tone curves and their settings, as both shaders and scene descriptions name them. shading/tone.h has the formulas.
+#pragma once
+
+#include <cstdint>
+
+namespace halfspace {
+
+enum class ToneCurve : uint8_t { none, reinhard, reinhard_extended, exponential, aces };
+enum class ToneOn : uint8_t { luminance, channel };
+
+struct ToneMapping {
+  float exposure = 1.0f;  ///< factor of the light, 0 to 1e9
+  ToneCurve curve = ToneCurve::none;
+  ToneOn on = ToneOn::channel;
+  float white = 4.0f;  ///< of reinhard_extended: the exposed light that becomes 1; 1e-3 to 1e6
+};
+
+}  // namespace halfspace

@@ -1,0 +1,713 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The program as its users meet it: run as a process, judged by exit code, streams and files. CMake gives the
+// program's place as HALFSPACE_PROGRAM.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/inotify.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/sanitized.h"
+
+namespace halfspace {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code = -1;  // −1: died of a signal
+  int signal = 0;
+  std::string out, err;
+};
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+int lines_of(const std::string& text) { return static_cast<int>(std::ranges::count(text, '\n')); }
+
+// Runs the program in a directory of its own, which is gone when the test ends.
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "halfspace-cli-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    root = name;
+    directory = root / "here";
+    fs::create_directory(directory);
+  }
+  void TearDown() override { fs::remove_all(root); }
+
+  pid_t start(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> words = {HALFSPACE_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& w : words) argv.push_back(w.data());
+    argv.push_back(nullptr);
+    const std::string out = (root / "out").string(), err = (root / "err").string();
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    const int o = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int e = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (::chdir(directory.c_str()) != 0 || ::dup2(o, STDOUT_FILENO) < 0 || ::dup2(e, STDERR_FILENO) < 0) ::_exit(99);
+    std::signal(SIGINT, SIG_DFL);  // a shell has what it runs in the background ignore it, and the program keeps to that
+    ::execv(argv[0], argv.data());
+    ::_exit(99);
+  }
+
+  Outcome finish(pid_t child) const {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0, text_of(root / "out"),
+              text_of(root / "err")};
+    return o;
+  }
+
+  Outcome run(const std::vector<std::string>& arguments) const { return finish(start(arguments)); }
+
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+  }
+
+  fs::path root, directory;
+};
+
+// ---- wrong input: the exit code and the one line ---------------------------------------------------------------
+
+struct Mistake {
+  const char* name;
+  std::vector<std::string> arguments;
+  int exit_code;
+  std::string line;  // without "halfspace: " and the line's end
+};
+
+// The scenes that ship, as a message lists them. (Tests run from the source tree.)
+std::string shipped_scenes() {
+  std::vector<std::string> names;
+  std::error_code absent;
+  for (const auto& entry : fs::directory_iterator("scenes", absent)) names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+void PrintTo(const Mistake& m, std::ostream* os) { *os << m.name; }
+
+const Mistake kMistakes[] = {
+    {"NoCommand",
+     {},
+     2,
+     "no command; expected one of render, convert-normal, validate, compare, chart, list, info, completion (see 'halfspace --help')"},
+    {"WrongCommand", {"rendr", "earth"}, 2, "unknown command 'rendr'; did you mean 'render'?"},
+    {"FarCommand",
+     {"paint"},
+     2,
+     "unknown command 'paint'; expected one of render, convert-normal, validate, compare, chart, list, info, completion"},
+    {"WrongOption", {"render", "earth", "--siez", "3x3"}, 2, "unknown option '--siez'; did you mean '--size'?"},
+    {"OptionOfNoCommand", {"--jsn"}, 2, "unknown option '--jsn'; expected one of --help, --version"},
+    {"NoScene", {"render"}, 2, "SCENE is required; see 'halfspace render --help'"},
+    {"TwoScenes", {"render", "earth", "moon"}, 2, "render: unexpected argument 'moon'; see 'halfspace render --help'"},
+    {"SizeWithoutX", {"render", "earth", "--size", "640"}, 2, "--size is '640'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeZero", {"render", "earth", "--size", "0x480"}, 2, "--size is '0x480'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeTooLarge",
+     {"render", "earth", "--size", "640x16385"},
+     2,
+     "--size is '640x16385'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeNegative",
+     {"render", "earth", "--size=-640x480"},
+     2,
+     "--size is '-640x480'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeOverflow",
+     {"render", "earth", "--size", "99999999999x1"},
+     2,
+     "--size is '99999999999x1'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeTail",
+     {"render", "earth", "--size", "640x480px"},
+     2,
+     "--size is '640x480px'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"SizeMissing", {"render", "earth", "--size"}, 2, "--size: 1 required WxH missing; see 'halfspace render --help'"},
+    {"ThreadsZero", {"render", "earth", "--threads", "0"}, 2, "--threads is '0'; expected 1 to 1024"},
+    {"ThreadsNegative", {"render", "earth", "--threads=-2"}, 2, "--threads is '-2'; expected 1 to 1024"},
+    {"ThreadsWord", {"render", "earth", "--threads", "two"}, 2, "--threads is 'two'; expected 1 to 1024"},
+    {"StatsFormat", {"render", "earth", "--stats=xml"}, 2, "--stats is 'xml'; expected --stats or --stats=json"},
+    {"SetWithoutValue",
+     {"render", "earth", "--set", "earth.color"},
+     2,
+     "--set is 'earth.color'; expected KEY=VALUE, for example camera=main"},
+    {"OutputFormat",
+     {"render", "earth", "-o", "earth.gif"},
+     2,
+     "-o is 'earth.gif'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr"},
+    {"NearScene", {"render", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
+    {"FarScene", {"render", "teapot"}, 3, "unknown scene 'teapot'; expected one of " + shipped_scenes()},
+    {"NoSceneFile", {"render", "my.json"}, 3, "my.json: no such scene file"},
+    {"NearKey", {"render", "earth", "--set", "earth.colour=a.png"}, 3, "--set: earth.colour: unknown key 'colour'; did you mean 'color'?"},
+    {"NearThing",
+     {"render", "earth", "--set", "erath.color=a.png"},
+     3,
+     "--set: erath.color: no 'erath' in this scene; did you mean 'earth'?"},
+    {"WrongType",
+     {"render", "earth", "--set", "earth.radius=big"},
+     3,
+     "--set: earth.radius: expected a number from 1e-06 to 1e+06 (units), got 'big'"},
+    {"WrongRange",
+     {"render", "earth", "--set", "earth.latitudes=1"},
+     3,
+     "--set: earth.latitudes: expected a whole number from 2 to 8192, got 1"},
+    {"WrongChoice",
+     {"render", "earth", "--set", "earth.shape=ball"},
+     3,
+     "--set: earth.shape: \"ball\" is no choice; expected one of uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, "
+     "torus_knot"},
+    {"EmptyValue",
+     {"render", "earth", "--set", "earth.color="},
+     3,
+     "--set: earth.color: expected a colour (#rrggbb, r,g,b or a number), the name of a texture or that of an image file, got \"\""},
+    {"NoShading", {"render", "earth", "--shading", "gourod"}, 2, "--shading is 'gourod'; did you mean 'gouraud'?"},
+    {"NoMapOfNormals",
+     {"render", "earth", "--set", "earth.normal_map=1"},
+     3,
+     "scene earth: objects.earth.normal: is map, and normal_map is none; expected a texture or an image file as normal_map"},
+    {"MaxErrorZero", {"render", "earth", "--max-error", "0"}, 2, "--max-error is '0'; expected pixels, for example 0.5"},
+    {"MaxErrorColorWord",
+     {"render", "earth", "--max-error-color", "low"},
+     2,
+     "--max-error-color is 'low'; expected 8-bit codes, for example 4"},
+    {"ThreeSamples", {"render", "earth", "--set", "samples=3"}, 3, "scene earth: samples: expected 1, 2, 4 or 8, got 3"},
+    {"NoCamera", {"render", "earth", "--camera", "nroth"}, 3, "--camera: no camera 'nroth'; did you mean 'north'?"},
+    {"TimeWord", {"render", "earth", "--time", "noon"}, 2, "--time is 'noon'; expected seconds, for example 2.5"},
+    {"FramesBackwards", {"render", "earth", "--frames", "5..2"}, 2, "--frames is '5..2'; expected FIRST..LAST, for example 0..47"},
+    {"FramesWord", {"render", "earth", "--frames", "all"}, 2, "--frames is 'all'; expected FIRST..LAST, for example 0..47"},
+    {"FpsZero", {"render", "earth", "--frames", "0..1", "--fps", "0"}, 2, "--fps is '0'; expected frames per second, for example 30"},
+    {"FpsAlone", {"render", "earth", "--fps", "24"}, 2, "--fps is for several frames; expected --frames FIRST..LAST too"},
+    {"ResumeAlone", {"render", "earth", "--resume"}, 2, "--resume is for several frames; expected --frames FIRST..LAST too"},
+    {"FramesIntoADevice",
+     {"render", "earth", "--frames", "0..1", "-o", "/dev/null"},
+     2,
+     "-o is '/dev/null'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr"},
+    {"ControlCharacters", {"render", "a\nb\x1b"}, 3, "unknown scene 'a\\x0ab\\x1b'; expected one of " + shipped_scenes()},
+    {"PrintChecksToo",
+     {"render", "earth", "--print", "--size", "bogus"},
+     2,
+     "--size is 'bogus'; expected WxH with 1 to 16384 each, for example 1920x1080"},
+    {"ListUnknown", {"list", "eart"}, 3, "unknown scene 'eart'; did you mean 'earth'?"},
+    {"ValidateNothing", {"validate"}, 2, "SCENE is required, or --table; see 'halfspace validate --help'"},
+    {"ValidateBoth", {"validate", "earth", "--table"}, 2, "--table has scenes of its own; expected no SCENE"},
+    {"ValidateFull", {"validate", "earth", "--full"}, 2, "--full is for the table; expected --table too"},
+    {"ValidateNowhere",
+     {"validate", "shadow-plane", "--size", "16x9", "-o", "/proc/none"},
+     4,
+     "/proc/none: cannot make the directory (No such file or directory)"},
+    {"CompareOne", {"compare", "a.png"}, 2, "B is required; see 'halfspace compare --help'"},
+    {"CompareNothing", {"compare", "a.png", "b.png"}, 3, "a.png: no such file; expected an image"},
+    {"CompareTolerance",
+     {"compare", "a.png", "b.png", "--tolerance", "-1"},
+     2,
+     "--tolerance is '-1'; expected a difference of 0 or more, for example 0.004"},
+    {"CompareNowhere", {"compare", "a.png", "b.png", "-o", "no/d.png"}, 4, "no/d.png: cannot write (there is no directory no)"},
+    {"ChartNothing", {"chart"}, 2, "STUDY is required; see 'halfspace chart --help'"},
+    {"ChartNear", {"chart", "shading_rat"}, 2, "unknown study 'shading_rat'; did you mean 'shading_rate'?"},
+    {"ChartThreads", {"chart", "tone", "--threads", "0"}, 2, "--threads is '0'; expected 1 to 1024"},
+    {"ChartNowhere", {"chart", "tone", "-o", "/proc/none"}, 4, "/proc/none: cannot make the directory (No such file or directory)"},
+    {"NormalWithoutOutput", {"convert-normal", "a.png"}, 2, "--output is required; see 'halfspace convert-normal --help'"},
+    {"NormalFormat", {"convert-normal", "a.png", "-o", "n.jpg"}, 2, "-o is 'n.jpg'; expected a name that ends in .png"},
+    {"NormalStrength",
+     {"convert-normal", "a.png", "-o", "n.png", "--strength", "strong"},
+     2,
+     "--strength is 'strong'; expected texels from black to white, for example 8"},
+    {"NormalEdges",
+     {"convert-normal", "a.png", "-o", "n.png", "--edges", "round"},
+     2,
+     "--edges is 'round'; expected repeat, clamp or sphere"},
+    {"NormalOfNothing", {"convert-normal", "a.png", "-o", "n.png"}, 3, "a.png: no such file; expected an image"},
+    {"NormalNowhere", {"convert-normal", "a.png", "-o", "no/n.png"}, 4, "no/n.png: cannot write (there is no directory no)"},
+    {"Shell", {"completion", "tcsh"}, 2, "completion: no shell 'tcsh'; expected bash, zsh or fish"},
+    {"NoMap",
+     {"render", "earth", "--set", "earth.color=none.jpg"},
+     3,
+     "scene earth: objects.earth.color: {here}/none.jpg: no such file; expected an image"},
+    {"MapIsADirectory",
+     {"render", "earth", "--set", "earth.color=."},
+     3,
+     "scene earth: objects.earth.color: {here}/: is a directory; expected an image file"},
+    {"MapIsADevice",
+     {"render", "earth", "--set", "earth.color=/dev/zero"},
+     3,
+     "scene earth: objects.earth.color: /dev/zero: is no regular file; expected an image file"},
+    {"NoDirectory", {"render", "earth", "-o", "none/earth.png"}, 4, "none/earth.png: cannot write (there is no directory none)"},
+    {"OutputIsADirectory", {"render", "earth", "-o", ".."}, 4, "..: is a directory; expected a file name"},
+    {"FullDisk", {"render", "earth", "--size", "8x8", "-o", "/dev/full"}, 4, "/dev/full: cannot write (No space left on device)"},
+};
+
+class CliMistake : public Cli, public testing::WithParamInterface<Mistake> {};
+
+TEST_P(CliMistake, IsToldInOneLine) {
+  const Outcome o = run(GetParam().arguments);
+  EXPECT_EQ(o.exit_code, GetParam().exit_code);
+  std::string line = GetParam().line;  // {here}: paths in --set are made absolute
+  if (const std::size_t at = line.find("{here}"); at != std::string::npos) line.replace(at, 6, directory.string());
+  EXPECT_EQ(o.err, "halfspace: " + line + "\n");
+  EXPECT_EQ(o.out, "");
+  EXPECT_TRUE(files().empty()) << files().front() << " was left behind";
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, CliMistake, testing::ValuesIn(kMistakes), [](const auto& mistake) { return mistake.param.name; });
+
+TEST_F(Cli, AFileThatIsNoImageIsBadInput) {
+  std::ofstream(directory / "map.png") << "no picture";
+  const Outcome o = run({"render", "earth", "--set", "earth.color=map.png"});
+  EXPECT_EQ(o.exit_code, 3);
+  EXPECT_TRUE(o.err.starts_with("halfspace: scene earth: objects.earth.color: " + (directory / "map.png").string() +
+                                ": is no image that can be read; expected PNG, "))
+      << o.err;
+  EXPECT_EQ(lines_of(o.err), 1);
+}
+
+// On a processor that lacks what this build uses, one line instead of an illegal instruction: an emulator plays the
+// lesser processor (qemu64 has nothing beyond SSE3).
+TEST_F(Cli, ALesserProcessorIsToldInOneLine) {
+  if (std::system("qemu-x86_64 --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "qemu-x86_64 (package qemu-user) is absent";
+  if (kSanitized) GTEST_SKIP() << "sanitizers do not run in the emulator";
+  const std::string command = std::string("qemu-x86_64 -cpu qemu64 ") + HALFSPACE_PROGRAM + " info 2> " + (root / "err").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+  const std::string line = text_of(root / "err");
+  EXPECT_EQ(lines_of(line), 1) << line;
+  EXPECT_TRUE(line.starts_with("halfspace: this build needs SSSE3, ")) << line;
+  EXPECT_NE(line.find(", which this processor lacks; "), std::string::npos) << line;
+}
+
+// ---- what works ------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, RenderWritesTheSceneUnderItsName) {
+  const Outcome o = run({"render", "earth", "--size", "64x36"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(o.out + o.err, "") << "nothing is said where nothing was asked";
+  EXPECT_EQ(files(), std::vector<std::string>{"earth.png"});
+}
+
+TEST_F(Cli, ThreadsDoNotChangeTheFile) {
+  for (const char* n : {"1", "2", "7"})
+    EXPECT_EQ(run({"render", "earth", "--size", "200x120", "--threads", n, "-o", std::string(n) + ".png"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "2.png"));
+  EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "7.png"));
+}
+
+TEST_F(Cli, ShadingOverridesEveryObject) {
+  // Two objects, one of them with a rate of its own.
+  std::ofstream(directory / "s.json") << R"({"version": 1, "lights": {"l": {"direction": [1, 1, 1]}},
+    "objects": {"a": {"latitudes": 8, "longitudes": 16, "position": [-1.1, 0, 0]},
+                "b": {"latitudes": 8, "longitudes": 16, "position": [1.1, 0, 0], "shading": "gouraud"}}})";
+  std::vector<std::string> pictures;
+  for (const char* rate : {"none", "flat", "provoking", "gouraud", "phong"}) {
+    const std::string out = std::string(rate) + ".png", again = std::string(rate) + "-set.png";
+    EXPECT_EQ(run({"render", "s.json", "--size", "64x36", "--shading", rate, "-o", out}).exit_code, 0);
+    const std::string set = std::string("shading=") + rate;
+    EXPECT_EQ(run({"render", "s.json", "--size", "64x36", "--set", "a." + set, "--set", "b." + set, "-o", again}).exit_code, 0);
+    EXPECT_EQ(text_of(directory / out), text_of(directory / again)) << rate;
+    pictures.push_back(text_of(directory / out));
+  }
+  std::ranges::sort(pictures);
+  EXPECT_EQ(std::ranges::adjacent_find(pictures), pictures.end()) << "five different pictures";
+}
+
+// What --max-error chooses is told, and can be printed as a scene that gives the same picture.
+TEST_F(Cli, MaxErrorTellsWhatItChose) {
+  const std::vector<std::string> asked{"render", "shadow-plane", "--size", "160x90", "--max-error", "0.3"};
+  std::vector<std::string> render = asked, print = asked;
+  render.insert(render.end(), {"--stats=json", "-o", "asked.png"});
+  print.emplace_back("--print");
+  const Outcome o = run(render);
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  std::map<std::string, std::string> choices;
+  const auto report = nlohmann::json::parse(o.out);
+  for (const auto& choice : report.at("choices")) {
+    choices[choice.at("key")] = choice.at("value");
+    EXPECT_FALSE(choice.at("why").get<std::string>().empty());
+  }
+  EXPECT_EQ(choices.at("samples"), "4") << "0.5/sqrt(4) px is the first within 0.3";
+  EXPECT_LT(std::stoi(choices.at("objects.earth.latitudes")), 128) << "a globe of some 20 px needs fewer than the scene says";
+  EXPECT_EQ(choices.at("shadow.method"), "bilinear");
+  const Outcome printed = run(print);
+  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  std::ofstream(directory / "chosen.json") << printed.out;
+  EXPECT_EQ(run({"render", "chosen.json", "--size", "160x90", "-o", "chosen.png"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory / "asked.png"), text_of(directory / "chosen.png"));
+}
+
+TEST_F(Cli, AColorMapIsUsed) {
+  EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "map.png"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "again.png", "--set", "earth.color=map.png"}).exit_code, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"again.png", "map.png"}));
+}
+
+TEST_F(Cli, StatisticsAsTextAndJson) {
+  const Outcome text = run({"render", "--stats", "earth", "--size", "64x36"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_TRUE(text.out.starts_with("earth, 64x36, ")) << text.out;
+  const Outcome json = run({"render", "earth", "--stats=json", "--size", "64x36"});
+  const auto parsed = nlohmann::json::parse(json.out);
+  EXPECT_EQ(parsed.at("width"), 64);
+  EXPECT_TRUE(parsed.at("counts").contains("fragments_shaded"));
+}
+
+TEST_F(Cli, Info) {
+  EXPECT_TRUE(run({"info"}).out.starts_with("halfspace "));
+  const auto parsed = nlohmann::json::parse(run({"info", "--json"}).out);
+  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool"}) EXPECT_TRUE(parsed.contains(key)) << key;
+}
+
+TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
+  for (const char* command : {"render", "convert-normal", "validate", "compare", "chart", "list", "info", "completion"}) {
+    const Outcome o = run({command, "--help"});
+    EXPECT_EQ(o.exit_code, 0);
+    EXPECT_LE(lines_of(o.out), 24);
+    std::istringstream lines(o.out);
+    std::vector<std::string> tail;
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LE(line.size(), 80u) << line;
+      if (!line.empty()) tail.push_back(line);
+    }
+    ASSERT_GE(tail.size(), 3u);
+    EXPECT_EQ(tail[tail.size() - 3], "Examples:");
+    for (std::size_t i = tail.size() - 2; i < tail.size(); ++i)
+      EXPECT_TRUE(tail[i].starts_with("  halfspace " + std::string(command))) << tail[i];
+  }
+}
+
+// ---- scenes, frames, formats -----------------------------------------------------------------------------------
+
+TEST_F(Cli, PrintIsASceneThatRendersTheSamePicture) {
+  const Outcome printed = run({"render", "moon", "--set", "moon.latitudes=40", "--camera", "terminator", "--print"});
+  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  EXPECT_TRUE(files().empty()) << "--print renders nothing";
+  std::ofstream(directory / "my.json") << printed.out;
+  const std::vector<std::string> size{"--size", "96x54"};
+  EXPECT_EQ(run({"render", "my.json", "--size", "96x54"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "moon", "--set", "moon.latitudes=40", "--camera", "terminator", "--size", "96x54"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory / "my.png"), text_of(directory / "moon.png"));
+  EXPECT_NE(text_of(directory / "my.png"), "");
+}
+
+TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
+  fs::create_directory(directory / "gone");
+  const std::string command = "cd " + (directory / "gone").string() + " && rmdir ../gone && " HALFSPACE_PROGRAM " list > " +
+                              (root / "out").string() + " 2>&1; " HALFSPACE_PROGRAM " render earth --size 8x8 -o " +
+                              (directory / "e.png").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
+  EXPECT_GE(lines_of(text_of(root / "out")), 5);
+}
+
+TEST_F(Cli, ASceneFileTellsItsErrors) {
+  std::ofstream(directory / "my.json") << "{\"version\": 1, \"objects\": {\"a\": {\"raduis\": 2}}}";
+  const Outcome o = run({"render", "my.json"});
+  EXPECT_EQ(o.exit_code, 3);
+  EXPECT_EQ(o.err, "halfspace: my.json: objects.a.raduis: unknown key; did you mean 'radius'?\n");
+}
+
+TEST_F(Cli, ListTellsScenesAndKeys) {
+  const Outcome scenes = run({"list"});
+  EXPECT_EQ(lines_of(scenes.out), lines_of(run({"list", "--names"}).out));
+  EXPECT_GE(lines_of(scenes.out), 5);
+  EXPECT_NE(scenes.out.find("\nmoon "), std::string::npos);
+  const Outcome keys = run({"list", "moon"});
+  EXPECT_NE(keys.out.find("height_scale"), std::string::npos);
+  const Outcome names = run({"list", "moon", "--names"});
+  EXPECT_NE(names.out.find("\nmoon.height_scale\n"), std::string::npos);
+  EXPECT_TRUE(nlohmann::json::accept(run({"list", "--schema"}).out));
+}
+
+TEST_F(Cli, CompletionScriptsAreRight) {
+  for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
+  EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nvalidate\ncompare\nchart\nlist\ninfo\ncompletion\n");
+  std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
+halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
+compopt() { :; }
+try() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _halfspace; echo "${COMPREPLY[*]}"; }
+try halfspace re
+try halfspace render ear
+try halfspace render moon --set moon.lat
+try halfspace render moon --res
+try halfspace chart sh
+try halfspace compare --js
+)";
+  const std::string command = "bash " + (directory / "try.sh").string() + " > " + (root / "out").string() + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(text_of(root / "out"), "render\nearth\nmoon.latitudes=\n--resume\nshading_rate shadows\n--json\n");
+}
+
+TEST_F(Cli, FramesAreNumberedAndResumed) {
+  const std::vector<std::string> command{"render", "moon", "--size", "48x27", "--frames", "8..11", "--fps", "12", "-o", "m.png"};
+  EXPECT_EQ(run(command).exit_code, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"m_0008.png", "m_0009.png", "m_0010.png", "m_0011.png"}));
+  // A frame is the picture at its time.
+  EXPECT_EQ(run({"render", "moon", "--size", "48x27", "--time", "0.75", "-o", "one.png"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory / "one.png"), text_of(directory / "m_0009.png"));
+  const std::string whole = text_of(directory / "m_0010.png");
+  fs::remove(directory / "m_0009.png");
+  std::ofstream(directory / "m_0010.png") << whole.substr(0, whole.size() / 2);
+  const auto before = fs::last_write_time(directory / "m_0008.png");
+  std::vector<std::string> resume = command;
+  resume.push_back("--resume");
+  const Outcome o = run(resume);
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(o.err, "") << "no progress in a pipe";
+  EXPECT_EQ(text_of(directory / "m_0009.png"), text_of(directory / "one.png"));
+  EXPECT_EQ(text_of(directory / "m_0010.png"), whole) << "half a file is rendered again";
+  EXPECT_EQ(fs::last_write_time(directory / "m_0008.png"), before) << "a whole one is left";
+}
+
+TEST_F(Cli, AnAnimationHasTheSamePixelsForAnyThreads) {
+  for (const char* threads : {"1", "2"}) {
+    const std::string out = std::string("t") + threads + ".png";
+    EXPECT_EQ(run({"render", "moon", "--size", "64x36", "--frames", "0..47", "--threads", threads, "-o", out}).exit_code, 0);
+  }
+  std::string first;
+  for (int i = 0; i < 48; ++i) {
+    const std::string number = std::string(i < 10 ? "000" : "00") + std::to_string(i) + ".png";
+    const std::string one = text_of(directory / ("t1_" + number));
+    EXPECT_NE(one, "");
+    EXPECT_EQ(one, text_of(directory / ("t2_" + number))) << i;
+    if (i == 0) first = one;
+    EXPECT_EQ(one == first, i == 0) << "Moon and light turn";
+  }
+}
+
+TEST_F(Cli, WritesEveryFormat) {
+  for (const char* name : {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"}) {
+    const Outcome o = run({"render", "earth", "--size", "64x36", "-o", name});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    // Read back as a map of the scene itself.
+    const Outcome again = run({"render", "moon", "--size", "32x18", "-o", "again.png", "--set", std::string("moon.height=") + name});
+    EXPECT_EQ(again.exit_code, 0) << name << ": " << again.err;
+  }
+}
+
+TEST_F(Cli, AFullStandardOutputIsTold) {
+  const std::string command = std::string(HALFSPACE_PROGRAM) + " info > /dev/full 2> " + (root / "err").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  EXPECT_EQ(text_of(root / "err"), "halfspace: standard output: cannot write\n");
+}
+
+// ---- streams ---------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, APipeThatNoOneReadsIsTold) {
+  ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0666), 0);
+  const Outcome o = run({"render", "earth", "--size", "8x8", "-o", "pipe"});
+  EXPECT_EQ(o.exit_code, 4);
+  EXPECT_EQ(o.err, "halfspace: pipe: no one reads from it; expected a program that does, or a file name\n");
+}
+
+// More than a pipe holds at once: the program waits for its reader.
+TEST_F(Cli, APipeThatSomeoneReadsGetsThePicture) {
+  EXPECT_EQ(run({"render", "earth", "--size", "640x360", "-o", "file.png"}).exit_code, 0);
+  ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0666), 0);
+  const std::string reader = "(sleep 0.3; cat) < " + (directory / "pipe").string() + " > " + (directory / "copy.png").string() + " &";
+  ASSERT_EQ(std::system(reader.c_str()), 0);
+  EXPECT_EQ(run({"render", "earth", "--size", "640x360", "-o", "pipe"}).exit_code, 0);
+  for (int i = 0; i < 100 && text_of(directory / "copy.png").size() < text_of(directory / "file.png").size(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_GT(text_of(directory / "file.png").size(), 65536u);
+  EXPECT_EQ(text_of(directory / "copy.png"), text_of(directory / "file.png"));
+}
+
+// A picture on standard output, into a file or a pipe, is that picture alone; the report goes to standard error.
+TEST_F(Cli, ReportsStayOutOfThePicture) {
+  EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "file.png"}).exit_code, 0);
+  const Outcome o = run({"render", "earth", "--size", "64x36", "-o", "/dev/stdout", "--stats=json"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(o.out, text_of(directory / "file.png"));
+  EXPECT_EQ(nlohmann::json::parse(o.err).at("width"), 64);
+  const std::string piped =
+      HALFSPACE_PROGRAM " render earth --size 64x36 -o /dev/stdout --stats 2> /dev/null | cat > " + (directory / "piped.png").string();
+  EXPECT_EQ(std::system(piped.c_str()), 0);
+  EXPECT_EQ(text_of(directory / "piped.png"), o.out);
+}
+
+// ---- compare ---------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, CompareTellsNumbersAndJudges) {
+  for (const char* size : {"64x36", "32x18"})
+    EXPECT_EQ(run({"render", "earth", "--size", size, "-o", std::string(size) + ".png"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "earth", "--size", "64x36", "--shading", "flat", "-o", "flat.png"}).exit_code, 0);
+  const Outcome same = run({"compare", "64x36.png", "64x36.png", "--tolerance", "0"});
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_TRUE(same.out.starts_with("64x36.png against 64x36.png, 64x36, 8-bit codes over 255\nrmse         0\n")) << same.out;
+  EXPECT_NE(same.out.find("\npsnr         infinite\n"), std::string::npos) << same.out;
+  const Outcome json = run({"compare", "64x36.png", "flat.png", "--json", "-o", "d.png"});
+  EXPECT_EQ(json.exit_code, 0) << "without a tolerance nothing is judged";
+  const auto parsed = nlohmann::json::parse(json.out);
+  for (const char* key : {"rmse", "psnr_db", "max", "p999", "share_above_1_255", "ssim"}) EXPECT_TRUE(parsed.at(key).is_number()) << key;
+  EXPECT_TRUE(fs::exists(directory / "d.png"));
+  const double most = parsed.at("max");
+  EXPECT_GT(most, 0.01);
+  const Outcome above = run({"compare", "64x36.png", "flat.png", "--tolerance", "0.01"});
+  EXPECT_EQ(above.exit_code, 1);
+  EXPECT_TRUE(above.err.starts_with("halfspace: flat.png: differs from 64x36.png by 0.")) << above.err;
+  EXPECT_TRUE(above.err.ends_with("; expected at most 0.01\n")) << above.err;
+  EXPECT_EQ(run({"compare", "64x36.png", "flat.png", "--tolerance", "1"}).exit_code, 0);
+  const Outcome sizes = run({"compare", "64x36.png", "32x18.png"});
+  EXPECT_EQ(sizes.exit_code, 3);
+  EXPECT_EQ(sizes.err, "halfspace: 32x18.png: is 32x18; expected 64x36, the size of 64x36.png\n");
+  std::ofstream(directory / "bad.png") << "no picture";
+  const Outcome bad = run({"compare", "64x36.png", "bad.png"});
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_EQ(lines_of(bad.err), 1) << bad.err;
+}
+
+TEST_F(Cli, CompareOfLinearFilesIsOfLight) {
+  for (const char* name : {"a.exr", "a.png"}) EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", name}).exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(run({"compare", "a.exr", "a.exr", "--json"}).out).at("values"), "linear");
+  // A linear file beside codes counts by its codes: those of the same scene, but for the half's rounding (2^-11 of the light, which
+  // moves a code where it lies that near between two).
+  const auto mixed = nlohmann::json::parse(run({"compare", "a.exr", "a.png", "--json"}).out);
+  EXPECT_EQ(mixed.at("values"), "codes");
+  EXPECT_LE(mixed.at("max").get<double>(), 1.0 / 255.0);
+}
+
+// ---- chart -----------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, ChartWritesDataChartAndPage) {
+  const Outcome o = run({"chart", "antialiasing", "--quick", "-o", "out"});
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const auto data = nlohmann::json::parse(text_of(directory / "out" / "antialiasing.json"));
+  const std::string csv = text_of(directory / "out" / "antialiasing.csv"), page = text_of(directory / "out" / "index.html");
+  EXPECT_EQ(lines_of(csv), 1 + static_cast<int>(data.at("variants").size()));
+  EXPECT_TRUE(csv.starts_with("study,variant,group,samples,")) << csv;
+  for (const auto& row : data.at("variants"))
+    for (const char* key : {"picture", "difference"}) EXPECT_TRUE(fs::exists(directory / "out" / row.at(key).get<std::string>())) << row;
+  EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
+  EXPECT_NE(page.find("antialiasing-8-samples.png"), std::string::npos);
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) {
+    EXPECT_NE(o.out.find("gnuplot is missing (Debian and Ubuntu: gnuplot-nox)"), std::string::npos);
+    GTEST_SKIP() << "gnuplot is absent: no charts";
+  }
+  for (const char* file : {"antialiasing.svg", "antialiasing-dark.svg", "antialiasing.png"})
+    EXPECT_GT(fs::file_size(directory / "out" / file), 5000u);
+  const std::string svg = text_of(directory / "out" / "antialiasing.svg");
+  for (const auto& row : data.at("variants")) EXPECT_NE(svg.find(row.at("name").get<std::string>()), std::string::npos) << row;
+  // A second study joins the page of the first.
+  EXPECT_EQ(run({"chart", "tone", "--quick", "-o", "out"}).exit_code, 0);
+  const std::string both = text_of(directory / "out" / "index.html");
+  EXPECT_NE(both.find("id=\"antialiasing\""), std::string::npos);
+  EXPECT_NE(both.find("id=\"tone\""), std::string::npos);
+}
+
+TEST_F(Cli, WithoutGnuplotTheDataAreWritten) {
+  const std::string command = "cd " + directory.string() + " && PATH=/nowhere " HALFSPACE_PROGRAM " chart tone --quick -o out > " +
+                              (root / "out").string() + " 2> " + (root / "err").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
+  EXPECT_NE(text_of(root / "out").find("no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data are written\n"),
+            std::string::npos);
+  EXPECT_TRUE(fs::exists(directory / "out" / "tone.csv"));
+  EXPECT_FALSE(fs::exists(directory / "out" / "tone.svg"));
+}
+
+// ---- convert-normal --------------------------------------------------------------------------------------------
+
+TEST_F(Cli, ConvertNormalMakesAMap) {
+  EXPECT_EQ(run({"render", "earth", "--size", "64x32", "-o", "heights.png"}).exit_code, 0);
+  for (const char* edges : {"repeat", "clamp", "sphere"}) {
+    const Outcome o = run({"convert-normal", "heights.png", "-o", "normal.png", "--strength", "4", "--edges", edges});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(o.out + o.err, "");
+  }
+  const std::string map = text_of(directory / "normal.png");
+  EXPECT_EQ(map.find("sRGB"), std::string::npos) << "normals are no colours";
+  EXPECT_EQ(run({"convert-normal", "normal.png", "-o", "again.png"}).exit_code, 0) << "what was written can be read";
+}
+
+// On a terminal a bar fills, fits the line, and is gone at the end and after an interrupt (util-linux's script plays the terminal).
+TEST_F(Cli, ProgressIsABarOnATerminal) {
+  if (std::system("script --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "script (util-linux) is absent";
+  const auto shown = [&](const std::string& command) {
+    const std::string line =
+        "cd " + directory.string() + " && script -qc '" + command + "' /dev/null < /dev/null > " + (root / "out").string();
+    (void)!std::system(line.c_str());
+    return text_of(root / "out");
+  };
+  const std::string frames = HALFSPACE_PROGRAM " render earth --size 16x9 -o e.png --frames 0..";
+  const std::string wide = shown("stty cols 80; " + frames + "3");
+  EXPECT_NE(wide.find("\r\033[K[..............................] 0/4"), std::string::npos) << wide;
+  EXPECT_NE(wide.find("\r\033[K[###############...............] 2/4  0:00 left"), std::string::npos) << wide;
+  EXPECT_TRUE(wide.ends_with("\r\033[K")) << wide;
+  std::istringstream narrow(shown("stty cols 24; " + frames + "3"));
+  int lines = 0;
+  for (std::string line; std::getline(narrow, line, '\r'); ++lines) EXPECT_LT(line.size(), 24u + 3u) << "with the three codes of clearing";
+  EXPECT_GT(lines, 4);
+  const std::string stopped = shown("stty cols 80; timeout --foreground -s INT 2 " + frames + "999999");
+  EXPECT_NE(stopped.find("/1000000  "), std::string::npos);
+  EXPECT_TRUE(stopped.ends_with("\r\033[K")) << stopped;
+}
+
+// Interrupted in a series that lasts far longer, at many moments and as soon as a file is there, which is one being written, the program
+// dies of the signal, and what it leaves are whole pictures. Each has more than a megabyte: it is between two such pieces of a file that a
+// signal is heard.
+TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
+  const auto render = [&](const std::string& frames) {
+    return start({"render", "earth", "--size", "1920x1080", "--frames", frames, "-o", "earth.exr"});
+  };
+  std::map<std::string, std::string> whole;
+  const auto check_whole = [&](const std::string& name, const std::string& bytes) {
+    if (!whole.contains(name)) {
+      const std::string frame = name.substr(6, 4);
+      EXPECT_EQ(finish(render(frame + ".." + frame)).exit_code, 0) << name;
+      whole[name] = text_of(directory / name);
+    }
+    EXPECT_TRUE(bytes == whole[name]) << name << ": " << bytes.size() << " bytes of " << whole[name].size();
+  };
+  const auto interrupt_after = [&](const auto& wait, int signal) {
+    const pid_t child = render("0..999");
+    wait();
+    ::kill(child, signal);
+    EXPECT_EQ(finish(child).signal, signal);
+    for (const std::string& name : files()) {
+      EXPECT_TRUE(name.starts_with("earth_")) << name;
+      if (name.starts_with("earth_")) check_whole(name, text_of(directory / name));
+      fs::remove(directory / name);
+    }
+  };
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (int delay_ms = 5; delay_ms < 200; delay_ms += 30) {
+      interrupt_after([&] { std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms)); }, signal);
+    }
+    for (int i = 0; i < 3; ++i) {
+      pollfd created{::inotify_init1(0), POLLIN, 0};
+      ASSERT_GE(::inotify_add_watch(created.fd, directory.c_str(), IN_CREATE), 0);
+      // Asked over and over: to wake takes longer than to write a picture.
+      const auto wait_for_a_file = [&] {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        while (::poll(&created, 1, 0) == 0 && std::chrono::steady_clock::now() < end) continue;
+      };
+      interrupt_after(wait_for_a_file, signal);
+      EXPECT_NE(created.revents, 0) << "no picture in a minute";
+      ::close(created.fd);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/geometry/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace halfspace {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+glm::dvec3 divided(const glm::dvec4& clip) { return glm::dvec3(clip.x, clip.y, clip.z) / clip.w; }
+double depth(const glm::dmat4& m, double z) { return divided(m * glm::dvec4(0, 0, z, 1)).z; }
+
+TEST(Camera, LookAtMovesTheEyeToTheOriginAndTheTargetAhead) {
+  const glm::dvec3 eye(3, 4, 5), target(-1, 2, 0.5);
+  const glm::dmat4 v = look_at(eye, target, {0, 1, 0});
+  const glm::dvec4 e = v * glm::dvec4(eye, 1);
+  const glm::dvec4 t = v * glm::dvec4(target, 1);
+  EXPECT_NEAR(glm::length(glm::dvec3(e.x, e.y, e.z)), 0, 1e-14);
+  EXPECT_NEAR(t.x, 0, 1e-14);
+  EXPECT_NEAR(t.y, 0, 1e-14);
+  EXPECT_NEAR(t.z, -glm::length(target - eye), 1e-14);
+  const glm::dvec4 up = v * glm::dvec4(0, 1, 0, 0);
+  EXPECT_NEAR(up.x, 0, 1e-15);
+  EXPECT_GT(up.y, 0);
+  EXPECT_NEAR(glm::determinant(v), 1, 1e-14) << "right-handed: a rotation, not a mirror";
+}
+
+TEST(Camera, LookAtFromPlusZIsATranslation) {
+  // +x stays to the right and +y above.
+  const glm::dmat4 v = look_at({0, 0, 2}, {0, 0, 0}, {0, 1, 0});
+  const glm::dvec4 p = v * glm::dvec4(1, 2, 3, 1);
+  EXPECT_EQ(p, glm::dvec4(1, 2, 1, 1));
+}
+
+TEST(Camera, PerspectiveFillsTheAngle) {
+  for (const glm::dmat4& m : {perspective_gl(kPi / 2, 2.0, 1, 10), perspective_reversed(kPi / 2, 2.0, 1, 10)}) {
+    // 90° of height at distance 3: y = ±3 at the edge, x = ±6 with aspect 2.
+    const glm::dvec3 corner = divided(m * glm::dvec4(6, 3, -3, 1));
+    EXPECT_NEAR(corner.x, 1, 1e-15);
+    EXPECT_NEAR(corner.y, 1, 1e-15);
+    EXPECT_EQ((m * glm::dvec4(6, 3, -3, 1)).w, 3) << "clip w is the distance along the view axis";
+  }
+}
+
+TEST(Camera, GlDepthIsMinusOneAtNearAndOneAtFar) {
+  const glm::dmat4 m = perspective_gl(1, 1, 0.25, 80);
+  EXPECT_NEAR(depth(m, -0.25), -1, 1e-14);
+  EXPECT_NEAR(depth(m, -80), 1, 1e-14);
+  EXPECT_NEAR(depth(m, -2), (80 + 0.25) / (80 - 0.25) - 2 * 80 * 0.25 / ((80 - 0.25) * 2), 1e-14);
+}
+
+TEST(Camera, ReversedDepthIsOneAtNearAndZeroAtFar) {
+  const glm::dmat4 m = perspective_reversed(1, 1, 0.25, 80);
+  EXPECT_NEAR(depth(m, -0.25), 1, 1e-14);
+  EXPECT_NEAR(depth(m, -80), 0, 1e-16);
+  EXPECT_NEAR(depth(m, -2), 0.25 * (80.0 / 2 - 1) / (80 - 0.25), 1e-15);
+}
+
+TEST(Camera, InfiniteReversedDepthIsNearOverDistance) {
+  const glm::dmat4 m = perspective_reversed(1, 1, 0.25, kInfinity);
+  EXPECT_EQ(depth(m, -0.25), 1);
+  EXPECT_EQ(depth(m, -1e6), 0.25 / 1e6);
+  EXPECT_NEAR(depth(m, -3), depth(perspective_reversed(1, 1, 0.25, 1e12), -3), 1e-12) << "the limit of far planes";
+}
+
+TEST(Camera, RoundedOnceReversedDepthIsExactAtTheNearPlane) {
+  // With near a power of two every number of the row is a float.
+  const glm::mat4 m(perspective_reversed(1, 1, 0.125, kInfinity));
+  const glm::vec4 near = m * glm::vec4(0, 0, -0.125f, 1);
+  EXPECT_EQ(near.z / near.w, 1.0f);
+}
+
+TEST(Camera, OrthographicMapsItsBox) {
+  const glm::dmat4 gl = orthographic_gl(4, 1.5, 1, 9);
+  const glm::dmat4 reversed = orthographic_reversed(4, 1.5, 1, 9);
+  EXPECT_EQ(divided(gl * glm::dvec4(3, 2, -1, 1)), glm::dvec3(1, 1, -1));
+  EXPECT_EQ(divided(gl * glm::dvec4(-3, -2, -9, 1)), glm::dvec3(-1, -1, 1));
+  EXPECT_EQ(divided(reversed * glm::dvec4(3, 2, -1, 1)), glm::dvec3(1, 1, 1));
+  EXPECT_EQ(divided(reversed * glm::dvec4(0, 0, -9, 1)), glm::dvec3(0, 0, 0));
+}
+
+TEST(Camera, BrokenPreconditionsAbort) {
+  EXPECT_DEATH(perspective_gl(1, 1, 1, kInfinity), "far < ");
+  EXPECT_DEATH(perspective_gl(4, 1, 1, 2), "fovy < ");
+  EXPECT_DEATH(perspective_reversed(1, 1, 0, 2), "near > 0.0 \\(0 against 0\\)");
+  EXPECT_DEATH(look_at({1, 1, 1}, {1, 1, 1}, {0, 1, 0}), "length > 0.0");
+  EXPECT_DEATH(look_at({0, 0, 0}, {0, 1, 0}, {0, 1, 0}), "length > 0.0");
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/geometry/height_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace halfspace {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const Workers kWorkers(2);
+
+// A smooth function on the sphere (a polynomial in the place), from 0 to 1.
+double smooth(double u, double v) {
+  const double s = std::sin(kPi * v);
+  const double x = s * std::cos(2 * kPi * u), y = std::cos(kPi * v), z = -s * std::sin(2 * kPi * u);
+  return 0.5 + 0.2 * x * y + 0.15 * z * z * x + 0.1 * y * z - 0.1 * x;
+}
+
+template <class F>
+Image<float> map_of(int width, int height, F value) {
+  Image<float> map(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) map.at(x, y) = static_cast<float>(value((x + 0.5) / width, (y + 0.5) / height));
+  }
+  return map;
+}
+
+Image<float> quantized(Image<float> map) {
+  for (int y = 0; y < map.height(); ++y) {
+    for (float& t : map.row(y)) t = std::round(t * 255.0f) / 255.0f;
+  }
+  return map;
+}
+
+// Bumpy in every texel.
+Image<float> rough_map(int width, int height) {
+  uint32_t state = 12345;
+  return map_of(width, height, [&](double, double) {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<double>(state >> 8) / 16777216.0;
+  });
+}
+
+bool same_bits(const HeightSample& a, const HeightSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+// The difference quotient over h is off by f'''·h²/6, and f''' of texels in [0, 1] is at most 4·W³ (W the texels a unit);
+// h = 1e-7 / W leaves that at 1e-14·W, and its rounding at 1e-16 / h = 1e-9·W.
+TEST(HeightField, GradientIsThatOfTheValue) {
+  for (const double smoothing : {0.0, 1.5}) {
+    const HeightField f(rough_map(32, 16), smoothing, kWorkers);
+    for (const double u : {0.0, 0.013, 0.25, 0.4999, 0.7, 0.98, 0.999}) {
+      for (const double v : {0.001, 0.02, 0.21, 0.5, 0.77, 0.96, 0.999}) {
+        const double hu = 1e-7 / 32, hv = 1e-7 / 16;
+        const HeightSample s = f.at(u, v);
+        EXPECT_NEAR((f.at(u + hu, v).value - f.at(u - hu, v).value) / (2 * hu), s.du, 1e-7 * 32);
+        EXPECT_NEAR((f.at(u, v + hv).value - f.at(u, v - hv).value) / (2 * hv), s.dv, 1e-7 * 16);
+      }
+    }
+  }
+}
+
+// Value and gradient go on without a step over texel borders, the seam and the poles.
+TEST(HeightField, ManyPlacesOfARowAreThoseOneByOne) {
+  for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
+    const HeightField field(map_of(34, 17, smooth), 0.7, kWorkers, edges);
+    std::vector<double> places{0.0, 1.0, 0.5, -0.25};
+    for (int x = 0; x < 50; ++x) places.push_back((x + 0.5) / 50);
+    std::vector<HeightTaps> taps;
+    for (const double u : places) taps.push_back(field.taps(u));
+    for (const double v : {-0.3, 0.0, 0.01, 0.5, 0.77, 1.0, 1.2}) {
+      std::vector<HeightSample> samples(taps.size());
+      field.at(taps, v, samples);
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const HeightSample one = field.at(places[i], v);
+        EXPECT_EQ(samples[i].value, one.value);
+        EXPECT_EQ(samples[i].du, one.du);
+        EXPECT_EQ(samples[i].dv, one.dv);
+      }
+    }
+  }
+}
+
+// Where the size is a power of two the coordinates of the centres are exact, and so are the bits; elsewhere at() looks beside the centre
+// by some 1e-16 of the map.
+TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
+  for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
+    for (const auto& [width, height] : {std::pair(32, 16), std::pair(2, 1), std::pair(30, 11)}) {
+      const HeightField field(rough_map(width, height), 0.0, kWorkers, edges);
+      const bool exact = std::has_single_bit(static_cast<unsigned>(width)) && std::has_single_bit(static_cast<unsigned>(height));
+      std::vector<HeightSample> samples(static_cast<std::size_t>(width));
+      for (int row = 0; row < height; ++row) {
+        field.at_texels(row, samples);
+        for (int x = 0; x < width; ++x) {
+          const HeightSample got = samples[static_cast<std::size_t>(x)], want = field.at((x + 0.5) / width, (row + 0.5) / height);
+          const double tolerance = exact ? 0.0 : 1e-12;  // slopes are up to 30 a map, and their slopes 30² times that 1e-16
+          EXPECT_NEAR(got.value, want.value, tolerance) << width << ' ' << x << ' ' << row;
+          EXPECT_NEAR(got.du, want.du, tolerance) << width << ' ' << x << ' ' << row;
+          EXPECT_NEAR(got.dv, want.dv, tolerance) << width << ' ' << x << ' ' << row;
+        }
+      }
+    }
+  }
+}
+
+TEST(HeightField, IsSmoothOverSeamAndPoles) {
+  const HeightField f(rough_map(32, 16), 0.0, kWorkers);
+  const double tiny = 1e-12;
+  for (const double a : {0.0, 0.1, 0.35, 0.8, 1.0}) {
+    EXPECT_TRUE(same_bits(f.at(0, a), f.at(1, a)));
+    EXPECT_NEAR(f.at(1 - tiny, a).value, f.at(0, a).value, 1e-9);
+    EXPECT_NEAR(f.at(1 - tiny, a).du, f.at(0, a).du, 1e-8);
+    for (const auto& [inside, beyond] : {std::pair(0.03, -0.03), std::pair(0.97, 1.03)}) {
+      EXPECT_NEAR(f.at(a, beyond).value, f.at(a + 0.5, inside).value, 1e-14);
+      EXPECT_NEAR(f.at(a, beyond).du, f.at(a + 0.5, inside).du, 1e-12);
+      EXPECT_NEAR(f.at(a, beyond).dv, -f.at(a + 0.5, inside).dv, 1e-12);
+    }
+    const double texel_border = 7.5 / 32;
+    EXPECT_NEAR(f.at(texel_border - tiny, a).du, f.at(texel_border + tiny, a).du, 1e-8);
+  }
+}
+
+TEST(HeightField, ConstantsAreExact) {
+  Image<float> map(12, 6);
+  for (int y = 0; y < 6; ++y) {
+    for (float& t : map.row(y)) t = 0.3f;
+  }
+  const HeightField plain(map, 0.0, kWorkers), smoothed(map, 2.3, kWorkers);
+  for (const HeightField& f : {plain, smoothed, smoothed.filtered(5, kWorkers)}) {
+    for (const double u : {0.0, 0.12, 0.9}) {
+      for (const double v : {0.0, 0.3, 1.0}) {
+        const HeightSample s = f.at(u, v);
+        EXPECT_EQ(s.value, static_cast<double>(0.3f));
+        EXPECT_EQ(s.du, 0.0);
+        EXPECT_EQ(s.dv, 0.0);
+      }
+    }
+  }
+}
+
+// Away from the poles, where it is bent: the spline's weights give any straight line back, as do symmetric filters. The
+// ramp's texels are multiples of 2^-7, so only double rounds, and smoothed texels are rounded to float.
+TEST(HeightField, RampsAlongVAreKept) {
+  const Image<float> map = map_of(128, 64, [](double, double v) { return v; });
+  const HeightField plain(map, 0.0, kWorkers), smoothed(map, 1.5, kWorkers);
+  for (double v = 0.2; v < 0.8; v += 0.0137) {
+    EXPECT_NEAR(plain.at(0.3, v).value, v, 1e-14);
+    EXPECT_NEAR(plain.at(0.3, v).dv, 1.0, 1e-13);
+    EXPECT_NEAR(plain.at(0.3, v).du, 0.0, 1e-14);
+    EXPECT_NEAR(smoothed.at(0.3, v).value, v, 1e-7);
+    EXPECT_NEAR(smoothed.at(0.3, v).dv, 1.0, 1e-5);
+    EXPECT_NEAR(plain.filtered(64, kWorkers).at(0.3, v).value, v, 1e-7);
+  }
+}
+
+// Halved, a pattern of the map's finest stripes is gone: its mean is left. Where texels are not cut at their borders, the side
+// lobes of the average let a ninth of the slope through.
+TEST(HeightField, FilteringRemovesWhatIsTooFine) {
+  const HeightField stripes(map_of(64, 32, [](double u, double) { return static_cast<int>(u * 64) % 2 == 0 ? 0.0 : 1.0; }), 0.0, kWorkers);
+  const HeightField half = stripes.filtered(32, kWorkers);
+  EXPECT_EQ(half.width(), 32);
+  EXPECT_EQ(half.height(), 16);
+  const HeightField uneven = stripes.filtered(23, kWorkers);
+  EXPECT_EQ(uneven.width(), 22);
+  EXPECT_EQ(uneven.height(), 11);
+  double most = 0, most_uneven = 0, before = 0;
+  for (double u = 0; u < 1; u += 0.003) {
+    EXPECT_NEAR(half.at(u, 0.4).value, 0.5, 1e-7);
+    most = std::max(most, std::fabs(half.at(u, 0.4).du));
+    most_uneven = std::max(most_uneven, std::fabs(uneven.at(u, 0.4).du));
+    before = std::max(before, std::fabs(stripes.at(u, 0.4).du));
+  }
+  EXPECT_GT(before, 20.0);
+  EXPECT_LT(most, 1e-5);
+  EXPECT_LT(most_uneven, 0.125 * before);
+}
+
+TEST(HeightField, FilteringKeepsWhatIsCoarse) {
+  const HeightField fine(map_of(512, 256, smooth), 0.0, kWorkers);
+  EXPECT_EQ(fine.filtered(512, kWorkers).width(), 512);
+  const HeightField coarse = fine.filtered(128, kWorkers);
+  for (double u = 0; u < 1; u += 0.07) {
+    for (double v = 0.05; v < 1; v += 0.09) EXPECT_NEAR(coarse.at(u, v).value, smooth(u, v), 2e-3);
+  }
+}
+
+// Round a pole the texels of a row lie close together; noise in them must not become slope. Smoothed, the slope to the east
+// (du / sin πv) of the rows next to the pole is no more than at the equator; unsmoothed it is many times as much.
+TEST(HeightField, PolesAreNotNoisy) {
+  const Image<float> map = rough_map(256, 128);
+  const auto mean_square_slope = [](const HeightField& f, double v) {
+    double sum = 0;
+    for (int i = 0; i < 1000; ++i) sum += std::pow(f.at(i / 1000.0, v).du / std::sin(kPi * v), 2);
+    return sum / 1000;
+  };
+  const HeightField rough(map, 0.0, kWorkers), even(map, 1.0, kWorkers);
+  for (const double v : {0.5 / 128, 2.0 / 128, 0.05, 0.96}) {
+    EXPECT_LT(mean_square_slope(even, v), 2.0 * mean_square_slope(even, 0.5));
+    EXPECT_GT(mean_square_slope(rough, v), 10.0 * mean_square_slope(rough, 0.5));
+  }
+}
+
+// The largest error of the gradient, in value per unit of u or v, against the smooth function itself.
+double gradient_error(const HeightField& f) {
+  double most = 0;
+  for (double u = 0.001; u < 1; u += 0.0031) {
+    for (double v = 0.15; v < 0.85; v += 0.0137) {
+      const double h = 1e-5;
+      const HeightSample s = f.at(u, v);
+      most = std::max(most, std::fabs(s.du - (smooth(u + h, v) - smooth(u - h, v)) / (2 * h)));
+      most = std::max(most, std::fabs(s.dv - (smooth(u, v + h) - smooth(u, v - h)) / (2 * h)));
+    }
+  }
+  return most;
+}
+
+// The terraces of 8 bits make slopes of up to 1/255 a texel, which is far more than the map's own.
+TEST(HeightField, SmoothingRemovesTerraces) {
+  const Image<float> map = quantized(map_of(512, 256, smooth));
+  const double rough = gradient_error(HeightField(map, 0.0, kWorkers));
+  const double smoothed = gradient_error(HeightField(map, 3.0, kWorkers));
+  RecordProperty("unsmoothed", std::to_string(rough));
+  RecordProperty("smoothed", std::to_string(smoothed));
+  EXPECT_GT(rough, 1.0);
+  EXPECT_LT(smoothed, 0.1 * rough);
+}
+
+TEST(HeightField, OddAndLeastSizesWork) {
+  for (const auto& [width, height] : {std::pair(2, 1), std::pair(3, 2), std::pair(37, 19)}) {
+    const HeightField f(rough_map(width, height), 1.0, Workers(1));
+    EXPECT_EQ(f.width(), width / 2 * 2);
+    EXPECT_EQ(f.height(), height);
+    for (const double a : {0.0, 0.3, 1.0}) {
+      EXPECT_GE(f.at(a, a).value, 0.0);
+      EXPECT_LE(f.at(a, a).value, 1.0);
+    }
+  }
+  EXPECT_DEATH(HeightField(Image<float>(1, 1), 0.0, Workers(1)), "width");
+}
+
+TEST(HeightField, ThreadsChangeNothing) {
+  const Image<float> map = rough_map(101, 50);
+  const HeightField one = HeightField(map, 1.2, Workers(1)).filtered(60, Workers(1));
+  const HeightField many = HeightField(map, 1.2, Workers(7)).filtered(60, Workers(7));
+  for (double u = 0; u < 1; u += 0.017) {
+    for (double v = 0; v < 1; v += 0.031) EXPECT_TRUE(same_bits(one.at(u, v), many.at(u, v)));
+  }
+}
+
+TEST(HeightField, SameBitsEverywhere) {
+  const HeightField f = HeightField(rough_map(100, 50), 1.2, kWorkers).filtered(60, kWorkers);
+  uint64_t hash = 14695981039346656037u;
+  for (double u = 0; u < 1; u += 0.0625) {
+    for (double v = 0; v < 1; v += 0.0625) {
+      const HeightSample s = f.at(u, v);
+      for (const double x : {s.value, s.du, s.dv}) hash = (hash ^ std::bit_cast<uint64_t>(x)) * 1099511628211u;
+    }
+  }
+  EXPECT_EQ(hash, 1512960161637794097u);
+}
+
+}  // namespace
+}  // namespace halfspace

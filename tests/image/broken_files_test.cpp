@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Damaged and hostile image files: whatever a file holds, each reader returns an image or throws InputError of one
+// line. Every folder is read by a child process with little memory and little time, so that a crash or a hang is told
+// by name and ends nothing else.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "halfspace/core/check.h"
+#include "halfspace/image/image_io.h"
+#include "support/sanitized.h"
+
+namespace halfspace {
+namespace {
+
+constexpr const char* kData = "../shared/data";
+constexpr unsigned kSecondsPerFile = 300;  // a decoder that hangs is ended after 60 s of its own, which a busy machine makes long
+constexpr rlim_t kAddressSpace = rlim_t{2} << 30;
+
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+// Sanitizers reserve terabytes of addresses.
+void limit_memory() {
+  if (kSanitized) return;
+  const rlimit limit = {kAddressSpace, kAddressSpace};
+  ::setrlimit(RLIMIT_AS, &limit);
+}
+
+struct Reader {
+  const char* name;
+  bool (*gives_pixels)(const std::filesystem::path&);
+};
+constexpr Reader kReaders[] = {
+    {"read_image", [](const std::filesystem::path& path) { return !read_image(path).empty(); }},
+    {"read_gray", [](const std::filesystem::path& path) { return !read_gray(path).empty(); }},
+    {"read_linear", [](const std::filesystem::path& path) { return !read_linear(path).empty(); }},
+};
+
+std::string verdict_on(const std::filesystem::path& path, const Reader& reader) {
+  try {
+    return reader.gives_pixels(path) ? "ok" : "returned an empty image";
+  } catch (const InputError& e) {
+    return (std::string(e.what()).starts_with(path.string() + ": ") ? "error " : "does not begin with the path: ") + std::string(e.what());
+  } catch (const std::exception& e) {
+    return std::string("another exception: ") + e.what();
+  }
+}
+
+// A line to the parent at the start of every file and reader, and one at its end: "ok", or the error.
+[[noreturn]] void read_all(const std::vector<std::filesystem::path>& files, int to_parent) {
+  std::FILE* out = ::fdopen(to_parent, "w");
+  limit_memory();
+  for (const std::filesystem::path& path : files) {
+    for (const Reader& reader : kReaders) {
+      std::fprintf(out, "%s by %s\n", path.c_str(), reader.name);
+      std::fflush(out);
+      ::alarm(kSecondsPerFile);
+      std::fprintf(out, "%s\n", verdict_on(path, reader).c_str());
+    }
+  }
+  std::fflush(out);
+  ::_exit(0);
+}
+
+struct Outcome {
+  int status = 0;
+  std::vector<std::string> lines;
+};
+
+Outcome read_in_child(const std::vector<std::filesystem::path>& files) {
+  int ends[2] = {};
+  if (::pipe(ends) != 0) return {-1, {}};
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(ends[0]);
+    read_all(files, ends[1]);
+  }
+  ::close(ends[1]);
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = ::read(ends[0], buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<std::size_t>(n));
+  ::close(ends[0]);
+  Outcome outcome;
+  ::waitpid(child, &outcome.status, 0);
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    outcome.lines.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return outcome;
+}
+
+class BrokenFiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(BrokenFiles, GiveAnImageOrOneLine) {
+  const std::filesystem::path folder = std::filesystem::path(kData) / GetParam();
+  if (!std::filesystem::exists(folder))
+    GTEST_SKIP() << folder << " is absent: the collection of broken files is not part of the repository";
+  const std::vector<std::filesystem::path> files = files_in(folder);
+  const Outcome outcome = read_in_child(files);
+  const std::string last = outcome.lines.empty() ? "(none)" : outcome.lines.back();
+  ASSERT_TRUE(WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == 0)
+      << "the reader died of signal " << WTERMSIG(outcome.status) << " (14: over " << kSecondsPerFile << " s) at " << last;
+  const std::size_t count = files.size() * std::size(kReaders);
+  ASSERT_EQ(outcome.lines.size(), 2 * count) << "a message has more than one line";
+  std::size_t images = 0;
+  for (std::size_t i = 0; i < 2 * count; i += 2) {
+    const std::string& verdict = outcome.lines[i + 1];
+    EXPECT_TRUE(verdict == "ok" || verdict.starts_with("error ")) << outcome.lines[i] << ": " << verdict;
+    images += verdict == "ok" ? 1 : 0;
+  }
+  std::printf("%zu files, %zu readers: %zu images, %zu refused\n", files.size(), std::size(kReaders), images, count - images);
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, BrokenFiles,
+                         testing::Values("broken/oiio_images", "broken/openexr_damaged", "broken/imagetestsuite_gif",
+                                         "broken/imagetestsuite_jpg", "broken/imagetestsuite_png", "broken/imagetestsuite_tif",
+                                         "broken/pngsuite_corrupt", "broken/assimp_obj_odd", "broken/gltf_validator", "pngsuite"),
+                         [](const testing::TestParamInfo<const char*>& folder) {
+                           std::string name = folder.param;
+                           std::ranges::replace(name, '/', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace halfspace

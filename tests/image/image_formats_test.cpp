@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writing in every format: what comes back, and what a second program finds in the files.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/glm.hpp>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "halfspace/core/half.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/image/image_tool.h"
+#include "image/image_fixture.h"
+
+namespace halfspace {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+using ImageFormats = ImageFixture;
+
+// These need halfspace-image-tool.
+class ToolFormats : public ImageFixture {
+ protected:
+  void SetUp() override {
+    ImageFixture::SetUp();
+    if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  }
+
+  Image<glm::vec4> write_and_read(const char* name, const Image<glm::vec4>& image) const {
+    write_image(directory / name, image);
+    return read_linear(directory / name);
+  }
+};
+
+Image<glm::vec4> one_texel(const glm::vec4& texel) {
+  Image<glm::vec4> image(1, 1);
+  image.at(0, 0) = texel;
+  return image;
+}
+
+// Light from 2^-20 to 2^15 of either sign, the channels of a pixel up to 2^8 apart; more rows than the tool handles at once.
+Image<glm::vec4> test_light(bool opaque) {
+  Image<glm::vec4> image(37, 150);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const float scale = std::ldexp(1.0f + static_cast<float>(x) / 37.0f, y % 28 - 20);
+      image.at(x, y) = glm::vec4(scale, scale * static_cast<float>(1 + (x * y) % 255), -scale * 3.0f,
+                                 opaque ? 1.0f : 0.25f * static_cast<float>(1 + x % 4));
+    }
+  }
+  return image;
+}
+
+float as_half(float x) { return half_to_float(float_to_half(x)); }
+
+// What ImageMagick tells of a file, or nothing where it is not installed.
+std::string identify(const std::filesystem::path& path, const std::string& format) {
+  const std::string command = "identify -format '" + format + "' '" + path.string() + "' 2>/dev/null";
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  char buffer[4096];
+  const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe);
+  return ::pclose(pipe) == 0 ? std::string(buffer, n) : "";
+}
+
+std::vector<double> numbers_in(const std::string& text) {
+  std::istringstream words(text);
+  std::vector<double> numbers;
+  for (double n = 0; words >> n;) numbers.push_back(n);
+  return numbers;
+}
+
+TEST_F(ImageFormats, AreToldByTheName) {
+  EXPECT_EQ(image_file_of("a.png"), ImageFile::png);
+  EXPECT_EQ(image_file_of("dir.exr/a.PNG"), ImageFile::png);
+  EXPECT_EQ(image_file_of("a.jpg"), ImageFile::jpeg);
+  EXPECT_EQ(image_file_of("a.JPEG"), ImageFile::jpeg);
+  EXPECT_EQ(image_file_of("a.tif"), ImageFile::tiff);
+  EXPECT_EQ(image_file_of("a.Tiff"), ImageFile::tiff);
+  EXPECT_EQ(image_file_of("a.png.exr"), ImageFile::exr);
+  EXPECT_EQ(image_file_of("a.HDR"), ImageFile::hdr);
+  for (const char* name : {"", "a", "png", ".png", "a.", "a.bmp", "a.exr/b"}) EXPECT_EQ(image_file_of(name), std::nullopt) << name;
+  EXPECT_TRUE(is_linear(ImageFile::exr) && is_linear(ImageFile::hdr));
+  EXPECT_FALSE(is_linear(ImageFile::png) || is_linear(ImageFile::jpeg) || is_linear(ImageFile::tiff));
+}
+
+TEST_F(ImageFormats, TakeTheRightKindOfPictureAlone) {
+  const Image<glm::u8vec4> codes(1, 1);
+  const Image<glm::vec4> light(1, 1);
+  EXPECT_EQ(output_error([&] { write_image("a.bmp", codes); }),
+            "a.bmp: its name tells no format of pictures; expected a name that ends in .png, .jpg or .tif");
+  EXPECT_EQ(output_error([&] { write_image("a", light); }),
+            "a: its name tells no format of pictures; expected a name that ends in .exr or .hdr");
+  EXPECT_EQ(output_error([&] { write_image("a.exr", codes); }),
+            "a.exr: holds linear numbers; expected a name that ends in .png, .jpg or .tif");
+  EXPECT_EQ(output_error([&] { write_image("a.tif", light); }), "a.tif: holds 8-bit codes; expected a name that ends in .exr or .hdr");
+}
+
+TEST_F(ImageFormats, PngIsExact) {
+  write_image(directory / "a.PNG", test_picture(false));
+  EXPECT_TRUE(read_image(directory / "a.PNG") == test_picture(false));
+}
+
+TEST_F(ToolFormats, TiffIsExact) {
+  for (const bool opaque : {true, false}) {
+    write_image(directory / "a.tif", test_picture(opaque));
+    EXPECT_TRUE(read_image(directory / "a.tif") == test_picture(opaque)) << (opaque ? "RGB" : "RGBA, straight alpha");
+  }
+  EXPECT_EQ(file_count(), 1u) << "nothing is left beside the picture";
+}
+
+TEST_F(ToolFormats, JpegIsNearAndOpaque) {
+  // A smooth picture: quality 95 keeps it within 4 codes, 1 on the average.
+  Image<glm::u8vec4> image(64, 48);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) image.at(x, y) = glm::u8vec4(4 * x, 5 * y, 255 - 2 * (x + y), 128);
+  }
+  write_image(directory / "a.jpg", image);
+  const Image<glm::u8vec4> again = read_image(directory / "a.jpg");
+  ASSERT_EQ(again.width(), 64);
+  ASSERT_EQ(again.height(), 48);
+  int largest = 0, sum = 0;
+  for (std::size_t i = 0; i < image.texels().size(); ++i) {
+    EXPECT_EQ(again.data()[i].w, 255);
+    for (int c = 0; c < 3; ++c) {
+      const int error = std::abs(int{again.data()[i][c]} - int{image.data()[i][c]});
+      largest = std::max(largest, error);
+      sum += error;
+    }
+  }
+  EXPECT_LE(largest, 4);
+  EXPECT_LE(sum, 3 * 64 * 48);
+}
+
+TEST_F(ToolFormats, ExrHoldsTheNearestHalves) {
+  const Image<glm::vec4> light = test_light(true);
+  const Image<glm::vec4> again = write_and_read("a.exr", light);
+  for (std::size_t i = 0; i < light.texels().size(); ++i) {
+    for (int c = 0; c < 3; ++c) ASSERT_EQ(again.data()[i][c], as_half(light.data()[i][c])) << i;
+    ASSERT_EQ(again.data()[i].w, 1.0f);
+  }
+}
+
+TEST_F(ToolFormats, ExrIsPremultipliedInTheFileAndStraightInMemory) {
+  const Image<glm::vec4> light = test_light(false);
+  const Image<glm::vec4> again = write_and_read("a.exr", light);
+  for (std::size_t i = 0; i < light.texels().size(); ++i) {
+    const glm::vec4 t = light.data()[i];
+    ASSERT_EQ(again.data()[i].w, t.w);
+    for (int c = 0; c < 3; ++c) ASSERT_EQ(again.data()[i][c], as_half(t[c] * t.w) / t.w) << i;
+  }
+  // Read as heights, the file shows what it holds: the first channel, not divided.
+  EXPECT_EQ(read_gray(directory / "a.exr").at(0, 0), as_half(light.at(0, 0).x * 0.25f));
+}
+
+TEST_F(ToolFormats, ExrHasAlphaOnlyWhereItSaysSomething) {
+  EXPECT_EQ(write_and_read("a.exr", one_texel({0.5f, 2.0f, 8.0f, 0.0f})).at(0, 0), glm::vec4(0.0f)) << "colours are lost at alpha 0";
+  write_image(directory / "b.exr", one_texel({0.5f, 2.0f, 8.0f, 1.0f}));
+  const auto has_alpha = [&](const char* name) {
+    std::ifstream file(directory / name, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    // The list of channels: each a name that ends in 0, and 16 bytes of which the first is the type (1: half).
+    return text.find(std::string("A\0\1\0\0\0", 6)) != std::string::npos;
+  };
+  EXPECT_TRUE(has_alpha("a.exr"));
+  EXPECT_FALSE(has_alpha("b.exr"));
+}
+
+TEST_F(ToolFormats, ExrHoldsInfinitiesAndNoNaN) {
+  EXPECT_EQ(write_and_read("a.exr", one_texel({kInfinity, -kInfinity, kNaN, 1.0f})).at(0, 0), glm::vec4(kMaxHalf, -kMaxHalf, 0.0f, 1.0f));
+  EXPECT_EQ(write_and_read("a.exr", one_texel({1e9f, 65520.0f, 1e-9f, 1.0f})).at(0, 0), glm::vec4(kMaxHalf, kMaxHalf, 0.0f, 1.0f));
+  EXPECT_EQ(write_and_read("a.exr", one_texel({kInfinity, 1.0f, 1.0f, 0.0f})).at(0, 0), glm::vec4(0.0f));
+  EXPECT_EQ(write_and_read("a.exr", one_texel({1.0f, 1.0f, 1.0f, kNaN})).at(0, 0), glm::vec4(0.0f));
+}
+
+TEST_F(ToolFormats, TheSamePixelsGiveTheSameFile) {
+  for (const char* extension : {".exr", ".hdr"}) {
+    std::string files[2];
+    for (std::string& text : files) {
+      write_image(directory / (std::string("a") + extension), test_light(false));
+      std::ifstream file(directory / (std::string("a") + extension), std::ios::binary);
+      text.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    EXPECT_TRUE(files[0] == files[1]) << extension;
+  }
+}
+
+// RGBE has 8 bits for each channel and one exponent, that of the largest: a step is at least 1/256 and at most 1/128 of
+// the largest channel, and half a step is the error.
+TEST_F(ToolFormats, HdrIsNearTheLargestChannel) {
+  const Image<glm::vec4> light = test_light(false);
+  const Image<glm::vec4> again = write_and_read("a.hdr", light);
+  for (std::size_t i = 0; i < light.texels().size(); ++i) {
+    const glm::vec4 t = light.data()[i];
+    const float largest = std::max(t.x, t.y);
+    EXPECT_LE(std::abs(again.data()[i].x - t.x), largest / 256.0f) << i;
+    EXPECT_LE(std::abs(again.data()[i].y - t.y), largest / 256.0f) << i;
+    EXPECT_EQ(again.data()[i].z, 0.0f) << "negative";
+    EXPECT_EQ(again.data()[i].w, 1.0f);
+  }
+}
+
+TEST_F(ToolFormats, HdrAtItsEnds) {
+  EXPECT_EQ(write_and_read("a.hdr", one_texel({kInfinity, -kInfinity, kNaN, 1.0f})).at(0, 0), glm::vec4(65536.0f, 0.0f, 0.0f, 1.0f))
+      << "65504 to 8 bits";
+  EXPECT_EQ(write_and_read("a.hdr", one_texel({255.75f, 3.0f, 1.0f, 0.5f})).at(0, 0), glm::vec4(256.0f, 4.0f, 2.0f, 1.0f))
+      << "the largest rounds up to a power of two, and the step doubles";
+  EXPECT_EQ(write_and_read("a.hdr", one_texel({3e38f, 0.0f, 0.0f, 1.0f})).at(0, 0), glm::vec4(0x1p126f, 0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(write_and_read("a.hdr", one_texel({1e-35f, 0.0f, 0.0f, 1.0f})).at(0, 0), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
+}
+
+TEST_F(ToolFormats, DepthIsKeptBitForBit) {
+  Image<float> depth(5, 70);
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 5; ++x) depth.at(x, y) = std::ldexp(1.0f + static_cast<float>(x) / 7.0f, -y);
+  }
+  write_depth_exr(directory / "a.exr", depth);
+  EXPECT_TRUE(read_gray(directory / "a.exr") == depth);
+}
+
+TEST_F(ToolFormats, TopRowComesFirst) {
+  Image<glm::vec4> image(1, 2);
+  image.at(0, 0) = glm::vec4(1.0f, 0.0f, 0.0f, 1.0f);
+  image.at(0, 1) = glm::vec4(0.0f, 0.0f, 1.0f, 1.0f);
+  EXPECT_TRUE(write_and_read("a.exr", image) == image);
+  EXPECT_TRUE(write_and_read("a.hdr", image) == image);
+}
+
+TEST_F(ToolFormats, APictureMayBeOneWideOrOneHigh) {
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 200), std::pair(200, 1)}) {
+    const Image<glm::u8vec4> codes(width, height);
+    write_image(directory / "a.tif", codes);
+    EXPECT_TRUE(read_image(directory / "a.tif") == codes);
+    write_image(directory / "a.jpg", codes);
+    EXPECT_EQ(read_image(directory / "a.jpg").height(), height);
+    const Image<glm::vec4> light(width, height);
+    EXPECT_TRUE(write_and_read("a.exr", light) == light);
+    EXPECT_EQ(write_and_read("a.hdr", light).width(), width);
+  }
+}
+
+TEST_F(ToolFormats, ASecondProgramReadsTheSame) {
+  Image<glm::vec4> light(9, 5);
+  light.at(3, 2) = glm::vec4(0.75f, 0.5f, 0.25f, 1.0f);
+  Image<glm::u8vec4> codes(9, 5);
+  codes.at(3, 2) = glm::u8vec4(191, 128, 64, 255);
+  write_image(directory / "a.exr", light);
+  write_image(directory / "a.hdr", light);
+  write_image(directory / "a.tif", codes);
+  write_image(directory / "a.jpg", codes);
+  if (identify(directory / "a.jpg", "%m") != "JPEG") GTEST_SKIP() << "ImageMagick's identify is absent or reads no JPEG";
+  EXPECT_EQ(identify(directory / "a.exr", "%m %w %h"), "EXR 9 5");
+  EXPECT_EQ(identify(directory / "a.hdr", "%m %w %h"), "HDR 9 5");
+  EXPECT_EQ(identify(directory / "a.tif", "%m %w %h %C %z"), "TIFF 9 5 Zip 8");
+  EXPECT_EQ(identify(directory / "a.jpg", "%m %w %h %Q"), "JPEG 9 5 95");
+  const double expected[] = {0.75, 0.5, 0.25};
+  for (const char* name : {"a.exr", "a.hdr", "a.tif"}) {
+    const std::vector<double> numbers = numbers_in(identify(directory / name, "%[fx:p{3,2}.r] %[fx:p{3,2}.g] %[fx:p{3,2}.b]"));
+    ASSERT_EQ(numbers.size(), 3u) << name;
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(numbers[c], expected[c], 0.003) << name;
+  }
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/image/image_io.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "halfspace/core/check.h"
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/image/image_tool.h"
+#include "halfspace/image/png.h"
+#include "image/image_files.h"
+#include "image/image_fixture.h"
+
+namespace halfspace {
+namespace {
+
+namespace fs = std::filesystem;
+using ImageIo = ImageFixture;
+
+// The colour type in a PNG's header: 2 RGB, 6 RGBA.
+int color_type(const std::vector<std::byte>& png) { return static_cast<int>(png.at(25)); }
+
+bool contains(const std::vector<std::byte>& bytes, std::string_view word) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text.find(word) != std::string_view::npos;
+}
+
+TEST_F(ImageIo, PngRoundTripKeepsEveryCode) {
+  for (const bool opaque : {true, false}) {
+    const Image<glm::u8vec4> image = test_picture(opaque);
+    write_png(directory / "a.png", image);
+    EXPECT_TRUE(read_image(directory / "a.png") == image);
+  }
+  EXPECT_EQ(file_count(), 1u) << "nothing is left beside the picture";
+}
+
+TEST_F(ImageIo, AlphaIsDroppedWhereAllAreOpaque) {
+  EXPECT_EQ(color_type(encode_png(test_picture(true))), 2);
+  EXPECT_EQ(color_type(encode_png(test_picture(false))), 6);
+}
+
+TEST_F(ImageIo, PngSaysSrgb) { EXPECT_TRUE(contains(encode_png(test_picture(true)), "sRGB")); }
+
+TEST_F(ImageIo, PngKeepsTransparentColors) {
+  // Straight alpha: a colour survives an alpha of 0.
+  Image<glm::u8vec4> image(1, 1);
+  image.at(0, 0) = glm::u8vec4(10, 20, 30, 0);
+  EXPECT_TRUE(decode_png(encode_png(image), "x") == ColorPicture(image));
+}
+
+TEST_F(ImageIo, TopRowComesFirst) {
+  Image<glm::u8vec4> image(1, 2);
+  image.at(0, 0) = glm::u8vec4(255, 0, 0, 255);
+  image.at(0, 1) = glm::u8vec4(0, 0, 255, 255);
+  write_png(directory / "a.png", image);
+  EXPECT_EQ(read_image(directory / "a.png").at(0, 0).x, 255);
+}
+
+TEST_F(ImageIo, ReplacesAFileAndKeepsItsPermissions) {
+  const fs::path path = put("a.png", "old");
+  fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
+  write_png(path, test_picture(true));
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_TRUE(read_image(path) == test_picture(true));
+}
+
+TEST_F(ImageIo, WritesThroughASymbolicLink) {
+  const fs::path path = put("real.png", "old");
+  fs::create_symlink("real.png", directory / "link.png");
+  write_png(directory / "link.png", test_picture(true));
+  EXPECT_TRUE(fs::is_symlink(directory / "link.png"));
+  EXPECT_TRUE(read_image(path) == test_picture(true));
+}
+
+TEST_F(ImageIo, WritesToADeviceInPlace) {
+  write_png("/dev/null", test_picture(true));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(ImageIo, SaysWhyItCannotWrite) {
+  const fs::path missing = directory / "no" / "a.png";
+  EXPECT_EQ(output_error([&] { write_png(missing, test_picture(true)); }),
+            missing.string() + ": cannot write (there is no directory " + missing.parent_path().string() + ")");
+  EXPECT_EQ(output_error([&] { write_png(directory, test_picture(true)); }), directory.string() + ": is a directory; expected a file name");
+  const fs::path below_file = put("file", "x") / "a.png";
+  EXPECT_EQ(output_error([&] { write_png(below_file, test_picture(true)); }), below_file.string() + ": cannot write (Not a directory)");
+  EXPECT_EQ(output_error([&] { write_png("/dev/full", test_picture(true)); }), "/dev/full: cannot write (No space left on device)");
+}
+
+TEST_F(ImageIo, LeavesNothingBehindWhereTheDiskIsFull) {
+  // A limit on the size of files stands for the full disk; its signal must be off for write() to fail instead.
+  const fs::path path = put("a.png", "old");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit = {100, 100};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string what = output_error([&] { write_png(path, test_picture(true)); });
+    ::_exit(what == path.string() + ": cannot write (File too large)" ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(file_count(), 1u);
+  EXPECT_EQ(fs::file_size(path), 3u) << "the old file is untouched";
+}
+
+TEST_F(ImageIo, SaysWhatIsWrongWithAnInput) {
+  struct Case {
+    const char* name;
+    std::string bytes;
+    std::string what;
+  };
+  const std::string formats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS";
+  const std::string head = "\x89PNG\r\n\x1a\n";
+  const Case cases[] = {
+      {"empty.png", "", "is empty; expected " + formats},
+      {"text.png", "This is not a picture.", "is no image that can be read; expected " + formats},
+      {"cut.png", head, "damaged PNG (end of stream); expected a whole PNG file"},
+      {"picture.exr", "\x76\x2f\x31\x01 and so on", "is OpenEXR, which holds linear numbers; expected 8- or 16-bit codes: " + formats},
+  };
+  for (const Case& c : cases) {
+    const fs::path path = put(c.name, c.bytes);
+    EXPECT_EQ(input_error([&] { read_image(path); }), path.string() + ": " + c.what);
+  }
+  EXPECT_EQ(input_error([&] { read_image(directory / "none.png"); }),
+            (directory / "none.png").string() + ": no such file; expected an image");
+  EXPECT_EQ(input_error([&] { read_image(directory); }), directory.string() + ": is a directory; expected an image file");
+  EXPECT_EQ(input_error([&] { read_image("/dev/zero"); }), "/dev/zero: is no regular file; expected an image file");
+}
+
+// A PNG that is cut short is refused, or it is whole but for its last marks; one with a byte changed is refused or still
+// gives a picture of its size. None crashes.
+TEST_F(ImageIo, DamagedPngNeverCrashes) {
+  const std::vector<std::byte> whole = encode_png(test_picture(false));
+  EXPECT_THROW(decode_png(std::span(whole).first(whole.size() / 2), "cut"), InputError);
+  for (std::size_t n = 0; n < whole.size(); n += 7) {
+    try {
+      EXPECT_TRUE(decode_png(std::span(whole).first(n), "cut") == ColorPicture(test_picture(false))) << n;
+    } catch (const InputError&) {
+    }
+  }
+  for (std::size_t i = 0; i < whole.size(); i += 3) {
+    std::vector<std::byte> changed = whole;
+    changed[i] ^= std::byte{0x41};
+    try {
+      EXPECT_EQ(std::get<Image<glm::u8vec4>>(decode_png(changed, "changed")).width(), 67) << i;
+    } catch (const InputError&) {
+    }
+  }
+}
+
+// A whole header that claims 30000x2000 pixels of RGBA, and no pixels.
+TEST_F(ImageIo, PngThatClaimsMoreThanItHoldsIsRefused) {
+  const std::string header = big_endian(30000, 4) + big_endian(2000, 4) + std::string{8, 6, 0, 0, 0};
+  const fs::path path = put("bomb.png", "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header));
+  EXPECT_EQ(input_error([&] { read_image(path); }),
+            path.string() + ": claims 30000x2000 pixels but has only 33 bytes; expected a whole PNG file");
+}
+
+TEST_F(ImageIo, ReadsOtherFormats) {
+  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  // A binary PPM of 2x1 and an uncompressed TGA of 1x1 with alpha, as their formats spell them.
+  const Image<glm::u8vec4> ppm = read_image(put("a.ppm", "P6 2 1 255\n\x01\x02\x03\xff\xfe\xfd"));
+  ASSERT_EQ(ppm.width(), 2);
+  EXPECT_EQ(ppm.at(0, 0), glm::u8vec4(1, 2, 3, 255));
+  EXPECT_EQ(ppm.at(1, 0), glm::u8vec4(255, 254, 253, 255));
+  const char tga[] = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32, 0x28, 30, 20, 10, 77};
+  EXPECT_EQ(read_image(put("a.tga", {tga, sizeof tga})).at(0, 0), glm::u8vec4(10, 20, 30, 77));
+  const Image<glm::u8vec4> grey = read_image(put("a.pgm", "P5 1 1 255\n\x80"));
+  EXPECT_EQ(grey.at(0, 0), glm::u8vec4(128, 128, 128, 255));
+}
+
+TEST_F(ImageIo, DamagedFilesOfOtherFormatsAreRefusedInOneLine) {
+  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  for (const char* name : {"a.jpg", "b.jpg"}) {
+    const std::string what = input_error([&] { read_image(put(name, "\xff\xd8\xff\xe0 nothing more")); });
+    EXPECT_TRUE(what.starts_with((directory / name).string() + ": cannot be read as jpeg (")) << what;
+    EXPECT_EQ(std::ranges::count(what, '\n'), 0) << what;
+  }
+}
+
+// PngSuite against a second decoder's results (stb's, which came with the files).
+TEST_F(ImageIo, PngSuiteDecodesAsElsewhere) {
+  const fs::path primary = "../shared/data/pngsuite/primary";
+  const fs::path expected = "../shared/data/pngsuite/primary_check";
+  if (!fs::exists(primary)) GTEST_SKIP() << primary << " is absent: PngSuite is not part of the repository";
+  int compared = 0;
+  for (const auto& entry : fs::directory_iterator(primary)) {
+    const fs::path other = expected / entry.path().filename();
+    if (entry.path().extension() != ".png" || !fs::exists(other)) continue;
+    EXPECT_TRUE(read_image(entry.path()) == read_image(other)) << entry.path();
+    ++compared;
+  }
+  EXPECT_GT(compared, 0);
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where halfspace-image-tool is absent, dies or talks nonsense. The tool is looked for beside the running program, so a
+// copy of this test program runs in a directory of its own, with a script in the tool's place.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <glm/glm.hpp>
+#include <iterator>
+#include <span>
+#include <string>
+
+#include "halfspace/image/image_io.h"
+#include "halfspace/image/image_tool.h"
+#include "image/image_fixture.h"
+
+namespace halfspace {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the copy runs: it writes what it is told into "lines", in its working directory.
+TEST(ImageToolCopy, DISABLED_WritesAndReads) {
+  const Image<glm::u8vec4> codes(400, 300);
+  const Image<glm::vec4> light(400, 300);
+  std::ofstream("a.ppm") << "P6 1 1 255\nabc";
+  std::ofstream lines("lines");
+  lines << output_error([&] { write_image("a.jpg", codes); }) << '\n'
+        << output_error([&] { write_image("a.exr", light); }) << '\n'
+        << input_error([&] { read_image("a.ppm"); }) << '\n'
+        << (fs::exists("a.jpg") || fs::exists("a.exr") ? "something was written" : "nothing was written") << '\n';
+}
+
+class ImageTool : public ImageFixture {
+ protected:
+  // The lines of a copy of this program, which finds the script (nothing where it is empty) in the tool's place.
+  std::string lines_beside(const std::string& script) const {
+    const fs::path copy = directory / "test";
+    fs::copy_file("/proc/self/exe", copy);
+    if (!script.empty()) {
+      const fs::path tool = put(kImageToolName, "#!/bin/sh\n" + script + "\n");
+      fs::permissions(tool, fs::perms::owner_all);
+    }
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const int nothing = ::open("/dev/null", O_WRONLY);
+      if (::chdir(directory.c_str()) != 0 || ::dup2(nothing, STDOUT_FILENO) < 0) ::_exit(99);
+      ::execl(copy.c_str(), copy.c_str(), "--gtest_filter=ImageToolCopy.*", "--gtest_also_run_disabled_tests", nullptr);
+      ::_exit(99);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    std::ifstream file(directory / "lines");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  }
+};
+
+TEST_F(ImageTool, Absent) {
+  const std::string line = ": cannot write (halfspace-image-tool is not installed; expected a name that ends in .png, or that program)\n";
+  EXPECT_EQ(lines_beside(""), "a.jpg" + line + "a.exr" + line +
+                                  "a.ppm: is pnm, and halfspace-image-tool is not installed; expected PNG, or that program (built where "
+                                  "OpenImageIO is)\nnothing was written\n");
+}
+
+TEST_F(ImageTool, DiesAtOnce) {
+  EXPECT_EQ(lines_beside("kill -SEGV $$"),
+            "a.jpg: cannot write (the encoder of jpeg died: Segmentation fault)\n"
+            "a.exr: cannot write (the encoder of openexr died: Segmentation fault)\n"
+            "a.ppm: cannot be read as pnm (the decoder died: Segmentation fault); expected a whole image file\nnothing was written\n");
+}
+
+TEST_F(ImageTool, EndsHalfWay) {
+  // It hears 1000 bytes of the picture and begins a right answer of 100 bytes.
+  EXPECT_EQ(lines_beside("head -c 1000 >/dev/null; printf 'HIT1\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'"),
+            "a.jpg: cannot write (the encoder of jpeg ended early)\n"
+            "a.exr: cannot write (the encoder of openexr ended early)\n"
+            "a.ppm: cannot be read as pnm (the decoder ended early); expected a whole image file\nnothing was written\n");
+}
+
+TEST_F(ImageTool, IsOfAnotherVersion) {
+  const std::string line = ": cannot write (halfspace-image-tool is of another version than this program)\n";
+  EXPECT_EQ(lines_beside("cat >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'"),
+            "a.jpg" + line + "a.exr" + line +
+                "a.ppm: cannot be read: halfspace-image-tool is of another version than this program\nnothing was written\n");
+}
+
+TEST_F(ImageTool, PromisesTooMuch) {
+  // A file of 2^63 bytes; a picture of 2^31 − 1 pixels on an edge.
+  const std::string line = ": cannot write (halfspace-image-tool is of another version than this program)\n";
+  EXPECT_EQ(lines_beside("case $1 in write) printf 'HIT1\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
+                         "*) printf 'HIT1\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac"),
+            "a.jpg" + line + "a.exr" + line +
+                "a.ppm: claims 2147483647x1 pixels; expected at most 2^28 pixels and 32768 on an edge\nnothing was written\n");
+}
+
+TEST_F(ImageTool, RefusesWhatItCannotWrite) {
+  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  PictureHeader header;
+  header.width = 4000;
+  header.height = 3000;
+  header.channels = 3;
+  const auto black = [](int, std::span<std::byte> row) { std::ranges::fill(row, std::byte{0}); };
+  EXPECT_EQ(output_error([&] { encode_by_tool("a.xyz", "xyz", header, black); }),
+            "a.xyz: cannot write (this OpenImageIO does not write xyz)");
+  header.channels = 2;
+  EXPECT_EQ(output_error([&] { encode_by_tool("a.jpg", "jpeg", header, black); }), "a.jpg: cannot write (the picture's header is damaged)");
+}
+
+TEST_F(ImageTool, AFullDiskIsTold) {
+  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  fs::create_symlink("/dev/full", directory / "a.jpg");
+  EXPECT_EQ(output_error([&] { write_image(directory / "a.jpg", test_picture(true)); }),
+            (directory / "a.jpg").string() + ": cannot write (No space left on device)");
+}
+
+TEST_F(ImageTool, ADirectoryThatCannotBeWrittenIsTold) {
+  fs::permissions(directory, static_cast<fs::perms>(0555));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);  // root may write everywhere, nobody may not
+    const fs::path path = directory / "a.exr";
+    const std::string what = output_error([&] { write_image(path, Image<glm::vec4>(2, 2)); });
+    ::_exit(what == path.string() + ": cannot write (Permission denied)" ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  fs::permissions(directory, fs::perms::owner_all);
+}
+
+}  // namespace
+}  // namespace halfspace

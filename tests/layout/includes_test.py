@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks every #include "..." of the tree against the layout in CONTRIBUTING.md.
+
+  includes_test.py          runs the checks, and the checks' own tests
+  includes_test.py --list   prints which module includes which, and which of raster's phases includes which
+"""
+
+import re
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# Modules of src/, and what each may include directly; what those may include is allowed too.
+MODULES = {
+    "core": [],
+    "shading": ["core"],
+    "image": ["core"],
+    "geometry": ["shading"],
+    "procedural": ["geometry"],
+    "raster": ["shading"],
+    "scene": ["core"],
+    "render": ["raster", "image", "procedural", "scene"],
+    "reference": ["render"],
+    "study": ["reference"],
+}
+# Headers of enums and plain structs, which include no SIMD header: a scene description may include these too.
+PLAIN_HEADERS = {"shading/sampler.h", "shading/light_types.h", "shading/tone_types.h"}
+
+# The phases inside raster, lowest first. A file includes files of its own phase and of lower ones.
+RASTER_PHASES = [
+    ["draw_state", "target", "vertex_input", "statistics"],
+    ["pipeline/"],
+    ["primitives/"],
+    ["tile/"],
+    ["visibility/"],
+    ["shade/"],
+    ["tile_worker", "detail/"],
+    ["pass", "naive"],
+]
+
+# Third-party headers, and the only files of src/ that may include them.
+THIRD_PARTY = {
+    "OpenImageIO/": "image/tool/",
+    "spng.h": "image/png.cpp",
+    "tbb/": "core/parallel.cpp",
+    "embree": "reference/ray_scene.cpp",
+}
+
+# Folders whose headers are included by their path from the folder.
+PROGRAM_FOLDERS = ["apps", "benchmarks", "tests"]
+
+
+def allowed_modules(module):
+    """The module itself and everything below it."""
+    allowed = {module}
+    for lower in MODULES[module]:
+        allowed |= allowed_modules(lower)
+    return allowed
+
+
+def raster_phase(path):
+    """The phase of a file of raster, for example 'raster/tile/blend.h': its row in RASTER_PHASES, or None."""
+    rest = path.removeprefix("raster/")
+    for row, names in enumerate(RASTER_PHASES):
+        for name in names:
+            if rest.startswith(name) if name.endswith("/") else rest.rsplit(".", 1)[0] == name:
+                return row
+    return None
+
+
+def check_library_include(includer, included):
+    """What is wrong with a file of src/ that includes another, or None. Both are paths from src/."""
+    module, target = includer.split("/")[0], included.split("/")[0]
+    if module not in MODULES or target not in MODULES:
+        return f"includes {included}: unknown module; expected one of {', '.join(MODULES)}"
+    if included in PLAIN_HEADERS and module == "scene":
+        return None
+    if target not in allowed_modules(module):
+        return f"includes {included}: {module} may include {', '.join(sorted(allowed_modules(module)))}"
+    if includer in PLAIN_HEADERS and included not in PLAIN_HEADERS:
+        return f"includes {included}: a plain header includes no other header of ours"
+    if module == target == "raster":
+        from_row, to_row = raster_phase(includer), raster_phase(included)
+        if from_row is None or to_row is None:
+            return f"includes {included}: one of the two belongs to no phase of raster"
+        if to_row > from_row:
+            return f"includes {included}: {RASTER_PHASES[from_row][0]} is below {RASTER_PHASES[to_row][0]}"
+    return None
+
+
+def check_include(file, spelled, exists):
+    """What is wrong with `#include "spelled"` in a file (its path from the root), or None. exists(path) asks the tree."""
+    if spelled.startswith("halfspace/"):
+        included = spelled.removeprefix("halfspace/")
+        if not exists("src/" + included):
+            return f"includes {spelled}: src/{included} does not exist"
+        return check_library_include(file.removeprefix("src/"), included) if file.startswith("src/") else None
+    if file.startswith("src/"):
+        return f'includes "{spelled}": expected "halfspace/MODULE/FILE.h"'
+    if any(exists(f"{folder}/{spelled}") for folder in PROGRAM_FOLDERS):
+        return None
+    return f'includes "{spelled}": expected "halfspace/MODULE/FILE.h" or a path from {", ".join(PROGRAM_FOLDERS)}'
+
+
+def check_third_party(file, spelled):
+    """What is wrong with `#include <spelled>` in a file of src/, or None."""
+    for prefix, home in THIRD_PARTY.items():
+        if spelled.startswith(prefix) and not file.removeprefix("src/").startswith(home):
+            return f"includes <{spelled}>: only {home} may"
+    return None
+
+
+def sources():
+    """(path from the root, text) of every C++ file."""
+    for folder in ["src"] + PROGRAM_FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix in (".h", ".cpp"):
+                yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
+
+
+def quoted_includes(text):
+    return re.findall(r'^\s*#\s*include\s*"([^"]+)"', text, re.M)
+
+
+def angle_includes(text):
+    return re.findall(r"^\s*#\s*include\s*<([^>]+)>", text, re.M)
+
+
+def problems():
+    found = []
+    exists = lambda path: (ROOT / path).is_file()
+    for file, text in sources():
+        messages = [check_include(file, i, exists) for i in quoted_includes(text)]
+        if file.startswith("src/"):
+            messages += [check_third_party(file, i) for i in angle_includes(text)]
+        found += [f"{file}: {m}" for m in messages if m]
+    return found
+
+
+class Tree(unittest.TestCase):
+    def test_every_include_follows_the_layout(self):
+        self.assertEqual(problems(), [])
+
+    def test_every_folder_of_src_is_a_module(self):
+        folders = {p.name for p in (ROOT / "src").iterdir() if p.is_dir()}
+        self.assertEqual(folders, set(MODULES))
+
+
+class Checks(unittest.TestCase):
+    """The checks find what they should: each of these would break the layout."""
+
+    def check(self, file, spelled, files=()):
+        return check_include(file, spelled, lambda path: path in files)
+
+    def test_include_against_the_order_of_modules(self):
+        self.assertIn("core may include", self.check("src/core/check.h", "halfspace/scene/keys.h", {"src/scene/keys.h"}))
+        self.assertIn("scene may include", self.check("src/scene/keys.h", "halfspace/shading/tone.h", {"src/shading/tone.h"}))
+        self.assertIsNone(self.check("src/scene/keys.h", "halfspace/shading/sampler.h", {"src/shading/sampler.h"}))
+        self.assertIsNone(self.check("src/render/view.h", "halfspace/core/vec.h", {"src/core/vec.h"}))
+
+    def test_include_against_the_order_of_phases(self):
+        files = {"src/raster/shade/fragment_batch.h", "src/raster/tile/tile.h", "src/raster/pass.h"}
+        self.assertIn("is below", self.check("src/raster/tile/tile.h", "halfspace/raster/shade/fragment_batch.h", files))
+        self.assertIn("is below", self.check("src/raster/tile_worker.cpp", "halfspace/raster/pass.h", files))
+        self.assertIsNone(self.check("src/raster/shade/fragment_batch.h", "halfspace/raster/tile/tile.h", files))
+
+    def test_plain_headers_stay_plain(self):
+        files = {"src/core/lanes.h"}
+        self.assertIn("plain header", self.check("src/shading/sampler.h", "halfspace/core/lanes.h", files))
+
+    def test_other_spellings(self):
+        files = {"src/core/check.h", "apps/cli/arguments.h"}
+        self.assertIn("expected", self.check("src/core/check.cpp", "check.h", files))
+        self.assertIn("expected", self.check("src/core/check.cpp", "core/check.h", files))
+        self.assertIn("expected", self.check("apps/cli/main.cpp", "arguments.h", files))
+        self.assertIn("does not exist", self.check("apps/cli/main.cpp", "halfspace/cli/arguments.h", files))
+        self.assertIsNone(self.check("apps/cli/main.cpp", "cli/arguments.h", files))
+
+    def test_third_party_headers_stay_in_their_files(self):
+        self.assertIn("only", check_third_party("src/render/view.cpp", "tbb/parallel_for.h"))
+        self.assertIsNone(check_third_party("src/core/parallel.cpp", "tbb/parallel_for.h"))
+
+
+def print_arrows():
+    modules, phases = {}, {}
+    for file, text in sources():
+        if not file.startswith("src/"):
+            continue
+        includer = file.removeprefix("src/")
+        for spelled in quoted_includes(text):
+            included = spelled.removeprefix("halfspace/")
+            a, b = includer.split("/")[0], included.split("/")[0]
+            if a != b:
+                modules[a, b] = modules.get((a, b), 0) + 1
+            elif a == "raster":
+                row = lambda path: RASTER_PHASES[raster_phase(path)][0]
+                if row(includer) != row(included):
+                    key = (row(includer), row(included))
+                    phases[key] = phases.get(key, 0) + 1
+    for title, arrows in ("modules", modules), ("raster", phases):
+        print(f"{title}: {len(arrows)} arrows")
+        for (a, b), count in sorted(arrows.items()):
+            print(f"  {a} -> {b}: {count}")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--list"]:
+        print_arrows()
+    else:
+        unittest.main()

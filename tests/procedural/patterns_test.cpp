@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/procedural/patterns.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "halfspace/procedural/noise.h"
+
+namespace halfspace {
+namespace {
+
+struct NamedPattern {
+  const char* name;
+  Pattern pattern;
+  uint64_t hash;  // of 192 x 192 texels
+};
+void PrintTo(const NamedPattern& p, std::ostream* os) { *os << p.name; }
+
+class Patterns : public testing::TestWithParam<NamedPattern> {
+ protected:
+  static PatternMaps make(int width, int threads = 2) { return procedural_pattern(GetParam().pattern, width, Workers(threads)); }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, Patterns,
+                         testing::Values(NamedPattern{"Checkerboard", Pattern::checkerboard, 2606267562549412645u},
+                                         NamedPattern{"Grass", Pattern::grass, 16901093190365650895u},
+                                         NamedPattern{"Bark", Pattern::bark, 18061647029950734316u},
+                                         NamedPattern{"Bricks", Pattern::bricks, 5424089101892365347u},
+                                         NamedPattern{"Facade", Pattern::facade, 526894000111283963u},
+                                         NamedPattern{"Rock", Pattern::rock, 2098131191834400824u},
+                                         NamedPattern{"Hills", Pattern::hills, 9849501246053349944u}),
+                         [](const auto& p) { return p.param.name; });
+
+uint64_t hash_of(const PatternMaps& m) {
+  uint64_t hash = 14695981039346656037u;
+  const auto add = [&](uint64_t byte) { hash = (hash ^ byte) * 1099511628211u; };
+  for (const auto* map : {&m.color, &m.specular, &m.emissive}) {
+    for (const glm::u8vec4& t : map->texels()) {
+      for (int c = 0; c < 4; ++c) add(t[c]);
+    }
+  }
+  for (const uint16_t h : m.height.texels()) {
+    add(h & 255u);
+    add(h >> 8);
+  }
+  return hash;
+}
+
+// With every compiler, lane width and processor.
+TEST_P(Patterns, SameBitsEverywhere) { EXPECT_EQ(hash_of(make(192)), GetParam().hash); }
+
+TEST_P(Patterns, ThreadsChangeNothing) { EXPECT_EQ(hash_of(make(130, 1)), hash_of(make(130, 7))); }
+
+TEST_P(Patterns, AnySizeIsFilled) {
+  for (const int width : {1, 2, 37}) {
+    const PatternMaps m = make(width);
+    for (const auto* map : {&m.color, &m.specular, &m.emissive}) {
+      ASSERT_EQ(map->width(), width);
+      ASSERT_EQ(map->height(), width);
+      for (const glm::u8vec4& t : map->texels()) EXPECT_EQ(t.w, 255);
+    }
+    ASSERT_EQ(m.height.width(), width);
+  }
+}
+
+double difference(const PatternMaps& m, int x0, int y0, int x1, int y1) {
+  double d = std::abs(static_cast<int>(m.height.at(x0, y0)) - static_cast<int>(m.height.at(x1, y1))) / 257.0;
+  for (int c = 0; c < 3; ++c) {
+    for (const auto* map : {&m.color, &m.specular, &m.emissive})
+      d += std::abs(static_cast<int>(map->at(x0, y0)[c]) - static_cast<int>(map->at(x1, y1)[c]));
+  }
+  return d;
+}
+
+// Opposite edges are neighbours: over them the map changes no more than over any other line between texels.
+TEST_P(Patterns, Tile) {
+  const int n = 256;
+  const PatternMaps m = make(n);
+  double across[2] = {}, elsewhere[2] = {};
+  for (int i = 0; i < n; ++i) {
+    double sums[2] = {};
+    for (int k = 0; k < n; ++k) {
+      sums[0] += difference(m, i, k, (i + 1) % n, k);
+      sums[1] += difference(m, k, i, k, (i + 1) % n);
+    }
+    for (int axis = 0; axis < 2; ++axis)
+      (i == n - 1 ? across : elsewhere)[axis] = std::max((i == n - 1 ? across : elsewhere)[axis], sums[axis]);
+  }
+  for (int axis = 0; axis < 2; ++axis) EXPECT_LE(across[axis], elsewhere[axis]);
+}
+
+// The noise itself is periodic to the rounding of u + 1 (2^-24, of up to 64 cells).
+TEST(TiledNoise, RepeatsWithItsPeriod) {
+  using namespace procedural;
+  for (float u = 0.003f; u < 1.0f; u += 0.0371f) {
+    for (float v = 0.011f; v < 1.0f; v += 0.0913f) {
+      const auto cloud = [](float a, float b) { return lane(tiled_cloud(Real(a), Real(b), 4, 3, 4, 1024, 5), 0); };
+      const auto ridges = [](float a, float b) { return lane(tiled_ridges(Real(a), Real(b), 4, 3, 4, 1024, 5), 0); };
+      EXPECT_NEAR(cloud(u, v), cloud(u + 1.0f, v), 1e-4);
+      EXPECT_NEAR(cloud(u, v), cloud(u, v - 1.0f), 1e-4);
+      EXPECT_NEAR(ridges(u, v), ridges(u - 1.0f, v + 1.0f), 1e-4);
+    }
+  }
+}
+
+// Waves that two texels cannot show are left out.
+TEST(TiledNoise, IsNoFinerThanItsTexels) {
+  using namespace procedural;
+  const auto at = [](int octaves, int texels) { return lane(tiled_cloud(Real(0.31f), Real(0.77f), 8, 8, octaves, texels, 5), 0); };
+  EXPECT_EQ(at(9, 64), at(3, 1 << 20));
+  EXPECT_NE(at(9, 64), at(4, 1 << 20));
+  EXPECT_EQ(at(9, 15), 0.0f);
+}
+
+TEST(Checkerboard, IsExact) {
+  for (const int width : {8, 64, 200}) {
+    const PatternMaps m = procedural_pattern(Pattern::checkerboard, width, Workers(1));
+    const int square = width / 8;
+    for (int y = 0; y < width; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const uint8_t code = (x / square + y / square) % 2 == 0 ? 255 : 0;
+        ASSERT_EQ(m.color.at(x, y), glm::u8vec4(code, code, code, 255)) << x << " " << y;
+      }
+    }
+  }
+}
+
+// Each looks like what it is called: means and shares of its colours.
+glm::dvec3 mean_of(const Image<glm::u8vec4>& map) {
+  glm::dvec3 sum(0.0);
+  for (const glm::u8vec4& t : map.texels()) sum += glm::dvec3(t.x, t.y, t.z);
+  return sum / static_cast<double>(map.texels().size());
+}
+
+TEST(PatternsLook, LikeTheirNames) {
+  const auto mean = [](Pattern p) { return mean_of(procedural_pattern(p, 128, Workers(2)).color); };
+  const glm::dvec3 grass = mean(Pattern::grass), bark = mean(Pattern::bark), bricks = mean(Pattern::bricks), rock = mean(Pattern::rock);
+  EXPECT_TRUE(grass.y > grass.x && grass.x > grass.z) << "green";
+  EXPECT_TRUE(bark.x > bark.y && bark.y > bark.z && bark.x < 140) << "brown";
+  EXPECT_GT(bricks.x, 1.3 * bricks.y) << "red";
+  EXPECT_LT(std::abs(rock.x - rock.z), 30) << "grey";
+  const PatternMaps facade = procedural_pattern(Pattern::facade, 128, Workers(2));
+  int lit = 0, shiny = 0, both = 0;
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      const bool is_lit = facade.emissive.at(x, y).x > 60;
+      lit += is_lit;
+      shiny += facade.specular.at(x, y).x > 150;
+      both += is_lit && facade.specular.at(x, y).x > 41;  // a frame has 0.16 · 255
+    }
+  }
+  EXPECT_NEAR(shiny / 16384.0, 0.225 * 0.56 * 2, 0.02) << "the panes";
+  EXPECT_EQ(both, lit) << "light comes through glass alone";
+  EXPECT_GT(lit, shiny / 8);
+  EXPECT_LT(lit, shiny * 2 / 3);
+}
+
+TEST(PatternsLook, HeightsUseTheirRange) {
+  for (const Pattern p : {Pattern::bark, Pattern::bricks, Pattern::rock, Pattern::hills}) {
+    const PatternMaps m = procedural_pattern(p, 256, Workers(2));
+    uint16_t low = 65535, high = 0;
+    int clipped = 0;
+    for (const uint16_t h : m.height.texels()) {
+      low = std::min(low, h);
+      high = std::max(high, h);
+      clipped += h == 0 || h == 65535;
+    }
+    EXPECT_LT(low, 20000) << static_cast<int>(p);
+    EXPECT_GT(high, 40000) << static_cast<int>(p);
+    EXPECT_LT(clipped, 256 * 256 / 20) << static_cast<int>(p);
+  }
+}
+
+}  // namespace
+}  // namespace halfspace

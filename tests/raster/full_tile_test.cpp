@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Triangles that cover whole tiles, in every order with others: what waits to be written must not be seen to wait. Tiles of 32 px never
+// wait (raster/visibility/full_tile.h asks for 64), so both must draw alike; what is drawn at all is for the other tests.
+#include "halfspace/raster/visibility/full_tile.h"
+
+#include <algorithm>
+#include <deque>
+#include <set>
+
+#include "halfspace/shading/depth_only.h"
+#include "raster/raster_test.h"
+
+namespace halfspace::raster_test {
+namespace {
+
+constexpr int kWidth = 128, kHeight = 64;
+
+struct Step {
+  std::vector<glm::vec4> positions;  // clip space
+  glm::vec4 color;
+  DrawState state;
+  bool depth_only;
+};
+
+// Beyond all edges of the picture, at one depth or two; or a small one anywhere; or one over about half.
+std::vector<glm::vec4> random_positions(Random& r) {
+  const auto depth = [&] { return 0.125f * static_cast<float>(r.integer(-7, 7)); };
+  const float z = depth(), far_z = r.coin() ? z : depth();
+  if (r.integer(0, 2) != 0) return {{-4, -4, z, 1}, {8, -4, z, 1}, {-4, 8, far_z, 1}};
+  const float x = r.real(-1.0f, 1.0f), y = r.real(-1.0f, 1.0f), size = r.coin() ? 0.2f : 2.0f;
+  return {{x, y, z, 1}, {x + size, y, z, 1}, {x, y + size, far_z, 1}};
+}
+
+Step random_step(Random& r) {
+  Step s{random_positions(r), glm::vec4(r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 0.5f), {}, r.integer(0, 5) == 0};
+  s.state.depth.test = r.integer(0, 5) != 0;
+  s.state.depth.write = r.integer(0, 4) != 0;
+  s.state.depth.compare = r.integer(0, 1) == 0 ? CompareOp::less : static_cast<CompareOp>(r.integer(0, 7));
+  if (r.integer(0, 5) == 0)
+    s.state.blend = BlendState{.source_color = BlendFactor::src_alpha, .destination_color = BlendFactor::one_minus_src_alpha};
+  if (r.integer(0, 7) == 0) s.state.color_mask.g = false;
+  s.state.query = static_cast<uint32_t>(r.integer(0, 2));
+  return s;
+}
+
+struct Drawn {
+  Image<glm::vec4> color{kWidth, kHeight};
+  Image<float> depth{kWidth, kHeight};
+  PassStatistics statistics;
+};
+
+Drawn drawn(const std::vector<Step>& steps, int tile_size, bool has_depth) {
+  Drawn out;
+  Pass pass(kWidth, kHeight, rgba32f_target(out.color), has_depth ? d32f_target(out.depth) : DepthTarget{}, {.tile_size = tile_size});
+  const Indices triangle = Indices::sequential(3);
+  std::deque<std::vector<glm::vec3>> places;
+  std::deque<std::vector<glm::vec4>> colors;
+  for (const Step& s : steps) {
+    if (s.depth_only) {
+      const auto& at = places.emplace_back(s.positions.begin(), s.positions.end());
+      pass.draw_depth(DepthOnly{glm::mat4(1.0f)}, vertices(stream(at)), triangle, s.state);
+    } else {
+      const auto& color = colors.emplace_back(3, s.color);
+      pass.draw(FlatColorShader{}, vertices(stream(s.positions), stream(color)), triangle, s.state);
+    }
+  }
+  out.statistics = pass.run(one_worker());
+  return out;
+}
+
+TEST(WholeTile, IsDrawnAsSmallerTilesAre) {
+  int pictures = 0;
+  std::set<std::vector<uint64_t>> counts;
+  for (int seed = 0; seed < effort(4000); ++seed) {
+    Random r(static_cast<uint64_t>(seed));
+    std::vector<Step> steps;
+    for (int n = r.integer(1, 8); n > 0; --n) steps.push_back(random_step(r));
+    const bool has_depth = r.integer(0, 3) != 0;
+    const Drawn whole = drawn(steps, 64, has_depth), parts = drawn(steps, 32, has_depth);
+    ASSERT_TRUE(std::ranges::equal(whole.color.texels(), parts.color.texels())) << seed;
+    ASSERT_TRUE(std::ranges::equal(whole.depth.texels(), parts.depth.texels())) << seed;
+    ASSERT_EQ(whole.statistics.queries, parts.statistics.queries) << seed;
+    ASSERT_EQ(whole.statistics.samples_passed, parts.statistics.samples_passed) << seed;
+    counts.insert(whole.statistics.queries);
+    ++pictures;
+  }
+  EXPECT_GT(counts.size(), static_cast<std::size_t>(pictures) / 4) << "pictures differ";
+}
+
+// Puts every pixel at one depth.
+struct DeepShader : FlatColorShader {
+  float depth;
+  template <class R>
+  DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color.value, true, R(depth)};
+  }
+};
+
+// What a shader has written may lie beyond what the tile knew of its depths.
+TEST(WholeTile, IsTestedAgainstDepthsThatAShaderWrote) {
+  for (const float written : {0.125f, 0.875f}) {
+    for (const CompareOp op : {CompareOp::less, CompareOp::greater}) {
+      Image<glm::vec4> color(kWidth, kHeight);
+      Image<float> depth(kWidth, kHeight);
+      DepthTarget target = d32f_target(depth);
+      target.clear_value = 0.5f;
+      Pass pass(kWidth, kHeight, rgba32f_target(color), target);
+      const float z = 0.5f * (written + 0.5f);  // between what is written and what was there
+      const auto place = [](float window_z) {
+        const float z_ndc = 2.0f * window_z - 1.0f;
+        return std::vector<glm::vec4>{{-4, -4, z_ndc, 1}, {8, -4, z_ndc, 1}, {-4, 8, z_ndc, 1}};
+      };
+      const std::vector<glm::vec4> middle = place(0.5f), next = place(z), red(3, {1, 0, 0, 1}), green(3, {0, 1, 0, 1});
+      const Indices triangle = Indices::sequential(3);
+      DrawState state;
+      state.depth.compare = CompareOp::always;
+      pass.draw(DeepShader{{}, written}, vertices(stream(middle), stream(red)), triangle, state);
+      state.depth.compare = op;
+      pass.draw(FlatColorShader{}, vertices(stream(next), stream(green)), triangle, state);
+      pass.run(one_worker());
+      const bool passes = op == CompareOp::less ? z < written : z > written;
+      for (const glm::vec4& c : color.texels()) ASSERT_EQ(c, passes ? green[0] : red[0]) << written << " " << static_cast<int>(op);
+    }
+  }
+}
+
+// What lies behind costs a test, and what is hidden later is never shaded.
+TEST(WholeTile, ShadesWhatIsSeenAlone) {
+  std::vector<Step> steps;
+  for (const float z : {0.5f, 0.25f, 0.75f, -0.5f, 0.0f})
+    steps.push_back({{{-4, -4, z, 1}, {8, -4, z, 1}, {-4, 8, z, 1}}, glm::vec4(z), {}, false});
+  const Drawn d = drawn(steps, 64, true);
+  EXPECT_EQ(d.statistics.fragments_shaded, uint64_t{kWidth} * kHeight);
+  EXPECT_EQ(d.statistics.samples_tested, 3 * uint64_t{kWidth} * kHeight);
+  EXPECT_EQ(d.color.at(100, 10), glm::vec4(-0.5f));
+  EXPECT_EQ(d.depth.at(100, 10), 0.25f);
+}
+
+}  // namespace
+}  // namespace halfspace::raster_test

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Environments in scenes: the shipped scene "environment", files, backgrounds by direction, fading.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "halfspace/image/image_io.h"
+#include "halfspace/scene/scene_file.h"
+#include "image/image_fixture.h"
+#include "render/naive_picture.h"
+
+namespace halfspace {
+namespace {
+
+SceneDescription environment_with(const std::vector<std::string>& settings) {
+  SceneFile scene = SceneFile::open("environment");
+  scene.set(settings);
+  return scene.description();
+}
+
+std::string error_of(const std::vector<std::string>& settings) {
+  return input_error([&] {
+    const Workers workers(1);
+    SceneAssets assets(workers);
+    assets.prepare(environment_with(settings), 16, 16);
+  });
+}
+
+const EnvironmentSky& sky_of(const PreparedScene& scene) { return std::get<EnvironmentSky>(scene.draws.back().shader); }
+
+TEST(EnvironmentScene, IsWithinOneCodeOfDoublePrecision) {
+  for (const char* camera : {"camera=front", "camera=up"}) {
+    // The picture has neither silhouettes nor triangles' edges: what differs are codes at a tie, by one.
+    EXPECT_EQ(share_beyond_one_code<double>(environment_with({camera}), 320, 180), 0.0) << camera;
+  }
+}
+
+TEST(EnvironmentScene, SamePixelsForAnyThreads) {
+  const SceneDescription scene = SceneFile::open("environment").at(1.0);
+  const Image<glm::u8vec4> one = picture_of(scene, 160, 90, 1);
+  EXPECT_EQ(picture_of(scene, 160, 90, 2), one);
+  EXPECT_EQ(picture_of(scene, 160, 90, 7), one);
+}
+
+// Every pixel's ray, worked out here, gives the globe's (u, v) and so the map's value.
+TEST(EnvironmentScene, ShowsTheMapWhereItBelongs) {
+  constexpr int kWidth = 160, kHeight = 90;
+  const SceneDescription scene = environment_with({"surface.width=256"});
+  const Image<glm::vec4> image = light_of(scene, kWidth, kHeight);
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  const PreparedScene prepared = assets.prepare(scene, kWidth, kHeight);
+  const EnvironmentMap& map = *sky_of(prepared).environment.first.map;
+  const double tangent = std::tan(75.0 / 2 * std::numbers::pi / 180), turn = -110.0 * std::numbers::pi / 180;
+  double worst = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double a = ((x + 0.5) / kWidth * 2 - 1) * tangent * kWidth / kHeight, b = (1 - (y + 0.5) / kHeight * 2) * tangent;
+      // (a, b, −1), turned back about y; then u_v of uv_sphere, and a panorama's direction of it.
+      const glm::dvec3 d(a * std::cos(turn) + std::sin(turn), b, a * std::sin(turn) - std::cos(turn));
+      const double u = std::atan2(-d.z, d.x), v = std::atan2(std::hypot(d.x, d.z), d.y);
+      const glm::dvec3 on_map(-std::sin(v) * std::sin(u), std::cos(v), -std::sin(v) * std::cos(u));
+      const double step = 2 * tangent / kHeight / std::hypot(a, b, 1.0);  // one of the pixel's two steps is this long, across or not
+      const double across = step * std::sqrt(1 - std::min(a * a, b * b) / (a * a + b * b + 1));
+      const glm::dvec3 side = glm::normalize(glm::cross(on_map, glm::dvec3(0.1, 0.2, 1))) * across;
+      const glm::dvec3 want = map.sample<double>(on_map, side, {});
+      for (int k = 0; k < 3; ++k) worst = std::max(worst, std::abs(want[k] - static_cast<double>(image.at(x, y)[k])));
+    }
+  }
+  RecordProperty("worst", std::to_string(worst));
+  EXPECT_LT(worst, 1e-4) << "float against double, as EnvironmentMap.FloatIsNearDouble has it";
+}
+
+TEST(EnvironmentScene, MeanOfAUniformSkyIsItsValue) {
+  for (const char* type : {"globe.type=globe", "globe.type=equirect"}) {
+    const Image<glm::vec4> image = light_of(environment_with({type, "globe.map=[0.25, 3, 0.001]", "globe.brightness=2"}), 64, 48);
+    for (const glm::vec4& c : image.texels()) ASSERT_EQ(c, glm::vec4(0.5f, 6.0f, 0.002f, 1.0f));
+  }
+}
+
+TEST(EnvironmentScene, FadesAndMakesOnlyWhatIsSeen) {
+  const std::string text = R"({"version": 1,
+    "environments": {"day": {"map": [1, 0.5, 0]}, "night": {"map": "/none.png"}, "dusk": {"map": 0.25}},
+    "background": {"type": "environment", "environment": "day", "second": "night", "weight": 0}})";
+  SceneFile scene = SceneFile::parse(text, "test.json", ".");
+  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(1, 0.5f, 0, 1)) << "night's file is not missed";
+  scene.set("background.weight=0.001");
+  EXPECT_EQ(input_error([&] { light_of(scene.description(), 4, 4); }),
+            "environments.night.map: /none.png: no such file; expected an image");
+  scene.set("background.second=dusk");
+  scene.set("background.weight=0.5");
+  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.625f, 0.375f, 0.125f, 1));
+  scene.set("background.weight=1");
+  scene.set("day.map=/none.png");
+  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "nor day's";
+  scene.set("background.second=");
+  scene.set("background.environment=dusk");
+  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "without a second the weight is 0";
+}
+
+TEST(EnvironmentScene, StandsBehindEverything) {
+  SceneFile scene = SceneFile::open("environment");
+  SceneDescription d = scene.description();
+  ObjectDescription ball;
+  ball.placement.position = {0, 0, -3};
+  ball.surface.color = Color{glm::dvec3(1.0)};
+  d.head.ambient.linear = glm::dvec3(1.0);
+  d.objects.emplace_back("ball", ball);
+  const Image<glm::vec4> image = light_of(d, 64, 64), sky = light_of(scene.description(), 64, 64);
+  EXPECT_EQ(image.at(32, 32), glm::vec4(1.0f));
+  EXPECT_EQ(image.at(2, 2), sky.at(2, 2));
+}
+
+// ---- mirrors -----------------------------------------------------------------------------------------------------------
+
+// A ball that only mirrors, under a globe whose map is known; each pixel's ray is thrown back here.
+TEST(Reflections, ABallShowsTheSkyWhereTheLawOfReflectionSays) {
+  constexpr int kSize = 200;
+  SceneFile scene = SceneFile::parse(R"({"version": 1, "cameras": {"c": {"position": [0, 0, 4], "fov": 40}},
+    "textures": {"surface": {"source": "earth_color", "width": 256}},
+    "environments": {"sky": {"type": "globe", "map": "surface"}},
+    "objects": {"ball": {"color": 0, "reflection": [0.9, 0.8, 0.7], "latitudes": 512, "longitudes": 1024}},
+    "background": {"type": "environment"}})",
+                                     "test.json", ".");
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  const PreparedScene prepared = assets.prepare(scene.description(), kSize, kSize);
+  Image<glm::vec4> image(kSize, kSize);
+  render(prepared, image, workers);
+  const Environment& sky = sky_of(prepared).environment.first;
+  const double tangent = std::tan(20 * std::numbers::pi / 180);
+  // The ray of a place on the picture, and thrown back; zero where the ball is not met or nearly missed.
+  const auto thrown_back = [&](double x, double y) {
+    const glm::dvec3 eye(0, 0, 4), d = glm::normalize(glm::dvec3((x / kSize * 2 - 1) * tangent, (1 - y / kSize * 2) * tangent, -1));
+    const double b = glm::dot(eye, d), disc = b * b - 15;
+    if (disc < 0.05) return glm::dvec3(0.0);
+    const glm::dvec3 n = eye + d * (-b - std::sqrt(disc));
+    return d - n * (2 * glm::dot(d, n));
+  };
+  double sum = 0, worst = 0;
+  int count = 0;
+  for (int y = 1; y + 1 < kSize; ++y) {
+    for (int x = 1; x + 1 < kSize; ++x) {
+      const glm::dvec3 r = thrown_back(x + 0.5, y + 0.5), right = thrown_back(x + 1.5, y + 0.5), up = thrown_back(x + 0.5, y - 0.5);
+      if (r == glm::dvec3(0.0) || right == glm::dvec3(0.0) || up == glm::dvec3(0.0)) continue;
+      const glm::dvec3 left = thrown_back(x - 0.5, y + 0.5), down = thrown_back(x + 0.5, y + 1.5);
+      if (left == glm::dvec3(0.0) || down == glm::dvec3(0.0)) continue;
+      const glm::dvec3 want = sky.light<double>(r, (right - left) * 0.5, (up - down) * 0.5) * glm::dvec3(0.9, 0.8, 0.7);
+      for (int k = 0; k < 3; ++k) {
+        const double error = std::abs(want[k] - static_cast<double>(image.at(x, y)[k]));
+        worst = std::max(worst, error);
+        sum += error;
+        ++count;
+      }
+    }
+  }
+  ASSERT_GT(count, 20000);
+  RecordProperty("mean", std::to_string(sum / count));
+  RecordProperty("worst", std::to_string(worst));
+  // Half a facet's sagitta, (π/512)²/8 = 5e-6 of the radius, moves the point, the mesh's interpolated normals by as little: some
+  // 1e-4 of a texel. The derivative by differences errs by the square of a pixel's step over its distance to the rim: levels
+  // by some 1e-3. A step between texels is at most 0.3.
+  EXPECT_LT(sum / count, 2e-4);
+  EXPECT_LT(worst, 1e-2);
+}
+
+TEST(Reflections, AreOfWhatTheirKeysSay) {
+  const auto middle = [](const std::vector<std::string>& settings) {
+    SceneFile scene = SceneFile::parse(R"({"version": 1, "objects": {"ball": {"color": 0, "reflection": 0.5}},
+      "environments": {"a": {"map": [1, 0.5, 0.25]}, "b": {"map": 3}},
+      "background": {"type": "environment", "environment": "a", "second": "b"}})",
+                                       "test.json", ".");
+    scene.set(settings);
+    return light_of(scene.description(), 9, 9).at(4, 4);
+  };
+  EXPECT_EQ(middle({}), glm::vec4(0.5f, 0.25f, 0.125f, 1)) << "the background's";
+  EXPECT_EQ(middle({"background.weight=1"}), glm::vec4(1.5f, 1.5f, 1.5f, 1)) << "as it fades";
+  EXPECT_EQ(middle({"reflections.environment=b"}), glm::vec4(1.5f, 1.5f, 1.5f, 1));
+  EXPECT_EQ(middle({"background.type=color", "background.color=0.5"}), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "nothing but a colour";
+  EXPECT_EQ(middle({"reflections.on=false"}), glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(middle({"ball.reflection=0"}), glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(input_error([&] { middle({"reflections.environment=c"}); }),
+            "test.json: reflections.environment: no environment 'c'; expected one of a, b");
+}
+
+TEST(Reflections, AreWithinOneCodeOfDoublePrecisionWithEveryKindOfNormal) {
+  for (const char* detail : {R"("normals": "pixel", "height": "relief")", R"("bump_map": "relief")", R"("normal": "none")"}) {
+    const std::string text = std::string(R"({"version": 1, "textures": {"relief": {"source": "moon_height", "width": 256}},
+      "environments": {"sky": {"type": "day_sky", "size": 64}}, "background": {"type": "environment"},
+      "objects": {"ball": {"color": 0.2, "reflection": 0.7, )") +
+                             detail + "}}}";
+    // Silhouettes, as everywhere.
+    EXPECT_LE(share_beyond_one_code<double>(SceneFile::parse(text, "test.json", ".").description(), 160, 100), 3e-3) << detail;
+  }
+}
+
+// ---- files -------------------------------------------------------------------------------------------------------------
+
+class EnvironmentFiles : public ImageFixture {
+ protected:
+  static constexpr std::array<const char*, 6> kNames{"right", "left", "top", "bottom", "front", "back"};
+  static constexpr std::array<glm::u8vec3, 6> kColors{{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 0}, {255, 0, 255}, {0, 255, 255}}};
+
+  void put_face(std::size_t f, int width, int height) const {
+    Image<glm::u8vec4> image(width, height);
+    std::fill_n(image.data(), width * height, glm::u8vec4(kColors[f], 255));
+    write_png(directory / (std::string(kNames[f]) + ".png"), image);
+  }
+  void put_faces() const {
+    for (std::size_t f = 0; f < 6; ++f) put_face(f, 4, 4);
+  }
+  std::vector<std::string> cube(std::vector<std::string> more = {}) const {
+    std::vector<std::string> settings{"globe.type=cube", "globe.folder=" + directory.string(), "globe.rotation=0,0,0"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+};
+
+TEST_F(EnvironmentFiles, SixFacesAreSeenWhereTheirNamesSay) {
+  put_faces();
+  const std::array<const char*, 6> targets{"1,0,0", "-1,0,0", "0,1,0", "0,-1,0", "0,0,-1", "0,0,1"};
+  for (std::size_t f = 0; f < 6; ++f) {
+    const Image<glm::u8vec4> image =
+        picture_of(environment_with(cube({std::string("front.target=") + targets[f], "front.up=0.1,0.3,0.5", "front.fov=20"})), 8, 8);
+    EXPECT_EQ(image.at(4, 4), glm::u8vec4(kColors[f], 255)) << kNames[f];
+  }
+  // and turned: what was ahead is then on the left
+  const Image<glm::u8vec4> turned =
+      picture_of(environment_with(cube({"globe.rotation=0,90,0", "front.target=-1,0,0", "front.fov=20"})), 8, 8);
+  EXPECT_EQ(turned.at(4, 4), glm::u8vec4(kColors[4], 255));
+}
+
+TEST_F(EnvironmentFiles, AFaceOfItsOwnComesBeforeTheFolder) {
+  put_faces();
+  std::filesystem::rename(directory / "front.png", directory / "other.png");
+  EXPECT_EQ(error_of(cube()),
+            "environments.globe: " + directory.string() + ": has no file for the face front; expected front.png or the like");
+  EXPECT_EQ(error_of(cube({"globe.front=" + (directory / "other.png").string()})), "(no error)");
+}
+
+TEST_F(EnvironmentFiles, MistakesAreToldInOneLine) {
+  EXPECT_EQ(error_of({"globe.type=cube"}), "environments.globe: the face right is missing; expected an image file, or a folder of six");
+  EXPECT_EQ(error_of({"globe.type=cube", "globe.folder=/none"}),
+            "environments.globe: /none: cannot be read (No such file or directory); expected a folder of six faces");
+  put_faces();
+  put_face(3, 4, 5);
+  EXPECT_EQ(error_of(cube()),
+            "environments.globe: " + (directory / "bottom.png").string() + ": is 4x5; expected a square face, all six of one size");
+  put_face(3, 8, 8);
+  EXPECT_EQ(error_of(cube()),
+            "environments.globe: " + (directory / "bottom.png").string() + ": is 8x8; expected a square face, all six of one size");
+  put_face(3, 4, 4);
+  put("left.jpg", "x");
+  EXPECT_EQ(error_of(cube()), "environments.globe: " + directory.string() + ": has two files for the face left; expected one");
+  EXPECT_EQ(error_of({"background.environment=glob"}),
+            "scene environment: background.environment: no environment 'glob'; did you mean 'globe'?");
+  EXPECT_EQ(error_of({"background.second=glob"}), "scene environment: background.second: no environment 'glob'; did you mean 'globe'?");
+  EXPECT_EQ(input_error([] { SceneFile::parse(R"({"version": 1, "background": {"type": "environment"}})", "t.json", "."); }),
+            "t.json: background.type: the scene has no environment; expected one in environments");
+}
+
+TEST_F(EnvironmentFiles, LightBeyondOneIsKept) {
+  Image<glm::vec4> bright(8, 4);
+  std::fill_n(bright.data(), 32, glm::vec4(0.5f, 100.0f, 60000.0f, 1.0f));
+  write_image(directory / "sky.exr", bright);
+  const SceneDescription scene = environment_with({"globe.type=equirect", "globe.map=" + (directory / "sky.exr").string()});
+  EXPECT_EQ(light_of(scene, 4, 4).at(2, 2), glm::vec4(0.5f, 100.0f, 60000.0f, 1.0f));
+  std::fill_n(bright.data(), 32, glm::vec4(0.0f, 0.0f, 1e6f, 1.0f));
+  write_image(directory / "sky.hdr", bright);
+  const float blue = light_of(environment_with({"globe.type=equirect", "globe.map=" + (directory / "sky.hdr").string()}), 4, 4).at(2, 2).z;
+  EXPECT_NEAR(blue, 1e6f, 1e6f / 256) << "beyond halfs, in floats";
+}
+
+// Sky boxes as they are found: their faces join. Beside an edge the step from pixel to pixel is no larger than elsewhere.
+TEST(EnvironmentScene, SkyBoxesHaveNoEdges) {
+  for (const char* name : {"skybox_day", "skybox_night"}) {
+    const std::filesystem::path folder = std::filesystem::path("../shared/data/sky") / name;
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+    const Workers workers(2);
+    SceneAssets assets(workers);              // reads the files once
+    const auto steps_of = [&](double turn) {  // from column to column in the picture's middle, summed over its rows
+      const SceneDescription scene = environment_with(
+          {"globe.type=cube", "globe.folder=" + folder.string(), "globe.rotation=0," + std::to_string(turn) + ",0", "front.fov=40"});
+      const Image<glm::vec4> image = light_of(scene, 256, 256, assets, workers);
+      std::vector<double> steps(60);
+      for (std::size_t i = 0; i < 60; ++i) {
+        const int x = 98 + static_cast<int>(i);
+        for (int y = 0; y < 256; ++y) steps[i] += static_cast<double>(std::abs(image.at(x, y).y - image.at(x + 1, y).y));
+      }
+      return steps;
+    };
+    for (const double turn : {45.0, 135.0, 225.0, 315.0}) {  // an edge runs down the middle
+      const std::vector<double> steps = steps_of(turn);
+      const double elsewhere = *std::max_element(steps.begin(), steps.begin() + 25);
+      for (std::size_t i = 27; i < 32; ++i) EXPECT_LE(steps[i], 2.0 * elsewhere) << name << " " << turn;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfspace

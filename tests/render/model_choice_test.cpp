@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What SceneAssets::fit chooses, rule by rule. How right the pictures are then: tests/reference/max_error_test.cpp.
+#include "halfspace/render/model/model_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "halfspace/core/check.h"
+#include "halfspace/render/model/chord_error.h"
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/scene/scene_file.h"
+
+namespace halfspace {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 360;
+
+FittedScene fitted(const std::string& sections, const AllowedError& allowed) {
+  static const Workers team(2);
+  SceneAssets assets(team);
+  const std::string text = R"({"version": 1, "cameras": {"c": {"position": [0, 0, 6], "fov": 40}}, )"
+                           R"("lights": {"l": {"direction": [1, 1, 1]}}, )" +
+                           sections + "}";
+  return assets.fit(SceneFile::parse(text, "test", ".").description(), kWidth, kHeight, allowed);
+}
+
+std::map<std::string, std::string> choices(const std::string& sections, const AllowedError& allowed) {
+  std::map<std::string, std::string> out;
+  for (const ModelChoice& c : fitted(sections, allowed).choices) out[c.key] = c.value;
+  return out;
+}
+
+const AllowedError kHalfPixel{0.5, std::nullopt};
+
+// A sphere that only a mesh can show.
+const std::string kMirror = R"("reflection": 0.1)";
+
+std::string objects(const std::string& keys) { return R"("objects": {"a": {)" + keys + "}}"; }
+
+// The fewest bands whose chord, at the pixels that a unit spans, is short enough: one step fewer is too long.
+TEST(ModelChoice, TakesTheFewestBandsThatAreEnough) {
+  const FittedScene f = fitted(objects(R"("latitudes": 4, "longitudes": 8, )" + kMirror), kHalfPixel);
+  const ObjectDescription& o = f.scene.objects.front().second;
+  const View view = make_view(f.scene.cameras.front().second, kWidth, kHeight);
+  const double per_unit = silhouette_pixels_per_unit(view, {0, 0, 0}, 1.0);
+  EXPECT_LE(chord_error(o) * per_unit, 0.5);
+  const int fewer = o.latitudes == part_step(o.latitudes * 3 / 4) ? o.latitudes / 2 : o.latitudes * 3 / 4;
+  EXPECT_GT(chord_error(with_parts(o, fewer, false)) * per_unit, 0.5) << o.latitudes;
+  EXPECT_EQ(f.choices.size(), 2u) << "latitudes and longitudes, and nothing that is as it was";
+}
+
+TEST(ModelChoice, LeavesWhatIsMeant) {
+  EXPECT_TRUE(choices(objects(R"("shading": "flat", "latitudes": 5, "longitudes": 7)"), kHalfPixel).empty()) << "facets";
+  EXPECT_TRUE(choices(objects(R"("shading": "gouraud", "latitudes": 99, "longitudes": 200)"), kHalfPixel).empty()) << "light by vertex";
+  const std::string hills = R"("textures": {"h": {"source": "hills_height"}}, )";
+  EXPECT_TRUE(choices(hills + objects(R"("shape": "plane", "segments": 512, "height": "h", "height_scale": 0.1)"), kHalfPixel).empty())
+      << "normals of heights";
+}
+
+TEST(ModelChoice, SpendsNothingOnWhatIsPlaneOrOutOfSight) {
+  EXPECT_EQ(choices(objects(R"("shape": "cube", "segments": 9)"), kHalfPixel).at("objects.a.segments"), "1");
+  EXPECT_EQ(choices(objects(R"("position": [90, 0, 0], )" + kMirror), kHalfPixel).at("objects.a.latitudes"), "8");
+  EXPECT_EQ(
+      choices(objects(R"("position": [90, 0, 0], )" + kMirror) + R"(, "shadow": {"method": "pcf3"})", kHalfPixel).at("objects.a.latitudes"),
+      "8")
+      << "its shadow spans no pixel that is known";
+}
+
+TEST(ModelChoice, SamplesPlaceEdgesToHalfTheirDistance) {
+  for (const auto& [px, samples] : {std::pair(1.0, 1), {0.5, 1}, {0.49, 2}, {0.3, 4}, {0.18, 8}, {0.05, 8}})
+    EXPECT_EQ(fitted(objects(""), {px, std::nullopt}).scene.head.samples, samples) << px;
+  EXPECT_EQ(fitted(R"("samples": 8, )" + objects(""), kHalfPixel).scene.head.samples, 1);
+}
+
+TEST(ModelChoice, SpritesAreExactWhereCirclesLieOff) {
+  const std::string sphere = R"("particles": {"count": 1, "arrangement": "grid", "radius": 0.5})";
+  EXPECT_TRUE(choices(sphere, {3.0, std::nullopt}).empty()) << "in the middle of the picture";
+  EXPECT_EQ(choices(sphere, {0.1, std::nullopt}).at("particles.sprite"), "exact");
+}
+
+TEST(ModelChoice, PlainSpheresAreRays) {
+  for (const AllowedError& allowed : {kHalfPixel, AllowedError{std::nullopt, 4.0}}) {
+    const auto shape = [&](const std::string& keys) { return choices(objects(keys), allowed).contains("objects.a.shape"); };
+    EXPECT_TRUE(shape(R"("color": [1, 0, 0], "specular": 0.5, "scale": [2, -2, 2])"));
+    EXPECT_TRUE(shape(R"("shape": "icosphere", "instances": [{"scale": [2, 2, 2]}])"));
+    EXPECT_FALSE(shape(R"("shape": "torus")"));
+    EXPECT_FALSE(shape(R"("shape": "sphere")")) << "is one";
+    EXPECT_FALSE(shape(kMirror));
+    EXPECT_FALSE(shape(R"("shading": "gouraud", "longitudes": 8)"));
+    EXPECT_FALSE(shape(R"("scale": [1, 2, 1])"));
+    EXPECT_FALSE(shape(R"("instances": [{"scale": [2, 2, 1]}])"));
+  }
+}
+
+TEST(ModelChoice, LightByVertexIsForDiffuseLightFromFarAway) {
+  const AllowedError colors{std::nullopt, 16.0};
+  const auto shading = [&](const std::string& keys) { return choices(objects(keys), colors).contains("objects.a.shading"); };
+  EXPECT_TRUE(shading(R"("shape": "cube")"));
+  EXPECT_FALSE(shading(R"("shape": "cube", "specular": 0.5)"));
+  EXPECT_FALSE(shading(R"("position": [0, 0, -300])")) << "more vertices than pixels";
+}
+
+TEST(ModelChoice, FiltersAndFormatsFollowTheCodesAllowed) {
+  const std::string scene =
+      R"("textures": {"t": {"source": "checkerboard", "anisotropy": 4}}, "post": {"hdr": true, "format": "rgba32f"}, )" +
+      objects(R"("shape": "plane", "color": "t")");
+  EXPECT_EQ(choices(scene, {std::nullopt, 4.0}).at("textures.t.anisotropy"), "16");
+  EXPECT_EQ(choices(scene, {std::nullopt, 200.0}).at("textures.t.anisotropy"), "1");
+  EXPECT_EQ(choices(scene, {std::nullopt, 4.0}).at("post.format"), "rgba16f");
+}
+
+TEST(ModelChoice, MoreThanThereIsRoomForIsToldInOneLine) {
+  std::string copies;
+  for (int i = 0; i < 3000; ++i) copies += R"({"position": [0, 0, 0]},)";
+  copies.pop_back();
+  try {
+    fitted(objects(kMirror + R"(, "instances": [)" + copies + "]"), {0.01, std::nullopt});
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_TRUE(std::string(e.what()).starts_with("the cheapest model: objects: have ")) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace halfspace

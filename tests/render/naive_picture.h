@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scene's picture by the renderer, and by the naive pipeline in float or double, to hold against each other.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/render/prepared_scene.h"
+
+namespace halfspace {
+
+inline Image<glm::u8vec4> picture_of(const SceneDescription& scene, int width, int height, int threads = 2) {
+  const Workers workers(threads);
+  SceneAssets assets(workers);
+  Image<glm::u8vec4> picture(width, height);
+  render(assets.prepare(scene, width, height), picture, workers);
+  return picture;
+}
+
+/// The same as linear numbers, before exposure.
+inline Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height, SceneAssets& assets, const Workers& workers) {
+  Image<glm::vec4> picture(width, height);
+  render(assets.prepare(scene, width, height), picture, workers);
+  return picture;
+}
+inline Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height) {
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  return light_of(scene, width, height, assets, workers);
+}
+
+/// Where the double twin has its vertices: by its own double computation, or where float arithmetic puts them, so that all fall
+/// on the same 1/256 px and what is compared is shading alone.
+enum class Positions { in_r, as_rendered };
+
+/// The scene by the naive pipeline in R, float or double: linear colour, top row first. In naive_picture.cpp, for all
+/// shaders of scenes are compiled there.
+template <class R>
+Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height, Positions positions = Positions::in_r);
+
+template <class R>
+Image<vec4<R>> naive_picture(const SceneDescription& scene, int width, int height) {
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  return naive_picture<R>(assets.prepare(scene, width, height), width, height);
+}
+
+/// What the draw's shader knows of its surface; of a draw that is one.
+inline const LitSurface& surface_of(const PreparedDraw& draw) {
+  const LitSurface* surface = nullptr;
+  std::visit(
+      [&](const auto& shader) {
+        if constexpr (std::is_base_of_v<LitSurface, std::decay_t<decltype(shader)>>) surface = &shader;
+      },
+      draw.shader);
+  HS_CHECK(surface != nullptr);
+  return *surface;
+}
+
+inline int largest_difference(glm::u8vec4 a, glm::u8vec4 b) {
+  int d = 0;
+  for (int k = 0; k < 4; ++k) d = std::max(d, std::abs(int{a[k]} - int{b[k]}));
+  return d;
+}
+
+template <class R>
+glm::u8vec4 encode(const vec4<R>& c) {
+  glm::u8vec4 out;
+  for (int k = 0; k < 3; ++k) out[k] = static_cast<uint8_t>(linear_to_srgb(static_cast<float>(c[k])));
+  out[3] = static_cast<uint8_t>(linear_to_unorm8(static_cast<float>(c[3])));
+  return out;
+}
+
+/// Share of the picture's pixels that differ by more than one code from the naive pipeline in R.
+template <class R>
+double share_beyond_one_code(const SceneDescription& scene, int width, int height) {
+  const Image<glm::u8vec4> image = picture_of(scene, width, height);
+  const Image<vec4<R>> truth = naive_picture<R>(scene, width, height);
+  int beyond = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) beyond += largest_difference(image.at(x, y), encode<R>(truth.at(x, y))) > 1;
+  }
+  return beyond / (static_cast<double>(width) * height);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scenes' shaders in double precision against the renderer's floats, and the same pixels for any number of threads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "halfspace/scene/scene_file.h"
+#include "render/naive_picture.h"
+
+namespace halfspace {
+namespace {
+
+// The largest difference of a pixel, and the root mean square of all, in linear light.
+struct Difference {
+  double most = 0, rmse = 0;
+  double beyond = 0;       ///< share of pixels that differ by more than 1/255
+  double rmse_within = 0;  ///< of the others
+};
+
+Difference difference_from_double(const SceneDescription& description, int width, int height) {
+  const Workers workers(2);
+  SceneAssets assets(workers);
+  const PreparedScene scene = assets.prepare(description, width, height);
+  Image<glm::vec4> picture(width, height);
+  render(scene, picture, workers);
+  const Image<vec4<double>> truth = naive_picture<double>(scene, width, height, Positions::as_rendered);
+  Difference d;
+  double squares_within = 0;
+  int pixels_beyond = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      double most = 0, squares = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double one = std::abs(static_cast<double>(picture.at(x, y)[k]) - truth.at(x, y)[k]);
+        most = std::max(most, one);
+        squares += one * one;
+      }
+      d.most = std::max(d.most, most);
+      d.rmse += squares;
+      if (most > 1.0 / 255) {
+        ++pixels_beyond;
+      } else {
+        squares_within += squares;
+      }
+    }
+  }
+  const double pixels = static_cast<double>(width) * height;
+  d.rmse = std::sqrt(d.rmse / (3.0 * pixels));
+  d.rmse_within = std::sqrt(squares_within / (3.0 * pixels));
+  d.beyond = pixels_beyond / pixels;
+  return d;
+}
+
+// A scene, and what is set in it.
+using Case = std::pair<const char*, std::vector<std::string>>;
+const std::vector<Case> kCases{{"three-lights", {"shadow.method=none"}},
+                               {"three-lights", {"shadow.method=none", "camera=green_light"}},
+                               {"three-lights", {"shadow.method=none", "camera=mirror"}},
+                               {"earth", {}},
+                               {"earth", {"earth.normal=bump"}},
+                               {"earth", {"earth.normal=bump", "earth.bump_method=difference"}},
+                               {"earth", {"earth.normal=none"}},
+                               {"earth", {"earth.shading=none"}},
+                               {"earth", {"earth.shading=flat"}},
+                               {"earth", {"earth.shading=provoking"}},
+                               {"earth", {"earth.shading=gouraud"}}};
+
+SceneDescription scene_of(const Case& c) {
+  SceneFile file = SceneFile::open(c.first);
+  file.set(c.second);
+  return file.description();
+}
+
+class Twin : public testing::TestWithParam<Case> {
+ protected:
+  SceneDescription scene() const { return scene_of(GetParam()); }
+};
+
+TEST_P(Twin, AgreesInDouble) {
+  const Difference d = difference_from_double(scene(), 480, 270);
+  RecordProperty("most", std::to_string(d.most));
+  RecordProperty("rmse", std::to_string(d.rmse * 1e6) + "e-6");
+  EXPECT_LE(d.most, 1.0 / 255) << "no exception: with equal positions, no decision falls differently";
+  EXPECT_LE(d.rmse, 1e-5);
+}
+
+uint64_t hash_of(const Image<glm::u8vec4>& image) {
+  uint64_t hash = 14695981039346656037u;  // FNV-1a
+  for (const glm::u8vec4& t : image.texels()) {
+    for (int c = 0; c < 4; ++c) hash = (hash ^ t[c]) * 1099511628211u;
+  }
+  return hash;
+}
+
+// One number for all cases: the pixels of every compiler, lane width and processor.
+TEST(Twins, SameBitsEverywhere) {
+  uint64_t hash = 0;
+  for (const Case& c : kCases) hash = hash * 31 + hash_of(picture_of(scene_of(c), 160, 90, 2));
+  EXPECT_EQ(hash, 3478915689500032134u);
+}
+
+TEST(Twins, EveryShippedSceneHasTheSameBitsEverywhere) {
+  uint64_t hash = 0;
+  for (const ShippedScene& shipped : shipped_scenes())
+    hash = hash * 31 + hash_of(picture_of(SceneFile::open(std::string(shipped.name)).at(0.5), 160, 90, 2));
+  EXPECT_EQ(hash, 774070604493805795u);
+}
+
+TEST_P(Twin, SamePixelsForAnyThreads) {
+  const Image<glm::u8vec4> one = picture_of(scene(), 160, 90, 1);
+  EXPECT_EQ(picture_of(scene(), 160, 90, 2), one);
+  EXPECT_EQ(picture_of(scene(), 160, 90, 7), one);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Twin, testing::ValuesIn(kCases));
+
+// With shadows there are decisions: a depth compare may fall differently in float, where the two depths differ by less than
+// rounding does. Both twins read the same maps. A texel of a 3x3 filter is a ninth of the light.
+class ShadowedTwin : public testing::TestWithParam<Case> {
+ protected:
+  SceneDescription scene() const { return scene_of(GetParam()); }
+};
+const std::vector<Case> kShadowed{{"three-lights", {}},
+                                  {"moon", {}},
+                                  {"moon", {"camera=terminator"}},
+                                  {"shadow-plane", {}},
+                                  {"shadow-contact", {"shadow.method=pcss"}},
+                                  {"shadow-knot", {"shadow.method=hard"}},
+                                  {"shadow-knot", {"shadow.method=moments"}},
+                                  {"day-night", {"time.hours=16"}}};
+
+TEST_P(ShadowedTwin, DiffersOnlyAtDepthCompares) {
+  const Difference d = difference_from_double(scene(), 480, 270);
+  RecordProperty("beyond", std::to_string(d.beyond * 1e6) + "e-6");
+  RecordProperty("rmse", std::to_string(d.rmse_within * 1e6) + "e-6");
+  EXPECT_LE(d.beyond, 1e-4);
+  SceneDescription without = scene();
+  without.shadow.method = ShadowMethod::none;
+  const Difference unshaded = difference_from_double(without, 480, 270);
+  EXPECT_LE(unshaded.most, 1.0 / 255) << "the same scene without shadows has no exception";
+  EXPECT_LE(unshaded.rmse, 1e-5);
+}
+
+TEST_P(ShadowedTwin, SamePixelsForAnyThreads) {
+  const Image<glm::u8vec4> one = picture_of(scene(), 160, 90, 1);
+  EXPECT_EQ(picture_of(scene(), 160, 90, 2), one);
+  EXPECT_EQ(picture_of(scene(), 160, 90, 7), one);
+}
+
+TEST(Twins, ShadowsHaveTheSameBitsEverywhere) {
+  uint64_t hash = 0;
+  for (const Case& c : kShadowed) hash = hash * 31 + hash_of(picture_of(scene_of(c), 160, 90, 2));
+  EXPECT_EQ(hash, 17619357253561048443u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShadowedTwin, testing::ValuesIn(kShadowed));
+
+}  // namespace
+}  // namespace halfspace
