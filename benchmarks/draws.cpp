@@ -27,7 +27,7 @@ class Draws final : public Workload {
   }
 
  private:
-  static VertexView corners(const ColoredQuad& q) { return vertices(stream(std::span<const glm::vec3>(q.corners))); }
+  static VertexView corners(const ColoredQuad& q) { return make_vertex_view(stream(std::span<const glm::vec3>(q.corners))); }
 
   Canvas canvas_;
   std::vector<ColoredQuad> quads_;

@@ -31,7 +31,7 @@ class Fill final : public Workload {
     ColorTarget target = rgba8_target(color_);
     target.load = LoadOp::dont_care;
     Pass pass(color_.width(), color_.height(), target, {});
-    pass.draw(shader_, vertices(stream(std::span<const glm::vec3>(kFullQuad))), indices_, kState);
+    pass.draw(shader_, make_vertex_view(stream(std::span<const glm::vec3>(kFullQuad))), indices_, kState);
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return {&color_, nullptr}; }

@@ -11,7 +11,7 @@ namespace halfspace {
 std::unique_ptr<Workload> prepare_aniso_floor(WorkloadSize size, WorkloadAssets& assets) {
   const std::shared_ptr<const Texture2D> texture = assets.checker();
   const FloorShader shader{floor_camera(size), texture.get()};
-  return std::make_unique<SingleDraw<FloorShader>>(size, shader, vertices(stream(std::span<const glm::vec3>(kFloor))),
+  return std::make_unique<SingleDraw<FloorShader>>(size, shader, make_vertex_view(stream(std::span<const glm::vec3>(kFloor))),
                                                    Indices(std::span<const uint32_t>(kRoundTriangles), kFloor.size()), workload_state(),
                                                    texture);
 }

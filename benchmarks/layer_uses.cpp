@@ -17,7 +17,7 @@ class Blend final : public Workload {
 
   void frame(const Workers& workers) override {
     Pass pass = canvas_.pass();
-    pass.draw(shader_, vertices(stream(mesh_)), indices_, state());
+    pass.draw(shader_, make_vertex_view(stream(mesh_)), indices_, state());
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
@@ -28,7 +28,7 @@ class Blend final : public Workload {
     for (std::size_t first = 0; first < mesh_.size(); first += kLayerVertices) {
       const std::span<const LayerMesh::value_type> quad(&mesh_[first], kLayerVertices);
       WorkloadTruth layer = canvas_.truth();
-      draw_naive(layer, shader_, vertices(stream(quad)), Indices::sequential(quad.size()), workload_state());
+      draw_naive(layer, shader_, make_vertex_view(stream(quad)), Indices::sequential(quad.size()), workload_state());
       for (std::size_t i = 0; i < target.color.texels().size(); ++i) {
         if (layer.depth.data()[i] == 1.0) continue;
         vec4<double>& to = target.color.data()[i];
@@ -64,7 +64,7 @@ std::unique_ptr<Workload> prepare_blend_10(WorkloadSize size, WorkloadAssets&) {
 std::unique_ptr<Workload> prepare_alpha_test(WorkloadSize size, WorkloadAssets& assets) {
   auto parts = std::make_shared<const PerforatedParts>(PerforatedParts{layer_mesh(size, true), assets.checker()});
   const PerforatedLayerShader shader{layer_shader(size), parts->texture.get()};
-  return std::make_unique<SingleDraw<PerforatedLayerShader>>(size, shader, vertices(stream(parts->mesh)),
+  return std::make_unique<SingleDraw<PerforatedLayerShader>>(size, shader, make_vertex_view(stream(parts->mesh)),
                                                              Indices::sequential(parts->mesh.size()), workload_state(), parts);
 }
 

@@ -22,8 +22,8 @@ void add_layer(double k, double aspect, LayerMesh& to) {
 
 std::unique_ptr<Workload> prepare_layers(WorkloadSize size, bool front_to_back) {
   auto mesh = std::make_shared<const LayerMesh>(layer_mesh(size, front_to_back));
-  return std::make_unique<SingleDraw<LayerShader>>(size, layer_shader(size), vertices(stream(*mesh)), Indices::sequential(mesh->size()),
-                                                   workload_state(), mesh);
+  return std::make_unique<SingleDraw<LayerShader>>(size, layer_shader(size), make_vertex_view(stream(*mesh)),
+                                                   Indices::sequential(mesh->size()), workload_state(), mesh);
 }
 
 class DepthPrepass final : public Workload {
@@ -36,15 +36,15 @@ class DepthPrepass final : public Workload {
     equal.depth.compare = CompareOp::equal;
     equal.depth.write = false;
     Pass pass = canvas_.pass();
-    pass.draw_depth(DepthOnly{shader_.clip_from_eye}, vertices(stream(mesh_, &LayerMesh::value_type::position_es)), indices_,
+    pass.draw_depth(DepthOnly{shader_.clip_from_eye}, make_vertex_view(stream(mesh_, &LayerMesh::value_type::position_es)), indices_,
                     workload_state());
-    pass.draw(shader_, vertices(stream(mesh_)), indices_, equal);
+    pass.draw(shader_, make_vertex_view(stream(mesh_)), indices_, equal);
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
   WorkloadTruth truth() const override {  // a prepass changes no pixel
     WorkloadTruth target = canvas_.truth();
-    draw_naive(target, shader_, vertices(stream(mesh_)), indices_, workload_state());
+    draw_naive(target, shader_, make_vertex_view(stream(mesh_)), indices_, workload_state());
     return target;
   }
 

@@ -23,7 +23,7 @@ class Points final : public Workload {
     DrawState state;
     state.topology = Topology::points;
     Pass pass = canvas_.pass();
-    pass.draw(shader_, vertices(stream(cloud_)), indices_, state);
+    pass.draw(shader_, make_vertex_view(stream(cloud_)), indices_, state);
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }

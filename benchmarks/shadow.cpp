@@ -65,11 +65,11 @@ class Shadowed final : public Workload {
   }
 
  private:
-  VertexView positions() const { return vertices(stream(sphere_->vertices, &SphereVertex::position)); }
+  VertexView positions() const { return make_vertex_view(stream(sphere_->vertices, &SphereVertex::position)); }
   VertexView sphere_vertices() const {
-    return vertices(stream(sphere_->vertices, &SphereVertex::position), stream(sphere_->vertices, &SphereVertex::normal));
+    return make_vertex_view(stream(sphere_->vertices, &SphereVertex::position), stream(sphere_->vertices, &SphereVertex::normal));
   }
-  static VertexView plane_vertices() { return vertices(stream(std::span<const PlaneVertex>(kShadowPlane))); }
+  static VertexView plane_vertices() { return make_vertex_view(stream(std::span<const PlaneVertex>(kShadowPlane))); }
   ShadowedShader plane_shader(const float* map) const {
     ShadowedShader shader = sphere_shader_;
     shader.base = kShadowPlaneBase;

@@ -27,7 +27,7 @@ struct SphereAssets {
   std::shared_ptr<const Texture2D> texture;
 
   SphereAssets(SphereDetail detail, WorkloadAssets& assets) : mesh(assets.sphere(detail.rows, detail.columns)), texture(assets.checker()) {}
-  VertexView vertex_view() const { return vertices(stream(mesh->vertices)); }
+  VertexView vertex_view() const { return make_vertex_view(stream(mesh->vertices)); }
   Indices indices() const { return {mesh->indices, mesh->vertices.size()}; }
 };
 

@@ -19,7 +19,7 @@ WorkloadKind triangle_size(double area) {
   const int count = triangles_of_size(area);
   return {sweep_point("triangle_size", area), std::to_string(count) + " triangles", [=](WorkloadSize size, WorkloadAssets&) {
             auto corners = std::make_shared<const std::vector<glm::vec3>>(tiny_triangles(size, count, area));
-            return std::make_unique<SingleDraw<ConstantShader>>(size, ConstantShader{kTinyColor}, vertices(stream(*corners)),
+            return std::make_unique<SingleDraw<ConstantShader>>(size, ConstantShader{kTinyColor}, make_vertex_view(stream(*corners)),
                                                                 Indices::sequential(corners->size()), DrawState{}, corners);
           }};
 }
@@ -32,7 +32,7 @@ WorkloadKind triangle_count(SphereDetail detail) {
 WorkloadKind overdraw(int layers) {
   return {sweep_point("overdraw", layers), "quads over the whole picture, back to front", [=](WorkloadSize size, WorkloadAssets&) {
             auto mesh = std::make_shared<const LayerMesh>(layer_mesh(size, false, layers));
-            return std::make_unique<SingleDraw<LayerShader>>(size, layer_shader(size), vertices(stream(*mesh)),
+            return std::make_unique<SingleDraw<LayerShader>>(size, layer_shader(size), make_vertex_view(stream(*mesh)),
                                                              Indices::sequential(mesh->size()), workload_state(), mesh);
           }};
 }
@@ -42,7 +42,8 @@ WorkloadKind varyings() {
   return {sweep_point("varyings", N), "floats from vertex to fragment", [](WorkloadSize size, WorkloadAssets& assets) {
             const std::shared_ptr<const SphereMesh> mesh = assets.sphere(k20k.rows, k20k.columns);
             const VaryingsShader<N> shader{sphere_uniforms(size, *assets.checker()).clip_from_world};
-            return std::make_unique<SingleDraw<VaryingsShader<N>>>(size, shader, vertices(stream(mesh->vertices, &SphereVertex::position)),
+            return std::make_unique<SingleDraw<VaryingsShader<N>>>(size, shader,
+                                                                   make_vertex_view(stream(mesh->vertices, &SphereVertex::position)),
                                                                    Indices(mesh->indices, mesh->vertices.size()), workload_state(), mesh);
           }};
 }

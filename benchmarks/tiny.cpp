@@ -10,7 +10,7 @@ namespace halfspace {
 
 std::unique_ptr<Workload> prepare_tiny_1m(WorkloadSize size, WorkloadAssets&) {
   auto corners = std::make_shared<const std::vector<glm::vec3>>(tiny_triangles(size, 1'000'000));
-  return std::make_unique<SingleDraw<ConstantShader>>(size, ConstantShader{kTinyColor}, vertices(stream(*corners)),
+  return std::make_unique<SingleDraw<ConstantShader>>(size, ConstantShader{kTinyColor}, make_vertex_view(stream(*corners)),
                                                       Indices::sequential(corners->size()), DrawState{}, corners);
 }
 

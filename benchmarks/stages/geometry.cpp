@@ -2,6 +2,7 @@
 //
 // Vertex, clip, set-up, bin and visibility stage. Items are vertices or triangles.
 #include "halfspace/raster/primitives/clip.h"
+#include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/shading/depth_only.h"
 #include "sphere_camera.h"
 #include "stages/stage_pass.h"
@@ -18,7 +19,7 @@ void vertex_position(benchmark::State& state) {
   WorkloadAssets assets;
   const SphereAssets sphere(k200k, assets);
   const DepthOnly shader{sphere_uniforms(kStageSize, *sphere.texture).clip_from_world};
-  const VertexView positions = vertices(stream(sphere.mesh->vertices, &SphereVertex::position));
+  const VertexView positions = make_vertex_view(stream(sphere.mesh->vertices, &SphereVertex::position));
   measure_draw(state, static_cast<int64_t>(sphere.mesh->vertices.size()), shader, positions,
                Indices::sequential(sphere.mesh->vertices.size()), kNothingSurvives);
 }
@@ -67,7 +68,7 @@ struct RepeatedTriangles {
     }
   }
   int64_t count() const { return static_cast<int64_t>(list.size() / 3); }
-  VertexView view() const { return vertices(stream(corners)); }
+  VertexView view() const { return make_vertex_view(stream(corners)); }
   Indices indices() const { return {list, corners.size()}; }
 };
 
@@ -112,7 +113,7 @@ void visibility(benchmark::State& state) {
   const int64_t area = state.range(0);
   const int count = static_cast<int>(std::max<int64_t>(1 << 20, 2 * area) / area);
   const std::vector<glm::vec3> corners = tiny_triangles(kStageSize, count, static_cast<double>(area));
-  measure_draw(state, count, kIdentity, vertices(stream(corners)), Indices::sequential(corners.size()));
+  measure_draw(state, count, kIdentity, make_vertex_view(stream(corners)), Indices::sequential(corners.size()));
 }
 BENCHMARK(visibility)->RangeMultiplier(4)->Range(1, 1 << 18);
 

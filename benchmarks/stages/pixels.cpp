@@ -34,7 +34,7 @@ BENCHMARK(shader_constant);
 void shader_layer(benchmark::State& state) {
   std::vector<LayerShader::Attributes<float>> quad;
   for (const SphereVertex& v : kStageQuad) quad.push_back({v.position, v.normal, {0.5f, 0.5f, 0.5f}});
-  measure_draw(state, kStagePixels, LayerShader{glm::mat4(1.0f)}, vertices(stream(quad)), stage_quad_indices());
+  measure_draw(state, kStagePixels, LayerShader{glm::mat4(1.0f)}, make_vertex_view(stream(quad)), stage_quad_indices());
 }
 BENCHMARK(shader_layer);
 
@@ -65,7 +65,8 @@ void shader_star_sky(benchmark::State& state) {
   const std::array<glm::vec2, 4> corners{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   DrawState draw_state;
   draw_state.depth.test = false;
-  measure_draw(state, kStagePixels, StarSky{}, vertices(stream(std::span<const glm::vec2>(corners))), stage_quad_indices(), draw_state);
+  measure_draw(state, kStagePixels, StarSky{}, make_vertex_view(stream(std::span<const glm::vec2>(corners))), stage_quad_indices(),
+               draw_state);
 }
 BENCHMARK(shader_star_sky);
 

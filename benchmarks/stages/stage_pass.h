@@ -31,7 +31,7 @@ void measure_draw(benchmark::State& state, int64_t items, const S& shader, const
   Image<float> depth(kStageSize.width, kStageSize.height);
   measure_passes(state, items, [&](const Workers& workers) {
     Pass pass(kStageSize.width, kStageSize.height, rgba8_target(color), d32f_target(depth), options);
-    if constexpr (DepthOnlyShader<S>) {
+    if constexpr (!HasFragmentFunction<S>) {
       pass.draw_depth(shader, vertices, indices, draw_state);
     } else {
       pass.draw(shader, vertices, indices, draw_state);
@@ -44,11 +44,13 @@ void measure_draw(benchmark::State& state, int64_t items, const S& shader, const
 /// coordinates 0 to 1.
 inline constexpr std::array<SphereVertex, 4> kStageQuad{
     {{{-1, -1, 0}, {0, 0, 1}, {0, 1}}, {{1, -1, 0}, {0, 0, 1}, {1, 1}}, {{-1, 1, 0}, {0, 0, 1}, {0, 0}}, {{1, 1, 0}, {0, 0, 1}, {1, 0}}}};
-inline VertexView stage_quad() { return vertices(stream(std::span<const SphereVertex>(kStageQuad))); }
-inline VertexView stage_quad_positions() { return vertices(stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::position)); }
+inline VertexView stage_quad() { return make_vertex_view(stream(std::span<const SphereVertex>(kStageQuad))); }
+inline VertexView stage_quad_positions() {
+  return make_vertex_view(stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::position));
+}
 inline VertexView stage_quad_positions_and_normals() {
-  return vertices(stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::position),
-                  stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::normal));
+  return make_vertex_view(stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::position),
+                          stream(std::span<const SphereVertex>(kStageQuad), &SphereVertex::normal));
 }
 inline Indices stage_quad_indices() { return {std::span<const uint32_t>(kStripTriangles), kStageQuad.size()}; }
 

@@ -166,6 +166,23 @@ struct DrawState {
   std::optional<uint32_t> query{};  ///< an occlusion query: samples that pass are counted in PassStatistics::queries[query]
 };
 
+/// Blend equations in common use, for DrawState::blend.
+inline constexpr BlendState kAlphaBlend{};  ///< straight alpha, back to front: src·a + dst·(1 − a)
+inline constexpr BlendState kAdditiveBlend{
+    .source_color = BlendFactor::src_alpha, .destination_color = BlendFactor::one, .destination_alpha = BlendFactor::one};
+
+/// Reversed Z: for projections that map the near plane to depth 1 and the far plane to 0 (perspective_reversed in geometry/camera.h), with
+/// depth cleared to 0.
+inline constexpr DepthState kReversedZ{.compare = CompareOp::greater, .clip = ClipDepth::zero_to_one};
+
+/// Draw states in common use. A draw that needs more starts from one of them: DrawState state = kOpaqueState; state.cull = CullMode::back.
+inline constexpr DrawState kOpaqueState{};                                                      ///< replaces colour; depth test less
+inline constexpr DrawState kAlphaBlendState{.depth = {.write = false}, .blend = kAlphaBlend};   ///< tests depth, does not write it
+inline constexpr DrawState kAdditiveState{.depth = {.write = false}, .blend = kAdditiveBlend};  ///< tests depth, does not write it
+inline constexpr DrawState kDepthOnlyState{.color_mask = {false, false, false, false}};         ///< writes no colour
+inline constexpr DrawState kReversedZState{.depth = kReversedZ};
+inline constexpr DrawState kWireframeState{.polygon_mode = PolygonMode::line};  ///< the outlines of triangles
+
 /// How colour attachment i takes what is drawn.
 constexpr const std::optional<BlendState>& blend_of(const DrawState& s, std::size_t i) {
   return s.attachments[i] ? s.attachments[i]->blend : s.blend;

@@ -13,8 +13,9 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/raster/draw_state.h"
+#include "halfspace/raster/pipeline/window.h"
 #include "halfspace/raster/vertex_input.h"
-#include "halfspace/raster/visibility/compare.h"
+#include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/shading/contract.h"
 
 namespace halfspace {
@@ -189,7 +190,7 @@ void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& verti
     const V& provoking = whole[state.provoking == ProvokingVertex::first ? 0 : 2].varyings;
     PrimitiveOf<S, R> face{};
     if constexpr (HasPrimitive<S>) face = shader.primitive(whole[0].varyings, whole[1].varyings, whole[2].varyings);
-    polygon = naive::clip(polygon, [](const vec4<R>& p) { return p.w - R(0x1p-96f); });
+    polygon = naive::clip(polygon, [](const vec4<R>& p) { return p.w - R(kMinW); });
     polygon = naive::clip(polygon, [&](const vec4<R>& p) { return p.z + near_w * p.w; });
     polygon = naive::clip(polygon, [](const vec4<R>& p) { return p.w - p.z; });
     for (std::size_t k = 2; k < polygon.size(); ++k) {

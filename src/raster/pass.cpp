@@ -9,7 +9,9 @@
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/setup.h"
-#include "halfspace/raster/primitives/setup_scalar.h"
+#include "halfspace/raster/primitives/vertex_stage.h"
+#include "halfspace/raster/tile/blend.h"
+#include "halfspace/raster/tile_worker.h"
 
 namespace halfspace {
 
@@ -60,8 +62,57 @@ void check_rect(const Rect& r, int smallest) {
 
 }  // namespace
 
-Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options)
-    : colors_(colors.begin(), colors.end()), depth_(depth), options_(options) {
+namespace detail {
+
+class PassState {
+ public:
+  PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options);
+
+  std::pmr::memory_resource& memory() { return *frame_.memory; }
+  void add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
+                const DrawState& state);
+  void set_post_step(PostStep post);
+  PassStatistics run(const Workers& workers);
+
+ private:
+  // Work for one thread: some of a large draw's vertices, or all of the small draws [draw, end_draw).
+  struct VertexTask {
+    std::size_t draw, end_draw;
+    std::size_t begin, end;  // of the vertices that the draw's indices use; of small draws all together
+    bool is_part;
+    Outcode any = 0;  // the union of a part's outcodes
+  };
+  // What is to be done for the draws, kept up as they come.
+  struct Plan {
+    std::vector<VertexTask> vertex_tasks;
+    std::vector<std::vector<Segment>> chunks;
+    uint64_t primitives = 0;  // in all chunks
+    uint32_t room = 0;        // for primitives in the last chunk
+    uint32_t records = 0;     // for what they may become
+    PassStatistics submitted;
+  };
+
+  void add_vertex_tasks(std::size_t draw);
+  void run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers);
+  void add_segments(uint32_t draw);
+  // Sets up chunks of the plan from `next` on, until the budget or the ids are used up or all is set up. Returns the next chunk.
+  std::size_t set_up_chunks(Plan& plan, std::size_t next, FrameMemory& memory, const Workers& workers, PassStatistics& statistics);
+  int tile_size() const;
+  // Sets the draw's viewport, bounds and depth range.
+  void place_draw(Draw& d) const;
+  // Sets d.writes_color. Does the draw replace all colours of a pixel?
+  bool look_at_attachments(Draw& d) const;
+
+  Frame frame_;
+  Plan plan_;
+  Attachments attachments_;
+  PassOptions options_;
+};
+
+PassState::PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options)
+    : options_(options) {
+  attachments_.colors.assign(colors.begin(), colors.end());
+  attachments_.depth = depth;
   HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize);
   HS_CHECK(options.tile_size == 8 || options.tile_size == 16 || options.tile_size == 32 || options.tile_size == 64);
   HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= kMaxPrimitivesPerChunk);
@@ -69,7 +120,7 @@ Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const Dep
   HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets});
   for (const ColorTarget& c : colors) {
     HS_CHECK(c.data != nullptr || c.format == ColorFormat::none || (c.load != LoadOp::load && c.store == StoreOp::dont_care));
-    has_color_ |= c.format != ColorFormat::none;
+    attachments_.has_color |= c.format != ColorFormat::none;
   }
   HS_CHECK(depth.data != nullptr || depth.format == DepthFormat::none || (depth.load != LoadOp::load && depth.store == StoreOp::dont_care));
   frame_.memory = std::make_unique<std::pmr::monotonic_buffer_resource>();
@@ -83,16 +134,16 @@ Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const Dep
   frame_.depth_format = depth_part(depth.format);
 }
 
-int Pass::tile_size() const {
+int PassState::tile_size() const {
   int sample_bytes = 9;  // depth, triangle, stencil
-  for (const ColorTarget& c : colors_) sample_bytes += bytes_per_pixel(c.format);
+  for (const ColorTarget& c : attachments_.colors) sample_bytes += bytes_per_pixel(c.format);
   int size = std::min(options_.tile_size, largest_tile(options_.samples));
   while (size > kBlockSize && sample_bytes * options_.samples * size * size > kTileBudget) size /= 2;
   return size;
 }
 
-void Pass::add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
-                    const DrawState& state) {
+void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
+                         std::shared_ptr<const Indices> indices, const DrawState& state) {
   HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0);
   HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count));
   HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count);
@@ -109,14 +160,14 @@ void Pass::add_draw(const ShaderKernels& kernels, KeptShader shader, const Verte
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
   const bool covers_by_alpha = state.alpha_to_coverage && frame_.samples > 1;
   const bool defers = options_.defer && replaces && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
-  d.deferred = defers || !has_color_;  // without colour there is nothing to blend or to shade at once
+  d.deferred = defers || !attachments_.has_color;  // without colour there is nothing to blend or to shade at once
   std::vector<uint64_t>& queries = plan_.submitted.queries;
   if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));
   add_vertex_tasks(frame_.draws.size() - 1);
   add_segments(static_cast<uint32_t>(frame_.draws.size() - 1));
 }
 
-void Pass::place_draw(Draw& d) const {
+void PassState::place_draw(Draw& d) const {
   const Rect whole{0, 0, frame_.width, frame_.height};
   const Rect viewport = d.state.viewport.value_or(whole);
   d.viewport = make_viewport(viewport, d.state.depth);
@@ -127,13 +178,13 @@ void Pass::place_draw(Draw& d) const {
   d.depth_high = std::max(d.state.depth.range_near, d.state.depth.range_far);
 }
 
-bool Pass::look_at_attachments(Draw& d) const {
+bool PassState::look_at_attachments(Draw& d) const {
   bool replaces = true;
-  for (std::size_t i = 0; i < colors_.size(); ++i) {
+  for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(d.state, i);
     const ColorMask& mask = color_mask_of(d.state, i);
-    if (blend && uses_second_source(*blend)) HS_CHECK(d.kernels.color_count > 1 && colors_.size() == 1);
-    if (colors_[i].format == ColorFormat::none) continue;
+    if (blend && uses_second_source(*blend)) HS_CHECK(d.kernels.color_count > 1 && attachments_.colors.size() == 1);
+    if (attachments_.colors[i].format == ColorFormat::none) continue;
     const bool has_color = d.kernels.fragment != nullptr && static_cast<int>(i) < d.kernels.color_count;
     replaces &= has_color && !blend && mask.all();
     d.writes_color |= has_color && (mask.r || mask.g || mask.b || mask.a);
@@ -141,7 +192,7 @@ bool Pass::look_at_attachments(Draw& d) const {
   return replaces;
 }
 
-void Pass::add_vertex_tasks(std::size_t draw) {
+void PassState::add_vertex_tasks(std::size_t draw) {
   const Draw& d = frame_.draws[draw];
   const std::size_t count = d.vertex_count;
   plan_.submitted.vertices_in += (d.indices->size() - d.indices->restarts().size()) * d.state.instances;
@@ -163,7 +214,7 @@ void Pass::add_vertex_tasks(std::size_t draw) {
   tasks.push_back({draw, draw + 1, 0, count, false});
 }
 
-void Pass::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers) {
+void PassState::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers) {
   const FloatMode mode;  // large draws are placed here, not in a task
   frame_.shaded.resize(frame_.draws.size());
   const auto begin_draw = [this](std::size_t draw) {
@@ -189,7 +240,7 @@ void Pass::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers)
   }
 }
 
-void Pass::add_segments(uint32_t draw) {
+void PassState::add_segments(uint32_t draw) {
   const Draw& d = frame_.draws[draw];
   const uint32_t each = most_records(d, frame_.samples);
   for (uint32_t instance = 0; instance < d.state.instances; ++instance) {
@@ -210,44 +261,49 @@ void Pass::add_segments(uint32_t draw) {
   }
 }
 
-PassStatistics Pass::run(const Workers& workers) {
+std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, FrameMemory& memory, const Workers& workers,
+                                     PassStatistics& statistics) {
+  std::size_t bytes = 0;
+  while (next < plan.chunks.size() && (frame_.chunks.empty() || bytes < options_.bin_budget) &&
+         frame_.chunks.size() + kWave <= kMaxChunks) {
+    const std::size_t begin = frame_.chunks.size();
+    const std::size_t count = std::min(kWave, plan.chunks.size() - next);
+    for (std::size_t i = 0; i < count; ++i) frame_.chunks.push_back(take_or_make(memory.chunks));
+    workers.for_each(static_cast<int>(count), [&](int i) {
+      Chunk& chunk = frame_.chunks[begin + static_cast<std::size_t>(i)];
+      chunk.segments = std::move(plan.chunks[next + static_cast<std::size_t>(i)]);
+      set_up_chunk(frame_, chunk);
+      run_primitive_stage(frame_, chunk);
+      bin_chunk(frame_, chunk);
+    });
+    next += count;
+    for (std::size_t c = begin; c < frame_.chunks.size(); ++c) {
+      bytes += frame_.chunks[c].bytes();
+      statistics += frame_.chunks[c].statistics;
+    }
+  }
+  return next;
+}
+
+PassStatistics PassState::run(const Workers& workers) {
   Plan plan = std::exchange(plan_, {});
   PassStatistics statistics = std::move(plan.submitted);
   FrameMemory memory = take_frame_memory();
   frame_.shaded = std::move(memory.shaded);
   run_vertex_stage(plan.vertex_tasks, workers);
-  bool first_round = true;
+  Round round{.first = true, .last = false};
   std::size_t next = 0;
   do {
-    // Waves of chunks (at least one) until the budget or the ids are used up, or all is set up.
-    std::size_t bytes = 0;
     put_aside(frame_.chunks, memory.chunks);
-    while (next < plan.chunks.size() && (frame_.chunks.empty() || bytes < options_.bin_budget) &&
-           frame_.chunks.size() + kWave <= kMaxChunks) {
-      const std::size_t begin = frame_.chunks.size();
-      const std::size_t count = std::min(kWave, plan.chunks.size() - next);
-      for (std::size_t i = 0; i < count; ++i) frame_.chunks.push_back(take_or_make(memory.chunks));
-      workers.for_each(static_cast<int>(count), [&](int i) {
-        Chunk& chunk = frame_.chunks[begin + static_cast<std::size_t>(i)];
-        chunk.segments = std::move(plan.chunks[next + static_cast<std::size_t>(i)]);
-        set_up_chunk(frame_, chunk);
-        run_primitive_stage(frame_, chunk);
-        bin_chunk(frame_, chunk);
-      });
-      next += count;
-      for (std::size_t c = begin; c < frame_.chunks.size(); ++c) {
-        bytes += frame_.chunks[c].bytes();
-        statistics += frame_.chunks[c].statistics;
-      }
-    }
-    const bool last_round = next == plan.chunks.size();
-    if (!last_round) {
-      keep_between_flushes();
+    next = set_up_chunks(plan, next, memory, workers, statistics);
+    round.last = next == plan.chunks.size();
+    if (!round.last) {
+      keep_between_flushes(frame_, attachments_);
       ++statistics.flushes;
     }
-    run_tiles(workers, {first_round, last_round}, statistics);
-    first_round = false;
-  } while (next < plan.chunks.size());
+    run_tiles(frame_, attachments_, round, workers, statistics);
+    round.first = false;
+  } while (!round.last);
   keep_draw_memory(std::exchange(frame_.draws, {}));
   frame_.memory->release();
   put_aside(frame_.chunks, memory.chunks);
@@ -255,5 +311,28 @@ PassStatistics Pass::run(const Workers& workers) {
   keep_frame_memory(std::move(memory));
   return statistics;
 }
+
+void PassState::set_post_step(PostStep post) {
+  HS_CHECK(!attachments_.colors.empty() && attachments_.colors[0].format != ColorFormat::none);
+  attachments_.post = std::move(post);
+}
+
+std::pmr::memory_resource& memory_of(PassState& state) { return state.memory(); }
+
+void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
+              std::shared_ptr<const Indices> indices, const DrawState& draw_state) {
+  state.add_draw(kernels, std::move(shader), vertices, std::move(indices), draw_state);
+}
+
+void set_post_step(PassState& state, PostStep post) { state.set_post_step(std::move(post)); }
+
+}  // namespace detail
+
+Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options)
+    : state_(std::make_unique<detail::PassState>(width, height, colors, depth, options)) {}
+Pass::Pass(Pass&&) noexcept = default;
+Pass::~Pass() = default;
+
+PassStatistics Pass::run(const Workers& workers) { return state_->run(workers); }
 
 }  // namespace halfspace

@@ -5,6 +5,32 @@
 
 namespace halfspace {
 
+namespace detail {
+
+VertexView bind_streams(std::span<const VertexStream> streams) {
+  const auto per_vertex = std::ranges::find(streams, 0u, &VertexStream::divisor);
+  HS_CHECK(per_vertex != streams.end());  // else give the number of vertices
+  return bind_streams(streams, per_vertex->count);
+}
+
+VertexView bind_streams(std::span<const VertexStream> streams, std::size_t vertex_count) {
+  VertexView v{.streams = {}, .stream_count = static_cast<int>(streams.size()), .vertex_count = vertex_count};
+  std::ranges::copy(streams, v.streams.begin());
+  for (const VertexStream& s : streams) {
+    HS_CHECK_OP(s.count * static_cast<std::size_t>(s.stride), <, std::size_t{1} << 31);  // 32-bit gather indices
+    v.components += s.components;
+    if (s.divisor != 0) {
+      v.has_instance_streams = true;
+      v.instance_count = std::min(v.instance_count, s.count * s.divisor);
+    } else {
+      HS_CHECK_OP(s.count, ==, vertex_count);
+    }
+  }
+  return v;
+}
+
+}  // namespace detail
+
 Indices Indices::sequential(std::size_t vertex_count) {
   HS_CHECK_OP(vertex_count, <, std::size_t{1} << 32);
   Indices i;

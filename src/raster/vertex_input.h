@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
 
+#include "halfspace/core/aggregate_reflection.h"
 #include "halfspace/core/check.h"
-#include "halfspace/shading/varyings.h"
 
 namespace halfspace {
 
@@ -24,34 +25,41 @@ struct VertexStream {
   uint32_t divisor = 0;    ///< 0: one row a vertex; n: one row for n instances (glVertexAttribDivisor)
 };
 
+/// A VertexStream of elements of type T, which Pass::draw compares with the shader's Attributes at compile time.
+template <class T>
+struct StreamOf : VertexStream {
+  using Element = T;
+};
+
 /// A stream of tightly packed float, glm::vec2/3/4, or structs of floats such as Attributes<float>.
 template <class T>
-VertexStream stream(std::span<const T> values) {
+StreamOf<T> stream(std::span<const T> values) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(float) == 0 && alignof(T) == alignof(float));
   constexpr auto n = static_cast<int32_t>(sizeof(T) / sizeof(float));
-  return {reinterpret_cast<const float*>(values.data()), n, n, values.size()};
+  return {{reinterpret_cast<const float*>(values.data()), n, n, values.size()}};
 }
 template <class T>
-VertexStream stream(const std::vector<T>& values) {
+StreamOf<T> stream(const std::vector<T>& values) {
   return stream(std::span<const T>(values));
 }
 
 /// A stream of one member of an interleaved vertex struct: stream(vertices, &MyVertex::normal).
 template <class V, class F>
-VertexStream stream(std::span<const V> vertices, F V::*member) {
+StreamOf<F> stream(std::span<const V> vertices, F V::*member) {
   static_assert(std::is_trivially_copyable_v<V> && sizeof(V) % sizeof(float) == 0 && sizeof(F) % sizeof(float) == 0);
   static_assert(std::is_same_v<F, float> || std::is_same_v<typename F::value_type, float>, "vertex attributes are made of float");
-  VertexStream s{nullptr, sizeof(V) / sizeof(float), sizeof(F) / sizeof(float), vertices.size()};
+  StreamOf<F> s{{nullptr, sizeof(V) / sizeof(float), sizeof(F) / sizeof(float), vertices.size()}};
   if (!vertices.empty()) s.data = reinterpret_cast<const float*>(&(vertices.front().*member));
   return s;
 }
 template <class V, class F>
-VertexStream stream(const std::vector<V>& vertices, F V::*member) {
+StreamOf<F> stream(const std::vector<V>& vertices, F V::*member) {
   return stream(std::span<const V>(vertices), member);
 }
 
-/// The stream with one row for each `divisor` instances (>= 1) instead of one for each vertex.
-inline VertexStream per_instance(VertexStream stream, uint32_t divisor = 1) {
+/// The stream with one row per `divisor` instances (≥ 1) instead of one per vertex.
+template <std::derived_from<VertexStream> S>
+S per_instance(S stream, uint32_t divisor = 1) {
   HS_CHECK_OP(divisor, >=, 1u);
   stream.divisor = divisor;
   return stream;
@@ -59,15 +67,19 @@ inline VertexStream per_instance(VertexStream stream, uint32_t divisor = 1) {
 
 inline constexpr std::size_t kMostStreams = kMostFields;
 
-/// The streams of a draw, in the order of the shader's Attributes: together they hold exactly its components.
+/// The streams of a draw, in the order of the members of the shader's Attributes.
 struct VertexView {
   std::array<VertexStream, kMostStreams> streams;
   int stream_count = 0;
-  std::size_t vertex_count = std::size_t{1} << 31;    ///< of the streams with one row a vertex; without any, no bound
-  std::size_t instance_count = std::size_t{1} << 31;  ///< for how many instances the other streams have rows
+  std::size_t vertex_count = 0;
+  std::size_t instance_count = std::size_t{1} << 31;  ///< for how many instances the per-instance streams have rows
   bool has_instance_streams = false;
-  int components = 0;
+  int components = 0;  ///< floats per vertex, of all streams
 };
+
+/// A VertexView whose streams' element types are known.
+template <class... T>
+struct VertexViewOf : VertexView {};
 
 /// The streams of a view, wherever they are kept.
 struct VertexStreams {
@@ -80,27 +92,33 @@ struct VertexStreams {
 using StreamRoom = std::array<VertexStream, kMostStreams>;
 std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room);
 
-/// Binds streams to Attributes in order. Streams of one row a vertex hold the same number of vertices; at most 2^31 floats
-/// each.
-template <class... Streams>
-VertexView vertices(const Streams&... streams) {
-  static_assert((std::is_same_v<Streams, VertexStream> && ...) && sizeof...(Streams) <= kMostStreams);
-  VertexView v{.streams = {streams...}, .stream_count = sizeof...(Streams)};
-  bool has_vertex_streams = false;
-  for (int i = 0; i < v.stream_count; ++i) {
-    const VertexStream& s = v.streams[static_cast<std::size_t>(i)];
-    HS_CHECK_OP(s.count * static_cast<std::size_t>(s.stride), <, std::size_t{1} << 31);  // 32-bit gather indices
-    v.components += s.components;
-    if (s.divisor != 0) {
-      v.has_instance_streams = true;
-      v.instance_count = std::min(v.instance_count, s.count * s.divisor);
-      continue;
-    }
-    if (!has_vertex_streams) v.vertex_count = s.count;
-    has_vertex_streams = true;
-    HS_CHECK_OP(s.count, ==, v.vertex_count);
+namespace detail {
+VertexView bind_streams(std::span<const VertexStream> streams);
+VertexView bind_streams(std::span<const VertexStream> streams, std::size_t vertex_count);
+}  // namespace detail
+
+/// Binds streams to the members of Attributes, in order. All streams with one row per vertex hold the same number of vertices, and there is
+/// at least one such stream; each has at most 2^31 floats.
+template <std::derived_from<VertexStream>... S>
+requires(sizeof...(S) >= 1 && sizeof...(S) <= kMostStreams) auto make_vertex_view(const S&... streams) {
+  const std::array<VertexStream, sizeof...(S)> list{streams...};
+  if constexpr ((requires { typename S::Element; } && ...)) {
+    return VertexViewOf<typename S::Element...>{detail::bind_streams(list)};
+  } else {
+    return detail::bind_streams(list);
   }
-  return v;
+}
+
+/// The same with an explicit number of vertices: for shaders without per-vertex streams, which compute their vertices from VertexId.
+/// vertex_count: at most 2^32 − 1.
+template <std::derived_from<VertexStream>... S>
+requires(sizeof...(S) <= kMostStreams) auto make_vertex_view(std::size_t vertex_count, const S&... streams) {
+  const std::array<VertexStream, sizeof...(S)> list{streams...};
+  if constexpr ((requires { typename S::Element; } && ...)) {
+    return VertexViewOf<typename S::Element...>{detail::bind_streams(list, vertex_count)};
+  } else {
+    return detail::bind_streams(list, vertex_count);
+  }
 }
 
 /// GL_PRIMITIVE_RESTART_FIXED_INDEX: the largest index of its type ends a strip, fan or list and begins the next.
@@ -116,6 +134,7 @@ class Indices {
   Indices(std::span<const uint32_t> list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off);
   Indices(std::span<const uint16_t> list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off);
   Indices(const std::vector<uint32_t>& list, std::size_t vertex_count) : Indices(std::span<const uint32_t>(list), vertex_count) {}
+  Indices(std::vector<uint32_t>&& list, std::size_t vertex_count) = delete;  // the list must outlive the Indices
 
   std::size_t size() const { return size_; }
   uint32_t operator[](std::size_t i) const { return wide_ ? wide_[i] : narrow_ ? narrow_[i] : static_cast<uint32_t>(i); }

@@ -61,7 +61,7 @@ ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, i
     if (!with_shadow || !placed.receives_shadow) shader.light.shadow = nullptr;
     shader.mesh = static_cast<float>(m);
     const DrawState state = opaque_state(placed.two_sided ? CullMode::none : CullMode::back, placed.mirrored());
-    pass.draw(shader, vertices(stream(loose.positions), stream(loose.normals), stream(loose.triangles)), state);
+    pass.draw(shader, make_vertex_view(stream(loose.positions), stream(loose.normals), stream(loose.triangles)), state);
   }
   const auto start = std::chrono::steady_clock::now();
   pass.run(workers);

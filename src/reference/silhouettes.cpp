@@ -34,7 +34,8 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
   Pass pass(width, height, rgba32f_target(numbers), {.format = DepthFormat::d32f, .clear_value = 0.0f});
   for (const PlacedMesh& m : scene.meshes) {
     pass.draw(NumberedMesh{{glm::mat4(view.clip_from_world * m.world_from_object)}, static_cast<float>(m.object + 1)},
-              vertices(stream(m.mesh->positions)), *m.indices, opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
+              make_vertex_view(stream(m.mesh->positions)), *m.indices,
+              opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
   }
   const SphereCamera camera(view.clip_from_world, view.near, view.far);
   std::deque<std::vector<glm::vec3>> centers_cs;  // the pass points into them
@@ -42,7 +43,7 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
   for (const PlacedSpheres& s : scene.spheres) {
     const auto& centers = centers_cs.emplace_back(camera.centers_cs(*s.particles));
     const auto number = static_cast<float>(s.object < 0 ? kParticlesSeen : s.object + 1);
-    pass.draw(NumberedSphere{{lens}, number}, vertices(stream(centers), stream(s.particles->radii)), sprite_state());
+    pass.draw(NumberedSphere{{lens}, number}, make_vertex_view(stream(centers), stream(s.particles->radii)), sprite_state());
   }
   std::vector<glm::vec3> particle_numbers;
   for (const PreparedDraw& draw : scene.draws) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "halfspace/core/half.h"
+#include "halfspace/shading/tone.h"
 
 namespace halfspace {
 

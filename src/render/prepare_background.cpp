@@ -48,7 +48,7 @@ void ScenePreparation::add_background() {
   state.depth.write = false;
   static const std::vector<glm::vec2> corners(StarSky::kCorners.begin(), StarSky::kCorners.end());
   const auto add = [&](const auto& sky) {
-    out_.draws.push_back({sky, vertices(stream(corners)), std::make_shared<const Indices>(Indices::sequential(3)), state});
+    out_.draws.push_back({sky, make_vertex_view(stream(corners)), std::make_shared<const Indices>(Indices::sequential(3)), state});
   };
   switch (scene_.background.type) {
     case BackgroundType::color: break;  // the clear colour

@@ -61,11 +61,11 @@ namespace {
 // The mesh's streams in the order of the shader's attributes.
 template <class S>
 VertexView view_of(const Mesh& m) {
-  if constexpr (S::kTangents) return vertices(stream(m.positions), stream(m.normals), stream(m.tangents), stream(m.uvs));
-  if constexpr (S::kNormals && S::kMapped) return vertices(stream(m.positions), stream(m.normals), stream(m.uvs));
-  if constexpr (S::kNormals) return vertices(stream(m.positions), stream(m.normals));
-  if constexpr (S::kMapped) return vertices(stream(m.positions), stream(m.uvs));
-  return vertices(stream(m.positions));
+  if constexpr (S::kTangents) return make_vertex_view(stream(m.positions), stream(m.normals), stream(m.tangents), stream(m.uvs));
+  if constexpr (S::kNormals && S::kMapped) return make_vertex_view(stream(m.positions), stream(m.normals), stream(m.uvs));
+  if constexpr (S::kNormals) return make_vertex_view(stream(m.positions), stream(m.normals));
+  if constexpr (S::kMapped) return make_vertex_view(stream(m.positions), stream(m.uvs));
+  return make_vertex_view(stream(m.positions));
 }
 
 template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none, bool highlight = true>

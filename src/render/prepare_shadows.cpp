@@ -84,15 +84,15 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
   for (const PlacedSpheres& spheres : placed.spheres) {
     if (casters_only && !spheres.casts_shadow) continue;
     const auto& centers = centers_cs.emplace_back(camera.centers_cs(*spheres.particles));
-    pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})}, vertices(stream(centers), stream(spheres.particles->radii)),
-              sprite_state());
+    pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})},
+              make_vertex_view(stream(centers), stream(spheres.particles->radii)), sprite_state());
   }
   for (const PlacedMesh& m : placed.meshes) {
     if (casters_only && !m.casts_shadow) continue;
     const CullMode cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
                           : faces == ShadowFaces::front             ? CullMode::back
                                                                     : CullMode::front;
-    pass.draw_depth(DepthOnly{glm::mat4(clip_from_world * m.world_from_object)}, vertices(stream(m.mesh->positions)), *m.indices,
+    pass.draw_depth(DepthOnly{glm::mat4(clip_from_world * m.world_from_object)}, make_vertex_view(stream(m.mesh->positions)), *m.indices,
                     opaque_state(cull, m.mirrored()));
   }
   return pass.run(workers);

@@ -49,7 +49,7 @@ SphereSprites ScenePreparation::sphere_sprites(bool receives_shadow) const {
 void ScenePreparation::draw_spheres(const Particles& spheres, const glm::dvec3& color, const SceneShader& shader) {
   const auto rows = std::make_shared<const SphereRows>(rows_of(spheres, view_, color));
   out_.assets.push_back(rows);
-  out_.draws.push_back({shader, vertices(stream(rows->centers_cs), stream(rows->radii), stream(rows->colors)),
+  out_.draws.push_back({shader, make_vertex_view(stream(rows->centers_cs), stream(rows->radii), stream(rows->colors)),
                         std::make_shared<const Indices>(Indices::sequential(rows->radii.size())), sprite_state()});
 }
 

@@ -126,8 +126,29 @@ inline constexpr bool kIsPerVertex<PerVertex<R, N>> = true;
 template <class T>
 inline constexpr bool kIsSpriteVertex = std::is_same_v<T, SpriteVertex<float>>;
 }  // namespace detail
+/// What a vertex function may return.
 template <class T>
 concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsSpriteVertex<T>;
+
+namespace detail {
+template <class T>
+inline constexpr bool kIsFragment = false;
+template <class R>
+inline constexpr bool kIsFragment<Fragment<R>> = true;
+template <class R>
+inline constexpr bool kIsFragment<DiscardingFragment<R>> = true;
+template <class R>
+inline constexpr bool kIsFragment<DepthFragment<R>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsFragment<Fragments<R, N>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsFragment<DiscardingFragments<R, N>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsFragment<DepthFragments<R, N>> = true;
+}  // namespace detail
+/// What a fragment function may return.
+template <class T>
+concept FragmentResult = detail::kIsFragment<T>;
 
 template <class S>
 concept HasPlainVertexFunction = requires(const S& s, const typename S::template Attributes<float>& in,
@@ -165,45 +186,6 @@ template <class S>
 concept HasVisibilityFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
   { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
 };
-
-/// What Pass::draw asks of a shader.
-template <class S>
-concept Shader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> && HasFragmentFunction<S>;
-
-/// What Pass::draw_depth asks of a shader: no fragment function, so that there is nothing to run.
-template <class S>
-concept DepthOnlyShader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> && !HasFragmentFunction<S>;
-
-namespace detail {
-// False for every S, but not before S is known.
-template <class S>
-inline constexpr bool kComplete = false;
-}  // namespace detail
-
-/// Says in words what S lacks to be a shader, as a compile-time error; true if it lacks nothing.
-template <class S>
-consteval bool require_shader() {
-  if constexpr (!HasAttributes<S>) {
-    static_assert(detail::kComplete<S>, "the shader lacks: template <class R> struct Attributes { vec3<R> position; … };");
-  } else if constexpr (!HasVaryings<S>) {
-    static_assert(detail::kComplete<S>, "the shader lacks: template <class R> struct Varyings { … };");
-  } else if constexpr (!HasVertexFunction<S>) {
-    static_assert(detail::kComplete<S>,
-                  "the shader lacks: template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;");
-  } else if constexpr (HasPrimitive<S> && !HasPrimitiveFunction<S>) {
-    static_assert(detail::kComplete<S>,
-                  "the shader has a Primitive struct and lacks: template <class R> Primitive<R> primitive(const Varyings<R>& v0, "
-                  "const Varyings<R>& v1, const Varyings<R>& v2) const;");
-  } else if constexpr (HasPrimitive<S> && !HasPrimitiveFragmentFunction<S>) {
-    static_assert(detail::kComplete<S>,
-                  "the shader has a Primitive struct and lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, "
-                  "const Primitive<R>& face, const Pixel<R>& px) const;");
-  } else if constexpr (!HasFragmentFunction<S>) {
-    static_assert(detail::kComplete<S>,
-                  "the shader lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
-  }
-  return Shader<S>;
-}
 
 /// Calls the shader's vertex function, with the vertex's number where it asks for it.
 template <class S, class R>
@@ -275,6 +257,72 @@ using PrimitiveOf = typename detail::PrimitiveOfT<S, R>::type;
 template <class S>
 using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), std::declval<const typename S::template Varyings<float>&>(),
                                                     std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
+
+namespace detail {
+// A member template that is called visibility, whatever its signature.
+template <class S>
+concept HasVisibilityMember = requires {
+  &S::template visibility<float>;
+};
+}  // namespace detail
+
+/// What Pass::draw_depth requires of a shader.
+template <class S>
+concept VertexShader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> &&
+    (HasVisibilityFunction<S> || !detail::HasVisibilityMember<S>);
+
+/// What Pass::draw requires of a shader.
+template <class S>
+concept Shader = VertexShader<S> && HasFragmentFunction<S> && FragmentResult<FragmentOf<S>>;
+
+namespace detail {
+// False for every S, but not before S is known.
+template <class S>
+inline constexpr bool kComplete = false;
+}  // namespace detail
+
+/// True if Pass::draw_depth takes S, else a compile-time error that says what S lacks.
+template <class S>
+consteval bool require_vertex_shader() {
+  if constexpr (!HasAttributes<S>) {
+    static_assert(detail::kComplete<S>, "the shader lacks: template <class R> struct Attributes { vec3<R> position; … };");
+  } else if constexpr (!HasVaryings<S>) {
+    static_assert(detail::kComplete<S>, "the shader lacks: template <class R> struct Varyings { … };");
+  } else if constexpr (!HasVertexFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader lacks: template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;");
+  } else if constexpr (!HasVisibilityFunction<S> && detail::HasVisibilityMember<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader's visibility function must be: template <class R> Visibility<R> visibility(const Varyings<R>& in, "
+                  "const Pixel<R>& px) const;");
+  }
+  return VertexShader<S>;
+}
+
+/// True if Pass::draw takes S, else a compile-time error that says what S lacks.
+template <class S>
+consteval bool require_shader() {
+  if constexpr (!require_vertex_shader<S>()) {
+    return false;
+  } else if constexpr (HasPrimitive<S> && !HasPrimitiveFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has a Primitive struct and lacks: template <class R> Primitive<R> primitive(const Varyings<R>& v0, "
+                  "const Varyings<R>& v1, const Varyings<R>& v2) const;");
+  } else if constexpr (HasPrimitive<S> && !HasPrimitiveFragmentFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has a Primitive struct and lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, "
+                  "const Primitive<R>& face, const Pixel<R>& px) const;");
+  } else if constexpr (!HasFragmentFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
+  } else {
+    static_assert(FragmentResult<FragmentOf<S>>,
+                  "the shader's fragment function must return Fragment<R>, DiscardingFragment<R> or DepthFragment<R>, or one of them "
+                  "with several colours");
+    return Shader<S>;
+  }
+  return false;
+}
 
 template <class S>
 using VertexOf =

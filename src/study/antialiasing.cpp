@@ -71,7 +71,7 @@ class Edges {
     ColorTarget target = rgba32f_target(picture);
     target.clear_value = {0, 0, 0, 1};
     Pass pass(picture.width(), picture.height(), target, {}, options);
-    pass.draw(White{}, vertices(stream(corners_)));
+    pass.draw(White{}, make_vertex_view(stream(corners_)));
     pass.run(workers);
   }
 

@@ -137,7 +137,7 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
                   .time = time_of(
                       [&] {
                         Pass pass(size, size, rgba32f_target(picture), depths.target(format, reversed ? 0.0f : 1.0f));
-                        pass.draw(Flatly{glm::mat4(clip)}, vertices(stream(pairs.positions), stream(pairs.colors)), state);
+                        pass.draw(Flatly{glm::mat4(clip)}, make_vertex_view(stream(pairs.positions), stream(pairs.colors)), state);
                         pass.run(workers);
                       },
                       options)};

@@ -126,7 +126,7 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
               .time = time_of(
                   [&] {
                     Pass pass(width, height, rgba32f_target(picture), {});
-                    pass.draw(shader, vertices(stream(positions), stream(uvs)), indices, state);
+                    pass.draw(shader, make_vertex_view(stream(positions), stream(uvs)), indices, state);
                     pass.run(workers);
                   },
                   options)};

@@ -71,8 +71,9 @@ Image<glm::dvec3> normals_seen(const Mesh& mesh, const DetailMap& detail, const 
   Pass pass(kSize, kSize, color, {.format = DepthFormat::d32f, .clear_value = 0.0f});
   const Indices indices(mesh.indices, mesh.positions.size());
   const auto view = [&] {
-    if constexpr (S::kTangents) return vertices(stream(mesh.positions), stream(mesh.normals), stream(mesh.tangents), stream(mesh.uvs));
-    if constexpr (!S::kTangents) return vertices(stream(mesh.positions), stream(mesh.normals), stream(mesh.uvs));
+    if constexpr (S::kTangents)
+      return make_vertex_view(stream(mesh.positions), stream(mesh.normals), stream(mesh.tangents), stream(mesh.uvs));
+    if constexpr (!S::kTangents) return make_vertex_view(stream(mesh.positions), stream(mesh.normals), stream(mesh.uvs));
   }();
   pass.draw(shader, view, indices, state);
   pass.run(Workers(1));

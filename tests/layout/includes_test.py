@@ -37,7 +37,7 @@ RASTER_PHASES = [
     ["tile/"],
     ["visibility/"],
     ["shade/"],
-    ["tile_worker", "detail/"],
+    ["constant_tiles", "tile_worker", "detail/"],
     ["pass", "naive"],
 ]
 

@@ -52,7 +52,7 @@ MesaDraw mesa_draw_of(const Drawing& d) {
                set("value", d.value);
                if (d.texture) set("image", *d.texture, d.sampler);
              },
-             vertices(stream(d.vertices, &conformance::Vertex::pos_clip), stream(d.vertices, &conformance::Vertex::color), extra),
+             make_vertex_view(stream(d.vertices, &conformance::Vertex::pos_clip), stream(d.vertices, &conformance::Vertex::color), extra),
              d.indices,
              d.state,
              d.restart,

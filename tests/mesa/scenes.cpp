@@ -112,8 +112,8 @@ ColoredMesh make_tiny(int width, int height) {
 }
 
 VertexView Sphere::view() const {
-  return halfspace::vertices(stream(vertices, &SphereVertex::position), stream(vertices, &SphereVertex::normal),
-                             stream(vertices, &SphereVertex::uv));
+  return make_vertex_view(stream(vertices, &SphereVertex::position), stream(vertices, &SphereVertex::normal),
+                          stream(vertices, &SphereVertex::uv));
 }
 
 Sphere make_sphere(int rows, int columns) {

@@ -18,8 +18,8 @@ struct ColoredMesh {
   std::vector<glm::vec4> colors;
   std::vector<uint32_t> indices;
 
-  VertexView positions() const { return vertices(stream(pos_clip)); }
-  VertexView positions_and_colors() const { return vertices(stream(pos_clip), stream(colors)); }
+  VertexView positions() const { return make_vertex_view(stream(pos_clip)); }
+  VertexView positions_and_colors() const { return make_vertex_view(stream(pos_clip), stream(colors)); }
 };
 
 /// What random triangles look like. Lengths in pixels.

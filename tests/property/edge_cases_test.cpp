@@ -186,7 +186,7 @@ TEST(EdgeCases, StoreOpDontCareLeavesTheImages) {
   DepthTarget d = d32f_target(depth);
   c.store = d.store = StoreOp::dont_care;
   Pass pass(70, 50, c, d);
-  pass.draw(ColorShader{}, vertices(stream(rows)));
+  pass.draw(ColorShader{}, make_vertex_view(stream(rows)));
   pass.run(Workers(1));
   EXPECT_EQ(color, Image<glm::u8vec4>(70, 50));
   EXPECT_EQ(depth, Image<float>(70, 50));
@@ -196,12 +196,12 @@ TEST(EdgeCases, APassRunsAgainAfterItsRun) {
   const Rows rows{{{-1, -1, 0, 1}, {1, 0, 0}}, {{1, -1, 0, 1}, {0, 1, 0}}, {{0, 1, 0, 1}, {0, 0, 1}}};
   Image<glm::u8vec4> color(70, 50);
   Pass pass(70, 50, rgba8_target(color), {.format = DepthFormat::d32f});
-  pass.draw(ColorShader{}, vertices(stream(rows)));
+  pass.draw(ColorShader{}, make_vertex_view(stream(rows)));
   pass.run(Workers(1));
   const Image<glm::u8vec4> first = color;
   pass.run(Workers(1));
   EXPECT_EQ(color, Image<glm::u8vec4>(70, 50));  // no draws: cleared
-  pass.draw(ColorShader{}, vertices(stream(rows)));
+  pass.draw(ColorShader{}, make_vertex_view(stream(rows)));
   pass.run(Workers(1));
   EXPECT_EQ(color, first);
 }

@@ -125,8 +125,8 @@ void lay_out_instances(const float* rows, std::size_t count, int components, std
   const std::size_t n = count * static_cast<std::size_t>(components);
   memory.buffers.emplace_back(rows, rows + n);
   view.streams[static_cast<std::size_t>(streams)] =
-      per_instance({memory.buffers.back().data() + (static_cast<std::size_t>(components) - instance_components),
-                    static_cast<int32_t>(components), static_cast<int32_t>(instance_components), count},
+      per_instance(VertexStream{memory.buffers.back().data() + (static_cast<std::size_t>(components) - instance_components),
+                                static_cast<int32_t>(components), static_cast<int32_t>(instance_components), count},
                    divisor);
   view.stream_count = streams + 1;
   view.has_instance_streams = true;

@@ -234,7 +234,7 @@ TEST(Clip, AgreesWithTheVertexStageOnWhatIsInside) {
       p[side / 2] = x;
       positions.push_back(p);
     }
-    const ShadedVertices shaded = shade(ConstantShader{}, vertices(stream(positions)), rect, with(kZeroToOne));
+    const ShadedVertices shaded = shade(ConstantShader{}, make_vertex_view(stream(positions)), rect, with(kZeroToOne));
     int inside = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const glm::vec4& p = positions[i];
@@ -592,7 +592,7 @@ TEST(ClippedCoverage, RandomBitPatterns) {
     Image<glm::vec4> image(96, 40);
     Image<float> depth(96, 40);
     Pass pass(96, 40, rgba32f_target(image), d32f_target(depth));
-    pass.draw(ConstantShader{}, vertices(stream(positions)), state);
+    pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), state);
     const PassStatistics s = pass.run(one_worker());
     EXPECT_EQ(s.primitives_in, 512u);
     EXPECT_EQ(s.culled_non_finite, bad_triangles);

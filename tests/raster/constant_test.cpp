@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "halfspace/raster/visibility/covered_area.h"
+#include "halfspace/raster/visibility/full_tile.h"
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test {
@@ -41,7 +41,7 @@ template <class Shader>
 Drawn drawn(const Shader& shader, std::span<const glm::vec4> positions, const DrawState& state) {
   Drawn out;
   Pass pass(kSize, kSize, rgba8_target(out.color), {});  // with a depth to find, no tile is filled
-  pass.draw(shader, vertices(stream(positions)), state);
+  pass.draw(shader, make_vertex_view(stream(positions)), state);
   out.statistics = pass.run(one_worker());
   return out;
 }
@@ -143,7 +143,7 @@ TEST(ConstantShaders, TilesInARowKeepTheirColors) {
         const int x = static_cast<int>(i) * kTile;
         DrawState state;
         state.viewport = Rect{x, 0, std::min(kTile, kWidth - x), kHeight};
-        pass.draw(PaintShader{color_of(kColumns[i])}, vertices(stream(corners)), state);
+        pass.draw(PaintShader{color_of(kColumns[i])}, make_vertex_view(stream(corners)), state);
       }
       pass.run(Workers(threads));
       for (int y = 0; y < kHeight; ++y) {
@@ -193,7 +193,7 @@ TYPED_TEST(RowsOfOneColor, StayAmongThemselves) {
         const int y = static_cast<int>(i) * kTile;
         DrawState state;
         state.viewport = Rect{0, y, width, std::min(kTile, height - y)};
-        pass.draw(PaintShader{glm::vec4(0.2f * static_cast<float>(kRows[i] + 1))}, vertices(stream(corners)), state);
+        pass.draw(PaintShader{glm::vec4(0.2f * static_cast<float>(kRows[i] + 1))}, make_vertex_view(stream(corners)), state);
       }
       const PassStatistics statistics = pass.run(Workers(3));
       uint64_t drawn = 0;

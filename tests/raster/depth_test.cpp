@@ -33,7 +33,7 @@ Image<float> draw_depth(int width, int height, const std::vector<glm::vec4>& pos
   DepthTarget target = d32f_target(depth);
   target.clear_value = clear;
   Pass pass(width, height, {}, target);
-  pass.draw(ConstantShader{}, vertices(stream(positions)), state);
+  pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), state);
   pass.run(one_worker());
   return depth;
 }
@@ -64,7 +64,7 @@ Exact worst_relative_error(Random& r, double size, double z_low, double z_high, 
       const double z = static_cast<int>(k) == small ? z_low : r.magnitude(z_low, z_high);
       p.push_back({static_cast<float>(q[0] / 32 - 1), static_cast<float>(q[1] / 32 - 1), static_cast<float>(z), 1.0f});
     }
-    const ShadedVertices v = shade(ConstantShader{}, vertices(stream(p)), {0, 0, kSize, kSize}, reversed_z());
+    const ShadedVertices v = shade(ConstantShader{}, make_vertex_view(stream(p)), {0, 0, kSize, kSize}, reversed_z());
     const auto x = [&](std::size_t k) { return static_cast<Exact>(v.screen[k].x); };
     const auto y = [&](std::size_t k) { return static_cast<Exact>(v.screen[k].y); };
     const Exact area = (x(1) - x(0)) * (y(2) - y(0)) - (y(1) - y(0)) * (x(2) - x(0));
@@ -230,7 +230,7 @@ TEST(Depth, CompareOps) {
           state.depth.compare = ops[op];
           if (blended) state.blend = kAdd;
           const auto positions = full_screen(0.25f + 0.25f * static_cast<float>(relation));
-          pass.draw(ConstantShader{}, vertices(stream(positions)), state);
+          pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), state);
           const PassStatistics s = pass.run(one_worker());
           EXPECT_EQ(pixel(image, 7, 9).x, passes[op][relation] ? 1.0f : 0.0f) << "op " << op << " relation " << relation;
           EXPECT_EQ(s.samples_passed, passes[op][relation] ? 256u : 0u);
@@ -294,7 +294,7 @@ TEST(Depth, RandomLayersEqualThePlainLoop) {
     }
     Pass pass(kSize, kSize, rgba32f_target(image), depth_target, {.tile_size = 8 << (round % 4)});
     for (std::size_t i = 0; i < keep.size(); ++i) {
-      pass.draw(ConstantShader{glm::vec4(static_cast<float>(i + 1))}, vertices(stream(keep[i])), states[i]);
+      pass.draw(ConstantShader{glm::vec4(static_cast<float>(i + 1))}, make_vertex_view(stream(keep[i])), states[i]);
     }
     pass.run(one_worker());
     ASSERT_EQ(image, want) << round;
@@ -382,14 +382,14 @@ float offset_depth(DepthFormat format, const std::vector<glm::vec4>& positions, 
   if (format == DepthFormat::d16) {
     Image<uint16_t> depth(kSize, kSize);
     Pass pass(kSize, kSize, {}, d16_target(depth));
-    pass.draw(ConstantShader{}, vertices(stream(positions)), state);
+    pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), state);
     pass.run(one_worker());
     return pixel(depth, x, y);
   }
   if (format == DepthFormat::d24) {
     Image<uint32_t> depth(kSize, kSize);
     Pass pass(kSize, kSize, {}, d24_target(depth));
-    pass.draw(ConstantShader{}, vertices(stream(positions)), state);
+    pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), state);
     pass.run(one_worker());
     return static_cast<float>(pixel(depth, x, y));
   }
@@ -452,9 +452,9 @@ TEST(DepthOffset, SignByConvention) {
       DrawState state = always();
       state.depth.compare = reversed ? CompareOp::greater : CompareOp::less;
       const auto p = full_screen(0.3f);
-      pass.draw(ConstantShader{glm::vec4(1)}, vertices(stream(p)), state);
+      pass.draw(ConstantShader{glm::vec4(1)}, make_vertex_view(stream(p)), state);
       state.offset.constant = sign;
-      pass.draw(ConstantShader{glm::vec4(2)}, vertices(stream(p)), state);
+      pass.draw(ConstantShader{glm::vec4(2)}, make_vertex_view(stream(p)), state);
       pass.run(one_worker());
       EXPECT_EQ(pixel(image, 3, 3).x, (sign > 0) == reversed ? 2.0f : 1.0f);
     }
@@ -493,7 +493,7 @@ TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
     Image<float> d32f(kSide, kSide);
     for (const DepthTarget& target : {d24_target(d24), d16_target(d16), d32f_target(d32f)}) {
       Pass pass(kSide, kSide, {}, target);
-      pass.draw(ConstantShader{}, vertices(stream(positions)), always());
+      pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), always());
       pass.run(one_worker());
     }
     for (int i = 0; i < kSide * kSide; ++i) {
@@ -526,7 +526,7 @@ TEST(DepthFormats, LoadedDepthIsWhatWasStored) {
   for (DepthTarget target : {d16_target(d16), d24_target(d24), d32f_target(d32f)}) {
     target.load = LoadOp::load;
     Pass pass(70, 50, {}, target);
-    pass.draw(ConstantShader{}, vertices(stream(nothing_passes)), state);
+    pass.draw(ConstantShader{}, make_vertex_view(stream(nothing_passes)), state);
     pass.run(one_worker());
   }
   EXPECT_EQ(d16, d16_before);
@@ -608,7 +608,7 @@ TEST(DepthInvariance, PrePassThenEqualLosesNothing) {
     DepthTarget depth = format == DepthFormat::d32f ? d32f_target(d32f) : format == DepthFormat::d24 ? d24_target(d24) : d16_target(d16);
     depth.clear_value = 0.0f;
     Pass first(kWidth, kHeight, {}, depth, {.tile_size = 8 << (i % 4)});
-    first.draw_depth(DepthOnly{m}, vertices(stream(positions)), list, state);
+    first.draw_depth(DepthOnly{m}, make_vertex_view(stream(positions)), list, state);
     clipped += first.run(one_worker()).clipped;
 
     // What the pre-pass covered: everything nearer than "infinitely far".
@@ -618,7 +618,7 @@ TEST(DepthInvariance, PrePassThenEqualLosesNothing) {
     depth.load = LoadOp::load;
     state.depth.compare = CompareOp::equal;
     Pass second(kWidth, kHeight, color_target, depth, {.tile_size = 64, .defer = i % 2 == 0});
-    second.draw(Full{m}, vertices(stream(positions), stream(colors)), list, state);
+    second.draw(Full{m}, make_vertex_view(stream(positions), stream(colors)), list, state);
     second.run(one_worker());
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {

@@ -49,7 +49,8 @@ Drawn draw_in_parts(const Primitives& p, const std::vector<std::size_t>& sizes, 
   std::size_t first = 0;
   for (std::size_t i = 0; first < p.positions.size(); ++i) {
     const std::size_t n = std::min(p.corners * sizes[i % sizes.size()], p.positions.size() - first);
-    pass.draw(FlatColorShader{}, vertices(stream(std::span(p.positions).subspan(first, n)), stream(std::span(p.colors).subspan(first, n))),
+    pass.draw(FlatColorShader{},
+              make_vertex_view(stream(std::span(p.positions).subspan(first, n)), stream(std::span(p.colors).subspan(first, n))),
               {.topology = p.topology});
     first += n;
   }
@@ -99,13 +100,13 @@ TEST(Draws, KeepTheirShaderUntilThePassHasRun) {
   Image<glm::vec4> image(8, 8);
   {
     Pass pass(8, 8, rgba32f_target(image), {});
-    for (int i = 0; i < 5; ++i) pass.draw(Holder(held), vertices(stream(positions)));
+    for (int i = 0; i < 5; ++i) pass.draw(Holder(held), make_vertex_view(stream(positions)));
     EXPECT_EQ(held.use_count(), 6);
     Pass moved(std::move(pass));
-    moved.draw(Holder(held), vertices(stream(positions)));
+    moved.draw(Holder(held), make_vertex_view(stream(positions)));
     moved.run(one_worker());
     EXPECT_EQ(held.use_count(), 1);
-    moved.draw(Holder(held), vertices(stream(positions)));
+    moved.draw(Holder(held), make_vertex_view(stream(positions)));
     EXPECT_EQ(held.use_count(), 2);  // and this one never runs
   }
   EXPECT_EQ(held.use_count(), 1);

@@ -59,10 +59,10 @@ Drawn drawn(const std::vector<Step>& steps, int tile_size, bool has_depth) {
   for (const Step& s : steps) {
     if (s.depth_only) {
       const auto& at = places.emplace_back(s.positions.begin(), s.positions.end());
-      pass.draw_depth(DepthOnly{glm::mat4(1.0f)}, vertices(stream(at)), triangle, s.state);
+      pass.draw_depth(DepthOnly{glm::mat4(1.0f)}, make_vertex_view(stream(at)), triangle, s.state);
     } else {
       const auto& color = colors.emplace_back(3, s.color);
-      pass.draw(FlatColorShader{}, vertices(stream(s.positions), stream(color)), triangle, s.state);
+      pass.draw(FlatColorShader{}, make_vertex_view(stream(s.positions), stream(color)), triangle, s.state);
     }
   }
   out.statistics = pass.run(one_worker());
@@ -115,9 +115,9 @@ TEST(WholeTile, IsTestedAgainstDepthsThatAShaderWrote) {
       const Indices triangle = Indices::sequential(3);
       DrawState state;
       state.depth.compare = CompareOp::always;
-      pass.draw(DeepShader{{}, written}, vertices(stream(middle), stream(red)), triangle, state);
+      pass.draw(DeepShader{{}, written}, make_vertex_view(stream(middle), stream(red)), triangle, state);
       state.depth.compare = op;
-      pass.draw(FlatColorShader{}, vertices(stream(next), stream(green)), triangle, state);
+      pass.draw(FlatColorShader{}, make_vertex_view(stream(next), stream(green)), triangle, state);
       pass.run(one_worker());
       const bool passes = op == CompareOp::less ? z < written : z > written;
       for (const glm::vec4& c : color.texels()) ASSERT_EQ(c, passes ? green[0] : red[0]) << written << " " << static_cast<int>(op);

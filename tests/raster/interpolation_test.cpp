@@ -123,7 +123,7 @@ struct Scene {
   std::vector<glm::vec4> positions, values;
   int width, height;
 
-  VertexView view() const { return vertices(stream(positions), stream(values)); }
+  VertexView view() const { return make_vertex_view(stream(positions), stream(values)); }
   ExactPlane plane() const {
     const ShadedVertices v = shade(ValueShader{}, view(), {0, 0, width, height});
     std::array<Corner, 3> c;

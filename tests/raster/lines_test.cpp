@@ -16,7 +16,7 @@ Image<glm::vec4> draw_lines(const std::vector<Point>& points, DrawState state, c
   Image<glm::vec4> image(16, 16);
   Pass pass(16, 16, rgba32f_target(image), {}, options);
   state.blend = kAdd;
-  pass.draw(ConstantShader{}, vertices(stream(p)), state);
+  pass.draw(ConstantShader{}, make_vertex_view(stream(p)), state);
   pass.run(one_worker());
   return image;
 }
@@ -102,7 +102,8 @@ TEST(Lines, InterpolateAlongTheLine) {
   for (const ProvokingVertex provoking : {ProvokingVertex::first, ProvokingVertex::last}) {
     Image<glm::vec4> image(16, 16);
     Pass pass(16, 16, rgba32f_target(image), {.format = DepthFormat::d32f});
-    pass.draw(RampShader{}, vertices(stream(p), stream(values)), {.topology = Topology::lines, .line_width = 3.0f, .provoking = provoking});
+    pass.draw(RampShader{}, make_vertex_view(stream(p), stream(values)),
+              {.topology = Topology::lines, .line_width = 3.0f, .provoking = provoking});
     pass.run(one_worker());
     for (int x = 1; x < 13; ++x) {
       for (int y = 4; y <= 6; ++y) {
@@ -141,7 +142,7 @@ TEST(Lines, ClipDistancesCutTrianglesLinesAndPoints) {
   const std::vector<glm::vec4> whole{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
   Image<glm::vec4> image(16, 16);
   Pass pass(16, 16, rgba32f_target(image), {});
-  pass.draw(TwoDistances{}, vertices(stream(whole)), {.blend = kAdd});
+  pass.draw(TwoDistances{}, make_vertex_view(stream(whole)), {.blend = kAdd});
   EXPECT_EQ(pass.run(one_worker()).clipped, 1u);
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 16; ++x) EXPECT_EQ(pixel(image, x, y).x, x >= 3 && y < 5 ? 1.0f : 0.0f) << x << ' ' << y;
@@ -149,12 +150,12 @@ TEST(Lines, ClipDistancesCutTrianglesLinesAndPoints) {
   const std::vector<glm::vec4> line{clip_position(center(0, 2), 16, 16), clip_position(center(15, 2), 16, 16)};
   Image<glm::vec4> lines(16, 16);
   Pass line_pass(16, 16, rgba32f_target(lines), {});
-  line_pass.draw(TwoDistances{}, vertices(stream(line)), {.topology = Topology::lines});
+  line_pass.draw(TwoDistances{}, make_vertex_view(stream(line)), {.topology = Topology::lines});
   line_pass.run(one_worker());
   for (int x = 0; x < 16; ++x) EXPECT_EQ(pixel(lines, x, 2).x, x >= 3 && x < 15 ? 1.0f : 0.0f) << x;
   Image<glm::vec4> points(16, 16);
   Pass point_pass(16, 16, rgba32f_target(points), {});
-  point_pass.draw(TwoDistances{}, vertices(stream(line)), {.topology = Topology::points});
+  point_pass.draw(TwoDistances{}, make_vertex_view(stream(line)), {.topology = Topology::points});
   EXPECT_EQ(point_pass.run(one_worker()).samples_passed, 1u);
 }
 

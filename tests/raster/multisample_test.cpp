@@ -29,12 +29,12 @@ TEST(Multisample, SamplesLieAtTheStandardPositions) {
       const std::vector<glm::vec4> p = square(low, {low.x + 1, low.y + 1});
       Image<glm::vec4> image(16, 16);
       Pass pass(16, 16, rgba32f_target(image), {}, {.samples = n});
-      pass.draw(ConstantShader{}, vertices(stream(p)), {.sample_mask = 1u << s});
+      pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.sample_mask = 1u << s});
       EXPECT_EQ(pass.run(one_worker()).samples_passed, 1u);
       EXPECT_EQ(pixel(image, 5, 7).x, 1.0f / static_cast<float>(n)) << n << " samples, number " << s;
       const std::vector<glm::vec4> beside = square({low.x + 1, low.y + 1}, {low.x + 2, low.y + 2});
       Pass other(16, 16, rgba32f_target(image), {}, {.samples = n});
-      other.draw(ConstantShader{}, vertices(stream(beside)));
+      other.draw(ConstantShader{}, make_vertex_view(stream(beside)));
       EXPECT_EQ(other.run(one_worker()).samples_passed, 0u);
     }
   }
@@ -45,13 +45,14 @@ TEST(Multisample, DeferredPixelsAreShadedOncePerPrimitive) {
     Image<glm::vec4> image(16, 16);
     const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});  // two triangles
     Pass pass(16, 16, rgba32f_target(image), {.format = DepthFormat::d32f}, {.samples = n});
-    for (int layer = 0; layer < 3; ++layer) pass.draw(ConstantShader{}, vertices(stream(p)), {.depth = {.compare = CompareOp::always}});
+    for (int layer = 0; layer < 3; ++layer)
+      pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.depth = {.compare = CompareOp::always}});
     const PassStatistics s = pass.run(one_worker());
     EXPECT_EQ(s.samples_passed, static_cast<uint64_t>(3 * n * 256));
     // The diagonal's 16 pixels show both triangles, but for the pattern of 2, whose samples lie on the diagonal.
     EXPECT_EQ(s.fragments_shaded, n == 2 ? 256u : 256u + 16u);
     Pass each(16, 16, rgba32f_target(image), {}, {.samples = n, .supersample = true});
-    each.draw(ConstantShader{}, vertices(stream(p)));
+    each.draw(ConstantShader{}, make_vertex_view(stream(p)));
     EXPECT_EQ(each.run(one_worker()).fragments_shaded, static_cast<uint64_t>(n * 256));
     for (int i = 0; i < 256; ++i) EXPECT_EQ(image.data()[i], glm::vec4(1.0f));
   }
@@ -85,7 +86,7 @@ TEST(Multisample, ShadingByPixelAndBySample) {
       for (const bool by_sample : {false, true}) {
         Image<glm::vec4> image(16, 16);
         Pass pass(16, 16, rgba32f_target(image), {}, {.samples = static_cast<int>(kStandard[pattern].size())});
-        pass.draw(PositionShader{}, vertices(stream(p)), {.sample_shading = by_sample, .sample_mask = 1u << s});
+        pass.draw(PositionShader{}, make_vertex_view(stream(p)), {.sample_shading = by_sample, .sample_mask = 1u << s});
         pass.run(one_worker());
         const glm::vec4 c = pixel(image, 3, 9) * static_cast<float>(kStandard[pattern].size());
         const Point at = by_sample ? kStandard[pattern][s] : Point{8, 8};
@@ -108,7 +109,7 @@ TEST(Multisample, AlphaToCoverageIsMonotonic) {
       const float alpha = static_cast<float>(step) / 32.0f;
       Image<glm::vec4> image(16, 16);
       Pass pass(16, 16, rgba32f_target(image), {.format = DepthFormat::d32f}, {.samples = n});
-      pass.draw(ConstantShader{glm::vec4(1.0f, 1.0f, 1.0f, alpha)}, vertices(stream(p)), {.alpha_to_coverage = true});
+      pass.draw(ConstantShader{glm::vec4(1.0f, 1.0f, 1.0f, alpha)}, make_vertex_view(stream(p)), {.alpha_to_coverage = true});
       pass.run(one_worker());
       const float covered = image.at(7, 7).x;
       EXPECT_GE(covered, before);
@@ -129,7 +130,7 @@ TEST(Multisample, EdgesShowAllShadesAndSharedEdgesNone) {
     const Point a{100, 0}, b{64 * 256, 0}, c{64 * 256, 64 * 256}, d{7 * 256, 64 * 256};
     for (const Point& corner : {a, b, c, a, c, d}) p.push_back(clip_position(corner, 64, 64));
     Pass pass(64, 64, rgba32f_target(image), {}, {.samples = n});
-    pass.draw(ConstantShader{}, vertices(stream(p)), {.blend = kAdd});
+    pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.blend = kAdd});
     pass.run(one_worker());
     std::vector<bool> seen(static_cast<std::size_t>(n) + 1);
     for (int i = 0; i < 64 * 64; ++i) {
@@ -146,7 +147,7 @@ TEST(Multisample, ResolveIsTheMeanInLinearLight) {
   Image<glm::u8vec4> image(16, 16);
   const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
   Pass pass(16, 16, srgb8a8_target(image), {}, {.samples = 2});
-  pass.draw(ConstantShader{}, vertices(stream(p)), {.sample_mask = 2});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.sample_mask = 2});
   pass.run(one_worker());
   EXPECT_EQ(image.at(4, 4), (glm::u8vec4{188, 188, 188, 128}));  // the code of 0.5, and 127.5 up
 }

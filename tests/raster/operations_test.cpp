@@ -41,8 +41,8 @@ TEST(Operations, ColorMaskKeepsChannelsAlsoUnderDeferredDraws) {
   Image<glm::u8vec4> image(9, 5);
   const std::vector<glm::vec4> p = whole(0.5f);
   Pass pass(9, 5, rgba8_target(image), {});
-  pass.draw(ConstantShader{glm::vec4(0.2f, 0.4f, 0.6f, 0.8f)}, vertices(stream(p)));
-  pass.draw(ConstantShader{glm::vec4(1.0f)}, vertices(stream(p)), {.color_mask = {false, true, false, true}});
+  pass.draw(ConstantShader{glm::vec4(0.2f, 0.4f, 0.6f, 0.8f)}, make_vertex_view(stream(p)));
+  pass.draw(ConstantShader{glm::vec4(1.0f)}, make_vertex_view(stream(p)), {.color_mask = {false, true, false, true}});
   pass.run(one_worker());
   for (int i = 0; i < 45; ++i) EXPECT_EQ(image.data()[i], (glm::u8vec4{51, 255, 153, 255}));
 }
@@ -67,7 +67,7 @@ TEST(Operations, BlendFactorsByHand) {
     target.clear_value = dst;
     Pass pass(3, 3, target, {});
     pass.draw(
-        ConstantShader{src}, vertices(stream(p)),
+        ConstantShader{src}, make_vertex_view(stream(p)),
         {.blend = BlendState{BlendEquation::add, c.factor, BlendFactor::zero, BlendEquation::add, c.factor, BlendFactor::zero, constant}});
     pass.run(one_worker());
     EXPECT_EQ(image.at(1, 1), c.expected) << static_cast<int>(c.factor);
@@ -79,7 +79,7 @@ TEST(Operations, SrgbIsBlendedInLinearLight) {
   Image<glm::u8vec4> image(3, 3);
   const std::vector<glm::vec4> p = whole(0.5f);
   Pass pass(3, 3, srgb8a8_target(image), {});
-  pass.draw(ConstantShader{glm::vec4(1.0f, 1.0f, 1.0f, 0.5f)}, vertices(stream(p)), {.blend = BlendState{}});
+  pass.draw(ConstantShader{glm::vec4(1.0f, 1.0f, 1.0f, 0.5f)}, make_vertex_view(stream(p)), {.blend = BlendState{}});
   pass.run(one_worker());
   EXPECT_EQ(image.at(1, 1), (glm::u8vec4{188, 188, 188, 128}));  // 255·encode(0.5) = 187.5…
 }
@@ -91,7 +91,7 @@ TEST(Operations, DualSourceBlending) {
   const std::vector<glm::vec4> p = whole(0.5f);
   Pass pass(3, 3, target, {});
   // A colour and a transmission for each channel, as coloured glass has them.
-  pass.draw(NumberedColors<2>{{glm::vec4{0.125f, 0, 0, 1}, glm::vec4{0.5f, 0.25f, 0, 0}}}, vertices(stream(p)),
+  pass.draw(NumberedColors<2>{{glm::vec4{0.125f, 0, 0, 1}, glm::vec4{0.5f, 0.25f, 0, 0}}}, make_vertex_view(stream(p)),
             {.blend = BlendState{BlendEquation::add, BlendFactor::one, BlendFactor::src1_color, BlendEquation::add, BlendFactor::one,
                                  BlendFactor::one_minus_src1_alpha}});
   pass.run(one_worker());
@@ -109,7 +109,7 @@ TEST(Operations, EachAttachmentHasItsFormatBlendingAndMask) {
   const NumberedColors<3> shader{{glm::vec4{0, 0.25f, 0.5f, 1}, glm::vec4{1, 0, 0.2f, 1}, glm::vec4{2, 2, 2, 2}}};
   DrawState state;
   state.attachments[2] = AttachmentState{.blend = kAdd, .mask = {true, true, true, false}};
-  pass.draw(shader, vertices(stream(p)), state);
+  pass.draw(shader, make_vertex_view(stream(p)), state);
   pass.run(one_worker());
   EXPECT_EQ(a.at(19, 8), (glm::vec4{0, 0.25f, 0.5f, 1}));
   EXPECT_EQ(b.at(19, 8), (glm::u8vec4{255, 0, 51, 255}));
@@ -126,15 +126,16 @@ TEST(Operations, StencilTellsApartWhatBecameOfASample) {
   Pass pass(8, 8, rgba32f_target(image), target);
   const std::vector<glm::vec4> near = whole(0.25f), far = whole(0.75f);
   const Rect left{0, 0, 4, 8}, top{0, 4, 8, 4};
-  pass.draw(ConstantShader{}, vertices(stream(near)), {.scissor = left});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(near)), {.scissor = left});
   const StencilFace marked{.compare = CompareOp::equal, .reference = 7};
   const StencilFace mark{.pass = StencilOp::replace, .reference = 5};
-  pass.draw(ConstantShader{}, vertices(stream(far)), {.scissor = top, .depth = {.test = false}, .stencil = StencilState{mark, mark}});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(far)),
+            {.scissor = top, .depth = {.test = false}, .stencil = StencilState{mark, mark}});
   StencilFace count = marked;
   count.fail = StencilOp::invert;                 // ~5 = 250
   count.depth_fail = StencilOp::increment_clamp;  // 8
   count.pass = StencilOp::decrement_wrap;         // 6
-  pass.draw(ConstantShader{}, vertices(stream(far)), {.stencil = StencilState{count, count}});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(far)), {.stencil = StencilState{count, count}});
   pass.run(one_worker());
   EXPECT_EQ(pixel(depth, 6, 6) & 0xff, 250u);
   EXPECT_EQ(pixel(depth, 1, 6) & 0xff, 250u);
@@ -152,8 +153,8 @@ TEST(Operations, StencilFacesAndMasksAreSeparate) {
   std::swap(back[1], back[2]);
   const StencilState state{.front = {.pass = StencilOp::replace, .reference = 0xff, .write_mask = 0x0f},
                            .back = {.pass = StencilOp::replace, .reference = 0xa5, .write_mask = 0xf0}};
-  pass.draw(ConstantShader{}, vertices(stream(front)), {.stencil = state});
-  pass.draw(ConstantShader{}, vertices(stream(back)), {.scissor = Rect{0, 0, 4, 8}, .depth = {.test = false}, .stencil = state});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(front)), {.stencil = state});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(back)), {.scissor = Rect{0, 0, 4, 8}, .depth = {.test = false}, .stencil = state});
   pass.run(one_worker());
   EXPECT_EQ(pixel(depth, 6, 1), (DepthStencil{0.5f, 0x0f}));
   EXPECT_EQ(pixel(depth, 1, 1), (DepthStencil{0.5f, 0xaf}));
@@ -164,10 +165,10 @@ TEST(Operations, QueriesCountWhatPasses) {
     Image<glm::vec4> image(100, 70);
     Pass pass(100, 70, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = defer});
     const std::vector<glm::vec4> near = whole(0.25f), middle = whole(0.5f), far = whole(0.75f);
-    pass.draw(ConstantShader{}, vertices(stream(middle)), {.scissor = Rect{3, 5, 80, 40}, .query = 0});
-    pass.draw(ConstantShader{}, vertices(stream(far)), {.scissor = Rect{0, 0, 50, 70}, .query = 1});
-    pass.draw(ConstantShader{}, vertices(stream(far)), {.scissor = Rect{10, 10, 20, 20}, .query = 2});
-    pass.draw(ConstantShader{}, vertices(stream(near)), {.scissor = Rect{0, 0, 7, 3}, .query = 0});  // a query may cover several
+    pass.draw(ConstantShader{}, make_vertex_view(stream(middle)), {.scissor = Rect{3, 5, 80, 40}, .query = 0});
+    pass.draw(ConstantShader{}, make_vertex_view(stream(far)), {.scissor = Rect{0, 0, 50, 70}, .query = 1});
+    pass.draw(ConstantShader{}, make_vertex_view(stream(far)), {.scissor = Rect{10, 10, 20, 20}, .query = 2});
+    pass.draw(ConstantShader{}, make_vertex_view(stream(near)), {.scissor = Rect{0, 0, 7, 3}, .query = 0});  // a query may cover several
     const PassStatistics s = pass.run(one_worker());
     ASSERT_EQ(s.queries.size(), 3u);
     EXPECT_EQ(s.queries[0], 80u * 40 + 7 * 3);
@@ -183,10 +184,11 @@ TEST(Operations, DepthFirstShadesEveryPixelOnce) {
   Image<glm::vec4> image(64, 64);
   Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = false});
   const std::vector<glm::vec4> near = whole(0.25f), far = whole(0.75f);
-  for (const auto* p : {&far, &near}) pass.draw(ConstantShader{}, vertices(stream(*p)), {.color_mask = {false, false, false, false}});
+  for (const auto* p : {&far, &near})
+    pass.draw(ConstantShader{}, make_vertex_view(stream(*p)), {.color_mask = {false, false, false, false}});
   const DepthState equal{.write = false, .compare = CompareOp::equal};
-  pass.draw(ConstantShader{glm::vec4(2.0f)}, vertices(stream(far)), {.depth = equal});
-  pass.draw(ConstantShader{glm::vec4(1.0f)}, vertices(stream(near)), {.depth = equal});
+  pass.draw(ConstantShader{glm::vec4(2.0f)}, make_vertex_view(stream(far)), {.depth = equal});
+  pass.draw(ConstantShader{glm::vec4(1.0f)}, make_vertex_view(stream(near)), {.depth = equal});
   const PassStatistics s = pass.run(one_worker());
   EXPECT_EQ(s.fragments_shaded, 64u * 64);
   EXPECT_EQ(image.at(10, 10), glm::vec4(1.0f));

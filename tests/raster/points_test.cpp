@@ -33,7 +33,7 @@ Image<glm::vec4> draw_points(const std::vector<glm::vec4>& p, float size, DrawSt
   Image<glm::vec4> image(width, height);
   state.topology = Topology::points;
   Pass pass(width, height, rgba32f_target(image), {});
-  pass.draw(CoordShader{size}, vertices(stream(p)), state);
+  pass.draw(CoordShader{size}, make_vertex_view(stream(p)), state);
   pass.run(one_worker());
   return image;
 }
@@ -127,7 +127,7 @@ TEST(Points, SpritesWithBoundsAndDepthAreShadedOnce) {
   Image<glm::vec4> images[2]{Image<glm::vec4>(64, 64), Image<glm::vec4>(64, 64)};
   for (const bool defer : {true, false}) {
     Pass pass(64, 64, rgba32f_target(images[defer]), {.format = DepthFormat::d32f}, {.defer = defer});
-    pass.draw(BallShader{}, vertices(stream(p), stream(c)), {.topology = Topology::points});
+    pass.draw(BallShader{}, make_vertex_view(stream(p), stream(c)), {.topology = Topology::points});
     const PassStatistics s = pass.run(one_worker());
     EXPECT_EQ(s.culled_outside, 1u);  // the fourth says that it is not drawn
     uint64_t covered = 0;

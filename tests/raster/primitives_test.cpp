@@ -27,7 +27,7 @@ template <class... Streams>
 Drawing draw_strip(const Indices& indices, DrawState state, const Streams&... streams) {
   Drawing d;
   Pass pass(32, 16, rgba32f_target(d.image), {});
-  pass.draw(FlatColorShader{}, vertices(streams...), indices, state);
+  pass.draw(FlatColorShader{}, make_vertex_view(streams...), indices, state);
   d.statistics = pass.run(one_worker());
   return d;
 }
@@ -122,7 +122,7 @@ TEST(Primitives, InstancesKnowTheirNumberAndReadTheirRow) {
   for (const uint32_t chunk : {1u, 3u, 8192u}) {
     Image<glm::vec4> image(32, 16);
     Pass pass(32, 16, rgba32f_target(image), {}, {.chunk_triangles = chunk});
-    pass.draw(ColumnShader{}, vertices(stream(p), per_instance(stream(c), 2)), indices,
+    pass.draw(ColumnShader{}, make_vertex_view(stream(p), per_instance(stream(c), 2)), indices,
               {.topology = Topology::triangle_strip, .instances = 4});
     EXPECT_EQ(pass.run(one_worker()).vertices_shaded, 16u);
     for (int x = 0; x < 32; ++x) {

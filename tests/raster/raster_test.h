@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "halfspace/raster/pass.h"
+#include "halfspace/raster/primitives/vertex_stage.h"
 #include "support/sanitized.h"
 
 namespace halfspace::raster_test {
@@ -130,7 +131,7 @@ inline PassStatistics draw_colors(Image<glm::vec4>& image, std::span<const Point
   Pass pass(image.width(), image.height(), rgba32f_target(image), {}, options);
   DrawState state;
   if (add_up) state.blend = kAdd;
-  pass.draw(FlatColorShader{}, vertices(stream(positions), stream(vertex_colors)), state);
+  pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(vertex_colors)), state);
   return pass.run(one_worker());
 }
 
@@ -138,7 +139,7 @@ inline PassStatistics draw_colors(Image<glm::vec4>& image, std::span<const Point
 template <class S>
 ShadedVertices shade(const S& shader, const VertexView& view, const Rect& viewport, const DrawState& state = {}) {
   std::pmr::monotonic_buffer_resource memory;
-  Draw draw(detail::kKernels<S>, detail::keep_shader(shader, memory),
+  Draw draw(detail::kKernels<S, detail::DrawKind::color>, detail::keep_shader(shader, memory),
             std::make_shared<const Indices>(Indices::sequential(view.vertex_count)),
             {std::span(view.streams).first(static_cast<std::size_t>(view.stream_count)), view.has_instance_streams}, state);
   draw.viewport = make_viewport(viewport, state.depth);
@@ -154,7 +155,7 @@ inline PassStatistics count_coverage(Image<glm::vec4>& image, const std::vector<
   const Indices list(indices, positions.size());
   Pass pass(image.width(), image.height(), rgba32f_target(image), {}, options);
   state.blend = kAdd;
-  pass.draw(ConstantShader{}, vertices(stream(positions)), list, state);
+  pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), list, state);
   return pass.run(one_worker());
 }
 

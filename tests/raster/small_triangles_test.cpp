@@ -50,7 +50,7 @@ void draw(std::span<const Triangles> draws, Drawn& out) {
   DepthTarget depth = d32f_target(out.depth);
   color.load = depth.load = LoadOp::load;
   Pass pass(kSize, kSize, color, depth);
-  for (const Triangles& t : draws) pass.draw(FlatColorShader{}, vertices(stream(t.positions), stream(t.colors)), t.state);
+  for (const Triangles& t : draws) pass.draw(FlatColorShader{}, make_vertex_view(stream(t.positions), stream(t.colors)), t.state);
   out.statistics += pass.run(one_worker());
 }
 

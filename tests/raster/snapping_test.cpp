@@ -42,7 +42,7 @@ struct Tally {
 constexpr long double kMostExcess = 0x1p-22L;
 
 Tally snap_many(const std::vector<glm::vec4>& positions, const Rect& viewport) {
-  const ShadedVertices v = shade(ConstantShader{}, vertices(stream(positions)), viewport);
+  const ShadedVertices v = shade(ConstantShader{}, make_vertex_view(stream(positions)), viewport);
   const double half_x = 0.5 * viewport.width, half_y = 0.5 * viewport.height;
   Tally t;
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -116,7 +116,7 @@ TEST(Snapping, ByHand) {
                                          {-0x1p-16f, -0x3p-16f, 0, 1},
                                          {3, -3, 0, 6},
                                          {0x1.1p-16f, 0x0.fp-16f, 0, 1}};
-  const ShadedVertices v = shade(ConstantShader{}, vertices(stream(positions)), {0, 0, 256, 256});
+  const ShadedVertices v = shade(ConstantShader{}, make_vertex_view(stream(positions)), {0, 0, 256, 256});
   const std::vector<Point> want{{32768, 32768}, {0, 65536}, {32769, 32767}, {32768, 32770}, {32768, 32766}, {49152, 16384}, {32769, 32768}};
   for (std::size_t i = 0; i < want.size(); ++i) EXPECT_EQ((Point{v.screen[i].x, v.screen[i].y}), want[i]) << i;
 }
@@ -132,7 +132,7 @@ TEST(Snapping, PowersOfTwoChangeNothing) {
     positions.push_back(p * 0x1p60f);
     positions.push_back(p * 0x1p-60f);
   }
-  const ShadedVertices v = shade(ConstantShader{}, vertices(stream(positions)), {0, 0, 1001, 777});
+  const ShadedVertices v = shade(ConstantShader{}, make_vertex_view(stream(positions)), {0, 0, 1001, 777});
   for (std::size_t i = 0; i < positions.size(); i += 3) {
     for (const std::size_t k : {i + 1, i + 2}) {
       ASSERT_EQ(v.screen[i].x, v.screen[k].x);

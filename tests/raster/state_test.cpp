@@ -121,7 +121,7 @@ template <class S>
 PassStatistics draw(Image<glm::vec4>& image, const S& shader, const std::vector<glm::vec4>& positions, const DrawState& state = {},
                     const PassOptions& options = {}) {
   Pass pass(image.width(), image.height(), rgba32f_target(image), {}, options);
-  pass.draw(shader, vertices(stream(positions)), state);
+  pass.draw(shader, make_vertex_view(stream(positions)), state);
   return pass.run(one_worker());
 }
 
@@ -267,12 +267,12 @@ TEST(ProvokingVertex, FirstAndLastHoweverTheTriangleIsTurned) {
           state.front = front;
           Image<glm::vec4> image(16, 16);
           Pass pass(16, 16, rgba32f_target(image), {});
-          pass.draw(FlatColorShader{}, vertices(stream(positions), stream(colors)), state);
+          pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(colors)), state);
           EXPECT_EQ(pass.run(one_worker()).clipped, clipped ? 1u : 0u);
           EXPECT_EQ(pixel(image, 6, 5).x, static_cast<float>(order[first ? 0 : 2] + 1));
 
           Pass again(16, 16, rgba32f_target(image), {});
-          again.draw(OrderShader{}, vertices(stream(positions), stream(values)), state);
+          again.draw(OrderShader{}, make_vertex_view(stream(positions), stream(values)), state);
           again.run(one_worker());
           EXPECT_EQ(pixel(image, 6, 5), glm::vec4(values[0], values[1], values[2], 1));
         } while (std::next_permutation(order.begin(), order.end()));
@@ -304,7 +304,7 @@ void load_keeps_what_is_not_drawn(F make_target, uint64_t seed) {
   Pass pass(70, 40, target, {});
   DrawState state;
   state.scissor = Rect{20, 10, 7, 5};
-  pass.draw(ConstantShader{}, vertices(stream(kFullScreen)), state);
+  pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)), state);
   pass.run(one_worker());
   int64_t changed = 0;
   for (int y = 0; y < 40; ++y) {
@@ -335,7 +335,7 @@ TEST(LoadStore, LoadedColorIsBlendedWith) {
   Pass pass(8, 8, target, {});
   DrawState state;
   state.blend = kAdd;
-  pass.draw(ConstantShader{}, vertices(stream(kFullScreen)), state);
+  pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)), state);
   pass.run(one_worker());
   EXPECT_TRUE(is_everywhere(image, glm::vec4(1.25f)));
 }
@@ -351,7 +351,7 @@ TEST(LoadStore, StoreDontCareWritesNothing) {
   DepthTarget depth_target = d32f_target(depth);
   depth_target.store = StoreOp::dont_care;
   Pass pass(70, 40, color_target, depth_target);
-  pass.draw(ConstantShader{}, vertices(stream(kFullScreen)));
+  pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)));
   EXPECT_EQ(pass.run(one_worker()).fragments_shaded, 70u * 40u);
   EXPECT_TRUE(is_everywhere(image, before));
   for (const float z : depth.texels()) ASSERT_EQ(z, 0.125f);
@@ -365,7 +365,7 @@ TEST(LoadStore, LoadDontCareLeavesTilesAloneThatNothingTouches) {
   Pass pass(128, 64, target, {});
   DrawState state;
   state.viewport = Rect{0, 0, 64, 64};  // the left tile, all of it
-  pass.draw(ConstantShader{}, vertices(stream(kFullScreen)), state);
+  pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)), state);
   EXPECT_EQ(pass.run(one_worker()).tiles_touched, 1u);
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 128; ++x) ASSERT_EQ(pixel(image, x, y), glm::vec4(x < 64 ? 1.0f : 7.0f));
@@ -373,7 +373,7 @@ TEST(LoadStore, LoadDontCareLeavesTilesAloneThatNothingTouches) {
   // The same beside a depth that is cleared everywhere.
   Image<float> depth(128, 64);
   Pass again(128, 64, target, d32f_target(depth));
-  again.draw(ConstantShader{glm::vec4(3)}, vertices(stream(kFullScreen)), state);
+  again.draw(ConstantShader{glm::vec4(3)}, make_vertex_view(stream(kFullScreen)), state);
   again.run(one_worker());
   EXPECT_EQ(pixel(image, 10, 10), glm::vec4(3));
   EXPECT_EQ(pixel(image, 100, 10), glm::vec4(7));
@@ -384,11 +384,11 @@ TEST(LoadStore, LoadDontCareLeavesTilesAloneThatNothingTouches) {
 TEST(LoadStore, APassIsEmptyAfterItsRun) {
   Image<glm::vec4> image(16, 16);
   Pass pass(16, 16, rgba32f_target(image), {});
-  pass.draw(ConstantShader{glm::vec4(1)}, vertices(stream(kFullScreen)));
+  pass.draw(ConstantShader{glm::vec4(1)}, make_vertex_view(stream(kFullScreen)));
   EXPECT_EQ(pass.run(one_worker()).primitives_in, 1u);
   EXPECT_EQ(pass.run(one_worker()).primitives_in, 0u);
   EXPECT_TRUE(is_everywhere(image, glm::vec4(0)));
-  pass.draw(ConstantShader{glm::vec4(2)}, vertices(stream(kFullScreen)));
+  pass.draw(ConstantShader{glm::vec4(2)}, make_vertex_view(stream(kFullScreen)));
   pass.run(one_worker());
   EXPECT_TRUE(is_everywhere(image, glm::vec4(2)));
 }
@@ -397,7 +397,7 @@ TEST(LoadStore, TargetsWithoutImages) {
   // Colour and depth live in the tiles alone; only the post target is written.
   Image<glm::u8vec4> out(70, 40);
   Pass pass(70, 40, {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f});
-  pass.draw(ConstantShader{glm::vec4(0.5f)}, vertices(stream(kFullScreen)));
+  pass.draw(ConstantShader{glm::vec4(0.5f)}, make_vertex_view(stream(kFullScreen)));
   pass.post([]<class R>(const vec4<R>& c) { return c * R(2); }, rgba8_target(out));
   pass.run(one_worker());
   for (const glm::u8vec4& p : out.texels()) ASSERT_EQ(p, glm::u8vec4(255));
@@ -417,7 +417,7 @@ TEST(Post, RunsOnEveryPixelOnce) {
   Pass pass(70, 40, target, {}, {.tile_size = 32});
   DrawState state;
   state.scissor = Rect{0, 0, 35, 40};
-  pass.draw(ConstantShader{glm::vec4(5, 6, 7, 8)}, vertices(stream(kFullScreen)), state);
+  pass.draw(ConstantShader{glm::vec4(5, 6, 7, 8)}, make_vertex_view(stream(kFullScreen)), state);
   pass.post([]<class R>(const vec4<R>& c) { return vec4<R>(c.y, c.x, c.w, c.z + R(1)); }, rgba32f_target(out));
   pass.run(one_worker());
   for (int y = 0; y < 40; ++y) {
@@ -489,8 +489,8 @@ TEST(Statistics, DeferredShadesOnlyWhatIsSeen) {
       const auto first = full_screen(near_first ? -0.5f : 0.5f), second = full_screen(near_first ? 0.5f : -0.5f);
       Image<glm::vec4> image(64, 64);
       Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = defer});
-      pass.draw(ConstantShader{glm::vec4(1)}, vertices(stream(first)));
-      pass.draw(ConstantShader{glm::vec4(2)}, vertices(stream(second)));
+      pass.draw(ConstantShader{glm::vec4(1)}, make_vertex_view(stream(first)));
+      pass.draw(ConstantShader{glm::vec4(2)}, make_vertex_view(stream(second)));
       const PassStatistics s = pass.run(one_worker());
       // A block that a deferred layer has covered knows its depths, and the layer behind is rejected whole.
       EXPECT_EQ(s.samples_tested, near_first && defer ? 4096u : 8192u);
@@ -512,7 +512,7 @@ TEST(Statistics, BlocksBehindAreNotTested) {
   }
   Image<glm::vec4> image(64, 64);
   Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f});
-  pass.draw(ConstantShader{}, vertices(stream(positions)));
+  pass.draw(ConstantShader{}, make_vertex_view(stream(positions)));
   const PassStatistics s = pass.run(one_worker());
   EXPECT_EQ(s.samples_tested, 8u * 4096u);
   EXPECT_EQ(s.samples_passed, 8u * 4096u);
@@ -533,7 +533,7 @@ TEST(Statistics, FlushesAreCountedAndChangeNothing) {
     PassOptions options{.chunk_triangles = 2};
     if (small_budget) options.bin_budget = 1;
     Pass pass(100, 80, rgba32f_target(images[small_budget]), d32f_target(depths[small_budget]), options);
-    pass.draw(FlatColorShader{}, vertices(stream(positions), stream(colors)));
+    pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(colors)));
     statistics[small_budget] = pass.run(one_worker());
   }
   EXPECT_EQ(statistics[0].flushes, 0u);
@@ -549,7 +549,7 @@ TEST(Statistics, FlushesAreCountedAndChangeNothing) {
   Image<glm::vec4> posted(100, 80);
   Pass pass(100, 80, {.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f},
             {.chunk_triangles = 2, .bin_budget = 1});
-  pass.draw(FlatColorShader{}, vertices(stream(positions), stream(colors)));
+  pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(colors)));
   pass.post([]<class R>(const vec4<R>& c) { return c; }, rgba32f_target(posted));
   EXPECT_EQ(pass.run(one_worker()).flushes, 3u);
   EXPECT_EQ(posted, images[0]);
@@ -564,7 +564,7 @@ TEST(Discard, DropsColorAndDepth) {
     Pass pass(64, 64, rgba32f_target(image), d32f_target(depth));
     DrawState state;
     if (blended) state.blend = kAdd;
-    pass.draw(shader, vertices(stream(kFullScreen)), state);
+    pass.draw(shader, make_vertex_view(stream(kFullScreen)), state);
     const PassStatistics s = pass.run(one_worker());
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 64; ++x) {
@@ -592,8 +592,8 @@ TEST(ShaderDepth, ReplacesTheTrianglesDepth) {
     second.color = glm::vec4(2);
     second.scale = -second.scale;
     second.bias = 1;
-    pass.draw(shader, vertices(stream(kFullScreen)), state);
-    pass.draw(second, vertices(stream(kFullScreen)),
+    pass.draw(shader, make_vertex_view(stream(kFullScreen)), state);
+    pass.draw(second, make_vertex_view(stream(kFullScreen)),
               state);  // 1 − x/64: nearer from the middle on
     pass.run(one_worker());
     for (int y = 0; y < 64; ++y) {
@@ -630,10 +630,10 @@ TEST(VertexView, InterleavedEqualsSeparate) {
   }
   Image<glm::vec4> a(50, 50), b(50, 50);
   Pass pass_a(50, 50, rgba32f_target(a), {.format = DepthFormat::d32f});
-  pass_a.draw(FlatColorShader{}, vertices(stream(positions), stream(colors)));
+  pass_a.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(colors)));
   pass_a.run(one_worker());
   Pass pass_b(50, 50, rgba32f_target(b), {.format = DepthFormat::d32f});
-  pass_b.draw(FlatColorShader{}, vertices(stream(interleaved, &Vertex::position), stream(interleaved, &Vertex::color)));
+  pass_b.draw(FlatColorShader{}, make_vertex_view(stream(interleaved, &Vertex::position), stream(interleaved, &Vertex::color)));
   pass_b.run(one_worker());
   EXPECT_EQ(a, b);
   EXPECT_GT(drawn_pixels(a), 1000);
@@ -660,9 +660,9 @@ TEST(Indices, AllKindsDrawTheSame) {
   const Indices by_narrow(narrow, positions.size()), by_wide(wide, positions.size());
   for (int i = 0; i < 3; ++i) {
     Pass pass(40, 40, rgba32f_target(image[i]), {});
-    if (i == 0) pass.draw(ConstantShader{}, vertices(stream(positions)), by_narrow, state);
-    if (i == 1) pass.draw(ConstantShader{}, vertices(stream(positions)), by_wide, state);
-    if (i == 2) pass.draw(ConstantShader{}, vertices(stream(unrolled)), state);
+    if (i == 0) pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), by_narrow, state);
+    if (i == 1) pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), by_wide, state);
+    if (i == 2) pass.draw(ConstantShader{}, make_vertex_view(stream(unrolled)), state);
     const PassStatistics s = pass.run(one_worker());
     EXPECT_EQ(s.primitives_in, 33u);  // 100 indices: the last one is left over
     EXPECT_EQ(s.vertices_shaded, i == 2 ? 100u : distinct.size());
@@ -678,8 +678,8 @@ TEST(Indices, EmptyDrawsNothing) {
   Image<glm::vec4> image(16, 16);
   const Indices empty(none, 3);
   Pass pass(16, 16, rgba32f_target(image), {});
-  pass.draw(ConstantShader{}, vertices(stream(kFullScreen)), empty);
-  pass.draw(ConstantShader{}, vertices(stream(no_vertices)));
+  pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)), empty);
+  pass.draw(ConstantShader{}, make_vertex_view(stream(no_vertices)));
   const PassStatistics s = pass.run(one_worker());
   EXPECT_EQ(s, PassStatistics{});
   EXPECT_EQ(drawn_pixels(image), 0);
@@ -703,14 +703,14 @@ TEST(Indices, KnowTheirRange) {
 TEST(StateDeathTest, VerticesAndIndices) {
   const std::vector<glm::vec4> four(4), five(5);
   const std::vector<uint32_t> list{0, 1, 4};
-  EXPECT_DEATH(vertices(stream(four), stream(five)), "s.count == v.vertex_count \\(5 against 4\\)");
+  EXPECT_DEATH(make_vertex_view(stream(four), stream(five)), "s.count == vertex_count \\(5 against 4\\)");
   EXPECT_DEATH(Indices(list, 4), "high < vertex_count \\(4 against 4\\)");
   const std::vector<uint16_t> narrow{0, 1, 9};
   EXPECT_DEATH(Indices(narrow, 9), "check failed");
   EXPECT_DEATH(Indices::sequential(std::size_t{1} << 32), "check failed");
   // Longer than 32-bit gather indices reach: a view is all that is asked, nothing is read.
   const VertexStream huge{four[0].x == 0 ? &four[0].x : nullptr, 4, 4, std::size_t{1} << 29};
-  EXPECT_DEATH(vertices(huge), "check failed");
+  EXPECT_DEATH(make_vertex_view(huge), "check failed");
 }
 
 TEST(StateDeathTest, Passes) {
@@ -736,11 +736,11 @@ TEST(StateDeathTest, Draws) {
     Pass pass(16, 16, rgba32f_target(image), {});
     DrawState state;
     change(state);
-    pass.draw(ConstantShader{}, vertices(stream(p)), state);
+    pass.draw(ConstantShader{}, make_vertex_view(stream(p)), state);
   };
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(ConstantShader{}, vertices(stream(p)), of_six), "check failed");
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(FlatColorShader{}, vertices(stream(p))),
-               "vertices.components == .* \\(4 against 8\\)");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(ConstantShader{}, make_vertex_view(stream(p)), of_six), "check failed");
+  const VertexView untyped = make_vertex_view(stream(p));  // of streams that are known here, the compiler asks
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(FlatColorShader{}, untyped), "vertices.components == .* \\(4 against 8\\)");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 0, 16}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 16385, 16}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{20000, 0, 16, 16}; }), "check failed");
@@ -767,8 +767,8 @@ TEST(State, DepthAloneLeavesColorAsItIs) {
   const std::vector<uint32_t> list{0, 1, 2};
   const Indices indices(list, 3);
   Pass pass(16, 16, rgba32f_target(image), d32f_target(depth));
-  pass.draw(ConstantShader{}, vertices(stream(kFullScreen)), {.depth = {.test = false}});
-  pass.draw_depth(DepthOnly{}, vertices(stream(kFullScreen)), indices);
+  pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)), {.depth = {.test = false}});
+  pass.draw_depth(DepthOnly{}, make_vertex_view(stream(kFullScreen)), indices);
   pass.run(one_worker());
   EXPECT_EQ(image.at(3, 3), glm::vec4(1.0f));
   EXPECT_LT(depth.at(3, 3), 1.0f);

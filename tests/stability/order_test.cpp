@@ -20,7 +20,7 @@ TEST(Stability, HalfOverflow) {
     Image<U16Vec4> picture(8, 8);
     Pass pass(8, 8, rgba16f_target(picture), {});
     const std::vector<glm::vec4> corners{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
-    pass.draw(ConstantShader{glm::vec4(light)}, vertices(stream(corners)));
+    pass.draw(ConstantShader{glm::vec4(light)}, make_vertex_view(stream(corners)));
     pass.run(one_worker());
     for (const U16Vec4& p : picture.texels()) ours += (p.x & 0x7fffu) >= 0x7c00u;
   }
@@ -40,7 +40,7 @@ Image<glm::vec4> blended(const std::vector<PointTriangle>& triangles, const std:
   Pass pass(128, 128, rgba32f_target(image), {}, {.tile_size = 16, .chunk_triangles = 16});
   DrawState state;
   state.blend = BlendState{};
-  pass.draw(FlatColorShader{}, vertices(stream(positions), stream(vertex_colors)), state);
+  pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(vertex_colors)), state);
   pass.run(Workers(threads));
   return image;
 }

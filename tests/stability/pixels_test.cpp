@@ -86,7 +86,7 @@ TEST(Stability, FlatShadingOfNonPlanarQuads) {
     }
   }
   const auto change = [&](bool by_face) {
-    const VertexView view = vertices(stream(positions), stream(normals));
+    const VertexView view = make_vertex_view(stream(positions), stream(normals));
     const Image<glm::vec4> one = drawn(FlatLight{by_face}, view, list, 64, positions.size()),
                            other = drawn(FlatLight{by_face}, view, turned, 64, positions.size());
     double most = 0.0;
@@ -148,7 +148,7 @@ TEST(Stability, BumpsByDerivatives) {
                             .flip_green = false,
                             .difference = difference},
                            difference};
-    const Image<glm::vec4> picture = drawn(shader, vertices(stream(positions), stream(uvs)), {0, 1, 2, 0, 2, 3}, 128, 4);
+    const Image<glm::vec4> picture = drawn(shader, make_vertex_view(stream(positions), stream(uvs)), {0, 1, 2, 0, 2, 3}, 128, 4);
     double squares = 0.0, truth_squares = 0.0;
     for (const glm::vec4& p : picture.texels()) {
       const double u = static_cast<double>(p.z), v = static_cast<double>(p.w), k = 2 * kPi * kWaves;
@@ -210,8 +210,9 @@ TEST(Stability, SeamOfLongitude) {
   const Mesh ball = uv_sphere(64, 128, 1.0f);
   const auto most = [&](bool by_direction, double side) {
     const glm::dmat4 clip = perspective_gl(40.0 * kPi / 180.0, 1.0, 0.1, 10.0) * look_at({side * 3.0, 0, 0}, {0, 0, 0}, {0, 1, 0});
-    const Image<glm::vec4> picture = drawn(LevelSeen{glm::mat4(clip), by_direction}, vertices(stream(ball.positions), stream(ball.uvs)),
-                                           ball.indices, 202, ball.positions.size());
+    const Image<glm::vec4> picture =
+        drawn(LevelSeen{glm::mat4(clip), by_direction}, make_vertex_view(stream(ball.positions), stream(ball.uvs)), ball.indices, 202,
+              ball.positions.size());
     double level = -1e9;
     for (const glm::vec4& p : picture.texels())
       if (std::abs(p.y) > 0.8f) level = std::max(level, static_cast<double>(p.x));  // faces the eye: a texel is about a pixel
@@ -269,7 +270,7 @@ TEST(Stability, DerivativesAtSilhouettes) {
   };
   const auto error = [&](bool held) {
     double most = 0.0;
-    const Image<glm::vec4> picture = drawn(StepSeen{held}, vertices(stream(positions), stream(us)), {0, 1, 2}, 128, 3);
+    const Image<glm::vec4> picture = drawn(StepSeen{held}, make_vertex_view(stream(positions), stream(us)), {0, 1, 2}, 128, 3);
     for (const glm::vec4& p : picture.texels()) {
       if (p.z < 0.0f) continue;
       const double x = static_cast<double>(p.z), y = static_cast<double>(p.w);

@@ -29,24 +29,6 @@ std::size_t bytes_of(const FrameMemory& m) {
 
 }  // namespace
 
-void Chunk::clear() {
-  segments.clear();
-  triangles.clear();
-  clip_vertices.clear();
-  clip_varyings.clear();
-  clip_sources.clear();
-  primitives.clear();
-  bin_start.clear();
-  bin_triangles.clear();
-  tile_x0 = tile_y0 = tile_x1 = tile_y1 = 0;
-  statistics = {};
-}
-
-std::size_t Chunk::bytes() const {
-  return triangles.capacity() * sizeof(Triangle) + bin_triangles.capacity() * sizeof(uint16_t) + bin_start.capacity() * sizeof(uint32_t) +
-         clip_vertices.capacity() * sizeof(ClipVertex) + (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
-}
-
 std::vector<Draw> take_draw_memory() {
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);

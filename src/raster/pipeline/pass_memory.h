@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "halfspace/raster/pipeline/pipeline_data.h"
+#include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 

@@ -10,14 +10,12 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <memory_resource>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "halfspace/core/default_init_allocator.h"
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/statistics.h"
-#include "halfspace/raster/target.h"
 #include "halfspace/raster/vertex_input.h"
 
 namespace halfspace {
@@ -99,6 +97,25 @@ struct ShadedVertices {
 
   std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes(); }
 };
+
+// ---- vertex stage → vertex kernels ------------------------------------------------------------------------------
+
+/// Up to kVertexBatch vertices for a vertex kernel.
+inline constexpr int kVertexBatch = 256;
+struct VertexBatch {
+  std::span<const VertexStream> streams;
+  const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
+  uint32_t first;
+  int count;
+  uint32_t slot_base;   ///< varyings of vertex i go to row i − slot_base (modulo 2^32)
+  int32_t base_vertex;  ///< index + base_vertex is the row of the streams
+  int32_t instance;     ///< all vertices are of this one
+  float* varyings;      ///< null for the position kernel
+  float* clip;          ///< out: x, y, z, w of clip space as four rows of kVertexBatch
+  float* extra;         ///< out, or null: rows of the point size and the clip distances, or a sprite's low x, low y, high x, high y
+};
+inline constexpr int kMostClipDistances = 8;
+inline constexpr int kMostExtraRows = 1 + kMostClipDistances;
 
 // ---- the viewport transform ------------------------------------------------------------------------------------
 
@@ -208,89 +225,8 @@ inline constexpr uint32_t kMaxTrianglesPerChunk = 0xffff;
 /// Submitted, one a segment at the least. Filled triangles end a chunk at 4369: clipping may make 15 of one.
 inline constexpr uint32_t kMaxPrimitivesPerChunk = 1u << (32 - kSegmentShift);
 constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chunk << 16 | triangle; }
-
-// ---- a draw ----------------------------------------------------------------------------------------------------
-
-struct VertexBatch;
-struct PrimitiveBatch;
-struct FragmentBatch;
-struct VisibilityBatch;
-
-/// The thin functions that call one shader; everything else in the pipeline is shared by all shaders.
-struct ShaderKernels {
-  void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
-  void (*position)(const void* shader, const VertexBatch&) = nullptr;      ///< as vertex, without varyings
-  void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;  ///< null: no primitive stage
-  void (*visibility)(const void* shader, VisibilityBatch&) = nullptr;      ///< null: the triangle decides
-  void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
-  int varying_count = 0;                          ///< floats per vertex
-  int primitive_count = 0;                        ///< floats per triangle
-  const Interpolation* interpolations = nullptr;  ///< varying_count entries
-  bool uses_centroid = false;                     ///< some varying does
-  bool gives_point_size = false;                  ///< the vertex function does
-  bool gives_sprite = false;                      ///< and bounds of points
-  int clip_distance_count = 0;                    ///< and clip distances
-  int color_count = 1;                            ///< colours that the fragment function returns
-  bool discards = false;
-  bool writes_depth = false;
-  bool is_constant = false;  ///< one colour for the whole draw: the fragment kernel reads nothing of its batch but the count
-};
-
-/// Where a list, strip or fan begins after a primitive restart.
-struct IndexRun {
-  uint32_t first_primitive;  ///< primitives of the draw before it
-  uint32_t first_index;      ///< its place in the index list
-};
-
-/// A copy of the caller's shader, so that uniforms may change after draw(). Its memory is the frame's; the deleter ends its life alone.
-using KeptShader = std::unique_ptr<const void, void (*)(const void*)>;
-
-/// A draw as the pass keeps it: its arguments, and what follows from them once for all triangles. A pass may have many thousands, so it
-/// holds no more than it needs: streams and shader lie in the frame's memory, one behind the other.
-struct Draw {
-  const ShaderKernels& kernels;  ///< one for each type of shader, for ever
-  KeptShader shader;
-  std::shared_ptr<const Indices> indices;
-  VertexStreams vertices;
-  DrawState state;
-
-  // These are set when the draw's vertices are shaded.
-  Viewport viewport{};
-  PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
-  float depth_low = 0.0f;  ///< depth range in order
-  float depth_high = 1.0f;
-  bool deferred = false;        ///< shaded after visibility, once per visible pixel: replaces all colours; else shaded at once, in order
-  bool writes_color = false;    ///< some channel of some attachment
-  bool shades_samples = false;  ///< the fragment function runs for each sample, not for each pixel
-  uint32_t sample_mask = 1;     ///< samples that may be drawn
-
-  std::size_t vertex_count = 0;  ///< that its indices use, of all instances
-  uint32_t primitive_count = 0;  ///< of one instance
-  std::vector<IndexRun> runs{};  ///< those with a primitive in them; empty where no index is a restart
-
-  Draw(const ShaderKernels& kernels_, KeptShader shader_, std::shared_ptr<const Indices> indices_, const VertexStreams& vertices_,
-       const DrawState& state_)
-      : kernels(kernels_), shader(std::move(shader_)), indices(std::move(indices_)), vertices(vertices_), state(state_) {}
-};
-
-/// Are a draw's vertices few enough that a row's place in their arrays fits in a gather's index?
-inline bool can_gather(const ShadedVertices& v, const Draw& draw) {
-  const std::size_t floats = std::size_t{v.count} * draw.state.instances * static_cast<std::size_t>(std::max(4, v.varying_count));
-  return floats <= std::size_t{std::numeric_limits<int32_t>::max()};
-}
-
-/// Everything the stages after the vertex stage read.
-struct Frame {
-  std::unique_ptr<std::pmr::monotonic_buffer_resource> memory;  ///< of the draws' shaders and streams
-  std::vector<Draw> draws;
-  std::vector<ShadedVertices> shaded;  ///< one a draw
-  std::vector<Chunk> chunks;
-  int width = 0, height = 0;  ///< target, px
-  int tile_size = 64;
-  int tiles_x = 0, tiles_y = 0;
-  DepthFormat depth_format = DepthFormat::none;  ///< without its stencil
-  int samples = 1;                               ///< of a pixel
-  SampleSpan samples_at{};
-};
+/// The parts of an id other than kNoTriangle: the chunk, and the index into its triangles.
+constexpr uint32_t chunk_of(TriangleId id) { return id >> 16; }
+constexpr uint32_t index_in_chunk(TriangleId id) { return id & 0xffff; }
 
 }  // namespace halfspace

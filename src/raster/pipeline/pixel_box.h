@@ -6,7 +6,8 @@
 #include <array>
 
 #include "halfspace/core/lanes.h"
-#include "halfspace/raster/pipeline/pipeline_data.h"
+#include "halfspace/raster/pipeline/pass_context.h"
+#include "halfspace/raster/pipeline/sample_pattern.h"
 
 namespace halfspace {
 
@@ -34,5 +35,10 @@ template <class I>
 HS_INLINE PixelBox<I> cut(const PixelBox<I>& box, const PixelBounds& b) {
   return {max(box.x0, I(b.x0)), max(box.y0, I(b.y0)), min(box.x1, I(b.x1)), min(box.y1, I(b.y1))};
 }
+
+/// The pixels that may have a sample in the primitive's box, cut to bounds.
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SampleSpan& span);
+/// Those whose sample at a position lies in it.
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SamplePosition& at);
 
 }  // namespace halfspace

@@ -8,7 +8,6 @@
 #include "halfspace/raster/pipeline/line.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
-#include "halfspace/raster/primitives/setup_scalar.h"
 
 namespace halfspace {
 

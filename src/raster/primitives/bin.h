@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "halfspace/raster/pipeline/pipeline_data.h"
+#include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "halfspace/core/check.h"
+#include "halfspace/raster/pipeline/window.h"
 
 namespace halfspace {
 
 namespace {
-
-constexpr double kMinW = 0x1p-96;  // as the vertex stage's
 
 // Distance-like value of a point to each plane: inside where ≥ 0. In the order in which planes are met.
 double plane_distance(int plane, const Viewport& v, const DepthState& depth, const ClipDistances& user, const ClipCorner& corner) {
@@ -20,7 +19,7 @@ double plane_distance(int plane, const Viewport& v, const DepthState& depth, con
     return corner.weights.x * of(0) + corner.weights.y * of(1) + corner.weights.z * of(2);
   }
   switch (plane) {
-    case 0: return p.w - kMinW;
+    case 0: return p.w - double{kMinW};
     case 1: return depth.clip == ClipDepth::negative_one_to_one ? p.z + p.w : p.z;
     case 2: return p.w - p.z;
     case 3: return p.x - static_cast<double>(v.guard_left) * p.w;
@@ -42,10 +41,10 @@ ClipCorner cut(const ClipCorner& inside, double d_in, const ClipCorner& outside,
 ClipCorner cut_at_min_w(const ClipCorner& inside, const ClipCorner& outside) {
   const double w_in = inside.pos_clip.w, w_out = outside.pos_clip.w;
   ClipCorner c = cut(inside, w_in, outside, w_out);
-  const double back = kMinW / (w_in - w_out);
+  const double back = double{kMinW} / (w_in - w_out);
   c.pos_clip += back * (inside.pos_clip - outside.pos_clip);
   c.weights += back * (inside.weights - outside.weights);
-  c.pos_clip.w = kMinW;
+  c.pos_clip.w = double{kMinW};
   return c;
 }
 
@@ -77,16 +76,6 @@ void clip_plane(int plane, const Viewport& v, const DepthState& depth, const Cli
   }
   polygon = kept;
 }
-
-int32_t snap(double ndc, float half, float center) {
-  const double sub = (ndc * static_cast<double>(half) + static_cast<double>(center)) * kSubPixels;
-  // A corner on the guard plane may round beyond it by the quotient's last place; the band's bit budget allows 1 px.
-  return static_cast<int32_t>(std::nearbyint(sub));
-}
-
-}  // namespace
-
-namespace {
 
 ClipPolygon whole_polygon(const std::array<glm::vec4, 3>& pos_clip, int count) {
   ClipPolygon polygon;

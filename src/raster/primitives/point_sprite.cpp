@@ -3,19 +3,9 @@
 
 #include <cmath>
 
-#include "halfspace/raster/primitives/vertex_stage.h"
+#include "halfspace/raster/pipeline/window.h"
 
 namespace halfspace {
-
-namespace {
-
-// Window coordinate in 1/256 px of a normalized device coordinate, to the nearest, held to ±2^28; NaN gives −2^28.
-int32_t snap(double ndc, float half, float center) {
-  const double sub = (ndc * static_cast<double>(half) + static_cast<double>(center)) * kSubPixels;
-  return static_cast<int32_t>(std::nearbyint(std::fmin(std::fmax(sub, -0x1p28), 0x1p28)));
-}
-
-}  // namespace
 
 void make_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen, const Outcode* outcodes,
                   SpriteRect* out) {
@@ -37,13 +27,6 @@ void make_sprites(const Draw& draw, const float* clip, const float* extra, int c
     const int32_t x0 = x - side / 2, y0 = y - side / 2;
     out[i] = {x0, y0, x0 + side, y0 + side};
   }
-}
-
-std::array<ScreenVertex, 3> sprite_corners(const Triangle& t, const ScreenVertex& point, PointOrigin origin) {
-  const int32_t x0 = t.x[0], x1 = t.x[1] + 1;
-  const bool upper = origin == PointOrigin::upper_left;
-  const int32_t first_y = upper ? t.y[1] + 1 : t.y[0], other_y = upper ? t.y[0] : t.y[1] + 1;
-  return {ScreenVertex{x0, first_y, point.z, point.inv_w}, {x1, first_y, point.z, point.inv_w}, {x0, other_y, point.z, point.inv_w}};
 }
 
 }  // namespace halfspace

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "halfspace/raster/pipeline/pipeline_data.h"
+#include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "halfspace/raster/pipeline/pipeline_data.h"
+#include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/shading/contract.h"
 
 namespace halfspace {

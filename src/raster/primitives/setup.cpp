@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/pipeline/window.h"
 #include "halfspace/raster/primitives/clip.h"
-#include "halfspace/raster/primitives/fan.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/setup_scalar.h"
 #include "halfspace/raster/primitives/setup_simd.h"
@@ -14,9 +15,6 @@
 namespace halfspace {
 
 namespace {
-
-// A point with a smaller w (kMinW of the vertex stage) is behind the eye or in it.
-constexpr float kLargestInvW = 0x1p96f;
 
 // Sets up the primitives of one segment.
 class SegmentSetup {
@@ -38,7 +36,7 @@ class SegmentSetup {
     const float inv_w = shaded_.screen[id].inv_w;
     if (code & kOutNonFinite) {
       ++chunk_.statistics.culled_non_finite;
-    } else if ((code & (kOutNear | kOutFar)) != 0 || !(inv_w > 0.0f && inv_w <= kLargestInvW) || beyond_distances(id) != 0) {
+    } else if ((code & (kOutNear | kOutFar)) != 0 || !(inv_w > 0.0f && inv_w <= 1.0f / kMinW) || beyond_distances(id) != 0) {
       ++chunk_.statistics.culled_outside;
     } else {
       count(append_point(shaded_.sprites[id], shaded_.screen[id], id, 0, Facing::front), 1);
@@ -362,6 +360,19 @@ void set_up_chunk(const Frame& frame, Chunk& chunk) {
     }
   }
   chunk.statistics.triangles_binned = chunk.triangles.size();
+}
+
+uint32_t most_records(const Draw& draw, int samples) {
+  const uint32_t by_line = samples > 1 ? 2 : 1;
+  if (draw.state.topology == Topology::points) return 1;
+  if (is_lines(draw.state.topology)) return by_line;
+  const auto corners = static_cast<uint32_t>(most_corners(draw.kernels.clip_distance_count));
+  switch (draw.state.polygon_mode) {
+    case PolygonMode::fill: return corners - 2;
+    case PolygonMode::line: return corners * by_line;
+    case PolygonMode::point: return 3;
+  }
+  return corners;
 }
 
 }  // namespace halfspace

@@ -4,11 +4,14 @@
 // needed, wound counter-clockwise, with their depth coefficients; points and lines too), clip vertices and statistics.
 #pragma once
 
-#include "halfspace/raster/pipeline/pipeline_data.h"
+#include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 
 /// Fills chunk.triangles from chunk.segments.
 void set_up_chunk(const Frame& frame, Chunk& chunk);
+
+/// Entries of Chunk::triangles that one primitive of a draw becomes, at the most.
+uint32_t most_records(const Draw& draw, int samples);
 
 }  // namespace halfspace

@@ -6,17 +6,11 @@
 
 #include "halfspace/raster/pipeline/line.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
-#include "halfspace/raster/primitives/clip.h"
 #include "halfspace/raster/primitives/small_coverage.h"
 
 namespace halfspace {
 
 namespace {
-
-PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& at_x, const SampleSpan& at_y) {
-  if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
-  return cut(pixel_box(t.x, t.y, at_x, at_y), b);
-}
 
 // The smallest depth step that makes a difference: OpenGL 4.6, section 14.6.5.
 double smallest_depth_step(DepthFormat format, float largest_z) {
@@ -50,14 +44,6 @@ float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, 
 bool is_small(const Triangle& t) { return largest(t.x) - least(t.x) <= kSmallExtent && largest(t.y) - least(t.y) <= kSmallExtent; }
 
 }  // namespace
-
-PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& span) {
-  return pixel_bounds(draw, t, b, span, span);
-}
-
-PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SamplePosition& at) {
-  return pixel_bounds(draw, t, b, {at.x, at.x}, {at.y, at.y});
-}
 
 Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 3>& v,
                      const std::array<uint32_t, 3>& index, uint32_t provoking, Facing facing, Triangle& out) {
@@ -133,19 +119,6 @@ std::array<ScreenVertex, 4> line_rectangle(const ScreenVertex& a, const ScreenVe
           {b.x - nx, b.y - ny, b.z, b.inv_w},
           {b.x + nx, b.y + ny, b.z, b.inv_w},
           {a.x + nx, a.y + ny, a.z, a.inv_w}};
-}
-
-uint32_t most_records(const Draw& draw, int samples) {
-  const uint32_t by_line = samples > 1 ? 2 : 1;
-  if (draw.state.topology == Topology::points) return 1;
-  if (is_lines(draw.state.topology)) return by_line;
-  const auto corners = static_cast<uint32_t>(most_corners(draw.kernels.clip_distance_count));
-  switch (draw.state.polygon_mode) {
-    case PolygonMode::fill: return corners - 2;
-    case PolygonMode::line: return corners * by_line;
-    case PolygonMode::point: return 3;
-  }
-  return corners;
 }
 
 }  // namespace halfspace

@@ -3,8 +3,7 @@
 // One primitive's setup. In: snapped vertices. Out: a Triangle, or why there is none.
 #pragma once
 
-#include "halfspace/raster/pipeline/pipeline_data.h"
-#include "halfspace/raster/pipeline/sample_pattern.h"
+#include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 
@@ -29,13 +28,5 @@ Cull set_up_line(const Draw& draw, const Frame& frame, const std::array<const Sc
 /// The corners of the rectangle that a line is with several samples a pixel, counter-clockwise: right of a, right of b, left of b, left of
 /// a, seen along the line. The ends differ.
 std::array<ScreenVertex, 4> line_rectangle(const ScreenVertex& a, const ScreenVertex& b, float width);
-
-/// The pixels that may have a sample in the primitive's box, cut to bounds.
-PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SampleSpan& span);
-/// Those whose sample at a position lies in it.
-PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SamplePosition& at);
-
-/// Entries of Chunk::triangles that one primitive of a draw becomes, at the most.
-uint32_t most_records(const Draw& draw, int samples);
 
 }  // namespace halfspace

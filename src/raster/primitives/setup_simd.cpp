@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include "halfspace/core/transpose.h"
-#include "halfspace/raster/pipeline/lane_order.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/primitives/setup_scalar.h"
 #include "halfspace/raster/primitives/small_coverage.h"
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "halfspace/core/lanes.h"
-#include "halfspace/raster/pipeline/pipeline_data.h"
+#include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 

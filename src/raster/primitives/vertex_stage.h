@@ -4,30 +4,9 @@
 // 1/256 px, outcodes and varyings, each used vertex once.
 #pragma once
 
-#include <algorithm>
-
-#include "halfspace/core/transpose.h"
-#include "halfspace/raster/pipeline/pipeline_data.h"
-#include "halfspace/shading/contract.h"
+#include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
-
-/// Up to kVertexBatch vertices for a vertex kernel.
-inline constexpr int kVertexBatch = 256;
-struct VertexBatch {
-  std::span<const VertexStream> streams;
-  const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
-  uint32_t first;
-  int count;
-  uint32_t slot_base;   ///< varyings of vertex i go to row i − slot_base (modulo 2^32)
-  int32_t base_vertex;  ///< index + base_vertex is the row of the streams
-  int32_t instance;     ///< all vertices are of this one
-  float* varyings;      ///< null for the position kernel
-  float* clip;          ///< out: x, y, z, w of clip space as four rows of kVertexBatch
-  float* extra;         ///< out, or null: rows of the point size and the clip distances, or a sprite's low x, low y, high x, high y
-};
-inline constexpr int kMostClipDistances = 8;
-inline constexpr int kMostExtraRows = 1 + kMostClipDistances;
 
 /// The transform of a draw's clip space to the window. viewport in pixels; depth range as in DepthState.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
@@ -38,89 +17,5 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
 
 /// Allocates out for all the vertices that the draw uses.
 void allocate_vertices(const Draw& draw, ShadedVertices& out);
-
-namespace detail {
-
-/// The attributes of W vertices; lanes beyond the batch repeat its last vertex.
-template <class A>
-HS_INLINE A load_attributes(std::span<const VertexStream> streams, Int ids) {
-  std::array<Real, kComponents<A>> components;
-  alignas(64) std::array<int32_t, kLanes> rows;
-  std::size_t c = 0;
-  for (const VertexStream& stream : streams) {
-    const Int row = ids * stream.stride;
-    store(rows.data(), row);
-    int32_t k = 0;
-    if constexpr (kComponents<A> >= 4) {
-      for (; k + 4 <= stream.components && c + 4 <= components.size(); k += 4) {
-        const std::array<Int, 4> words = load_fours<Int>([&](int i) { return stream.data + k + rows[static_cast<std::size_t>(i)]; });
-        for (const Int& word : words) components[c++] = as_real(word);
-      }
-    }
-    for (; k < stream.components && c < components.size(); ++k) components[c++] = gather(stream.data + k, row);
-  }
-  return from_components<A, Real>(components);
-}
-
-/// Writes varyings to the rows of `count` vertices.
-template <std::size_t N>
-HS_INLINE void store_varyings(const std::array<Real, N>& components, float* const (&row)[kLanes], int count) {
-  if constexpr (N >= 4) {
-    alignas(64) std::array<float, 4> spare;
-    // The last four may hold some of the four before once more.
-    for (std::size_t c = 0; c < N; c += 4) {
-      const std::size_t first = std::min(c, N - 4);
-      store_fours<Int>(
-          {as_int(components[first]), as_int(components[first + 1]), as_int(components[first + 2]), as_int(components[first + 3])},
-          [&](int k) { return k < count ? row[k] + first : spare.data(); });
-    }
-  } else {
-    for (int k = 0; k < count; ++k) {
-      for (std::size_t c = 0; c < N; ++c) row[k][c] = lane(components[c], k);
-    }
-  }
-}
-
-template <std::size_t N>
-HS_INLINE void store_extra(const PerVertex<Real, N>& v, float* rows) {
-  store(rows, v.point_size);
-  for (std::size_t i = 0; i < N; ++i) store(rows + (i + 1) * kVertexBatch, v.clip_distance[i]);
-}
-HS_INLINE void store_extra(const SpriteVertex<Real>& v, float* rows) {
-  store(rows, v.low.x);
-  store(rows + kVertexBatch, v.low.y);
-  store(rows + 2 * kVertexBatch, v.high.x);
-  store(rows + 3 * kVertexBatch, v.high.y);
-}
-
-template <class S, bool with_varyings>
-HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
-  using Attributes = typename S::template Attributes<Real>;
-  using Varyings = typename S::template Varyings<Real>;
-  constexpr std::size_t n = kComponents<Varyings>;
-  const S& s = *static_cast<const S*>(shader);
-  for (int begin = 0; begin < batch.count; begin += kLanes) {
-    const int count = std::min(kLanes, batch.count - begin);
-    const Int lane_index = min(iota<Int>(), Int(count - 1)) + begin;
-    const Int ids =
-        batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index) : lane_index + static_cast<int32_t>(batch.first);
-    Varyings out;
-    const VertexId<Real> id{ids + batch.base_vertex, batch.instance};
-    const auto vertex = call_vertex<S, Real>(s, load_attributes<Attributes>(batch.streams, id.vertex), id, out);
-    const vec4<Real> clip = position_of(vertex);
-    for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
-    if constexpr (with_varyings && !std::is_same_v<std::remove_const_t<decltype(vertex)>, vec4<Real>>) {
-      if (batch.extra != nullptr) store_extra(vertex, batch.extra + begin);
-    }
-    if constexpr (with_varyings && n != 0) {
-      float* row[kLanes];
-      for (int k = 0; k < kLanes; ++k)
-        row[k] = batch.varyings + static_cast<std::size_t>(static_cast<uint32_t>(lane(ids, k)) - batch.slot_base) * n;
-      store_varyings(to_components<Real>(out), row, count);
-    }
-  }
-}
-
-}  // namespace detail
 
 }  // namespace halfspace

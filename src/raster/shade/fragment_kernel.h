@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "halfspace/raster/shade/packet_triangles.h"
+#include "halfspace/raster/shade/packet_merge.h"
 
 namespace halfspace::detail {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Shading at once, in order: what blends, and what only its fragment function can decide.
+#include "halfspace/raster/shade/shade_immediate.h"
+
 #include <algorithm>
 
-#include "halfspace/raster/shade/shade.h"
 #include "halfspace/raster/visibility/centroid.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
@@ -127,7 +126,7 @@ void shade_pixels(const Context& c) {
 
 void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      PassStatistics& statistics) {
-  const Triangle& t = frame.chunks[id >> 16].triangles[id & 0xffff];
+  const Triangle& t = triangle_of(frame, id);
   const bool late_stencil = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only;
   const StencilFace* stencil = late_stencil ? stencil_face(draw.state, tile, t.is(kFrontFacing)) : nullptr;
   const Context c{frame, draw, id, mode, list, tile, stencil, statistics};

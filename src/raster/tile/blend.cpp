@@ -1,58 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/tile/blend.h"
 
-#include <cstring>
-
-#include "halfspace/core/half.h"
-#include "halfspace/core/srgb.h"
+#include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace {
 
 namespace {
-
-template <class T>
-T* plane(ColorBuffer& b, int k) {
-  return reinterpret_cast<T*>(b.bytes.data()) + k * kMaxTilePixels;
-}
-template <class T>
-const T* plane(const ColorBuffer& b, int k) {
-  return reinterpret_cast<const T*>(b.bytes.data()) + k * kMaxTilePixels;
-}
-
-Real decode8(ColorFormat format, Int code, bool alpha) {
-  return format == ColorFormat::srgb8a8 && !alpha ? srgb_to_linear<Real>(code) : unorm8_to_linear(to_real<Real>(code));
-}
-Int encode8(ColorFormat format, Real value, bool alpha) {
-  return format == ColorFormat::srgb8a8 && !alpha ? linear_to_srgb(value) : linear_to_unorm8(value);
-}
-
-template <class I>
-I load_halves(const uint16_t* p) {
-  if constexpr (std::is_same_v<I, int32_t>) {
-    return *p;
-  } else {
-    using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
-    return I(__builtin_convertvector(load<Halves>(p), typename I::V));
-  }
-}
-template <class I>
-Real decode_halves(I h) {
-  if constexpr (std::is_same_v<I, int32_t>) {
-    return half_to_float(static_cast<uint16_t>(h));
-  } else {
-    return half_to_float(h);
-  }
-}
-template <class I, class M>
-void store_halves(uint16_t* p, I h, M mask) {
-  if constexpr (std::is_same_v<I, int32_t>) {
-    if (any(mask)) *p = static_cast<uint16_t>(h);
-  } else {
-    using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
-    const Halves lanes = __builtin_convertvector(mask.v, Halves), old = load<Halves>(p);
-    store(p, (__builtin_convertvector(h.v, Halves) & lanes) | (old & ~lanes));
-  }
-}
 
 // What the factors are made of. Of fixed-point targets the last two are still to be clamped.
 struct BlendSources {
@@ -101,8 +54,6 @@ Real combine(BlendEquation e, Real src, Real src_factor, Real dst, Real dst_fact
   return src;
 }
 
-bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
-
 PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
   PacketColor out;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -112,13 +63,6 @@ PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
     out[k] = combine(alpha ? s.alpha_equation : s.color_equation, from.src[k], factor(sf, from, k), from.dst[k], factor(df, from, k));
   }
   return out;
-}
-
-// A colour's four codes, red lowest.
-template <ColorFormat format>
-Int packed_codes(const PacketColor& c) {
-  return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
-         encode8(format, c[3], true) << 24;
 }
 
 void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
@@ -139,17 +83,6 @@ void replace_packed(ColorBuffer& buffer, std::span<const PacketMask> packets, co
   for (std::size_t i = 0; i < packets.size(); ++i) {
     int32_t* pixels = plane<int32_t>(buffer, 0) + static_cast<std::size_t>(packets[i].packet) * kLanes;
     store(pixels, select(mask_from_bits<Mask>(packets[i].lanes), packed_codes<format>(src[i]), load<Int>(pixels)));
-  }
-}
-
-template <ColorFormat format>
-Real read_channel(const ColorBuffer& buffer, std::size_t first, int k) {
-  if constexpr (format == ColorFormat::rgba32f) {
-    return load<Real>(plane<float>(buffer, k) + first);
-  } else if constexpr (format == ColorFormat::rgba16f) {
-    return decode_halves(load_halves<Int>(plane<uint16_t>(buffer, k) + first));
-  } else {
-    return decode8(format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
 #include "halfspace/raster/pipeline/sample_pattern.h"
+#include "halfspace/raster/target.h"
 
 namespace halfspace {
 
@@ -80,7 +81,7 @@ struct ColorBuffer {
   alignas(64) std::array<std::byte, kMaxTilePixels * 16> bytes;
 };
 
-/// One task's workspace: it lives on the stack of the task that owns the tile. With one attachment some 100 KB of it are used.
+/// The pixels of the tile that a task works on. With one attachment some 100 KB of it are used.
 /// With several samples a pixel all arrays hold one cell a sample (see raster/pipeline/sample_pattern.h).
 struct Tile {
   int x0 = 0, y0 = 0;         ///< window coordinates of its lower left pixel
@@ -103,19 +104,6 @@ struct Tile {
   /// Writes since the bounds were last exact.
   std::array<uint8_t, kBlocks> block_writes;
 };
-
-/// A depth in [0, 1] as the format's value (see Tile::depth): unorm codes rounded to the nearest, once. Beside 2^23 the
-/// last bit of a float weighs 1, so that the fma's own rounding gives whole numbers; from there on the product's does.
-template <Number R>
-HS_INLINE R depth_value(DepthFormat format, R z) {
-  const R beside(0x1p23f);
-  if (format == DepthFormat::d24) {
-    const R code = z * R(16777215.0f);
-    return select(code < beside, fma(z, R(16777215.0f), beside) - beside, code);
-  }
-  if (format == DepthFormat::d16) return fma(z, R(65535.0f), beside) - beside;
-  return z;
-}
 
 /// What an image holds of pixels with several samples.
 enum class Samples : uint8_t {

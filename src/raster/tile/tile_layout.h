@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the pixels of a tile lie in an image, and what images hold of them: for tile_load.cpp and tile_store.cpp.
+// Where the pixels of a tile lie in an image.
 #pragma once
 
 #include <algorithm>
@@ -81,14 +81,13 @@ struct ImagePlace {
   Samples held;
 };
 
-// Planes of T in the tile ↔ T[4] a pixel in the image.
-template <class T>
-T* planes(ColorBuffer& b) {
-  return reinterpret_cast<T*>(b.bytes.data());
-}
-template <class T>
-const T* planes(const ColorBuffer& b) {
-  return reinterpret_cast<const T*>(b.bytes.data());
+// Images from this size on are larger than the caches next to a core. What is written to them goes past these caches, which saves reading
+// each line first.
+inline constexpr std::size_t kStreamBytes = std::size_t{4} << 20;
+
+inline bool streams(const std::byte* data, int width, int height, int bytes) {
+  const auto row = static_cast<std::size_t>(width) * static_cast<std::size_t>(bytes);
+  return row * static_cast<std::size_t>(height) >= kStreamBytes && row % 64 == 0 && reinterpret_cast<uintptr_t>(data) % 64 == 0;
 }
 
 // Calls f(first pixel in the tile, and of its two rows in the image) for each two rows of `columns` pixels, 2 or 4, which lie side by
@@ -106,52 +105,6 @@ HS_INLINE bool for_each_two_rows(const Tile& tile, const ImagePlace& place, F f)
     }
   }
   return true;
-}
-
-// One pixel's depth and stencil, as an image holds them and as a tile does.
-struct Depth16 {
-  using Image = uint16_t;
-  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }
-  static Image store(float depth, uint8_t) { return static_cast<Image>(depth); }
-};
-struct Depth24 {
-  using Image = uint32_t;
-  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }
-  static Image store(float depth, uint8_t) { return static_cast<Image>(depth); }
-};
-struct Depth32 {
-  using Image = float;
-  static void load(Image i, float& depth, uint8_t&) { depth = i; }
-  static Image store(float depth, uint8_t) { return depth; }
-};
-struct Depth24Stencil8 {
-  using Image = uint32_t;
-  static void load(Image i, float& depth, uint8_t& stencil) {
-    depth = static_cast<float>(i >> 8);
-    stencil = static_cast<uint8_t>(i);
-  }
-  static Image store(float depth, uint8_t stencil) { return static_cast<Image>(depth) << 8 | stencil; }
-};
-struct Depth32Stencil8 {
-  using Image = DepthStencil;
-  static void load(const Image& i, float& depth, uint8_t& stencil) {
-    depth = i.depth;
-    stencil = static_cast<uint8_t>(i.stencil);
-  }
-  static Image store(float depth, uint8_t stencil) { return {depth, stencil}; }
-};
-
-// Calls f with the codec of a format.
-template <class F>
-void with_codec(DepthFormat format, F f) {
-  switch (format) {
-    case DepthFormat::none: return;
-    case DepthFormat::d16: return f(Depth16{});
-    case DepthFormat::d24: return f(Depth24{});
-    case DepthFormat::d32f: return f(Depth32{});
-    case DepthFormat::d24s8: return f(Depth24Stencil8{});
-    case DepthFormat::d32fs8: return f(Depth32Stencil8{});
-  }
 }
 
 }  // namespace halfspace

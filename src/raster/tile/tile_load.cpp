@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "halfspace/raster/tile/blend.h"
+#include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/tile_layout.h"
 
 namespace halfspace {
@@ -16,7 +16,7 @@ HS_INLINE void for_each_load(const Tile& tile, const ImagePlace& p, F f) {
 template <class T>
 void load_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
   const T* image = reinterpret_cast<const T*>(data);
-  T* to = planes<T>(color);
+  T* to = plane<T>(color, 0);
   for_each_load(tile, place, [&](std::size_t t, std::size_t i) {
     for (std::size_t k = 0; k < 4; ++k) to[k * kMaxTilePixels + t] = image[4 * i + k];
   });
@@ -49,27 +49,13 @@ HS_INLINE void split_two_quads(const uint16_t* row0, const uint16_t* row1, uint1
 
 void load_half_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
   const auto* image = reinterpret_cast<const uint16_t*>(data);
-  uint16_t* to = planes<uint16_t>(color);
+  uint16_t* to = plane<uint16_t>(color, 0);
 #ifdef __AVX2__
   const auto two_quads = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_two_quads(image + row0, image + row1, to + t); };
   if (for_each_two_rows<4>(tile, place, two_quads)) return;
 #endif
   const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_quad(image + row0, image + row1, to + t); };
   if (!for_each_two_rows<2>(tile, place, quad)) load_planes<uint16_t>(data, place, tile, color);
-}
-
-// Sets all pixels to the first.
-void repeat_first_pixel(ColorBuffer& color) {
-  const auto repeat = []<class T>(T* values, int count) { std::fill_n(values, count, *values); };
-  switch (color.format) {
-    case ColorFormat::rgba32f:
-      for (int k = 0; k < 4; ++k) repeat(planes<float>(color) + k * kMaxTilePixels, kMaxTilePixels);
-      break;
-    case ColorFormat::rgba16f:
-      for (int k = 0; k < 4; ++k) repeat(planes<uint16_t>(color) + k * kMaxTilePixels, kMaxTilePixels);
-      break;
-    default: repeat(planes<uint32_t>(color), kMaxTilePixels); break;
-  }
 }
 
 }  // namespace
@@ -83,8 +69,7 @@ void load_color(const ColorTarget& target, int width, int height, Samples held, 
   }
   if (target.load == LoadOp::clear) {
     const PacketColor c{Real(target.clear_value.x), Real(target.clear_value.y), Real(target.clear_value.z), Real(target.clear_value.w)};
-    write_color(color, 0, Mask(true), c, c, {});
-    repeat_first_pixel(color);
+    fill_buffer(color, c);
     return;
   }
   const ImagePlace place{width, height, held};

@@ -2,21 +2,12 @@
 #include <algorithm>
 #include <bit>
 
-#include "halfspace/raster/tile/blend.h"
+#include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/tile_layout.h"
 
 namespace halfspace {
 
 namespace {
-
-// Images from this size on are larger than the caches next to a core: what is written to them goes past these, which saves
-// reading each line first.
-constexpr std::size_t kStreamBytes = std::size_t{4} << 20;
-
-bool streams(const std::byte* data, int width, int height, int bytes) {
-  const auto row = static_cast<std::size_t>(width) * static_cast<std::size_t>(bytes);
-  return row * static_cast<std::size_t>(height) >= kStreamBytes && row % 64 == 0 && reinterpret_cast<uintptr_t>(data) % 64 == 0;
-}
 
 #ifdef __AVX2__
 // copy_words to a large image, of a whole tile of one sample: two rows of eight pixels at a time.
@@ -57,7 +48,7 @@ HS_INLINE void for_each_store(const Tile& tile, const ImagePlace& p, F f) {
 template <class T>
 void store_planes(std::byte* data, const ImagePlace& place, const Tile& tile, const ColorBuffer& color) {
   T* image = reinterpret_cast<T*>(data);
-  const T* from = planes<T>(color);
+  const T* from = plane<T>(color, 0);
   for_each_store(tile, place, [&](std::size_t t, std::size_t i) {
     for (std::size_t k = 0; k < 4; ++k) image[4 * i + k] = from[k * kMaxTilePixels + t];
   });
@@ -85,7 +76,7 @@ HS_INLINE void join_two_quads(const uint16_t* from, uint16_t* row0, uint16_t* ro
 
 void store_half_planes(std::byte* data, const ImagePlace& place, const Tile& tile, const ColorBuffer& color) {
   auto* image = reinterpret_cast<uint16_t*>(data);
-  const uint16_t* from = planes<uint16_t>(color);
+  const uint16_t* from = plane<uint16_t>(color, 0);
 #ifdef __AVX2__
   const auto two_quads = [&](std::size_t t, std::size_t row0, std::size_t row1) { join_two_quads(from + t, image + row0, image + row1); };
   if (for_each_two_rows<4>(tile, place, two_quads)) return;
@@ -94,85 +85,7 @@ void store_half_planes(std::byte* data, const ImagePlace& place, const Tile& til
   if (!for_each_two_rows<2>(tile, place, quad)) store_planes<uint16_t>(data, place, tile, color);
 }
 
-// Fills bytes, a multiple of 64, with a line of 64.
-void stream_lines(const std::byte* line, std::byte* out, std::size_t bytes) {
-  const __m128i a = load<__m128i>(line), b = load<__m128i>(line + 16), c = load<__m128i>(line + 32), d = load<__m128i>(line + 48);
-  for (std::size_t i = 0; i < bytes; i += 64) {
-    auto* to = reinterpret_cast<__m128i*>(out + i);
-    _mm_stream_si128(to, a);
-    _mm_stream_si128(to + 1, b);
-    _mm_stream_si128(to + 2, c);
-    _mm_stream_si128(to + 3, d);
-  }
-}
-
-// Fills a long run of words. The processor's own loop writes whole cache lines without reading them first, and leaves them in the cache:
-// where it has some hundred KB before it, it is faster than stores past the caches.
-void fill_words(std::byte* out, uint32_t word, std::size_t words) {
-  asm volatile("rep stosl" : "+D"(out), "+c"(words) : "a"(word) : "memory");
-}
-constexpr std::size_t kLongRun = std::size_t{64} << 10;  // bytes
-
-// Sets pixels of an image to one value.
-template <class T>
-void fill_rows(T value, std::byte* data, int width, int height, const PixelBounds& pixels) {
-  const auto at = [&](int y) {
-    return data +
-           (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixels.x0)) * sizeof(T);
-  };
-  auto bytes = static_cast<std::size_t>(pixels.x1 - pixels.x0) * sizeof(T);  // of a run
-  int runs = pixels.y1 - pixels.y0;
-  if (pixels.x1 - pixels.x0 == width) {  // rows that follow each other
-    bytes *= static_cast<std::size_t>(runs);
-    runs = 1;
-  }
-  const bool large = streams(data, width, height, sizeof(T));
-  if constexpr (sizeof(T) == sizeof(uint32_t)) {
-    if (large && runs == 1 && bytes >= kLongRun) return fill_words(at(pixels.y1 - 1), std::bit_cast<uint32_t>(value), bytes / sizeof(T));
-  }
-  alignas(64) std::array<std::byte, 64> line;
-  for (std::size_t i = 0; i < 64; i += sizeof(T)) std::memcpy(&line[i], &value, sizeof(T));
-  const bool stream = large && bytes % 64 == 0 && static_cast<std::size_t>(pixels.x0) * sizeof(T) % 64 == 0;
-  for (int y = pixels.y1 - runs; y < pixels.y1; ++y) {
-    if (stream) {
-      stream_lines(line.data(), at(y), bytes);
-    } else {
-      std::fill_n(reinterpret_cast<T*>(at(y)), bytes / sizeof(T), value);
-    }
-  }
-  if (stream) _mm_sfence();
-}
-
 }  // namespace
-
-void fill_color(const ColorTarget& target, int width, int height, const PixelBounds& pixels, const PacketColor& color) {
-  if (target.store == StoreOp::dont_care || target.data == nullptr) return;
-  ColorBuffer one;
-  one.format = target.format;
-  write_color(one, 0, Mask(true), color, color, {});
-  switch (target.format) {
-    case ColorFormat::none: return;
-    case ColorFormat::rgba8:
-    case ColorFormat::srgb8a8: return fill_rows(*planes<uint32_t>(one), target.data, width, height, pixels);
-    case ColorFormat::rgba16f: {
-      const uint16_t* p = planes<uint16_t>(one);
-      return fill_rows(std::array<uint16_t, 4>{p[0], p[kMaxTilePixels], p[2 * kMaxTilePixels], p[3 * kMaxTilePixels]}, target.data, width,
-                       height, pixels);
-    }
-    case ColorFormat::rgba32f: {
-      const float* p = planes<float>(one);
-      return fill_rows(std::array<float, 4>{p[0], p[kMaxTilePixels], p[2 * kMaxTilePixels], p[3 * kMaxTilePixels]}, target.data, width,
-                       height, pixels);
-    }
-  }
-}
-
-void fill_depth(const DepthTarget& target, int width, int height, const PixelBounds& pixels) {
-  if (target.store == StoreOp::dont_care || target.data == nullptr) return;
-  const float clear = depth_value(depth_part(target.format), std::clamp(target.clear_value, 0.0f, 1.0f));
-  with_codec(target.format,
-             [&]<class C>(C) { fill_rows(C::store(clear, target.stencil_clear_value), target.data, width, height, pixels); });
-}
 
 void store_color(const ColorTarget& target, int width, int height, Samples held, const Tile& tile, const ColorBuffer& color) {
   if (target.format == ColorFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;

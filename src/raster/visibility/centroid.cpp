@@ -35,7 +35,7 @@ void find_centroids(const Frame& frame, int x, int y, const TriangleId* ids, Tri
   for (int i = 0; i < kLanes; ++i) {
     const TriangleId id = ids != nullptr ? ids[i] : uniform;
     out[i] = {kSubPixels / 2, kSubPixels / 2};
-    if (id != kNoTriangle) out[i] = centroid(frame.chunks[id >> 16].triangles[id & 0xffff], frame.samples, x + block_x(i), y + block_y(i));
+    if (id != kNoTriangle) out[i] = centroid(triangle_of(frame, id), frame.samples, x + block_x(i), y + block_y(i));
   }
 }
 

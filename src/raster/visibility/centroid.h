@@ -4,6 +4,7 @@
 // sample that it covers (OpenGL 4.6, section 14.3.1, leaves the choice free). What else is drawn there makes no difference.
 #pragma once
 
+#include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/tile/tile.h"
 
 namespace halfspace {

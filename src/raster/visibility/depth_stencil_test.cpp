@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
-#include "halfspace/raster/visibility/compare.h"
-
 namespace halfspace {
 
 namespace {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/visibility/full_tile.h"
 
-#include "halfspace/raster/primitives/setup_scalar.h"
-#include "halfspace/raster/shade/shade.h"
-#include "halfspace/raster/visibility/block_edges.h"
+#include "halfspace/raster/visibility/depth_bounds.h"
 
 namespace halfspace {
 
@@ -34,9 +32,8 @@ void WholeTile::write() {
   waiting_.reset();
 }
 
-void WholeTile::shade(PassStatistics& statistics) {
-  shade_whole_tile(waiting_->draw.frame, waiting_->id, waiting_->draw.tile, statistics);
-  waiting_->draw.mode = VisibilityMode::depth_only;  // no one asks for the triangle any more
+void WholeTile::write_depth() {
+  waiting_->draw.mode = VisibilityMode::depth_only;
   write();
 }
 

@@ -4,8 +4,10 @@
 // to the tile: what lies behind costs no more than its test, in whatever order it comes.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
+#include "halfspace/raster/pipeline/edge.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace {
@@ -27,8 +29,10 @@ class WholeTile {
   bool shows() const { return waiting_ && waiting_->draw.mode == VisibilityMode::deferred; }
   /// Writes depth and id of what waits, if something does.
   void write();
-  /// Shades what waits (shows() is true), and writes its depth.
-  void shade(PassStatistics& statistics);
+  /// The triangle that waits; shows() is true.
+  TriangleId triangle() const { return waiting_->id; }
+  /// Writes the depth of what waits, which has been shaded, and no id.
+  void write_depth();
 
  private:
   static bool may_cover(const Triangle& t) { return !t.is(kSmall | kSprite | kLine); }
@@ -42,5 +46,37 @@ class WholeTile {
   };
   std::optional<Waiting> waiting_;
 };
+
+// ---- which triangles cover an area, alone or as the two halves of a quad ---------------------------------------
+
+/// Is the centre of every pixel of the area inside of the edge?
+inline bool contains(const Edge& e, const PixelBounds& area) {
+  const int x = e.ey > 0 ? area.x1 - 1 : area.x0, y = e.ex > 0 ? area.y0 : area.y1 - 1;  // where the edge function is least
+  return e.at(x * kSubPixels + kSubPixels / 2, y * kSubPixels + kSubPixels / 2) >= fill_bias(e);
+}
+
+/// The one edge of a triangle that does not contain the area, if it is one alone.
+inline std::optional<Edge> crossing_edge(const Triangle& t, const PixelBounds& area) {
+  std::optional<Edge> crossing;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge e = edge_of(t, i);
+    if (contains(e, area)) continue;
+    if (crossing) return std::nullopt;
+    crossing = e;
+  }
+  return crossing;
+}
+
+/// Does a triangle cover the centre of every pixel of the area?
+inline bool covers(const Triangle& t, const PixelBounds& area) {
+  return contains(edge_of(t, 0), area) && contains(edge_of(t, 1), area) && contains(edge_of(t, 2), area);
+}
+
+/// Do two triangles share an edge and cover together the centre of every pixel of the area, each once? The fill rule gives what lies
+/// on the shared edge to one of them.
+inline bool cover_together(const Triangle& t, const Triangle& u, const PixelBounds& area) {
+  const std::optional<Edge> a = crossing_edge(t, area), b = crossing_edge(u, area);
+  return a && b && a->ex == -b->ex && a->ey == -b->ey && a->x0 + a->ex == b->x0 && a->y0 + a->ey == b->y0;
+}
 
 }  // namespace halfspace

@@ -6,7 +6,8 @@
 #include <bit>
 
 #include "halfspace/raster/visibility/block_edges.h"
-#include "halfspace/raster/visibility/compare.h"
+#include "halfspace/raster/visibility/depth_bounds.h"
+#include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace {

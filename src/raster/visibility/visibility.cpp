@@ -5,10 +5,10 @@
 #include <bit>
 #include <limits>
 
-#include "halfspace/raster/primitives/setup_scalar.h"
+#include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/centroid.h"
-#include "halfspace/raster/visibility/compare.h"
+#include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
 namespace halfspace {

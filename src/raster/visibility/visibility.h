@@ -10,7 +10,7 @@
 #include <span>
 
 #include "halfspace/raster/tile/tile.h"
-#include "halfspace/raster/visibility/tile_edges.h"
+#include "halfspace/raster/visibility/depth_plane.h"
 
 namespace halfspace {
 

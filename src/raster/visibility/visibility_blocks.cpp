@@ -4,7 +4,7 @@
 // visibility.cpp's, with what those draws do not need left out. Small triangles: visibility_small.cpp.
 #include <algorithm>
 
-#include "halfspace/raster/primitives/setup_scalar.h"
+#include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 
 namespace halfspace {

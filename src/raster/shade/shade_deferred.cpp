@@ -1,43 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/shade/shade.h"
+#include "halfspace/raster/shade/shade_deferred.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "halfspace/raster/tile/blend.h"
 #include "halfspace/raster/visibility/centroid.h"
 
 namespace halfspace {
 
-void constant_colors(const Draw& draw, FragmentOutput& out) {
-  draw.kernels.fragment(draw.shader.get(), {.frame = nullptr,
-                                            .tile_x0 = 0,
-                                            .tile_y0 = 0,
-                                            .position = {},
-                                            .ids = nullptr,
-                                            .uniform_id = kNoTriangle,
-                                            .packets = nullptr,
-                                            .count = 1,
-                                            .centroids = nullptr,
-                                            .out = &out});
-}
-
-void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile) {
-  const PacketColor* second = &out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);
-  for (int n = 0; n < std::min(tile.color_count, draw.kernels.color_count); ++n) {
-    const auto at = static_cast<std::size_t>(n);
-    if (tile.color[at].format == ColorFormat::none) continue;
-    write_batch(tile.color[at], packets, &out.packet_color(at, i), second, {blend_of(draw.state, at), color_mask_of(draw.state, at)});
-  }
-}
-
 namespace {
-
-// One packet's pixels of one draw.
-struct Work {
-  const Draw* draw;
-  PacketMask packet;
-};
 
 // Which of the pixels that wait are shaded: those of draws that are shaded for each sample, or the others.
 enum class Share : uint8_t { per_pixel, per_sample };
@@ -53,7 +24,7 @@ struct Job {
 bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
 
 // The pixels that wait, packet by packet; a packet that shows several draws appears once for each.
-int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<Work, kMaxTilePixels>& work) {
+int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<ShadingWork, kMaxTilePixels>& work) {
   int count = 0;
   const bool whole = tile.size == kMaxTileSize;
   const int shift = packet_shift(job.cell);
@@ -79,7 +50,7 @@ int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<W
       int i = first;
       while (i < count && work[static_cast<std::size_t>(i)].draw != draw) ++i;
       if (i == count) work[static_cast<std::size_t>(count++)] = {draw, {static_cast<uint16_t>(p), 0}};
-      Work& w = work[static_cast<std::size_t>(i)];
+      ShadingWork& w = work[static_cast<std::size_t>(i)];
       w.packet.lanes = static_cast<uint16_t>(w.packet.lanes | same);
     }
   }
@@ -100,11 +71,11 @@ void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, c
   }
 }
 
-void run_job(const Frame& frame, Tile& tile, const Job& job, PassStatistics& statistics) {
-  std::array<Work, kMaxTilePixels> work;
+void run_job(const Frame& frame, Tile& tile, const Job& job, DeferredShading& memory, PassStatistics& statistics) {
+  std::array<ShadingWork, kMaxTilePixels>& work = memory.work;
   const int count = list_work(frame, tile, job, work);
   // By draw, so that each shader runs on full batches; pixels are independent, so the order makes no difference.
-  const auto by_draw = [](const Work& a, const Work& b) { return a.draw < b.draw; };
+  const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   if (!std::is_sorted(work.begin(), work.begin() + count, by_draw)) std::stable_sort(work.begin(), work.begin() + count, by_draw);
   FragmentOutput out;
   std::array<PacketMask, kFragmentBatch> packets;
@@ -159,15 +130,14 @@ bool next_layer(const Frame& frame, const Tile& tile, std::array<uint8_t, kMaxTi
   return found;
 }
 
-void shade_deferred_samples(const Frame& frame, Tile& tile, PassStatistics& statistics) {
+void shade_deferred_samples(const Frame& frame, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
   for (int s = 0; s < tile.samples; ++s) {
     run_job(frame, tile, {tile.id.data(), sample_cell(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample},
-            statistics);
+            memory, statistics);
   }
-  std::array<uint8_t, kMaxTilePixels> taken{};
-  std::array<TriangleId, kMaxTilePixels> layer;
-  while (next_layer(frame, tile, taken, layer)) {
-    run_job(frame, tile, {layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, statistics);
+  memory.taken.fill(0);
+  while (next_layer(frame, tile, memory.taken, memory.layer)) {
+    run_job(frame, tile, {memory.layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
   }
 }
 
@@ -187,11 +157,11 @@ void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatist
   }
 }
 
-void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics) {
+void shade_deferred(const Frame& frame, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
   if (tile.samples == 1) {
-    run_job(frame, tile, {tile.id.data(), {0, 0}, kPixelCenter, Share::per_pixel}, statistics);
+    run_job(frame, tile, {tile.id.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
   } else {
-    shade_deferred_samples(frame, tile, statistics);
+    shade_deferred_samples(frame, tile, memory, statistics);
   }
   tile.id.fill(kNoTriangle);
 }

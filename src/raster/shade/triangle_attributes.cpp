@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/shade/packet_triangles.h"
+#include "halfspace/raster/shade/triangle_attributes.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "halfspace/raster/pipeline/lane_order.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
-#include "halfspace/raster/primitives/point_sprite.h"
 
 namespace halfspace {
 
 namespace {
+
+// The triangle that interpolates over a sprite: its corners in the window, all as deep and as far as the point. From the first
+// corner to the second the point coordinate's s grows from 0 to 1, from the first to the third t.
+std::array<ScreenVertex, 3> sprite_corners(const Triangle& t, const ScreenVertex& point, PointOrigin origin) {
+  const int32_t x0 = t.x[0], x1 = t.x[1] + 1;
+  const bool upper = origin == PointOrigin::upper_left;
+  const int32_t first_y = upper ? t.y[1] + 1 : t.y[0], other_y = upper ? t.y[0] : t.y[1] + 1;
+  return {ScreenVertex{x0, first_y, point.z, point.inv_w}, {x1, first_y, point.z, point.inv_w}, {x0, other_y, point.z, point.inv_w}};
+}
 
 // The vertices of what is clipped, a point or a line.
 void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, const Draw& draw, TriangleSource& s) {
@@ -44,7 +51,7 @@ std::array<const Triangle*, kLanes> triangles_of(const Frame& frame, const Trian
   std::array<const Triangle*, kLanes> triangles;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : first;
-    triangles[i] = &frame.chunks[id >> 16].triangles[id & 0xffff];
+    triangles[i] = &triangle_of(frame, id);
   }
   return triangles;
 }
@@ -54,8 +61,8 @@ void find_primitives(const Frame& frame, const TriangleId* ids, uint32_t lanes, 
   if (length == 0) return;
   for (std::size_t i = 0; i < rows.primitive.size(); ++i) {
     const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : ids[std::countr_zero(lanes)];
-    const Chunk& chunk = frame.chunks[id >> 16];
-    const uint32_t index = id & 0xffff;
+    const Chunk& chunk = frame.chunks[chunk_of(id)];
+    const uint32_t index = index_in_chunk(id);
     const Segment& segment = chunk.segments[chunk.triangles[index].segment()];
     rows.primitive[i] = chunk.primitives.data() + segment.first_primitive + (index - segment.first_triangle) * length;
   }
@@ -64,8 +71,8 @@ void find_primitives(const Frame& frame, const TriangleId* ids, uint32_t lanes, 
 }  // namespace
 
 void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
-  const Chunk& chunk = frame.chunks[id >> 16];
-  const uint32_t index = id & 0xffff;
+  const Chunk& chunk = frame.chunks[chunk_of(id)];
+  const uint32_t index = index_in_chunk(id);
   const Triangle& t = chunk.triangles[index];
   const Segment& segment = chunk.segments[t.segment()];
   const Draw& draw = frame.draws[segment.draw];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shade. In: packets of a tile, each lane with the triangle it shows. Out: linear colours, and for shaders that ask,
-// keep masks and depths. How one shader does it: raster/shade/fragment_kernel.h.
+// Packets for a fragment kernel, each lane with the triangle it shows, and what the kernel returns: linear colours, and for shaders that
+// decide them keep masks and depths.
 #pragma once
 
 #include <span>
@@ -40,25 +40,8 @@ struct FragmentBatch {
   FragmentOutput* out;
 };
 
-/// The draw that a triangle belongs to.
-inline const Draw& draw_of(const Frame& frame, TriangleId id) {
-  const Chunk& chunk = frame.chunks[id >> 16];
-  const std::size_t segment = chunk.segments.size() == 1 ? 0 : chunk.triangles[id & 0xffff].segment();
-  return frame.draws[chunk.segments[segment].draw];
-}
-
-/// Shades all pixels of the tile that wait for it, and writes their colours.
-void shade_deferred(const Frame& frame, Tile& tile, PassStatistics& statistics);
-
-/// The same where all pixels of the tile's room show one triangle.
-void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatistics& statistics);
-
 /// The colours of a draw whose shader is constant.
 void constant_colors(const Draw& draw, FragmentOutput& out);
-
-/// Shades one triangle's packets now: late tests where needed, blending, colour write.
-void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
-                     PassStatistics& statistics);
 
 /// Writes all colours of a batch, from its packet i on, to packets of the tile.
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/constant_tiles.h"
+
+#include <algorithm>
+#include <array>
+
+#include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/primitives/bin.h"
+#include "halfspace/raster/shade/fragment_batch.h"
+#include "halfspace/raster/visibility/full_tile.h"
+
+namespace halfspace {
+
+PixelBounds tile_pixels(const Frame& frame, int tile_x0, int tile_x1, int tile_y) {
+  const int size = frame.tile_size;
+  return {tile_x0 * size, tile_y * size, std::min(tile_x1 * size, frame.width), std::min(tile_y * size + size, frame.height)};
+}
+
+std::optional<const Draw*> constant_tiles(const Frame& frame, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
+                                          PassStatistics& statistics) {
+  std::array<const Triangle*, 2> triangles{};
+  std::size_t count = 0;
+  const Draw* draw = nullptr;
+  for (const Chunk& c : frame.chunks) {
+    for (int x = tile_x0; x < tile_x1; ++x) {
+      for (const uint16_t index : bin_of(c, x, tile_y)) {
+        const Triangle& t = c.triangles[index];
+        if (&t == triangles[0] || &t == triangles[1]) continue;
+        const Draw& of = frame.draws[c.segments[t.segment()].draw];
+        if (count == triangles.size() || (draw != nullptr && draw != &of)) return std::nullopt;
+        draw = &of;
+        triangles[count++] = &t;
+      }
+    }
+  }
+  if (draw == nullptr) return nullptr;
+  const bool is_one_color = draw->deferred && draw->kernels.is_constant && draw->kernels.visibility == nullptr &&
+                            draw->kernels.color_count >= static_cast<int>(attachments.colors.size());
+  if (!is_one_color || attachments.depth.format != DepthFormat::none || frame.samples != 1) return std::nullopt;
+  const PixelBounds area = tile_pixels(frame, tile_x0, tile_x1, tile_y);
+  const bool is_triangle =
+      std::none_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is(kSprite | kLine); });
+  if (cut(area, draw->bounds) != area || !is_triangle ||
+      !(count == 1 ? covers(*triangles[0], area) : cover_together(*triangles[0], *triangles[1], area))) {
+    return std::nullopt;
+  }
+  const auto samples = static_cast<uint64_t>(area.x1 - area.x0) * static_cast<uint64_t>(area.y1 - area.y0);
+  statistics.tiles_touched += static_cast<uint64_t>(tile_x1 - tile_x0);
+  statistics.samples_tested += samples;
+  statistics.samples_passed += samples;
+  statistics.fragments_shaded += samples;
+  if (draw->state.query) statistics.add_to_query(*draw->state.query, samples);
+  return draw;
+}
+
+void fill_images(const Frame& frame, const Attachments& attachments, const ConstantArea& area) {
+  if (area.pixels.empty()) return;
+  FragmentOutput out;
+  if (area.draw != nullptr) constant_colors(*area.draw, out);
+  for (std::size_t i = 0; i < attachments.colors.size(); ++i) {
+    const ColorTarget& c = attachments.colors[i];
+    const glm::vec4& v = c.clear_value;
+    if (area.draw != nullptr) {
+      fill_color(c, frame.width, frame.height, area.pixels, out.packet_color(i, 0));
+    } else if (c.load == LoadOp::clear) {
+      fill_color(c, frame.width, frame.height, area.pixels, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
+    }
+  }
+  if (area.draw == nullptr && attachments.depth.load == LoadOp::clear)
+    fill_depth(attachments.depth, frame.width, frame.height, area.pixels);
+}
+
+}  // namespace halfspace

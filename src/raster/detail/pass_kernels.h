@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From the templates of Pass to the pipeline: the kernels of a shader type, and how a pass takes a draw. Private, but installed, since
+// pass.h includes it.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <memory>
+#include <span>
+#include <tuple>
+
+#include "halfspace/raster/primitives/primitive_stage.h"
+#include "halfspace/raster/primitives/vertex_kernel.h"
+#include "halfspace/raster/shade/fragment_kernel.h"
+#include "halfspace/raster/tile/post_step.h"
+
+namespace halfspace {
+
+namespace detail {
+
+/// What a draw takes of a shader.
+enum class DrawKind : uint8_t {
+  color,
+  depth_only  ///< the fragment function is ignored; a visibility function still counts
+};
+
+/// The kernels of a shader. Those of functions that it lacks, or that the draw ignores, are null.
+template <class S, DrawKind kind>
+constexpr ShaderKernels kernels_of() {
+  using V = typename S::template Varyings<float>;
+  // Varyings that nobody reads are not computed.
+  constexpr bool has_varyings = kind == DrawKind::color || HasVisibilityFunction<S>;
+  ShaderKernels k;
+  k.vertex = vertex_kernel<S, has_varyings, true>;
+  k.position = vertex_kernel<S, false, false>;
+  k.gives_point_size = kGivesPointSize<S>;
+  k.gives_sprite = kGivesSprite<S>;
+  static_assert(kClipDistances<S> <= kMostClipDistances);
+  k.clip_distance_count = static_cast<int>(kClipDistances<S>);
+  if constexpr (has_varyings) {
+    k.uses_centroid = kUsesCentroid<V>;
+    k.varying_count = static_cast<int>(kComponents<V>);
+    k.interpolations = kInterpolations<V>.data();
+  }
+  if constexpr (kind == DrawKind::color) {
+    if constexpr (HasPrimitive<S>) {
+      k.primitive = primitive_kernel<S>;
+      k.primitive_count = static_cast<int>(kComponents<typename S::template Primitive<float>>);
+    }
+    static_assert(kColors<S> <= kMaxColorTargets, "a fragment function returns at most 4 colours");
+    k.fragment = fragment_kernel<S>;
+    k.color_count = static_cast<int>(kColors<S>);
+    k.discards = kDiscards<S>;
+    k.is_constant = kIsConstant<S>;
+  }
+  if constexpr (HasFragmentFunction<S>) k.writes_depth = kWritesDepth<S>;
+  if constexpr (HasVisibilityFunction<S>) k.visibility = visibility_kernel<S>;
+  return k;
+}
+template <class S, DrawKind kind>
+inline constexpr ShaderKernels kKernels = kernels_of<S, kind>();
+
+/// A copy of the shader in memory that outlives it.
+template <class S>
+KeptShader keep_shader(const S& shader, std::pmr::memory_resource& memory) {
+  return {::new (memory.allocate(sizeof(S), alignof(S))) S(shader), [](const void* kept) { static_cast<const S*>(kept)->~S(); }};
+}
+
+/// Floats of each member of a struct of attributes, in order.
+template <class Tuple>
+struct MemberSizes;
+template <class... F>
+struct MemberSizes<std::tuple<F&...>> {
+  static constexpr std::array<std::size_t, sizeof...(F)> value{FieldTraits<std::remove_const_t<F>>::components...};
+};
+
+/// Do streams of elements T... give each member of the attributes A its floats? An element is one attribute, or, where it is a struct, some
+/// successive ones.
+template <class A, class... T>
+constexpr bool streams_match() {
+  constexpr auto members = MemberSizes<FieldsOf<A>>::value;
+  std::size_t next = 0;
+  const auto take = [&](std::size_t floats, bool is_one_attribute) {
+    if (is_one_attribute) return next < members.size() && members[next++] == floats;
+    while (floats != 0 && next < members.size() && members[next] <= floats) floats -= members[next++];
+    return floats == 0;
+  };
+  const auto is_one = []<class E>(std::type_identity<E>) {
+    return std::same_as<E, float> || requires { E::length(); };
+  };
+  return (take(sizeof(T) / sizeof(float), is_one(std::type_identity<T>())) && ...) && next == members.size();
+}
+
+template <class A, class V>
+inline constexpr bool kStreamsMatch = true;  // of a VertexView the pass checks the number of floats
+template <class A, class... T>
+inline constexpr bool kStreamsMatch<A, VertexViewOf<T...>> = streams_match<A, T...>();
+
+/// True if the view's streams match the shader's Attributes, else a compile-time error that names both types.
+template <class S, class V>
+consteval bool require_streams() {
+  static_assert(std::derived_from<V, VertexView>, "the vertices are a VertexView; see make_vertex_view()");
+  using A = typename S::template Attributes<float>;
+  static_assert(kStreamsMatch<A, V>, "the streams do not match the members of the shader's Attributes, one after the other");
+  return kStreamsMatch<A, V>;
+}
+
+/// The state of a Pass: its attachments, draws and plan. Pass holds one and sees nothing of it.
+class PassState;
+std::pmr::memory_resource& memory_of(PassState& state);
+void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
+              std::shared_ptr<const Indices> indices, const DrawState& draw_state);
+void set_post_step(PassState& state, PostStep post);
+
+/// An index list that a draw takes: Indices, or a contiguous range of uint32_t or uint16_t.
+template <class T>
+concept IndexList = std::same_as<std::remove_cvref_t<T>, Indices> || std::convertible_to<T, std::span<const uint32_t>> ||
+    std::convertible_to<T, std::span<const uint16_t>>;
+
+/// Views the indices, which stay the caller's, or scans a raw list.
+template <IndexList I>
+std::shared_ptr<const Indices> view_indices(I& indices, std::size_t vertex_count) {
+  if constexpr (std::same_as<std::remove_const_t<I>, Indices>) {
+    return {std::shared_ptr<void>(), &indices};
+  } else if constexpr (std::convertible_to<I&, std::span<const uint32_t>>) {
+    return std::make_shared<const Indices>(std::span<const uint32_t>(indices), vertex_count);
+  } else {
+    return std::make_shared<const Indices>(std::span<const uint16_t>(indices), vertex_count);
+  }
+}
+
+template <DrawKind kind, class S>
+void draw(PassState& state, const S& shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
+          const DrawState& draw_state) {
+  HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<typename S::template Attributes<float>>));
+  add_draw(state, kKernels<S, kind>, keep_shader(shader, memory_of(state)), vertices, std::move(indices), draw_state);
+}
+
+}  // namespace detail
+
+}  // namespace halfspace

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/pipeline/pixel_box.h"
+
+#include "halfspace/raster/pipeline/line.h"
+
+namespace halfspace {
+
+namespace {
+
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& at_x, const SampleSpan& at_y) {
+  if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
+  return cut(pixel_box(t.x, t.y, at_x, at_y), b);
+}
+
+}  // namespace
+
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& span) {
+  return pixel_bounds(draw, t, b, span, span);
+}
+
+PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SamplePosition& at) {
+  return pixel_bounds(draw, t, b, {at.x, at.x}, {at.y, at.y});
+}
+
+}  // namespace halfspace

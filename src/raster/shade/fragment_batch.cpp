@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/shade/fragment_batch.h"
+
+#include <algorithm>
+
+namespace halfspace {
+
+void constant_colors(const Draw& draw, FragmentOutput& out) {
+  draw.kernels.fragment(draw.shader.get(), {.frame = nullptr,
+                                            .tile_x0 = 0,
+                                            .tile_y0 = 0,
+                                            .position = {},
+                                            .ids = nullptr,
+                                            .uniform_id = kNoTriangle,
+                                            .packets = nullptr,
+                                            .count = 1,
+                                            .centroids = nullptr,
+                                            .out = &out});
+}
+
+void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile) {
+  const PacketColor* second = &out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);
+  for (int n = 0; n < std::min(tile.color_count, draw.kernels.color_count); ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    if (tile.color[at].format == ColorFormat::none) continue;
+    write_batch(tile.color[at], packets, &out.packet_color(at, i), second, {blend_of(draw.state, at), color_mask_of(draw.state, at)});
+  }
+}
+
+}  // namespace halfspace

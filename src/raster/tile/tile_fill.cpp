@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sets pixels of images that get one colour, or the depth that the target is cleared to, without a tile.
+#include <algorithm>
+#include <bit>
+
+#include "halfspace/raster/tile/tile_format.h"
+#include "halfspace/raster/tile/tile_layout.h"
+
+namespace halfspace {
+
+namespace {
+
+// Fills bytes, a multiple of 64, with a line of 64.
+void stream_lines(const std::byte* line, std::byte* out, std::size_t bytes) {
+  const __m128i a = load<__m128i>(line), b = load<__m128i>(line + 16), c = load<__m128i>(line + 32), d = load<__m128i>(line + 48);
+  for (std::size_t i = 0; i < bytes; i += 64) {
+    auto* to = reinterpret_cast<__m128i*>(out + i);
+    _mm_stream_si128(to, a);
+    _mm_stream_si128(to + 1, b);
+    _mm_stream_si128(to + 2, c);
+    _mm_stream_si128(to + 3, d);
+  }
+}
+
+// Fills a long run of words. The processor's own loop writes whole cache lines without reading them first, and leaves them in the cache:
+// where it has some hundred KB before it, it is faster than stores past the caches.
+void fill_words(std::byte* out, uint32_t word, std::size_t words) {
+  asm volatile("rep stosl" : "+D"(out), "+c"(words) : "a"(word) : "memory");
+}
+constexpr std::size_t kLongRun = std::size_t{64} << 10;  // bytes
+
+// Sets pixels of an image to one value.
+template <class T>
+void fill_rows(T value, std::byte* data, int width, int height, const PixelBounds& pixels) {
+  const auto at = [&](int y) {
+    return data +
+           (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixels.x0)) * sizeof(T);
+  };
+  auto bytes = static_cast<std::size_t>(pixels.x1 - pixels.x0) * sizeof(T);  // of a run
+  int runs = pixels.y1 - pixels.y0;
+  if (pixels.x1 - pixels.x0 == width) {  // rows that follow each other
+    bytes *= static_cast<std::size_t>(runs);
+    runs = 1;
+  }
+  const bool large = streams(data, width, height, sizeof(T));
+  if constexpr (sizeof(T) == sizeof(uint32_t)) {
+    if (large && runs == 1 && bytes >= kLongRun) return fill_words(at(pixels.y1 - 1), std::bit_cast<uint32_t>(value), bytes / sizeof(T));
+  }
+  alignas(64) std::array<std::byte, 64> line;
+  for (std::size_t i = 0; i < 64; i += sizeof(T)) std::memcpy(&line[i], &value, sizeof(T));
+  const bool stream = large && bytes % 64 == 0 && static_cast<std::size_t>(pixels.x0) * sizeof(T) % 64 == 0;
+  for (int y = pixels.y1 - runs; y < pixels.y1; ++y) {
+    if (stream) {
+      stream_lines(line.data(), at(y), bytes);
+    } else {
+      std::fill_n(reinterpret_cast<T*>(at(y)), bytes / sizeof(T), value);
+    }
+  }
+  if (stream) _mm_sfence();
+}
+
+}  // namespace
+
+void fill_color(const ColorTarget& target, int width, int height, const PixelBounds& pixels, const PacketColor& color) {
+  if (target.store == StoreOp::dont_care || target.data == nullptr) return;
+  const PixelBytes pixel = encode_pixel(target.format, color);
+  const auto fill = [&]<class T>(T value) {
+    std::memcpy(&value, pixel.data(), sizeof(T));
+    fill_rows(value, target.data, width, height, pixels);
+  };
+  switch (bytes_per_pixel(target.format)) {
+    case 4: return fill(uint32_t{});
+    case 8: return fill(std::array<uint16_t, 4>{});
+    case 16: return fill(std::array<float, 4>{});
+    default: return;
+  }
+}
+
+void fill_depth(const DepthTarget& target, int width, int height, const PixelBounds& pixels) {
+  if (target.store == StoreOp::dont_care || target.data == nullptr) return;
+  const float clear = depth_value(depth_part(target.format), std::clamp(target.clear_value, 0.0f, 1.0f));
+  with_codec(target.format,
+             [&]<class C>(C) { fill_rows(C::store(clear, target.stencil_clear_value), target.data, width, height, pixels); });
+}
+
+}  // namespace halfspace

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the formats of colour and depth targets look like in a tile and in an image: the codecs of all of them.
+#pragma once
+
+#include <cstring>
+
+#include "halfspace/core/half.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/raster/tile/tile.h"
+
+namespace halfspace {
+
+// ---- colour ----------------------------------------------------------------------------------------------------
+
+constexpr bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
+
+/// Plane k of a buffer of planes, or plane 0 of one of 8-bit codes.
+template <class T>
+T* plane(ColorBuffer& b, int k) {
+  return reinterpret_cast<T*>(b.bytes.data()) + k * kMaxTilePixels;
+}
+template <class T>
+const T* plane(const ColorBuffer& b, int k) {
+  return reinterpret_cast<const T*>(b.bytes.data()) + k * kMaxTilePixels;
+}
+
+HS_INLINE Real decode8(ColorFormat format, Int code, bool alpha) {
+  return format == ColorFormat::srgb8a8 && !alpha ? srgb_to_linear<Real>(code) : unorm8_to_linear(to_real<Real>(code));
+}
+HS_INLINE Int encode8(ColorFormat format, Real value, bool alpha) {
+  return format == ColorFormat::srgb8a8 && !alpha ? linear_to_srgb(value) : linear_to_unorm8(value);
+}
+
+template <class I>
+HS_INLINE I load_halves(const uint16_t* p) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return *p;
+  } else {
+    using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
+    return I(__builtin_convertvector(load<Halves>(p), typename I::V));
+  }
+}
+template <class I>
+HS_INLINE Real decode_halves(I h) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return half_to_float(static_cast<uint16_t>(h));
+  } else {
+    return half_to_float(h);
+  }
+}
+template <class I, class M>
+HS_INLINE void store_halves(uint16_t* p, I h, M mask) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    if (any(mask)) *p = static_cast<uint16_t>(h);
+  } else {
+    using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
+    const Halves lanes = __builtin_convertvector(mask.v, Halves), old = load<Halves>(p);
+    store(p, (__builtin_convertvector(h.v, Halves) & lanes) | (old & ~lanes));
+  }
+}
+
+/// A colour's four codes, red lowest.
+template <ColorFormat format>
+HS_INLINE Int packed_codes(const PacketColor& c) {
+  return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
+         encode8(format, c[3], true) << 24;
+}
+
+/// Channel k of the packet at `first`, decoded to linear floats.
+template <ColorFormat format>
+HS_INLINE Real read_channel(const ColorBuffer& buffer, std::size_t first, int k) {
+  if constexpr (format == ColorFormat::rgba32f) {
+    return load<Real>(plane<float>(buffer, k) + first);
+  } else if constexpr (format == ColorFormat::rgba16f) {
+    return decode_halves(load_halves<Int>(plane<uint16_t>(buffer, k) + first));
+  } else {
+    return decode8(format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3);
+  }
+}
+
+/// One pixel of a colour target, as an image holds it: bytes_per_pixel(format) bytes.
+using PixelBytes = std::array<std::byte, 16>;
+PixelBytes encode_pixel(ColorFormat format, const PacketColor& color);
+
+/// Sets every pixel of the buffer, whose format is not none, to one colour.
+void fill_buffer(ColorBuffer& buffer, const PacketColor& color);
+
+// ---- depth -----------------------------------------------------------------------------------------------------
+
+/// A depth in [0, 1] as the format's value (see Tile::depth): unorm codes rounded to the nearest, once. Beside 2^23 the
+/// last bit of a float weighs 1, so that the fma's own rounding gives whole numbers; from there on the product's does.
+template <Number R>
+HS_INLINE R depth_value(DepthFormat format, R z) {
+  const R beside(0x1p23f);
+  if (format == DepthFormat::d24) {
+    const R code = z * R(16777215.0f);
+    return select(code < beside, fma(z, R(16777215.0f), beside) - beside, code);
+  }
+  if (format == DepthFormat::d16) return fma(z, R(65535.0f), beside) - beside;
+  return z;
+}
+
+// One pixel's depth and stencil, as an image holds them and as a tile does.
+struct Depth16 {
+  using Image = uint16_t;
+  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }
+  static Image store(float depth, uint8_t) { return static_cast<Image>(depth); }
+};
+struct Depth24 {
+  using Image = uint32_t;
+  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }
+  static Image store(float depth, uint8_t) { return static_cast<Image>(depth); }
+};
+struct Depth32 {
+  using Image = float;
+  static void load(Image i, float& depth, uint8_t&) { depth = i; }
+  static Image store(float depth, uint8_t) { return depth; }
+};
+struct Depth24Stencil8 {
+  using Image = uint32_t;
+  static void load(Image i, float& depth, uint8_t& stencil) {
+    depth = static_cast<float>(i >> 8);
+    stencil = static_cast<uint8_t>(i);
+  }
+  static Image store(float depth, uint8_t stencil) { return static_cast<Image>(depth) << 8 | stencil; }
+};
+struct Depth32Stencil8 {
+  using Image = DepthStencil;
+  static void load(const Image& i, float& depth, uint8_t& stencil) {
+    depth = i.depth;
+    stencil = static_cast<uint8_t>(i.stencil);
+  }
+  static Image store(float depth, uint8_t stencil) { return {depth, stencil}; }
+};
+
+// Calls f with the codec of a format.
+template <class F>
+void with_codec(DepthFormat format, F f) {
+  switch (format) {
+    case DepthFormat::none: return;
+    case DepthFormat::d16: return f(Depth16{});
+    case DepthFormat::d24: return f(Depth24{});
+    case DepthFormat::d32f: return f(Depth32{});
+    case DepthFormat::d24s8: return f(Depth24Stencil8{});
+    case DepthFormat::d32fs8: return f(Depth32Stencil8{});
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The depth of a triangle at the samples of a tile.
+#pragma once
+
+#include <algorithm>
+
+#include "halfspace/raster/tile/tile_format.h"
+#include "halfspace/raster/visibility/tile_edges.h"
+
+namespace halfspace {
+
+/// Bounds of a triangle's depths, as Tile::depth holds them.
+struct DepthBounds {
+  float low, high;
+};
+inline DepthBounds depth_bounds(const Triangle& t, const Draw& draw, DepthFormat format) {
+  const float high = std::clamp(t.z_max, draw.depth_low, draw.depth_high);
+  return {depth_value(format, std::clamp(t.z0, draw.depth_low, high)), depth_value(format, high)};
+}
+
+/// The depth of a triangle at the samples of packets.
+template <bool small>
+class DepthPlane {
+ public:
+  DepthPlane(const Triangle& t, const TileEdges& edges, const Draw& draw, const SampleGrid& grid, DepthFormat format)
+      : z0_(t.z0),
+        z_edge1_(t.z_edge1),
+        z_edge2_(t.z_edge2),
+        low_(t.is(kLine) ? std::clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low),
+        high_(std::clamp(t.z_max, draw.depth_low, draw.depth_high)),
+        format_(format) {
+    if constexpr (small) {
+      bias1_ = edges.bias[1];
+      bias2_ = edges.bias[2];
+    } else {
+      e1x_ = static_cast<float>(t.x[1] - t.x[0]);
+      e1y_ = static_cast<float>(t.y[1] - t.y[0]);
+      e2x_ = static_cast<float>(t.x[2] - t.x[0]);
+      e2y_ = static_cast<float>(t.y[2] - t.y[0]);
+      dx_ = grid.x_sub() - t.x[0];
+      dy_ = grid.y_sub() - t.y[0];
+    }
+  }
+
+  // x, y: the packet's place in the tile's room; edges: its BlockEdges.
+  template <class E>
+  HS_INLINE Real at(const E& edges, int x, int y) const {
+    Real w1, w2;
+    if constexpr (small) {
+      w1 = to_real<Real>(edges.values(1, x, y) + bias1_);
+      w2 = to_real<Real>(edges.values(2, x, y) + bias2_);
+    } else {
+      const Real dx = to_real<Real>(lane_x() * kSubPixels + (dx_ + x * kSubPixels));
+      const Real dy = to_real<Real>(lane_y() * kSubPixels + (dy_ + y * kSubPixels));
+      w1 = difference_of_products(dx, Real(e2y_), dy, Real(e2x_));
+      w2 = difference_of_products(Real(e1x_), dy, Real(e1y_), dx);
+    }
+    const Real z = fma(w1, Real(z_edge1_), fma(w2, Real(z_edge2_), Real(z0_)));
+    return depth_value(format_, clamp(z, Real(low_), Real(high_)));
+  }
+
+ private:
+  float z0_, z_edge1_, z_edge2_, low_, high_;
+  DepthFormat format_;
+  int32_t bias1_ = 0, bias2_ = 0;
+  float e1x_ = 0, e1y_ = 0, e2x_ = 0, e2y_ = 0;
+  int32_t dx_ = 0, dy_ = 0;
+};
+
+}  // namespace halfspace
