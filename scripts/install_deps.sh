@@ -8,7 +8,7 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libspng-dev libcli11-dev nlohmann-json3-dev libfmt-dev libembree-dev)
 benchmark_packages=(python3-matplotlib libvulkan1)
-test_packages=(python3-jsonschema gnuplot-nox libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
+test_packages=(patch python3-jsonschema gnuplot-nox libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
 
 case "${1:-}" in
   "") ;;

@@ -65,7 +65,7 @@ step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_com
 step order             "blended_order"
 step views             "random_views"
 step off-costs         "scripts/off_costs.sh"
-step mutate            "scripts/mutate.sh"
+step mutate            "scripts/mutate.py"
 
 if [ "${1:-}" = list ]; then
   printf '%s\n' "${names[@]}"
