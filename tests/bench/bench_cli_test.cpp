@@ -90,8 +90,8 @@ TEST(BenchCli, EveryRoundCountsAFrame) {
 }
 
 TEST(BenchCli, PicturesAreWrittenWhereAsked) {
-  const test::TemporaryDirectory directory;
-  const std::string& name = directory.path();
+  const TemporaryFolder directory;
+  const std::string name = directory.path().string();
   const Outcome outcome = bench("--only fill,layers_f2b --size 64x32 --seconds 0 --out " + name + "/new");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(fs::exists(fs::path(name) / "new/fill.png"));
@@ -102,16 +102,16 @@ TEST(BenchCli, PicturesAreWrittenWhereAsked) {
 }
 
 TEST(BenchCli, ChecksPicturesWhereAsked) {
-  const test::TemporaryDirectory truths;
+  const TemporaryFolder truths;
   for (const char* sweep : {"", "--sweep overdraw "}) {
     const std::string only = *sweep != 0 ? "overdraw=2" : "layers_b2f";
-    const Outcome outcome = bench(sweep + ("--only " + only) + " --size 64x32 --seconds 0 --json --check " + truths.path());
+    const Outcome outcome = bench(sweep + ("--only " + only) + " --size 64x32 --seconds 0 --json --check " + truths.path().string());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
     const nlohmann::json row = nlohmann::json::parse(outcome.text);
     EXPECT_EQ(row.at("workload"), only);
     EXPECT_EQ(row.at("picture").at("covered"), 64 * 32);
     EXPECT_EQ(row.at("picture").at("colors_off"), 0);
-    EXPECT_TRUE(fs::exists(truths.path() + "/" + only + ".64x32.truth"));
+    EXPECT_TRUE(fs::exists(truths.path().string() + "/" + only + ".64x32.truth"));
   }
 }
 

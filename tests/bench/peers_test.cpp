@@ -46,9 +46,9 @@ double allowed_rms(const std::string& workload) {
 TEST(BenchGl, DrawsTheSamePictures) {
   const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built";
-  const test::TemporaryDirectory truths;
-  const Outcome outcome =
-      test::run_program(program, "--only " + all_but_2m() + " --size 160x120 --threads 1 --seconds 0 --json --check " + truths.path());
+  const TemporaryFolder truths;
+  const Outcome outcome = test::run_program(
+      program, "--only " + all_but_2m() + " --size 160x120 --threads 1 --seconds 0 --json --check " + truths.path().string());
   if (outcome.exit_code == 3) GTEST_SKIP() << outcome.text;
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const std::vector<nlohmann::json> rows = test::json_lines_of(outcome.text);
@@ -67,11 +67,11 @@ TEST(BenchGl, DrawsTheSamePictures) {
 TEST(BenchEmbree, DrawsTheSamePictures) {
   const std::string program = HALFSPACE_BENCH_EMBREE_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "halfspace-bench-embree is not built";
-  const test::TemporaryDirectory truths;
+  const TemporaryFolder truths;
   const Outcome outcome = test::run_program(program,
                                             "--only sphere_phong_20k,sphere_gouraud_20k,sphere_flat_20k,sphere_phong_200k --size 223x149 "
                                             "--threads 2 --seconds 0 --json --check " +
-                                                truths.path());
+                                                truths.path().string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const std::vector<nlohmann::json> rows = test::json_lines_of(outcome.text);
   EXPECT_EQ(rows.size(), 4u);

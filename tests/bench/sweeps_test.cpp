@@ -78,14 +78,14 @@ TEST(PictureErrors, CountsWhatIsOff) {
 }
 
 TEST(PictureErrors, ATruthIsKept) {
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder directory;
   WorkloadAssets assets;
   const std::unique_ptr<Workload> workload = point_of("varyings=4").prepare({40, 30}, assets);
-  const WorkloadTruth made = kept_truth(directory.path(), "some", *workload, {40, 30});
-  EXPECT_TRUE(std::filesystem::exists(directory.path() + "/some.40x30.truth"));
+  const WorkloadTruth made = kept_truth(directory.path().string(), "some", *workload, {40, 30});
+  EXPECT_TRUE(std::filesystem::exists(directory.path().string() + "/some.40x30.truth"));
   // What is read back is the file's, whatever workload is asked.
   const std::unique_ptr<Workload> other = point_of("overdraw=1").prepare({40, 30}, assets);
-  const WorkloadTruth read = kept_truth(directory.path(), "some", *other, {40, 30});
+  const WorkloadTruth read = kept_truth(directory.path().string(), "some", *other, {40, 30});
   for (std::size_t i = 0; i < made.color.texels().size(); ++i) {
     ASSERT_NEAR(read.color.data()[i].x, made.color.data()[i].x, 1e-7);
     ASSERT_NEAR(read.depth.data()[i], made.depth.data()[i], 1e-7);

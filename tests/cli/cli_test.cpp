@@ -23,7 +23,10 @@
 #include <thread>
 #include <vector>
 
+#include "support/files.h"
+#include "support/program.h"
 #include "support/sanitized.h"
+#include "support/temporary_folder.h"
 
 namespace halfspace {
 namespace {
@@ -36,26 +39,12 @@ struct Outcome {
   std::string out, err;
 };
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 int lines_of(const std::string& text) { return static_cast<int>(std::ranges::count(text, '\n')); }
 
 // Runs the program in a directory of its own, which is gone when the test ends.
 class Cli : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "halfspace-cli-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    root = name;
-    directory = root / "here";
-    fs::create_directory(directory);
-  }
-  void TearDown() override { fs::remove_all(root); }
+  void SetUp() override { fs::create_directory(directory); }
 
   pid_t start(const std::vector<std::string>& arguments) const {
     std::vector<std::string> words = {HALFSPACE_PROGRAM};
@@ -77,8 +66,8 @@ class Cli : public testing::Test {
   Outcome finish(pid_t child) const {
     int status = 0;
     ::waitpid(child, &status, 0);
-    Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0, text_of(root / "out"),
-              text_of(root / "err")};
+    Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0, read_bytes(root / "out"),
+              read_bytes(root / "err")};
     return o;
   }
 
@@ -91,7 +80,8 @@ class Cli : public testing::Test {
     return names;
   }
 
-  fs::path root, directory;
+  const TemporaryFolder folder;
+  const fs::path root = folder.path(), directory = root / "here";
 };
 
 // ---- wrong input: the exit code and the one line ---------------------------------------------------------------
@@ -289,11 +279,11 @@ TEST_F(Cli, AFileThatIsNoImageIsBadInput) {
 // On a processor that lacks what this build uses, one line instead of an illegal instruction: an emulator plays the
 // lesser processor (qemu64 has nothing beyond SSE3).
 TEST_F(Cli, ALesserProcessorIsToldInOneLine) {
-  if (std::system("qemu-x86_64 --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "qemu-x86_64 (package qemu-user) is absent";
+  if (!command_works("qemu-x86_64 --version")) GTEST_SKIP() << "qemu-x86_64 (package qemu-user) is absent";
   if (kSanitized) GTEST_SKIP() << "sanitizers do not run in the emulator";
   const std::string command = std::string("qemu-x86_64 -cpu qemu64 ") + HALFSPACE_PROGRAM + " info 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
-  const std::string line = text_of(root / "err");
+  const std::string line = read_bytes(root / "err");
   EXPECT_EQ(lines_of(line), 1) << line;
   EXPECT_TRUE(line.starts_with("halfspace: this build needs SSSE3, ")) << line;
   EXPECT_NE(line.find(", which this processor lacks; "), std::string::npos) << line;
@@ -311,8 +301,8 @@ TEST_F(Cli, RenderWritesTheSceneUnderItsName) {
 TEST_F(Cli, ThreadsDoNotChangeTheFile) {
   for (const char* n : {"1", "2", "7"})
     EXPECT_EQ(run({"render", "earth", "--size", "200x120", "--threads", n, "-o", std::string(n) + ".png"}).exit_code, 0);
-  EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "2.png"));
-  EXPECT_EQ(text_of(directory / "1.png"), text_of(directory / "7.png"));
+  EXPECT_EQ(read_bytes(directory / "1.png"), read_bytes(directory / "2.png"));
+  EXPECT_EQ(read_bytes(directory / "1.png"), read_bytes(directory / "7.png"));
 }
 
 TEST_F(Cli, ShadingOverridesEveryObject) {
@@ -326,8 +316,8 @@ TEST_F(Cli, ShadingOverridesEveryObject) {
     EXPECT_EQ(run({"render", "s.json", "--size", "64x36", "--shading", rate, "-o", out}).exit_code, 0);
     const std::string set = std::string("shading=") + rate;
     EXPECT_EQ(run({"render", "s.json", "--size", "64x36", "--set", "a." + set, "--set", "b." + set, "-o", again}).exit_code, 0);
-    EXPECT_EQ(text_of(directory / out), text_of(directory / again)) << rate;
-    pictures.push_back(text_of(directory / out));
+    EXPECT_EQ(read_bytes(directory / out), read_bytes(directory / again)) << rate;
+    pictures.push_back(read_bytes(directory / out));
   }
   std::ranges::sort(pictures);
   EXPECT_EQ(std::ranges::adjacent_find(pictures), pictures.end()) << "five different pictures";
@@ -354,7 +344,7 @@ TEST_F(Cli, MaxErrorTellsWhatItChose) {
   EXPECT_EQ(printed.exit_code, 0) << printed.err;
   std::ofstream(directory / "chosen.json") << printed.out;
   EXPECT_EQ(run({"render", "chosen.json", "--size", "160x90", "-o", "chosen.png"}).exit_code, 0);
-  EXPECT_EQ(text_of(directory / "asked.png"), text_of(directory / "chosen.png"));
+  EXPECT_EQ(read_bytes(directory / "asked.png"), read_bytes(directory / "chosen.png"));
 }
 
 TEST_F(Cli, AColorMapIsUsed) {
@@ -407,8 +397,8 @@ TEST_F(Cli, PrintIsASceneThatRendersTheSamePicture) {
   const std::vector<std::string> size{"--size", "96x54"};
   EXPECT_EQ(run({"render", "my.json", "--size", "96x54"}).exit_code, 0);
   EXPECT_EQ(run({"render", "moon", "--set", "moon.latitudes=40", "--camera", "terminator", "--size", "96x54"}).exit_code, 0);
-  EXPECT_EQ(text_of(directory / "my.png"), text_of(directory / "moon.png"));
-  EXPECT_NE(text_of(directory / "my.png"), "");
+  EXPECT_EQ(read_bytes(directory / "my.png"), read_bytes(directory / "moon.png"));
+  EXPECT_NE(read_bytes(directory / "my.png"), "");
 }
 
 TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
@@ -417,7 +407,7 @@ TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
                               (root / "out").string() + " 2>&1; " HALFSPACE_PROGRAM " render earth --size 8x8 -o " +
                               (directory / "e.png").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
-  EXPECT_GE(lines_of(text_of(root / "out")), 5);
+  EXPECT_GE(lines_of(read_bytes(root / "out")), 5);
 }
 
 TEST_F(Cli, ASceneFileTellsItsErrors) {
@@ -455,7 +445,7 @@ try halfspace compare --js
 )";
   const std::string command = "bash " + (directory / "try.sh").string() + " > " + (root / "out").string() + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(text_of(root / "out"), "render\nearth\nmoon.latitudes=\n--resume\nshading_rate shadows\n--json\n");
+  EXPECT_EQ(read_bytes(root / "out"), "render\nearth\nmoon.latitudes=\n--resume\nshading_rate shadows\n--json\n");
 }
 
 TEST_F(Cli, FramesAreNumberedAndResumed) {
@@ -464,8 +454,8 @@ TEST_F(Cli, FramesAreNumberedAndResumed) {
   EXPECT_EQ(files(), (std::vector<std::string>{"m_0008.png", "m_0009.png", "m_0010.png", "m_0011.png"}));
   // A frame is the picture at its time.
   EXPECT_EQ(run({"render", "moon", "--size", "48x27", "--time", "0.75", "-o", "one.png"}).exit_code, 0);
-  EXPECT_EQ(text_of(directory / "one.png"), text_of(directory / "m_0009.png"));
-  const std::string whole = text_of(directory / "m_0010.png");
+  EXPECT_EQ(read_bytes(directory / "one.png"), read_bytes(directory / "m_0009.png"));
+  const std::string whole = read_bytes(directory / "m_0010.png");
   fs::remove(directory / "m_0009.png");
   std::ofstream(directory / "m_0010.png") << whole.substr(0, whole.size() / 2);
   const auto before = fs::last_write_time(directory / "m_0008.png");
@@ -474,8 +464,8 @@ TEST_F(Cli, FramesAreNumberedAndResumed) {
   const Outcome o = run(resume);
   EXPECT_EQ(o.exit_code, 0) << o.err;
   EXPECT_EQ(o.err, "") << "no progress in a pipe";
-  EXPECT_EQ(text_of(directory / "m_0009.png"), text_of(directory / "one.png"));
-  EXPECT_EQ(text_of(directory / "m_0010.png"), whole) << "half a file is rendered again";
+  EXPECT_EQ(read_bytes(directory / "m_0009.png"), read_bytes(directory / "one.png"));
+  EXPECT_EQ(read_bytes(directory / "m_0010.png"), whole) << "half a file is rendered again";
   EXPECT_EQ(fs::last_write_time(directory / "m_0008.png"), before) << "a whole one is left";
 }
 
@@ -487,9 +477,9 @@ TEST_F(Cli, AnAnimationHasTheSamePixelsForAnyThreads) {
   std::string first;
   for (int i = 0; i < 48; ++i) {
     const std::string number = std::string(i < 10 ? "000" : "00") + std::to_string(i) + ".png";
-    const std::string one = text_of(directory / ("t1_" + number));
+    const std::string one = read_bytes(directory / ("t1_" + number));
     EXPECT_NE(one, "");
-    EXPECT_EQ(one, text_of(directory / ("t2_" + number))) << i;
+    EXPECT_EQ(one, read_bytes(directory / ("t2_" + number))) << i;
     if (i == 0) first = one;
     EXPECT_EQ(one == first, i == 0) << "Moon and light turn";
   }
@@ -508,7 +498,7 @@ TEST_F(Cli, WritesEveryFormat) {
 TEST_F(Cli, AFullStandardOutputIsTold) {
   const std::string command = std::string(HALFSPACE_PROGRAM) + " info > /dev/full 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
-  EXPECT_EQ(text_of(root / "err"), "halfspace: standard output: cannot write\n");
+  EXPECT_EQ(read_bytes(root / "err"), "halfspace: standard output: cannot write\n");
 }
 
 // ---- streams ---------------------------------------------------------------------------------------------------
@@ -527,11 +517,11 @@ TEST_F(Cli, APipeThatSomeoneReadsGetsThePicture) {
   const std::string reader = "(sleep 0.3; cat) < " + (directory / "pipe").string() + " > " + (directory / "copy.png").string() + " &";
   ASSERT_EQ(std::system(reader.c_str()), 0);
   EXPECT_EQ(run({"render", "earth", "--size", "640x360", "-o", "pipe"}).exit_code, 0);
-  for (int i = 0; i < 100 && text_of(directory / "copy.png").size() < text_of(directory / "file.png").size(); ++i) {
+  for (int i = 0; i < 100 && read_bytes(directory / "copy.png").size() < read_bytes(directory / "file.png").size(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  EXPECT_GT(text_of(directory / "file.png").size(), 65536u);
-  EXPECT_EQ(text_of(directory / "copy.png"), text_of(directory / "file.png"));
+  EXPECT_GT(read_bytes(directory / "file.png").size(), 65536u);
+  EXPECT_EQ(read_bytes(directory / "copy.png"), read_bytes(directory / "file.png"));
 }
 
 // A picture on standard output, into a file or a pipe, is that picture alone; the report goes to standard error.
@@ -539,12 +529,12 @@ TEST_F(Cli, ReportsStayOutOfThePicture) {
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "file.png"}).exit_code, 0);
   const Outcome o = run({"render", "earth", "--size", "64x36", "-o", "/dev/stdout", "--stats=json"});
   EXPECT_EQ(o.exit_code, 0) << o.err;
-  EXPECT_EQ(o.out, text_of(directory / "file.png"));
+  EXPECT_EQ(o.out, read_bytes(directory / "file.png"));
   EXPECT_EQ(nlohmann::json::parse(o.err).at("width"), 64);
   const std::string piped =
       HALFSPACE_PROGRAM " render earth --size 64x36 -o /dev/stdout --stats 2> /dev/null | cat > " + (directory / "piped.png").string();
   EXPECT_EQ(std::system(piped.c_str()), 0);
-  EXPECT_EQ(text_of(directory / "piped.png"), o.out);
+  EXPECT_EQ(read_bytes(directory / "piped.png"), o.out);
 }
 
 // ---- compare ---------------------------------------------------------------------------------------------------
@@ -593,25 +583,25 @@ TEST_F(Cli, CompareOfLinearFilesIsOfLight) {
 TEST_F(Cli, ChartWritesDataChartAndPage) {
   const Outcome o = run({"chart", "antialiasing", "--quick", "-o", "out"});
   ASSERT_EQ(o.exit_code, 0) << o.err;
-  const auto data = nlohmann::json::parse(text_of(directory / "out" / "antialiasing.json"));
-  const std::string csv = text_of(directory / "out" / "antialiasing.csv"), page = text_of(directory / "out" / "index.html");
+  const auto data = nlohmann::json::parse(read_bytes(directory / "out" / "antialiasing.json"));
+  const std::string csv = read_bytes(directory / "out" / "antialiasing.csv"), page = read_bytes(directory / "out" / "index.html");
   EXPECT_EQ(lines_of(csv), 1 + static_cast<int>(data.at("variants").size()));
   EXPECT_TRUE(csv.starts_with("study,variant,group,samples,")) << csv;
   for (const auto& row : data.at("variants"))
     for (const char* key : {"picture", "difference"}) EXPECT_TRUE(fs::exists(directory / "out" / row.at(key).get<std::string>())) << row;
   EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
   EXPECT_NE(page.find("antialiasing-8-samples.png"), std::string::npos);
-  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) {
+  if (!command_works("gnuplot --version")) {
     EXPECT_NE(o.out.find("gnuplot is missing (Debian and Ubuntu: gnuplot-nox)"), std::string::npos);
     GTEST_SKIP() << "gnuplot is absent: no charts";
   }
   for (const char* file : {"antialiasing.svg", "antialiasing-dark.svg", "antialiasing.png"})
     EXPECT_GT(fs::file_size(directory / "out" / file), 5000u);
-  const std::string svg = text_of(directory / "out" / "antialiasing.svg");
+  const std::string svg = read_bytes(directory / "out" / "antialiasing.svg");
   for (const auto& row : data.at("variants")) EXPECT_NE(svg.find(row.at("name").get<std::string>()), std::string::npos) << row;
   // A second study joins the page of the first.
   EXPECT_EQ(run({"chart", "tone", "--quick", "-o", "out"}).exit_code, 0);
-  const std::string both = text_of(directory / "out" / "index.html");
+  const std::string both = read_bytes(directory / "out" / "index.html");
   EXPECT_NE(both.find("id=\"antialiasing\""), std::string::npos);
   EXPECT_NE(both.find("id=\"tone\""), std::string::npos);
 }
@@ -620,8 +610,9 @@ TEST_F(Cli, WithoutGnuplotTheDataAreWritten) {
   const std::string command = "cd " + directory.string() + " && PATH=/nowhere " HALFSPACE_PROGRAM " chart tone --quick -o out > " +
                               (root / "out").string() + " 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
-  EXPECT_NE(text_of(root / "out").find("no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data are written\n"),
-            std::string::npos);
+  EXPECT_NE(
+      read_bytes(root / "out").find("no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data are written\n"),
+      std::string::npos);
   EXPECT_TRUE(fs::exists(directory / "out" / "tone.csv"));
   EXPECT_FALSE(fs::exists(directory / "out" / "tone.svg"));
 }
@@ -635,19 +626,19 @@ TEST_F(Cli, ConvertNormalMakesAMap) {
     EXPECT_EQ(o.exit_code, 0) << o.err;
     EXPECT_EQ(o.out + o.err, "");
   }
-  const std::string map = text_of(directory / "normal.png");
+  const std::string map = read_bytes(directory / "normal.png");
   EXPECT_EQ(map.find("sRGB"), std::string::npos) << "normals are no colours";
   EXPECT_EQ(run({"convert-normal", "normal.png", "-o", "again.png"}).exit_code, 0) << "what was written can be read";
 }
 
 // On a terminal a bar fills, fits the line, and is gone at the end and after an interrupt (util-linux's script plays the terminal).
 TEST_F(Cli, ProgressIsABarOnATerminal) {
-  if (std::system("script --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "script (util-linux) is absent";
+  if (!command_works("script --version")) GTEST_SKIP() << "script (util-linux) is absent";
   const auto shown = [&](const std::string& command) {
     const std::string line =
         "cd " + directory.string() + " && script -qc '" + command + "' /dev/null < /dev/null > " + (root / "out").string();
     (void)!std::system(line.c_str());
-    return text_of(root / "out");
+    return read_bytes(root / "out");
   };
   const std::string frames = HALFSPACE_PROGRAM " render earth --size 16x9 -o e.png --frames 0..";
   const std::string wide = shown("stty cols 80; " + frames + "3");
@@ -675,7 +666,7 @@ TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
     if (!whole.contains(name)) {
       const std::string frame = name.substr(6, 4);
       EXPECT_EQ(finish(render(frame + ".." + frame)).exit_code, 0) << name;
-      whole[name] = text_of(directory / name);
+      whole[name] = read_bytes(directory / name);
     }
     EXPECT_TRUE(bytes == whole[name]) << name << ": " << bytes.size() << " bytes of " << whole[name].size();
   };
@@ -686,7 +677,7 @@ TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
     EXPECT_EQ(finish(child).signal, signal);
     for (const std::string& name : files()) {
       EXPECT_TRUE(name.starts_with("earth_")) << name;
-      if (name.starts_with("earth_")) check_whole(name, text_of(directory / name));
+      if (name.starts_with("earth_")) check_whole(name, read_bytes(directory / name));
       fs::remove(directory / name);
     }
   };

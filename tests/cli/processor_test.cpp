@@ -5,21 +5,17 @@
 // test of its own (Cli.ALesserProcessorIsToldInOneLine).
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
+
+#include "support/program.h"
 
 namespace halfspace {
 namespace {
 
 TEST(StartCheck, SaysInOneLineWhatTheProcessorLacks) {
-  FILE* program = ::popen(HALFSPACE_LESSER_PROGRAM " 2>&1", "r");
-  ASSERT_NE(program, nullptr);
-  std::string said;
-  std::array<char, 256> part{};
-  while (std::fgets(part.data(), static_cast<int>(part.size()), program) != nullptr) said += part.data();
-  const int status = ::pclose(program);
-  EXPECT_EQ(WEXITSTATUS(status), 1);
+  const ProgramOutput output = run_command(HALFSPACE_LESSER_PROGRAM " 2>&1");
+  const std::string& said = output.text;
+  EXPECT_EQ(output.exit_code, 1);
   EXPECT_TRUE(said.starts_with("halfspace: this build needs FMA4, XOP, which this processor lacks; ")) << said;
   EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
 }

@@ -3,7 +3,7 @@
 
 #include "conformance/geometry.h"
 #include "conformance/groups.h"
-#include "property/random.h"
+#include "support/random.h"
 
 namespace halfspace::conformance {
 

@@ -73,16 +73,6 @@ Picture common_edge_picture(int samples, int n) {
   }
   return p;
 }
-std::string squares_once(const Picture& p, const Seen& seen) {
-  std::vector<Region> regions;
-  const std::vector<Vertex>& v = p.draws[0].vertices;
-  for (std::size_t i = 0; i < v.size(); i += 4) {
-    std::array<glm::dvec2, 4> c;
-    for (std::size_t k = 0; k < 4; ++k) c[k] = window_of(p, v[i + k].pos_clip);
-    regions.push_back(polygon(c));
-  }
-  return expect_red(p, seen, regions);
-}
 
 // ---- masks and alpha -----------------------------------------------------------------------------------------------
 
@@ -244,7 +234,7 @@ Cases multisample_cases() {
     cases.push_back({"num_samples_polygon" + suffix, [=] { return fan_picture(samples); }, all_shares});
     for (const int n : {2, 9}) {
       const std::string name = "common_edge_" + std::to_string(n * n) + "_quads" + suffix;
-      cases.push_back({name, [=] { return common_edge_picture(samples, n); }, squares_once});
+      cases.push_back({name, [=] { return common_edge_picture(samples, n); }, quads_once});
     }
     for (const By by : {By::pixel, By::sample, By::supersample, By::centroid, By::depth, By::stencil}) {
       Case c{kByNames[static_cast<int>(by)] + suffix, [=] { return sampled(by, samples); }};

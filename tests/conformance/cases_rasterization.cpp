@@ -53,17 +53,6 @@ Picture quads_picture(Quads quads, int samples) {
   return p;
 }
 
-std::string quads_once(const Picture& p, const Seen& seen) {
-  std::vector<Region> regions;
-  const std::vector<Vertex>& v = p.draws[0].vertices;
-  for (std::size_t i = 0; i < v.size(); i += 4) {
-    std::array<glm::dvec2, 4> corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = window_of(p, v[i + k].pos_clip);
-    regions.push_back(polygon(corners));
-  }
-  return expect_red(p, seen, regions);
-}
-
 // ---- primitives ----------------------------------------------------------------------------------------------------
 
 Picture primitives_picture(const Named& kind, PolygonMode mode, float point_size, int samples) {

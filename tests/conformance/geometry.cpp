@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "property/random.h"
+#include "support/random.h"
 
 namespace halfspace::conformance {
 
@@ -179,6 +179,17 @@ std::string expect_red(const Picture& picture, const Seen& seen, const std::vect
     if (red >= share.low * weight - rounding && red <= share.high * weight + rounding) return {};
     return "red " + std::to_string(red) + ", expected " + std::to_string(share.low * weight) + " to " + std::to_string(share.high * weight);
   });
+}
+
+std::string quads_once(const Picture& picture, const Seen& seen) {
+  std::vector<Region> regions;
+  const std::vector<Vertex>& v = picture.draws[0].vertices;
+  for (std::size_t i = 0; i < v.size(); i += 4) {
+    std::array<glm::dvec2, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = window_of(picture, v[i + k].pos_clip);
+    regions.push_back(polygon(corners));
+  }
+  return expect_red(picture, seen, regions);
 }
 
 std::string expect_near(const glm::dvec4& expected, const glm::vec4& got, double tolerance) {

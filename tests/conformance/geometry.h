@@ -70,6 +70,9 @@ Share share_of(const std::vector<Region>& regions, int x, int y, int samples);
 /// Every pixel's red lies between the shares times the weight of one fragment. Empty, or the first pixel that does not.
 std::string expect_red(const Picture& picture, const Seen& seen, const std::vector<Region>& regions, double weight = 1.0);
 
+/// The same of the quads that the first drawing has: four vertices each.
+std::string quads_once(const Picture& picture, const Seen& seen);
+
 /// Calls f(x, y) for every pixel until it returns a message.
 template <class F>
 std::string for_each_pixel(const Seen& seen, const F& f) {

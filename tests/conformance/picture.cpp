@@ -35,7 +35,7 @@ SceneDraw draw_of(const Drawing& d) {
   switch (d.kind) {
     case Kind::color: return draw_of(ColorShader{d.mode}, "color", d);
     case Kind::clip: return draw_of(ClipShader{}, "clip", d);
-    case Kind::cutout: return draw_of(CutoutShader{d.value}, "cutout", d);
+    case Kind::cutout: return draw_of(CutoutShader{{}, d.value}, "cutout", d);
     case Kind::depth: return draw_of(DepthShader{}, "depth", d);
     case Kind::point: return draw_of(PointShader{}, "point", d);
     case Kind::derivative: return draw_of(DerivativeShader{{}, d.mode, d.value}, "derivative", d);

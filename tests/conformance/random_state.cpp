@@ -6,23 +6,15 @@
 #include <vector>
 
 #include "conformance/geometry.h"
-#include "property/random.h"
+#include "support/random_state.h"
 
 namespace halfspace::conformance {
 
 namespace {
 
 BlendState random_blend(Random& r, bool two_sources) {
-  const auto factor = [&] { return static_cast<BlendFactor>(r.below(two_sources ? 19 : 15)); };
-  const auto equation = [&] { return static_cast<BlendEquation>(r.below(5)); };
-  BlendState b;
-  if (r.once_in(3)) return b;
-  b.color_equation = equation();
-  b.source_color = factor();
-  b.destination_color = factor();
-  b.alpha_equation = equation();
-  b.source_alpha = factor();
-  b.destination_alpha = factor();
+  if (r.once_in(3)) return {};
+  BlendState b = random_equations(r, two_sources ? 19 : 15);
   b.constant = {r.real(0, 1), r.real(0, 1), r.real(0, 1), r.real(0, 1)};
   return b;
 }
@@ -71,7 +63,7 @@ void random_tests(const Picture& p, Random& r, Drawing& d) {
   if (r.once_in(6)) s.offset = {.slope = r.real(-2, 2), .constant = r.pick({0.0f, 2.0f, -900.0f})};
   if (r.once_in(3)) s.stencil = StencilState{random_face(r), random_face(r)};
   if (r.once_in(3)) s.blend = random_blend(r, d.kind == Kind::two_colors);
-  if (r.once_in(6)) s.color_mask = {!r.once_in(3), !r.once_in(3), !r.once_in(3), !r.once_in(3)};
+  if (r.once_in(6)) s.color_mask = random_mask(r);
   if (p.samples > 1) {
     s.sample_shading = r.once_in(4);
     s.alpha_to_coverage = r.once_in(5);

@@ -48,6 +48,19 @@ struct ColorVaryings {
   vec4<R> color;
 };
 
+/// Hands over the colour.
+struct VertexColor {
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using Varyings = ColorVaryings<R>;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return in.pos_clip;
+  }
+};
+
 /// Four clip distances, in `extra`.
 struct ClipShader {
   template <class R>
@@ -66,17 +79,8 @@ struct ClipShader {
 };
 
 /// Discards where red is below `value`.
-struct CutoutShader {
+struct CutoutShader : VertexColor {
   float value = 0.5f;
-  template <class R>
-  using Attributes = VertexAttributes<R>;
-  template <class R>
-  using Varyings = ColorVaryings<R>;
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
-    out.color = in.color;
-    return in.pos_clip;
-  }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {in.color, in.color.x >= R(value)};
@@ -88,16 +92,7 @@ struct CutoutShader {
 };
 
 /// Writes green as depth.
-struct DepthShader {
-  template <class R>
-  using Attributes = VertexAttributes<R>;
-  template <class R>
-  using Varyings = ColorVaryings<R>;
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
-    out.color = in.color;
-    return in.pos_clip;
-  }
+struct DepthShader : VertexColor {
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {in.color, R(0.0f) <= R(0.0f), in.color.y};

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/rough_map.h"
 #include "halfspace/geometry/shapes.h"
 
 namespace halfspace {
@@ -21,18 +22,6 @@ constexpr double kScale = 0.4, kZero = 0.3;
 
 const Workers kWorkers(2);
 
-Image<float> rough_map(int width, int height) {
-  Image<float> map(width, height);
-  uint32_t state = 99;
-  for (int y = 0; y < height; ++y) {
-    for (float& t : map.row(y)) {
-      state = state * 1664525u + 1013904223u;
-      t = static_cast<float>(state >> 8) / 16777216.0f;
-    }
-  }
-  return map;
-}
-
 Image<float> constant_map(float value) {
   Image<float> map(8, 4);
   for (int y = 0; y < 4; ++y) {
@@ -42,7 +31,7 @@ Image<float> constant_map(float value) {
 }
 
 const HeightField& rough_field() {
-  static const HeightField field(rough_map(32, 16), 0.7, kWorkers);
+  static const HeightField field(rough_map(32, 16, 99), 0.7, kWorkers);
   return field;
 }
 
@@ -245,7 +234,7 @@ TEST(SlopeMap, SignsAndUnits) {
   EXPECT_NEAR(s.x, 0.0, 1e-15);
   EXPECT_NEAR(s.y, 80.0 / (1000.0 * kPi), 1e-12);
   EXPECT_NEAR(s.z, 1.0 + 80.0 * (1.0 - 0.0625 * 7.5) / 1000.0, 1e-12);
-  const HeightField wave(rough_map(32, 16), 0.0, kWorkers);
+  const HeightField wave(rough_map(32, 16, 99), 0.0, kWorkers);
   const double step = 1e-6, sine = std::sin(kPi * 0.4);
   const double rise = 80.0 * (wave.at(0.3 + step, 0.4).value - wave.at(0.3 - step, 0.4).value);
   EXPECT_NEAR(slopes_at(wave, 0.3, 0.4, 1000.0, 80.0, 0.0).x, rise / (2 * step * 2 * kPi * 1000.0 * sine), 1e-6);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/mesh_checks.h"
+#include "geometry/rough_map.h"
 #include "halfspace/geometry/shapes.h"
 
 namespace halfspace {
@@ -221,17 +222,7 @@ TEST_P(Generator, AreaAndVolumeConvergeToTheClosedForm) {
 constexpr double kScale = 0.2, kZero = 0.3;
 
 // Rough, and different at all edges.
-HeightField rough_field(MapEdges edges) {
-  Image<float> map(12, 7);
-  uint32_t state = 7;
-  for (int y = 0; y < map.height(); ++y) {
-    for (float& t : map.row(y)) {
-      state = state * 1664525u + 1013904223u;
-      t = static_cast<float>(state >> 8) / 16777216.0f;
-    }
-  }
-  return HeightField(map, 0.5, kWorkers, edges);
-}
+HeightField rough_field(MapEdges edges) { return HeightField(rough_map(12, 7, 7), 0.5, kWorkers, edges); }
 
 TEST_P(Generator, DisplacedStaysClosed) {
   const ShapeCase& s = GetParam();

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/rough_map.h"
+
 namespace halfspace {
 namespace {
 
@@ -43,22 +45,13 @@ Image<float> quantized(Image<float> map) {
   return map;
 }
 
-// Bumpy in every texel.
-Image<float> rough_map(int width, int height) {
-  uint32_t state = 12345;
-  return map_of(width, height, [&](double, double) {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<double>(state >> 8) / 16777216.0;
-  });
-}
-
 bool same_bits(const HeightSample& a, const HeightSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 // The difference quotient over h is off by f'''·h²/6, and f''' of texels in [0, 1] is at most 4·W³ (W the texels a unit);
 // h = 1e-7 / W leaves that at 1e-14·W, and its rounding at 1e-16 / h = 1e-9·W.
 TEST(HeightField, GradientIsThatOfTheValue) {
   for (const double smoothing : {0.0, 1.5}) {
-    const HeightField f(rough_map(32, 16), smoothing, kWorkers);
+    const HeightField f(rough_map(32, 16, 12345), smoothing, kWorkers);
     for (const double u : {0.0, 0.013, 0.25, 0.4999, 0.7, 0.98, 0.999}) {
       for (const double v : {0.001, 0.02, 0.21, 0.5, 0.77, 0.96, 0.999}) {
         const double hu = 1e-7 / 32, hv = 1e-7 / 16;
@@ -96,7 +89,7 @@ TEST(HeightField, ManyPlacesOfARowAreThoseOneByOne) {
 TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
   for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
     for (const auto& [width, height] : {std::pair(32, 16), std::pair(2, 1), std::pair(30, 11)}) {
-      const HeightField field(rough_map(width, height), 0.0, kWorkers, edges);
+      const HeightField field(rough_map(width, height, 12345), 0.0, kWorkers, edges);
       const bool exact = std::has_single_bit(static_cast<unsigned>(width)) && std::has_single_bit(static_cast<unsigned>(height));
       std::vector<HeightSample> samples(static_cast<std::size_t>(width));
       for (int row = 0; row < height; ++row) {
@@ -114,7 +107,7 @@ TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
 }
 
 TEST(HeightField, IsSmoothOverSeamAndPoles) {
-  const HeightField f(rough_map(32, 16), 0.0, kWorkers);
+  const HeightField f(rough_map(32, 16, 12345), 0.0, kWorkers);
   const double tiny = 1e-12;
   for (const double a : {0.0, 0.1, 0.35, 0.8, 1.0}) {
     EXPECT_TRUE(same_bits(f.at(0, a), f.at(1, a)));
@@ -197,7 +190,7 @@ TEST(HeightField, FilteringKeepsWhatIsCoarse) {
 // Round a pole the texels of a row lie close together; noise in them must not become slope. Smoothed, the slope to the east
 // (du / sin πv) of the rows next to the pole is no more than at the equator; unsmoothed it is many times as much.
 TEST(HeightField, PolesAreNotNoisy) {
-  const Image<float> map = rough_map(256, 128);
+  const Image<float> map = rough_map(256, 128, 12345);
   const auto mean_square_slope = [](const HeightField& f, double v) {
     double sum = 0;
     for (int i = 0; i < 1000; ++i) sum += std::pow(f.at(i / 1000.0, v).du / std::sin(kPi * v), 2);
@@ -237,7 +230,7 @@ TEST(HeightField, SmoothingRemovesTerraces) {
 
 TEST(HeightField, OddAndLeastSizesWork) {
   for (const auto& [width, height] : {std::pair(2, 1), std::pair(3, 2), std::pair(37, 19)}) {
-    const HeightField f(rough_map(width, height), 1.0, Workers(1));
+    const HeightField f(rough_map(width, height, 12345), 1.0, Workers(1));
     EXPECT_EQ(f.width(), width / 2 * 2);
     EXPECT_EQ(f.height(), height);
     for (const double a : {0.0, 0.3, 1.0}) {
@@ -249,7 +242,7 @@ TEST(HeightField, OddAndLeastSizesWork) {
 }
 
 TEST(HeightField, ThreadsChangeNothing) {
-  const Image<float> map = rough_map(101, 50);
+  const Image<float> map = rough_map(101, 50, 12345);
   const HeightField one = HeightField(map, 1.2, Workers(1)).filtered(60, Workers(1));
   const HeightField many = HeightField(map, 1.2, Workers(7)).filtered(60, Workers(7));
   for (double u = 0; u < 1; u += 0.017) {
@@ -258,7 +251,7 @@ TEST(HeightField, ThreadsChangeNothing) {
 }
 
 TEST(HeightField, SameBitsEverywhere) {
-  const HeightField f = HeightField(rough_map(100, 50), 1.2, kWorkers).filtered(60, kWorkers);
+  const HeightField f = HeightField(rough_map(100, 50, 12345), 1.2, kWorkers).filtered(60, kWorkers);
   uint64_t hash = 14695981039346656037u;
   for (double u = 0; u < 1; u += 0.0625) {
     for (double v = 0; v < 1; v += 0.0625) {

@@ -17,12 +17,12 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/image/image_io.h"
+#include "support/files.h"
 #include "support/sanitized.h"
 
 namespace halfspace {
 namespace {
 
-constexpr const char* kData = "../shared/data";
 constexpr unsigned kSecondsPerFile = 300;  // a decoder that hangs is ended after 60 s of its own, which a busy machine makes long
 constexpr rlim_t kAddressSpace = rlim_t{2} << 30;
 
@@ -109,9 +109,8 @@ Outcome read_in_child(const std::vector<std::filesystem::path>& files) {
 class BrokenFiles : public testing::TestWithParam<const char*> {};
 
 TEST_P(BrokenFiles, GiveAnImageOrOneLine) {
-  const std::filesystem::path folder = std::filesystem::path(kData) / GetParam();
-  if (!std::filesystem::exists(folder))
-    GTEST_SKIP() << folder << " is absent: the collection of broken files is not part of the repository";
+  const std::filesystem::path folder = shared_data(GetParam());
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << absent(folder);
   const std::vector<std::filesystem::path> files = files_in(folder);
   const Outcome outcome = read_in_child(files);
   const std::string last = outcome.lines.empty() ? "(none)" : outcome.lines.back();

@@ -3,40 +3,26 @@
 // What the tests of pictures in files share.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <glm/glm.hpp>
-#include <string>
-#include <string_view>
+#include <limits>
 
-#include "halfspace/core/check.h"
 #include "halfspace/core/image.h"
+#include "halfspace/image/image_tool.h"
+#include "support/folder_test.h"
 
 namespace halfspace {
 
-// A directory of its own, gone when the test ends.
-class ImageFixture : public testing::Test {
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+inline constexpr const char* kNoImageTool = "halfspace-image-tool is not built here (OpenImageIO is absent)";
+
+// A test that needs halfspace-image-tool.
+class ImageToolTest : public FolderTest {
  protected:
   void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "halfspace-test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    directory = name;
+    if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   }
-  void TearDown() override { std::filesystem::remove_all(directory); }
-
-  std::size_t file_count() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(directory), std::filesystem::directory_iterator()));
-  }
-  std::filesystem::path put(const std::string& name, std::string_view bytes) const {
-    std::ofstream(directory / name, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    return directory / name;
-  }
-
-  std::filesystem::path directory;
 };
 
 // Every code occurs in every channel; alpha is 255 throughout if opaque.
@@ -46,25 +32,6 @@ inline Image<glm::u8vec4> test_picture(bool opaque) {
     for (int x = 0; x < image.width(); ++x) image.at(x, y) = glm::u8vec4(x * 7 + y, y * 5 + 3 * x, x * y, opaque ? 255 : x + y * 3);
   }
   return image;
-}
-
-template <class F>
-std::string input_error(F&& f) {
-  try {
-    f();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "(no error)";
-}
-template <class F>
-std::string output_error(F&& f) {
-  try {
-    f();
-  } catch (const OutputError& e) {
-    return e.what();
-  }
-  return "(no error)";
 }
 
 }  // namespace halfspace

@@ -13,23 +13,15 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_tool.h"
 #include "image/image_fixture.h"
+#include "support/program.h"
 
 namespace halfspace {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+using ImageFormats = FolderTest;
 
-using ImageFormats = ImageFixture;
-
-// These need halfspace-image-tool.
-class ToolFormats : public ImageFixture {
+class ToolFormats : public ImageToolTest {
  protected:
-  void SetUp() override {
-    ImageFixture::SetUp();
-    if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
-  }
-
   Image<glm::vec4> write_and_read(const char* name, const Image<glm::vec4>& image) const {
     write_image(directory / name, image);
     return read_linear(directory / name);
@@ -59,11 +51,8 @@ float as_half(float x) { return half_to_float(float_to_half(x)); }
 
 // What ImageMagick tells of a file, or nothing where it is not installed.
 std::string identify(const std::filesystem::path& path, const std::string& format) {
-  const std::string command = "identify -format '" + format + "' '" + path.string() + "' 2>/dev/null";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  char buffer[4096];
-  const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe);
-  return ::pclose(pipe) == 0 ? std::string(buffer, n) : "";
+  const ProgramOutput output = run_command("identify -format '" + format + "' '" + path.string() + "' 2>/dev/null");
+  return output.exit_code == 0 ? output.text : "";
 }
 
 std::vector<double> numbers_in(const std::string& text) {
@@ -160,8 +149,7 @@ TEST_F(ToolFormats, ExrHasAlphaOnlyWhereItSaysSomething) {
   EXPECT_EQ(write_and_read("a.exr", one_texel({0.5f, 2.0f, 8.0f, 0.0f})).at(0, 0), glm::vec4(0.0f)) << "colours are lost at alpha 0";
   write_image(directory / "b.exr", one_texel({0.5f, 2.0f, 8.0f, 1.0f}));
   const auto has_alpha = [&](const char* name) {
-    std::ifstream file(directory / name, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::string text = read_bytes(directory / name);
     // The list of channels: each a name that ends in 0, and 16 bytes of which the first is the type (1: half).
     return text.find(std::string("A\0\1\0\0\0", 6)) != std::string::npos;
   };
@@ -181,8 +169,7 @@ TEST_F(ToolFormats, TheSamePixelsGiveTheSameFile) {
     std::string files[2];
     for (std::string& text : files) {
       write_image(directory / (std::string("a") + extension), test_light(false));
-      std::ifstream file(directory / (std::string("a") + extension), std::ios::binary);
-      text.assign(std::istreambuf_iterator<char>(file), {});
+      text = read_bytes(directory / (std::string("a") + extension));
     }
     EXPECT_TRUE(files[0] == files[1]) << extension;
   }

@@ -25,7 +25,7 @@ namespace halfspace {
 namespace {
 
 namespace fs = std::filesystem;
-using ImageIo = ImageFixture;
+using ImageIo = FolderTest;
 
 // The colour type in a PNG's header: 2 RGB, 6 RGBA.
 int color_type(const std::vector<std::byte>& png) { return static_cast<int>(png.at(25)); }
@@ -169,7 +169,7 @@ TEST_F(ImageIo, PngThatClaimsMoreThanItHoldsIsRefused) {
 }
 
 TEST_F(ImageIo, ReadsOtherFormats) {
-  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   // A binary PPM of 2x1 and an uncompressed TGA of 1x1 with alpha, as their formats spell them.
   const Image<glm::u8vec4> ppm = read_image(put("a.ppm", "P6 2 1 255\n\x01\x02\x03\xff\xfe\xfd"));
   ASSERT_EQ(ppm.width(), 2);
@@ -182,7 +182,7 @@ TEST_F(ImageIo, ReadsOtherFormats) {
 }
 
 TEST_F(ImageIo, DamagedFilesOfOtherFormatsAreRefusedInOneLine) {
-  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   for (const char* name : {"a.jpg", "b.jpg"}) {
     const std::string what = input_error([&] { read_image(put(name, "\xff\xd8\xff\xe0 nothing more")); });
     EXPECT_TRUE(what.starts_with((directory / name).string() + ": cannot be read as jpeg (")) << what;
@@ -192,9 +192,8 @@ TEST_F(ImageIo, DamagedFilesOfOtherFormatsAreRefusedInOneLine) {
 
 // PngSuite against a second decoder's results (stb's, which came with the files).
 TEST_F(ImageIo, PngSuiteDecodesAsElsewhere) {
-  const fs::path primary = "../shared/data/pngsuite/primary";
-  const fs::path expected = "../shared/data/pngsuite/primary_check";
-  if (!fs::exists(primary)) GTEST_SKIP() << primary << " is absent: PngSuite is not part of the repository";
+  const fs::path primary = shared_data("pngsuite/primary"), expected = shared_data("pngsuite/primary_check");
+  if (!fs::exists(primary)) GTEST_SKIP() << absent(primary);
   int compared = 0;
   for (const auto& entry : fs::directory_iterator(primary)) {
     const fs::path other = expected / entry.path().filename();

@@ -16,19 +16,9 @@
 namespace halfspace {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+using ImageNumbers = FolderTest;
 
-using ImageNumbers = ImageFixture;
-
-// These need halfspace-image-tool.
-class ToolNumbers : public ImageFixture {
- protected:
-  void SetUp() override {
-    ImageFixture::SetUp();
-    if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
-  }
-};
+using ToolNumbers = ImageToolTest;
 
 std::vector<float> texels_of(const Image<float>& image) { return {image.texels().begin(), image.texels().end()}; }
 
@@ -143,11 +133,9 @@ TEST_F(ImageNumbers, SayWhichFilesTheyRead) {
 
 // ---- files of others -------------------------------------------------------------------------------------------
 
-const std::filesystem::path kData = "../shared/data";
-
 TEST_F(ToolNumbers, MoonHeights) {
-  const std::filesystem::path wide = kData / "moon/ldem_1440x720_16bit_derived.png", narrow = kData / "moon/ldem_3_8bit.jpg";
-  if (!std::filesystem::exists(wide)) GTEST_SKIP() << wide << " is absent: it is not part of the repository";
+  const std::filesystem::path wide = shared_data("moon/ldem_1440x720_16bit_derived.png"), narrow = shared_data("moon/ldem_3_8bit.jpg");
+  if (!std::filesystem::exists(wide)) GTEST_SKIP() << absent(wide);
   const Image<float> heights = read_gray(wide), codes = read_gray(narrow);
   ASSERT_EQ(heights.width(), 1440);
   ASSERT_EQ(heights.height(), 720);
@@ -174,8 +162,8 @@ TEST_F(ToolNumbers, EnvironmentMaps) {
                         {"BrightRings.exr", 800, 800, glm::vec3(0.5f), 1e-5f},
                         {"venice_sunset_1k.hdr", 1024, 512, glm::vec3(0.226566f, 0.398444f, 0.792966f), 0.004f}};
   for (const Case& c : cases) {
-    const std::filesystem::path path = kData / "hdr" / c.name;
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent: it is not part of the repository";
+    const std::filesystem::path path = shared_data("hdr") / c.name;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << absent(path);
     const Image<glm::vec4> image = read_linear(path);
     ASSERT_EQ(image.width(), c.width) << c.name;
     ASSERT_EQ(image.height(), c.height) << c.name;

@@ -35,7 +35,7 @@ TEST(ImageToolCopy, DISABLED_WritesAndReads) {
         << (fs::exists("a.jpg") || fs::exists("a.exr") ? "something was written" : "nothing was written") << '\n';
 }
 
-class ImageTool : public ImageFixture {
+class ImageTool : public FolderTest {
  protected:
   // The lines of a copy of this program, which finds the script (nothing where it is empty) in the tool's place.
   std::string lines_beside(const std::string& script) const {
@@ -55,8 +55,7 @@ class ImageTool : public ImageFixture {
     int status = -1;
     ::waitpid(child, &status, 0);
     EXPECT_EQ(status, 0);
-    std::ifstream file(directory / "lines");
-    return std::string(std::istreambuf_iterator<char>(file), {});
+    return read_bytes(directory / "lines");
   }
 };
 
@@ -99,7 +98,7 @@ TEST_F(ImageTool, PromisesTooMuch) {
 }
 
 TEST_F(ImageTool, RefusesWhatItCannotWrite) {
-  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   PictureHeader header;
   header.width = 4000;
   header.height = 3000;
@@ -112,7 +111,7 @@ TEST_F(ImageTool, RefusesWhatItCannotWrite) {
 }
 
 TEST_F(ImageTool, AFullDiskIsTold) {
-  if (find_image_tool().empty()) GTEST_SKIP() << "halfspace-image-tool is not built here (OpenImageIO is absent)";
+  if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   fs::create_symlink("/dev/full", directory / "a.jpg");
   EXPECT_EQ(output_error([&] { write_image(directory / "a.jpg", test_picture(true)); }),
             (directory / "a.jpg").string() + ": cannot write (No space left on device)");

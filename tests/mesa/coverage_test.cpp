@@ -31,13 +31,6 @@ Figures count_fragments(const ColoredMesh& mesh, const TargetSpec& target) {
   return figures;
 }
 
-struct SoupCase {
-  const char* name;
-  Soup soup;
-  const char* what_mesa_does = nullptr;  ///< null: it agrees
-  friend void PrintTo(const SoupCase& c, std::ostream* os) { *os << c.name; }
-};
-
 // Why coverage may differ. It matters where a pixel hangs on the last 1/256 px: on thin triangles, and on edges through
 // pixel centres. Halfspace rounds the exact quotient x/w to the grid and does not clip at the window's edges.
 constexpr const char* kRounding = "rounds window coordinates to float before it snaps them to 1/256 px";

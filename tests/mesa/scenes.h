@@ -3,6 +3,7 @@
 // Meshes for the comparison: the same on every machine, but for the last bit of libm's sin and cos.
 #pragma once
 
+#include <ostream>
 #include <random>
 #include <vector>
 
@@ -33,6 +34,13 @@ struct Soup {
                               ///< 2^m × 2^n px no rounding is then left to differ in up to the 1/256 px grid.
   bool inside = false;        ///< no triangle reaches beyond the window
   uint32_t seed = 1;
+};
+/// A parameter of tests of soups.
+struct SoupCase {
+  const char* name;
+  Soup soup;
+  const char* what_mesa_does = nullptr;  ///< null: it agrees
+  friend void PrintTo(const SoupCase& c, std::ostream* os) { *os << c.name; }
 };
 ColoredMesh make_soup(const Soup& soup, int width, int height);
 

@@ -20,13 +20,6 @@ void finish(TwinPass& pass, const char* what_mesa_does = nullptr) {
   expect_verdict(figures, what_mesa_does);
 }
 
-struct SoupCase {
-  const char* name;
-  Soup soup;
-  const char* what_mesa_does = nullptr;  ///< null: it agrees
-  friend void PrintTo(const SoupCase& c, std::ostream* os) { *os << c.name; }
-};
-
 // Halfspace interpolates between the snapped vertices, Mesa between those before snapping: GL allows both. A colour that
 // changes by 1 within a pixel differs by up to 1/256 for it, and thin triangles are covered a little differently.
 constexpr const char* kUnsnapped = "interpolates between unsnapped vertices, and clips at the window's edges to new ones";

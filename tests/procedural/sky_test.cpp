@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "halfspace/core/cube_map.h"
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/shading/environment.h"
 #include "halfspace/shading/tone.h"

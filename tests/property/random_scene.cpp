@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "support/random_state.h"
+
 namespace halfspace {
 
 namespace {
@@ -217,7 +219,7 @@ void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& rand
 
 namespace {
 
-constexpr int kCompareOps = 8, kBlendFactors = 15, kBlendEquations = 5, kStencilOps = 8;
+constexpr int kCompareOps = 8, kBlendFactors = 15, kStencilOps = 8;
 
 Rect random_rect(int width, int height, Random& random) {
   const int x = random.between(-width / 4, width * 3 / 4);
@@ -227,27 +229,10 @@ Rect random_rect(int width, int height, Random& random) {
 }
 
 BlendState random_blend(Random& random) {
-  const auto factor = [&] { return static_cast<BlendFactor>(random.below(kBlendFactors)); };
-  const auto equation = [&] { return static_cast<BlendEquation>(random.below(kBlendEquations)); };
-  BlendState b;
-  if (random.once_in(4)) return b;
-  b.color_equation = equation();
-  b.source_color = factor();
-  b.destination_color = factor();
-  b.alpha_equation = equation();
-  b.source_alpha = factor();
-  b.destination_alpha = factor();
+  if (random.once_in(4)) return {};
+  BlendState b = random_equations(random, kBlendFactors);
   b.constant = {random.real(-0.2f, 1.2f), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
   return b;
-}
-
-ColorMask random_mask(Random& random) {
-  ColorMask m;
-  m.r = !random.once_in(3);
-  m.g = !random.once_in(3);
-  m.b = !random.once_in(3);
-  m.a = !random.once_in(3);
-  return m;
 }
 
 StencilFace random_stencil_face(Random& random) {

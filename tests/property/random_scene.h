@@ -3,8 +3,8 @@
 // Random scenes: triangles of every kind that is hard to draw, under random states.
 #pragma once
 
-#include "property/random.h"
 #include "property/scene.h"
+#include "support/random.h"
 
 namespace halfspace {
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "halfspace/raster/pass.h"
+#include "support/shaders.h"
 
 namespace halfspace {
 
@@ -14,16 +15,20 @@ vec4<R> held(const vec4<R>& c, float limit) {
           clamp(c.w, R(-limit), R(limit))};
 }
 
+template <class R>
+struct PositionAndA {
+  vec4<R> position;
+  vec4<R> a;
+};
+
 /// No varyings: all that a Pixel says by itself.
 struct PixelShader {
   glm::mat4 clip_from_model{1.0f};
   glm::vec4 color{1.0f};
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-  };
+  using Attributes = PositionAttributes<R>;
   template <class R>
-  struct Varyings {};
+  using Varyings = NoVaryings<R>;
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return clip_from_model * in.position;
@@ -136,10 +141,7 @@ template <bool has_visibility>
 struct CutoutShader {
   float threshold = 0.2f;
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-    vec4<R> a;
-  };
+  using Attributes = PositionAndA<R>;
   template <class R>
   struct Varyings {
     vec2<R> uv;
@@ -303,10 +305,7 @@ template <std::size_t N>
 struct ManyColorsShader {
   float width = 0.2f;
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-    vec4<R> a;
-  };
+  using Attributes = PositionAndA<R>;
   template <class R>
   struct Varyings {
     vec4<R> a;
@@ -341,10 +340,7 @@ template <bool has_visibility>
 struct PointShader {
   float size = 10.0f;
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-    vec4<R> a;
-  };
+  using Attributes = PositionAndA<R>;
   template <class R>
   struct Varyings {
     vec3<R> color;
@@ -378,10 +374,7 @@ template <bool has_visibility>
 struct BoundsShader {
   float size = 0.1f;
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-    vec4<R> a;
-  };
+  using Attributes = PositionAndA<R>;
   template <class R>
   struct Varyings {
     vec4<R> a;
@@ -413,10 +406,7 @@ struct BoundsShader {
 template <std::size_t N>
 struct ClipShader {
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-    vec4<R> a;
-  };
+  using Attributes = PositionAndA<R>;
   template <class R>
   struct Varyings {
     vec4<R> a;
@@ -442,19 +432,7 @@ struct ClipShader {
 };
 
 /// Depth alone; its positions are those of ColorShader.
-struct DepthShader {
-  glm::mat4 clip_from_model{1.0f};
-  template <class R>
-  struct Attributes {
-    vec4<R> position;
-  };
-  template <class R>
-  struct Varyings {};
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return clip_from_model * in.position;
-  }
-};
+using DepthShader = MatrixShader;
 
 /// A post step: a tone curve of + − × ÷ alone.
 struct Curve {

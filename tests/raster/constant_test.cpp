@@ -130,7 +130,7 @@ TEST(ConstantShaders, TilesInARowKeepTheirColors) {
   constexpr std::array<int, 13> kColumns{-1, -1, 0, 0, 0, 1, 1, -1, 0, 1, 2, 2, -1};  // the draw that covers a column of tiles, or none
   const glm::vec4 cleared(0.25f, 0.5f, 0.75f, 1.0f);
   const auto color_of = [&](int draw) { return draw < 0 ? cleared : glm::vec4(0.1f * static_cast<float>(draw + 1)); };
-  const std::vector<glm::vec4> corners{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+  const std::vector<glm::vec4> corners = full_screen();
   for (const int threads : {1, 2, 7}) {
     for (const LoadOp load : {LoadOp::clear, LoadOp::load}) {
       Image<glm::vec4> image(kWidth, kHeight);
@@ -173,7 +173,7 @@ TYPED_TEST(RowsOfOneColor, StayAmongThemselves) {
   constexpr std::array<int, 17> kRows{-1, 0, 0, 1, -1, 2, -1, -1, 0,
                                       1,  2, 0, 1, -1, 2, 0,  -1};  // from below: the draw that covers it, or none
   const glm::vec4 cleared(0.25f, 0.5f, 0.75f, 1.0f);
-  const std::vector<glm::vec4> corners{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+  const std::vector<glm::vec4> corners = full_screen();
   for (const auto& [width, height] : {std::pair(1024, 16 * kTile + 40), std::pair(1027, 17 * kTile), std::pair(130, 17 * kTile)}) {
     for (const LoadOp load : {LoadOp::clear, LoadOp::load}) {
       Image<TypeParam> image(width, height), one(1, 4);  // one: the colours as the format holds them

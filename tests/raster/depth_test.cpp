@@ -202,8 +202,6 @@ TEST(Depth, ReversedZOrdersWhatStandardZConfuses) {
 
 // ---- tests and writes ------------------------------------------------------------------------------------------
 
-std::vector<glm::vec4> full_screen(float z) { return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}}; }
-
 bool is_everywhere(const Image<float>& depth, float z) {
   return std::all_of(depth.texels().begin(), depth.texels().end(), [z](float got) { return got == z; });
 }
@@ -536,28 +534,11 @@ TEST(DepthFormats, LoadedDepthIsWhatWasStored) {
 
 // ---- invariance ------------------------------------------------------------------------------------------------
 
-struct DepthOnly {
-  glm::mat4 clip_from_model{1.0f};
-  template <class R>
-  struct Attributes {
-    vec4<R> position;
-  };
-  template <class R>
-  struct Varyings {};
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return clip_from_model * in.position;
-  }
-};
-
 // The same position expression, everything else different: attributes, varyings, what the fragment does.
 struct Full {
   glm::mat4 clip_from_model{1.0f};
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-    vec4<R> color;
-  };
+  using Attributes = ColoredAttributes<R>;
   template <class R>
   struct Varyings {
     vec4<R> color;
@@ -608,7 +589,7 @@ TEST(DepthInvariance, PrePassThenEqualLosesNothing) {
     DepthTarget depth = format == DepthFormat::d32f ? d32f_target(d32f) : format == DepthFormat::d24 ? d24_target(d24) : d16_target(d16);
     depth.clear_value = 0.0f;
     Pass first(kWidth, kHeight, {}, depth, {.tile_size = 8 << (i % 4)});
-    first.draw_depth(DepthOnly{m}, make_vertex_view(stream(positions)), list, state);
+    first.draw_depth(MatrixShader{m}, make_vertex_view(stream(positions)), list, state);
     clipped += first.run(one_worker()).clipped;
 
     // What the pre-pass covered: everything nearer than "infinitely far".

@@ -81,43 +81,8 @@ class ExactPlane {
   Exact area_;
 };
 
-struct ValueShader {
-  template <class R>
-  struct Attributes {
-    vec4<R> position, value;
-  };
-  template <class R>
-  struct Varyings {
-    vec4<R> value;
-  };
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
-    out.value = in.value;
-    return in.position;
-  }
-  template <class R>
-  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    return {in.value};
-  }
-};
-
-struct LinearShader {
-  template <class R>
-  using Attributes = ValueShader::Attributes<R>;
-  template <class R>
-  struct Varyings {
-    Linear<vec4<R>> value;
-  };
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
-    out.value.value = in.value;
-    return in.position;
-  }
-  template <class R>
-  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    return {in.value.value};
-  }
-};
+using ValueShader = SmoothColorShader;
+using LinearShader = LinearColorShader;
 
 struct Scene {
   std::vector<glm::vec4> positions, values;

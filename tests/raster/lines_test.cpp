@@ -139,7 +139,7 @@ struct TwoDistances : ConstantShader {
 };
 
 TEST(Lines, ClipDistancesCutTrianglesLinesAndPoints) {
-  const std::vector<glm::vec4> whole{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+  const std::vector<glm::vec4> whole = full_screen();
   Image<glm::vec4> image(16, 16);
   Pass pass(16, 16, rgba32f_target(image), {});
   pass.draw(TwoDistances{}, make_vertex_view(stream(whole)), {.blend = kAdd});

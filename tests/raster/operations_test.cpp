@@ -10,21 +10,16 @@ namespace {
 using namespace raster_test;
 
 // A triangle over the whole of any target, at a window depth in [0, 1].
-std::vector<glm::vec4> whole(float depth) {
-  const float z = 2.0f * depth - 1.0f;
-  return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}};
-}
+std::vector<glm::vec4> whole(float depth) { return full_screen(2.0f * depth - 1.0f); }
 
 // N colours: (n, 0.25, 0.5, 0.75) for the n-th.
 template <std::size_t N>
 struct NumberedColors {
   std::array<glm::vec4, N> colors{};
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-  };
+  using Attributes = PositionAttributes<R>;
   template <class R>
-  struct Varyings {};
+  using Varyings = NoVaryings<R>;
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return in.position;

@@ -13,11 +13,9 @@ using namespace raster_test;
 struct CoordShader {
   float size = 1.0f;
   template <class R>
-  struct Attributes {
-    vec4<R> position;
-  };
+  using Attributes = PositionAttributes<R>;
   template <class R>
-  struct Varyings {};
+  using Varyings = NoVaryings<R>;
   template <class R>
   PerVertex<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
     return {in.position, R(size), {}};

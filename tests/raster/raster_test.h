@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the raster tests share: random numbers that every machine draws alike, meshes given in 1/256 px whose positions
-// survive the vertex stage exactly, shaders that carry one flat colour, and draws into a float image.
+// What the raster tests share: meshes given in 1/256 px whose positions
+// survive the vertex stage exactly, and draws into a float image.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,38 +13,15 @@
 
 #include "halfspace/raster/pass.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
+#include "support/random.h"
 #include "support/sanitized.h"
+#include "support/shaders.h"
+#include "support/workers.h"
 
 namespace halfspace::raster_test {
 
 /// Repetitions of a random test: fewer where a sanitizer makes each many times slower.
 constexpr int effort(int n) { return kSanitized ? (n + 15) / 16 : n; }
-
-/// splitmix64 (Steele, Lea and Flood, 2014): the standard library's distributions differ between implementations.
-class Random {
- public:
-  explicit Random(uint64_t seed) : state_(seed) {}
-
-  uint64_t bits() {
-    uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  /// A whole number in [low, high].
-  int integer(int low, int high) {
-    return static_cast<int>(low + static_cast<int64_t>(bits() % static_cast<uint64_t>(int64_t{high} - low + 1)));
-  }
-  /// In [low, high).
-  double real(double low, double high) { return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53; }
-  float real(float low, float high) { return static_cast<float>(real(static_cast<double>(low), static_cast<double>(high))); }
-  /// Log-uniform in [low, high).
-  double magnitude(double low, double high) { return low * std::pow(high / low, real(0.0, 1.0)); }
-  bool coin() { return (bits() & 1) != 0; }
-
- private:
-  uint64_t state_;
-};
 
 /// A window position in 1/256 px.
 struct Point {
@@ -60,55 +37,11 @@ inline glm::vec4 clip_position(const Point& p, int width, int height, float z = 
           static_cast<float>(p.y - 128 * height) / static_cast<float>(128 * height), z, 1.0f};
 }
 
-/// Clip positions as given, one flat colour a triangle.
-struct FlatColorShader {
-  template <class R>
-  struct Attributes {
-    vec4<R> position;
-    vec4<R> color;
-  };
-  template <class R>
-  struct Varyings {
-    Flat<vec4<R>> color;
-  };
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
-    out.color.value = in.color;
-    return in.position;
-  }
-  template <class R>
-  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    return {in.color.value};
-  }
-};
-
-/// Clip positions as given, the same colour everywhere, no varyings.
-struct ConstantShader {
-  glm::vec4 color{1.0f};
-  template <class R>
-  struct Attributes {
-    vec4<R> position;
-  };
-  template <class R>
-  struct Varyings {};
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return in.position;
-  }
-  template <class R>
-  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
-    return {vec4<R>(R(color.x), R(color.y), R(color.z), R(color.w))};
-  }
-};
-
 inline constexpr BlendState kAdd{BlendEquation::add, BlendFactor::one, BlendFactor::one,
                                  BlendEquation::add, BlendFactor::one, BlendFactor::one};
 
-/// One thread: results do not depend on their number (tests/property shows it), and the proofs stay simple.
-inline const Workers& one_worker() {
-  static const Workers workers(1);
-  return workers;
-}
+/// A triangle that covers the whole of any target, at a depth of clip space.
+inline std::vector<glm::vec4> full_screen(float z = 0.0f) { return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}}; }
 
 /// The pixel at window coordinates (x, y), whose origin is the lower left; images hold the top row first.
 template <class T>

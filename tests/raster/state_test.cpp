@@ -14,15 +14,7 @@ namespace {
 // ---- shaders ---------------------------------------------------------------------------------------------------
 
 // Shows which face it sees: (1, 0) front, (0, 1) back.
-struct FacingShader {
-  template <class R>
-  using Attributes = ConstantShader::Attributes<R>;
-  template <class R>
-  struct Varyings {};
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return in.position;
-  }
+struct FacingShader : PositionShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
     return {vec4<R>(select(px.front_facing, R(1), R(0)), select(px.front_facing, R(0), R(1)), R(0), R(1))};
@@ -63,16 +55,8 @@ struct OrderShader {
 template <bool has_visibility>
 struct HalfShader;
 template <>
-struct HalfShader<false> {
+struct HalfShader<false> : PositionShader {
   float edge = 32;
-  template <class R>
-  using Attributes = ConstantShader::Attributes<R>;
-  template <class R>
-  struct Varyings {};
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return in.position;
-  }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
     return {vec4<R>(R(1)), px.x < R(edge)};
@@ -90,17 +74,9 @@ struct HalfShader<true> : HalfShader<false> {
 template <bool has_visibility>
 struct DepthShader;
 template <>
-struct DepthShader<false> {
+struct DepthShader<false> : PositionShader {
   glm::vec4 color{1.0f};
   float scale = 1.0f / 64, bias = 0;
-  template <class R>
-  using Attributes = ConstantShader::Attributes<R>;
-  template <class R>
-  struct Varyings {};
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return in.position;
-  }
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
     return {vec4<R>(R(color.x), R(color.y), R(color.z), R(color.w)), MaskOf<R>(true), px.x * R(scale) + R(bias)};
@@ -114,8 +90,7 @@ struct DepthShader<true> : DepthShader<false> {
   }
 };
 
-const std::vector<glm::vec4> kFullScreen{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
-std::vector<glm::vec4> full_screen(float z) { return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}}; }
+const std::vector<glm::vec4> kFullScreen = full_screen();
 
 template <class S>
 PassStatistics draw(Image<glm::vec4>& image, const S& shader, const std::vector<glm::vec4>& positions, const DrawState& state = {},
@@ -750,17 +725,6 @@ TEST(StateDeathTest, Draws) {
   EXPECT_DEATH(draw_with([](DrawState& s) { s.depth.range_far = std::numeric_limits<float>::quiet_NaN(); }), "check failed");
 }
 
-struct DepthOnly {
-  template <class R>
-  using Attributes = ConstantShader::Attributes<R>;
-  template <class R>
-  struct Varyings {};
-  template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    return in.position;
-  }
-};
-
 TEST(State, DepthAloneLeavesColorAsItIs) {
   Image<glm::vec4> image(16, 16);
   Image<float> depth(16, 16);
@@ -768,7 +732,7 @@ TEST(State, DepthAloneLeavesColorAsItIs) {
   const Indices indices(list, 3);
   Pass pass(16, 16, rgba32f_target(image), d32f_target(depth));
   pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)), {.depth = {.test = false}});
-  pass.draw_depth(DepthOnly{}, make_vertex_view(stream(kFullScreen)), indices);
+  pass.draw_depth(PositionShader{}, make_vertex_view(stream(kFullScreen)), indices);
   pass.run(one_worker());
   EXPECT_EQ(image.at(3, 3), glm::vec4(1.0f));
   EXPECT_LT(depth.at(3, 3), 1.0f);

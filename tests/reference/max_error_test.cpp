@@ -14,16 +14,12 @@
 #include "halfspace/reference/validation.h"
 #include "halfspace/render/model/chord_error.h"
 #include "halfspace/scene/scene_file.h"
+#include "support/workers.h"
 
 namespace halfspace {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 90;
-
-const Workers& workers() {
-  static const Workers team(2);
-  return team;
-}
 
 double uniform(std::mt19937& random, double low, double high) { return low + (high - low) * static_cast<double>(random()) / 4294967296.0; }
 
@@ -109,10 +105,10 @@ TEST(MaxError, OutlinesOfRandomViewsLieWithinIt) {
   for (int seed = 0; seed < number_of_views(9); ++seed) {
     RandomView view = random_view(seed);
     view.scene.shadow.method = ShadowMethod::none;
-    SceneAssets assets(workers());
+    SceneAssets assets(two_workers());
     const FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
-    const Image<int> ours = seen_objects(assets.prepare(fitted.scene, kWidth, kHeight), kFiner, workers());
-    const Image<int> truth = seen_objects(assets.prepare(finest(view.scene), kWidth, kHeight), kFiner, workers());
+    const Image<int> ours = seen_objects(assets.prepare(fitted.scene, kWidth, kHeight), kFiner, two_workers());
+    const Image<int> truth = seen_objects(assets.prepare(finest(view.scene), kWidth, kHeight), kFiner, two_workers());
     tally.add(silhouette_distance(ours, truth, kFiner).max, view.name);
   }
   tally.judge();
@@ -127,11 +123,11 @@ TEST(MaxError, ShadowEdgesOfRandomViewsLieWithinIt) {
   for (int seed = 0; seed < number_of_views(9); ++seed) {
     const RandomView view = random_view(seed);
     if (view.scene.shadow.method == ShadowMethod::none) continue;
-    SceneAssets assets(workers());
+    SceneAssets assets(two_workers());
     FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
     fitted.scene.shadow.footprint *= kFiner;  // in pixels of the finer picture
     const ValidationOptions options{kFiner * kWidth, kFiner * kHeight, 1};
-    for (const ShadowComparison& light : validate(view.name, fitted.scene, options, assets, workers()).lights) {
+    for (const ShadowComparison& light : validate(view.name, fitted.scene, options, assets, two_workers()).lights) {
       Image<uint8_t> wrong(light.map.width(), light.map.height());
       std::ranges::transform(light.map.texels(), light.truth.texels(), wrong.data(),
                              [](float map, float truth) { return static_cast<uint8_t>(std::abs(map - truth) > 0.5f); });
@@ -154,11 +150,11 @@ TEST(MaxError, ColorsOfRandomViewsLieWithinIt) {
     SceneDescription truth = finest(view.scene);
     for (auto& [name, texture] : truth.textures) texture.anisotropy = 16;
     truth.post.format = LightFormat::rgba32f;
-    SceneAssets assets(workers());
+    SceneAssets assets(two_workers());
     Image<glm::u8vec4> ours(kLarger * kWidth, kLarger * kHeight), theirs(kLarger * kWidth, kLarger * kHeight);
     const FittedScene fitted = assets.fit(view.scene, ours.width(), ours.height(), {std::nullopt, kAskedCodes});
-    render(assets.prepare(fitted.scene, ours.width(), ours.height()), ours, workers());
-    render(assets.prepare(truth, ours.width(), ours.height()), theirs, workers());
+    render(assets.prepare(fitted.scene, ours.width(), ours.height()), ours, two_workers());
+    render(assets.prepare(truth, ours.width(), ours.height()), theirs, two_workers());
     tally.add(255.0 * compare_images(ours, theirs).p999, view.name);
   }
   tally.judge();

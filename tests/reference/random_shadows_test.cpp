@@ -11,7 +11,7 @@
 
 #include "halfspace/reference/validation.h"
 #include "halfspace/scene/scene_file.h"
-#include "property/random.h"
+#include "support/random.h"
 
 namespace halfspace {
 namespace {

@@ -10,16 +10,12 @@
 
 #include "halfspace/reference/validation.h"
 #include "halfspace/scene/scene_file.h"
+#include "support/workers.h"
 
 namespace halfspace {
 namespace {
 
 constexpr int kFrames = 100, kWidth = 192, kHeight = 108;
-
-const Workers& workers() {
-  static const Workers team(2);
-  return team;
-}
 
 SceneDescription contact_scene(const std::string& method, int resolution) {
   SceneFile file = SceneFile::open("shadow-contact");
@@ -47,7 +43,7 @@ struct Shimmer {
 // The light turns about the vertical, a tenth of a degree a frame; the camera stands.
 Shimmer of_a_turning_light(const std::string& method, int resolution) {
   SceneDescription scene = contact_scene(method, resolution);
-  SceneAssets assets(workers());
+  SceneAssets assets(two_workers());
   std::vector<int> passes(kWidth * kHeight), true_passes(kWidth * kHeight);
   Shimmer sum;
   ShadowComparison last;
@@ -56,7 +52,7 @@ Shimmer of_a_turning_light(const std::string& method, int resolution) {
     scene.lights.front().second.direction = {-0.75 * std::cos(turn), 0.9, 0.75 * std::sin(turn)};
     const PreparedScene prepared = assets.prepare(scene, kWidth, kHeight);
     const RayScene rays(prepared.meshes, prepared.view.eye_ws), casters(prepared.meshes, prepared.view.eye_ws, true);
-    ShadowComparison now = compare_shadow({&prepared, 0}, rays, casters, kWidth, kHeight, 1, workers());
+    ShadowComparison now = compare_shadow({&prepared, 0}, rays, casters, kWidth, kHeight, 1, two_workers());
     for (int y = 0; y < kHeight && frame > 0; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const auto i = static_cast<std::size_t>(y * kWidth + x);
@@ -80,7 +76,7 @@ class WatchedPoints {
  public:
   explicit WatchedPoints(const PreparedScene& scene) {
     const RayScene rays(scene.meshes, scene.view.eye_ws);
-    const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, kWidth, kHeight, workers());
+    const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, kWidth, kHeight, two_workers());
     for (int y = kHeight / 4; y < kHeight * 3 / 4; ++y) {
       for (int x = kWidth / 4; x < kWidth * 3 / 4; ++x) {
         const std::optional<RayHit>& hit = hits.at(x, y);
@@ -117,7 +113,7 @@ class WatchedPoints {
 // The camera moves; with `scene_too` all objects with it, so that the scene slides over the map's grid as it would without snapping.
 int64_t passes_of_a_moving_camera(const std::string& method, bool scene_too) {
   SceneDescription scene = contact_scene(method, 2048);
-  SceneAssets assets(workers());
+  SceneAssets assets(two_workers());
   WatchedPoints points(assets.prepare(scene, kWidth, kHeight));
   const glm::dvec3 step(0.0017, 0.0, 0.0011);  // units a frame; a texel is 0.004
   int64_t count = 0;

@@ -9,22 +9,18 @@
 #include "halfspace/reference/ray_scene.h"
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/shading/sphere_sprite.h"
+#include "support/workers.h"
 
 namespace halfspace {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
-const Workers& workers() {
-  static const Workers team(2);
-  return team;
-}
-
 PreparedScene prepared(const std::string& sections, const std::vector<std::string>& settings = {}) {
   const std::string head = R"({ "version": 1, "cameras": { "main": { "position": [0, 1.5, 6], "target": [0, 0, 0], "fov": 50 } },)";
   SceneFile file = SceneFile::parse(head + sections + "}", "test", {});
   file.set(settings);
-  SceneAssets assets(workers());
+  SceneAssets assets(two_workers());
   return assets.prepare(file.description(), kWidth, kHeight);
 }
 
@@ -50,7 +46,7 @@ Image<glm::vec4> numbers_of(const PreparedScene& scene) {
     pass.draw(NumberedMesh{{glm::mat4(scene.view.clip_from_world * mesh.world_from_object)}, -1.0f - static_cast<float>(m)},
               make_vertex_view(stream(mesh.mesh->positions)), *mesh.indices, opaque_state(CullMode::none, false));
   }
-  pass.run(workers());
+  pass.run(two_workers());
   return image;
 }
 
@@ -111,7 +107,7 @@ constexpr const char* kSpot = R"({ "type": "spot", "position": [2, 5, 3], "direc
 
 Image<glm::vec4> rendered(const PreparedScene& scene) {
   Image<glm::vec4> image(kWidth, kHeight);
-  render(scene, image, workers());
+  render(scene, image, two_workers());
   return image;
 }
 

@@ -12,20 +12,16 @@
 #include <nlohmann/json.hpp>
 #include "halfspace/reference/shadow_table.h"
 #include "halfspace/scene/scene_file.h"
+#include "support/workers.h"
 
 namespace halfspace {
 namespace {
 
-const Workers& workers() {
-  static const Workers team(2);
-  return team;
-}
-
 Validation validated(const std::string& name, const std::vector<std::string>& settings, int width = 240, int height = 135, int rays = 64) {
   SceneFile scene = SceneFile::open(name);
   scene.set(settings);
-  SceneAssets assets(workers());
-  return validate(name, scene.at(0.0), {width, height, rays}, assets, workers());
+  SceneAssets assets(two_workers());
+  return validate(name, scene.at(0.0), {width, height, rays}, assets, two_workers());
 }
 
 ShadowScore score(const std::vector<std::string>& settings) { return validated("shadow-plane", settings).lights.at(0).score; }
@@ -50,10 +46,10 @@ TEST(Validation, AutomaticBiasIsRightBeyondATexelOfTheEdge) {
 
 // What the project promises: 0.01 % of the lit pixels and 0.1 % of the shadowed ones, 0 to 85 degrees. One pixel where that is less.
 TEST(Validation, AutomaticBiasIsRightOnTheTablesScenesAtEveryAngle) {
-  SceneAssets assets(workers());
+  SceneAssets assets(two_workers());
   for_each_shadow_case(false, [&](const ShadowCase& c) {
     if (c.factor != "angle") return;
-    const ShadowScore s = validate(c.scene, c.description, {240, 135, 1}, assets, workers()).lights.at(0).score;
+    const ShadowScore s = validate(c.scene, c.description, {240, 135, 1}, assets, two_workers()).lights.at(0).score;
     const auto pixels = [](const DistanceShares& shares, int64_t of) {
       return (shares.from_1_to_3 + shares.beyond_3) * static_cast<double>(of);
     };
@@ -122,11 +118,11 @@ TEST(Validation, ResolutionIsAsFineAsTheFootprintAsks) {
   for (const double footprint : {0.5, 1.0, 3.0}) {
     SceneFile file = SceneFile::open("shadow-contact");
     file.set(std::vector<std::string>{"shadow.resolution=0", "shadow.footprint=" + std::to_string(footprint)});
-    SceneAssets assets(workers());
+    SceneAssets assets(two_workers());
     const PreparedScene scene = assets.prepare(file.at(0.0), 960, 540);
     const ShadowView& view = scene.lights.front().light.shadow->views.front();
     const RayScene rays(scene.meshes, scene.view.eye_ws);
-    const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, 192, 108, workers());
+    const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, 192, 108, two_workers());
     std::vector<double> texels_px;
     for (const std::optional<RayHit>& hit : hits.texels())
       if (hit) texels_px.push_back(static_cast<double>(view.texel_per_w) / pixel_width(scene.view, hit->position_ew));

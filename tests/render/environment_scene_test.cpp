@@ -8,8 +8,8 @@
 
 #include "halfspace/image/image_io.h"
 #include "halfspace/scene/scene_file.h"
-#include "image/image_fixture.h"
 #include "render/naive_picture.h"
+#include "support/folder_test.h"
 
 namespace halfspace {
 namespace {
@@ -198,7 +198,7 @@ TEST(Reflections, AreWithinOneCodeOfDoublePrecisionWithEveryKindOfNormal) {
 
 // ---- files -------------------------------------------------------------------------------------------------------------
 
-class EnvironmentFiles : public ImageFixture {
+class EnvironmentFiles : public FolderTest {
  protected:
   static constexpr std::array<const char*, 6> kNames{"right", "left", "top", "bottom", "front", "back"};
   static constexpr std::array<glm::u8vec3, 6> kColors{{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 0}, {255, 0, 255}, {0, 255, 255}}};
@@ -276,8 +276,8 @@ TEST_F(EnvironmentFiles, LightBeyondOneIsKept) {
 // Sky boxes as they are found: their faces join. Beside an edge the step from pixel to pixel is no larger than elsewhere.
 TEST(EnvironmentScene, SkyBoxesHaveNoEdges) {
   for (const char* name : {"skybox_day", "skybox_night"}) {
-    const std::filesystem::path folder = std::filesystem::path("../shared/data/sky") / name;
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+    const std::filesystem::path folder = shared_data("sky") / name;
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << absent(folder);
     const Workers workers(2);
     SceneAssets assets(workers);              // reads the files once
     const auto steps_of = [&](double turn) {  // from column to column in the picture's middle, summed over its rows

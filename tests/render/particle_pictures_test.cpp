@@ -5,7 +5,7 @@
 
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/scene_file.h"
-#include "image/image_fixture.h"
+#include "support/folder_test.h"
 
 namespace halfspace {
 
@@ -40,7 +40,7 @@ double entry(const glm::dvec3& c, double r, int x, int row, double& squared) {
   return discriminant > 0.0 ? (b - std::sqrt(discriminant)) / a : 0.0;
 }
 
-class ParticlePictures : public ImageFixture {};
+class ParticlePictures : public FolderTest {};
 
 // The flaw of a size from the centre alone: far off, an ellipse is longer than the circle by 1/cos of the angle, so that the circle
 // misses 1 − cos of it; and a near sphere's ellipse lies farther out than its centre, so that the circle is too much elsewhere.

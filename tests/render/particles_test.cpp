@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "halfspace/scene/scene_file.h"
-#include "image/image_fixture.h"
+#include "support/folder_test.h"
 
 namespace halfspace {
 
@@ -73,7 +73,7 @@ TEST(Particles, RadiusKeepsTheVolumeOfAll) {
   EXPECT_EQ(particle_radius(told), 0.7);
 }
 
-class ParticleFiles : public ImageFixture {};
+class ParticleFiles : public FolderTest {};
 
 TEST_F(ParticleFiles, AreRead) {
   ParticlesDescription p;

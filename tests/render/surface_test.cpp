@@ -9,8 +9,8 @@
 
 #include "halfspace/image/image_io.h"
 #include "halfspace/scene/scene_file.h"
-#include "image/image_fixture.h"
 #include "render/naive_picture.h"
+#include "support/folder_test.h"
 
 namespace halfspace {
 namespace {
@@ -266,7 +266,7 @@ TEST(Factors, MakeUpTheColour) {
   EXPECT_EQ(shade_of(R"(, "specular": 0.5, "specular_map": 0.5)"), 1.25f) << "a map of one colour is a constant";
 }
 
-class FactorMaps : public ImageFixture {
+class FactorMaps : public FolderTest {
  protected:
   // A file of one texel.
   std::string texel(int code) const {

@@ -8,6 +8,10 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/scene/scene_paths.h"
+#include "support/errors.h"
+#include "support/files.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
 
 namespace halfspace {
 namespace {
@@ -15,16 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 SceneFile scene_of(std::string_view text) { return SceneFile::parse(text, "test.json", "/somewhere"); }
-
-template <class F>
-std::string error_of(F&& f) {
-  try {
-    f();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
-}
 
 // ---- every key of every scene ----------------------------------------------------------------------------------
 
@@ -88,7 +82,7 @@ TEST_P(EveryScene, EveryKeyCanBeSetPrintedAndReadBack) {
       if (field.key == &s.section.front().keys.front() && field.key->type == KeyType::choice) continue;  // see KindsHaveTheirOwnKeys
       SceneFile scene = SceneFile::open(GetParam());
       const std::string value = name == "title" ? "Another" : another_value(field);
-      ASSERT_EQ(error_of([&] { scene.set(path + "=" + value); }), "no error") << path << "=" << value;
+      ASSERT_EQ(input_error([&] { scene.set(path + "=" + value); }), "(no error)") << path << "=" << value;
       SceneDescription set = scene.description();
       const Json want = value_of(find_key(set, path, "").field);
       if (field.key->type != KeyType::text || name == "title") {
@@ -166,7 +160,8 @@ TEST(SceneFile, PrintedObjectsFollowTheirMaterial) {
 TEST(SceneFile, KindsHaveTheirOwnKeys) {
   SceneFile scene = scene_of(R"({"version": 1, "objects": {"floor": {"shape": "plane", "size": 4}}})");
   EXPECT_EQ(scene.print().find("latitudes"), std::string::npos);
-  EXPECT_EQ(error_of([&] { scene.set("floor.latitudes=8"); }).substr(0, 57), "--set: floor.latitudes: unknown key 'latitudes'; expected");
+  EXPECT_EQ(input_error([&] { scene.set("floor.latitudes=8"); }).substr(0, 57),
+            "--set: floor.latitudes: unknown key 'latitudes'; expected");
 }
 
 TEST(SceneFile, AnotherKindDropsTheKeysItHasNot) {
@@ -209,18 +204,18 @@ TEST(SceneFile, TooMuchInAllIsRefused) {
     for (int i = 1; i < copies; ++i) text += ", {}";
     return text + "]}}}";
   };
-  EXPECT_EQ(error_of([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 52)); }),
+  EXPECT_EQ(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 52)); }),
             "test.json: objects: have 34078824 vertices with all their instances; expected at most 33554432 (2^25): fewer instances or "
             "coarser shapes");
-  EXPECT_EQ(error_of([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 51)); }), "no error");
-  EXPECT_EQ(error_of([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, "visible": false, )", 4096)); }), "no error");
+  EXPECT_EQ(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 51)); }), "(no error)");
+  EXPECT_EQ(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, "visible": false, )", 4096)); }), "(no error)");
   std::string text = R"({"version": 1, "objects": {)";
   for (int i = 0; i < 17; ++i) {
     const std::string list = scene_with(R"("shape": "plane", )", 4096);
     text += std::string(i == 0 ? "" : ", ") + "\"p" + std::to_string(i) +
             "\": " + list.substr(list.find("{\"shape"), list.find("]}") + 2 - list.find("{\"shape"));
   }
-  EXPECT_EQ(error_of([&] { scene_of(text + "}}"); }), "test.json: objects: are 69632 with all their instances; expected at most 65536");
+  EXPECT_EQ(input_error([&] { scene_of(text + "}}"); }), "test.json: objects: are 69632 with all their instances; expected at most 65536");
 }
 
 // ---- errors: file, path, what is wrong, what would be right ----------------------------------------------------
@@ -319,14 +314,14 @@ const Wrong kWrong[] = {
 class SceneFileError : public testing::TestWithParam<Wrong> {};
 
 TEST_P(SceneFileError, IsOneClearLine) {
-  EXPECT_EQ(error_of([&] { scene_of(GetParam().text); }), GetParam().line);
+  EXPECT_EQ(input_error([&] { scene_of(GetParam().text); }), GetParam().line);
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, SceneFileError, testing::ValuesIn(kWrong), [](const auto& p) { return p.param.name; });
 
 TEST(SceneFile, SettingsAreJudgedTogether) {
   SceneFile scene = SceneFile::open("earth");
-  EXPECT_EQ(error_of([&] { scene.set("equator.near=200"); }), "scene earth: cameras.equator.far: expected more than near");
+  EXPECT_EQ(input_error([&] { scene.set("equator.near=200"); }), "scene earth: cameras.equator.far: expected more than near");
   const std::vector<std::string> both{"equator.near=200", "equator.far=300"};
   scene.set(both);
   EXPECT_EQ(scene.description().cameras[0].second.far, 300.0);
@@ -337,15 +332,15 @@ TEST(SceneFile, SettingsAreJudgedTogether) {
   scene.set(target);
   EXPECT_EQ(scene.at(1).cameras[0].second.fov, 50.0);
   const std::string before = scene.print();
-  EXPECT_NE(error_of([&] { scene.set(std::vector<std::string>{"earth.radius=2", "earth.radius=x"}); }), "no error");
+  EXPECT_NE(input_error([&] { scene.set(std::vector<std::string>{"earth.radius=2", "earth.radius=x"}); }), "(no error)");
   EXPECT_EQ(scene.print(), before) << "an error changes nothing";
 }
 
 TEST(SceneFile, HostileTextIsRefused) {
   SceneFile scene = SceneFile::open("earth");
   for (const std::string& bad : {std::string("\xff"), std::string("a\nb"), std::string("a\0b", 3), std::string("\x1b[31m")}) {
-    EXPECT_EQ(error_of([&] { scene.set("title=" + bad); }), "--set: title: has a control character or is no UTF-8; expected plain text");
-    EXPECT_EQ(error_of([&] { scene.set("earth.color=" + bad); }),
+    EXPECT_EQ(input_error([&] { scene.set("title=" + bad); }), "--set: title: has a control character or is no UTF-8; expected plain text");
+    EXPECT_EQ(input_error([&] { scene.set("earth.color=" + bad); }),
               "--set: earth.color: has a control character or is no UTF-8; expected plain text");
   }
   EXPECT_NO_THROW(scene.set("title=Lüneburg – 月"));
@@ -355,7 +350,7 @@ TEST(SceneFile, HostileTextIsRefused) {
 TEST(SceneFile, ManyNamesAreRefusedAtOnce) {
   std::string text = "{\"version\": 1";
   for (int i = 0; i < 100000; ++i) text += ", \"a" + std::to_string(i) + "\": 0";
-  EXPECT_EQ(error_of([&] { scene_of(text + "}"); }), "test.json: an object has more than 4096 names");
+  EXPECT_EQ(input_error([&] { scene_of(text + "}"); }), "test.json: an object has more than 4096 names");
 }
 
 TEST(SceneFile, TinyDirectionsAreDirections) {
@@ -366,12 +361,12 @@ TEST(SceneFile, TinyDirectionsAreDirections) {
 }
 
 TEST(SceneFile, DeepNestingIsRefused) {
-  EXPECT_EQ(error_of([] { scene_of("{\"version\": " + std::string(100000, '[')); }), "test.json: is nested deeper than 32 levels");
+  EXPECT_EQ(input_error([] { scene_of("{\"version\": " + std::string(100000, '[')); }), "test.json: is nested deeper than 32 levels");
 }
 
 TEST(SceneFile, NamesInTwoCollectionsMustBeToldApart) {
   SceneFile scene = scene_of(R"({"version": 1, "lights": {"sun": {}}, "objects": {"sun": {}}})");
-  EXPECT_EQ(error_of([&] { scene.set("sun.intensity=2"); }),
+  EXPECT_EQ(input_error([&] { scene.set("sun.intensity=2"); }),
             "--set: sun.intensity: 'sun' is in lights and in objects; expected that word before it");
   scene.set("lights.sun.intensity=2");
   EXPECT_EQ(scene.description().lights[0].second.intensity, 2.0);
@@ -379,17 +374,17 @@ TEST(SceneFile, NamesInTwoCollectionsMustBeToldApart) {
 
 TEST(SceneFile, PathsOfSectionsAreToldFromKeys) {
   SceneFile scene = SceneFile::open("earth");
-  EXPECT_EQ(error_of([&] { scene.set("earth=1"); }), "--set: earth: is a section; expected objects.earth.KEY");
-  EXPECT_EQ(error_of([&] { scene.set("background=1"); }), "--set: background: is a section; expected background.KEY");
-  EXPECT_EQ(error_of([&] { scene.set("earth.instances.0.position=1,1,1"); }),
+  EXPECT_EQ(input_error([&] { scene.set("earth=1"); }), "--set: earth: is a section; expected objects.earth.KEY");
+  EXPECT_EQ(input_error([&] { scene.set("background=1"); }), "--set: background: is a section; expected background.KEY");
+  EXPECT_EQ(input_error([&] { scene.set("earth.instances.0.position=1,1,1"); }),
             "--set: earth.instances.0.position: no such key; expected objects.earth.KEY");
-  EXPECT_EQ(error_of([&] { scene.set("objects.erth.radius=1"); }),
+  EXPECT_EQ(input_error([&] { scene.set("objects.erth.radius=1"); }),
             "--set: objects.erth.radius: no 'erth' in objects; did you mean 'earth'?");
 }
 
 TEST(SceneFile, UnknownScenesSuggestTheNearest) {
-  EXPECT_EQ(error_of([] { SceneFile::open("mooon"); }), "unknown scene 'mooon'; did you mean 'moon'?");
-  EXPECT_EQ(error_of([] { SceneFile::open("none.json"); }), "none.json: no such scene file");
+  EXPECT_EQ(input_error([] { SceneFile::open("mooon"); }), "unknown scene 'mooon'; did you mean 'moon'?");
+  EXPECT_EQ(input_error([] { SceneFile::open("none.json"); }), "none.json: no such scene file");
 }
 
 // ---- time ------------------------------------------------------------------------------------------------------
@@ -429,23 +424,20 @@ TEST(Animation, SpeedScalesTime) {
 TEST(Animation, LeavingTheRangeIsTold) {
   const SceneFile scene =
       scene_of(R"({"version": 1, "objects": {"a": {"radius": 1}}, "animations": {"t": {"target": "a.radius", "rate": -1}}})");
-  EXPECT_EQ(error_of([&] { scene.at(2); }), "test.json: animations.t: a.radius: expected a number from 1e-06 to 1e+06 (units), got -1");
+  EXPECT_EQ(input_error([&] { scene.at(2); }), "test.json: animations.t: a.radius: expected a number from 1e-06 to 1e+06 (units), got -1");
 }
 
 // ---- schema ----------------------------------------------------------------------------------------------------
 
 TEST(Schema, InDocsIsTheProgramsOwn) {
-  std::ifstream file("docs/scene.schema.json");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_TRUE(text == scene_schema()) << "renew it: halfspace list --schema > docs/scene.schema.json";
+  EXPECT_TRUE(read_bytes("docs/scene.schema.json") == scene_schema()) << "renew it: halfspace list --schema > docs/scene.schema.json";
 }
 
 // An independent validator (Python's jsonschema) accepts what the program accepts, and refuses what it refuses.
 TEST(Schema, JudgesAsTheProgramDoes) {
-  if (std::system("python3 -c 'import jsonschema' 2> /dev/null") != 0) GTEST_SKIP() << "python3-jsonschema is absent";
-  std::string name = (fs::temp_directory_path() / "halfspace-schema-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(name.data()), nullptr);
-  const fs::path directory = name;
+  if (!command_works("python3 -c 'import jsonschema'")) GTEST_SKIP() << "python3-jsonschema is absent";
+  const TemporaryFolder folder;
+  const fs::path& directory = folder.path();
   std::ofstream(directory / "check.py") << R"(
 import json, sys
 from jsonschema import Draft202012Validator as V
@@ -472,8 +464,7 @@ sys.exit(0 if all(V(schema).is_valid(s) for s in ok) and not any(V(schema).is_va
   }
   const std::string command =
       "python3 " + (directory / "check.py").string() + " " + directory.string() + " '" + right + "' '" + wrong + "'";
-  EXPECT_EQ(std::system(command.c_str()), 0);
-  fs::remove_all(directory);
+  EXPECT_EQ(run_command(command).exit_code, 0);
 }
 
 }  // namespace

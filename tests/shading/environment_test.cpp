@@ -10,6 +10,8 @@
 #include <numbers>
 #include <random>
 
+#include "support/random.h"
+
 namespace halfspace {
 namespace {
 
@@ -40,12 +42,6 @@ EnvironmentMap random_cube(int size) { return {random_faces(size, 5), TexelForma
 glm::dvec3 panorama_direction(double u, double v) {
   const double phi = (u - 0.5) * 2 * kPi, theta = v * kPi;
   return {std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)};
-}
-
-glm::dvec3 random_direction(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  const double x = normal(random), y = normal(random), z = normal(random);
-  return {x, y, z};
 }
 
 // Without derivatives: level 0.
@@ -148,7 +144,7 @@ void expect_constant(const Texel& texel, TexelFormat format, const glm::vec3& wa
   std::mt19937 random(3);
   for (const EnvironmentMap& map : {EnvironmentMap(panorama, format), EnvironmentMap(odd, format), EnvironmentMap(faces, format)}) {
     for (int i = 0; i < 2000; ++i) {
-      const glm::vec3 d(random_direction(random)), step(0.5f * glm::vec3(random_direction(random)) * std::exp2(-static_cast<float>(i % 8)));
+      const glm::vec3 d(random_vector(random)), step(0.5f * glm::vec3(random_vector(random)) * std::exp2(-static_cast<float>(i % 8)));
       const glm::vec3 got = map.sample<float>(d, step, glm::vec3(0));
       ASSERT_EQ(got, want) << i;
     }
@@ -171,12 +167,12 @@ TEST(EnvironmentMap, CubeHasNoStepAtEdgesAndCorners) {
   const double tiny = 1e-7;
   double worst = 0;
   for (int i = 0; i < 20000; ++i) {
-    glm::dvec3 d = random_direction(random);
+    glm::dvec3 d = random_vector(random);
     const int a = i % 3, b = (i + 1 + i / 3 % 2) % 3, c = 3 - a - b;
     d[b] = std::copysign(std::abs(d[a]), d[b]);                   // on the edge, or its continuation
     if (i % 10 == 0) d[c] = std::copysign(std::abs(d[a]), d[c]);  // at a corner
     d /= std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-    const glm::dvec3 off = random_direction(random) * tiny;
+    const glm::dvec3 off = random_vector(random) * tiny;
     worst = std::max(worst, distance(at(map, d + off), at(map, d - off)));
   }
   RecordProperty("worst", std::to_string(worst));
@@ -188,7 +184,7 @@ TEST(EnvironmentMap, CubeHasNoStepBetweenFacesOnAnyLevel) {
   std::mt19937 random(8);
   for (const float lod : {1.0f, 2.0f, 3.0f, 4.0f}) {
     for (int i = 0; i < 500; ++i) {
-      glm::dvec3 d = random_direction(random);
+      glm::dvec3 d = random_vector(random);
       d.z = d.x > 0 ? d.x : -d.x;
       d /= std::max(std::abs(d.x), std::abs(d.y));
       if (std::abs(d.y) > 0.99) continue;
@@ -246,10 +242,10 @@ TEST(EnvironmentMap, LevelOfAPanoramaIsThatOfTheAngleEverywhere) {
   std::mt19937 random(11);
   for (int i = 0; i < 4000; ++i) {
     // Pixels of a camera that looks anywhere; every third at the seam, every third at a pole.
-    glm::dvec3 d = random_direction(random);
+    glm::dvec3 d = random_vector(random);
     if (i % 3 == 1) d.x = 1e-7 * d.x;
     if (i % 3 == 2) d.x *= 1e-4, d.z *= 1e-4;
-    const glm::dvec3 dx = random_direction(random) * 0.01, dy = random_direction(random) * 0.01;
+    const glm::dvec3 dx = random_vector(random) * 0.01, dy = random_vector(random) * 0.01;
     const auto angle = [&](const glm::dvec3& step) {  // of a small share of the step, for a step is no arc
       const double h = 1e-5;
       const glm::dvec3 p = glm::normalize(d - step * h), q = glm::normalize(d + step * h);
@@ -266,7 +262,7 @@ TEST(EnvironmentMap, LevelOfACubeIsThatOfItsFace) {
   const EnvironmentMap map = random_cube(64);
   std::mt19937 random(12);
   for (int i = 0; i < 4000; ++i) {
-    const glm::dvec3 d = random_direction(random), dx = random_direction(random) * 0.01, dy = random_direction(random) * 0.01;
+    const glm::dvec3 d = random_vector(random), dx = random_vector(random) * 0.01, dy = random_vector(random) * 0.01;
     int axis = 0;
     for (int k = 1; k < 3; ++k) axis = std::abs(d[k]) > std::abs(d[axis]) ? k : axis;
     const auto density = [&](const glm::dvec3& step) {  // difference on the face, 64 texels for 2
@@ -329,12 +325,12 @@ void expect_lanes_are_float(const EnvironmentMap& map) {
   for (int i = 0; i < 2000; ++i) {
     vec3<R> d, dx, dy;
     std::array<glm::vec3, 3 * W> scalar;
-    const glm::vec3 middle(random_direction(random));
+    const glm::vec3 middle(random_vector(random));
     for (int k = 0; k < W; ++k) {
       const auto l = static_cast<std::size_t>(3 * k);
-      scalar[l] = i % 2 == 0 ? glm::vec3(random_direction(random)) : middle + 0.02f * glm::vec3(random_direction(random));
-      scalar[l + 1] = 0.1f * glm::vec3(random_direction(random));
-      scalar[l + 2] = 0.1f * glm::vec3(random_direction(random));
+      scalar[l] = i % 2 == 0 ? glm::vec3(random_vector(random)) : middle + 0.02f * glm::vec3(random_vector(random));
+      scalar[l + 1] = 0.1f * glm::vec3(random_vector(random));
+      scalar[l + 2] = 0.1f * glm::vec3(random_vector(random));
       for (int c = 0; c < 3; ++c) {
         set_lane(d[c], k, scalar[l][c]);
         set_lane(dx[c], k, scalar[l + 1][c]);
@@ -363,8 +359,8 @@ TEST(EnvironmentMap, FloatIsNearDouble) {
   double worst = 0;
   for (const EnvironmentMap& map : {random_panorama(256, 128), random_cube(128)}) {
     for (int i = 0; i < 50000; ++i) {
-      const glm::vec3 d(random_direction(random)), dx = 0.03f * glm::vec3(random_direction(random)),
-                                                   dy = 0.03f * glm::vec3(random_direction(random));
+      const glm::vec3 d(random_vector(random)), dx = 0.03f * glm::vec3(random_vector(random)),
+                                                dy = 0.03f * glm::vec3(random_vector(random));
       worst = std::max(
           worst, distance(glm::dvec3(map.sample<float>(d, dx, dy)), map.sample<double>(glm::dvec3(d), glm::dvec3(dx), glm::dvec3(dy))));
     }

@@ -6,14 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "support/random.h"
+
 namespace halfspace {
 namespace {
-
-glm::dvec3 random_vector(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  const double x = normal(random), y = normal(random), z = normal(random);
-  return {x, y, z};
-}
 
 TEST(Reflection, OfABallIsTheLawOfReflection) {
   const Differential<double> d{{1, -1, 0}, {}, {}}, n{{0, 1, 0}, {}, {}};

@@ -15,6 +15,7 @@
 #include "halfspace/shading/tone.h"
 #include "stability/judge.h"
 #include "stability/lane_hash.h"
+#include "support/program.h"
 
 namespace halfspace::stability {
 namespace {
@@ -165,13 +166,8 @@ TEST(Stability, SameBitsForEveryInstructionSet) {
     const std::string program = programs.substr(at, end - at);
     at = end + 1;
     if (program.ends_with("v4") ? !__builtin_cpu_supports("avx512vl") : !__builtin_cpu_supports("avx2")) continue;
-    FILE* pipe = ::popen(program.c_str(), "r");
-    ASSERT_NE(pipe, nullptr);
-    char got[64] = {};
-    (void)!std::fgets(got, sizeof got, pipe);
-    ::pclose(pipe);
     ++ran;
-    ours += std::string(got) != want;
+    ours += run_command(program).text != want;
   }
   if (ran == 0) GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
   // What a library chooses by processor: its functions differ from ours in last bits, and from version to version among themselves.

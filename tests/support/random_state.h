@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Parts of a random state of a draw.
+#pragma once
+
+#include "halfspace/raster/draw_state.h"
+#include "support/random.h"
+
+namespace halfspace {
+
+/// Blending by random equations and, of the first `factors` of BlendFactor, random factors.
+inline BlendState random_equations(Random& random, int factors) {
+  const auto factor = [&] { return static_cast<BlendFactor>(random.below(factors)); };
+  const auto equation = [&] { return static_cast<BlendEquation>(random.below(5)); };
+  BlendState b;
+  b.color_equation = equation();
+  b.source_color = factor();
+  b.destination_color = factor();
+  b.alpha_equation = equation();
+  b.source_alpha = factor();
+  b.destination_alpha = factor();
+  return b;
+}
+
+inline ColorMask random_mask(Random& random) { return {!random.once_in(3), !random.once_in(3), !random.once_in(3), !random.once_in(3)}; }
+
+}  // namespace halfspace

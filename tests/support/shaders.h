@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Small shaders that several test programs draw with. Positions are clip coordinates unless a matrix is named.
+#pragma once
+
+#include "halfspace/raster/pass.h"
+
+namespace halfspace {
+
+template <class R>
+struct PositionAttributes {
+  vec4<R> position;
+};
+template <class R>
+struct ColoredAttributes {
+  vec4<R> position;
+  vec4<R> color;
+};
+template <class R>
+struct NoVaryings {};
+
+/// The position alone: draws depth.
+struct PositionShader {
+  template <class R>
+  using Attributes = PositionAttributes<R>;
+  template <class R>
+  using Varyings = NoVaryings<R>;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return in.position;
+  }
+};
+
+/// The position alone, by a matrix.
+struct MatrixShader {
+  glm::mat4 clip_from_model{1.0f};
+  template <class R>
+  using Attributes = PositionAttributes<R>;
+  template <class R>
+  using Varyings = NoVaryings<R>;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return clip_from_model * in.position;
+  }
+};
+
+/// One colour for all pixels.
+struct ConstantShader : PositionShader {
+  glm::vec4 color{1.0f};
+  ConstantShader() = default;
+  ConstantShader(const glm::vec4& c) : color(c) {}
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
+    return {vec4<R>(R(color.x), R(color.y), R(color.z), R(color.w))};
+  }
+};
+
+/// The colour of the provoking vertex.
+struct FlatColorShader {
+  template <class R>
+  using Attributes = ColoredAttributes<R>;
+  template <class R>
+  struct Varyings {
+    Flat<vec4<R>> color;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color.value = in.color;
+    return in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color.value};
+  }
+};
+
+/// The colours of the vertices, interpolated with perspective.
+struct SmoothColorShader {
+  template <class R>
+  using Attributes = ColoredAttributes<R>;
+  template <class R>
+  struct Varyings {
+    vec4<R> color;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color};
+  }
+};
+
+/// The colours of the vertices, interpolated linearly in the window.
+struct LinearColorShader {
+  template <class R>
+  using Attributes = ColoredAttributes<R>;
+  template <class R>
+  struct Varyings {
+    Linear<vec4<R>> color;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color.value = in.color;
+    return in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color.value};
+  }
+};
+
+}  // namespace halfspace
