@@ -5,6 +5,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
+#include "halfspace/core/task_check.h"
 
 #ifdef HALFSPACE_STD_THREADS
 
@@ -20,12 +21,13 @@ struct Workers::Impl {};
 Workers::Workers(int threads) : threads_(threads) { HS_CHECK_OP(threads, >=, 1); }
 Workers::~Workers() = default;
 
-void Workers::for_each(int count, const std::function<void(int)>& task) const {
+void Workers::run_tasks(int count, const std::function<void(int)>& task) const {
   std::atomic<int> next = 0;
   std::mutex mutex;
   std::exception_ptr error;
   const auto work = [&] {
     const FloatMode mode;
+    const detail::TaskScope scope;
     try {
       for (int i = next++; i < count; i = next++) task(i);
     } catch (...) {
@@ -61,9 +63,10 @@ Workers::Workers(int threads) : threads_(threads) {
 }
 Workers::~Workers() = default;
 
-void Workers::for_each(int count, const std::function<void(int)>& task) const {
+void Workers::run_tasks(int count, const std::function<void(int)>& task) const {
   const auto guarded = [&task](int i) {
     const FloatMode mode;
+    const detail::TaskScope scope;
     task(i);
   };
   if (threads_ == 1 || count <= 1) {
@@ -75,6 +78,14 @@ void Workers::for_each(int count, const std::function<void(int)>& task) const {
 }
 
 #endif
+
+void Workers::for_each(int count, const std::function<void(int)>& task) const {
+  try {
+    run_tasks(count, task);
+  } catch (const detail::TaskCheckFailure& failure) {
+    detail::report_from_task(failure);
+  }
+}
 
 int Workers::cores() {
   const unsigned n = std::thread::hardware_concurrency();

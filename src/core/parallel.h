@@ -21,13 +21,16 @@ class Workers {
   int threads() const { return threads_; }
 
   /// Calls task(i) once for every i in [0, count), in any order, on any of the threads, in IEEE's default float mode
-  /// (FloatMode), and returns when all are done. If tasks throw, one of the exceptions is rethrown here.
+  /// (FloatMode), and returns when all are done. If tasks throw, no further task starts, and one of the exceptions is
+  /// rethrown here when none is running. A check that fails in a task reaches the check handler (check.h) here too.
   void for_each(int count, const std::function<void(int)>& task) const;
 
   /// The number of cores this process may use.
   static int cores();
 
  private:
+  void run_tasks(int count, const std::function<void(int)>& task) const;
+
   struct Impl;
   int threads_;
   std::unique_ptr<Impl> impl_;

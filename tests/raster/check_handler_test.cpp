@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A host program survives its mistakes: the check handler throws, and the pass can be destroyed.
+#include <stdexcept>
+
+#include "halfspace/core/check.h"
+#include "raster/raster_test.h"
+
+namespace halfspace::raster_test {
+namespace {
+
+class PassCheckTest : public testing::Test {
+ protected:
+  PassCheckTest() {
+    set_check_handler([](const CheckFailure& f) { throw std::logic_error(f.message); });
+  }
+  ~PassCheckTest() override { set_check_handler(nullptr); }
+
+  Image<glm::vec4> image_{16, 16};
+  const std::vector<glm::vec4> positions_{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+};
+
+/// What a throwing handler was told, or "".
+template <class F>
+std::string failure_of(const F& function) {
+  try {
+    function();
+  } catch (const std::logic_error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// Fails a check in the task that shades it.
+struct FailingShader : ConstantShader {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& pixel) const {
+    HS_CHECK_OP(color.x, >, 1.0f);
+    return ConstantShader::fragment(in, pixel);
+  }
+};
+
+TEST_F(PassCheckTest, DrawRefusesAnIndexBeyondTheVertices) {
+  const std::vector<uint32_t> list{0, 1, 5};
+  const Indices of_six(list, 6);
+  {
+    Pass pass(16, 16, rgba32f_target(image_), {});
+    pass.draw(ConstantShader{}, vertices(stream(positions_)));
+    const std::string message = failure_of([&] { pass.draw(ConstantShader{}, vertices(stream(positions_)), of_six); });
+    EXPECT_NE(message.find("(6 against 3)"), std::string::npos) << message;
+  }
+  Pass pass(16, 16, rgba32f_target(image_), {});
+  pass.draw(ConstantShader{}, vertices(stream(positions_)));
+  EXPECT_EQ(pass.run(one_worker()).primitives_in, 1u);
+  EXPECT_EQ(image_.at(8, 8), glm::vec4(1));
+}
+
+TEST_F(PassCheckTest, RunPassesOnACheckThatFailsInAShader) {
+  for (const int threads : {1, 3}) {
+    Pass pass(16, 16, rgba32f_target(image_), {}, {.tile_size = 8});
+    pass.draw(FailingShader{}, vertices(stream(positions_)));
+    EXPECT_EQ(failure_of([&] { pass.run(Workers(threads)); }), "color.x > 1.0f (1 against 1)");
+  }
+}
+
+}  // namespace
+}  // namespace halfspace::raster_test
