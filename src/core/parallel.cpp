@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/core/parallel.h"
 
+#include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
+#include <vector>
+
+#ifndef HALFSPACE_STD_THREADS
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/task_check.h"
 
-#ifdef HALFSPACE_STD_THREADS
-
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <vector>
-
 namespace halfspace {
 
-struct Workers::Impl {};
+namespace {
 
-Workers::Workers(int threads) : threads_(threads) { HS_CHECK_OP(threads, >=, 1); }
-Workers::~Workers() = default;
+using Task = std::function<void(int)>;
 
-void Workers::run_tasks(int count, const std::function<void(int)>& task) const {
+/// Runs the tasks on the calling thread and on threads started for this call. After an exception no further task starts.
+void run_on_std_threads(int threads, int count, const Task& task) {
   std::atomic<int> next = 0;
   std::mutex mutex;
   std::exception_ptr error;
@@ -36,52 +38,62 @@ void Workers::run_tasks(int count, const std::function<void(int)>& task) const {
       next = count;
     }
   };
-  std::vector<std::thread> others;
-  for (int i = 1; i < threads_ && i < count; ++i) others.emplace_back(work);
-  work();
-  for (std::thread& t : others) t.join();
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < threads && i < count; ++i) others.emplace_back(work);
+    work();
+  }
   if (error) std::rethrow_exception(error);
 }
 
-#else
+}  // namespace
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-namespace halfspace {
+#ifdef HALFSPACE_STD_THREADS
 
 struct Workers::Impl {
-  explicit Impl(int threads) : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
-  tbb::global_control control;  // more threads than cores only where this allows it
+  static std::unique_ptr<Impl> make(int) { return nullptr; }
+  void run(int, const Task&) {}
+};
+
+#else
+
+/// A team of TBB's threads. The arena bounds only our own tasks: TBB's other users in the process keep their threads.
+struct Workers::Impl {
+  explicit Impl(int threads) : arena(threads) {}
+
+  /// Null where std::thread does the work: TBB has no more threads than the machine has cores.
+  static std::unique_ptr<Impl> make(int threads) {
+    return threads > 1 && threads <= tbb::info::default_concurrency() ? std::make_unique<Impl>(threads) : nullptr;
+  }
+
+  void run(int count, const Task& task) {
+    const auto work = [&task](int i) {
+      const FloatMode mode;
+      const detail::TaskScope scope;
+      task(i);
+    };
+    // One task at a time: each is a tile or some thousand triangles, so stealing costs little and balance is best.
+    arena.execute([&] { tbb::parallel_for(0, count, 1, work, tbb::simple_partitioner()); });
+  }
+
   tbb::task_arena arena;
 };
 
+#endif
+
 Workers::Workers(int threads) : threads_(threads) {
   HS_CHECK_OP(threads, >=, 1);
-  if (threads > 1) impl_ = std::make_unique<Impl>(threads);
+  impl_ = Impl::make(threads);
 }
 Workers::~Workers() = default;
 
-void Workers::run_tasks(int count, const std::function<void(int)>& task) const {
-  const auto guarded = [&task](int i) {
-    const FloatMode mode;
-    const detail::TaskScope scope;
-    task(i);
-  };
-  if (threads_ == 1 || count <= 1) {
-    for (int i = 0; i < count; ++i) guarded(i);
-    return;
-  }
-  // One task at a time: each is a tile or some thousand triangles, so stealing costs little and balance is best.
-  impl_->arena.execute([&] { tbb::parallel_for(0, count, 1, guarded, tbb::simple_partitioner()); });
-}
-
-#endif
-
 void Workers::for_each(int count, const std::function<void(int)>& task) const {
   try {
-    run_tasks(count, task);
+    if (impl_ != nullptr && count > 1) {
+      impl_->run(count, task);
+    } else {
+      run_on_std_threads(threads_, count, task);
+    }
   } catch (const detail::TaskCheckFailure& failure) {
     detail::report_from_task(failure);
   }

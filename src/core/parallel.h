@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The only place that knows of threads. Two back ends, chosen when building: TBB, or std::thread (where TBB is
-// absent, and for ThreadSanitizer, which must see every lock).
+// Threads. A team runs on TBB, or on std::thread: where TBB is absent (HALFSPACE_STD_THREADS, also for ThreadSanitizer,
+// which must see every lock), and where the team is larger than the machine.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,8 @@ namespace halfspace {
 /// A team of threads. Results must never depend on its size: it decides who does a task, not what a task does.
 class Workers {
  public:
-  /// threads >= 1 counts the calling thread; it may exceed the machine's cores.
+  /// threads >= 1 counts the calling thread; it may exceed the machine's cores. Other users of TBB in the process are
+  /// not affected. A limit that the host sets (tbb::global_control) holds for teams up to the machine's cores.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -29,8 +30,6 @@ class Workers {
   static int cores();
 
  private:
-  void run_tasks(int count, const std::function<void(int)>& task) const;
-
   struct Impl;
   int threads_;
   std::unique_ptr<Impl> impl_;

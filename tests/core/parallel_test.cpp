@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+#ifdef HALFSPACE_TEST_TBB
+#include <tbb/global_control.h>
+#endif
+
+namespace halfspace {
+namespace {
+
+constexpr std::chrono::seconds kPatience{60};
+
+TEST(Workers, RunEveryTaskOnce) {
+  for (const int threads : {1, 2, 7, Workers::cores(), Workers::cores() + 1}) {
+    const Workers workers(threads);
+    EXPECT_EQ(workers.threads(), threads);
+    for (const int count : {0, 1, 2, 1000}) {
+      std::vector<std::atomic<int>> runs(static_cast<std::size_t>(count));
+      workers.for_each(count, [&](int i) { ++runs[static_cast<std::size_t>(i)]; });
+      for (const std::atomic<int>& r : runs) EXPECT_EQ(r, 1);
+    }
+  }
+}
+
+/// The threads that run n tasks, each of which waits until all n have begun.
+std::set<std::thread::id> threads_at_barrier(const Workers& workers, int n) {
+  std::mutex mutex;
+  std::condition_variable all_are_here;
+  std::set<std::thread::id> threads;
+  workers.for_each(n, [&](int) {
+    std::unique_lock lock(mutex);
+    threads.insert(std::this_thread::get_id());
+    all_are_here.notify_all();
+    all_are_here.wait_for(lock, kPatience, [&] { return threads.size() == static_cast<std::size_t>(n); });
+  });
+  return threads;
+}
+
+TEST(Workers, TeamsLargerThanTheMachineHaveThatManyThreads) {
+  for (const int threads : {Workers::cores() + 1, 2 * Workers::cores() + 3}) {
+    const std::set<std::thread::id> ids = threads_at_barrier(Workers(threads), threads);
+    EXPECT_EQ(ids.size(), static_cast<std::size_t>(threads));
+    EXPECT_EQ(ids.count(std::this_thread::get_id()), 1u);
+  }
+}
+
+TEST(Workers, NoMoreThreadsThanAskedFor) {
+  for (const int threads : {1, 2, Workers::cores() + 1}) {
+    const Workers workers(threads);
+    std::atomic<int> running = 0, most = 0;
+    workers.for_each(200, [&](int) {
+      const int now = ++running;
+      for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+      --running;
+    });
+    EXPECT_LE(most, threads);
+  }
+}
+
+#ifdef HALFSPACE_TEST_TBB
+
+std::size_t tbb_limit() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
+
+// The limit of the process stays as it is while a team lives and works.
+void expect_limit_kept(std::size_t limit) {
+  EXPECT_EQ(tbb_limit(), limit);
+  for (const int threads : {1, 2, Workers::cores(), Workers::cores() + 5}) {
+    const Workers workers(threads);
+    EXPECT_EQ(tbb_limit(), limit) << threads;
+    std::atomic<int> done = 0;
+    workers.for_each(50, [&](int) {
+      EXPECT_EQ(tbb_limit(), limit) << threads;
+      ++done;
+    });
+    EXPECT_EQ(done, 50);
+  }
+  EXPECT_EQ(tbb_limit(), limit);
+}
+
+TEST(Workers, LeaveTheHostsTbbLimitAlone) {
+  expect_limit_kept(tbb_limit());
+  for (const std::size_t limit : {std::size_t{1}, std::size_t{64}}) {
+    const tbb::global_control host(tbb::global_control::max_allowed_parallelism, limit);
+    expect_limit_kept(limit);
+  }
+}
+
+#endif
+
+}  // namespace
+}  // namespace halfspace
