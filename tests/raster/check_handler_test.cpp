@@ -45,12 +45,12 @@ TEST_F(PassCheckTest, DrawRefusesAnIndexBeyondTheVertices) {
   const Indices of_six(list, 6);
   {
     Pass pass(16, 16, rgba32f_target(image_), {});
-    pass.draw(ConstantShader{}, vertices(stream(positions_)));
-    const std::string message = failure_of([&] { pass.draw(ConstantShader{}, vertices(stream(positions_)), of_six); });
+    pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)));
+    const std::string message = failure_of([&] { pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)), of_six); });
     EXPECT_NE(message.find("(6 against 3)"), std::string::npos) << message;
   }
   Pass pass(16, 16, rgba32f_target(image_), {});
-  pass.draw(ConstantShader{}, vertices(stream(positions_)));
+  pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)));
   EXPECT_EQ(pass.run(one_worker()).primitives_in, 1u);
   EXPECT_EQ(image_.at(8, 8), glm::vec4(1));
 }
@@ -58,7 +58,7 @@ TEST_F(PassCheckTest, DrawRefusesAnIndexBeyondTheVertices) {
 TEST_F(PassCheckTest, RunPassesOnACheckThatFailsInAShader) {
   for (const int threads : {1, 3}) {
     Pass pass(16, 16, rgba32f_target(image_), {}, {.tile_size = 8});
-    pass.draw(FailingShader{}, vertices(stream(positions_)));
+    pass.draw(FailingShader{}, make_vertex_view(stream(positions_)));
     EXPECT_EQ(failure_of([&] { pass.run(Workers(threads)); }), "color.x > 1.0f (1 against 1)");
   }
 }
