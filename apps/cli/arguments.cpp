@@ -12,8 +12,8 @@
 namespace halfspace {
 
 namespace {
-constexpr int kMostEdge = 16384;
-constexpr int kMostThreads = 1024;
+constexpr int kMaxEdge = 16384;
+constexpr int kMaxThreads = 1024;
 }  // namespace
 
 int parse_number(std::string_view text) {
@@ -26,7 +26,7 @@ PictureSize parse_size(std::string_view text) {
   const std::size_t x = text.find('x');
   if (x != std::string_view::npos && x > 0 && x + 1 < text.size()) {
     const PictureSize size{parse_number(text.substr(0, x)), parse_number(text.substr(x + 1))};
-    if (std::min(size.width, size.height) >= 1 && std::max(size.width, size.height) <= kMostEdge) return size;
+    if (std::min(size.width, size.height) >= 1 && std::max(size.width, size.height) <= kMaxEdge) return size;
   }
   throw UsageError("--size is '" + std::string(text) + "'; expected WxH with 1 to 16384 each, for example 1920x1080");
 }
@@ -34,8 +34,8 @@ PictureSize parse_size(std::string_view text) {
 int parse_threads(std::string_view text) {
   if (text.empty()) return Workers::cores();
   const int threads = parse_number(text);
-  if (threads >= 1 && threads <= kMostThreads) return threads;
-  throw UsageError("--threads is '" + std::string(text) + "'; expected 1 to " + std::to_string(kMostThreads));
+  if (threads >= 1 && threads <= kMaxThreads) return threads;
+  throw UsageError("--threads is '" + std::string(text) + "'; expected 1 to " + std::to_string(kMaxThreads));
 }
 
 double parse_real(std::string_view option, std::string_view text, double low, double high, std::string_view example) {

@@ -16,14 +16,14 @@
 namespace halfspace {
 
 namespace {
-constexpr int kMostFrames = 10000000;
+constexpr int kMaxFrames = 10000000;
 }
 
 FrameRange parse_frames(std::string_view text) {
   const std::size_t dots = text.find("..");
   if (dots != std::string_view::npos) {
     const FrameRange range{parse_number(text.substr(0, dots)), parse_number(text.substr(dots + 2))};
-    if (range.first >= 0 && range.last >= range.first && range.last < kMostFrames) return range;
+    if (range.first >= 0 && range.last >= range.first && range.last < kMaxFrames) return range;
   }
   throw UsageError("--frames is '" + std::string(text) + "'; expected FIRST..LAST, for example 0..47");
 }

@@ -190,9 +190,9 @@ double time_of(const RenderJob& job, int frame) { return job.time + frame / job.
 // Generated maps are as fine as the nearest of all views needs, so that none changes its width on the way. A thousand looks
 // along a longer range are enough to find it.
 void expect_frames(const RenderJob& job, SceneAssets& assets) {
-  constexpr int kMostLooks = 1000;
+  constexpr int kMaxLooks = 1000;
   const bool stands = job.scene.description().animations.empty();
-  const int looks = stands ? 1 : std::min(job.frames->count(), kMostLooks);
+  const int looks = stands ? 1 : std::min(job.frames->count(), kMaxLooks);
   for (int i = 0; i < looks; ++i) {
     const int frame = job.frames->first + static_cast<int>(static_cast<int64_t>(job.frames->count() - 1) * i / std::max(looks - 1, 1));
     assets.expect(job.scene.at(time_of(job, frame)), job.size.width, job.size.height);

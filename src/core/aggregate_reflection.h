@@ -37,15 +37,15 @@ constexpr std::size_t count_fields() {
 
 }  // namespace detail
 
-inline constexpr std::size_t kMostFields = 12;
+inline constexpr std::size_t kMaxFields = 12;
 
 /// The number of members of the aggregate T.
 template <class T>
 constexpr std::size_t field_count() {
   static_assert(std::is_aggregate_v<T>, "attributes and varyings are plain structs without constructors");
-  static_assert(!detail::has_fields<T>(std::make_index_sequence<kMostFields + 1>{}),
+  static_assert(!detail::has_fields<T>(std::make_index_sequence<kMaxFields + 1>{}),
                 "a struct of attributes or varyings has at most 12 members");
-  return detail::count_fields<T, kMostFields>();
+  return detail::count_fields<T, kMaxFields>();
 }
 
 /// A tuple of references to the members of t, in order of declaration.

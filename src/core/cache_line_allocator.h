@@ -20,12 +20,12 @@ void free_lines(void* memory, std::size_t bytes) noexcept;
 
 /// allocate_lines for containers that only grow: a new value is taken to be 0 already, and is not touched.
 template <class T>
-struct LineAllocator {
+struct CacheLineAllocator {
   using value_type = T;
 
-  LineAllocator() = default;
+  CacheLineAllocator() = default;
   template <class U>
-  LineAllocator(const LineAllocator<U>&) {}
+  CacheLineAllocator(const CacheLineAllocator<U>&) {}
   T* allocate(std::size_t n) { return static_cast<T*>(allocate_lines(n * sizeof(T))); }
   void deallocate(T* p, std::size_t n) { free_lines(p, n * sizeof(T)); }
   template <class U, class... Arguments>
@@ -33,7 +33,7 @@ struct LineAllocator {
     static_assert(std::is_trivially_copyable_v<U>);
     if constexpr (sizeof...(Arguments) != 0) ::new (static_cast<void*>(p)) U(std::forward<Arguments>(arguments)...);
   }
-  friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
+  friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
 }  // namespace halfspace

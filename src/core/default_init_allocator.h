@@ -9,15 +9,15 @@ namespace halfspace {
 
 /// For containers whose resize() leaves new values as they are: they are written next.
 template <class T>
-struct RawAllocator : std::allocator<T> {
+struct DefaultInitAllocator : std::allocator<T> {
   template <class U>
   struct rebind {
-    using other = RawAllocator<U>;
+    using other = DefaultInitAllocator<U>;
   };
 
-  RawAllocator() = default;
+  DefaultInitAllocator() = default;
   template <class U>
-  RawAllocator(const RawAllocator<U>&) {}
+  DefaultInitAllocator(const DefaultInitAllocator<U>&) {}
   template <class U, class... Arguments>
   void construct(U* p, Arguments&&... arguments) {
     if constexpr (sizeof...(Arguments) == 0) {

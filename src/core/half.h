@@ -23,8 +23,8 @@ HS_INLINE IntOf<R> float_to_half_by_bits(R x) {
   const I i = as_int(x) & 0x7fffffff;
   // From 2^-14 on: change the bias of the exponent from 127 to 15 and round away 13 bits, ties to even. From 2^16 on
   // all is infinity; 65520 … 2^16 gets there by the carry of the rounding.
-  const I held = min(i, I(0x47800000));
-  const I normal = (held - 0x38000000 + 0xfff + ((held >> 13) & 1)) >> 13;
+  const I clamped = min(i, I(0x47800000));
+  const I normal = (clamped - 0x38000000 + 0xfff + ((clamped >> 13) & 1)) >> 13;
   // Below: beside 0.5 the last bit of a float weighs 2^-24, as that of a subnormal half. The sum rounds.
   const I subnormal = as_int(abs(x) + R(0.5f)) - 0x3f000000;
   const I nan = ((i >> 13) & 0x3ff) | 0x7e00;

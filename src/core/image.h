@@ -38,7 +38,7 @@ class Image {
   friend bool operator==(const Image&, const Image&) = default;
 
  private:
-  using Texels = std::vector<T, LineAllocator<T>>;
+  using Texels = std::vector<T, CacheLineAllocator<T>>;
 
   std::size_t index(int x, int row) const {
     HS_DCHECK(x >= 0 && x < width_ && row >= 0 && row < height_);

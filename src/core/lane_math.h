@@ -155,9 +155,9 @@ HS_INLINE R exp2(R x) {
   if constexpr (std::is_same_v<R, double>)
     return std::exp2(x);
   else {
-    const R held = clamp(x, -160.0f, 160.0f);
-    const R n = round_even(held);
-    const R r = detail::scale(detail::exp2_of_fraction(held - n), round_to_int(n));
+    const R clamped = clamp(x, -160.0f, 160.0f);
+    const R n = round_even(clamped);
+    const R r = detail::scale(detail::exp2_of_fraction(clamped - n), round_to_int(n));
     return select(x == x, r, x);
   }
 }
@@ -169,9 +169,9 @@ HS_INLINE R exp(R x) {
     return std::exp(x);
   else {
     static constexpr float kC[] = {0.49999994f, 0.166665211f, 0.041668389f, 0.00836871099f, 0.00138146093f};
-    const R held = clamp(x, -110.0f, 110.0f);
-    const R n = round_even(held * R(1.44269502f));
-    const R f = fma(-n, R(1.42860677e-06f), fma(-n, R(0.693145752f), held));  // ln 2 in two parts; the first step is exact
+    const R clamped = clamp(x, -110.0f, 110.0f);
+    const R n = round_even(clamped * R(1.44269502f));
+    const R f = fma(-n, R(1.42860677e-06f), fma(-n, R(0.693145752f), clamped));  // ln 2 in two parts; the first step is exact
     const R p = fma(f * f, detail::polynomial(f, kC), f) + R(1.0f);
     return select(x == x, detail::scale(p, round_to_int(n)), x);
   }
@@ -223,9 +223,9 @@ HS_INLINE R pow(R x, std::type_identity_t<R> y) {
     const R product = y * high;
     // The rest of y·log2(x). Where the product is far out of range it may be NaN, and does not matter.
     const R rest = select(abs(product) < R(200.0f), fma(y, high, -product) + y * log_x.low, R(0.0f));
-    const R held = clamp(product, -200.0f, 200.0f);
-    const R n = round_even(held);
-    const R power = detail::scale(detail::exp2_of_fraction((held - n) + rest), round_to_int(n));
+    const R clamped = clamp(product, -200.0f, 200.0f);
+    const R n = round_even(clamped);
+    const R power = detail::scale(detail::exp2_of_fraction((clamped - n) + rest), round_to_int(n));
     const R r = select(x >= R(0.0f) && y == y, power, R(detail::kNaN));
     return select(x == R(1.0f) || y == R(0.0f), R(1.0f), r);
   }

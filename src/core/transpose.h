@@ -25,7 +25,7 @@ HS_INLINE void store_at(void* p, const T& value) {
 
 #ifdef __AVX512F__
 /// A 4x4 matrix in each quarter, turned.
-HS_INLINE std::array<IntN<16>, 4> turned_fours(const std::array<IntN<16>, 4>& of) {
+HS_INLINE std::array<IntN<16>, 4> transposed_4x4(const std::array<IntN<16>, 4>& of) {
   const auto row = [&](std::size_t i) { return (__m512)of[i].v; };
   const auto pairs = [](__m512 x) { return _mm512_castps_pd(x); };
   const __m512d low_ab = pairs(_mm512_maskz_unpacklo_ps(kAll16, row(0), row(1)));
@@ -57,7 +57,7 @@ HS_INLINE void store_quarters(IntN<16> records, const Place& place, int k) {
 
 #ifdef __AVX__
 /// The same with halves.
-HS_INLINE std::array<IntN<8>, 4> turned_fours(const std::array<IntN<8>, 4>& of) {
+HS_INLINE std::array<IntN<8>, 4> transposed_4x4(const std::array<IntN<8>, 4>& of) {
   const auto row = [&](std::size_t i) { return (__m256)of[i].v; };
   const auto pairs = [](__m256 x) { return _mm256_castps_pd(x); };
   const __m256d low_ab = pairs(_mm256_unpacklo_ps(row(0), row(1))), high_ab = pairs(_mm256_unpackhi_ps(row(0), row(1)));
@@ -79,8 +79,8 @@ HS_INLINE void store_quarters(IntN<8> records, const Place& place, int k) {
 
 /// Whether records of as many lanes are turned in registers.
 template <class I>
-inline constexpr bool kTurnsFours = requires(std::array<I, 4> words) {
-  turned_fours(words);
+inline constexpr bool kTransposes4x4 = requires(std::array<I, 4> words) {
+  transposed_4x4(words);
 };
 
 }  // namespace detail
@@ -88,10 +88,10 @@ inline constexpr bool kTurnsFours = requires(std::array<I, 4> words) {
 /// Four neighbouring 32-bit words of each lane's record: lane k of element i holds word i from place(k) on, a pointer to anything. All 16
 /// bytes must be readable. I: IntN<W> or int32_t.
 template <class I, class Place>
-HS_INLINE std::array<I, 4> load_fours(const Place& place) {
-  if constexpr (detail::kTurnsFours<I>) {
+HS_INLINE std::array<I, 4> load_aos4(const Place& place) {
+  if constexpr (detail::kTransposes4x4<I>) {
     const auto part = [&](int k) { return detail::load_quarters(I{}, place, k); };
-    return detail::turned_fours({part(0), part(1), part(2), part(3)});
+    return detail::transposed_4x4({part(0), part(1), part(2), part(3)});
   } else {
     std::array<I, 4> words{};
     for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
@@ -105,9 +105,9 @@ HS_INLINE std::array<I, 4> load_fours(const Place& place) {
 /// The other way: writes lane k of the four words to place(k) … place(k) + 15, in the order of k or any other. Places of several lanes may
 /// be one, where any of them is left.
 template <class I, class Place>
-HS_INLINE void store_fours(const std::array<I, 4>& words, const Place& place) {
-  if constexpr (detail::kTurnsFours<I>) {
-    const std::array<I, 4> records = detail::turned_fours(words);
+HS_INLINE void store_aos4(const std::array<I, 4>& words, const Place& place) {
+  if constexpr (detail::kTransposes4x4<I>) {
+    const std::array<I, 4> records = detail::transposed_4x4(words);
     for (int k = 0; k < 4; ++k) detail::store_quarters(records[static_cast<std::size_t>(k)], place, k);
   } else {
     for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
@@ -131,7 +131,7 @@ HS_INLINE V third(V a, V b, V c, std::index_sequence<K...>) {
 
 /// Threes that lie side by side, 3W words from p on: lane k of element i holds word 3k + i.
 template <class I>
-HS_INLINE std::array<I, 3> load_threes(const int32_t* p) {
+HS_INLINE std::array<I, 3> load_aos3(const int32_t* p) {
   constexpr std::size_t w = sizeof(I) / sizeof(int32_t);
   if constexpr (w == 1) {
     return {p[0], p[1], p[2]};
@@ -150,10 +150,10 @@ inline constexpr std::size_t kRowSlack = 2;
 template <int N, class Word, class I>
 HS_INLINE auto gather_row(const Word* base, I i) {
   std::array<decltype(gather(base, i)), N> row;
-  if constexpr (N > 1 && detail::kTurnsFours<I>) {
+  if constexpr (N > 1 && detail::kTransposes4x4<I>) {
     std::array<int32_t, sizeof(I) / sizeof(int32_t)> at;
     store(at.data(), i);
-    const auto words = load_fours<I>([&](int k) { return base + at[static_cast<std::size_t>(k)]; });
+    const auto words = load_aos4<I>([&](int k) { return base + at[static_cast<std::size_t>(k)]; });
     for (std::size_t n = 0; n < N; ++n) {
       if constexpr (std::is_same_v<Word, float>) {
         row[n] = as_real(words[n]);

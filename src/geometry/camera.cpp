@@ -89,4 +89,8 @@ glm::dmat4 orthographic_reversed(double height, double aspect, double near, doub
   return orthographic(height, aspect, 1.0 / (far - near), far / (far - near));
 }
 
+glm::mat3 normal_matrix(const glm::dmat4& world_from_object) {
+  return glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world_from_object))));
+}
+
 }  // namespace halfspace

@@ -26,4 +26,9 @@ glm::dmat4 perspective_reversed(double fovy, double aspect, double near, double 
 glm::dmat4 orthographic_gl(double height, double aspect, double near, double far);
 glm::dmat4 orthographic_reversed(double height, double aspect, double near, double far);
 
+/// The matrix that takes normals to world space where world_from_object takes positions: the inverse transpose of its upper 3x3 part,
+/// computed in double and rounded once. It keeps normals perpendicular to surfaces under non-uniform scale; its results are not of unit
+/// length. The upper 3x3 part must be invertible.
+glm::mat3 normal_matrix(const glm::dmat4& world_from_object);
+
 }  // namespace halfspace

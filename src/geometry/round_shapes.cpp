@@ -83,8 +83,8 @@ void add_cap(SurfaceMesh& mesh, double radius, double y, bool faces_up, int ring
   }
 }
 
-void check_counts(int bands, int sectors, int least_bands) {
-  HS_CHECK_OP(bands, >=, least_bands);
+void check_counts(int bands, int sectors, int min_bands) {
+  HS_CHECK_OP(bands, >=, min_bands);
   HS_CHECK_OP(sectors, >=, 3);
 }
 

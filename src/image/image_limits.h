@@ -10,14 +10,14 @@
 
 namespace halfspace {
 
-inline constexpr uint32_t kMostImageEdge = 32768;  // as Texture2D::kMaxSize
-inline constexpr uint64_t kMostImagePixels = uint64_t{1} << 28;
+inline constexpr uint32_t kMaxImageEdge = 32768;  // as Texture2D::kMaxSize
+inline constexpr uint64_t kMaxImagePixels = uint64_t{1} << 28;
 
 /// Throws an InputError that begins with name where an image of that size is not accepted.
 inline void check_image_size(uint64_t width, uint64_t height, const std::string& name) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
   if (width == 0 || height == 0) throw InputError(name + ": has " + size + "; expected at least 1x1");
-  if (width > kMostImageEdge || height > kMostImageEdge || width * height > kMostImagePixels) {
+  if (width > kMaxImageEdge || height > kMaxImageEdge || width * height > kMaxImagePixels) {
     throw InputError(name + ": claims " + size + "; expected at most 2^28 pixels and 32768 on an edge");
   }
 }

@@ -63,15 +63,15 @@ Image<glm::vec4> linear(const Image<glm::u16vec4>& codes, bool, const std::strin
       codes, [](const glm::u16vec4& c) { return glm::vec4(kTable[c.x], kTable[c.y], kTable[c.z], static_cast<float>(c.w) / 65535.0f); });
 }
 Image<glm::vec4> linear(Image<glm::vec4>&& image, bool premultiplied, const std::string& name) {
-  const auto held = [](float x) { return std::isinf(x) ? std::copysign(kMaxHalf, x) : x; };
+  const auto clamped = [](float x) { return std::isinf(x) ? std::copysign(kMaxHalf, x) : x; };
   for (std::size_t i = 0; i < image.texels().size(); ++i) {
     glm::vec4& t = image.data()[i];
     for (int c = 0; c < 4; ++c) {
       if (std::isnan(t[c])) fail_at(i, image.width(), "NaN", name);
-      t[c] = held(t[c]);
+      t[c] = clamped(t[c]);
     }
     const float divisor = premultiplied && t.w > 0.0f ? t.w : 1.0f;
-    for (int c = 0; c < 3; ++c) t[c] = held(t[c] / divisor);
+    for (int c = 0; c < 3; ++c) t[c] = clamped(t[c] / divisor);
   }
   return std::move(image);
 }

@@ -72,7 +72,7 @@ Picture read_by_tool(const std::filesystem::path& path, const char* format, uint
   // "./": a name that begins with a dash stays a name.
   const std::string name = path.is_absolute() ? path.string() : "./" + path.string();
   const int error = tool.start(
-      program, {"read", name, format, channels == 1 ? "gray" : "rgba", std::to_string(file_bytes), std::to_string(kMostImagePixels)});
+      program, {"read", name, format, channels == 1 ? "gray" : "rgba", std::to_string(file_bytes), std::to_string(kMaxImagePixels)});
   if (error != 0) fail_reading(path, "cannot be read: " + program.string() + " does not start (" + std::strerror(error) + ")");
   tool.end_sending();
   if (std::optional<Picture> picture = receive_picture<Picture>(tool, channels, path)) return *std::move(picture);
@@ -91,10 +91,10 @@ bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::functi
 }
 
 // The encoder's answer, or nothing where it ended before all was said.
-std::optional<std::vector<std::byte>> receive_file(ToolProcess& tool, uint64_t most_bytes, const std::filesystem::path& path) {
+std::optional<std::vector<std::byte>> receive_file(ToolProcess& tool, uint64_t max_bytes, const std::filesystem::path& path) {
   FileHeader h;
   if (!tool.receive(&h, sizeof h)) return std::nullopt;
-  if (h.magic != kImageToolMagic || h.file_bytes > most_bytes) fail_writing(path, std::string(kImageToolName) + kOtherVersion);
+  if (h.magic != kImageToolMagic || h.file_bytes > max_bytes) fail_writing(path, std::string(kImageToolName) + kOtherVersion);
   if (h.file_bytes == 0) {
     const std::optional<std::string> message = receive_message(tool, h.message_bytes);
     if (!message) return std::nullopt;
@@ -127,8 +127,8 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
   // An encoder that refuses ends before it has heard all; its answer says why.
   const bool sent = tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
   tool.end_sending();
-  const uint64_t most_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + (1 << 20);
-  std::optional<std::vector<std::byte>> file = receive_file(tool, most_bytes, path);
+  const uint64_t max_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + (1 << 20);
+  std::optional<std::vector<std::byte>> file = receive_file(tool, max_bytes, path);
   if (sent && file) return *std::move(file);
   fail_writing(path, std::string("the encoder of ") + format + " " + tool.how_it_ended());
 }

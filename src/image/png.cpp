@@ -17,10 +17,10 @@ namespace {
 struct FreeContext {
   void operator()(spng_ctx* context) const { spng_ctx_free(context); }
 };
-using Context = std::unique_ptr<spng_ctx, FreeContext>;
+using SpngContext = std::unique_ptr<spng_ctx, FreeContext>;
 
-Context new_context(int flags) {
-  Context context(spng_ctx_new(flags));
+SpngContext new_context(int flags) {
+  SpngContext context(spng_ctx_new(flags));
   if (context == nullptr) throw std::bad_alloc();
   return context;
 }
@@ -72,7 +72,7 @@ Image<Texel> decode_texels(spng_ctx* context, const spng_ihdr& header, spng_form
 std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes) {
   HS_CHECK(!image.empty());
   const bool opaque = std::ranges::all_of(image.texels(), [](const glm::u8vec4& t) { return t.w == 255; });
-  const Context context = new_context(SPNG_CTX_ENCODER);
+  const SpngContext context = new_context(SPNG_CTX_ENCODER);
   spng_ihdr header = {};
   header.width = static_cast<uint32_t>(image.width());
   header.height = static_cast<uint32_t>(image.height());
@@ -99,8 +99,8 @@ bool is_png(std::span<const std::byte> bytes) {
 }
 
 ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name) {
-  const Context context = new_context(0);
-  check_decoding(spng_set_image_limits(context.get(), kMostImageEdge, kMostImageEdge), name);
+  const SpngContext context = new_context(0);
+  check_decoding(spng_set_image_limits(context.get(), kMaxImageEdge, kMaxImageEdge), name);
   check_decoding(spng_set_chunk_limits(context.get(), std::size_t{1} << 26, std::size_t{1} << 26), name);
   check_decoding(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()), name);
   spng_ihdr header = {};

@@ -30,7 +30,7 @@ struct PatternMaps {
 };
 
 /// The widths that a scene gives patterns by itself.
-inline constexpr int kLeastPattern = 64, kMostPattern = 2048;
+inline constexpr int kMinPattern = 64, kMaxPattern = 2048;
 
 /// Makes a pattern's maps of `width` x `width` texels, width ≥ 1; nothing in them is finer than two texels, but for sharp
 /// edges. The bits depend on pattern and width alone.

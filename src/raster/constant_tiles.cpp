@@ -11,22 +11,22 @@
 
 namespace halfspace {
 
-PixelBounds tile_pixels(const Frame& frame, int tile_x0, int tile_x1, int tile_y) {
-  const int size = frame.tile_size;
-  return {tile_x0 * size, tile_y * size, std::min(tile_x1 * size, frame.width), std::min(tile_y * size + size, frame.height)};
+PixelBounds tile_pixels(const PassContext& context, int tile_x0, int tile_x1, int tile_y) {
+  const int size = context.tile_size;
+  return {tile_x0 * size, tile_y * size, std::min(tile_x1 * size, context.width), std::min(tile_y * size + size, context.height)};
 }
 
-std::optional<const Draw*> constant_tiles(const Frame& frame, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
+std::optional<const Draw*> constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
                                           PassStatistics& statistics) {
   std::array<const Triangle*, 2> triangles{};
   std::size_t count = 0;
   const Draw* draw = nullptr;
-  for (const Chunk& c : frame.chunks) {
+  for (const Chunk& c : context.chunks) {
     for (int x = tile_x0; x < tile_x1; ++x) {
       for (const uint16_t index : bin_of(c, x, tile_y)) {
         const Triangle& t = c.triangles[index];
         if (&t == triangles[0] || &t == triangles[1]) continue;
-        const Draw& of = frame.draws[c.segments[t.segment()].draw];
+        const Draw& of = context.draws[c.ranges[t.range()].draw];
         if (count == triangles.size() || (draw != nullptr && draw != &of)) return std::nullopt;
         draw = &of;
         triangles[count++] = &t;
@@ -36,11 +36,11 @@ std::optional<const Draw*> constant_tiles(const Frame& frame, const Attachments&
   if (draw == nullptr) return nullptr;
   const bool is_one_color = draw->deferred && draw->kernels.is_constant && draw->kernels.visibility == nullptr &&
                             draw->kernels.color_count >= static_cast<int>(attachments.colors.size());
-  if (!is_one_color || attachments.depth.format != DepthFormat::none || frame.samples != 1) return std::nullopt;
-  const PixelBounds area = tile_pixels(frame, tile_x0, tile_x1, tile_y);
+  if (!is_one_color || attachments.depth.format != DepthFormat::none || context.samples != 1) return std::nullopt;
+  const PixelBounds area = tile_pixels(context, tile_x0, tile_x1, tile_y);
   const bool is_triangle =
-      std::none_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is(kSprite | kLine); });
-  if (cut(area, draw->bounds) != area || !is_triangle ||
+      std::none_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is(kPointSprite | kLine); });
+  if (intersect(area, draw->bounds) != area || !is_triangle ||
       !(count == 1 ? covers(*triangles[0], area) : cover_together(*triangles[0], *triangles[1], area))) {
     return std::nullopt;
   }
@@ -53,7 +53,7 @@ std::optional<const Draw*> constant_tiles(const Frame& frame, const Attachments&
   return draw;
 }
 
-void fill_images(const Frame& frame, const Attachments& attachments, const ConstantArea& area) {
+void fill_images(const PassContext& context, const Attachments& attachments, const ConstantArea& area) {
   if (area.pixels.empty()) return;
   FragmentOutput out;
   if (area.draw != nullptr) constant_colors(*area.draw, out);
@@ -61,13 +61,13 @@ void fill_images(const Frame& frame, const Attachments& attachments, const Const
     const ColorTarget& c = attachments.colors[i];
     const glm::vec4& v = c.clear_value;
     if (area.draw != nullptr) {
-      fill_color(c, frame.width, frame.height, area.pixels, out.packet_color(i, 0));
+      fill_color(c, context.width, context.height, area.pixels, out.packet_color(i, 0));
     } else if (c.load == LoadOp::clear) {
-      fill_color(c, frame.width, frame.height, area.pixels, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
+      fill_color(c, context.width, context.height, area.pixels, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
     }
   }
   if (area.draw == nullptr && attachments.depth.load == LoadOp::clear)
-    fill_depth(attachments.depth, frame.width, frame.height, area.pixels);
+    fill_depth(attachments.depth, context.width, context.height, area.pixels);
 }
 
 }  // namespace halfspace

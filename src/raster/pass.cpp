@@ -26,7 +26,7 @@ constexpr uint64_t kChunkShare = 8;
 // Bytes of a tile's memory, so that it stays in the cache next to the core (L2).
 constexpr int kTileBudget = 160 << 10;
 // Chunks that go through setup between two looks at the budget.
-constexpr std::size_t kWave = 32;
+constexpr std::size_t kChunksPerSet = 32;
 
 Chunk take_or_make(std::vector<Chunk>& from) {
   if (from.empty()) return {};
@@ -68,7 +68,7 @@ class PassState {
  public:
   PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options);
 
-  std::pmr::memory_resource& memory() { return *frame_.memory; }
+  std::pmr::memory_resource& memory() { return *context_.memory; }
   void add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
                 const DrawState& state);
   void set_post_step(PostStep post);
@@ -85,7 +85,7 @@ class PassState {
   // What is to be done for the draws, kept up as they come.
   struct Plan {
     std::vector<VertexTask> vertex_tasks;
-    std::vector<std::vector<Segment>> chunks;
+    std::vector<std::vector<DrawRange>> chunks;
     uint64_t primitives = 0;  // in all chunks
     uint32_t room = 0;        // for primitives in the last chunk
     uint32_t records = 0;     // for what they may become
@@ -94,16 +94,16 @@ class PassState {
 
   void add_vertex_tasks(std::size_t draw);
   void run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers);
-  void add_segments(uint32_t draw);
+  void add_draw_ranges(uint32_t draw);
   // Sets up chunks of the plan from `next` on, until the budget or the ids are used up or all is set up. Returns the next chunk.
-  std::size_t set_up_chunks(Plan& plan, std::size_t next, FrameMemory& memory, const Workers& workers, PassStatistics& statistics);
+  std::size_t set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics);
   int tile_size() const;
   // Sets the draw's viewport, bounds and depth range.
   void place_draw(Draw& d) const;
   // Sets d.writes_color. Does the draw replace all colours of a pixel?
   bool look_at_attachments(Draw& d) const;
 
-  Frame frame_;
+  PassContext context_;
   Plan plan_;
   Attachments attachments_;
   PassOptions options_;
@@ -123,15 +123,15 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
     attachments_.has_color |= c.format != ColorFormat::none;
   }
   HS_CHECK(depth.data != nullptr || depth.format == DepthFormat::none || (depth.load != LoadOp::load && depth.store == StoreOp::dont_care));
-  frame_.memory = std::make_unique<std::pmr::monotonic_buffer_resource>();
-  frame_.width = width;
-  frame_.height = height;
-  frame_.samples = options.samples;
-  frame_.samples_at = sample_span(options.samples);
-  frame_.tile_size = tile_size();
-  frame_.tiles_x = (width + frame_.tile_size - 1) / frame_.tile_size;
-  frame_.tiles_y = (height + frame_.tile_size - 1) / frame_.tile_size;
-  frame_.depth_format = depth_part(depth.format);
+  context_.memory = std::make_unique<std::pmr::monotonic_buffer_resource>();
+  context_.width = width;
+  context_.height = height;
+  context_.samples = options.samples;
+  context_.samples_at = sample_span(options.samples);
+  context_.tile_size = tile_size();
+  context_.tiles_x = (width + context_.tile_size - 1) / context_.tile_size;
+  context_.tiles_y = (height + context_.tile_size - 1) / context_.tile_size;
+  context_.depth_format = depth_part(depth.format);
 }
 
 int PassState::tile_size() const {
@@ -150,25 +150,25 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
   if (state.viewport) check_rect(*state.viewport, 1);
   if (state.scissor) check_rect(*state.scissor, 0);
-  if (frame_.draws.capacity() == 0) frame_.draws = take_draw_memory();
-  Draw& d = frame_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, *frame_.memory), state);
+  if (context_.draws.capacity() == 0) context_.draws = take_draw_list();
+  Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, *context_.memory), state);
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
-  d.shades_samples = frame_.samples > 1 && (state.sample_shading || options_.supersample);
-  d.sample_mask = frame_.samples == 1 ? 1u : state.sample_mask & ((1u << frame_.samples) - 1);
+  d.shades_samples = context_.samples > 1 && (state.sample_shading || options_.supersample);
+  d.sample_mask = context_.samples == 1 ? 1u : state.sample_mask & ((1u << context_.samples) - 1);
   const bool replaces = look_at_attachments(d);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
-  const bool covers_by_alpha = state.alpha_to_coverage && frame_.samples > 1;
+  const bool covers_by_alpha = state.alpha_to_coverage && context_.samples > 1;
   const bool defers = options_.defer && replaces && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   d.deferred = defers || !attachments_.has_color;  // without colour there is nothing to blend or to shade at once
   std::vector<uint64_t>& queries = plan_.submitted.queries;
   if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));
-  add_vertex_tasks(frame_.draws.size() - 1);
-  add_segments(static_cast<uint32_t>(frame_.draws.size() - 1));
+  add_vertex_tasks(context_.draws.size() - 1);
+  add_draw_ranges(static_cast<uint32_t>(context_.draws.size() - 1));
 }
 
 void PassState::place_draw(Draw& d) const {
-  const Rect whole{0, 0, frame_.width, frame_.height};
+  const Rect whole{0, 0, context_.width, context_.height};
   const Rect viewport = d.state.viewport.value_or(whole);
   d.viewport = make_viewport(viewport, d.state.depth);
   Rect bounds = intersect(whole, viewport);
@@ -193,7 +193,7 @@ bool PassState::look_at_attachments(Draw& d) const {
 }
 
 void PassState::add_vertex_tasks(std::size_t draw) {
-  const Draw& d = frame_.draws[draw];
+  const Draw& d = context_.draws[draw];
   const std::size_t count = d.vertex_count;
   plan_.submitted.vertices_in += (d.indices->size() - d.indices->restarts().size()) * d.state.instances;
   plan_.submitted.vertices_shaded += count;
@@ -216,10 +216,10 @@ void PassState::add_vertex_tasks(std::size_t draw) {
 
 void PassState::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers) {
   const FloatMode mode;  // large draws are placed here, not in a task
-  frame_.shaded.resize(frame_.draws.size());
+  context_.shaded.resize(context_.draws.size());
   const auto begin_draw = [this](std::size_t draw) {
-    place_draw(frame_.draws[draw]);
-    allocate_vertices(frame_.draws[draw], frame_.shaded[draw]);
+    place_draw(context_.draws[draw]);
+    allocate_vertices(context_.draws[draw], context_.shaded[draw]);
   };
   for (const VertexTask& t : tasks) {
     if (t.is_part && t.begin == 0) begin_draw(t.draw);
@@ -227,22 +227,22 @@ void PassState::run_vertex_stage(std::span<VertexTask> tasks, const Workers& wor
   workers.for_each(static_cast<int>(tasks.size()), [&](int i) {
     VertexTask& t = tasks[static_cast<std::size_t>(i)];
     if (t.is_part) {
-      t.any = shade_vertices(frame_.draws[t.draw], t.begin, t.end, frame_.shaded[t.draw]);
+      t.any = shade_vertices(context_.draws[t.draw], t.begin, t.end, context_.shaded[t.draw]);
       return;
     }
     for (std::size_t d = t.draw; d < t.end_draw; ++d) {
       begin_draw(d);
-      frame_.shaded[d].any_outcode = shade_vertices(frame_.draws[d], 0, frame_.draws[d].vertex_count, frame_.shaded[d]);
+      context_.shaded[d].any_outcode = shade_vertices(context_.draws[d], 0, context_.draws[d].vertex_count, context_.shaded[d]);
     }
   });
   for (const VertexTask& t : tasks) {
-    if (t.is_part) frame_.shaded[t.draw].any_outcode |= t.any;
+    if (t.is_part) context_.shaded[t.draw].any_outcode |= t.any;
   }
 }
 
-void PassState::add_segments(uint32_t draw) {
-  const Draw& d = frame_.draws[draw];
-  const uint32_t each = most_records(d, frame_.samples);
+void PassState::add_draw_ranges(uint32_t draw) {
+  const Draw& d = context_.draws[draw];
+  const uint32_t each = max_triangles_per_primitive(d, context_.samples);
   for (uint32_t instance = 0; instance < d.state.instances; ++instance) {
     for (uint32_t first = 0; first < d.primitive_count;) {
       if (plan_.room == 0 || plan_.records < each) {
@@ -261,25 +261,24 @@ void PassState::add_segments(uint32_t draw) {
   }
 }
 
-std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, FrameMemory& memory, const Workers& workers,
-                                     PassStatistics& statistics) {
+std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics) {
   std::size_t bytes = 0;
-  while (next < plan.chunks.size() && (frame_.chunks.empty() || bytes < options_.bin_budget) &&
-         frame_.chunks.size() + kWave <= kMaxChunks) {
-    const std::size_t begin = frame_.chunks.size();
-    const std::size_t count = std::min(kWave, plan.chunks.size() - next);
-    for (std::size_t i = 0; i < count; ++i) frame_.chunks.push_back(take_or_make(memory.chunks));
+  while (next < plan.chunks.size() && (context_.chunks.empty() || bytes < options_.bin_budget) &&
+         context_.chunks.size() + kChunksPerSet <= kMaxChunks) {
+    const std::size_t begin = context_.chunks.size();
+    const std::size_t count = std::min(kChunksPerSet, plan.chunks.size() - next);
+    for (std::size_t i = 0; i < count; ++i) context_.chunks.push_back(take_or_make(memory.chunks));
     workers.for_each(static_cast<int>(count), [&](int i) {
-      Chunk& chunk = frame_.chunks[begin + static_cast<std::size_t>(i)];
-      chunk.segments = std::move(plan.chunks[next + static_cast<std::size_t>(i)]);
-      set_up_chunk(frame_, chunk);
-      run_primitive_stage(frame_, chunk);
-      bin_chunk(frame_, chunk);
+      Chunk& chunk = context_.chunks[begin + static_cast<std::size_t>(i)];
+      chunk.ranges = std::move(plan.chunks[next + static_cast<std::size_t>(i)]);
+      set_up_chunk(context_, chunk);
+      run_primitive_stage(context_, chunk);
+      bin_chunk(context_, chunk);
     });
     next += count;
-    for (std::size_t c = begin; c < frame_.chunks.size(); ++c) {
-      bytes += frame_.chunks[c].bytes();
-      statistics += frame_.chunks[c].statistics;
+    for (std::size_t c = begin; c < context_.chunks.size(); ++c) {
+      bytes += context_.chunks[c].bytes();
+      statistics += context_.chunks[c].statistics;
     }
   }
   return next;
@@ -288,27 +287,27 @@ std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, FrameMemory& 
 PassStatistics PassState::run(const Workers& workers) {
   Plan plan = std::exchange(plan_, {});
   PassStatistics statistics = std::move(plan.submitted);
-  FrameMemory memory = take_frame_memory();
-  frame_.shaded = std::move(memory.shaded);
+  PassMemory memory = take_pass_memory();
+  context_.shaded = std::move(memory.shaded);
   run_vertex_stage(plan.vertex_tasks, workers);
   Round round{.first = true, .last = false};
   std::size_t next = 0;
   do {
-    put_aside(frame_.chunks, memory.chunks);
+    put_aside(context_.chunks, memory.chunks);
     next = set_up_chunks(plan, next, memory, workers, statistics);
     round.last = next == plan.chunks.size();
     if (!round.last) {
-      keep_between_flushes(frame_, attachments_);
+      keep_between_flushes(context_, attachments_);
       ++statistics.flushes;
     }
-    run_tiles(frame_, attachments_, round, workers, statistics);
+    run_tiles(context_, attachments_, round, workers, statistics);
     round.first = false;
   } while (!round.last);
-  keep_draw_memory(std::exchange(frame_.draws, {}));
-  frame_.memory->release();
-  put_aside(frame_.chunks, memory.chunks);
-  memory.shaded = std::exchange(frame_.shaded, {});
-  keep_frame_memory(std::move(memory));
+  return_draw_list(std::exchange(context_.draws, {}));
+  context_.memory->release();
+  put_aside(context_.chunks, memory.chunks);
+  memory.shaded = std::exchange(context_.shaded, {});
+  return_pass_memory(std::move(memory));
   return statistics;
 }
 

@@ -58,13 +58,13 @@ class Pass {
   template <class S, class V, detail::IndexList I>
   void draw(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();
-    if constexpr (require_shader<S>() && detail::require_streams<S, V>())
+    if constexpr (detail::require_draw<S, V>())
       detail::draw<detail::DrawKind::color>(*state_, shader, vertices, detail::view_indices(indices, vertices.vertex_count), state);
   }
   /// Adds a draw without an index list: vertices 0, 1, 2, ... of the view.
   template <class S, class V>
   void draw(const S& shader, const V& vertices, const DrawState& state = {}) {
-    if constexpr (require_shader<S>() && detail::require_streams<S, V>())
+    if constexpr (detail::require_draw<S, V>())
       detail::draw<detail::DrawKind::color>(*state_, shader, vertices, sequential(vertices), state);
   }
 
@@ -72,12 +72,12 @@ class Pass {
   template <class S, class V, detail::IndexList I>
   void draw_depth(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();
-    if constexpr (require_vertex_shader<S>() && detail::require_streams<S, V>())
+    if constexpr (detail::require_depth_draw<S, V>())
       detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, detail::view_indices(indices, vertices.vertex_count), state);
   }
   template <class S, class V>
   void draw_depth(const S& shader, const V& vertices, const DrawState& state = {}) {
-    if constexpr (require_vertex_shader<S>() && detail::require_streams<S, V>())
+    if constexpr (detail::require_depth_draw<S, V>())
       detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, sequential(vertices), state);
   }
 

@@ -36,9 +36,9 @@ HS_INLINE void prefetch(const Triangle& t) {
 }
 
 // What shading, or a shader that decides on visibility, reads of a triangle's first vertex.
-void prefetch_vertex(const Frame& frame, const Chunk& chunk, const Triangle& t) {
+void prefetch_vertex(const PassContext& context, const Chunk& chunk, const Triangle& t) {
   if (t.is(kClipped)) return;
-  const ShadedVertices& shaded = frame.shaded[chunk.segments[t.segment()].draw];
+  const ShadedVertices& shaded = context.shaded[chunk.ranges[t.range()].draw];
   const auto count = static_cast<std::size_t>(shaded.varying_count);
   const float* row = shaded.varyings.get() + t.vertex[0] * count;
   __builtin_prefetch(&shaded.screen[t.vertex[0]]);
@@ -48,28 +48,29 @@ void prefetch_vertex(const Frame& frame, const Chunk& chunk, const Triangle& t) 
 
 // How many of a list's first triangles are small and of one draw, W at the most.
 std::size_t small_run(const Chunk& chunk, std::span<const uint16_t> bin) {
-  const std::size_t most = std::min(bin.size(), static_cast<std::size_t>(kLanes));
-  const uint32_t segment = chunk.triangles[bin[0]].segment();
+  const std::size_t max_count = std::min(bin.size(), static_cast<std::size_t>(kLanes));
+  const uint32_t range = chunk.triangles[bin[0]].range();
   std::size_t n = 0;
-  while (n < most && is_small_triangle(chunk.triangles[bin[n]]) && chunk.triangles[bin[n]].segment() == segment) ++n;
+  while (n < max_count && is_small_triangle(chunk.triangles[bin[n]]) && chunk.triangles[bin[n]].range() == range) ++n;
   return n;
 }
 
 class TileWorker {
  public:
-  TileWorker(const Frame& frame, const Attachments& attachments, Round round) : frame_(frame), attachments_(attachments), round_(round) {}
+  TileWorker(const PassContext& context, const Attachments& attachments, Round round)
+      : context_(context), attachments_(attachments), round_(round) {}
 
   void run(const Workers& workers, PassStatistics& statistics) const {
-    std::vector<int> rows(static_cast<std::size_t>(frame_.tiles_y));
+    std::vector<int> rows(static_cast<std::size_t>(context_.tiles_y));
     std::iota(rows.begin(), rows.end(), 0);
     if (is_alone()) rows = fill_constant_rows(workers, statistics);
     const int row_count = static_cast<int>(rows.size());
-    const int length = std::clamp(frame_.tiles_x * row_count / (workers.threads() * kTasksPerThread), 1, kMaxTilesPerTask);
-    const int strips_x = (frame_.tiles_x + length - 1) / length;
+    const int length = std::clamp(context_.tiles_x * row_count / (workers.threads() * kTasksPerThread), 1, kMaxTilesPerTask);
+    const int strips_x = (context_.tiles_x + length - 1) / length;
     std::vector<PassStatistics> by_strip(static_cast<std::size_t>(strips_x * row_count));
     workers.for_each(strips_x * row_count, [&](int i) {
       const int x0 = i % strips_x * length;
-      run_strip(x0, std::min(x0 + length, frame_.tiles_x), rows[static_cast<std::size_t>(i / strips_x)],
+      run_strip(x0, std::min(x0 + length, context_.tiles_x), rows[static_cast<std::size_t>(i / strips_x)],
                 by_strip[static_cast<std::size_t>(i)]);
     });
     for (const PassStatistics& s : by_strip) statistics += s;
@@ -85,16 +86,16 @@ class TileWorker {
 
   // Fills the rows of tiles that get one colour, each in one go, which is faster than tile by tile. Returns the rows that are left.
   std::vector<int> fill_constant_rows(const Workers& workers, PassStatistics& statistics) const {
-    std::vector<PassStatistics> by_row(static_cast<std::size_t>(frame_.tiles_y));
+    std::vector<PassStatistics> by_row(static_cast<std::size_t>(context_.tiles_y));
     std::vector<uint8_t> filled(by_row.size());
-    workers.for_each(frame_.tiles_y, [&](int y) {
+    workers.for_each(context_.tiles_y, [&](int y) {
       const auto row = static_cast<std::size_t>(y);
-      const std::optional<const Draw*> draw = constant_tiles(frame_, attachments_, 0, frame_.tiles_x, y, by_row[row]);
+      const std::optional<const Draw*> draw = constant_tiles(context_, attachments_, 0, context_.tiles_x, y, by_row[row]);
       filled[row] = draw.has_value();
-      if (draw) fill_images(frame_, attachments_, {tile_pixels(frame_, 0, frame_.tiles_x, y), *draw});
+      if (draw) fill_images(context_, attachments_, {tile_pixels(context_, 0, context_.tiles_x, y), *draw});
     });
     std::vector<int> rest;
-    for (int y = 0; y < frame_.tiles_y; ++y) {
+    for (int y = 0; y < context_.tiles_y; ++y) {
       const auto row = static_cast<std::size_t>(y);
       if (filled[row] != 0) {
         statistics += by_row[row];
@@ -111,23 +112,24 @@ class TileWorker {
     const bool alone = is_alone();
     ConstantArea area{};  // of the tiles before this one
     for (int x = tile_x0; x < tile_x1; ++x) {
-      const std::optional<const Draw*> constant = alone ? constant_tiles(frame_, attachments_, x, x + 1, tile_y, statistics) : std::nullopt;
+      const std::optional<const Draw*> constant =
+          alone ? constant_tiles(context_, attachments_, x, x + 1, tile_y, statistics) : std::nullopt;
       const Draw* const draw = constant.value_or(nullptr);
-      const PixelBounds pixels = tile_pixels(frame_, x, x + 1, tile_y);
+      const PixelBounds pixels = tile_pixels(context_, x, x + 1, tile_y);
       if (constant && !area.pixels.empty() && area.draw == draw) {
         area.pixels.x1 = pixels.x1;
         continue;
       }
-      fill_images(frame_, attachments_, area);
+      fill_images(context_, attachments_, area);
       area = constant ? ConstantArea{pixels, draw} : ConstantArea{};
       // A tile of the only round that is not drawn in has a constant colour.
       if (!constant) run_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics);
     }
-    fill_images(frame_, attachments_, area);
+    fill_images(context_, attachments_, area);
   }
 
   bool is_drawn(int tile_x, int tile_y) const {
-    return std::any_of(frame_.chunks.begin(), frame_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
+    return std::any_of(context_.chunks.begin(), context_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
   }
 
   void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, PassStatistics& statistics) const {
@@ -135,7 +137,7 @@ class TileWorker {
     const std::vector<ColorTarget>& colors = attachments_.colors;
     // What was neither cleared nor drawn stays as it is in its image (several samples go through the spill and back); under
     // LoadOp::dont_care the tile does not know it.
-    const bool spills = frame_.samples > 1 && !(round_.first && round_.last);
+    const bool spills = context_.samples > 1 && !(round_.first && round_.last);
     const auto changes = [&](const auto& target) {
       return drawn || spills || (round_.first && target.load == LoadOp::clear && bytes_per_pixel(target.format) != 0);
     };
@@ -148,13 +150,13 @@ class TileWorker {
     load(tile);
     if (drawn) draw_tile(memory, tile_x, tile_y, statistics);
     store(tile, changes_color, changes_depth);
-    if (has_post_step) run_post_step(attachments_.post, frame_.width, frame_.height, tile, memory.post_color);
+    if (has_post_step) run_post_step(attachments_.post, context_.width, context_.height, tile, memory.post_color);
   }
 
   void place_tile(Tile& tile, int tile_x, int tile_y) const {
-    const PixelBounds pixels = tile_pixels(frame_, tile_x, tile_x + 1, tile_y);
-    tile.size = frame_.tile_size;
-    tile.samples = frame_.samples;
+    const PixelBounds pixels = tile_pixels(context_, tile_x, tile_x + 1, tile_y);
+    tile.size = context_.tile_size;
+    tile.samples = context_.samples;
     tile.color_count = static_cast<int>(attachments_.colors.size());
     tile.x0 = pixels.x0;
     tile.y0 = pixels.y0;
@@ -162,10 +164,10 @@ class TileWorker {
     tile.height = pixels.y1 - pixels.y0;
   }
 
-  Samples spilled_samples() const { return frame_.samples > 1 ? Samples::all : Samples::one; }
+  Samples spilled_samples() const { return context_.samples > 1 ? Samples::all : Samples::one; }
 
   void load(Tile& tile) const {
-    const int width = frame_.width, height = frame_.height;
+    const int width = context_.width, height = context_.height;
     for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
       const ColorTarget& c = attachments_.colors[i];
       if (round_.first) {
@@ -179,7 +181,7 @@ class TileWorker {
   }
 
   void store(Tile& tile, bool changes_color, bool changes_depth) const {
-    const int width = frame_.width, height = frame_.height;
+    const int width = context_.width, height = context_.height;
     for (std::size_t i = 0; changes_color && i < attachments_.colors.size(); ++i) {
       const ColorTarget& c = attachments_.colors[i];
       if (round_.last) {
@@ -204,68 +206,68 @@ class TileWorker {
     }
     // A draw that writes no colour leaves pending pixels as they are.
     const bool shades = d.mode != VisibilityMode::early || d.draw.writes_color;
-    if (shades && pending && attachments_.has_color) shade_deferred(frame_, d.tile, memory.shading, statistics);
+    if (shades && pending && attachments_.has_color) shade_deferred(context_, d.tile, memory.shading, statistics);
     if (shades) pending = false;
     CoverageList& list = memory.coverage;
     list.count = 0;
     rasterize(d, chunk, index, &list, statistics);
-    if (shades && list.count != 0) shade_immediate(frame_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, statistics);
+    if (shades && list.count != 0) shade_immediate(context_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, statistics);
   }
 
   void draw_tile(TileMemory& memory, int tile_x, int tile_y, PassStatistics& statistics) const {
     Tile& tile = memory.tile;
     bool pending = false;
-    tile.id.fill(kNoTriangle);
+    tile.visibility.fill(kNoTriangle);
     std::optional<DrawInTile> here;
-    WholeTile whole;
-    for (uint32_t c = 0; c < frame_.chunks.size(); ++c) {
-      const Chunk& chunk = frame_.chunks[c];
+    FullTileOccluder occluder;
+    for (uint32_t c = 0; c < context_.chunks.size(); ++c) {
+      const Chunk& chunk = context_.chunks[c];
       const std::span<const uint16_t> bin = bin_of(chunk, tile_x, tile_y);
       const auto ahead = [&](std::size_t i) -> const Triangle& { return chunk.triangles[bin[std::min(i, bin.size() - 1)]]; };
       for (std::size_t i = 0; i < bin.size();) {
         const uint16_t t = bin[i];
-        const Draw& draw = frame_.draws[chunk.segments[chunk.triangles[t].segment()].draw];
-        if (!here || &here->draw != &draw) here.emplace(frame_, draw, visibility_mode(draw), tile);
+        const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
+        if (!here || &here->draw != &draw) here.emplace(context_, draw, visibility_mode(draw), tile);
         const uint64_t passed_before = statistics.samples_passed;
-        const std::size_t small = here->is_plain && !whole.waits() ? small_run(chunk, bin.subspan(i)) : 0;
+        const std::size_t small = here->is_opaque && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
         for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
           prefetch(ahead(k + kTrianglesAhead));
-          if (here->fetches_vertices) prefetch_vertex(frame_, chunk, ahead(k + kVerticesAhead));
+          if (here->fetches_vertices) prefetch_vertex(context_, chunk, ahead(k + kVerticesAhead));
         }
         if (small != 0) {
           rasterize_small(*here, c, bin.subspan(i, small), statistics);
           pending |= here->mode == VisibilityMode::deferred;
           i += small;
         } else {
-          const bool showed = whole.shows();
-          const bool is_done = whole.take(*here, c, t, statistics);
-          pending |= showed && !whole.shows();
+          const bool was_visible = occluder.is_visible();
+          const bool is_done = occluder.draw(*here, c, t, statistics);
+          pending |= was_visible && !occluder.is_visible();
           if (!is_done) draw_triangle(*here, c, t, pending, memory, statistics);
           ++i;
         }
         if (draw.state.query) statistics.add_to_query(*draw.state.query, statistics.samples_passed - passed_before);
       }
     }
-    if (whole.shows() && attachments_.has_color) {
-      shade_whole_tile(frame_, whole.triangle(), tile, statistics);
-      return whole.write_depth();
+    if (occluder.is_visible() && attachments_.has_color) {
+      shade_full_tile(context_, occluder.triangle(), tile, statistics);
+      return occluder.write_depth();
     }
-    whole.write();
-    if (pending && attachments_.has_color) shade_deferred(frame_, tile, memory.shading, statistics);
+    occluder.write();
+    if (pending && attachments_.has_color) shade_deferred(context_, tile, memory.shading, statistics);
   }
 
-  const Frame& frame_;
+  const PassContext& context_;
   const Attachments& attachments_;
   Round round_;
 };
 
 }  // namespace
 
-void keep_between_flushes(const Frame& frame, Attachments& attachments) {
+void keep_between_flushes(const PassContext& context, Attachments& attachments) {
   const std::size_t samples =
-      static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * static_cast<std::size_t>(frame.samples);
+      static_cast<std::size_t>(context.width) * static_cast<std::size_t>(context.height) * static_cast<std::size_t>(context.samples);
   const auto spill = [&](const auto& target, std::vector<std::byte>& bytes) {
-    const bool is_image_enough = target.data != nullptr && frame.samples == 1;
+    const bool is_image_enough = target.data != nullptr && context.samples == 1;
     if (!is_image_enough) bytes.resize(samples * static_cast<std::size_t>(bytes_per_pixel(target.format)));
   };
   attachments.color_spills.resize(attachments.colors.size());
@@ -273,8 +275,9 @@ void keep_between_flushes(const Frame& frame, Attachments& attachments) {
   spill(attachments.depth, attachments.depth_spill);
 }
 
-void run_tiles(const Frame& frame, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics) {
-  TileWorker(frame, attachments, round).run(workers, statistics);
+void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
+               PassStatistics& statistics) {
+  TileWorker(context, attachments, round).run(workers, statistics);
 }
 
 }  // namespace halfspace

@@ -11,9 +11,9 @@
 namespace halfspace {
 
 /// Makes the spills that hold the attachments from one round to the next.
-void keep_between_flushes(const Frame& frame, Attachments& attachments);
+void keep_between_flushes(const PassContext& context, Attachments& attachments);
 
 /// Runs all tiles of one round.
-void run_tiles(const Frame& frame, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics);
+void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics);
 
 }  // namespace halfspace

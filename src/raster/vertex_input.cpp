@@ -14,6 +14,7 @@ VertexView bind_streams(std::span<const VertexStream> streams) {
 }
 
 VertexView bind_streams(std::span<const VertexStream> streams, std::size_t vertex_count) {
+  HS_CHECK_OP(streams.size(), <=, kMaxStreams);
   VertexView v{.streams = {}, .stream_count = static_cast<int>(streams.size()), .vertex_count = vertex_count};
   std::ranges::copy(streams, v.streams.begin());
   for (const VertexStream& s : streams) {

@@ -65,11 +65,11 @@ S per_instance(S stream, uint32_t divisor = 1) {
   return stream;
 }
 
-inline constexpr std::size_t kMostStreams = kMostFields;
+inline constexpr std::size_t kMaxStreams = kMaxFields;
 
 /// The streams of a draw, in the order of the members of the shader's Attributes.
 struct VertexView {
-  std::array<VertexStream, kMostStreams> streams;
+  std::array<VertexStream, kMaxStreams> streams;
   int stream_count = 0;
   std::size_t vertex_count = 0;
   std::size_t instance_count = std::size_t{1} << 31;  ///< for how many instances the per-instance streams have rows
@@ -89,10 +89,11 @@ struct VertexStreams {
 
 /// The streams as the vertices of one instance see them: those of one row for several instances stand still. Where there are such, the
 /// answer lies in `room`.
-using StreamRoom = std::array<VertexStream, kMostStreams>;
+using StreamRoom = std::array<VertexStream, kMaxStreams>;
 std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room);
 
 namespace detail {
+/// streams: at most kMaxStreams.
 VertexView bind_streams(std::span<const VertexStream> streams);
 VertexView bind_streams(std::span<const VertexStream> streams, std::size_t vertex_count);
 }  // namespace detail
@@ -100,7 +101,8 @@ VertexView bind_streams(std::span<const VertexStream> streams, std::size_t verte
 /// Binds streams to the members of Attributes, in order. All streams with one row per vertex hold the same number of vertices, and there is
 /// at least one such stream; each has at most 2^31 floats.
 template <std::derived_from<VertexStream>... S>
-requires(sizeof...(S) >= 1 && sizeof...(S) <= kMostStreams) auto make_vertex_view(const S&... streams) {
+auto make_vertex_view(const S&... streams) {
+  static_assert(sizeof...(S) >= 1, "make_vertex_view() of no streams needs the number of vertices");
   const std::array<VertexStream, sizeof...(S)> list{streams...};
   if constexpr ((requires { typename S::Element; } && ...)) {
     return VertexViewOf<typename S::Element...>{detail::bind_streams(list)};
@@ -112,7 +114,7 @@ requires(sizeof...(S) >= 1 && sizeof...(S) <= kMostStreams) auto make_vertex_vie
 /// The same with an explicit number of vertices: for shaders without per-vertex streams, which compute their vertices from VertexId.
 /// vertex_count: at most 2^32 − 1.
 template <std::derived_from<VertexStream>... S>
-requires(sizeof...(S) <= kMostStreams) auto make_vertex_view(std::size_t vertex_count, const S&... streams) {
+auto make_vertex_view(std::size_t vertex_count, const S&... streams) {
   const std::array<VertexStream, sizeof...(S)> list{streams...};
   if constexpr ((requires { typename S::Element; } && ...)) {
     return VertexViewOf<typename S::Element...>{detail::bind_streams(list, vertex_count)};

@@ -52,7 +52,7 @@ Image<std::optional<RayHit>> primary_hits(const RayScene& rays, const View& view
   workers.for_each(height, [&](int row) {
     for (int x = 0; x < width; ++x) {
       const PictureRay ray = picture_ray(view, width, height, x + 0.5, row + 0.5);
-      hits.at(x, row) = rays.nearest(ray.origin_ew, ray.direction_ws, static_cast<float>(view.near), kFar);
+      hits.at(x, row) = rays.nearest(ray.origin_rws, ray.direction_ws, static_cast<float>(view.near), kFar);
     }
   });
   return hits;
@@ -81,13 +81,13 @@ VisibilityScore compare_visibility(const ShadowPicture& picture, const Image<std
       bool near_edge = false;
       double depth_change = 0.0;
       const auto depth_of = [&](const RayHit& h) {
-        const glm::dvec4 clip = view.clip_from_world * glm::dvec4(h.position_ew + view.eye_ws, 1.0);
+        const glm::dvec4 clip = view.clip_from_world * glm::dvec4(h.position_rws + view.eye_ws, 1.0);
         return clip.z / clip.w;
       };
       for (int k = 0; k < 8 && !near_edge; ++k) {
         constexpr int kWays[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
         const PictureRay ray = picture_ray(view, width, height, x + 0.5 + kStep * kWays[k][0], row + 0.5 + kStep * kWays[k][1]);
-        const auto beside = rays.nearest(ray.origin_ew, ray.direction_ws, static_cast<float>(view.near), kFar);
+        const auto beside = rays.nearest(ray.origin_rws, ray.direction_ws, static_cast<float>(view.near), kFar);
         near_edge = is_seen(beside);
         if (hit && beside) depth_change = std::max(depth_change, std::abs(depth_of(*beside) - depth_of(*hit)));
       }
@@ -111,15 +111,15 @@ VisibilityScore compare_visibility(const ShadowPicture& picture, const Image<std
   return sum;
 }
 
-LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_ew, const glm::dvec3& face_normal_ws,
+LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_rws, const glm::dvec3& face_normal_ws,
                        uint32_t seed) {
   const bool directional = light.light.type == LightType::directional;
-  const glm::dvec3 place(light.light.place_ew);
-  const glm::dvec3 axis = directional ? place : unit_or_zero(place - position_ew);
+  const glm::dvec3 place(light.light.place_rws);
+  const glm::dvec3 axis = directional ? place : unit_or_zero(place - position_rws);
   // Embree's hit and the float vertices lie within a few ulp of the exact triangle: 2^-24 of the largest coordinate each.
-  const double scale = std::max({std::abs(position_ew.x), std::abs(position_ew.y), std::abs(position_ew.z), 1e-3});
+  const double scale = std::max({std::abs(position_rws.x), std::abs(position_rws.y), std::abs(position_rws.z), 1e-3});
   const glm::dvec3 outwards = glm::dot(face_normal_ws, axis) >= 0.0 ? face_normal_ws : -face_normal_ws;
-  const glm::dvec3 origin = position_ew + outwards * (scale * 0x1p-20);
+  const glm::dvec3 origin = position_rws + outwards * (scale * 0x1p-20);
   const auto [side, up] = across(axis);
   const int strata = light.size > 0.0 ? std::max(1, static_cast<int>(std::lround(std::sqrt(light.rays)))) : 1;
   int arrived = 0;

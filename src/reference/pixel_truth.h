@@ -32,7 +32,7 @@ ShadowPicture draw_shadow_picture(const LightChoice& light, const View& view, in
 
 /// The ray of a point of the picture: x, y in pixels from the top left corner, pixel centres at + 0.5.
 struct PictureRay {
-  glm::vec3 origin_ew, direction_ws;  ///< direction: not of unit length
+  glm::vec3 origin_rws, direction_ws;  ///< direction: not of unit length
 };
 PictureRay picture_ray(const View& view, int width, int height, double x, double y);
 
@@ -63,7 +63,7 @@ struct RayLight {
   double size;  ///< radius in units; directional: tangent of half the angle
   int rays;     ///< 1, or a square number of strata for a light with size
 };
-LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_ew, const glm::dvec3& face_normal_ws,
+LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_rws, const glm::dvec3& face_normal_ws,
                        uint32_t seed);
 
 }  // namespace halfspace

@@ -64,7 +64,7 @@ bool is_occluded(RTCScene scene, RTCRay& ray) {
 
 struct RayScene::Impl {
   struct Placed {
-    std::vector<glm::dvec3> positions_ew;
+    std::vector<glm::dvec3> positions_rws;
     std::shared_ptr<const Indices> indices;
   };
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter> device;
@@ -79,8 +79,8 @@ void RayScene::Impl::add_spheres(const Particles& spheres, const glm::dvec3& eye
   auto* rows = static_cast<float*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), spheres.radii.size()));
   for (std::size_t i = 0; i < spheres.radii.size(); ++i) {
-    const glm::vec3 center_ew(spheres.centers_ws[i] - eye_ws);
-    for (const float f : {center_ew.x, center_ew.y, center_ew.z, spheres.radii[i]}) *rows++ = f;
+    const glm::vec3 center_rws(spheres.centers_ws[i] - eye_ws);
+    for (const float f : {center_rws.x, center_rws.y, center_rws.z, spheres.radii[i]}) *rows++ = f;
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene.get(), geometry, id);
@@ -101,12 +101,12 @@ RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws,
     Impl::Placed& placed = impl_->placed[m];
     placed.indices = mesh.indices;
     for (const glm::vec3& p : mesh.mesh->positions)
-      placed.positions_ew.push_back(glm::dvec3(mesh.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye_ws);
+      placed.positions_rws.push_back(glm::dvec3(mesh.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye_ws);
     const RTCGeometry geometry = rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     const std::size_t triangles = mesh.indices->size() / 3;
     auto* vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), placed.positions_ew.size()));
-    for (const glm::dvec3& p : placed.positions_ew)
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), placed.positions_rws.size()));
+    for (const glm::dvec3& p : placed.positions_rws)
       for (int k = 0; k < 3; ++k) *vertices++ = static_cast<float>(p[k]);
     auto* indices = static_cast<uint32_t*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), triangles));
@@ -126,9 +126,9 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-std::optional<RayHit> RayScene::nearest(const glm::vec3& origin_ew, const glm::vec3& direction_ws, float near, float far) const {
+std::optional<RayHit> RayScene::nearest(const glm::vec3& origin_rws, const glm::vec3& direction_ws, float near, float far) const {
   RTCRayHit query{};
-  query.ray = make_ray(origin_ew, direction_ws, near, far);
+  query.ray = make_ray(origin_rws, direction_ws, near, far);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   intersect(impl_->scene.get(), query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
@@ -139,12 +139,12 @@ std::optional<RayHit> RayScene::nearest(const glm::vec3& origin_ew, const glm::v
                   query.hit.primID,
                   query.ray.tfar,
                   {},
-                  glm::dvec3(origin_ew) + along,
+                  glm::dvec3(origin_rws) + along,
                   normal / std::max(glm::length(normal), 1e-300)};
   }
   const Impl::Placed& placed = impl_->placed[query.hit.geomID];
   std::array<glm::dvec3, 3> corner;
-  for (std::size_t k = 0; k < 3; ++k) corner[k] = placed.positions_ew[(*placed.indices)[3 * std::size_t{query.hit.primID} + k]];
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = placed.positions_rws[(*placed.indices)[3 * std::size_t{query.hit.primID} + k]];
   const double u = static_cast<double>(query.hit.u), v = static_cast<double>(query.hit.v);
   const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
   return RayHit{static_cast<int>(query.hit.geomID),
@@ -155,8 +155,8 @@ std::optional<RayHit> RayScene::nearest(const glm::vec3& origin_ew, const glm::v
                 normal / std::max(glm::length(normal), 1e-300)};
 }
 
-bool RayScene::occluded(const glm::vec3& origin_ew, const glm::vec3& direction_ws, float near, float far) const {
-  RTCRay ray = make_ray(origin_ew, direction_ws, near, far);
+bool RayScene::occluded(const glm::vec3& origin_rws, const glm::vec3& direction_ws, float near, float far) const {
+  RTCRay ray = make_ray(origin_rws, direction_ws, near, far);
   return is_occluded(impl_->scene.get(), ray);
 }
 

@@ -15,13 +15,13 @@
 
 namespace halfspace {
 
-/// Where a ray meets the scene. The suffix _ew: the world's axes, RaySceneOptions::eye_ws as origin.
+/// Where a ray meets the scene. The suffix _rws: the world's axes, RaySceneOptions::eye_ws as origin.
 struct RayHit {
   int mesh;                       ///< index into the meshes given; −1, −2, …: a sphere of the first spheres given, of the second, …
   uint32_t triangle;              ///< of that mesh: its indices are 3·triangle …; or the sphere's number among those
   float distance;                 ///< along the ray, in lengths of its direction
   std::array<double, 3> weights;  ///< barycentric, of the triangle's vertices; they add up to 1. Of a sphere 0
-  glm::dvec3 position_ew;         ///< by the weights, in double: nearer to the triangle than origin + distance·direction
+  glm::dvec3 position_rws;        ///< by the weights, in double: nearer to the triangle than origin + distance·direction
   glm::dvec3 face_normal_ws;      ///< unit; the triangle's, counter-clockwise in front
 };
 
@@ -38,10 +38,10 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   /// The nearest triangle, seen from either side, on origin + t·direction, near ≤ t ≤ far.
-  std::optional<RayHit> nearest(const glm::vec3& origin_ew, const glm::vec3& direction_ws, float near, float far) const;
+  std::optional<RayHit> nearest(const glm::vec3& origin_rws, const glm::vec3& direction_ws, float near, float far) const;
 
   /// Is there any triangle on origin + t·direction, near ≤ t ≤ far?
-  bool occluded(const glm::vec3& origin_ew, const glm::vec3& direction_ws, float near, float far) const;
+  bool occluded(const glm::vec3& origin_rws, const glm::vec3& direction_ws, float near, float far) const;
 
  private:
   struct Impl;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <vector>
 
+#include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/reference/pixel_truth.h"
@@ -36,7 +37,7 @@ ShadowMask mask_of(const PlacedMesh& placed, const View& view) {
   s.clip_from_object = glm::mat4(view.clip_from_world * world);
   world[3] -= glm::dvec4(view.eye_ws, 0.0);
   s.world_from_object = glm::mat4(world);
-  s.normal_from_object = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world))));
+  s.normal_from_object = normal_matrix(world);
   s.to_eye_ws = glm::vec3(view.to_eye_ws);
   return s;
 }

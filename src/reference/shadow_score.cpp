@@ -23,9 +23,9 @@ struct Pixels {
 };
 
 // Width of a texel at a place, in the world: of the view that a look-up there would use.
-double texel_at(const Shadow& shadow, const glm::dvec3& position_ew) {
+double texel_at(const Shadow& shadow, const glm::dvec3& position_rws) {
   for (const ShadowView& view : shadow.views) {
-    const ShadowPlace<float> p = place_on(view, glm::vec3(position_ew));
+    const ShadowCoordinates<float> p = place_on(view, glm::vec3(position_rws));
     if (holds(view, p, filter_reach(shadow.settings))) return static_cast<double>(view.texel_per_w * p.w);
   }
   return 0.0;
@@ -40,7 +40,7 @@ class EdgeFinder {
   double distance(const RayHit& hit, const glm::dvec3& face_normal_ws, bool lit, double texel, double radius) const {
     const bool directional = light_.light.type == LightType::directional;
     const glm::dvec3 axis =
-        directional ? glm::dvec3(light_.light.place_ew) : unit_or_zero(glm::dvec3(light_.light.place_ew) - hit.position_ew);
+        directional ? glm::dvec3(light_.light.place_rws) : unit_or_zero(glm::dvec3(light_.light.place_rws) - hit.position_rws);
     const glm::dvec3 right = unit_or_zero(glm::cross(std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), axis));
     const glm::dvec3 up = glm::cross(axis, right);
     const double lean = glm::dot(face_normal_ws, axis);
@@ -51,10 +51,10 @@ class EdgeFinder {
         const glm::dvec3 aside = (right * a.cos + up * a.sin) * r;
         // The surface goes on along its plane, give or take the step's own length.
         const double along = std::abs(lean) > 1e-3 ? -glm::dot(face_normal_ws, aside) / lean : 0.0;
-        const glm::dvec3 start = hit.position_ew + aside + axis * (along + 2.0 * r);
+        const glm::dvec3 start = hit.position_rws + aside + axis * (along + 2.0 * r);
         const auto there = rays_.nearest(glm::vec3(start), glm::vec3(-axis), 0.0f, static_cast<float>(4.0 * r));
         if (!there) return step;
-        if ((light_truth(casters_, light_, there->position_ew, there->face_normal_ws, 0).share > 0.5f) != lit) return step;
+        if ((light_truth(casters_, light_, there->position_rws, there->face_normal_ws, 0).share > 0.5f) != lit) return step;
       }
     }
     return 1e9;
@@ -69,7 +69,7 @@ class EdgeFinder {
 // Do two neighbouring pixels show one surface without a step?
 bool is_continuous(const RayHit& a, const RayHit& b) {
   if (a.mesh != b.mesh) return false;
-  const glm::dvec3 way = b.position_ew - a.position_ew;
+  const glm::dvec3 way = b.position_rws - a.position_rws;
   const double length = glm::length(way);
   return std::abs(glm::dot(way, a.face_normal_ws)) <= 0.3 * length && std::abs(glm::dot(way, b.face_normal_ws)) <= 0.3 * length;
 }
@@ -91,8 +91,8 @@ std::vector<glm::ivec2> edge_pixels(const Image<float>& light, const Pixels& pix
 
 // What a texel that falls along the light on the surface at a hit spans in the picture, px: the longer of its sides.
 double texel_on_surface_px(const RayHit& hit, const Light& light, double texel, const View& view) {
-  const glm::dvec3 axis = light_at<double>(light, hit.position_ew).l_ws;
-  const glm::dvec3 sight = view.to_eye_ws == glm::dvec3(0.0) ? unit_or_zero(hit.position_ew) : -view.to_eye_ws;
+  const glm::dvec3 axis = light_at<double>(light, hit.position_rws).l_ws;
+  const glm::dvec3 sight = view.to_eye_ws == glm::dvec3(0.0) ? unit_or_zero(hit.position_rws) : -view.to_eye_ws;
   const double lean = std::max(std::abs(glm::dot(hit.face_normal_ws, axis)), 1e-3);
   const glm::dmat3 axes = light_axes(axis);
   double longest = 0.0;
@@ -100,7 +100,7 @@ double texel_on_surface_px(const RayHit& hit, const Light& light, double texel, 
     const glm::dvec3 along = axes[side] * texel, on_surface = along - axis * (glm::dot(hit.face_normal_ws, along) / lean);
     longest = std::max(longest, glm::length(glm::cross(on_surface, sight)));
   }
-  return longest / pixel_width(view, hit.position_ew);
+  return longest / pixel_width(view, hit.position_rws);
 }
 
 void add(DistanceShares& shares, double distance, double weight) {
@@ -113,21 +113,21 @@ void divide(DistanceShares& s, int64_t count) {
 
 // The shares of false pixels. Of very many only each n-th is looked at, and counts n times.
 void score_false_pixels(ShadowComparison& c, const Pixels& pixels, const Shadow& shadow, const EdgeFinder& edges, const Workers& workers) {
-  constexpr std::size_t kMost = 4000;
+  constexpr std::size_t kMaxCount = 4000;
   std::vector<glm::ivec2> wrong;
   for (int y = 0; y < c.map.height(); ++y) {
     for (int x = 0; x < c.map.width(); ++x) {
       if (pixels.kind.at(x, y) == PixelKind::compared && std::abs(c.map.at(x, y) - c.truth.at(x, y)) > 0.5f) wrong.emplace_back(x, y);
     }
   }
-  const std::size_t stride = wrong.size() / kMost + 1, count = (wrong.size() + stride - 1) / stride;
+  const std::size_t stride = wrong.size() / kMaxCount + 1, count = (wrong.size() + stride - 1) / stride;
   std::vector<double> distances(count);
   // A soft shadow is held against a soft truth: beyond 1/2 its filter's width excuses nothing.
   const double radius = shadow.settings.filter == ShadowFilter::pcss ? 0.0 : static_cast<double>(filter_reach(shadow.settings)) - 0.5;
   workers.for_each(static_cast<int>(count), [&](int i) {
     const glm::ivec2 p = wrong[static_cast<std::size_t>(i) * stride];
     const RayHit& hit = *pixels.hits.at(p.x, p.y);
-    const double texel = texel_at(shadow, hit.position_ew);
+    const double texel = texel_at(shadow, hit.position_rws);
     distances[static_cast<std::size_t>(i)] =
         texel > 0.0 ? edges.distance(hit, hit.face_normal_ws, c.truth.at(p.x, p.y) > 0.5f, texel, radius) : 1e9;
   });
@@ -190,7 +190,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
       // Pixels at silhouettes may show different surfaces; compare_visibility tells how many.
       if (!hit || static_cast<float>(hit->mesh + 1) != mask.z || !choice.scene->meshes[static_cast<std::size_t>(hit->mesh)].receives_shadow)
         continue;
-      const Arriving<double> arriving = light_at<double>(light.light, hit->position_ew);
+      const IncidentLight<double> arriving = light_at<double>(light.light, hit->position_rws);
       const PictureRay ray = picture_ray(view, width, height, x + 0.5, y + 0.5);
       const double side = glm::dot(hit->face_normal_ws, glm::dvec3(ray.direction_ws)) < 0.0 ? 1.0 : -1.0;
       const double face_l = side * glm::dot(hit->face_normal_ws, arriving.l_ws);
@@ -202,7 +202,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
       out.map.at(x, y) = out.truth.at(x, y) = 0.0f;
       if (face_l <= 0.0) continue;
       out.facing.at(x, y) = static_cast<float>(face_l);
-      const LightTruth truth = light_truth(casters, ray_light, hit->position_ew, hit->face_normal_ws,
+      const LightTruth truth = light_truth(casters, ray_light, hit->position_rws, hit->face_normal_ws,
                                            static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x));
       out.truth.at(x, y) = truth.share;
       out.map.at(x, y) = mask.x;
@@ -219,7 +219,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
   s.edge_px = summary_of(distances);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const RayHit& hit = *pixels.hits.at(edges[i].x, edges[i].y);
-    const double texel_px = texel_on_surface_px(hit, light.light, texel_at(shadow, hit.position_ew), view);
+    const double texel_px = texel_on_surface_px(hit, light.light, texel_at(shadow, hit.position_rws), view);
     if (texel_px > 0.0) s.edge_texels += distances[i] / texel_px / static_cast<double>(distances.size());
   }
   s.map_ms = light.map_ms;

@@ -14,7 +14,7 @@ namespace halfspace {
 namespace {
 
 // The draw's number alone, as fine as the lens. numbers: of its points, red; the pass points into them.
-void draw_numbers(Pass& pass, const PreparedDraw& draw, SphereSprite<false> sprite, const SphereLens& lens, int finer,
+void draw_numbers(Pass& pass, const PreparedDraw& draw, SphereImpostor<false> sprite, const SphereIntersection& lens, int finer,
                   const std::vector<glm::vec3>& numbers) {
   sprite.lens = lens;
   sprite.point_scale *= static_cast<float>(finer);
@@ -39,7 +39,7 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
   }
   const SphereCamera camera(view.clip_from_world, view.near, view.far);
   std::deque<std::vector<glm::vec3>> centers_cs;  // the pass points into them
-  const SphereLens lens = camera.lens({width, height});
+  const SphereIntersection lens = camera.lens({width, height});
   for (const PlacedSpheres& s : scene.spheres) {
     const auto& centers = centers_cs.emplace_back(camera.centers_cs(*s.particles));
     const auto number = static_cast<float>(s.object < 0 ? kParticlesSeen : s.object + 1);
@@ -47,7 +47,7 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
   }
   std::vector<glm::vec3> particle_numbers;
   for (const PreparedDraw& draw : scene.draws) {
-    const auto* sprite = std::get_if<SphereSprite<false>>(&draw.shader);
+    const auto* sprite = std::get_if<SphereImpostor<false>>(&draw.shader);
     if (sprite == nullptr) continue;
     particle_numbers.assign(draw.indices->size(), glm::vec3(static_cast<float>(kParticlesSeen)));
     draw_numbers(pass, draw, *sprite, lens, finer, particle_numbers);

@@ -19,7 +19,7 @@ constexpr int kMeterTile = 64;
 glm::vec3 rgb_of(const glm::vec4& c) { return glm::vec3(c); }
 glm::vec3 rgb_of(const U16Vec4& c) { return {half_to_float(c.x), half_to_float(c.y), half_to_float(c.z)}; }
 
-// The sum of log(kLeastLuminance + luminance) over a square of the picture, from its first row on: logarithms by lanes, their sum in
+// The sum of log(kMinLuminance + luminance) over a square of the picture, from its first row on: logarithms by lanes, their sum in
 // the order of the pixels, so that lanes of any width give the same bits.
 template <class Pixel>
 double log_sum(const Image<Pixel>& light, int x0, int y0) {
@@ -30,7 +30,7 @@ double log_sum(const Image<Pixel>& light, int x0, int y0) {
     const Pixel* pixels = light.row(y).data() + x0;
     for (int x = 0; x < width; ++x) values[static_cast<std::size_t>(x)] = luminance<float>(rgb_of(pixels[x]));
     for (float* v = values.data(); v < values.data() + kMeterTile; v += kLanes) {
-      store(v, log(Real(kLeastLuminance) + clamp(load<Real>(v), 0.0f, kMaxHalf)));
+      store(v, log(Real(kMinLuminance) + clamp(load<Real>(v), 0.0f, kMaxHalf)));
     }
     for (int x = 0; x < width; ++x) sum += static_cast<double>(values[static_cast<std::size_t>(x)]);
   }

@@ -9,9 +9,9 @@
 namespace halfspace {
 
 /// What log_average_luminance adds to each luminance: black has no logarithm.
-inline constexpr float kLeastLuminance = 1e-6f;
+inline constexpr float kMinLuminance = 1e-6f;
 
-/// exp of the mean of log(kLeastLuminance + luminance) over all pixels (Reinhard et al. 2002, equation 1). A luminance that is
+/// exp of the mean of log(kMinLuminance + luminance) over all pixels (Reinhard et al. 2002, equation 1). A luminance that is
 /// NaN or below 0 counts as 0, one above 65504 as that. Summed in double, tile by tile in their order, so that the bits do
 /// not depend on the workers. Pixels are halfs or floats; at least one.
 double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers);

@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr std::size_t kMostLine = 1000;  // bytes
+constexpr std::size_t kMaxLine = 1000;  // bytes
 constexpr const char* kRow = "expected x,y,z[,radius[,r,g,b]]";
 
 std::string_view trimmed(std::string_view s) {
@@ -44,10 +44,10 @@ class RowReader {
     }
     if (row.count != 3 && row.count != 4 && row.count != 7)
       fail("has " + std::to_string(row.count) + (row.count == 1 ? " number" : " numbers"));
-    if (row.count > 3 && !(row.number[3] >= kLeastRadius && row.number[3] <= kMostRadius))
+    if (row.count > 3 && !(row.number[3] >= kMinRadius && row.number[3] <= kMaxRadius))
       fail("the radius is " + number_text(row.number[3]), "expected one from 1e-6 to 1e6");
     for (std::size_t k = 4; k < row.count; ++k) {
-      if (!(row.number[k] >= 0.0 && row.number[k] <= kMost))
+      if (!(row.number[k] >= 0.0 && row.number[k] <= kMaxCount))
         fail("a colour is " + number_text(row.number[k]), "expected one from 0 to 1e9");
     }
     return row;
@@ -58,13 +58,13 @@ class RowReader {
   }
 
  private:
-  static constexpr double kLeastRadius = 1e-6, kMostRadius = 1e6;
+  static constexpr double kMinRadius = 1e-6, kMaxRadius = 1e6;
 
   double number(std::string_view text) const {
     double x = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
     if (text.empty() || error != std::errc() || end != text.data() + text.size()) fail(quoted(text) + " is no number");
-    if (!(std::fabs(x) <= kMost)) fail(quoted(text) + " is out of range", "expected numbers from -1e9 to 1e9");
+    if (!(std::fabs(x) <= kMaxCount)) fail(quoted(text) + " is out of range", "expected numbers from -1e9 to 1e9");
     return x;
   }
 
@@ -94,7 +94,7 @@ Particles read_particles(const std::filesystem::path& path, const ParticlesDescr
   for (int number = 1; std::getline(file, line); ++number) {
     const std::string_view text = trimmed(line);
     if (text.empty() || text.front() == '#') continue;
-    if (text.size() > kMostLine) fail("line " + std::to_string(number) + " is longer than 1000 bytes; " + kRow);
+    if (text.size() > kMaxLine) fail("line " + std::to_string(number) + " is longer than 1000 bytes; " + kRow);
     rows.push_back(reader.read(text, number));
     if (rows.size() > static_cast<std::size_t>(kMaxParticles)) reader.fail("is row 1000001", "expected at most 1000000 rows");
   }

@@ -156,7 +156,7 @@ class ScenePreparation {
   std::shared_ptr<const ReliefDetail> relief_detail(const ObjectDescription& o, const std::string& path);
 
   // prepare_spheres.cpp
-  SphereSprites sphere_sprites(bool receives_shadow) const;
+  SphereImpostors sphere_impostors(bool receives_shadow) const;
   void draw_spheres(const Particles& spheres, const glm::dvec3& color, const SceneShader& shader);
   void add_exact_spheres(int object, const std::string& path, const ObjectDescription& o);
 
@@ -187,7 +187,7 @@ class ScenePreparation {
   std::span<const Light> lights_;
   std::span<const Light> shadowless_lights_;  // for what receives no shadow
   glm::dvec3 ambient_;
-  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not asked for yet
+  std::shared_ptr<const EnvironmentBlend> environments_;  // null: not asked for yet
   PreparedScene out_;
 };
 

@@ -202,7 +202,7 @@ EnvironmentBlend ScenePreparation::background_light() {
 // What surfaces mirror; null where reflections are off.
 const EnvironmentBlend* ScenePreparation::surroundings() {
   if (!scene_.reflections.on) return nullptr;
-  if (surroundings_ == nullptr) {
+  if (environments_ == nullptr) {
     EnvironmentBlend light;
     if (const std::string& name = scene_.reflections.environment; !name.empty()) {
       light.first = environment_of(name, environment_named(name).second);
@@ -213,10 +213,10 @@ const EnvironmentBlend* ScenePreparation::surroundings() {
       color.map = scene_.background.color;
       light.first = environment_of("background", color);
     }
-    surroundings_ = std::make_shared<const EnvironmentBlend>(light);
-    out_.assets.push_back(surroundings_);
+    environments_ = std::make_shared<const EnvironmentBlend>(light);
+    out_.assets.push_back(environments_);
   }
-  return surroundings_.get();
+  return environments_.get();
 }
 
 }  // namespace halfspace

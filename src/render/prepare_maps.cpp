@@ -85,18 +85,18 @@ double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_o
 int ScenePreparation::width_for(const ObjectDescription& o) const {
   // Heights out of view shade what is in view.
   const bool shades = is_map(o.height) && o.casts_shadow && scene_.shadow.method != ShadowMethod::none;
-  double most_px = 0.0;
+  double max_px = 0.0;
   for (const glm::dmat4& world : places_of(o)) {
     const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
     const double nearest = o.shape == Shape::plane && !shades ? depth_of_plane(o, world, view_) : distance_of_ball(o, world, scale, view_);
     const double distance = std::max(nearest, view_.near);
     const double height = camera().type == Projection::orthographic ? camera().height : 2.0 * view_.tan_y * distance;
-    most_px = std::max(most_px, extent_of(o).map_width * scale / height * view_.height_px);
+    max_px = std::max(max_px, extent_of(o).map_width * scale / height * view_.height_px);
   }
   const auto is_this = [&](const auto& entry) { return &entry.second == &o; };
   const auto expected = assets_.widths_.find(std::ranges::find_if(scene_.objects, is_this)->first);
   int width = expected == assets_.widths_.end() ? 256 : expected->second;
-  while (width < 4096 && 2 * width < most_px) width *= 2;
+  while (width < 4096 && 2 * width < max_px) width *= 2;
   return width;
 }
 
@@ -117,7 +117,7 @@ MapUse ScenePreparation::use_of(const MapValue& map, const ObjectDescription& o)
   }
   if (t.source == TextureSource::file) return {t, 0};
   if (t.width != 0) return {t, t.width};
-  return {t, is_pattern(t.source) ? std::clamp(width_for(o) / o.tiles_u, kLeastPattern, kMostPattern) : width_for(o)};
+  return {t, is_pattern(t.source) ? std::clamp(width_for(o) / o.tiles_u, kMinPattern, kMaxPattern) : width_for(o)};
 }
 
 std::shared_ptr<const MoonMaps> ScenePreparation::moon_maps(int width) {

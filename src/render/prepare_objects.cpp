@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "halfspace/core/check.h"
+#include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/render/preparation.h"
 
@@ -27,7 +28,7 @@ void ScenePreparation::place(LitSurface& s, glm::dmat4 world) const {
   s.clip_from_object = glm::mat4(view_.clip_from_world * world);
   world[3] -= glm::dvec4(view_.eye_ws, 0.0);
   s.world_from_object = glm::mat4(world);
-  s.normal_from_object = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world))));
+  s.normal_from_object = normal_matrix(world);
   s.handedness = glm::determinant(glm::dmat3(world)) < 0 ? -1.0f : 1.0f;
 }
 

@@ -20,7 +20,7 @@ void ScenePreparation::add_particles() {
   const std::shared_ptr<const Particles> particles = this->particles();
   if (particles == nullptr) return;
   const bool exact = p.sprite == ParticleSprite::exact;
-  SphereSprites s = sphere_sprites(exact && p.receives_shadow);
+  SphereImpostors s = sphere_impostors(exact && p.receives_shadow);
   s.point_scale = p.point_scale > 0.0 ? static_cast<float>(p.point_scale) : static_cast<float>(view_.width_px);
   s.ambient = glm::vec3(p.ambient.linear * ambient_);
   s.diffuse = glm::vec3(p.diffuse.linear);
@@ -29,9 +29,9 @@ void ScenePreparation::add_particles() {
   if (s.specular == glm::vec3(0.0f)) s.model = LightModel::lambert;
   if (exact) {
     out_.spheres.push_back({particles, p.casts_shadow, p.receives_shadow});
-    draw_spheres(*particles, p.color.linear, SphereSprite<true>{s});
+    draw_spheres(*particles, p.color.linear, SphereImpostor<true>{s});
   } else {
-    draw_spheres(*particles, p.color.linear, SphereSprite<false>{s});
+    draw_spheres(*particles, p.color.linear, SphereImpostor<false>{s});
   }
 }
 

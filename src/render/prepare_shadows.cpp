@@ -52,12 +52,12 @@ ShadowSettings settings_of(const ShadowDescription& d, const LightDescription& l
 }
 
 ShadowView to_shading(const LightView& v, int size, const glm::dvec3& eye_ws) {
-  glm::dmat4 world_from_ew(1.0);
-  world_from_ew[3] = glm::dvec4(eye_ws, 1.0);
-  const glm::dmat4 clip_from_ew = v.clip_from_world * world_from_ew;
+  glm::dmat4 world_from_rws(1.0);
+  world_from_rws[3] = glm::dvec4(eye_ws, 1.0);
+  const glm::dmat4 clip_from_rws = v.clip_from_world * world_from_rws;
   ShadowView s;
-  s.clip_from_ew = glm::mat4(clip_from_ew);
-  s.clip_plane_from_ew = glm::mat4(glm::transpose(glm::inverse(clip_from_ew)));
+  s.clip_from_rws = glm::mat4(clip_from_rws);
+  s.clip_plane_from_rws = glm::mat4(glm::transpose(glm::inverse(clip_from_rws)));
   s.texel_per_w = static_cast<float>(v.texel_per_w);
   s.depth_per_unit = static_cast<float>(v.depth_per_unit);
   s.perspective = v.perspective;
@@ -100,7 +100,7 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
 
 // Places of receivers that the picture shows, and the width of a pixel there: from a coarse picture of their depth.
 struct SeenPlace {
-  glm::dvec3 position_ew;
+  glm::dvec3 position_rws;
   double pixel;
 };
 std::vector<SeenPlace> seen_places(const View& view, const Placed& placed, const Workers& workers) {
@@ -114,8 +114,8 @@ std::vector<SeenPlace> seen_places(const View& view, const Placed& placed, const
       if (depth.at(x, row) == 0.0f) continue;
       const glm::dvec4 p = world_from_clip * glm::dvec4((x + 0.5) / kWidth * 2.0 - 1.0, 1.0 - (row + 0.5) / kHeight * 2.0,
                                                         static_cast<double>(depth.at(x, row)), 1.0);
-      const glm::dvec3 position_ew = glm::dvec3(p) / p.w - view.eye_ws;
-      places.push_back({position_ew, pixel_width(view, position_ew)});
+      const glm::dvec3 position_rws = glm::dvec3(p) / p.w - view.eye_ws;
+      places.push_back({position_rws, pixel_width(view, position_rws)});
     }
   }
   return places;
@@ -126,7 +126,7 @@ double footprint_of(const std::vector<ShadowView>& views, const std::vector<Seen
   std::vector<double> footprints;
   for (const SeenPlace& place : places) {
     for (const ShadowView& view : views) {
-      const ShadowPlace<float> p = place_on(view, glm::vec3(place.position_ew));
+      const ShadowCoordinates<float> p = place_on(view, glm::vec3(place.position_rws));
       if (!holds(view, p, margin)) continue;
       footprints.push_back(static_cast<double>(view.texel_per_w * p.w) / place.pixel);
       break;
@@ -149,7 +149,7 @@ int ScenePreparation::shadow_resolution(const LightDescription& light, const Sha
   if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
   const std::vector<SeenPlace> places = seen_places(view_, {out_.meshes, out_.spheres}, assets_.workers_);
   int size = 256;
-  for (; size < kMostShadowTexels; size *= 2) {
+  for (; size < kMaxShadowTexels; size *= 2) {
     std::vector<ShadowView> views;
     for (const LightView& view : shadow_views(light, settings, size)) views.push_back(to_shading(view, size, view_.eye_ws));
     if (footprint_of(views, places, filter_reach(settings)) <= scene_.shadow.footprint) break;

@@ -28,7 +28,7 @@ SphereRows rows_of(const Particles& spheres, const View& view, const glm::dvec3&
   return rows;
 }
 
-SphereLens lens_of(const CameraDescription& c, const View& view) {
+SphereIntersection intersection_of(const CameraDescription& c, const View& view) {
   const bool perspective = c.type == Projection::perspective;
   const double half_height = 0.5 * c.height, aspect = static_cast<double>(view.width_px) / view.height_px;
   const glm::dvec2 half = perspective ? glm::dvec2(view.tan_x, view.tan_y) : glm::dvec2(half_height * aspect, half_height);
@@ -37,9 +37,9 @@ SphereLens lens_of(const CameraDescription& c, const View& view) {
 
 }  // namespace
 
-SphereSprites ScenePreparation::sphere_sprites(bool receives_shadow) const {
-  SphereSprites s;
-  s.lens = lens_of(camera(), view_);
+SphereImpostors ScenePreparation::sphere_impostors(bool receives_shadow) const {
+  SphereImpostors s;
+  s.lens = intersection_of(camera(), view_);
   s.world_from_camera = glm::mat3(glm::dmat3(view_.right_ws, view_.up_ws, view_.forward_ws));
   s.to_eye_ws = glm::vec3(view_.to_eye_ws);
   s.lights = receives_shadow ? lights_ : shadowless_lights_;
@@ -61,14 +61,14 @@ void ScenePreparation::add_exact_spheres(int object, const std::string& path, co
     spheres->colors.emplace_back(1.0f);
   }
   const LitSurface surface = surface_of(o, path);
-  SphereSprites s = sphere_sprites(o.receives_shadow);
+  SphereImpostors s = sphere_impostors(o.receives_shadow);
   s.ambient = surface.factors[kAmbient].constant;
   s.diffuse = surface.factors[kDiffuse].constant;
   s.specular = surface.factors[kSpecular].constant;
   s.emissive = surface.factors[kEmissive].constant;
   s.shininess = surface.factors[kShininess].constant.x;
   s.model = surface.model;
-  draw_spheres(*spheres, glm::dvec3(surface.factors[kColor].constant), SphereSprite<true>{s});
+  draw_spheres(*spheres, glm::dvec3(surface.factors[kColor].constant), SphereImpostor<true>{s});
   out_.spheres.push_back({spheres, o.casts_shadow, o.receives_shadow, object});
 }
 

@@ -13,18 +13,18 @@ namespace halfspace {
 namespace {
 
 Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
-  constexpr double kLeastCone = 1e-6;  // in cosines: a sharp edge
+  constexpr double kMinCone = 1e-6;  // in cosines: a sharp edge
   const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
   const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
   Light light;
   light.type = d.type;
-  light.place_ew = glm::vec3(d.type == LightType::directional ? towards : d.position - eye_ws);
+  light.place_rws = glm::vec3(d.type == LightType::directional ? towards : d.position - eye_ws);
   light.diffuse = glm::vec3(color * d.diffuse);
   light.specular = glm::vec3(color * d.specular);
   light.attenuation = d.falloff == Falloff::physical ? glm::vec3(0, 0, 1) : glm::vec3(d.attenuation);
   light.axis_ws = glm::vec3(towards);
   light.cos_outer = static_cast<float>(cos_outer);
-  light.cone_scale = static_cast<float>(1.0 / std::max(cos_inner - cos_outer, kLeastCone));
+  light.cone_scale = static_cast<float>(1.0 / std::max(cos_inner - cos_outer, kMinCone));
   return light;
 }
 

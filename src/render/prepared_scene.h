@@ -20,7 +20,7 @@
 #include "halfspace/scene/description.h"
 #include "halfspace/shading/environment_sky.h"
 #include "halfspace/shading/shadow_map.h"
-#include "halfspace/shading/sphere_sprite.h"
+#include "halfspace/shading/sphere_impostor.h"
 #include "halfspace/shading/star_sky.h"
 #include "halfspace/shading/surface_shader.h"
 
@@ -36,7 +36,7 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
-                                 SphereSprite<false>, SphereSprite<true>, StarSky, EnvironmentSky>;
+                                 SphereImpostor<false>, SphereImpostor<true>, StarSky, EnvironmentSky>;
 
 /// One draw. std::visit on the shader gives its type back.
 struct PreparedDraw {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "halfspace/render/particles.h"
-#include "halfspace/shading/sphere_lens.h"
+#include "halfspace/shading/sphere_intersection.h"
 
 namespace halfspace {
 
@@ -15,8 +15,8 @@ class SphereCamera {
   /// clip_from_world: reversed Z in [0, w], without skew; near, far: where its depth is 1 and 0, units along the axis.
   SphereCamera(const glm::dmat4& clip_from_world, double near, double far);
 
-  SphereLens lens(const glm::ivec2& size_px) const { return {perspective_, half_, near_, far_, size_px}; }
-  /// In the camera's axes, as SphereLens has them.
+  SphereIntersection lens(const glm::ivec2& size_px) const { return {perspective_, half_, near_, far_, size_px}; }
+  /// In the camera's axes, as SphereIntersection has them.
   std::vector<glm::vec3> centers_cs(const Particles& spheres) const;
 
  private:

@@ -31,9 +31,9 @@ View make_view(const CameraDescription& c, int width, int height) {
   return v;
 }
 
-double pixel_width(const View& view, const glm::dvec3& position_ew) {
+double pixel_width(const View& view, const glm::dvec3& position_rws) {
   const glm::dmat4& m = view.clip_from_world;
-  const double spanned = view.to_eye_ws == glm::dvec3(0.0) ? 2.0 * view.tan_y * glm::dot(position_ew, view.forward_ws)
+  const double spanned = view.to_eye_ws == glm::dvec3(0.0) ? 2.0 * view.tan_y * glm::dot(position_rws, view.forward_ws)
                                                            : 2.0 / glm::length(glm::dvec3(m[0][1], m[1][1], m[2][1]));
   return spanned / view.height_px;
 }

@@ -22,7 +22,7 @@ struct View {
 View make_view(const CameraDescription& camera, int width, int height);
 
 /// Width of a pixel at a point (the world's axes, the eye as origin), across the view's axis; units.
-double pixel_width(const View& view, const glm::dvec3& position_ew);
+double pixel_width(const View& view, const glm::dvec3& position_rws);
 
 /// By how many pixels at most a point's picture moves if the point, somewhere within a ball, is moved by one unit of the
 /// world. The ball's own silhouette: only moves towards its centre count.

@@ -95,7 +95,7 @@ Section section_of(SceneHead& s) {
   static const std::vector<Key> keys{
       key<&SceneHead::title>("title", "What the scene shows, in one line"),
       key<&SceneHead::camera>("camera", "Name of the camera to render by; empty: the first"),
-      key<&SceneHead::ambient>("ambient", "Light that comes from everywhere, linear", {.low = 0, .high = kMost}),
+      key<&SceneHead::ambient>("ambient", "Light that comes from everywhere, linear", {.low = 0, .high = kMaxCount}),
       key<&SceneHead::samples>("samples", "Samples of a pixel that find edges: 1, 2, 4 or 8", {.low = 1, .high = 8}),
   };
   return {{keys, &s}};
@@ -109,9 +109,10 @@ Section section_of(CameraDescription& c) {
       key<&T::target>("target", "The point in the picture's middle", {.unit = "units"}),
       key<&T::up>("up", "Direction that points upwards in the picture"),
       key<&T::fov>("fov", "Vertical angle of view", {.unit = "degrees", .low = 0.01, .high = 179, .only = "perspective"}),
-      key<&T::height>("height", "What the picture's height spans", {.unit = "units", .low = kTiny, .high = kMost, .only = "orthographic"}),
-      key<&T::near>("near", "Nearest distance that is drawn", {.unit = "units", .low = kTiny, .high = kMost}),
-      key<&T::far>("far", "Farthest distance that is drawn", {.unit = "units", .low = kTiny, .high = kMost}),
+      key<&T::height>("height", "What the picture's height spans",
+                      {.unit = "units", .low = kTiny, .high = kMaxCount, .only = "orthographic"}),
+      key<&T::near>("near", "Nearest distance that is drawn", {.unit = "units", .low = kTiny, .high = kMaxCount}),
+      key<&T::far>("far", "Farthest distance that is drawn", {.unit = "units", .low = kTiny, .high = kMaxCount}),
   };
   return {{keys, &c}};
 }
@@ -249,7 +250,7 @@ Section section_of(ShadowDescription& s) {
       key<&T::method>("method", "How the map is filtered; none: no shadows, and no cost"),
       key<&T::bias>("bias", "How a surface is kept out of its own shadow"),
       key<&T::resolution>("resolution", "Width of a map, from 256 on; 0: as footprint asks",
-                          {.unit = "texels", .low = 0, .high = kMostShadowTexels}),
+                          {.unit = "texels", .low = 0, .high = kMaxShadowTexels}),
       key<&T::footprint>("footprint", "With resolution 0: what a texel spans at most on 95 % of the picture",
                          {.unit = "px", .low = 0.1, .high = 100}),
       key<&T::constant>("constant", "Constant part of the bias", {.unit = "texels", .low = 0, .high = 1000}),

@@ -121,7 +121,7 @@ struct SurfaceDescription {
 /// The key of a surface's first map; empty where it has none.
 std::string_view first_map(const SurfaceDescription& s);
 
-/// sphere: no mesh but a ray by pixel (shading/sphere_sprite.h); of surfaces without maps.
+/// sphere: no mesh but a ray by pixel (shading/sphere_impostor.h); of surfaces without maps.
 enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
 
@@ -216,7 +216,7 @@ enum class ShadowMethod : uint8_t { none, hard, bilinear, pcf3, pcf5, pcf7, voge
 enum class ShadowFaces : uint8_t { front, back, both };
 
 /// The narrowest and widest shadow map, texels. Narrower ones have no room for what the widest filter looks at on all sides.
-inline constexpr int kLeastShadowTexels = 256, kMostShadowTexels = 8192;
+inline constexpr int kMinShadowTexels = 256, kMaxShadowTexels = 8192;
 
 struct ShadowDescription {
   ShadowMethod method = ShadowMethod::none;
@@ -238,7 +238,7 @@ inline constexpr int kMaxParticles = 1000000;
 
 enum class ParticleArrangement : uint8_t { helix, grid, ball, galaxy };
 
-/// Spheres drawn as points (render/particles.h, shading/sphere_sprite.h).
+/// Spheres drawn as points (render/particles.h, shading/sphere_impostor.h).
 struct ParticlesDescription {
   ParticleSprite sprite = ParticleSprite::original;
   int count = 0;  ///< of generated ones; 0: none

@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kLeastPause = 1e-6;  // seconds from keyframe to keyframe
+constexpr double kMinPause = 1e-6;  // seconds from keyframe to keyframe
 
 [[noreturn]] void fail(const ReadContext& c, const std::string& path, const std::string& what) {
   throw InputError(c.source + ": " + path + ": " + what);
@@ -33,10 +33,11 @@ std::string shown(const Json& json) {
   if (key.type == KeyType::choice && got.is_string()) {
     fail(c, path, shown(got) + " is no choice" + suggestion(got.get_ref<const std::string&>(), key.choices));
   }
-  const bool unbounded = key.limits.low <= -kMost && key.limits.high >= kMost;
+  const bool unbounded = key.limits.low <= -kMaxCount && key.limits.high >= kMaxCount;
   const bool is_number = got.is_number() && (key.type == KeyType::integer || key.type == KeyType::number);
   const bool is_vector = got.is_array() && got.size() == 3 && key.type == KeyType::vector;
-  const std::string range = (is_number || is_vector) && unbounded ? " from " + number_text(-kMost) + " to " + number_text(kMost) : "";
+  const std::string range =
+      (is_number || is_vector) && unbounded ? " from " + number_text(-kMaxCount) + " to " + number_text(kMaxCount) : "";
   fail(c, path, "expected " + expectation(key) + range + ", got " + shown(got));
 }
 
@@ -77,7 +78,7 @@ std::optional<Color> color_from(const Key& key, const Json& json) {
 }
 
 // Can the text be shown, printed and read again? No control characters, and UTF-8.
-bool is_plain(const std::string& text) {
+bool is_opaque(const std::string& text) {
   if (std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; })) return false;
   try {
     (void)Json(text).dump();
@@ -88,7 +89,7 @@ bool is_plain(const std::string& text) {
 }
 
 void check_plain(const std::string& text, const std::string& path, const ReadContext& c) {
-  if (!is_plain(text)) fail(c, path, "has a control character or is no UTF-8; expected plain text");
+  if (!is_opaque(text)) fail(c, path, "has a control character or is no UTF-8; expected plain text");
 }
 
 // Empty names no file.
@@ -137,9 +138,8 @@ std::optional<Keyframes> keyframes_from(const Key& key, const Json& json) {
     if (!row.is_array() || row.size() != 2 || !row[0].is_number()) return std::nullopt;
     const std::optional<Numbers> value = numbers_from(key, row[1]);
     const auto time = row[0].get<double>();
-    const bool later =
-        frames.empty() || (time - frames.back().first >= kLeastPause && value && value->size() == frames.back().second.size());
-    if (!value || !later || !(std::fabs(time) <= kMost)) return std::nullopt;
+    const bool later = frames.empty() || (time - frames.back().first >= kMinPause && value && value->size() == frames.back().second.size());
+    if (!value || !later || !(std::fabs(time) <= kMaxCount)) return std::nullopt;
     frames.emplace_back(time, *value);
   }
   return frames;
@@ -209,9 +209,9 @@ Field find_field(const Section& section, std::string_view name) {
 
 std::string expectation(const Key& key) {
   const Limits& l = key.limits;
-  const std::string range = l.low <= -kMost && l.high >= kMost ? ""
-                            : l.high >= kMost                  ? " of at least " + number_text(l.low)
-                                                               : " from " + number_text(l.low) + " to " + number_text(l.high);
+  const std::string range = l.low <= -kMaxCount && l.high >= kMaxCount ? ""
+                            : l.high >= kMaxCount                      ? " of at least " + number_text(l.low)
+                                                                       : " from " + number_text(l.low) + " to " + number_text(l.high);
   const std::string unit = l.unit[0] == '\0' ? "" : " (" + std::string(l.unit) + ")";
   switch (key.type) {
     case KeyType::boolean: return "true or false";

@@ -54,13 +54,13 @@ struct ChoiceNames;
 // ---- keys ------------------------------------------------------------------------------------------------------
 
 /// The largest number that any key takes.
-inline constexpr double kMost = 1e9;
+inline constexpr double kMaxCount = 1e9;
 
 /// What a key allows besides its type.
 struct Limits {
-  const char* unit = "";              ///< for people: "units", "degrees", "s"
-  double low = -kMost, high = kMost;  ///< of a number, or of each component of a vector; inclusive
-  const char* only = "";              ///< kinds of section (choices of its first key, separated by spaces) that have this key; "": all
+  const char* unit = "";                      ///< for people: "units", "degrees", "s"
+  double low = -kMaxCount, high = kMaxCount;  ///< of a number, or of each component of a vector; inclusive
+  const char* only = "";  ///< kinds of section (choices of its first key, separated by spaces) that have this key; "": all
 };
 
 struct Key {

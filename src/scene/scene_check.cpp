@@ -16,11 +16,11 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kLeastScale = 1e-6, kLeastTerm = 1e-6;
-constexpr int64_t kMostVertices = int64_t{1} << 23;  // of one mesh: 0.6 GB
-constexpr int kMostPatternWidth = 4096;              // 14 bytes a texel, and square
-constexpr int64_t kMostCopies = 65536;
-constexpr int64_t kMostDrawnVertices = int64_t{1} << 25;  // of all copies that are drawn: 2 GB while a frame is rendered
+constexpr double kMinScale = 1e-6, kMinTerm = 1e-6;
+constexpr int64_t kMaxVertices = int64_t{1} << 23;  // of one mesh: 0.6 GB
+constexpr int kMaxPatternWidth = 4096;              // 14 bytes a texel, and square
+constexpr int64_t kMaxCopies = 65536;
+constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // of all copies that are drawn: 2 GB while a frame is rendered
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
 
@@ -34,8 +34,8 @@ void check(const CameraDescription& c, const std::string& where) {
 
 void check(const LightDescription& l, const std::string& where) {
   if (l.direction == glm::dvec3(0.0)) fail(where + ".direction", "is zero; expected a direction");
-  if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kLeastTerm) {
-    fail(where + ".attenuation", "is zero; expected one term of at least " + number_text(kLeastTerm));
+  if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kMinTerm) {
+    fail(where + ".attenuation", "is zero; expected one term of at least " + number_text(kMinTerm));
   }
   if (l.type == LightType::spot && l.inner > l.outer)
     fail(where + ".inner", number_text(l.inner) + " is more than outer; expected at most " + number_text(l.outer));
@@ -44,17 +44,16 @@ void check(const LightDescription& l, const std::string& where) {
 }
 
 void check(const ShadowDescription& s, const std::string& where) {
-  if (s.resolution != 0 && s.resolution < kLeastShadowTexels) {
+  if (s.resolution != 0 && s.resolution < kMinShadowTexels) {
     fail(where + ".resolution",
-         "expected 0, or from " + std::to_string(kLeastShadowTexels) + " on (filters look that far), got " + std::to_string(s.resolution));
+         "expected 0, or from " + std::to_string(kMinShadowTexels) + " on (filters look that far), got " + std::to_string(s.resolution));
   }
 }
 
 void check(const TextureDescription& t, const std::string& where) {
   if (t.width % 2 != 0) fail(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
-  if (is_pattern(t.source) && t.width > kMostPatternWidth)
-    fail(where + ".width",
-         "expected at most " + std::to_string(kMostPatternWidth) + " of a map that tiles, got " + std::to_string(t.width));
+  if (is_pattern(t.source) && t.width > kMaxPatternWidth)
+    fail(where + ".width", "expected at most " + std::to_string(kMaxPatternWidth) + " of a map that tiles, got " + std::to_string(t.width));
 }
 
 void check(const EnvironmentDescription& e, const std::string& where) {
@@ -65,8 +64,8 @@ void check(const SurfaceDescription&, const std::string&) {}
 
 void check(const Placement& p, const std::string& where) {
   const glm::dvec3 s = glm::abs(p.scale);
-  if (std::min({s.x, s.y, s.z}) < kLeastScale)
-    fail(where + ".scale", "has a zero; expected at least " + number_text(kLeastScale) + " either way");
+  if (std::min({s.x, s.y, s.z}) < kMinScale)
+    fail(where + ".scale", "has a zero; expected at least " + number_text(kMinScale) + " either way");
 }
 
 // Of the object's mesh; for an icosphere, without the few that its seam takes twice.
@@ -95,7 +94,7 @@ void check(const ObjectDescription& o, const std::string& where) {
   check(o.placement, where);
   for (std::size_t i = 0; i < o.instances.size(); ++i)
     check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));
-  if (vertices_of(o) > kMostVertices) fail(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
+  if (vertices_of(o) > kMaxVertices) fail(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
   if (is_ring(o.shape) && o.tube >= o.radius)
     fail(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
   if (is_ring(o.shape) && o.latitudes < 3) fail(where + ".latitudes", "2 make no tube; expected at least 3");
@@ -147,9 +146,9 @@ void check_room(const Named<ObjectDescription>& objects, const std::string& sour
     copies += count;
     vertices += vertices_of(o) * count;
   }
-  if (copies > kMostCopies)
-    fail(source, "objects: are " + std::to_string(copies) + " with all their instances; expected at most " + std::to_string(kMostCopies));
-  if (vertices > kMostDrawnVertices) {
+  if (copies > kMaxCopies)
+    fail(source, "objects: are " + std::to_string(copies) + " with all their instances; expected at most " + std::to_string(kMaxCopies));
+  if (vertices > kMaxDrawnVertices) {
     fail(source, "objects: have " + std::to_string(vertices) +
                      " vertices with all their instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
   }

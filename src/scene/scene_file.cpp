@@ -17,9 +17,9 @@ namespace halfspace {
 
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{4} << 20;
-constexpr std::size_t kMostNames = 4096;  // in one object, or places in one list
-constexpr int kMostLevels = 32;
+constexpr std::size_t kMaxBytes = std::size_t{4} << 20;
+constexpr std::size_t kMaxNames = 4096;  // in one object, or places in one list
+constexpr int kMaxLevels = 32;
 
 [[noreturn]] void fail(const std::string& source, const std::string& what) { throw InputError(source + ": " + what); }
 
@@ -51,14 +51,14 @@ class OnceOnly {
  public:
   explicit OnceOnly(const std::string& source) : source_(source) {}
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
-    if (depth > kMostLevels) fail(source_, "is nested deeper than " + std::to_string(kMostLevels) + " levels");
+    if (depth > kMaxLevels) fail(source_, "is nested deeper than " + std::to_string(kMaxLevels) + " levels");
     if (event == Json::parse_event_t::object_start) names_.emplace_back();
     if (event == Json::parse_event_t::object_end) names_.pop_back();
     if (event == Json::parse_event_t::key && !names_.back().insert(parsed.get<std::string>()).second) {
       fail(source_, "'" + parsed.get<std::string>() + "' stands twice in one object; expected each name once");
     }
-    if (!names_.empty() && names_.back().size() > kMostNames)
-      fail(source_, "an object has more than " + std::to_string(kMostNames) + " names");
+    if (!names_.empty() && names_.back().size() > kMaxNames)
+      fail(source_, "an object has more than " + std::to_string(kMaxNames) + " names");
     return true;
   }
 
@@ -81,7 +81,7 @@ std::string read_text(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) fail(path.string(), "no such scene file");
   if (!std::filesystem::is_regular_file(path, error)) fail(path.string(), "is no regular file; expected a scene file");
-  if (std::filesystem::file_size(path, error) > kMostBytes) fail(path.string(), "has more than 4 MiB; expected a scene file");
+  if (std::filesystem::file_size(path, error) > kMaxBytes) fail(path.string(), "has more than 4 MiB; expected a scene file");
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(path.string(), std::string("cannot be read (") + std::strerror(errno) + ")");
   return {std::istreambuf_iterator<char>(file), {}};
@@ -160,8 +160,8 @@ class Reader {
     read_section(section_of(object), json, path, context_, std::span(&kInstances, 1));
     if (!json.contains(kInstances)) return;
     const Json& list = json[kInstances];
-    if (!list.is_array() || list.size() > kMostNames)
-      fail(context_.source, path + ".instances: expected a list of at most " + std::to_string(kMostNames) + " objects");
+    if (!list.is_array() || list.size() > kMaxNames)
+      fail(context_.source, path + ".instances: expected a list of at most " + std::to_string(kMaxNames) + " objects");
     for (std::size_t i = 0; i < list.size(); ++i) {
       Placement p;
       read_section(section_of(p), list[i], path + ".instances." + std::to_string(i), context_);

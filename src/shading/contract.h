@@ -18,14 +18,14 @@
 //   template <class R> Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const;
 //     per surviving triangle; fragment then takes (const Varyings<R>&, const Primitive<R>&, const Pixel<R>&).
 //   PerVertex<R> or PerVertex<R, N> as what vertex returns: a point size and N clip distances beside the position; or
-//   SpriteVertex<R>: the rectangle that a point covers, for shaders that know the bounds of what they draw in it.
+//   PointSpriteVertex<R>: the rectangle that a point covers, for shaders that know the bounds of what they draw in it.
 //   template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;
 //     the keep mask and depth that fragment will return, without its colour: lets a shader that discards or writes
 //     depth be shaded once per visible pixel like an opaque one.
 //
 // R is float, double or lanes; float and glm::vec3 are uniform, R and vec3<R> vary from pixel to pixel. What fragment
 // returns says what it does: Fragment (colour only), DiscardingFragment, DepthFragment; or Fragments<R, N>,
-// DiscardingFragments<R, N>, DepthFragments<R, N> with a colour for each of N attachments.
+// DiscardingFragmentMRT<R, N>, DepthFragmentMRT<R, N> with a colour for each of N attachments.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ struct PerVertex {
 
 /// What a vertex function of points returns that sets their bounds itself: pixels whose samples lie in the rectangle are drawn.
 template <class R>
-struct SpriteVertex {
+struct PointSpriteVertex {
   vec2<R> low, high;  ///< normalized device coordinates (x/w, y/w) of its corners
   R depth;            ///< z/w, for the test unless the shader writes depth; clipped at near and far
   MaskOf<R> drawn;    ///< false: there is nothing to draw
@@ -80,16 +80,16 @@ struct DepthFragment {
 
 /// The same with N colours: one an attachment, or the two sources of dual source blending.
 template <class R, std::size_t N>
-struct Fragments {
+struct FragmentMRT {
   std::array<vec4<R>, N> color;
 };
 template <class R, std::size_t N>
-struct DiscardingFragments {
+struct DiscardingFragmentMRT {
   std::array<vec4<R>, N> color;
   MaskOf<R> keep;
 };
 template <class R, std::size_t N>
-struct DepthFragments {
+struct DepthFragmentMRT {
   std::array<vec4<R>, N> color;
   MaskOf<R> keep;
   R depth;
@@ -124,11 +124,11 @@ inline constexpr bool kIsPerVertex = false;
 template <class R, std::size_t N>
 inline constexpr bool kIsPerVertex<PerVertex<R, N>> = true;
 template <class T>
-inline constexpr bool kIsSpriteVertex = std::is_same_v<T, SpriteVertex<float>>;
+inline constexpr bool kIsPointSpriteVertex = std::is_same_v<T, PointSpriteVertex<float>>;
 }  // namespace detail
 /// What a vertex function may return.
 template <class T>
-concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsSpriteVertex<T>;
+concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsPointSpriteVertex<T>;
 
 namespace detail {
 template <class T>
@@ -140,19 +140,19 @@ inline constexpr bool kIsFragment<DiscardingFragment<R>> = true;
 template <class R>
 inline constexpr bool kIsFragment<DepthFragment<R>> = true;
 template <class R, std::size_t N>
-inline constexpr bool kIsFragment<Fragments<R, N>> = true;
+inline constexpr bool kIsFragment<FragmentMRT<R, N>> = true;
 template <class R, std::size_t N>
-inline constexpr bool kIsFragment<DiscardingFragments<R, N>> = true;
+inline constexpr bool kIsFragment<DiscardingFragmentMRT<R, N>> = true;
 template <class R, std::size_t N>
-inline constexpr bool kIsFragment<DepthFragments<R, N>> = true;
+inline constexpr bool kIsFragment<DepthFragmentMRT<R, N>> = true;
 }  // namespace detail
 /// What a fragment function may return.
 template <class T>
 concept FragmentResult = detail::kIsFragment<T>;
 
 template <class S>
-concept HasPlainVertexFunction = requires(const S& s, const typename S::template Attributes<float>& in,
-                                          typename S::template Varyings<float>& out) {
+concept HasVertexFunctionWithoutId = requires(const S& s, const typename S::template Attributes<float>& in,
+                                              typename S::template Varyings<float>& out) {
   { s.vertex(in, out) } -> VertexResult;
 };
 template <class S>
@@ -161,17 +161,17 @@ concept HasVertexIdFunction = requires(const S& s, const typename S::template At
   { s.vertex(in, id, out) } -> VertexResult;
 };
 template <class S>
-concept HasVertexFunction = HasPlainVertexFunction<S> || HasVertexIdFunction<S>;
+concept HasVertexFunction = HasVertexFunctionWithoutId<S> || HasVertexIdFunction<S>;
 template <class S>
 concept HasPrimitiveFunction = requires(const S& s, const typename S::template Varyings<float>& v) {
   { s.primitive(v, v, v) } -> std::same_as<typename S::template Primitive<float>>;
 };
 template <class S>
-concept HasPlainFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
+concept HasFragmentFunctionOfPixel = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
   s.fragment(in, px);
 };
 template <class S>
-concept HasBareFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in) {
+concept HasFragmentFunctionOfVaryings = requires(const S& s, const typename S::template Varyings<float>& in) {
   s.fragment(in);
 };
 template <class S>
@@ -181,7 +181,7 @@ concept HasPrimitiveFragmentFunction = requires(const S& s, const typename S::te
 };
 template <class S>
 concept HasFragmentFunction = (HasPrimitive<S> && HasPrimitiveFunction<S> && HasPrimitiveFragmentFunction<S>) ||
-                              (!HasPrimitive<S> && (HasPlainFragmentFunction<S> || HasBareFragmentFunction<S>));
+                              (!HasPrimitive<S> && (HasFragmentFunctionOfPixel<S> || HasFragmentFunctionOfVaryings<S>));
 template <class S>
 concept HasVisibilityFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
   { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
@@ -203,7 +203,7 @@ template <class S, class R, class P>
 HS_INLINE auto call_fragment(const S& s, const typename S::template Varyings<R>& in, const P& face, const Pixel<R>& px) {
   if constexpr (HasPrimitive<S>) {
     return s.fragment(in, face, px);
-  } else if constexpr (HasBareFragmentFunction<S>) {
+  } else if constexpr (HasFragmentFunctionOfVaryings<S>) {
     return s.fragment(in);
   } else {
     return s.fragment(in, px);
@@ -227,15 +227,15 @@ inline constexpr bool kIsDiscarding<DiscardingFragment<R>> = true;
 template <class R>
 inline constexpr bool kIsDiscarding<DepthFragment<R>> = true;
 template <class R, std::size_t N>
-inline constexpr bool kIsDiscarding<DiscardingFragments<R, N>> = true;
+inline constexpr bool kIsDiscarding<DiscardingFragmentMRT<R, N>> = true;
 template <class R, std::size_t N>
-inline constexpr bool kIsDiscarding<DepthFragments<R, N>> = true;
+inline constexpr bool kIsDiscarding<DepthFragmentMRT<R, N>> = true;
 template <class F>
 inline constexpr bool kHasDepth = false;
 template <class R>
 inline constexpr bool kHasDepth<DepthFragment<R>> = true;
 template <class R, std::size_t N>
-inline constexpr bool kHasDepth<DepthFragments<R, N>> = true;
+inline constexpr bool kHasDepth<DepthFragmentMRT<R, N>> = true;
 template <class C>
 inline constexpr std::size_t kColorsIn = 1;
 template <class C, std::size_t N>
@@ -336,7 +336,7 @@ template <class S>
 inline constexpr bool kGivesPointSize = detail::kIsPerVertex<VertexOf<S>>;
 /// Does it give the bounds of a sprite?
 template <class S>
-inline constexpr bool kGivesSprite = detail::kIsSpriteVertex<VertexOf<S>>;
+inline constexpr bool kGivesPointSprite = detail::kIsPointSpriteVertex<VertexOf<S>>;
 
 /// The position in what a vertex function returned; that of a sprite is its depth at w = 1, or at w = −1 if it is not drawn.
 template <class R>
@@ -348,7 +348,7 @@ HS_INLINE vec4<R> position_of(const PerVertex<R, N>& v) {
   return v.position;
 }
 template <class R>
-HS_INLINE vec4<R> position_of(const SpriteVertex<R>& v) {
+HS_INLINE vec4<R> position_of(const PointSpriteVertex<R>& v) {
   return vec4<R>(R(0.0f), R(0.0f), v.depth, select(v.drawn, R(1.0f), R(-1.0f)));
 }
 
@@ -364,6 +364,6 @@ inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>>;
 /// Is the shader's colour the same for a whole draw?
 template <class S>
 inline constexpr bool kIsConstant =
-    !HasPrimitive<S> && HasBareFragmentFunction<S> && kComponents<typename S::template Varyings<float>> == 0 && !kDiscards<S>;
+    !HasPrimitive<S> && HasFragmentFunctionOfVaryings<S> && kComponents<typename S::template Varyings<float>> == 0 && !kDiscards<S>;
 
 }  // namespace halfspace

@@ -44,7 +44,7 @@ struct Face {
 }  // namespace
 
 template <class R>
-EnvironmentMap::Place<R> EnvironmentMap::place_on_cube(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+EnvironmentMap::Coordinates<R> EnvironmentMap::cube_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
   Face<R> face;
   face.is_x = abs(d.x) >= abs(d.y) && abs(d.x) >= abs(d.z);
   face.is_y = !face.is_x && abs(d.y) >= abs(d.z);
@@ -62,7 +62,7 @@ EnvironmentMap::Place<R> EnvironmentMap::place_on_cube(const vec3<R>& d, const v
 
 // The angle that a step of the direction turns it by is |d × step| / |d|².
 template <class R>
-EnvironmentMap::Place<R> EnvironmentMap::place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+EnvironmentMap::Coordinates<R> EnvironmentMap::place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
   const auto squared = [](const vec3<R>& v) { return dot(v, v); };
   const R turn2 = max(squared(cross(d, dx)), squared(cross(d, dy))) / (squared(d) * squared(d));
   const R texels = R(std::max(0.5f * static_cast<float>(width()), static_cast<float>(height()))) * inverse_pi<R>();  // per radian
@@ -72,12 +72,12 @@ EnvironmentMap::Place<R> EnvironmentMap::place_on_panorama(const vec3<R>& d, con
 }
 
 template <class R>
-EnvironmentMap::Place<R> EnvironmentMap::place(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
-  return layout_ == EnvironmentLayout::cube ? place_on_cube(d, dx, dy) : place_on_panorama(d, dx, dy);
+EnvironmentMap::Coordinates<R> EnvironmentMap::place(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+  return layout_ == EnvironmentLayout::cube ? cube_coordinates(d, dx, dy) : place_on_panorama(d, dx, dy);
 }
 
 template <class R>
-vec4<R> EnvironmentMap::fetch(const Place<R>& at, IntOf<R> level) const {
+vec4<R> EnvironmentMap::fetch(const Coordinates<R>& at, IntOf<R> level) const {
   const IntOf<R> index = level * IntOf<R>(faces()) + at.face;
   vec4<R> light(R(0.0f));
   for (uint32_t left = bits(MaskOf<R>(true)); left != 0;) {
@@ -97,9 +97,9 @@ vec4<R> EnvironmentMap::fetch(const Place<R>& at, IntOf<R> level) const {
 
 template <Number R>
 vec3<R> EnvironmentMap::sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const {
-  const Place<R> at = place(d_ms, dx_ms, dy_ms);
-  const R held = clamp(at.lod, 0.0f, R(static_cast<float>(levels_ - 1)));
-  const R whole = floor(held), fraction = held - whole;
+  const Coordinates<R> at = place(d_ms, dx_ms, dy_ms);
+  const R clamped = clamp(at.lod, 0.0f, R(static_cast<float>(levels_ - 1)));
+  const R whole = floor(clamped), fraction = clamped - whole;
   const IntOf<R> level = truncate_to_int(whole);
   const vec4<R> light = fetch(at, level);
   if (none(fraction > R(0.0f))) return vec3<R>(light);

@@ -62,20 +62,20 @@ class EnvironmentMap {
  private:
   // Where a direction falls: which image of a level, coordinates in [0, 1], and the level.
   template <class R>
-  struct Place {
+  struct Coordinates {
     IntOf<R> face;
     vec2<R> st;
     R lod;
   };
 
   template <class R>
-  Place<R> place(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
+  Coordinates<R> place(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>
-  Place<R> place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
+  Coordinates<R> place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>
-  Place<R> place_on_cube(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
+  Coordinates<R> cube_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>
-  vec4<R> fetch(const Place<R>& at, IntOf<R> level) const;
+  vec4<R> fetch(const Coordinates<R>& at, IntOf<R> level) const;
 
   int faces() const { return layout_ == EnvironmentLayout::cube ? 6 : 1; }
   const Texture2D& image(int level, int face) const { return images_[static_cast<std::size_t>(level * faces() + face)]; }

@@ -87,8 +87,8 @@ using Faces = std::array<Image<Texel>, 6>;
 template <class Texel>
 const Texel& beyond_edge(const Faces<Texel>& faces, int face, int x, int y) {
   const int n = faces[0].width();
-  const auto held = [n](int i) { return std::clamp((2 * i + 1.0) / n - 1.0, -1.0, 1.0); };
-  glm::dvec3 d = cube_direction(face, held(x), held(y));  // on the edge; then over it by half a texel
+  const auto clamped = [n](int i) { return std::clamp((2 * i + 1.0) / n - 1.0, -1.0, 1.0); };
+  glm::dvec3 d = cube_direction(face, clamped(x), clamped(y));  // on the edge; then over it by half a texel
   d[face / 2] *= 1.0 - 1.0 / n;
   for (int other = 0; other < 6; ++other) {
     const double sign = other % 2 == 0 ? 1.0 : -1.0;

@@ -48,7 +48,7 @@ struct Footprint {
 /// A ratio of axes up to 1/1024 above a whole number counts as that number: the ratio of a circle is 1 but for rounding. A
 /// longer axis above 2^30 texels, infinite or NaN gives one probe at level_of_detail.
 template <Number R>
-HS_INLINE Footprint<R> footprint(int width, int height, const vec2<R>& duv_dx, const vec2<R>& duv_dy, int most) {
+HS_INLINE Footprint<R> footprint(int width, int height, const vec2<R>& duv_dx, const vec2<R>& duv_dy, int max_probes) {
   const R w(static_cast<float>(width)), h(static_cast<float>(height)), one(1.0f), half(0.5f);
   const R ux = duv_dx.x * w, vx = duv_dx.y * h;
   const R uy = duv_dy.x * w, vy = duv_dy.y * h;
@@ -58,7 +58,7 @@ HS_INLINE Footprint<R> footprint(int width, int height, const vec2<R>& duv_dx, c
   const R det = difference_of_products(ux, vy, uy, vx);
   const R minor2 = max(det * det / major2, one);  // NaN: one
   const R ratio = sqrt(major2 / minor2);
-  const R probes = clamp(-floor(-(ratio * R(1.0f - 0x1p-10f))), 1.0f, R(static_cast<float>(most)));
+  const R probes = clamp(-floor(-(ratio * R(1.0f - 0x1p-10f))), 1.0f, R(static_cast<float>(max_probes)));
   const R size2 = max(minor2, major2 / (probes * probes));
   // The longer axis's direction, an eigenvector of J·Jᵀ, from the row whose numbers do not cancel.
   const MaskOf<R> flat = a >= c;

@@ -24,11 +24,11 @@
 
 namespace halfspace {
 
-/// One light. Colours are linear, intensity included. The suffix _ew says: the world's axes, but the eye as origin, so that
+/// One light. Colours are linear, intensity included. The suffix _rws says: the world's axes, but the eye as origin, so that
 /// floats are finest where the eye is.
 struct Light {
   LightType type = LightType::directional;
-  glm::vec3 place_ew{0, 0, 1};  ///< directional: unit vector towards the light; else its position
+  glm::vec3 place_rws{0, 0, 1};  ///< directional: unit vector towards the light; else its position
   glm::vec3 diffuse{1.0f};
   glm::vec3 specular{1.0f};
   glm::vec3 attenuation{1, 0, 0};  ///< terms a of 1 / (a0 + a1·d + a2·d²); (0, 0, 1) is the physical falloff
@@ -39,7 +39,7 @@ struct Light {
 };
 
 /// What arrives nearer to a light than the distance at which its attenuation is 1 over this is held to it.
-inline constexpr float kLeastAttenuation = 1e-12f;
+inline constexpr float kMinAttenuation = 1e-12f;
 
 /// v over its length; the zero vector stays zero.
 template <class R>
@@ -58,7 +58,7 @@ HS_INLINE vec3<R> face_towards(const vec3<R>& normal, const vec3<R>& v) {
 /// The point of a surface that is lit.
 template <class R>
 struct SurfacePoint {
-  vec3<R> position_ew;
+  vec3<R> position_rws;
   vec3<R> n_ws;  ///< unit normal; a zero or NaN one is in the dark
   vec3<R> v_ws;  ///< unit vector towards the eye
   // For shadows alone; where no light has one they may be anything.
@@ -68,19 +68,19 @@ struct SurfacePoint {
 
 /// A light as a point sees it.
 template <class R>
-struct Arriving {
+struct IncidentLight {
   vec3<R> l_ws;  ///< unit vector towards the light
   R strength;    ///< what arrives of it: every factor between light and point is multiplied in here
 };
 
 template <class R>
-HS_INLINE Arriving<R> light_at(const Light& light, const vec3<R>& position_ew) {
-  if (light.type == LightType::directional) return {vec3<R>(light.place_ew), R(1)};
-  const vec3<R> to_light = light.place_ew - position_ew;
+HS_INLINE IncidentLight<R> light_at(const Light& light, const vec3<R>& position_rws) {
+  if (light.type == LightType::directional) return {vec3<R>(light.place_rws), R(1)};
+  const vec3<R> to_light = light.place_rws - position_rws;
   const R d = sqrt(dot(to_light, to_light));
   const vec3<R> l_ws = normalize_or_zero(to_light);
   const R attenuation = fma(R(light.attenuation.z) * d + R(light.attenuation.y), d, R(light.attenuation.x));
-  R strength = R(1) / max(attenuation, R(kLeastAttenuation));
+  R strength = R(1) / max(attenuation, R(kMinAttenuation));
   if (light.type == LightType::spot) {
     const R t = clamp((dot(l_ws, light.axis_ws) - R(light.cos_outer)) * R(light.cone_scale), R(0), R(1));
     strength *= t * t * (R(3) - R(2) * t);
@@ -108,11 +108,11 @@ template <class R>
 HS_INLINE Illumination<R> illuminate(std::span<const Light> lights, LightModel model, R shininess, const SurfacePoint<R>& p) {
   Illumination<R> sum{vec3<R>(R(0)), vec3<R>(R(0))};
   for (const Light& light : lights) {
-    Arriving<R> arriving = light_at(light, p.position_ew);
+    IncidentLight<R> arriving = light_at(light, p.position_rws);
     const R n_l = dot(p.n_ws, arriving.l_ws);
     if (light.shadow != nullptr && any(n_l > R(0)))  // what faces away is dark without asking
       arriving.strength *=
-          light_arriving(*light.shadow, ShadowReceiver<R>{p.position_ew, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+          shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
     sum.diffuse += light.diffuse * (max(n_l, R(0)) * arriving.strength);
     if (model == LightModel::lambert) continue;
     const R highlight = unit_pow(highlight_cosine(model, p, arriving.l_ws, n_l), shininess);

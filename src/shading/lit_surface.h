@@ -33,7 +33,7 @@ using Material = std::array<vec3<R>, kMaterialFactors>;
 
 /// A place on a surface's maps, for a pixel whose steps to the right and up change uv by duv_dx and duv_dy.
 template <class R>
-struct MapPlace {
+struct MapCoordinates {
   vec2<R> uv, duv_dx, duv_dy;
 };
 
@@ -49,7 +49,7 @@ struct DetailMap {
 /// Uniforms, to be inherited by a shader.
 struct LitSurface {
   glm::mat4 clip_from_object;
-  glm::mat4 world_from_object;    ///< to the world's axes round the eye (_ew, see Light)
+  glm::mat4 world_from_object;    ///< to the world's axes round the eye (_rws, see Light)
   glm::mat3 normal_from_object;   ///< inverse transpose of world_from_object's upper left 3x3
   float handedness = 1.0f;        ///< −1 where world_from_object mirrors
   glm::vec3 to_eye_ws{0.0f};      ///< unit vector towards the eye where that is the same everywhere (orthographic); else 0
@@ -63,13 +63,13 @@ struct LitSurface {
   glm::vec3 reflection{0.0f};
 
   template <class R>
-  HS_INLINE vec3<R> position_ew(const vec3<R>& position_os) const {
+  HS_INLINE vec3<R> position_rws(const vec3<R>& position_os) const {
     return vec3<R>(world_from_object * vec4<R>(position_os, R(1)));
   }
 
   template <class R>
-  HS_INLINE vec3<R> to_eye(const vec3<R>& position_ew) const {
-    return to_eye_ws == glm::vec3(0.0f) ? normalize_or_zero(-position_ew) : vec3<R>(to_eye_ws);
+  HS_INLINE vec3<R> to_eye(const vec3<R>& position_rws) const {
+    return to_eye_ws == glm::vec3(0.0f) ? normalize_or_zero(-position_rws) : vec3<R>(to_eye_ws);
   }
 
   /// The factors without their maps.
@@ -82,7 +82,7 @@ struct LitSurface {
 
   /// The factors with their maps. A map that is the colour's own is not read again.
   template <class R>
-  HS_INLINE Material<R> material_at(const MapPlace<R>& place) const {
+  HS_INLINE Material<R> material_at(const MapCoordinates<R>& place) const {
     Material<R> m;
     vec3<R> color_texel(R(1));
     for (std::size_t i = 0; i < kMaterialFactors; ++i) {  // a loop, for one copy of the look-up

@@ -137,7 +137,7 @@ struct Pixel {
   HS_INLINE V at_quad(int i, int j) const {
     const R to_x = (R(static_cast<float>(i)) - quad_x) * R(256);
     const R to_y = (R(static_cast<float>(j)) - quad_y) * R(256);
-    const Weights<R> w = weights_at<kUsesLinear<V>>(*triangle, dx + to_x, dy + to_y);
+    const Weights<R> w = weights_at<kUsesNoPerspective<V>>(*triangle, dx + to_x, dy + to_y);
     return interpolate_all<V>(w, components<V>(), std::make_index_sequence<kComponents<V>>());
   }
 

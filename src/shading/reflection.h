@@ -40,8 +40,8 @@ HS_INLINE Differential<R> reflected(const Differential<R>& d, const Differential
 /// The light of the surroundings in a mirror: from_eye_ws is the vector from the eye to the surface (of any length), normal_ws
 /// the unit normal, both with their derivatives.
 template <Number R>
-HS_INLINE vec3<R> mirrored_light(const EnvironmentBlend& environment, const Differential<R>& from_eye_ws,
-                                 const Differential<R>& normal_ws) {
+HS_INLINE vec3<R> environment_reflection(const EnvironmentBlend& environment, const Differential<R>& from_eye_ws,
+                                         const Differential<R>& normal_ws) {
   const Differential<R> r = reflected(from_eye_ws, normal_ws);
   return environment.light(r.at, r.dx, r.dy);
 }

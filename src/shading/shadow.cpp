@@ -5,11 +5,11 @@
 
 namespace halfspace {
 
-template float light_arriving(const Shadow&, const ShadowReceiver<float>&);
-template double light_arriving(const Shadow&, const ShadowReceiver<double>&);
-template FragmentReal light_arriving(const Shadow&, const ShadowReceiver<FragmentReal>&);
+template float shadow_factor(const Shadow&, const ShadowReceiver<float>&);
+template double shadow_factor(const Shadow&, const ShadowReceiver<double>&);
+template FragmentReal shadow_factor(const Shadow&, const ShadowReceiver<FragmentReal>&);
 #if HALFSPACE_LANES > 1
-template Real light_arriving(const Shadow&, const ShadowReceiver<Real>&);
+template Real shadow_factor(const Shadow&, const ShadowReceiver<Real>&);
 #endif
 
 }  // namespace halfspace

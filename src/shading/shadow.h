@@ -11,13 +11,13 @@ namespace halfspace {
 /// 0 (in shadow) … 1 (lit). Of several views the first counts that holds the point with all texels that the filter asks.
 /// Outside of all views, and behind the light, a point is lit.
 template <class R>
-R light_arriving(const Shadow& shadow, const ShadowReceiver<R>& at);
+R shadow_factor(const Shadow& shadow, const ShadowReceiver<R>& at);
 
-extern template float light_arriving(const Shadow&, const ShadowReceiver<float>&);
-extern template double light_arriving(const Shadow&, const ShadowReceiver<double>&);
-extern template FragmentReal light_arriving(const Shadow&, const ShadowReceiver<FragmentReal>&);
+extern template float shadow_factor(const Shadow&, const ShadowReceiver<float>&);
+extern template double shadow_factor(const Shadow&, const ShadowReceiver<double>&);
+extern template FragmentReal shadow_factor(const Shadow&, const ShadowReceiver<FragmentReal>&);
 #if HALFSPACE_LANES > 1
-extern template Real light_arriving(const Shadow&, const ShadowReceiver<Real>&);
+extern template Real shadow_factor(const Shadow&, const ShadowReceiver<Real>&);
 #endif
 
 }  // namespace halfspace

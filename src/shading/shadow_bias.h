@@ -24,10 +24,10 @@ inline float filter_reach(const ShadowSettings& s) {
 
 /// The place of the receiver lifted along its face's normal by `texels` times the sine of the light's angle.
 template <class R>
-HS_INLINE ShadowPlace<R> lifted_place(const ShadowView& view, const ShadowReceiver<R>& at, R cosine, float texels) {
-  const R w = place_on(view, at.position_ew).w;
+HS_INLINE ShadowCoordinates<R> normal_offset_coordinates(const ShadowView& view, const ShadowReceiver<R>& at, R cosine, float texels) {
+  const R w = place_on(view, at.position_rws).w;
   const R step = R(texels * view.texel_per_w) * w * sqrt(R(1) - cosine * cosine);
-  return place_on(view, at.position_ew + at.face_normal_ws * step);
+  return place_on(view, at.position_rws + at.face_normal_ws * step);
 }
 
 /// Tangent of the angle whose cosine is given, up to a limit.
@@ -46,11 +46,11 @@ HS_INLINE R automatic_lift(const ShadowSettings& s, R tangent) {
 
 /// Where the receiver lies on the view, moved by the bias that the settings ask for.
 template <class R>
-HS_INLINE ShadowPlace<R> biased_place(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
+HS_INLINE ShadowCoordinates<R> biased_place(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
   const R cosine = clamp(dot(at.face_normal_ws, at.to_light_ws), R(0), R(1));
-  if (s.bias == ShadowBias::normal_offset) return lifted_place(view, at, cosine, s.constant * filter_reach(s));
+  if (s.bias == ShadowBias::normal_offset) return normal_offset_coordinates(view, at, cosine, s.constant * filter_reach(s));
 
-  ShadowPlace<R> p = place_on(view, at.position_ew);
+  ShadowCoordinates<R> p = place_on(view, at.position_rws);
   const R texel = depth_of_texel(view, p.w);
   switch (s.bias) {
     case ShadowBias::constant: p.depth += texel * R(s.constant); break;
@@ -58,15 +58,15 @@ HS_INLINE ShadowPlace<R> biased_place(const ShadowView& view, const ShadowSettin
     case ShadowBias::angle: p.depth += texel * max(R(s.slope) * (R(1) - cosine), R(s.constant)); break;
     case ShadowBias::original: p.depth += R(0.0005f); break;
     case ShadowBias::receiver_plane:
-      set_plane(view, at.position_ew, at.face_normal_ws, s.max_slope, p);
+      set_plane(view, at.position_rws, at.face_normal_ws, s.max_slope, p);
       p.depth += texel * R(s.constant);
       break;
     case ShadowBias::adaptive:  // a ten-thousandth of the view's length, besides the plane
-      set_plane(view, at.position_ew, at.shading_normal_ws, s.max_slope, p);
+      set_plane(view, at.position_rws, at.shading_normal_ws, s.max_slope, p);
       p.depth += R((view.far - view.near) * 1e-4f * view.depth_per_unit) / (p.w * p.w);
       break;
     case ShadowBias::automatic:
-      set_plane(view, at.position_ew, at.face_normal_ws, kSteepestSlope, p);
+      set_plane(view, at.position_rws, at.face_normal_ws, kSteepestSlope, p);
       p.depth += texel * automatic_lift(s, tangent_of(cosine, kSteepestSlope));
       break;
     default: break;

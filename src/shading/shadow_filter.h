@@ -50,14 +50,14 @@ HS_INLINE Turn<R> turn_of(const ShadowReceiver<R>& at) {
 
 /// By the texel that holds the place.
 template <class R>
-HS_INLINE R hard_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
+HS_INLINE R hard_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
   return lit_by_texel(view, p, truncate_to_int(floor(p.x)), truncate_to_int(floor(p.y)));
 }
 
 /// The mean over a square of width x width texels round the place: whole texels count 1, those at the square's border by
 /// their part within it. width is odd; 1 is bilinear comparison.
 template <int width, class R>
-HS_INLINE R box_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
+HS_INLINE R box_pcf(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const R left = p.x - R(0.5f * width), low = p.y - R(0.5f * width);
   const R left_texel = floor(left), low_texel = floor(low);
   const R fx = left - left_texel, fy = low - low_texel;
@@ -78,7 +78,7 @@ HS_INLINE R box_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
 
 /// The mean of nine texels, all alike: the plain form of pcf3, as the day and night's original has it.
 template <class R>
-HS_INLINE R nine_texels(const ShadowView& view, const ShadowPlace<R>& p) {
+HS_INLINE R pcf_3x3(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const IntOf<R> i = truncate_to_int(floor(p.x)), j = truncate_to_int(floor(p.y));
   R sum(0);
   for (int dj = -1; dj <= 1; ++dj) {
@@ -89,7 +89,7 @@ HS_INLINE R nine_texels(const ShadowView& view, const ShadowPlace<R>& p) {
 
 /// The mean of N texels on a disk of `radius` texels.
 template <int N, class R>
-HS_INLINE R disk_shadow(const ShadowView& view, const ShadowPlace<R>& p, R radius, const detail::Turn<R>& turn) {
+HS_INLINE R disk_shadow(const ShadowView& view, const ShadowCoordinates<R>& p, R radius, const detail::Turn<R>& turn) {
   R sum(0);
   for (const glm::vec2& point : detail::vogel_disk<N>()) {
     const vec2<R> d = turn(point) * radius;
@@ -102,7 +102,7 @@ HS_INLINE R disk_shadow(const ShadowView& view, const ShadowPlace<R>& p, R radiu
 /// Directional: tan · Δz, with Δz = Δdepth / depth_per_unit. Perspective: radius · (1/w_occluder − 1/w) on the plane w = 1, and
 /// depth is depth_per_unit/w + constant: the same formula.
 template <class R>
-HS_INLINE R penumbra_texels(const ShadowView& view, float light_radius, const ShadowPlace<R>& p, R occluder_depth) {
+HS_INLINE R penumbra_texels(const ShadowView& view, float light_radius, const ShadowCoordinates<R>& p, R occluder_depth) {
   return (occluder_depth - p.depth) * R(light_radius / (view.depth_per_unit * view.texel_per_w));
 }
 
@@ -112,18 +112,18 @@ HS_INLINE R penumbra_texels(const ShadowView& view, float light_radius, const Sh
 /// (Guennebaud, Barthe and Paulin, "Real-time soft shadow mapping by backprojection", EGSR 2006). Texels behind each other are
 /// taken as beside each other.
 template <class R>
-HS_INLINE R soft_shadow(const ShadowView& view, const ShadowPlace<R>& p, float light_radius, const detail::Turn<R>& turn) {
+HS_INLINE R soft_shadow(const ShadowView& view, const ShadowCoordinates<R>& p, float light_radius, const detail::Turn<R>& turn) {
   constexpr int kSearched = 64, kProjected = 128;
-  constexpr float kLeast = 0.5f;  // texels: below, one texel hides all
+  constexpr float kMinimum = 0.5f;  // texels: below, one texel hides all
   // Of a texel d away from the place: 1 if it lies nearer to the light, and the radius of the light's cone at its depth.
   struct Tap {
     R blocks, cone;
   };
   const auto tap_at = [&](const vec2<R>& d) {
     const IntOf<R> i = truncate_to_int(floor(p.x + d.x)), j = truncate_to_int(floor(p.y + d.y));
-    return Tap{R(1) - lit_by_texel(view, p, i, j), max(penumbra_texels(view, light_radius, p, map_depth<R>(view, i, j)), R(kLeast))};
+    return Tap{R(1) - lit_by_texel(view, p, i, j), max(penumbra_texels(view, light_radius, p, map_depth<R>(view, i, j)), R(kMinimum))};
   };
-  const R searched = clamp(penumbra_texels(view, light_radius, p, R(1)), R(kLeast), R(kMaxPenumbra));
+  const R searched = clamp(penumbra_texels(view, light_radius, p, R(1)), R(kMinimum), R(kMaxPenumbra));
   R widest(0);
   for (const glm::vec2& point : detail::vogel_disk<kSearched>()) {
     const Tap tap = tap_at(turn(point) * searched);
@@ -143,13 +143,13 @@ HS_INLINE R soft_shadow(const ShadowView& view, const ShadowPlace<R>& p, float l
 
 /// The share of light at a place by the settings' filter.
 template <class R>
-HS_INLINE R filtered_shadow(const ShadowView& view, const ShadowSettings& s, const ShadowPlace<R>& p, const ShadowReceiver<R>& at) {
+HS_INLINE R filtered_shadow(const ShadowView& view, const ShadowSettings& s, const ShadowCoordinates<R>& p, const ShadowReceiver<R>& at) {
   switch (s.filter) {
     case ShadowFilter::hard: return hard_shadow(view, p);
-    case ShadowFilter::bilinear: return box_shadow<1>(view, p);
-    case ShadowFilter::pcf3: return s.bias == ShadowBias::original ? nine_texels(view, p) : box_shadow<3>(view, p);
-    case ShadowFilter::pcf5: return box_shadow<5>(view, p);
-    case ShadowFilter::pcf7: return box_shadow<7>(view, p);
+    case ShadowFilter::bilinear: return box_pcf<1>(view, p);
+    case ShadowFilter::pcf3: return s.bias == ShadowBias::original ? pcf_3x3(view, p) : box_pcf<3>(view, p);
+    case ShadowFilter::pcf5: return box_pcf<5>(view, p);
+    case ShadowFilter::pcf7: return box_pcf<7>(view, p);
     case ShadowFilter::vogel: return disk_shadow<16>(view, p, R(s.radius), detail::turn_of(at));
     case ShadowFilter::pcss: return soft_shadow(view, p, s.light_radius, detail::turn_of(at));
     case ShadowFilter::vsm: return chebyshev_shadow(view, p);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The body of light_arriving (shading/shadow.h). Compiled once, in shadow.cpp: shaders call it, and do not grow by it.
+// The body of shadow_factor (shading/shadow.h). Compiled once, in shadow.cpp: shaders call it, and do not grow by it.
 #pragma once
 
 #include "halfspace/shading/shadow.h"
@@ -10,12 +10,12 @@
 namespace halfspace {
 
 template <class R>
-R light_arriving(const Shadow& shadow, const ShadowReceiver<R>& at) {
+R shadow_factor(const Shadow& shadow, const ShadowReceiver<R>& at) {
   R light(1);
   MaskOf<R> open = light == R(1);
   const float margin = filter_reach(shadow.settings);
   for (const ShadowView& view : shadow.views) {
-    const ShadowPlace<R> p = biased_place(view, shadow.settings, at);
+    const ShadowCoordinates<R> p = biased_place(view, shadow.settings, at);
     const MaskOf<R> here = open && holds(view, p, margin);
     if (none(here)) continue;
     light = select(here, filtered_shadow(view, shadow.settings, p, at), light);

@@ -17,7 +17,7 @@ HS_INLINE R linear_depth(const ShadowView& view, R depth, R w) {
 
 /// The moments at a place, mixed from four texels.
 template <class R>
-HS_INLINE vec4<R> moments_at(const ShadowView& view, const ShadowPlace<R>& p) {
+HS_INLINE vec4<R> moments_at(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const R x = p.x - R(0.5f), y = p.y - R(0.5f);
   const R left = floor(x), low = floor(y);
   const R fx = x - left, fy = y - low;
@@ -36,7 +36,7 @@ HS_INLINE vec4<R> moments_at(const ShadowView& view, const ShadowPlace<R>& p) {
 
 /// The largest share of light that mean and variance allow (Chebyshev's inequality). Two occluders of different depth leak.
 template <class R>
-HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
+HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const vec4<R> m = moments_at(view, p);
   const R depth = linear_depth(view, p.depth, p.w);
   const R variance = max(m.y - m.x * m.x, R(1e-7f));
@@ -47,7 +47,7 @@ HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
 /// The largest share of light that four moments allow: the distribution on two depths and the receiver's own that has
 /// these moments. C. Peters and R. Klein, "Moment shadow mapping", I3D 2015, section 3 (Hamburger, four moments).
 template <class R>
-HS_INLINE R four_moment_shadow(const ShadowView& view, const ShadowPlace<R>& p) {
+HS_INLINE R four_moment_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
   // The moments are drawn a little towards those of a spread-out distribution, against rounding.
   constexpr float kSpread = 1e-5f;
   const vec4<R> m = moments_at(view, p) * (1.0f - kSpread) + vec4<R>(R(0.5f * kSpread));

@@ -11,7 +11,7 @@ namespace halfspace {
 
 /// A point on a view. Texel coordinates count from the lower left corner; texel i spans [i, i + 1].
 template <class R>
-struct ShadowPlace {
+struct ShadowCoordinates {
   R x, y;                ///< texels
   R depth;               ///< reversed window depth
   R w;                   ///< clip w: distance along the axis, or 1
@@ -25,8 +25,8 @@ HS_INLINE R depth_of_texel(const ShadowView& view, R w) {
 }
 
 template <class R>
-HS_INLINE ShadowPlace<R> place_on(const ShadowView& view, const vec3<R>& position_ew) {
-  const vec4<R> p = view.clip_from_ew * vec4<R>(position_ew, R(1));
+HS_INLINE ShadowCoordinates<R> place_on(const ShadowView& view, const vec3<R>& position_rws) {
+  const vec4<R> p = view.clip_from_rws * vec4<R>(position_rws, R(1));
   const R inverse = R(1) / p.w;
   const R half(0.5f * static_cast<float>(view.size));
   return {fma(p.x * inverse, half, half), fma(p.y * inverse, half, half), p.z * inverse, p.w, R(0), R(0)};
@@ -34,16 +34,17 @@ HS_INLINE ShadowPlace<R> place_on(const ShadowView& view, const vec3<R>& positio
 
 /// Does the view show the point, with `margin` texels of picture around it? Beyond its far end a cascade knows nothing.
 template <class R>
-HS_INLINE MaskOf<R> holds(const ShadowView& view, const ShadowPlace<R>& p, float margin) {
+HS_INLINE MaskOf<R> holds(const ShadowView& view, const ShadowCoordinates<R>& p, float margin) {
   const R low(margin), high(static_cast<float>(view.size) - margin);
   return p.w > R(0) && p.x >= low && p.x <= high && p.y >= low && p.y <= high && p.depth >= R(0) && p.depth <= R(1);
 }
 
-/// Gives the place the plane through position_ew with the given normal. A plane stays one in window space, so the slope is
+/// Gives the place the plane through position_rws with the given normal. A plane stays one in window space, so the slope is
 /// the same at every texel. Slopes beyond max_slope texels of depth per texel are held to it.
 template <class R>
-HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_ew, const vec3<R>& normal_ws, float max_slope, ShadowPlace<R>& p) {
-  const vec4<R> plane = view.clip_plane_from_ew * vec4<R>(normal_ws, -dot(normal_ws, position_ew));
+HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_rws, const vec3<R>& normal_ws, float max_slope,
+                         ShadowCoordinates<R>& p) {
+  const vec4<R> plane = view.clip_plane_from_rws * vec4<R>(normal_ws, -dot(normal_ws, position_rws));
   const R per_texel(2.0f / static_cast<float>(view.size));
   const R limit = depth_of_texel(view, p.w) * R(max_slope);
   const R scale = select(plane.z != R(0), -per_texel / plane.z, R(0));
@@ -62,7 +63,7 @@ HS_INLINE IntOf<R> row_of(const ShadowView& view, IntOf<R> j) {
 
 /// 1 where the light reaches the place as far as texel (i, j) of depth `nearest` tells, else 0.
 template <class R>
-HS_INLINE R lit(const ShadowPlace<R>& p, IntOf<R> i, IntOf<R> j, R nearest) {
+HS_INLINE R lit(const ShadowCoordinates<R>& p, IntOf<R> i, IntOf<R> j, R nearest) {
   const R dx = to_real<R>(i) + R(0.5f) - p.x, dy = to_real<R>(j) + R(0.5f) - p.y;
   const R depth = fma(p.depth_dy, dy, fma(p.depth_dx, dx, p.depth));
   return select(max(depth, R(0)) >= nearest, R(1), R(0));
@@ -80,13 +81,13 @@ HS_INLINE R map_depth(const ShadowView& view, IntOf<R> i, IntOf<R> j) {
 /// 1 where the light reaches the place as far as texel (i, j) tells, else 0. Where nothing was drawn the texel is 0 and the place is
 /// lit, even if its plane falls beyond the view's far end.
 template <class R>
-HS_INLINE R lit_by_texel(const ShadowView& view, const ShadowPlace<R>& p, IntOf<R> i, IntOf<R> j) {
+HS_INLINE R lit_by_texel(const ShadowView& view, const ShadowCoordinates<R>& p, IntOf<R> i, IntOf<R> j) {
   return detail::lit(p, i, j, map_depth<R>(view, i, j));
 }
 
 /// The same of texels (i, j), …, (i + N − 1, j), N up to 4.
 template <int N, class R>
-HS_INLINE std::array<R, N> lit_by_texels(const ShadowView& view, const ShadowPlace<R>& p, IntOf<R> i, IntOf<R> j) {
+HS_INLINE std::array<R, N> lit_by_texels(const ShadowView& view, const ShadowCoordinates<R>& p, IntOf<R> i, IntOf<R> j) {
   std::array<R, N> texels = map_row<N, R>(view.depth, view.size, i, detail::row_of<R>(view, j));
   for (int n = 0; n < N; ++n) {
     R& texel = texels[static_cast<std::size_t>(n)];

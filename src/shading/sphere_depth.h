@@ -4,20 +4,20 @@
 #pragma once
 
 #include "halfspace/shading/contract.h"
-#include "halfspace/shading/sphere_lens.h"
+#include "halfspace/shading/sphere_intersection.h"
 
 namespace halfspace {
 
 /// The rectangle that a sphere's sprite covers, and its nearest depth.
 template <class R>
-HS_INLINE SpriteVertex<R> sphere_bounds(const SphereLens& lens, const vec3<R>& center_cs, R radius) {
+HS_INLINE PointSpriteVertex<R> sphere_bounds(const SphereIntersection& lens, const vec3<R>& center_cs, R radius) {
   const SphereSpan<R> x = lens.span(center_cs, radius, 0), y = lens.span(center_cs, radius, 1);
   return {vec2<R>(x.low, y.low), vec2<R>(x.high, y.high), lens.window_depth(max(center_cs.z - radius, R(lens.near))),
           lens.in_depth(center_cs, radius)};
 }
 
 struct SphereDepth {
-  SphereLens lens;
+  SphereIntersection lens;
 
   template <class R>
   struct Attributes {
@@ -31,7 +31,7 @@ struct SphereDepth {
   };
 
   template <class R>
-  SpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  PointSpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out = {{in.center_cs}, {in.radius}};
     return sphere_bounds(lens, in.center_cs, in.radius);
   }

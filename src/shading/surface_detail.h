@@ -13,7 +13,8 @@ namespace halfspace {
 /// each coded as 2c − 1 (as in glTF 2.0). n_ws and tangent_ws are used as they were interpolated, not made unit vectors
 /// (the convention of M. Mikkelsen's MikkTSpace, which tools that bake such maps go by); `side` is ±1, mirroring included.
 template <class R>
-HS_INLINE vec3<R> normal_from_map(const DetailMap& detail, const MapPlace<R>& at, const vec3<R>& n_ws, const vec3<R>& tangent_ws, R side) {
+HS_INLINE vec3<R> normal_from_map(const DetailMap& detail, const MapCoordinates<R>& at, const vec3<R>& n_ws, const vec3<R>& tangent_ws,
+                                  R side) {
   const vec3<R> code = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
   const R tilt(2.0f * detail.strength), up(detail.flip_green ? -2.0f * detail.strength : 2.0f * detail.strength);
   const R x = (code.x - R(0.5f)) * tilt, y = (code.y - R(0.5f)) * up, z = max(R(2) * code.z - R(1), R(0));
@@ -29,7 +30,7 @@ struct HeightSteps {
 
 /// From a map that holds (∂h/∂u, ∂h/∂v): the slope of the filtered heights.
 template <class R>
-HS_INLINE HeightSteps<R> height_steps(const DetailMap& detail, const MapPlace<R>& at) {
+HS_INLINE HeightSteps<R> height_steps(const DetailMap& detail, const MapCoordinates<R>& at) {
   const vec3<R> slope = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
   const R s(detail.strength);
   return {s * fma(slope.x, at.duv_dx.x, slope.y * at.duv_dx.y), s * fma(slope.x, at.duv_dy.x, slope.y * at.duv_dy.y)};
@@ -38,7 +39,7 @@ HS_INLINE HeightSteps<R> height_steps(const DetailMap& detail, const MapPlace<R>
 /// From a map that holds h: differences within the 2x2 quad, as GLSL's dFdx and dFdy take them. All four pixels have one
 /// value, which shows as blocks. uv_of tells the coordinates of varyings.
 template <class V, class R, class F>
-HS_INLINE HeightSteps<R> height_differences(const DetailMap& detail, const Pixel<R>& px, const MapPlace<R>& at, const F& uv_of) {
+HS_INLINE HeightSteps<R> height_differences(const DetailMap& detail, const Pixel<R>& px, const MapCoordinates<R>& at, const F& uv_of) {
   std::array<R, 3> h;
   for (int k = 0; k < 3; ++k) {
     const vec2<R> uv = uv_of(px.template at_quad<V>(k & 1, k >> 1));

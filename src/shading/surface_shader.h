@@ -45,9 +45,9 @@ struct SurfaceShader : LitSurface {
 
   template <class R>
   struct Varyings {
-    [[no_unique_address]] MemberIf<rate == ShadingRate::flat, Flat<vec3<R>>, 0> corner_ew;  ///< for the primitive stage alone
+    [[no_unique_address]] MemberIf<rate == ShadingRate::flat, Flat<vec3<R>>, 0> corner_rws;  ///< for the primitive stage alone
     [[no_unique_address]] MemberIf<kSlopes, vec3<R>, 1> position_os;
-    [[no_unique_address]] MemberIf<kByPixel && !kSlopes, vec3<R>, 2> position_ew;
+    [[no_unique_address]] MemberIf<kByPixel && !kSlopes, vec3<R>, 2> position_rws;
     [[no_unique_address]] MemberIf<kByPixel && !kSlopes, vec3<R>, 3> normal_ws;
     [[no_unique_address]] MemberIf<kTangents, vec3<R>, 4> tangent_ws;
     [[no_unique_address]] MemberIf<kTangents, Flat<R>, 5> side;
@@ -67,14 +67,14 @@ struct SurfaceShader : LitSurface {
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     if constexpr (mapped) out.uv = in.uv;
-    if constexpr (rate == ShadingRate::flat) out.corner_ew.value = position_ew(in.position_os);
+    if constexpr (rate == ShadingRate::flat) out.corner_rws.value = position_rws(in.position_os);
     if constexpr (kSlopes) out.position_os = in.position_os;
     if constexpr (kNormals) {
       const vec3<R> normal_ws = normalize_or_zero(normal_from_object * in.normal_os);
       if constexpr (kByVertex) {
-        store_light(out, point_towards_eye(position_ew(in.position_os), normal_ws));
+        store_light(out, point_towards_eye(position_rws(in.position_os), normal_ws));
       } else {
-        out.position_ew = position_ew(in.position_os);
+        out.position_rws = position_rws(in.position_os);
         out.normal_ws = normal_ws;
       }
     }
@@ -88,7 +88,7 @@ struct SurfaceShader : LitSurface {
   template <class R>
   requires(rate == ShadingRate::flat) Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2)
   const {
-    const vec3<R>&a = v0.corner_ew.value, &b = v1.corner_ew.value, &c = v2.corner_ew.value;
+    const vec3<R>&a = v0.corner_rws.value, &b = v1.corner_rws.value, &c = v2.corner_rws.value;
     const vec3<R> normal_ws = cross(b - a, c - a) * handedness;
     Primitive<R> face;
     store_light(face, point_towards_eye((a + b + c) * (1.0f / 3.0f), normalize_or_zero(normal_ws)));
@@ -111,7 +111,8 @@ struct SurfaceShader : LitSurface {
       const Material<R> m = material(in, px);
       const SurfacePoint<R> p = point_at(in, px);
       vec3<R> light = reflected(m, illuminate(lights, model, m[kShininess].x, p));
-      if (surroundings != nullptr) light += reflection * mirrored_light(*surroundings, from_eye(in, px), normal_with_steps(in, px, p.n_ws));
+      if (surroundings != nullptr)
+        light += reflection * environment_reflection(*surroundings, from_eye(in, px), normal_with_steps(in, px, p.n_ws));
       return {vec4<R>(light, R(1))};
     }
   }
@@ -128,10 +129,10 @@ struct SurfaceShader : LitSurface {
 
   /// A point whose side that is seen is not known otherwise.
   template <class R>
-  HS_INLINE SurfacePoint<R> point_towards_eye(const vec3<R>& position_ew, const vec3<R>& n_ws) const {
-    const vec3<R> v_ws = to_eye(position_ew);
+  HS_INLINE SurfacePoint<R> point_towards_eye(const vec3<R>& position_rws, const vec3<R>& n_ws) const {
+    const vec3<R> v_ws = to_eye(position_rws);
     const R side = two_sided ? select(dot(n_ws, v_ws) < R(0), R(-1), R(1)) : R(1);
-    return {position_ew, n_ws * side, v_ws, n_ws * side};
+    return {position_rws, n_ws * side, v_ws, n_ws * side};
   }
 
   template <class R, class To>
@@ -157,7 +158,7 @@ struct SurfaceShader : LitSurface {
   }
 
   template <class R>
-  static HS_INLINE MapPlace<R> place(const Varyings<R>& in, const Pixel<R>& px) {
+  static HS_INLINE MapCoordinates<R> place(const Varyings<R>& in, const Pixel<R>& px) {
     return {in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)};
   }
 
@@ -174,9 +175,9 @@ struct SurfaceShader : LitSurface {
   HS_INLINE SurfacePoint<R> point_at(const Varyings<R>& in, const Pixel<R>& px) const {
     vec3<R> position;
     if constexpr (kSlopes) {
-      position = position_ew(in.position_os);
+      position = position_rws(in.position_os);
     } else {
-      position = in.position_ew;
+      position = in.position_rws;
     }
     const vec3<R> n_ws = normalize_or_zero(detailed_normal(in, px));
     const vec3<R> lit_ws = two_sided ? n_ws * select(px.front_facing, R(1), R(-1)) : n_ws;
@@ -192,7 +193,7 @@ struct SurfaceShader : LitSurface {
     if constexpr (kSlopes) {
       return face_towards(normal_from_object * cross(px.ddx(&V::position_os), px.ddy(&V::position_os)), v_ws);
     } else {
-      return face_towards(cross(px.ddx(&V::position_ew), px.ddy(&V::position_ew)), v_ws);
+      return face_towards(cross(px.ddx(&V::position_rws), px.ddy(&V::position_rws)), v_ws);
     }
   }
 
@@ -204,12 +205,12 @@ struct SurfaceShader : LitSurface {
     } else if constexpr (normal_detail == NormalDetail::map) {
       return normal_from_map(detail, place(in, px), in.normal_ws, in.tangent_ws, in.side.value);
     } else if constexpr (normal_detail == NormalDetail::bump) {
-      const MapPlace<R> at = place(in, px);
+      const MapCoordinates<R> at = place(in, px);
       const HeightSteps<R> steps =
           detail.difference ? height_differences<V>(detail, px, at, [](const V& v) { return v.uv; }) : height_steps(detail, at);
-      return normal_from_heights(normalize_or_zero(in.normal_ws), steps, px.ddx(&V::position_ew), px.ddy(&V::position_ew));
+      return normal_from_heights(normalize_or_zero(in.normal_ws), steps, px.ddx(&V::position_rws), px.ddy(&V::position_rws));
     } else {
-      const MapPlace<R> at = place(in, px);
+      const MapCoordinates<R> at = place(in, px);
       const vec3<R> slope = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
       return normal_from_object * normal_from_slopes(normalize_or_zero(in.position_os), slope);
     }
@@ -222,9 +223,9 @@ struct SurfaceShader : LitSurface {
     if (to_eye_ws != glm::vec3(0.0f)) return {vec3<R>(-to_eye_ws), vec3<R>(R(0)), vec3<R>(R(0))};
     if constexpr (kSlopes) {
       const glm::mat3 turn(world_from_object);
-      return {position_ew(in.position_os), turn * px.ddx(&V::position_os), turn * px.ddy(&V::position_os)};
+      return {position_rws(in.position_os), turn * px.ddx(&V::position_os), turn * px.ddy(&V::position_os)};
     } else {
-      return {in.position_ew, px.ddx(&V::position_ew), px.ddy(&V::position_ew)};
+      return {in.position_rws, px.ddx(&V::position_rws), px.ddy(&V::position_rws)};
     }
   }
 

@@ -110,7 +110,7 @@ HS_INLINE vec4<R> to_rgba(const vec4<R>& v) {
 using Channels = RealN<4>;
 
 /// A linear value as it may stand in an rgba32f texel.
-inline Channels held_texel(const glm::vec4& v) {
+inline Channels clamped_texel(const glm::vec4& v) {
   const auto x = load<Channels>(&v.x);
   return select(x == x, clamp(x, Channels(-kMaxTexel), Channels(kMaxTexel)), Channels(0.0f));
 }

@@ -47,12 +47,12 @@ template <class Texel>
 using SumOf = typename Averaging<Texel>::Sum;
 
 /// As the halves of an rgba16f texel.
-IntN<4> halves(const glm::vec4& v) { return float_to_finite_half(detail::held_texel(v)); }
+IntN<4> halves(const glm::vec4& v) { return float_to_finite_half(detail::clamped_texel(v)); }
 
 /// A linear colour as the format holds it.
 glm::vec4 stored(const glm::vec4& v, TexelFormat format) {
   glm::vec4 r;
-  store(&r.x, format == TexelFormat::rgba32f ? detail::held_texel(v) : half_to_float(halves(v)));
+  store(&r.x, format == TexelFormat::rgba32f ? detail::clamped_texel(v) : half_to_float(halves(v)));
   return r;
 }
 
@@ -108,7 +108,7 @@ Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const
   const auto row_length = static_cast<std::size_t>(width);
   if (width % 2 == 0 && height % 2 == 0) {  // the same numbers as below, for halves are exact
     for_each_row(workers, to.height(), [&](int y) {
-      std::vector<Sum, RawAllocator<Sum>> buffer(2 * row_length);
+      std::vector<Sum, DefaultInitAllocator<Sum>> buffer(2 * row_length);
       const Sum *first = row_of(2 * y, buffer.data()), *second = row_of(2 * y + 1, buffer.data() + row_length);
       for (Sum& v : to.row(y)) {
         v = Number(0.25f) * ((first[0] + second[0]) + (first[1] + second[1]));
@@ -168,7 +168,7 @@ void put(int32_t* words, std::size_t i, uint16_t t, TexelFormat) {
 void put(int32_t* words, std::size_t i, glm::u8vec4 t, TexelFormat) { words[i] = packed(t); }
 void put(int32_t* words, std::size_t i, const glm::vec4& t, TexelFormat format) {
   if (format == TexelFormat::rgba32f) {
-    store(words + i * 4, detail::held_texel(t));
+    store(words + i * 4, detail::clamped_texel(t));
   } else {
     using Shorts __attribute__((vector_size(8))) = uint16_t;
     store(words + i * 2, __builtin_convertvector(halves(t).v, Shorts));

@@ -153,7 +153,7 @@ class Texture2D {
   // All levels, texel after texel as texels.h reads them; red in the low byte. Round each level stands a border of the texels
   // that repeating would show there, so that a texel's neighbours lie beside it, across the seams too. Behind the last
   // are some words that gather_row may read.
-  std::vector<int32_t, LineAllocator<int32_t>> texels_;
+  std::vector<int32_t, CacheLineAllocator<int32_t>> texels_;
 };
 
 /// The full chain of levels below base, largest first, base not included; the last is 1 × 1.
@@ -206,7 +206,7 @@ struct Texture2D::CommonLookup {
   const Sampler& sampler;
 
   /// Where clamped, what lies beyond the middle of the outermost texels is those alone.
-  HS_INLINE static Axis<R> held(const Axis<R>& a, IntOf<R> size, Wrap wrap) {
+  HS_INLINE static Axis<R> clamped(const Axis<R>& a, IntOf<R> size, Wrap wrap) {
     if (wrap == Wrap::repeat) return a;
     return {max(a.i, IntOf<R>(0)), select(a.i >= 0 && a.i < size - 1, a.fraction, R(0.0f))};
   }
@@ -220,7 +220,7 @@ struct Texture2D::CommonLookup {
   /// One level, in filtering units. st in [0, 1].
   HS_INLINE Value filter(const vec2<R>& st, IntOf<R> level_index) const {
     const Level<R> l = texture.level<R>(level_index);
-    const Axis<R> x = held(axis(st.x, l.columns), l.width, sampler.wrap_s), y = held(axis(st.y, l.rows), l.height, sampler.wrap_t);
+    const Axis<R> x = clamped(axis(st.x, l.columns), l.width, sampler.wrap_s), y = clamped(axis(st.y, l.rows), l.height, sampler.wrap_t);
     const IntOf<R> row = y.i * l.pitch + (l.offset + x.i);  // the product comes last
     return detail::mixed_rgba8<N, texel_format>(pair(row), pair(row + l.pitch), x.fraction, y.fraction);
   }

@@ -36,12 +36,12 @@ HS_INLINE Wrapped<R> wrapped_mirrored(R coordinate) {
 }
 
 /// GL's border values (8.14.2): held to what the format's texels can be.
-glm::vec4 held_border(const glm::vec4& color, TexelFormat format) {
+glm::vec4 clamped_border(const glm::vec4& color, TexelFormat format) {
   glm::vec4 v;
-  store(&v.x, detail::held_texel(color));
+  store(&v.x, detail::clamped_texel(color));
   if (format == TexelFormat::rgba32f) return v;
-  const float most = format == TexelFormat::rgba16f ? kMaxHalf : 1.0f, least = format == TexelFormat::rgba16f ? -kMaxHalf : 0.0f;
-  return {clamp(v.x, least, most), clamp(v.y, least, most), clamp(v.z, least, most), clamp(v.w, least, most)};
+  const float high = format == TexelFormat::rgba16f ? kMaxHalf : 1.0f, low = format == TexelFormat::rgba16f ? -kMaxHalf : 0.0f;
+  return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high), clamp(v.w, low, high)};
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ struct Texture2D::AnyLookup {
   const Sampler& sampler;
   Texels texels;
   bool has_border = sampler.wrap_s == Wrap::border || sampler.wrap_t == Wrap::border;
-  Value border = detail::uniform_value<Value>(held_border(sampler.border_color, texture.format_));
+  Value border = detail::uniform_value<Value>(clamped_border(sampler.border_color, texture.format_));
 
   HS_INLINE static Wrapped<R> wrap(R coordinate, Wrap wrap) {
     if (wrap == Wrap::mirrored) return wrapped_mirrored(coordinate);
@@ -82,11 +82,11 @@ struct Texture2D::AnyLookup {
     const MaskOf<R> first_inside = is_inside(axis.i, size), second_inside = is_inside(next, size);
     if (wrap == Wrap::repeat) return {select(first_inside, axis.i, last), select(second_inside, next, 0), axis.fraction, true, true};
     const MaskOf<R> no_border(wrap != Wrap::border);
-    return {held(axis.i, size), held(next, size), axis.fraction, first_inside || no_border, second_inside || no_border};
+    return {clamped(axis.i, size), clamped(next, size), axis.fraction, first_inside || no_border, second_inside || no_border};
   }
 
   HS_INLINE static MaskOf<R> is_inside(IntOf<R> i, IntOf<R> size) { return i >= 0 && i < size; }
-  HS_INLINE static IntOf<R> held(IntOf<R> i, IntOf<R> size) { return min(max(i, IntOf<R>(0)), size - 1); }
+  HS_INLINE static IntOf<R> clamped(IntOf<R> i, IntOf<R> size) { return min(max(i, IntOf<R>(0)), size - 1); }
 
   HS_INLINE Value texel(IntOf<R> index, MaskOf<R> inside) const {
     const Value v = texels(index);
@@ -95,7 +95,7 @@ struct Texture2D::AnyLookup {
 
   HS_INLINE Value nearest_texel(const Wrapped<R>& s, const Wrapped<R>& t, const Level<R>& l) const {
     const IntOf<R> x = texel_at(s, l.width, sampler.wrap_s), y = texel_at(t, l.height, sampler.wrap_t);
-    return texel(l.offset + held(y, l.height) * l.pitch + held(x, l.width), is_inside(x, l.width) && is_inside(y, l.height));
+    return texel(l.offset + clamped(y, l.height) * l.pitch + clamped(x, l.width), is_inside(x, l.width) && is_inside(y, l.height));
   }
 
   /// One level, bilinear or one texel.

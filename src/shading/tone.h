@@ -41,7 +41,7 @@ struct Encoded {
 };
 
 /// Light beyond it counts as this much: enough for every curve to end, little enough for their squares to be floats.
-inline constexpr float kMostLight = 1e15f;
+inline constexpr float kMaxLight = 1e15f;
 
 /// Rec. 709 (ITU-R BT.709-6, section 3): the luminance of linear light.
 template <Number R>
@@ -52,10 +52,10 @@ HS_INLINE R luminance(const vec3<R>& rgb) {
 /// A channel without what no curve can take.
 template <Number R>
 HS_INLINE R sound_light(R x) {
-  return clamp(x, 0.0f, kMostLight);
+  return clamp(x, 0.0f, kMaxLight);
 }
 
-/// The curve at 0 <= x <= kMostLight, not held to 1.
+/// The curve at 0 <= x <= kMaxLight, not held to 1.
 template <Number R>
 HS_INLINE R tone_curve(ToneCurve curve, R x, float white) {
   const R one(1.0f);
@@ -77,7 +77,7 @@ HS_INLINE R tone_curve(ToneCurve curve, R x, float white) {
 template <Number R>
 HS_INLINE DisplayLight<R> tone_map(const SceneLight<R>& light, const ToneMapping& tone) {
   vec3<R> c;
-  for (int k = 0; k < 3; ++k) c[k] = min(sound_light(light.rgb[k]) * R(tone.exposure), R(kMostLight));
+  for (int k = 0; k < 3; ++k) c[k] = min(sound_light(light.rgb[k]) * R(tone.exposure), R(kMaxLight));
   if (tone.on == ToneOn::luminance) {
     const R y = luminance(c);
     const R factor = tone_curve(tone.curve, y, tone.white) / max(y, R(1e-30f));

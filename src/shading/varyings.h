@@ -22,7 +22,7 @@ struct Flat {
 
 /// A varying interpolated linearly in window space (GLSL: noperspective).
 template <class T>
-struct Linear {
+struct NoPerspective {
   T value;
 };
 
@@ -61,7 +61,7 @@ struct FieldTraits<Flat<T>> : FieldTraits<T> {
   static constexpr Interpolation interpolation = Interpolation::flat;
 };
 template <class T>
-struct FieldTraits<Linear<T>> : FieldTraits<T> {
+struct FieldTraits<NoPerspective<T>> : FieldTraits<T> {
   static constexpr Interpolation interpolation = Interpolation::linear;
 };
 
@@ -133,7 +133,7 @@ template <class V>
 inline constexpr bool kUsesCentroid = detail::kAny<V, Interpolation::centroid>;
 /// Is one of them linear in the window?
 template <class V>
-inline constexpr bool kUsesLinear = detail::kAny<V, Interpolation::linear>;
+inline constexpr bool kUsesNoPerspective = detail::kAny<V, Interpolation::linear>;
 
 /// The components of t as an array of R, in order of declaration.
 template <class R, class T>

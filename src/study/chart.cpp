@@ -24,8 +24,8 @@ struct Axis {
 };
 
 Axis axis_of(const std::vector<double>& values) {
-  const auto [least, most] = std::ranges::minmax(values);
-  const double low = std::log10(least), high = std::log10(most), margin = std::max(0.08 * (high - low), 0.15);
+  const auto [minimum, maximum] = std::ranges::minmax(values);
+  const double low = std::log10(minimum), high = std::log10(maximum), margin = std::max(0.08 * (high - low), 0.15);
   return {low - margin, high + margin};
 }
 

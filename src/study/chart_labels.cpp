@@ -40,7 +40,7 @@ std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, cons
   std::vector<ChartBox> taken;
   for (const glm::dvec2& p : points) taken.push_back({p.x - kPoint, p.y - kPoint, p.x + kPoint, p.y + kPoint});
   for (std::size_t i = 0; i < points.size(); ++i) {
-    double least = 1e300;
+    double min_cost = 1e300;
     LabelPlace best{};
     for (const LabelPlace& place : candidates(points[i])) {
       const ChartBox box = box_of(place, widths[i]);
@@ -48,8 +48,8 @@ std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, cons
       double cost = 3.0 * (area - overlap(box, room)) + (place.far ? 0.01 * area : 0.0);
       for (const ChartBox& other : taken) cost += overlap(box, other);
       cost += 1e-3 * (std::abs(place.x - points[i].x) + std::abs(place.y - points[i].y));
-      if (cost >= least) continue;
-      least = cost;
+      if (cost >= min_cost) continue;
+      min_cost = cost;
       best = place;
     }
     places.push_back(best);

@@ -59,9 +59,9 @@ std::vector<double> outline(const PlacedMesh& placed, const View& view) {
 }
 
 double farthest_apart(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  return most;
+  double max_difference = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) max_difference = std::max(max_difference, std::abs(a[i] - b[i]));
+  return max_difference;
 }
 
 struct Way {

@@ -58,9 +58,9 @@ ExactTriangles exact_triangles(const PreparedScene& scene, int width, int height
       for (int x = std::max(0, static_cast<int>(low.x - 0.5)); x <= std::min(width - 1, static_cast<int>(high.x)); ++x) {
         const glm::dvec3 ray(2.0 * (x + 0.5) / width - 1.0, 1.0 - 2.0 * (y + 0.5) / height, 1.0);
         const glm::dvec3 sides = glm::dvec3(glm::dot(ray, bc), glm::dot(ray, ca), glm::dot(ray, ab)) / volume;
-        const double sum = sides.x + sides.y + sides.z, least = std::min({sides.x, sides.y, sides.z}) / std::abs(sum);
-        doubtful += std::abs(least) < 1e-12;
-        if (sum <= 0.0 || least < 0.0 || 1.0 / sum >= nearest.at(x, y)) continue;
+        const double sum = sides.x + sides.y + sides.z, min_side = std::min({sides.x, sides.y, sides.z}) / std::abs(sum);
+        doubtful += std::abs(min_side) < 1e-12;
+        if (sum <= 0.0 || min_side < 0.0 || 1.0 / sum >= nearest.at(x, y)) continue;
         nearest.at(x, y) = 1.0 / sum;
         out.triangle.at(x, y) = static_cast<int>(i / 3);
       }

@@ -21,9 +21,9 @@ double share_in_doubt(const PreparedScene& scene, int width, int height, const W
   for (const std::optional<RayHit>& hit : hits.texels()) {
     if (!hit) continue;
     ++all;
-    const double step = 0x1p-22 * glm::length(hit->position_ew);
+    const double step = 0x1p-22 * glm::length(hit->position_rws);
     const auto lit = [&](const glm::dvec3& aside) {
-      return light_truth(casters, light, hit->position_ew + aside * step, hit->face_normal_ws, 0).share > 0.5f;
+      return light_truth(casters, light, hit->position_rws + aside * step, hit->face_normal_ws, 0).share > 0.5f;
     };
     const bool here = lit({0, 0, 0});
     doubtful += here != lit({1, 0, 0}) || here != lit({0, 1, 0}) || here != lit({0, 0, 1});

@@ -24,7 +24,7 @@ constexpr const char* kScene = R"({{
 }})";
 constexpr const char* kMesh = R"("objects": {{ "ball": {{ {}, "model": "phong", "diffuse": 0.7, "specular": 0.5, "shininess": 40 }} }})";
 // A grid of one has it at the origin, and grey by 0.55 there.
-constexpr const char* kSprite =
+constexpr const char* kPointSprite =
     R"("particles": {{ "sprite": "{}", "count": 1, "arrangement": "grid", "radius": 1, "color": 1.8181818,
                     "diffuse": 0.7, "specular": 0.5, "shininess": 40 }})";
 
@@ -46,7 +46,7 @@ std::vector<Model> models(bool quick) {
     list.push_back(of_mesh(fmt::format("ico {}", level), "icosphere", fmt::format(R"("shape": "icosphere", "level": {})", level),
                            icosphere(level, 1.0f)));
   for (const char* sprite : {"original", "exact"})
-    list.push_back({fmt::format("{} sprite", sprite), "sprite", fmt::format(kSprite, sprite), 0, 0});
+    list.push_back({fmt::format("{} sprite", sprite), "sprite", fmt::format(kPointSprite, sprite), 0, 0});
   return list;
 }
 

@@ -8,13 +8,13 @@ namespace halfspace {
 
 Timing time_of(const std::function<void()>& work, const StudyOptions& options) {
   using Clock = std::chrono::steady_clock;
-  const int least = options.quick ? 3 : 9, most = options.quick ? 3 : 101;
+  const int min_runs = options.quick ? 3 : 9, max_runs = options.quick ? 3 : 101;
   constexpr double kSeconds = 0.3;
   work();
   std::vector<double> ms;
   const auto begin = Clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  while (static_cast<int>(ms.size()) < least || (static_cast<int>(ms.size()) < most && passed() < kSeconds)) {
+  while (static_cast<int>(ms.size()) < min_runs || (static_cast<int>(ms.size()) < max_runs && passed() < kSeconds)) {
     const auto start = Clock::now();
     work();
     ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());

@@ -20,17 +20,17 @@ T exact_code(T x) {
   return 255 * (y <= T(0.0031308L) ? T(12.92L) * y : T(1.055L) * std::pow(y, 1 / T(2.4L)) - T(0.055L));
 }
 
-constexpr float kMost = 8.0f;  // light beyond it is white
+constexpr float kMaxCount = 8.0f;  // light beyond it is white
 
 // The whole way from light to a code between codes, at even steps of light.
 struct CurveTable {
   std::vector<float> codes;
   explicit CurveTable(int size) {
     for (int i = 0; i < size + 2; ++i)
-      codes.push_back(static_cast<float>(exact_code(static_cast<double>(i) * static_cast<double>(kMost) / size)));
+      codes.push_back(static_cast<float>(exact_code(static_cast<double>(i) * static_cast<double>(kMaxCount) / size)));
   }
   HS_INLINE Int at(Real x) const {
-    const Real place = x * Real(static_cast<float>(codes.size() - 2) / kMost);
+    const Real place = x * Real(static_cast<float>(codes.size() - 2) / kMaxCount);
     const Int i = truncate_to_int(place);
     const Real low = gather(codes.data(), i), high = gather(codes.data() + 1, i);
     return round_to_int(fma(place - to_real<Real>(i), high - low, low));
@@ -47,7 +47,7 @@ Lights make_lights(int count) {
   Lights out;
   for (int i = 0; i < count; ++i) {  // even in the square root: many are dark, as to the eye
     const double s = (i + 0.5) / count;
-    out.light.push_back(static_cast<float>(s * s * static_cast<double>(kMost)));
+    out.light.push_back(static_cast<float>(s * s * static_cast<double>(kMaxCount)));
     out.codes.push_back(static_cast<int>(std::lround(exact_code(static_cast<long double>(out.light.back())))));
   }
   return out;

@@ -23,7 +23,7 @@ struct ColorShader {
   struct Varyings {
     vec4<R> smooth;
     Flat<vec4<R>> flat;
-    Linear<vec4<R>> linear;
+    NoPerspective<vec4<R>> linear;
     Centroid<vec4<R>> centroid;
   };
   template <class R>
@@ -205,8 +205,8 @@ struct ColorsShader {
     return in.pos_clip;
   }
   template <class R>
-  Fragments<R, N> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    Fragments<R, N> out;
+  FragmentMRT<R, N> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    FragmentMRT<R, N> out;
     out.color[0] = in.color;
     out.color[1] = in.other;
     for (std::size_t i = 2; i < N; ++i) {

@@ -32,7 +32,7 @@ bool asked_for_large_pages(const void* address) {
   return false;
 }
 
-TEST(LineAllocator, StartsAtACacheLine) {
+TEST(CacheLineAllocator, StartsAtACacheLine) {
   for (const std::size_t bytes :
        {std::size_t{1}, std::size_t{1000}, (std::size_t{4} << 20) - 1, std::size_t{4} << 20, std::size_t{9} << 20}) {
     void* memory = allocate_lines(bytes);
@@ -42,7 +42,7 @@ TEST(LineAllocator, StartsAtACacheLine) {
   }
 }
 
-TEST(LineAllocator, GivesZeros) {
+TEST(CacheLineAllocator, GivesZeros) {
   for (const std::size_t bytes : {std::size_t{1}, std::size_t{1000}, (std::size_t{4} << 20) - 1, std::size_t{9} << 20}) {
     for (int round = 0; round < 3; ++round) {  // what was given back may be had again
       auto* memory = static_cast<unsigned char*>(allocate_lines(bytes));
@@ -53,13 +53,13 @@ TEST(LineAllocator, GivesZeros) {
   }
 }
 
-TEST(LineAllocator, SaysWhatCannotBeHad) {
+TEST(CacheLineAllocator, SaysWhatCannotBeHad) {
   EXPECT_THROW(allocate_lines(SIZE_MAX / 2), std::bad_alloc);
   EXPECT_THROW(allocate_lines(SIZE_MAX - 1), std::bad_alloc);
 }
 
-TEST(LineAllocator, HoldsValuesThatAreGiven) {
-  std::vector<int, LineAllocator<int>> numbers(1000);
+TEST(CacheLineAllocator, HoldsValuesThatAreGiven) {
+  std::vector<int, CacheLineAllocator<int>> numbers(1000);
   EXPECT_EQ(std::count(numbers.begin(), numbers.end(), 0), 1000);
   numbers.push_back(7);
   numbers.resize(3000, 9);
@@ -69,7 +69,7 @@ TEST(LineAllocator, HoldsValuesThatAreGiven) {
   EXPECT_EQ(std::count(numbers.begin() + 3000, numbers.end(), 0), 3000);
 }
 
-TEST(LineAllocator, AsksForLargePages) {
+TEST(CacheLineAllocator, AsksForLargePages) {
   if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) GTEST_SKIP() << "this kernel has no large pages";
   constexpr std::size_t kBytes = std::size_t{64} << 20;
   void* memory = allocate_lines(kBytes);

@@ -38,7 +38,7 @@ TYPED_TEST(Fours, AreReadFromAnywhere) {
   for (int32_t& m : memory) m = static_cast<int32_t>(random());
   for (int round = 0; round < 100; ++round) {
     const std::vector<std::size_t> at = places<TypeParam>(random);
-    const auto words = load_fours<TypeParam>([&](int k) { return &memory[at[static_cast<std::size_t>(k)]]; });
+    const auto words = load_aos4<TypeParam>([&](int k) { return &memory[at[static_cast<std::size_t>(k)]]; });
     for (std::size_t i = 0; i < 4; ++i) {
       for (int k = 0; k < kWidth<TypeParam>; ++k)
         ASSERT_EQ(lane(words[i], k), memory[at[static_cast<std::size_t>(k)] + i]) << i << ' ' << k;
@@ -61,7 +61,7 @@ TYPED_TEST(Fours, AreWrittenWhereTheyBelongAndNowhereElse) {
         want[at[static_cast<std::size_t>(k)] + i] = value;
       }
     }
-    store_fours<TypeParam>(words, [&](int k) { return &memory[at[static_cast<std::size_t>(k)]]; });
+    store_aos4<TypeParam>(words, [&](int k) { return &memory[at[static_cast<std::size_t>(k)]]; });
     ASSERT_EQ(memory, want);
   }
 }
@@ -70,7 +70,7 @@ TYPED_TEST(Fours, ThreesAreReadInOrder) {
   std::vector<int32_t> memory(1 + 3 * kWidth<TypeParam>);
   for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = static_cast<int32_t>(100 + i);
   for (const int start : {0, 1}) {  // aligned, perhaps, and not
-    const auto words = load_threes<TypeParam>(memory.data() + start);
+    const auto words = load_aos3<TypeParam>(memory.data() + start);
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < kWidth<TypeParam>; ++k)
         EXPECT_EQ(lane(words[static_cast<std::size_t>(i)], k), 100 + start + 3 * k + i) << i << ' ' << k;

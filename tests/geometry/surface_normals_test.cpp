@@ -33,7 +33,7 @@ std::vector<Light> suns() {
   std::vector<Light> lights;
   for (int k = 0; k < 3; ++k) {
     Light light;
-    light.place_ew = glm::vec3(kSuns[k]);
+    light.place_rws = glm::vec3(kSuns[k]);
     light.diffuse = glm::vec3(0.0f);
     light.diffuse[k] = 1.0f;
     lights.push_back(light);
@@ -48,10 +48,10 @@ Image<glm::dvec3> normals_seen(const Mesh& mesh, const DetailMap& detail, const 
   S shader;
   const glm::dvec3 eye(0, 0, 10);
   shader.clip_from_object = glm::mat4(orthographic_reversed(2 * kHalf, 1, 1, 30) * look_at(eye, glm::dvec3(0.0), {0, 1, 0}) * world);
-  glm::dmat4 world_ew = world;
-  world_ew[3] -= glm::dvec4(eye, 0.0);
-  shader.world_from_object = glm::mat4(world_ew);
-  shader.normal_from_object = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world))));
+  glm::dmat4 world_rws = world;
+  world_rws[3] -= glm::dvec4(eye, 0.0);
+  shader.world_from_object = glm::mat4(world_rws);
+  shader.normal_from_object = normal_matrix(world);
   shader.handedness = glm::determinant(glm::dmat3(world)) < 0 ? -1.0f : 1.0f;
   shader.to_eye_ws = {0, 0, 1};
   shader.lights = lights;
@@ -101,18 +101,18 @@ struct Bumps {
   }
 };
 
-struct Frame {
+struct PassContext {
   double u, v;
   SphereFrame axes;
 };
-Frame frame_at(const glm::dvec3& p) {
+PassContext frame_at(const glm::dvec3& p) {
   const double u = std::atan2(-p.z, p.x) / (2 * kPi), v = std::acos(std::clamp(p.y, -1.0, 1.0)) / kPi;
   const double u01 = u < 0 ? u + 1 : u;
   return {u01, v, sphere_frame(sincos_turns(u01), sincos_turns(0.5 * v))};
 }
 
 // n − ∇h at a place of the sphere that is no pole.
-glm::dvec3 bumped(const Bumps& b, const Frame& f) {
+glm::dvec3 bumped(const Bumps& b, const PassContext& f) {
   const double east = b.du(f.u, f.v) / (2 * kPi * std::sin(kPi * f.v)), north = -b.dv(f.u, f.v) / kPi;
   return glm::normalize(f.axes.normal - f.axes.east * east - f.axes.north * north);
 }

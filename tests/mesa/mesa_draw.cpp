@@ -74,7 +74,7 @@ void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs)
 
   const VertexArray array;
   glBindVertexArray(array.id);
-  const std::array<Buffer, kMostStreams> buffers;
+  const std::array<Buffer, kMaxStreams> buffers;
   for (int i = 0; i < draw.vertices.stream_count; ++i) {
     const auto s = static_cast<std::size_t>(i);
     bind_stream(static_cast<GLuint>(i), buffers[s], draw.vertices.streams[s]);

@@ -129,7 +129,7 @@ struct LinearColor {
   };
   template <class R>
   struct Varyings {
-    Linear<vec4<R>> color;
+    NoPerspective<vec4<R>> color;
   };
 
   template <class R>

@@ -208,7 +208,7 @@ double Framebuffer::depth_value(float z) const {
 namespace {
 
 constexpr float kGuard = 16384.0f;  // px
-constexpr float kLeastW = 0x1p-96f;
+constexpr float kMinW = 0x1p-96f;
 
 // Clip space → window, for one viewport and depth range.
 struct Transform {
@@ -279,7 +279,7 @@ bool needs_clip(const Transform& t, const DepthState& d, const glm::vec4& p) {
   const auto times_w = [&](float bound) { return static_cast<double>(bound) * static_cast<double>(p.w); };  // exact
   const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
   const bool inside_guard = x >= times_w(t.left) && x <= times_w(t.right) && y >= times_w(t.bottom) && y <= times_w(t.top);
-  return !inside_guard || p.w < kLeastW;
+  return !inside_guard || p.w < kMinW;
 }
 
 // Are all three vertices beyond one plane of the view volume?
@@ -316,7 +316,7 @@ struct Plane {
 
 // In the order in which they cut.
 std::vector<Plane> clip_planes(const Transform& t, const DepthState& state) {
-  std::vector<Plane> planes{{0, 0, 0, 1, -static_cast<double>(kLeastW)}};
+  std::vector<Plane> planes{{0, 0, 0, 1, -static_cast<double>(kMinW)}};
   if (!state.clamp) {
     planes.push_back(state.clip == ClipDepth::zero_to_one ? Plane{0, 0, 1, 0, 0} : Plane{0, 0, 1, 1, 0});
     planes.push_back({0, 0, -1, 1, 0});
@@ -343,10 +343,10 @@ ClipPoint meet(const Plane& plane, const ClipPoint& in, const ClipPoint& out) { 
 // Where it meets the least w: first w = 0, then the little way back.
 ClipPoint meet_least_w(const ClipPoint& in, const ClipPoint& out) {
   ClipPoint r = mix(in.p[3], out, out.p[3], in);
-  const double back = static_cast<double>(kLeastW) / (in.p[3] - out.p[3]);
+  const double back = static_cast<double>(kMinW) / (in.p[3] - out.p[3]);
   for (std::size_t i = 0; i < 3; ++i) r.p[i] += back * (in.p[i] - out.p[i]);
   for (std::size_t i = 0; i < 3; ++i) r.weight[i] += back * (in.weight[i] - out.weight[i]);
-  r.p[3] = static_cast<double>(kLeastW);
+  r.p[3] = static_cast<double>(kMinW);
   return r;
 }
 
@@ -909,7 +909,7 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
   }
   const float inv_w = 1.0f / p.w;
   const bool beyond = std::any_of(v.clip_distances.begin(), v.clip_distances.end(), [](float d) { return !(d >= 0.0f); });
-  if (beyond || !(inv_w > 0.0f && inv_w <= 1.0f / kLeastW) || (!state.depth.clamp && (beyond_near(state.depth, p) || beyond_far(p)))) {
+  if (beyond || !(inv_w > 0.0f && inv_w <= 1.0f / kMinW) || (!state.depth.clamp && (beyond_near(state.depth, p) || beyond_far(p)))) {
     ++counts_.culled_outside;
     return {};
   }

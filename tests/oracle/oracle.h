@@ -235,7 +235,7 @@ void take_vertex(const PerVertex<float, N>& v, ShadedVertex& out) {
   out.point_size = v.point_size;
   out.clip_distances.assign(v.clip_distance.begin(), v.clip_distance.end());
 }
-inline void take_vertex(const SpriteVertex<float>& v, ShadedVertex& out) {
+inline void take_vertex(const PointSpriteVertex<float>& v, ShadedVertex& out) {
   out.pos_clip = {0.0f, 0.0f, v.depth, v.drawn ? 1.0f : -1.0f};
   out.has_bounds = true;
   out.low = v.low;

@@ -78,7 +78,7 @@ struct MixedShader {
   struct Varyings {
     vec4<R> smooth;
     Flat<vec3<R>> flat;
-    Linear<vec2<R>> linear;
+    NoPerspective<vec2<R>> linear;
     R product;
     vec2<R> uv;
   };
@@ -111,7 +111,7 @@ struct DerivativeShader {
   struct Varyings {
     vec2<R> uv;
     vec3<R> normal;
-    Linear<R> ramp;
+    NoPerspective<R> ramp;
   };
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
@@ -146,7 +146,7 @@ struct CutoutShader {
   struct Varyings {
     vec2<R> uv;
     Flat<R> id;
-    Linear<R> fade;
+    NoPerspective<R> fade;
     Centroid<vec2<R>> inside;
   };
   template <class R>
@@ -316,8 +316,8 @@ struct ManyColorsShader {
     return in.position;
   }
   template <class R>
-  DiscardingFragments<R, N> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    DiscardingFragments<R, N> out;
+  DiscardingFragmentMRT<R, N> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    DiscardingFragmentMRT<R, N> out;
     for (std::size_t i = 0; i < N; ++i) {
       const R n(static_cast<float>(i) * 0.25f);
       out.color[i] = held(vec4<R>(in.a.x + n, in.a.y * n, in.a.z, in.a.w - n), 8.0f);
@@ -344,7 +344,7 @@ struct PointShader {
   template <class R>
   struct Varyings {
     vec3<R> color;
-    Linear<R> fade;
+    NoPerspective<R> fade;
   };
   template <class R>
   PerVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
@@ -380,7 +380,7 @@ struct BoundsShader {
     vec4<R> a;
   };
   template <class R>
-  SpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  PointSpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.a = in.a;
     const vec2<R> center(clamp(in.position.x, R(-9.0f), R(9.0f)), clamp(in.position.y, R(-9.0f), R(9.0f)));
     const R left = in.a.x * R(size), right = in.a.y * R(size), up = in.a.z * R(size);
@@ -411,7 +411,7 @@ struct ClipShader {
   struct Varyings {
     vec4<R> a;
     Flat<R> id;
-    Linear<R> ramp;
+    NoPerspective<R> ramp;
   };
   template <class R>
   PerVertex<R, N> vertex(const Attributes<R>& in, Varyings<R>& out) const {

@@ -298,7 +298,7 @@ class ExactTriangle {
   /// Pixels from the centre of pixel (x, y) to the boundary of the visible part. Infinite if there is none.
   long double distance_to_boundary(int x, int y) const {
     std::vector<Corner> polygon{{-4e4L, -4e4L}, {4e4L, -4e4L}, {4e4L, 4e4L}, {-4e4L, 4e4L}};
-    for (int i = 0; i < count_ && !polygon.empty(); ++i) polygon = cut(polygon, lines_[static_cast<std::size_t>(i)], x, y);
+    for (int i = 0; i < count_ && !polygon.empty(); ++i) polygon = intersect(polygon, lines_[static_cast<std::size_t>(i)], x, y);
     long double nearest = std::numeric_limits<long double>::infinity();
     for (std::size_t i = 0; i < polygon.size(); ++i) nearest = std::min(nearest, to_segment(polygon[i], polygon[(i + 1) % polygon.size()]));
     return nearest;
@@ -319,7 +319,7 @@ class ExactTriangle {
   }
 
   // Corners are relative to the centre of pixel (px, py), where f is exact; long double adds no error that matters.
-  static std::vector<Corner> cut(const std::vector<Corner>& polygon, const LineFunction& f, int px, int py) {
+  static std::vector<Corner> intersect(const std::vector<Corner>& polygon, const LineFunction& f, int px, int py) {
     const auto a = static_cast<long double>(f.a), b = static_cast<long double>(f.b), c = static_cast<long double>(f.at(px, py));
     std::vector<Corner> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {

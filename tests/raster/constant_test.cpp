@@ -74,7 +74,7 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
 
 TEST(CoveredArea, PairsCoverWhatTheirHalvesDo) {
   Random random(5);
-  const auto turn = [](Triangle t) {
+  const auto rotated = [](Triangle t) {
     if ((t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) < (t.y[1] - t.y[0]) * (t.x[2] - t.x[0])) {
       std::swap(t.x[1], t.x[2]);
       std::swap(t.y[1], t.y[2]);
@@ -88,7 +88,7 @@ TEST(CoveredArea, PairsCoverWhatTheirHalvesDo) {
       Triangle made{};
       made.x = x;
       made.y = y;
-      return turn(made);
+      return rotated(made);
     };
     const Triangle t = triangle({at(), at(), at()}, {at(), at(), at()});
     const std::size_t k = static_cast<std::size_t>(random.integer(0, 2)), n = (k + 1) % 3;

@@ -360,8 +360,8 @@ TEST(Depth, ClampHoldsToTheRange) {
     for (int x = 0; x < kSize; ++x) {
       const float z = -1 + 3 * (static_cast<float>(x) + 0.5f) / kSize;
       const bool inside = z >= 0 && z <= 1;
-      const float held = std::clamp(z, 0.0f, 1.0f);
-      const float want = reversed_range ? 0.75f - 0.5f * held : 0.25f + 0.5f * held;
+      const float stored = std::clamp(z, 0.0f, 1.0f);
+      const float want = reversed_range ? 0.75f - 0.5f * stored : 0.25f + 0.5f * stored;
       EXPECT_NEAR(pixel(clamped, x, 13), want, 1e-6f);
       // The cut triangles' corners are snapped: half a sub-pixel of the slope, 3/32 · 0.5 a pixel.
       EXPECT_NEAR(pixel(cut, x, 13), inside ? want : 0.0f, 0.5f * 3 / 32 / 512 + 1e-6f);
@@ -543,7 +543,7 @@ struct Full {
   struct Varyings {
     vec4<R> color;
     vec2<R> extra;
-    Linear<R> more;
+    NoPerspective<R> more;
   };
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {

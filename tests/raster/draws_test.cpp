@@ -88,28 +88,28 @@ TEST(Draws, OfPointsAreDrawnInTheirOrder) { expect_any_parts_are_the_same(many(T
 
 // A shader that owns something, in memory of its own alignment.
 struct alignas(64) Holder : ConstantShader {
-  std::shared_ptr<const int> held;
-  explicit Holder(std::shared_ptr<const int> held_) : held(std::move(held_)) {}
-  Holder(const Holder& other) : ConstantShader(other), held(other.held) { EXPECT_EQ(reinterpret_cast<uintptr_t>(this) % 64, 0u); }
+  std::shared_ptr<const int> stored;
+  explicit Holder(std::shared_ptr<const int> held_) : stored(std::move(held_)) {}
+  Holder(const Holder& other) : ConstantShader(other), stored(other.stored) { EXPECT_EQ(reinterpret_cast<uintptr_t>(this) % 64, 0u); }
 };
 
 TEST(Draws, KeepTheirShaderUntilThePassHasRun) {
   static_assert(!std::is_move_assignable_v<Pass>);  // draws would outlive the memory of their shaders
-  const auto held = std::make_shared<const int>(1);
+  const auto stored = std::make_shared<const int>(1);
   const std::vector<glm::vec4> positions{{-1, -1, 0, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}};
   Image<glm::vec4> image(8, 8);
   {
     Pass pass(8, 8, rgba32f_target(image), {});
-    for (int i = 0; i < 5; ++i) pass.draw(Holder(held), make_vertex_view(stream(positions)));
-    EXPECT_EQ(held.use_count(), 6);
+    for (int i = 0; i < 5; ++i) pass.draw(Holder(stored), make_vertex_view(stream(positions)));
+    EXPECT_EQ(stored.use_count(), 6);
     Pass moved(std::move(pass));
-    moved.draw(Holder(held), make_vertex_view(stream(positions)));
+    moved.draw(Holder(stored), make_vertex_view(stream(positions)));
     moved.run(one_worker());
-    EXPECT_EQ(held.use_count(), 1);
-    moved.draw(Holder(held), make_vertex_view(stream(positions)));
-    EXPECT_EQ(held.use_count(), 2);  // and this one never runs
+    EXPECT_EQ(stored.use_count(), 1);
+    moved.draw(Holder(stored), make_vertex_view(stream(positions)));
+    EXPECT_EQ(stored.use_count(), 2);  // and this one never runs
   }
-  EXPECT_EQ(held.use_count(), 1);
+  EXPECT_EQ(stored.use_count(), 1);
 }
 
 }  // namespace

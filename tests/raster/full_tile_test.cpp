@@ -54,11 +54,11 @@ Drawn drawn(const std::vector<Step>& steps, int tile_size, bool has_depth) {
   Drawn out;
   Pass pass(kWidth, kHeight, rgba32f_target(out.color), has_depth ? d32f_target(out.depth) : DepthTarget{}, {.tile_size = tile_size});
   const Indices triangle = Indices::sequential(3);
-  std::deque<std::vector<glm::vec3>> places;
+  std::deque<std::vector<glm::vec3>> origins;
   std::deque<std::vector<glm::vec4>> colors;
   for (const Step& s : steps) {
     if (s.depth_only) {
-      const auto& at = places.emplace_back(s.positions.begin(), s.positions.end());
+      const auto& at = origins.emplace_back(s.positions.begin(), s.positions.end());
       pass.draw_depth(DepthOnly{glm::mat4(1.0f)}, make_vertex_view(stream(at)), triangle, s.state);
     } else {
       const auto& color = colors.emplace_back(3, s.color);
@@ -69,7 +69,7 @@ Drawn drawn(const std::vector<Step>& steps, int tile_size, bool has_depth) {
   return out;
 }
 
-TEST(WholeTile, IsDrawnAsSmallerTilesAre) {
+TEST(FullTileOccluder, IsDrawnAsSmallerTilesAre) {
   int pictures = 0;
   std::set<std::vector<uint64_t>> counts;
   for (int seed = 0; seed < effort(4000); ++seed) {
@@ -98,7 +98,7 @@ struct DeepShader : FlatColorShader {
 };
 
 // What a shader has written may lie beyond what the tile knew of its depths.
-TEST(WholeTile, IsTestedAgainstDepthsThatAShaderWrote) {
+TEST(FullTileOccluder, IsTestedAgainstDepthsThatAShaderWrote) {
   for (const float written : {0.125f, 0.875f}) {
     for (const CompareOp op : {CompareOp::less, CompareOp::greater}) {
       Image<glm::vec4> color(kWidth, kHeight);
@@ -126,7 +126,7 @@ TEST(WholeTile, IsTestedAgainstDepthsThatAShaderWrote) {
 }
 
 // What lies behind costs a test, and what is hidden later is never shaded.
-TEST(WholeTile, ShadesWhatIsSeenAlone) {
+TEST(FullTileOccluder, ShadesWhatIsSeenAlone) {
   std::vector<Step> steps;
   for (const float z : {0.5f, 0.25f, 0.75f, -0.5f, 0.0f})
     steps.push_back({{{-4, -4, z, 1}, {8, -4, z, 1}, {-4, 8, z, 1}}, glm::vec4(z), {}, false});

@@ -71,7 +71,7 @@ class ExactPlane {
     }
     return out;
   }
-  Exact largest(int k) const { return std::max({std::fabs(at(0, k)), std::fabs(at(1, k)), std::fabs(at(2, k))}); }
+  Exact max_of(int k) const { return std::max({std::fabs(at(0, k)), std::fabs(at(1, k)), std::fabs(at(2, k))}); }
 
  private:
   static Exact cross(Exact ax, Exact ay, Exact bx, Exact by) { return ax * by - ay * bx; }
@@ -211,7 +211,7 @@ Error measure(uint64_t seed, int triangles, Shape shape, Values values, double w
     for_each_covered(draw(shader, s), [&](int x, int y, const glm::vec4& p) {
       for (int k = 0; k < 4; ++k) {
         const Exact want = linear ? exact.linear(k, center_of(x), center_of(y)) : exact.smooth(k, center_of(x), center_of(y));
-        e.add(std::fabs(static_cast<Exact>(p[k]) - want) / exact.largest(k));
+        e.add(std::fabs(static_cast<Exact>(p[k]) - want) / exact.max_of(k));
       }
     });
   }
@@ -369,7 +369,7 @@ struct DerivativeShader {
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.first.value = R(7);
-    out.value = in.value;
+    out.value = in.color;
     return in.position;
   }
   template <class R>

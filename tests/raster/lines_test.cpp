@@ -80,7 +80,7 @@ struct RampShader : ConstantShader {
   template <class R>
   struct Varyings {
     R smooth;
-    Linear<R> linear;
+    NoPerspective<R> linear;
     Flat<R> flat;
   };
   template <class R>

@@ -66,7 +66,7 @@ struct PositionShader {
   };
   template <class R>
   struct Varyings {
-    Linear<vec2<R>> ndc;
+    NoPerspective<vec2<R>> ndc;
   };
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {

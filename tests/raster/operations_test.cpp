@@ -25,8 +25,8 @@ struct NumberedColors {
     return in.position;
   }
   template <class R>
-  Fragments<R, N> fragment(const Varyings<R>&, const Pixel<R>&) const {
-    Fragments<R, N> out;
+  FragmentMRT<R, N> fragment(const Varyings<R>&, const Pixel<R>&) const {
+    FragmentMRT<R, N> out;
     for (std::size_t i = 0; i < N; ++i) out.color[i] = vec4<R>(R(colors[i].x), R(colors[i].y), R(colors[i].z), R(colors[i].w));
     return out;
   }

@@ -12,48 +12,48 @@ namespace {
 
 // What other passes of this process left.
 void forget_draws() {
-  while (take_draw_memory().capacity() != 0) {
+  while (take_draw_list().capacity() != 0) {
   }
 }
 
 struct Holder {
-  std::shared_ptr<const int> held;
+  std::shared_ptr<const int> stored;
 };
 
 // A draw whose shader, kept on the heap, holds something.
-Draw draw_of(std::shared_ptr<const int> held) {
+Draw draw_of(std::shared_ptr<const int> stored) {
   static constexpr ShaderKernels kNone;
-  return {kNone, {new Holder{std::move(held)}, [](const void* kept) { delete static_cast<const Holder*>(kept); }}, nullptr, {}, {}};
+  return {kNone, {new Holder{std::move(stored)}, [](const void* kept) { delete static_cast<const Holder*>(kept); }}, nullptr, {}, {}};
 }
 
-TEST(FrameMemory, ListsOfDrawsComeBackEmptyAndWithTheirRoom) {
+TEST(PassMemory, ListsOfDrawsComeBackEmptyAndWithTheirRoom) {
   forget_draws();
   std::vector<Draw> draws;
   draws.reserve(100);
   draws.push_back(draw_of(std::make_shared<const int>(1)));
   const Draw* const place = draws.data();
-  keep_draw_memory(std::move(draws));
-  const std::vector<Draw> again = take_draw_memory();
+  return_draw_list(std::move(draws));
+  const std::vector<Draw> again = take_draw_list();
   EXPECT_TRUE(again.empty());
   EXPECT_GE(again.capacity(), 100u);
   EXPECT_EQ(again.data(), place);
-  EXPECT_EQ(take_draw_memory().capacity(), 0u);
+  EXPECT_EQ(take_draw_list().capacity(), 0u);
 }
 
-TEST(FrameMemory, WhatIsTooLargeIsNotKept) {
+TEST(PassMemory, WhatIsTooLargeIsNotKept) {
   forget_draws();
   std::vector<Draw> draws;
   draws.reserve((std::size_t{257} << 20) / sizeof(Draw));
-  keep_draw_memory(std::move(draws));
-  EXPECT_EQ(take_draw_memory().capacity(), 0u);
+  return_draw_list(std::move(draws));
+  EXPECT_EQ(take_draw_list().capacity(), 0u);
 }
 
-TEST(FrameMemory, ShadersOfFinishedDrawsAreLetGo) {
+TEST(PassMemory, ShadersOfFinishedDrawsAreLetGo) {
   const auto shader = std::make_shared<const int>(1);
   std::vector<Draw> draws;
   draws.push_back(draw_of(shader));
   EXPECT_EQ(shader.use_count(), 2);
-  keep_draw_memory(std::move(draws));
+  return_draw_list(std::move(draws));
   EXPECT_EQ(shader.use_count(), 1);
 }
 

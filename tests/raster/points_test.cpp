@@ -100,7 +100,7 @@ struct BallShader {
     vec3<R> color;
   };
   template <class R>
-  SpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+  PointSpriteVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.color = in.color;
     const R r(0.5f);
     return {vec2<R>(in.position.x - r, in.position.y - r), vec2<R>(in.position.x + r, in.position.y + r), in.position.z,

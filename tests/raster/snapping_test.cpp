@@ -39,7 +39,7 @@ struct Tally {
 
 // The quotient's remainder is known to 2^-23 of itself, which is 2^-24 of the quotient; times 2^22 sub-pixels that is
 // about 2^-24, and the last two sums of numbers below 2 round by 2^-24 each. 2^-22 holds with room.
-constexpr long double kMostExcess = 0x1p-22L;
+constexpr long double kMaxExcess = 0x1p-22L;
 
 Tally snap_many(const std::vector<glm::vec4>& positions, const Rect& viewport) {
   const ShadedVertices v = shade(ConstantShader{}, make_vertex_view(stream(positions)), viewport);
@@ -67,7 +67,7 @@ TEST(Snapping, PositionsInTheViewport) {
     const Tally t = snap_many(positions, viewport);
     t.report("viewport");
     EXPECT_GT(t.positions, 0);
-    EXPECT_LE(t.excess, kMostExcess);
+    EXPECT_LE(t.excess, kMaxExcess);
   }
 }
 
@@ -84,7 +84,7 @@ TEST(Snapping, PositionsUpToTheGuardBand) {
     const Tally t = snap_many(positions, viewport);
     t.report("guard band");
     EXPECT_GT(t.positions, 2 * effort(190000));
-    EXPECT_LE(t.excess, kMostExcess);
+    EXPECT_LE(t.excess, kMaxExcess);
   }
 }
 
@@ -103,7 +103,7 @@ TEST(Snapping, NearTies) {
     const Tally t = snap_many(positions, viewport);
     t.report("near ties");
     EXPECT_GT(t.positions, 2 * effort(190000));
-    EXPECT_LE(t.excess, kMostExcess);
+    EXPECT_LE(t.excess, kMaxExcess);
   }
 }
 

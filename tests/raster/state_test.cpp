@@ -112,12 +112,12 @@ bool is_everywhere(const Image<glm::vec4>& image, const glm::vec4& want) {
 
 TEST(Culling, ModesAndWindings) {
   for (const Winding front : {Winding::counter_clockwise, Winding::clockwise}) {
-    for (const bool turns_left : {true, false}) {  // in the window, y up
+    for (const bool counter_clockwise : {true, false}) {  // in the window, y up
       for (const CullMode mode : {CullMode::none, CullMode::front, CullMode::back, CullMode::front_and_back}) {
         for (const bool clipped : {false, true}) {
           std::vector<glm::vec4> p{{-1, -1, clipped ? -2.0f : 0.0f, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}};
-          if (!turns_left) std::swap(p[1], p[2]);
-          const bool is_front = turns_left == (front == Winding::counter_clockwise);
+          if (!counter_clockwise) std::swap(p[1], p[2]);
+          const bool is_front = counter_clockwise == (front == Winding::counter_clockwise);
           const bool is_culled =
               mode == CullMode::front_and_back || (mode == CullMode::front && is_front) || (mode == CullMode::back && !is_front);
           DrawState state;
@@ -128,7 +128,7 @@ TEST(Culling, ModesAndWindings) {
           EXPECT_EQ(s.culled_face, is_culled ? 1u : 0u);
           EXPECT_EQ(s.clipped, clipped ? 1u : 0u);
           const glm::vec4 want = is_culled ? glm::vec4(0) : is_front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);
-          EXPECT_EQ(pixel(image, 17, 14), want) << static_cast<int>(mode) << turns_left << is_front;
+          EXPECT_EQ(pixel(image, 17, 14), want) << static_cast<int>(mode) << counter_clockwise << is_front;
         }
       }
     }

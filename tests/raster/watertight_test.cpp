@@ -179,16 +179,16 @@ TEST(Watertight, JitteredGridsCoverEverything) {
   Random r(3);
   WatertightCheck check;
   for (int i = 0; i < effort(300); ++i) {
-    const int cell = 256 * (1 << r.integer(0, 5)) / (i % 5 == 0 ? 8 : 1);  // from 1/8 px to 32 px
-    const int size = cell < 256 ? 16 : cell < 1024 ? 64 : 128;             // of the target
-    const int n = size * 256 / cell + 3;
+    const int plane = 256 * (1 << r.integer(0, 5)) / (i % 5 == 0 ? 8 : 1);  // from 1/8 px to 32 px
+    const int size = plane < 256 ? 16 : plane < 1024 ? 64 : 128;            // of the target
+    const int n = size * 256 / plane + 3;
     FixedMesh m;
     for (int y = 0; y < n; ++y) {
       for (int x = 0; x < n; ++x) {
         // Less than a quarter of a cell: triangles of a cell keep their orientation whichever way it is split.
-        const int jitter = i % 4 == 0 ? 0 : cell / 4 - 1;
-        m.points.push_back({(x - 1) * cell + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0),
-                            (y - 1) * cell + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0)});
+        const int jitter = i % 4 == 0 ? 0 : plane / 4 - 1;
+        m.points.push_back({(x - 1) * plane + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0),
+                            (y - 1) * plane + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0)});
       }
     }
     for (int y = 0; y + 1 < n; ++y) {
@@ -259,10 +259,11 @@ TEST(Watertight, EdgesThroughPixelCentersFromAfar) {
     const int far = 40 * 256 / std::max(1, std::min(dx, dy) / 256 + 1);
     const int m = r.integer(1, far) + 64 * 256 / std::max(dx, dy), n = r.integer(1, far) + 64 * 256 / std::max(dx, dy);
     const Point a{q.x - m * dx, q.y - sign * m * dy}, b{q.x + n * dx, q.y + sign * n * dy};
-    constexpr int kMost = 16384 * 256;
-    const auto reachable = [](const Point& p) { return std::abs(p.x) < kMost && std::abs(p.y) < kMost; };
+    constexpr int kMaxCount = 16384 * 256;
+    const auto reachable = [](const Point& p) { return std::abs(p.x) < kMaxCount && std::abs(p.y) < kMaxCount; };
     if (!reachable(a) || !reachable(b)) continue;
-    const Point c{r.integer(-kMost, kMost), r.integer(-kMost, kMost)}, d{r.integer(-kMost, kMost), r.integer(-kMost, kMost)};
+    const Point c{r.integer(-kMaxCount, kMaxCount), r.integer(-kMaxCount, kMaxCount)},
+        d{r.integer(-kMaxCount, kMaxCount), r.integer(-kMaxCount, kMaxCount)};
     if ((cross(a, b, c) > 0) == (cross(a, b, d) > 0)) continue;
     FixedMesh mesh{{a, b, c, d}, {0, 1, 2, 1, 0, 3}, {a, c, b, d}};
     check.check(mesh, 128, 128, i);

@@ -39,7 +39,7 @@ bool is_smooth(const ObjectDescription& o) { return o.surface.shading != Shading
 SceneDescription finest(SceneDescription scene) {
   for (auto& [name, o] : scene.objects) {
     if (!is_smooth(o) || ((o.shape == Shape::plane || o.shape == Shape::cube) && !is_map(o.height))) continue;
-    o = with_parts(o, std::min(most_parts(o), is_map(o.height) ? 1536 : 512), true);
+    o = with_parts(o, std::min(max_parts(o), is_map(o.height) ? 1536 : 512), true);
   }
   scene.particles.sprite = ParticleSprite::exact;
   return scene;

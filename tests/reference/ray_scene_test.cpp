@@ -28,12 +28,12 @@ TEST(RayScene, HitsWhatTheRayMeetsFirst) {
   ASSERT_TRUE(down);
   EXPECT_EQ(down->mesh, 1);
   // The sphere's facets lie at most 1 - cos(pi/128) = 3e-4 within it.
-  EXPECT_NEAR(down->position_ew.y, 1.5 - 10.0, 1e-3);
+  EXPECT_NEAR(down->position_rws.y, 1.5 - 10.0, 1e-3);
   EXPECT_NEAR(down->face_normal_ws.y, 1.0, 2e-3);
   const auto beside = rays.nearest({1.5f, 0, 1.5f}, {0, -1, 0}, 0.0f, 100.0f);
   ASSERT_TRUE(beside);
   EXPECT_EQ(beside->mesh, 0);
-  EXPECT_EQ(beside->position_ew.y, -11.5);
+  EXPECT_EQ(beside->position_rws.y, -11.5);
   EXPECT_NEAR(beside->weights[0] + beside->weights[1] + beside->weights[2], 1.0, 1e-15);
   EXPECT_FALSE(rays.nearest({3.0f, 0, 0}, {0, -1, 0}, 0.0f, 100.0f));
   EXPECT_FALSE(rays.nearest({0, 0, 0}, {0, -1, 0}, 0.0f, 5.0f));  // ends before the sphere
@@ -51,9 +51,9 @@ TEST(RayScene, PositionsByWeightsAreThoseOfTheTriangle) {
     const glm::vec3& p = placed.mesh->positions[(*placed.indices)[3 * hit->triangle + k]];
     sum += hit->weights[k] * (glm::dvec3(placed.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye);
   }
-  EXPECT_LT(glm::length(sum - hit->position_ew), 1e-14);
+  EXPECT_LT(glm::length(sum - hit->position_rws), 1e-14);
   // Embree's float distance agrees to a few of its ulps.
-  EXPECT_LT(glm::length(hit->position_ew - static_cast<double>(hit->distance) * glm::dvec3(-3, -3.5, -5)), 1e-5);
+  EXPECT_LT(glm::length(hit->position_rws - static_cast<double>(hit->distance) * glm::dvec3(-3, -3.5, -5)), 1e-5);
 }
 
 TEST(RayScene, OnlyCastersCast) {

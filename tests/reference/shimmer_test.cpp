@@ -81,7 +81,7 @@ class WatchedPoints {
       for (int x = kWidth / 4; x < kWidth * 3 / 4; ++x) {
         const std::optional<RayHit>& hit = hits.at(x, y);
         if (!hit || glm::dot(hit->face_normal_ws, to_light_of(scene)) <= 0.0) continue;
-        points_.push_back({hit->position_ew + scene.view.eye_ws, glm::vec3(hit->face_normal_ws), false});
+        points_.push_back({hit->position_rws + scene.view.eye_ws, glm::vec3(hit->face_normal_ws), false});
       }
     }
   }
@@ -92,8 +92,8 @@ class WatchedPoints {
     const glm::vec3 to_light_ws(to_light_of(scene));
     int64_t count = 0;
     for (Point& p : points_) {
-      const glm::vec3 position_ew(p.position_ws + shift - scene.view.eye_ws);
-      const bool lit = light_arriving<float>(shadow, {position_ew, p.normal_ws, p.normal_ws, to_light_ws, 0.5f, 0.5f}) > 0.5f;
+      const glm::vec3 position_rws(p.position_ws + shift - scene.view.eye_ws);
+      const bool lit = shadow_factor<float>(shadow, {position_rws, p.normal_ws, p.normal_ws, to_light_ws, 0.5f, 0.5f}) > 0.5f;
       count += !first && lit != p.lit;
       p.lit = lit;
     }

@@ -8,7 +8,7 @@
 #include "halfspace/reference/numbered_mesh.h"
 #include "halfspace/reference/ray_scene.h"
 #include "halfspace/scene/scene_file.h"
-#include "halfspace/shading/sphere_sprite.h"
+#include "halfspace/shading/sphere_impostor.h"
 #include "support/workers.h"
 
 namespace halfspace {
@@ -32,9 +32,9 @@ Image<glm::vec4> numbers_of(const PreparedScene& scene) {
   std::vector<glm::vec3> numbers;
   for (std::size_t i = 0; i < scene.spheres.at(0).particles->radii.size(); ++i) numbers.emplace_back(static_cast<float>(i + 1));
   for (const PreparedDraw& draw : scene.draws) {
-    const auto* sprite = std::get_if<SphereSprite<true>>(&draw.shader);
+    const auto* sprite = std::get_if<SphereImpostor<true>>(&draw.shader);
     if (sprite == nullptr) continue;
-    SphereSprite<true> numbered = *sprite;
+    SphereImpostor<true> numbered = *sprite;
     numbered.lights = {};
     numbered.ambient = glm::vec3(1.0f);
     VertexView view = draw.vertices;
@@ -131,10 +131,10 @@ ShadowErrors shadow_errors(const std::string& light) {
     const auto hit = rays.nearest(glm::vec3(0.0f), direction_of(with.view, x, row), 0.1f, 1000.0f);
     if (!hit) return -1;
     sphere = hit->mesh < 0;
-    const glm::dvec3 n = glm::dot(hit->face_normal_ws, hit->position_ew) < 0.0 ? hit->face_normal_ws : -hit->face_normal_ws;
-    const glm::vec3 way = to_light(l, hit->position_ew + with.view.eye_ws);
+    const glm::dvec3 n = glm::dot(hit->face_normal_ws, hit->position_rws) < 0.0 ? hit->face_normal_ws : -hit->face_normal_ws;
+    const glm::vec3 way = to_light(l, hit->position_rws + with.view.eye_ws);
     if (glm::dot(n, glm::dvec3(way)) < 0.15 * static_cast<double>(glm::length(way))) return -1;  // dark or grazing anyway
-    return rays.occluded(glm::vec3(hit->position_ew + 1e-3 * n), way, 0.0f, 1.0f) ? 1 : 0;
+    return rays.occluded(glm::vec3(hit->position_rws + 1e-3 * n), way, 0.0f, 1.0f) ? 1 : 0;
   };
   for (int row = 1; row < kHeight - 1; ++row) {
     for (int x = 1; x < kWidth - 1; ++x) {

@@ -125,7 +125,7 @@ TEST(Validation, ResolutionIsAsFineAsTheFootprintAsks) {
     const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, 192, 108, two_workers());
     std::vector<double> texels_px;
     for (const std::optional<RayHit>& hit : hits.texels())
-      if (hit) texels_px.push_back(static_cast<double>(view.texel_per_w) / pixel_width(scene.view, hit->position_ew));
+      if (hit) texels_px.push_back(static_cast<double>(view.texel_per_w) / pixel_width(scene.view, hit->position_rws));
     std::ranges::sort(texels_px);
     const double most = texels_px[texels_px.size() * 95 / 100];
     EXPECT_LE(most, 1.02 * footprint);  // the program looks at fewer places
@@ -151,7 +151,7 @@ TEST(LightTruth, PenumbraOfAnEdgeIsTheAreaOfACutDisk) {
       {&edge, std::make_shared<const Indices>(edge.indices, edge.positions.size()), glm::dmat4(1.0), true, true, true}};
   const RayScene casters(meshes, glm::dvec3(0.0), true);
   RayLight light{{}, 0.05, 4096};
-  light.light.place_ew = {0, 1, 0};
+  light.light.place_rws = {0, 1, 0};
   for (double x = -0.12; x <= 0.12; x += 0.02) {
     const LightTruth t = light_truth(casters, light, {x, 0, 0}, {0, 1, 0}, 1);
     const double c = std::clamp(x / 0.1, -1.0, 1.0);

@@ -101,15 +101,15 @@ vec3<Counted> EnvironmentMap::sample<Counted>(const vec3<Counted>& d_ms, const v
 }
 
 template <>
-Counted light_arriving<Counted>(const Shadow&, const ShadowReceiver<Counted>&) {
+Counted shadow_factor<Counted>(const Shadow&, const ShadowReceiver<Counted>&) {
   ++counts.now->shadows;
   return 1;
 }
 
 template <>
-Arriving<Counted> light_at<Counted>(const Light& light, const vec3<Counted>& position_ew) {
+IncidentLight<Counted> light_at<Counted>(const Light& light, const vec3<Counted>& position_rws) {
   ++counts.now->lights;
-  const Arriving<double> a = light_at<double>(light, {position_ew.x.value, position_ew.y.value, position_ew.z.value});
+  const IncidentLight<double> a = light_at<double>(light, {position_rws.x.value, position_rws.y.value, position_rws.z.value});
   return {{a.l_ws.x, a.l_ws.y, a.l_ws.z}, a.strength};
 }
 
@@ -207,7 +207,7 @@ Cost cost_of(const char* scene_name, const std::vector<std::string>& settings) {
         [&]<class S>(const S& shader) {
           if constexpr (!std::is_same_v<S, StarSky>) {
             const Stage before = counts.fragment;
-            if constexpr (std::is_base_of_v<SphereSprites, S>) {
+            if constexpr (std::is_base_of_v<SphereImpostors, S>) {
               shade_points(Counting<S>{shader}, draw, {kWidth, kHeight});
             } else {
               draw_naive(target, Counting<S>{shader}, draw.vertices, *draw.indices, draw.state);

@@ -32,7 +32,7 @@ Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height, 
   for (const PreparedDraw& draw : scene.draws) {
     std::visit(
         [&]<class S>(const S& shader) {
-          if constexpr (kGivesSprite<S> || kGivesPointSize<S>) {
+          if constexpr (kGivesPointSprite<S> || kGivesPointSize<S>) {
             HS_CHECK(false);  // the naive pipeline has no points
           } else {
             draw_naive(target, Placed<S>{shader, positions}, draw.vertices, *draw.indices, draw.state);

@@ -61,7 +61,7 @@ TEST(Reflection, MirroredLightIsThatOfItsDirection) {
   const EnvironmentBlend sky{.first = {.map = &map}, .second = {}, .weight = 0};
   // From +z to -x, by a mirror that stands across: what is seen lies to the left, between columns 0 and 1.
   const Differential<float> d{{0, 0, -1}, {}, {}}, n{{-std::sqrt(0.5f), 0, std::sqrt(0.5f)}, {}, {}};
-  EXPECT_NEAR(mirrored_light(sky, d, n).x, 0.5f, 1e-5f);
+  EXPECT_NEAR(environment_reflection(sky, d, n).x, 0.5f, 1e-5f);
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ struct Map {
     view.depth_per_unit = 0.5f;
     view.near = 0.0f;
     view.far = 2.0f;
-    view.clip_from_ew[2][2] = 0.5f;
-    view.clip_from_ew[3][2] = 0.5f;
-    view.clip_plane_from_ew = glm::transpose(glm::inverse(view.clip_from_ew));
+    view.clip_from_rws[2][2] = 0.5f;
+    view.clip_from_rws[3][2] = 0.5f;
+    view.clip_plane_from_rws = glm::transpose(glm::inverse(view.clip_from_rws));
     view.depth = depth.data();
   }
   float& at(int i, int j) {  // from the lower left
@@ -89,7 +89,7 @@ TEST(ShadowFilter, BoxIsTheAreaOfTheLitTexelsInTheSquare) {
           if ((p.z + 1.0f) / 2.0f >= map.at(i, j)) expected += overlap(i, x - r, x + r) * overlap(j, y - r, y + r);
       expected /= width * width;
       // Texel coordinates up to 32 in float: fractions are off by 2e-6, each of up to 64 terms by as much.
-      EXPECT_NEAR(light_arriving(shadow_of(map.view, filter, ShadowBias::none), receiver(p)), expected, 2e-5);
+      EXPECT_NEAR(shadow_factor(shadow_of(map.view, filter, ShadowBias::none), receiver(p)), expected, 2e-5);
     }
   }
 }
@@ -102,11 +102,11 @@ TEST(ShadowFilter, HardAsksTheTexelAndNineTexelsAskNine) {
     const glm::vec3 p(place(random), place(random), place(random));
     const int i = static_cast<int>((p.x + 1.0f) * 8.0f), j = static_cast<int>((p.y + 1.0f) * 8.0f);
     const float z = (p.z + 1.0f) / 2.0f;
-    EXPECT_EQ(light_arriving(shadow_of(map.view, ShadowFilter::hard, ShadowBias::none), receiver(p)), z >= map.at(i, j) ? 1.0f : 0.0f);
+    EXPECT_EQ(shadow_factor(shadow_of(map.view, ShadowFilter::hard, ShadowBias::none), receiver(p)), z >= map.at(i, j) ? 1.0f : 0.0f);
     int lit = 0;
     for (int dj = -1; dj <= 1; ++dj)
       for (int di = -1; di <= 1; ++di) lit += z + 0.0005f >= map.at(i + di, j + dj);
-    EXPECT_NEAR(light_arriving(shadow_of(map.view, ShadowFilter::pcf3, ShadowBias::original), receiver(p)), static_cast<float>(lit) / 9.0f,
+    EXPECT_NEAR(shadow_factor(shadow_of(map.view, ShadowFilter::pcf3, ShadowBias::original), receiver(p)), static_cast<float>(lit) / 9.0f,
                 1e-6f);
   }
 }
@@ -121,16 +121,16 @@ TEST(ShadowFilter, DiskIsEvenAndTurnsByPixel) {
   ShadowReceiver<float> at = receiver({0, 0, 0});
   for (int k = 0; k < 64; ++k) {
     at.x_px = static_cast<float>(k) + 0.5f;
-    const float light = light_arriving(s, at);
+    const float light = shadow_factor(s, at);
     EXPECT_GE(light, 5.0f / 16.0f);  // 16 points on a spiral: half, give or take three
     EXPECT_LE(light, 11.0f / 16.0f);
     mean += light / 64.0;
   }
   EXPECT_NEAR(mean, 0.5, 0.02);
   at = receiver({0.5f, 0, 0});
-  EXPECT_EQ(light_arriving(s, at), 1.0f);
+  EXPECT_EQ(shadow_factor(s, at), 1.0f);
   at = receiver({-0.5f, 0, 0});
-  EXPECT_EQ(light_arriving(s, at), 0.0f);
+  EXPECT_EQ(shadow_factor(s, at), 0.0f);
 }
 
 TEST(ShadowFilter, PenumbraIsAsWideAsTheLightMakesIt) {
@@ -146,7 +146,7 @@ TEST(ShadowFilter, PenumbraIsAsWideAsTheLightMakesIt) {
     for (int k = 0; k < 32; ++k) {
       ShadowReceiver<float> at = receiver({static_cast<float>(x * reach), 0, static_cast<float>(kFloor)});
       at.x_px = static_cast<float>(k) + 0.5f;
-      mean += light_arriving(s, at) / 32.0;
+      mean += shadow_factor(s, at) / 32.0;
     }
     const double c = std::clamp(x, -1.0, 1.0);
     const double expected = 0.5 + (c * std::sqrt(1.0 - c * c) + std::asin(c)) / std::numbers::pi;
@@ -162,7 +162,7 @@ TEST(ShadowFilter, MomentsRebuildTwoDepthsAndTwoMomentsLeak) {
   for (glm::vec4& m : map.moments)
     for (int n = 1; n <= 4; ++n) m[n - 1] = static_cast<float>(0.5 * power(0.2, n) + 0.5 * power(0.6, n));
   const auto light = [&](ShadowFilter filter, double depth) {
-    return light_arriving(shadow_of(map.view, filter, ShadowBias::none), receiver({0, 0, static_cast<float>(1.0 - 2.0 * depth)}));
+    return shadow_factor(shadow_of(map.view, filter, ShadowBias::none), receiver({0, 0, static_cast<float>(1.0 - 2.0 * depth)}));
   };
   EXPECT_NEAR(light(ShadowFilter::moments, 0.1), 1.0f, 1e-3f);
   EXPECT_NEAR(light(ShadowFilter::moments, 0.4), 0.5f, 0.01f);  // the spread that guards against rounding
@@ -177,8 +177,8 @@ TEST(ShadowFilter, OneDepthIsAStepForBothKindsOfMoments) {
   map.fill([](double, double) { return 0.0; });
   map.make_moments();
   for (const ShadowFilter filter : {ShadowFilter::vsm, ShadowFilter::moments}) {
-    EXPECT_EQ(light_arriving(shadow_of(map.view, filter, ShadowBias::none), receiver({0, 0, 0.1f})), 1.0f);
-    EXPECT_LT(light_arriving(shadow_of(map.view, filter, ShadowBias::none), receiver({0, 0, -0.2f})), 0.01f);
+    EXPECT_EQ(shadow_factor(shadow_of(map.view, filter, ShadowBias::none), receiver({0, 0, 0.1f})), 1.0f);
+    EXPECT_LT(shadow_factor(shadow_of(map.view, filter, ShadowBias::none), receiver({0, 0, -0.2f})), 0.01f);
   }
 }
 
@@ -186,36 +186,36 @@ TEST(Shadow, OutsideOfTheMapIsLit) {
   Map map(16);
   map.fill([](double, double) { return 0.9; });
   const Shadow s = shadow_of(map.view, ShadowFilter::hard, ShadowBias::none);
-  EXPECT_EQ(light_arriving(s, receiver({0, 0, 0})), 0.0f);
-  EXPECT_EQ(light_arriving(s, receiver({1.01f, 0, 0})), 1.0f);
-  EXPECT_EQ(light_arriving(s, receiver({0, -1.01f, 0})), 1.0f);
-  EXPECT_EQ(light_arriving(s, receiver({0, 0, 1.01f})), 1.0f);     // nearer than the view begins
-  EXPECT_EQ(light_arriving(s, receiver({0, 0, -1.01f})), 1.0f);    // beyond its end: another cascade's
-  EXPECT_EQ(light_arriving(Shadow{}, receiver({0, 0, 0})), 1.0f);  // a light without shadow
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 0})), 0.0f);
+  EXPECT_EQ(shadow_factor(s, receiver({1.01f, 0, 0})), 1.0f);
+  EXPECT_EQ(shadow_factor(s, receiver({0, -1.01f, 0})), 1.0f);
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 1.01f})), 1.0f);     // nearer than the view begins
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, -1.01f})), 1.0f);    // beyond its end: another cascade's
+  EXPECT_EQ(shadow_factor(Shadow{}, receiver({0, 0, 0})), 1.0f);  // a light without shadow
 }
 
 TEST(Shadow, BehindASpotNothingIsSampled) {
   Map map(16);
   map.fill([](double, double) { return 1.0; });
   map.view.perspective = true;
-  map.view.clip_from_ew = glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0.01f, -1), glm::vec4(0, 0, 0.1f, 0));
+  map.view.clip_from_rws = glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0.01f, -1), glm::vec4(0, 0, 0.1f, 0));
   const Shadow s = shadow_of(map.view, ShadowFilter::hard, ShadowBias::none);
-  EXPECT_EQ(light_arriving(s, receiver({0, 0, -5})), 0.0f);
-  EXPECT_EQ(light_arriving(s, receiver({0, 0, 5})), 1.0f);
-  EXPECT_EQ(light_arriving(s, receiver({0, 0, 0})), 1.0f);  // at the light itself: w is 0
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, -5})), 0.0f);
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 5})), 1.0f);
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 0})), 1.0f);  // at the light itself: w is 0
 }
 
 TEST(Shadow, TheFirstViewThatHoldsThePointCounts) {
   Map dark(16), bright(16);
   dark.fill([](double, double) { return 0.9; });
   bright.fill([](double, double) { return -0.9; });
-  dark.view.clip_from_ew[0][0] = dark.view.clip_from_ew[1][1] = 2.0f;  // the finer one spans [-1/2, 1/2]²
+  dark.view.clip_from_rws[0][0] = dark.view.clip_from_rws[1][1] = 2.0f;  // the finer one spans [-1/2, 1/2]²
   const ShadowView views[] = {dark.view, bright.view};
   Shadow s{views, {}};
   s.settings.filter = ShadowFilter::hard;
   s.settings.bias = ShadowBias::none;
-  EXPECT_EQ(light_arriving(s, receiver({0.4f, 0, 0})), 0.0f);
-  EXPECT_EQ(light_arriving(s, receiver({0.6f, 0, 0})), 1.0f);
+  EXPECT_EQ(shadow_factor(s, receiver({0.4f, 0, 0})), 0.0f);
+  EXPECT_EQ(shadow_factor(s, receiver({0.6f, 0, 0})), 1.0f);
 }
 
 TEST(ShadowBias, EachLiftsThePlaceByItsFormula) {
@@ -259,7 +259,7 @@ double false_shadow(ShadowFilter filter, ShadowBias bias, double degrees) {
   for (int k = 0; k < kPoints; ++k) {
     const double x = any(random), y = any(random);
     shaded += 1.0 - static_cast<double>(
-                        light_arriving(s, receiver({static_cast<float>(x), static_cast<float>(y), static_cast<float>(slope * x)}, normal)));
+                        shadow_factor(s, receiver({static_cast<float>(x), static_cast<float>(y), static_cast<float>(slope * x)}, normal)));
   }
   return shaded / kPoints;
 }
@@ -282,7 +282,7 @@ TEST(ShadowBias, WhereNothingWasDrawnAPlaneBeyondTheFarEndIsLit) {
   const glm::vec3 steep = glm::normalize(glm::vec3(-5, 0, 1)), at_far_end(0.1f, 0.1f, -0.999f);
   for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::bilinear, ShadowFilter::pcf7})
     for (const ShadowBias bias : {ShadowBias::receiver_plane, ShadowBias::adaptive, ShadowBias::automatic})
-      EXPECT_EQ(light_arriving(shadow_of(map.view, filter, bias), receiver(at_far_end, steep)), 1.0f);
+      EXPECT_EQ(shadow_factor(shadow_of(map.view, filter, bias), receiver(at_far_end, steep)), 1.0f);
 }
 
 TEST(ShadowBias, PlanesOfASpotAreFlatInItsWindowToo) {
@@ -293,13 +293,13 @@ TEST(ShadowBias, PlanesOfASpotAreFlatInItsWindowToo) {
   view.perspective = true;
   view.depth_per_unit = a;
   view.texel_per_w = 2.0f / 128;
-  view.clip_from_ew = glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, -b, -1), glm::vec4(0, 0, a, 0));
-  view.clip_plane_from_ew = glm::mat4(glm::transpose(glm::inverse(glm::dmat4(view.clip_from_ew))));
+  view.clip_from_rws = glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, -b, -1), glm::vec4(0, 0, a, 0));
+  view.clip_plane_from_rws = glm::mat4(glm::transpose(glm::inverse(glm::dmat4(view.clip_from_rws))));
   const glm::dvec3 n = glm::normalize(glm::dvec3(0.5, 0.3, 0.6)), q(0, 0, -6);
   const auto on_wall = [&](double x, double y) { return glm::dvec3(x, y, -1) * (glm::dot(n, q) / glm::dot(n, glm::dvec3(x, y, -1))); };
   const auto depth_of = [&](const glm::dvec3& p) { return static_cast<double>(a) / -p.z + static_cast<double>(b); };
   const glm::vec3 p(on_wall(0.1, -0.2));
-  ShadowPlace<float> place = place_on(view, p);
+  ShadowCoordinates<float> place = place_on(view, p);
   set_plane(view, p, glm::vec3(n), 1e3f, place);
   for (int step = -8; step <= 8; step += 2) {
     const double x = 0.1 + step / 64.0, y = -0.2 - step / 128.0;
@@ -327,15 +327,15 @@ TEST(Shadow, LanesGiveTheBitsOfFloat) {
         one = receiver({any(random), any(random), any(random)}, n);
         one.x_px = static_cast<float>(i) + 0.5f;
         for (int k = 0; k < 3; ++k) {
-          set_lane(wide.position_ew[k], i, one.position_ew[k]);
+          set_lane(wide.position_rws[k], i, one.position_rws[k]);
           set_lane(wide.face_normal_ws[k], i, n[k]);
           set_lane(wide.shading_normal_ws[k], i, n[k]);
         }
         set_lane(wide.x_px, i, one.x_px);
       }
-      const L light = light_arriving(s, wide);
+      const L light = shadow_factor(s, wide);
       for (int i = 0; i < 8; ++i)
-        EXPECT_EQ(as_int(lane(light, i)), as_int(light_arriving(s, single[static_cast<std::size_t>(i)]))) << f << " " << b;
+        EXPECT_EQ(as_int(lane(light, i)), as_int(shadow_factor(s, single[static_cast<std::size_t>(i)]))) << f << " " << b;
     }
   }
 }

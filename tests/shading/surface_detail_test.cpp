@@ -22,7 +22,7 @@ Texture2D texel(const glm::vec3& c) {
 }
 
 constexpr glm::vec3 kNormal(0, 0, 1), kTangent(1, 0, 0);
-const MapPlace<float> kPlace{glm::vec2(0.5f), glm::vec2(0.0f), glm::vec2(0.0f)};
+const MapCoordinates<float> kPlace{glm::vec2(0.5f), glm::vec2(0.0f), glm::vec2(0.0f)};
 
 glm::vec3 mapped(const glm::vec3& code, DetailMap detail = {}, const glm::vec3& n = kNormal, const glm::vec3& t = kTangent,
                  float side = 1) {

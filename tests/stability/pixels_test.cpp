@@ -123,7 +123,7 @@ struct BumpSlope {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    const MapPlace<R> at{in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)};
+    const MapCoordinates<R> at{in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)};
     const auto uv_of = [](const Varyings<R>& v) { return v.uv; };
     const HeightSteps<R> h = difference ? height_differences<Varyings<R>>(detail, px, at, uv_of) : height_steps(detail, at);
     return {vec4<R>(h.right, h.up, in.uv.x, in.uv.y)};

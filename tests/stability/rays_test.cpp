@@ -75,7 +75,7 @@ TEST(Stability, PointsThatShadeThemselves) {
   const glm::dvec3 eye(300.0, 200.0, -100.0);
   const RayScene casters(world.meshes, eye, true);
   RayLight light{{}, 0.0, 1};
-  light.light.place_ew = glm::normalize(glm::vec3(0.3f, 1.0f, 0.2f));
+  light.light.place_rws = glm::normalize(glm::vec3(0.3f, 1.0f, 0.2f));
   raster_test::Random random(6);
   int plain = 0, ours = 0, points = 0;
   const auto& list = world.ball.indices;
@@ -85,10 +85,10 @@ TEST(Stability, PointsThatShadeThemselves) {
     const double u = random.real(0.0, 0.5), v = random.real(0.0, 0.5);
     const glm::dvec3 face = glm::normalize(glm::cross(at(1) - at(0), at(2) - at(0)));
     // Neighbours lean by up to 5 degrees: beyond 0.2 no one shades another.
-    if (glm::dot(face, glm::dvec3(light.light.place_ew)) < 0.2) continue;
+    if (glm::dot(face, glm::dvec3(light.light.place_rws)) < 0.2) continue;
     ++points;
     const glm::dvec3 p = at(0) + (at(1) - at(0)) * u + (at(2) - at(0)) * v - eye;
-    plain += casters.occluded(glm::vec3(p), light.light.place_ew, 0.0f, 1e9f);
+    plain += casters.occluded(glm::vec3(p), light.light.place_rws, 0.0f, 1e9f);
     ours += light_truth(casters, light, p, face, 0).share < 0.5f;
   }
   ASSERT_GT(points, raster_test::effort(20000) / 10);

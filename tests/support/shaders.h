@@ -99,7 +99,7 @@ struct LinearColorShader {
   using Attributes = ColoredAttributes<R>;
   template <class R>
   struct Varyings {
-    Linear<vec4<R>> color;
+    NoPerspective<vec4<R>> color;
   };
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {

@@ -20,7 +20,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr int kMostChannels = 64;
+constexpr int kMaxChannels = 64;
 constexpr rlim_t kReadSeconds = 60;
 constexpr rlim_t kWriteSeconds = 1200;             // the picture is ours, and 16384x16384 pixels of EXR take minutes
 constexpr rlim_t kAddressSpace = rlim_t{6} << 30;  // 2^28 pixels of 16 bytes, and the libraries
@@ -39,7 +39,7 @@ void limit_this_process(rlim_t cpu_seconds) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);
-  OIIO::attribute("limits:channels", kMostChannels);
+  OIIO::attribute("limits:channels", kMaxChannels);
   OIIO::attribute("limits:imagesize_MB", 4096);
 }
 

@@ -17,8 +17,8 @@ namespace halfspace {
 namespace {
 
 // A picture may claim this many pixels for each byte of its file (constant JPEG: about 100; bilevel TIFF: 8000).
-constexpr uint64_t kMostPixelsPerByte = 8192;
-constexpr int kMostChannels = 64;
+constexpr uint64_t kMaxPixelsPerByte = 8192;
+constexpr int kMaxChannels = 64;
 
 // A decoded picture with the channels that were asked for: all of the file's, or the first alone.
 struct Picture {
@@ -35,15 +35,15 @@ void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
   const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels";
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1) throw Failure{"has " + size + "; expected a flat picture of at least 1x1"};
   const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-  if (pixels > request.most_pixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 on an edge"};
-  if (pixels > (1u << 20) && pixels / kMostPixelsPerByte > request.file_bytes) {
+  if (pixels > request.max_pixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 on an edge"};
+  if (pixels > (1u << 20) && pixels / kMaxPixelsPerByte > request.file_bytes) {
     throw Failure{"claims " + size + " but has only " + std::to_string(request.file_bytes) + " bytes; expected a whole image file"};
   }
-  if (spec.nchannels < 1 || spec.nchannels > kMostChannels) {
-    throw Failure{"has " + std::to_string(spec.nchannels) + " channels; expected 1 to " + std::to_string(kMostChannels)};
+  if (spec.nchannels < 1 || spec.nchannels > kMaxChannels) {
+    throw Failure{"has " + std::to_string(spec.nchannels) + " channels; expected 1 to " + std::to_string(kMaxChannels)};
   }
   const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) * static_cast<uint64_t>(std::max(spec.tile_height, 0));
-  if (spec.deep || tile > request.most_pixels) throw Failure{"has deep pixels or oversized tiles; expected a flat picture"};
+  if (spec.deep || tile > request.max_pixels) throw Failure{"has deep pixels or oversized tiles; expected a flat picture"};
 }
 
 // Codes of up to 16 bits stay codes; everything else is a number (signed and 32-bit integers: scaled to 1).

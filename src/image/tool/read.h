@@ -10,7 +10,7 @@ struct ReadRequest {
   std::string path, format;
   /// The first channel alone, instead of RGBA.
   bool gray = false;
-  uint64_t file_bytes = 0, most_pixels = 0;
+  uint64_t file_bytes = 0, max_pixels = 0;
 };
 
 /// Decodes the file and writes the answer (see protocol.h) to standard output.

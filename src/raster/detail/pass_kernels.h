@@ -35,8 +35,8 @@ constexpr ShaderKernels kernels_of() {
   k.vertex = vertex_kernel<S, has_varyings, true>;
   k.position = vertex_kernel<S, false, false>;
   k.gives_point_size = kGivesPointSize<S>;
-  k.gives_sprite = kGivesSprite<S>;
-  static_assert(kClipDistances<S> <= kMostClipDistances);
+  k.gives_point_sprite = kGivesPointSprite<S>;
+  static_assert(kClipDistances<S> <= kMaxClipDistances);
   k.clip_distance_count = static_cast<int>(kClipDistances<S>);
   if constexpr (has_varyings) {
     k.uses_centroid = kUsesCentroid<V>;
@@ -104,6 +104,18 @@ consteval bool require_streams() {
   using A = typename S::template Attributes<float>;
   static_assert(kStreamsMatch<A, V>, "the streams do not match the members of the shader's Attributes, one after the other");
   return kStreamsMatch<A, V>;
+}
+
+/// True if the pass can draw the view with the shader, else a compile-time error that says why not.
+template <class S, class V>
+consteval bool require_draw() {
+  if constexpr (require_shader<S>()) return require_streams<S, V>();
+  return false;
+}
+template <class S, class V>
+consteval bool require_depth_draw() {
+  if constexpr (require_vertex_shader<S>()) return require_streams<S, V>();
+  return false;
 }
 
 /// The state of a Pass: its attachments, draws and plan. Pass holds one and sees nothing of it.

@@ -31,14 +31,14 @@ inline Edge edge_of(const Triangle& t, std::size_t i) {
 /// the top row first, so it is the displayed lower edge that owns its samples, not the upper one as in D3D's top-left
 /// rule. tests/mesa shows that Mesa draws by the same rule into a framebuffer object.
 template <class I>
-HS_INLINE auto owns_its_samples(I ex, I ey) {
+HS_INLINE auto is_top_left(I ex, I ey) {
   return ey < I(0) || (ey == I(0) && ex > I(0));
 }
 
 /// Inside is E − bias ≥ 0. Of an edge (ex, ey), or lane by lane.
 template <class I>
 HS_INLINE I fill_bias(I ex, I ey) {
-  return select(owns_its_samples(ex, ey), I(0), I(1));
+  return select(is_top_left(ex, ey), I(0), I(1));
 }
 inline int32_t fill_bias(const Edge& e) { return fill_bias(e.ex, e.ey); }
 

@@ -32,7 +32,7 @@ struct ShaderKernels {
   const Interpolation* interpolations = nullptr;  ///< varying_count entries
   bool uses_centroid = false;                     ///< some varying does
   bool gives_point_size = false;                  ///< the vertex function does
-  bool gives_sprite = false;                      ///< and bounds of points
+  bool gives_point_sprite = false;                ///< and bounds of points
   int clip_distance_count = 0;                    ///< and clip distances
   int color_count = 1;                            ///< colours that the fragment function returns
   bool discards = false;
@@ -84,7 +84,7 @@ inline bool can_gather(const ShadedVertices& v, const Draw& draw) {
 }
 
 /// Everything the stages after the vertex stage read.
-struct Frame {
+struct PassContext {
   std::unique_ptr<std::pmr::monotonic_buffer_resource> memory;  ///< of the draws' shaders and streams
   std::vector<Draw> draws;
   std::vector<ShadedVertices> shaded;  ///< one a draw
@@ -97,13 +97,15 @@ struct Frame {
   SampleSpan samples_at{};
 };
 
-inline const Triangle& triangle_of(const Frame& frame, TriangleId id) { return frame.chunks[chunk_of(id)].triangles[index_in_chunk(id)]; }
+inline const Triangle& triangle_of(const PassContext& context, TriangleId id) {
+  return context.chunks[chunk_of(id)].triangles[index_in_chunk(id)];
+}
 
 /// The draw that a triangle belongs to.
-inline const Draw& draw_of(const Frame& frame, TriangleId id) {
-  const Chunk& chunk = frame.chunks[chunk_of(id)];
-  const std::size_t segment = chunk.segments.size() == 1 ? 0 : chunk.triangles[index_in_chunk(id)].segment();
-  return frame.draws[chunk.segments[segment].draw];
+inline const Draw& draw_of(const PassContext& context, TriangleId id) {
+  const Chunk& chunk = context.chunks[chunk_of(id)];
+  const std::size_t range = chunk.ranges.size() == 1 ? 0 : chunk.triangles[index_in_chunk(id)].range();
+  return context.draws[chunk.ranges[range].draw];
 }
 
 }  // namespace halfspace

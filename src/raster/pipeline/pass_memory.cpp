@@ -7,11 +7,11 @@ namespace halfspace {
 
 namespace {
 
-constexpr std::size_t kMostKept = std::size_t{256} << 20;
+constexpr std::size_t kMaxKept = std::size_t{256} << 20;
 
 struct Kept {
   std::mutex mutex;
-  std::vector<FrameMemory> idle;
+  std::vector<PassMemory> idle;
   std::vector<std::vector<Draw>> idle_draws;
   std::size_t bytes = 0;
 };
@@ -20,7 +20,7 @@ Kept& kept() {
   return k;
 }
 
-std::size_t bytes_of(const FrameMemory& m) {
+std::size_t bytes_of(const PassMemory& m) {
   std::size_t bytes = 0;
   for (const Chunk& c : m.chunks) bytes += c.bytes();
   for (const ShadedVertices& v : m.shaded) bytes += v.bytes();
@@ -29,7 +29,7 @@ std::size_t bytes_of(const FrameMemory& m) {
 
 }  // namespace
 
-std::vector<Draw> take_draw_memory() {
+std::vector<Draw> take_draw_list() {
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);
   if (k.idle_draws.empty()) return {};
@@ -39,31 +39,31 @@ std::vector<Draw> take_draw_memory() {
   return draws;
 }
 
-void keep_draw_memory(std::vector<Draw> draws) {
+void return_draw_list(std::vector<Draw> draws) {
   draws.clear();
   const std::size_t bytes = draws.capacity() * sizeof(Draw);
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);
-  if (bytes == 0 || k.bytes + bytes > kMostKept) return;
+  if (bytes == 0 || k.bytes + bytes > kMaxKept) return;
   k.bytes += bytes;
   k.idle_draws.push_back(std::move(draws));
 }
 
-FrameMemory take_frame_memory() {
+PassMemory take_pass_memory() {
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);
   if (k.idle.empty()) return {};
-  FrameMemory memory = std::move(k.idle.back());
+  PassMemory memory = std::move(k.idle.back());
   k.idle.pop_back();
   k.bytes -= bytes_of(memory);
   return memory;
 }
 
-void keep_frame_memory(FrameMemory memory) {
+void return_pass_memory(PassMemory memory) {
   const std::size_t bytes = bytes_of(memory);
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);
-  if (k.bytes + bytes > kMostKept) return;
+  if (k.bytes + bytes > kMaxKept) return;
   k.bytes += bytes;
   k.idle.push_back(std::move(memory));
 }

@@ -11,19 +11,19 @@
 namespace halfspace {
 
 /// The buffers of a pass. What they hold means nothing.
-struct FrameMemory {
+struct PassMemory {
   std::vector<Chunk> chunks;
   std::vector<ShadedVertices> shaded;
 };
 
 /// Memory of a finished pass's list of draws, empty; and its keeping, as below. A pass fills its list before it runs.
-std::vector<Draw> take_draw_memory();
-void keep_draw_memory(std::vector<Draw> draws);
+std::vector<Draw> take_draw_list();
+void return_draw_list(std::vector<Draw> draws);
 
 /// Memory of a finished pass, or empty. Any number of threads may ask.
-FrameMemory take_frame_memory();
+PassMemory take_pass_memory();
 
 /// Keeps the memory if what is kept stays below 256 MB, else frees it.
-void keep_frame_memory(FrameMemory memory);
+void return_pass_memory(PassMemory memory);
 
 }  // namespace halfspace

@@ -4,7 +4,7 @@
 namespace halfspace {
 
 void Chunk::clear() {
-  segments.clear();
+  ranges.clear();
   triangles.clear();
   clip_vertices.clear();
   clip_varyings.clear();

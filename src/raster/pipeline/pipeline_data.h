@@ -52,7 +52,7 @@ struct LineRange {
 };
 
 /// What a point covers: samples with x0 ≤ x < x1 and y0 ≤ y < y1, in 24.8 fixed point, held to ±2^28.
-struct SpriteRect {
+struct PointSpriteRect {
   int32_t x0, y0, x1, y1;
 };
 
@@ -89,10 +89,10 @@ struct ShadedVertices {
   int varying_count = 0;        ///< floats per vertex in varyings
   Buffer<ScreenVertex> screen;  ///< uninitialized where no index refers to it
   Buffer<Outcode> outcodes;
-  Outcode any_outcode = 0;                ///< their union: 0 where the whole draw is in view
-  Buffer<float> varyings;                 ///< behind the last row are kRowSlack more (core/transpose.h), of any value
-  std::unique_ptr<SpriteRect[]> sprites;  ///< of points alone
-  int clip_distance_count = 0;            ///< floats per vertex in clip_distances
+  Outcode any_outcode = 0;                     ///< their union: 0 where the whole draw is in view
+  Buffer<float> varyings;                      ///< behind the last row are kRowSlack more (core/transpose.h), of any value
+  std::unique_ptr<PointSpriteRect[]> sprites;  ///< of points alone
+  int clip_distance_count = 0;                 ///< floats per vertex in clip_distances
   std::unique_ptr<float[]> clip_distances;
 
   std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes(); }
@@ -114,8 +114,8 @@ struct VertexBatch {
   float* clip;          ///< out: x, y, z, w of clip space as four rows of kVertexBatch
   float* extra;         ///< out, or null: rows of the point size and the clip distances, or a sprite's low x, low y, high x, high y
 };
-inline constexpr int kMostClipDistances = 8;
-inline constexpr int kMostExtraRows = 1 + kMostClipDistances;
+inline constexpr int kMaxClipDistances = 8;
+inline constexpr int kMaxExtraRows = 1 + kMaxClipDistances;
 
 // ---- the viewport transform ------------------------------------------------------------------------------------
 
@@ -139,7 +139,7 @@ struct PixelBox {
 
   bool operator==(const PixelBox&) const = default;
   auto empty() const { return x0 >= x1 || y0 >= y1; }
-  auto is_at_most(int32_t width, int32_t height) const { return x1 - x0 <= I(width) && y1 - y0 <= I(height); }
+  auto fits_in(int32_t width, int32_t height) const { return x1 - x0 <= I(width) && y1 - y0 <= I(height); }
 };
 using PixelBounds = PixelBox<int32_t>;
 
@@ -149,14 +149,14 @@ inline constexpr uint32_t kFrontFacing = 1;     ///< the triangle faces front
 inline constexpr uint32_t kClipped = 2;         ///< vertex[] index the chunk's clip vertices
 inline constexpr uint32_t kSmall = 4;           ///< every edge function fits in int32 without a shift
 inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: which of vertex[] is the provoking vertex
-inline constexpr uint32_t kSprite = 32;         ///< a point: see Triangle
+inline constexpr uint32_t kPointSprite = 32;    ///< a point: see Triangle
 inline constexpr uint32_t kLine = 64;           ///< a line: see Triangle
 inline constexpr uint32_t kCoveredShift = 7;    ///< twelve bits: see Triangle::covered
 inline constexpr uint32_t kCoveredBits = 0xfff;
-inline constexpr uint32_t kSegmentShift = 19;  ///< thirteen bits: which segment of the chunk
+inline constexpr uint32_t kDrawRangeShift = 19;  ///< thirteen bits: which segment of the chunk
 
 /// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
-/// A point (kSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
+/// A point (kPointSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
 /// A line (kLine, with one sample a pixel) has its ends as vertices 0 and 1, that of smaller depth first, and a third corner beside
 /// the first so that E1 and the area are the products along the line that interpolation needs; vertex[2] is its LineRange.
 struct Triangle {
@@ -167,7 +167,7 @@ struct Triangle {
   std::array<uint32_t, 3> vertex;
   uint32_t flags;
 
-  uint32_t segment() const { return flags >> kSegmentShift; }
+  uint32_t range() const { return flags >> kDrawRangeShift; }
   uint32_t provoking() const { return (flags >> kProvokingShift) & 3; }
   bool is(uint32_t flag) const { return (flags & flag) != 0; }
   /// Of a small triangle in few pixels (one sample a pixel) those that it covers: bit 4r + c is pixel c of row r of its box within the
@@ -188,7 +188,7 @@ struct ClipSource {
 };
 
 /// A run of consecutive primitives of one instance of a draw.
-struct Segment {
+struct DrawRange {
   uint32_t draw, instance;
   uint32_t first, count;         ///< primitives of the draw's index list
   uint32_t first_triangle = 0;   ///< written by setup: where its triangles start in Chunk::triangles
@@ -197,8 +197,8 @@ struct Segment {
 
 /// Up to some thousand submitted triangles, through clip, setup and bin: written by one task, then only read.
 struct Chunk {
-  std::vector<Segment> segments;
-  std::vector<Triangle, RawAllocator<Triangle>> triangles;
+  std::vector<DrawRange> ranges;
+  std::vector<Triangle, DefaultInitAllocator<Triangle>> triangles;
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
   std::vector<ClipSource> clip_sources;
@@ -223,7 +223,7 @@ inline constexpr TriangleId kNoTriangle = 0xffffffffu;
 inline constexpr uint32_t kMaxChunks = 0xffff;
 inline constexpr uint32_t kMaxTrianglesPerChunk = 0xffff;
 /// Submitted, one a segment at the least. Filled triangles end a chunk at 4369: clipping may make 15 of one.
-inline constexpr uint32_t kMaxPrimitivesPerChunk = 1u << (32 - kSegmentShift);
+inline constexpr uint32_t kMaxPrimitivesPerChunk = 1u << (32 - kDrawRangeShift);
 constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chunk << 16 | triangle; }
 /// The parts of an id other than kNoTriangle: the chunk, and the index into its triangles.
 constexpr uint32_t chunk_of(TriangleId id) { return id >> 16; }

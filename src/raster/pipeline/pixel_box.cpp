@@ -9,7 +9,7 @@ namespace {
 
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& at_x, const SampleSpan& at_y) {
   if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
-  return cut(pixel_box(t.x, t.y, at_x, at_y), b);
+  return intersect(pixel_box(t.x, t.y, at_x, at_y), b);
 }
 
 }  // namespace

@@ -12,11 +12,11 @@
 namespace halfspace {
 
 template <class T>
-HS_INLINE T least(const std::array<T, 3>& v) {
+HS_INLINE T min_of(const std::array<T, 3>& v) {
   return min(v[0], min(v[1], v[2]));
 }
 template <class T>
-HS_INLINE T largest(const std::array<T, 3>& v) {
+HS_INLINE T max_of(const std::array<T, 3>& v) {
   return max(v[0], max(v[1], v[2]));
 }
 
@@ -25,14 +25,14 @@ template <class I>
 HS_INLINE PixelBox<I> pixel_box(const std::array<I, 3>& x, const std::array<I, 3>& y, const SampleSpan& at_x, const SampleSpan& at_y) {
   constexpr int32_t last = kSubPixels - 1;
   // the first pixel with a sample at or right of the least corner; one past the last with a sample at or left of the largest
-  const auto first = [](const std::array<I, 3>& v, const SampleSpan& at) { return (least(v) + (last - at.high)) >> kSubPixelBits; };
-  const auto end = [](const std::array<I, 3>& v, const SampleSpan& at) { return ((largest(v) - at.low) >> kSubPixelBits) + 1; };
+  const auto first = [](const std::array<I, 3>& v, const SampleSpan& at) { return (min_of(v) + (last - at.high)) >> kSubPixelBits; };
+  const auto end = [](const std::array<I, 3>& v, const SampleSpan& at) { return ((max_of(v) - at.low) >> kSubPixelBits) + 1; };
   return {first(x, at_x), first(y, at_y), end(x, at_x), end(y, at_y)};
 }
 
 /// The part of a box in bounds.
 template <class I>
-HS_INLINE PixelBox<I> cut(const PixelBox<I>& box, const PixelBounds& b) {
+HS_INLINE PixelBox<I> intersect(const PixelBox<I>& box, const PixelBounds& b) {
   return {max(box.x0, I(b.x0)), max(box.y0, I(b.y0)), min(box.x1, I(b.x1)), min(box.y1, I(b.y1))};
 }
 

@@ -55,10 +55,10 @@ constexpr SampleSpan sample_span(int samples) {
 
 /// A tile of several samples is smaller, and its samples lie side by side in the room of a whole tile: sample s of pixel
 /// (x, y) where pixel (x + cell.x, y + cell.y) of a whole tile lies. So all that works on one sample works on any.
-struct SampleCell {
+struct SamplePlane {
   int x, y;
 };
-constexpr SampleCell sample_cell(int samples, int sample, int tile_size) {
+constexpr SamplePlane sample_plane(int samples, int sample, int tile_size) {
   const int columns = samples == 8 ? 4 : samples == 1 ? 1 : 2;
   return {sample % columns * tile_size, sample / columns * tile_size};
 }

@@ -45,8 +45,8 @@ class TileRuns {
 
 // The tiles that pixels lie in, half open. T: PixelBounds, or a PixelBox of lanes.
 template <class T>
-T tiles_of(const Frame& frame, const T& pixels) {
-  const int shift = std::countr_zero(static_cast<unsigned>(frame.tile_size));
+T tiles_of(const PassContext& context, const T& pixels) {
+  const int shift = std::countr_zero(static_cast<unsigned>(context.tile_size));
   return {pixels.x0 >> shift, pixels.y0 >> shift, ((pixels.x1 - 1) >> shift) + 1, ((pixels.y1 - 1) >> shift) + 1};
 }
 
@@ -56,9 +56,9 @@ struct TileRows {
 };
 
 // Those of `count` triangles of one draw from `first` on; of lines nothing is said.
-TileRows tile_rows(const Frame& frame, const Draw& draw, const Triangle* first, std::size_t count) {
+TileRows tile_rows(const PassContext& context, const Draw& draw, const Triangle* first, std::size_t count) {
   const auto [x, y] = load_corners([&](int k) { return first + std::min(static_cast<std::size_t>(k), count - 1); });
-  const PixelBox<Int> tiles = tiles_of(frame, cut(pixel_box(x, y, frame.samples_at, frame.samples_at), draw.bounds));
+  const PixelBox<Int> tiles = tiles_of(context, intersect(pixel_box(x, y, context.samples_at, context.samples_at), draw.bounds));
   TileRows rows;
   store(rows.x0.data(), tiles.x0);
   store(rows.y0.data(), tiles.y0);
@@ -68,33 +68,33 @@ TileRows tile_rows(const Frame& frame, const Draw& draw, const Triangle* first, 
 }
 
 // The largest E in the box of a tile's samples.
-int64_t largest(const Edge& e, int tile_x, int tile_y, int size, const SampleSpan& span) {
+int64_t max_in_tile(const Edge& e, int tile_x, int tile_y, int size, const SampleSpan& span) {
   const int px = tile_x * size + (e.ey < 0 ? size - 1 : 0);
   const int py = tile_y * size + (e.ex > 0 ? size - 1 : 0);
   const int x = e.ey < 0 ? span.high : span.low, y = e.ex > 0 ? span.high : span.low;
   return e.at(int64_t{px} * kSubPixels + x, int64_t{py} * kSubPixels + y);
 }
 
-void list_tiles(const Frame& frame, const Triangle& t, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
-  const int size = frame.tile_size;
-  const bool one_row = tiles.x1 - tiles.x0 == 1 || tiles.y1 - tiles.y0 == 1 || t.is(kSprite);
+void list_tiles(const PassContext& context, const Triangle& t, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
+  const int size = context.tile_size;
+  const bool one_row = tiles.x1 - tiles.x0 == 1 || tiles.y1 - tiles.y0 == 1 || t.is(kPointSprite);
   const std::array<Edge, 3> edges{edge_of(t, 0), edge_of(t, 1), edge_of(t, 2)};
   for (int y = tiles.y0; y < tiles.y1; ++y) {
     for (int x = tiles.x0; x < tiles.x1; ++x) {
       // The box of a triangle within one row or column of tiles is near enough.
-      const auto inside = [&](const Edge& e) { return largest(e, x, y, size, frame.samples_at) - fill_bias(e) >= 0; };
+      const auto inside = [&](const Edge& e) { return max_in_tile(e, x, y, size, context.samples_at) - fill_bias(e) >= 0; };
       if (!one_row && !(inside(edges[0]) && inside(edges[1]) && inside(edges[2]))) continue;
       runs.put(x, y, index);
     }
   }
 }
 
-void list_line_tiles(const Frame& frame, const Triangle& t, int pixels, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
-  const int size = frame.tile_size;
+void list_line_tiles(const PassContext& context, const Triangle& t, int pixels, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
+  const int size = context.tile_size;
   const std::array<BandEdge, 2> band = band_edges(t, pixels);
   for (int y = tiles.y0; y < tiles.y1; ++y) {
     for (int x = tiles.x0; x < tiles.x1; ++x) {
-      const auto inside = [&](const BandEdge& e) { return largest(e.edge, x, y, size, frame.samples_at) + e.offset - e.bias >= 0; };
+      const auto inside = [&](const BandEdge& e) { return max_in_tile(e.edge, x, y, size, context.samples_at) + e.offset - e.bias >= 0; };
       if (inside(band[0]) && inside(band[1])) runs.put(x, y, index);
     }
   }
@@ -102,26 +102,26 @@ void list_line_tiles(const Frame& frame, const Triangle& t, int pixels, const Pi
 
 }  // namespace
 
-void bin_chunk(const Frame& frame, Chunk& chunk) {
+void bin_chunk(const PassContext& context, Chunk& chunk) {
   TileRuns runs(chunk.triangles.size());
-  int x0 = frame.tiles_x, y0 = frame.tiles_y, x1 = 0, y1 = 0;
-  for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
-    const Draw& draw = frame.draws[chunk.segments[s].draw];
-    const std::size_t end = s + 1 < chunk.segments.size() ? chunk.segments[s + 1].first_triangle : chunk.triangles.size();
-    for (std::size_t first = chunk.segments[s].first_triangle; first < end; first += kLanes) {
+  int x0 = context.tiles_x, y0 = context.tiles_y, x1 = 0, y1 = 0;
+  for (std::size_t s = 0; s < chunk.ranges.size(); ++s) {
+    const Draw& draw = context.draws[chunk.ranges[s].draw];
+    const std::size_t end = s + 1 < chunk.ranges.size() ? chunk.ranges[s + 1].first_triangle : chunk.triangles.size();
+    for (std::size_t first = chunk.ranges[s].first_triangle; first < end; first += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, end - first);
-      const TileRows rows = tile_rows(frame, draw, &chunk.triangles[first], count);
+      const TileRows rows = tile_rows(context, draw, &chunk.triangles[first], count);
       for (std::size_t i = 0; i < count; ++i) {
         const Triangle& t = chunk.triangles[first + i];
         const auto index = static_cast<uint16_t>(first + i);
         PixelBounds tiles{rows.x0[i], rows.y0[i], rows.x1[i], rows.y1[i]};
         if (t.is(kLine)) {
-          tiles = tiles_of(frame, pixel_bounds(draw, t, draw.bounds, frame.samples_at));
-          list_line_tiles(frame, t, line_pixels(draw.state.line_width), tiles, index, runs);
+          tiles = tiles_of(context, pixel_bounds(draw, t, draw.bounds, context.samples_at));
+          list_line_tiles(context, t, line_pixels(draw.state.line_width), tiles, index, runs);
         } else if (tiles.x1 - tiles.x0 == 1 && tiles.y1 - tiles.y0 == 1) {
           runs.put(tiles.x0, tiles.y0, index);
         } else {
-          list_tiles(frame, t, tiles, index, runs);
+          list_tiles(context, t, tiles, index, runs);
         }
         x0 = std::min(x0, tiles.x0);
         y0 = std::min(y0, tiles.y0);

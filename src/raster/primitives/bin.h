@@ -10,7 +10,7 @@
 namespace halfspace {
 
 /// Fills the bins of a chunk: list (tile, triangle) pairs, count them by tile, prefix sum, fill.
-void bin_chunk(const Frame& frame, Chunk& chunk);
+void bin_chunk(const PassContext& context, Chunk& chunk);
 
 /// The triangles of one tile, empty where the chunk has none there.
 std::span<const uint16_t> bin_of(const Chunk& chunk, int tile_x, int tile_y);

@@ -20,7 +20,7 @@ inline constexpr int kFixedPlanes = 7;
 inline constexpr int kClipPlanes = kFixedPlanes + 8;
 inline constexpr int kMaxCorners = 3 + 2 * kClipPlanes;
 /// Corners of what is left of a triangle cut by the fixed planes and that many clip distances.
-constexpr int most_corners(int clip_distances) { return 3 + 2 * (kFixedPlanes + clip_distances); }
+constexpr int max_corners(int clip_distances) { return 3 + 2 * (kFixedPlanes + clip_distances); }
 
 struct ClipCorner {
   glm::dvec4 pos_clip;
@@ -57,7 +57,7 @@ void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, con
                         const ShaderKernels& kernels, float* out);
 
 /// Twice the area of three corners: > 0 where they turn left.
-inline int64_t turn(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
+inline int64_t orient2d(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
   return int64_t{b.x - a.x} * (c.y - a.y) - int64_t{b.y - a.y} * (c.x - a.x);
 }
 
@@ -68,7 +68,7 @@ inline int64_t turn(const ScreenVertex& a, const ScreenVertex& b, const ScreenVe
 /// pieces that turn against the whole are left out, and their samples remain drawn by the others.
 struct Fan {
   uint32_t apex = 0;
-  bool turns_left = false;
+  bool counter_clockwise = false;
 };
 
 inline Fan fan_of(const ClipVertex* v, uint32_t count) {
@@ -77,7 +77,7 @@ inline Fan fan_of(const ClipVertex* v, uint32_t count) {
     bool left = false, right = false;
     int64_t area = 0;
     for (uint32_t i = 2; i < count; ++i) {
-      const int64_t piece = turn(v[apex].screen, v[(apex + i - 1) % count].screen, v[(apex + i) % count].screen);
+      const int64_t piece = orient2d(v[apex].screen, v[(apex + i - 1) % count].screen, v[(apex + i) % count].screen);
       left |= piece > 0;
       right |= piece < 0;
       area += piece;

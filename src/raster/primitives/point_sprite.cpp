@@ -7,12 +7,12 @@
 
 namespace halfspace {
 
-void make_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen, const Outcode* outcodes,
-                  SpriteRect* out) {
+void make_point_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen,
+                        const Outcode* outcodes, PointSpriteRect* out) {
   const Viewport& v = draw.viewport;
   const auto row = [](const float* rows, int k, int i) { return static_cast<double>(rows[k * kVertexBatch + i]); };
   for (int i = 0; i < count; ++i) {
-    if (draw.kernels.gives_sprite) {
+    if (draw.kernels.gives_point_sprite) {
       out[i] = {snap(row(extra, 0, i), v.half_width, v.center_x), snap(row(extra, 1, i), v.half_height, v.center_y),
                 snap(row(extra, 2, i), v.half_width, v.center_x), snap(row(extra, 3, i), v.half_height, v.center_y)};
       continue;

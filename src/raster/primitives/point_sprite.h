@@ -8,7 +8,7 @@
 namespace halfspace {
 
 /// The rectangles of `count` points. clip and extra as in VertexBatch (extra is read where the kernels give a size or bounds).
-void make_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen, const Outcode* outcodes,
-                  SpriteRect* out);
+void make_point_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen,
+                        const Outcode* outcodes, PointSpriteRect* out);
 
 }  // namespace halfspace

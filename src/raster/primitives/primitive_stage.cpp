@@ -18,10 +18,10 @@ std::array<uint32_t, 3> submitted_order(const Triangle& t, const DrawState& stat
   return vertex;
 }
 
-class SegmentPrimitives {
+class DrawRangePrimitives {
  public:
-  SegmentPrimitives(const Frame& frame, const Chunk& chunk, const Segment& segment)
-      : chunk_(chunk), draw_(frame.draws[segment.draw]), shaded_(frame.shaded[segment.draw]) {}
+  DrawRangePrimitives(const PassContext& context, const Chunk& chunk, const DrawRange& range)
+      : chunk_(chunk), draw_(context.draws[range.draw]), shaded_(context.shaded[range.draw]) {}
 
   // Rows of the varyings of triangle i's vertices as submitted; call for rising i.
   std::array<const float*, 3> rows(uint32_t i) {
@@ -49,20 +49,20 @@ class SegmentPrimitives {
 
 }  // namespace
 
-void run_primitive_stage(const Frame& frame, Chunk& chunk) {
+void run_primitive_stage(const PassContext& context, Chunk& chunk) {
   std::vector<std::array<const float*, 3>> rows;
-  for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
-    Segment& segment = chunk.segments[s];
-    const Draw& draw = frame.draws[segment.draw];
-    const auto end = s + 1 < chunk.segments.size() ? chunk.segments[s + 1].first_triangle : static_cast<uint32_t>(chunk.triangles.size());
-    if (draw.kernels.primitive == nullptr || segment.first_triangle == end) continue;
+  for (std::size_t s = 0; s < chunk.ranges.size(); ++s) {
+    DrawRange& range = chunk.ranges[s];
+    const Draw& draw = context.draws[range.draw];
+    const auto end = s + 1 < chunk.ranges.size() ? chunk.ranges[s + 1].first_triangle : static_cast<uint32_t>(chunk.triangles.size());
+    if (draw.kernels.primitive == nullptr || range.first_triangle == end) continue;
     rows.clear();
-    SegmentPrimitives segment_rows(frame, chunk, segment);
-    for (uint32_t i = segment.first_triangle; i < end; ++i) rows.push_back(segment_rows.rows(i));
-    segment.first_primitive = static_cast<uint32_t>(chunk.primitives.size());
+    DrawRangePrimitives range_rows(context, chunk, range);
+    for (uint32_t i = range.first_triangle; i < end; ++i) rows.push_back(range_rows.rows(i));
+    range.first_primitive = static_cast<uint32_t>(chunk.primitives.size());
     chunk.primitives.resize(chunk.primitives.size() + rows.size() * static_cast<std::size_t>(draw.kernels.primitive_count));
     draw.kernels.primitive(draw.shader.get(),
-                           {rows.data(), static_cast<int>(rows.size()), chunk.primitives.data() + segment.first_primitive});
+                           {rows.data(), static_cast<int>(rows.size()), chunk.primitives.data() + range.first_primitive});
   }
 }
 

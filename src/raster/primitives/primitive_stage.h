@@ -20,7 +20,7 @@ struct PrimitiveBatch {
 };
 
 /// Fills chunk.primitives for the segments whose draws have a primitive stage.
-void run_primitive_stage(const Frame& frame, Chunk& chunk);
+void run_primitive_stage(const PassContext& context, Chunk& chunk);
 
 namespace detail {
 

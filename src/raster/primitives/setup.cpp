@@ -17,16 +17,16 @@ namespace halfspace {
 namespace {
 
 // Sets up the primitives of one segment.
-class SegmentSetup {
+class DrawRangeSetup {
  public:
-  SegmentSetup(const Frame& frame, Chunk& chunk, uint32_t segment)
-      : frame_(frame),
+  DrawRangeSetup(const PassContext& context, Chunk& chunk, uint32_t range)
+      : context_(context),
         chunk_(chunk),
-        segment_(segment),
-        draw_(frame.draws[chunk.segments[segment].draw]),
-        shaded_(frame.shaded[chunk.segments[segment].draw]),
-        assembly_(draw_, chunk.segments[segment].first),
-        instance_(chunk.segments[segment].instance),
+        range_(range),
+        draw_(context.draws[chunk.ranges[range].draw]),
+        shaded_(context.shaded[chunk.ranges[range].draw]),
+        assembly_(draw_, chunk.ranges[range].first),
+        instance_(chunk.ranges[range].instance),
         slot_base_(shaded_.first - instance_ * shaded_.count),
         provoking_(draw_.state.provoking == ProvokingVertex::first ? 0 : 2) {}
 
@@ -52,7 +52,7 @@ class SegmentSetup {
       ++chunk_.statistics.culled_non_finite;
     } else if (all || (beyond_distances(id[0]) & beyond_distances(id[1])) != 0) {
       ++chunk_.statistics.culled_outside;
-    } else if (const bool needed = (any & kOutNeedsClip) != 0 || beyond_any != 0; needed || frame_.samples > 1) {
+    } else if (const bool needed = (any & kOutNeedsClip) != 0 || beyond_any != 0; needed || context_.samples > 1) {
       clip(id, clip_line, needed);
     } else {
       const std::size_t before = chunk_.triangles.size();
@@ -66,9 +66,9 @@ class SegmentSetup {
 
   // The next W triangles, or what is left of them.
   void submit_triangles(int count) {
-    const uint32_t plain = put_triangles(count);
-    batch_.set_up(frame_, draw_, shaded_, plain, provoking_, segment_, chunk_.statistics);
-    const uint32_t single = (bits(first_lanes<Mask>(count)) & ~plain) | batch_.large();  // to be set up one by one
+    const uint32_t unclipped = put_triangles(count);
+    batch_.set_up(context_, draw_, shaded_, unclipped, provoking_, range_, chunk_.statistics);
+    const uint32_t single = (bits(first_lanes<Mask>(count)) & ~unclipped) | batch_.large();  // to be set up one by one
     if (single == 0 && batch_.kept() == 0) return;
     if (single == 0) {
       const std::size_t first = chunk_.triangles.size();
@@ -94,17 +94,17 @@ class SegmentSetup {
   // Gives the next triangles to the batch. Which of them need no clipping?
   uint32_t put_triangles(int count) {
     if (shaded_.any_outcode == 0 && put_at_once(count)) return bits(first_lanes<Mask>(count));
-    uint32_t plain = 0;
+    uint32_t unclipped = 0;
     std::array<uint32_t, 3> slots{};
     for (int i = 0; i < count; ++i) {
       slots = next_slots();
       const Outcode any = shaded_.outcodes[slots[0]] | shaded_.outcodes[slots[1]] | shaded_.outcodes[slots[2]];
       const Outcode all = shaded_.outcodes[slots[0]] & shaded_.outcodes[slots[1]] & shaded_.outcodes[slots[2]];
-      if ((any & (kOutNonFinite | kOutNeedsClip)) == 0 && (all & kOutView) == 0) plain |= 1u << i;
+      if ((any & (kOutNonFinite | kOutNeedsClip)) == 0 && (all & kOutView) == 0) unclipped |= 1u << i;
       batch_.put(i, slots);
     }
     for (int i = count; i < kLanes; ++i) batch_.put(i, slots);
-    return plain;
+    return unclipped;
   }
 
   // Where the list lets them be found so; false if it does not.
@@ -136,7 +136,7 @@ class SegmentSetup {
     } else if (all) {
       ++chunk_.statistics.culled_outside;
     } else if ((any & kOutNeedsClip) != 0 || shaded_.clip_distances || draw_.state.polygon_mode != PolygonMode::fill) {
-      submit_rare_triangle(id, any);
+      submit_triangle_slowly(id, any);
     } else {
       append_whole(id);
     }
@@ -161,7 +161,7 @@ class SegmentSetup {
     return shaded_.clip_distances.get() + std::size_t{id} * static_cast<std::size_t>(shaded_.clip_distance_count);
   }
 
-  void submit_rare_triangle(const std::array<uint32_t, 3>& id, Outcode any) {
+  void submit_triangle_slowly(const std::array<uint32_t, 3>& id, Outcode any) {
     const uint32_t a = beyond_distances(id[0]), b = beyond_distances(id[1]), c = beyond_distances(id[2]);
     const bool needed = (any & kOutNeedsClip) != 0 || (a | b | c) != 0;
     if ((a & b & c) != 0) {
@@ -181,14 +181,14 @@ class SegmentSetup {
   Cull append(const std::array<const ScreenVertex*, 3>& v, const std::array<uint32_t, 3>& index, uint32_t flags, uint32_t provoking,
               Facing facing) {
     Triangle t;
-    const Cull why = set_up_triangle(draw_, frame_, v, index, provoking, facing, t);
+    const Cull why = set_up_triangle(draw_, context_, v, index, provoking, facing, t);
     if (why != Cull::none) return why;
-    t.flags |= flags | segment_ << kSegmentShift;
+    t.flags |= flags | range_ << kDrawRangeShift;
     chunk_.triangles.push_back(t);
     return Cull::none;
   }
 
-  Cull append_point(const SpriteRect& r, const ScreenVertex& v, uint32_t id, uint32_t flags, Facing facing) {
+  Cull append_point(const PointSpriteRect& r, const ScreenVertex& v, uint32_t id, uint32_t flags, Facing facing) {
     if (r.x0 >= r.x1 || r.y0 >= r.y1) return Cull::degenerate;
     if (facing != Facing::back) flags |= kFrontFacing;
     Triangle t{.x = {r.x0, r.x1 - 1, r.x0},
@@ -198,8 +198,8 @@ class SegmentSetup {
                .z_edge2 = 0,
                .z_max = v.z,
                .vertex = {id, id, id},
-               .flags = flags | kSprite | kSmall | segment_ << kSegmentShift};
-    if (pixel_bounds(draw_, t, draw_.bounds, frame_.samples_at).empty()) return Cull::no_sample;
+               .flags = flags | kPointSprite | kSmall | range_ << kDrawRangeShift};
+    if (pixel_bounds(draw_, t, draw_.bounds, context_.samples_at).empty()) return Cull::no_sample;
     chunk_.triangles.push_back(t);
     return Cull::none;
   }
@@ -207,9 +207,9 @@ class SegmentSetup {
   Cull append_line(const std::array<const ScreenVertex*, 2>& v, const std::array<uint32_t, 2>& index, uint32_t flags, uint32_t provoking,
                    Facing facing) {
     Triangle t;
-    const Cull why = set_up_line(draw_, frame_, v, index, provoking, facing, t);
+    const Cull why = set_up_line(draw_, context_, v, index, provoking, facing, t);
     if (why != Cull::none) return why;
-    t.flags |= flags | segment_ << kSegmentShift;
+    t.flags |= flags | range_ << kDrawRangeShift;
     chunk_.triangles.push_back(t);
     return Cull::none;
   }
@@ -270,7 +270,7 @@ class SegmentSetup {
     if (is_lines(draw_.state.topology)) return append_clipped_line(first, first + 1, Facing::front);
     if (draw_.state.polygon_mode == PolygonMode::fill) return append_fan(first, corners);
     int64_t area = 0;
-    for (uint32_t i = 2; i < corners; ++i) area += turn(screen_of(first), screen_of(first + i - 1), screen_of(first + i));
+    for (uint32_t i = 2; i < corners; ++i) area += orient2d(screen_of(first), screen_of(first + i - 1), screen_of(first + i));
     if (area == 0) return Cull::degenerate;
     const bool front = (area > 0) == (draw_.state.front == Winding::counter_clockwise);
     if (is_culled(draw_.state.cull, front)) return Cull::face;
@@ -293,8 +293,8 @@ class SegmentSetup {
     Cull why = Cull::none;
     for (uint32_t i = 2; i < corners; ++i) {
       const std::array<uint32_t, 3> index{first + fan.apex, first + (fan.apex + i - 1) % corners, first + (fan.apex + i) % corners};
-      const int64_t area = turn(screen_of(index[0]), screen_of(index[1]), screen_of(index[2]));
-      if (area != 0 && (area > 0) != fan.turns_left) continue;
+      const int64_t area = orient2d(screen_of(index[0]), screen_of(index[1]), screen_of(index[2]));
+      if (area != 0 && (area > 0) != fan.counter_clockwise) continue;
       why = append({&screen_of(index[0]), &screen_of(index[1]), &screen_of(index[2])}, index, kClipped, 0, Facing::by_winding);
     }
     return why;
@@ -302,7 +302,7 @@ class SegmentSetup {
 
   // A line between two clip vertices; with several samples a pixel the two triangles of a rectangle.
   Cull append_clipped_line(uint32_t a, uint32_t b, Facing facing) {
-    if (frame_.samples == 1) return append_line({&screen_of(a), &screen_of(b)}, {a, b}, kClipped, 0, facing);
+    if (context_.samples == 1) return append_line({&screen_of(a), &screen_of(b)}, {a, b}, kClipped, 0, facing);
     const ClipVertex from = chunk_.clip_vertices[a], to = chunk_.clip_vertices[b];
     if (from.screen.x == to.screen.x && from.screen.y == to.screen.y) return Cull::degenerate;
     const auto first = static_cast<uint32_t>(chunk_.clip_vertices.size());
@@ -319,9 +319,9 @@ class SegmentSetup {
     return why == Cull::none ? why : other;
   }
 
-  const Frame& frame_;
+  const PassContext& context_;
   Chunk& chunk_;
-  uint32_t segment_;
+  uint32_t range_;
   const Draw& draw_;
   const ShadedVertices& shaded_;
   Assembly assembly_;
@@ -333,23 +333,23 @@ class SegmentSetup {
 
 }  // namespace
 
-void set_up_chunk(const Frame& frame, Chunk& chunk) {
+void set_up_chunk(const PassContext& context, Chunk& chunk) {
   std::size_t primitives = 0;
-  for (const Segment& segment : chunk.segments) primitives += segment.count;
+  for (const DrawRange& range : chunk.ranges) primitives += range.count;
   chunk.triangles.reserve(primitives);
   chunk.statistics.primitives_in = primitives;
-  for (uint32_t s = 0; s < chunk.segments.size(); ++s) {
-    Segment& segment = chunk.segments[s];
-    segment.first_triangle = static_cast<uint32_t>(chunk.triangles.size());
-    SegmentSetup setup(frame, chunk, s);
-    const Draw& draw = frame.draws[segment.draw];
+  for (uint32_t s = 0; s < chunk.ranges.size(); ++s) {
+    DrawRange& range = chunk.ranges[s];
+    range.first_triangle = static_cast<uint32_t>(chunk.triangles.size());
+    DrawRangeSetup setup(context, chunk, s);
+    const Draw& draw = context.draws[range.draw];
     const Topology topology = draw.state.topology;
-    if (topology <= Topology::triangle_fan && TriangleBatch::serves(draw) && can_gather(frame.shaded[segment.draw], draw)) {
-      for (uint32_t i = 0; i < segment.count; i += kLanes)
-        setup.submit_triangles(static_cast<int>(std::min<uint32_t>(kLanes, segment.count - i)));
+    if (topology <= Topology::triangle_fan && TriangleBatch::serves(draw) && can_gather(context.shaded[range.draw], draw)) {
+      for (uint32_t i = 0; i < range.count; i += kLanes)
+        setup.submit_triangles(static_cast<int>(std::min<uint32_t>(kLanes, range.count - i)));
       continue;
     }
-    for (uint32_t i = 0; i < segment.count; ++i) {
+    for (uint32_t i = 0; i < range.count; ++i) {
       if (topology == Topology::points) {
         setup.submit_point();
       } else if (is_lines(topology)) {
@@ -362,11 +362,11 @@ void set_up_chunk(const Frame& frame, Chunk& chunk) {
   chunk.statistics.triangles_binned = chunk.triangles.size();
 }
 
-uint32_t most_records(const Draw& draw, int samples) {
+uint32_t max_triangles_per_primitive(const Draw& draw, int samples) {
   const uint32_t by_line = samples > 1 ? 2 : 1;
   if (draw.state.topology == Topology::points) return 1;
   if (is_lines(draw.state.topology)) return by_line;
-  const auto corners = static_cast<uint32_t>(most_corners(draw.kernels.clip_distance_count));
+  const auto corners = static_cast<uint32_t>(max_corners(draw.kernels.clip_distance_count));
   switch (draw.state.polygon_mode) {
     case PolygonMode::fill: return corners - 2;
     case PolygonMode::line: return corners * by_line;

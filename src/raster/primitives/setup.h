@@ -9,9 +9,9 @@
 namespace halfspace {
 
 /// Fills chunk.triangles from chunk.segments.
-void set_up_chunk(const Frame& frame, Chunk& chunk);
+void set_up_chunk(const PassContext& context, Chunk& chunk);
 
 /// Entries of Chunk::triangles that one primitive of a draw becomes, at the most.
-uint32_t most_records(const Draw& draw, int samples);
+uint32_t max_triangles_per_primitive(const Draw& draw, int samples);
 
 }  // namespace halfspace

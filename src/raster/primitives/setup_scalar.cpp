@@ -41,11 +41,11 @@ float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, 
   return static_cast<float>(offset);
 }
 
-bool is_small(const Triangle& t) { return largest(t.x) - least(t.x) <= kSmallExtent && largest(t.y) - least(t.y) <= kSmallExtent; }
+bool is_small(const Triangle& t) { return max_of(t.x) - min_of(t.x) <= kSmallExtent && max_of(t.y) - min_of(t.y) <= kSmallExtent; }
 
 }  // namespace
 
-Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 3>& v,
+Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 3>& v,
                      const std::array<uint32_t, 3>& index, uint32_t provoking, Facing facing, Triangle& out) {
   const int64_t e1x = v[1]->x - v[0]->x, e1y = v[1]->y - v[0]->y;
   const int64_t e2x = v[2]->x - v[0]->x, e2y = v[2]->y - v[0]->y;
@@ -69,18 +69,18 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
     out.vertex[i] = index[order[i]];
     if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
   }
-  const PixelBounds box = cut(pixel_box(out.x, out.y, frame.samples_at, frame.samples_at), draw.bounds);
+  const PixelBounds box = intersect(pixel_box(out.x, out.y, context.samples_at, context.samples_at), draw.bounds);
   if (box.empty()) return Cull::no_sample;
-  const bool few = frame.samples == 1 && is_small(out) && box.is_at_most(kCoverSide, kCoverSide);
+  const bool few = context.samples == 1 && is_small(out) && box.fits_in(kCoverSide, kCoverSide);
   const int32_t covered = few ? covered_centers<float>(out.x, out.y, box) : 0;
   if (few && covered == 0) return Cull::no_sample;
 
   const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
                          static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
   const float z_max = std::max({v[0]->z, v[1]->z, v[2]->z});
-  const float offset = facing != Facing::by_winding
-                           ? 0.0f
-                           : depth_offset(draw.state.offset, frame.depth_format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
+  const float offset = facing != Facing::by_winding ? 0.0f
+                                                    : depth_offset(draw.state.offset, context.depth_format, out, plane,
+                                                                   std::max(std::fabs(z_min), std::fabs(z_max)));
   out.z0 = z_min + offset;
   out.z_max = z_max + offset;
   out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
@@ -92,8 +92,8 @@ Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<cons
   return Cull::none;
 }
 
-Cull set_up_line(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 2>& v, const std::array<uint32_t, 2>& index,
-                 uint32_t provoking, Facing facing, Triangle& out) {
+Cull set_up_line(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 2>& v,
+                 const std::array<uint32_t, 2>& index, uint32_t provoking, Facing facing, Triangle& out) {
   const LineRange range = line_range(*v[0], *v[1], line_pixels(draw.state.line_width));
   const std::size_t near = v[1]->z < v[0]->z ? 1 : 0;
   const ScreenVertex &a = *v[near], &b = *v[1 - near];
@@ -108,7 +108,7 @@ Cull set_up_line(const Draw& draw, const Frame& frame, const std::array<const Sc
   out.z_edge2 = 0.0f;
   out.vertex = {index[near], index[1 - near], range.packed()};
   out.flags = kLine | (provoking == near ? 0u : 1u) << kProvokingShift | (facing == Facing::back ? 0u : kFrontFacing);
-  return pixel_bounds(draw, out, draw.bounds, frame.samples_at).empty() ? Cull::no_sample : Cull::none;
+  return pixel_bounds(draw, out, draw.bounds, context.samples_at).empty() ? Cull::no_sample : Cull::none;
 }
 
 std::array<ScreenVertex, 4> line_rectangle(const ScreenVertex& a, const ScreenVertex& b, float width) {

@@ -18,12 +18,12 @@ enum class Facing : uint8_t { by_winding, front, back };
 
 /// The triangle of three snapped vertices, or why there is none. flags and vertex of the result are left to the caller
 /// but for front, small and provoking; `provoking` is the provoking vertex's place among v.
-Cull set_up_triangle(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 3>& v,
+Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 3>& v,
                      const std::array<uint32_t, 3>& index, uint32_t provoking, Facing facing, Triangle& out);
 
 /// The line of two (with one sample a pixel).
-Cull set_up_line(const Draw& draw, const Frame& frame, const std::array<const ScreenVertex*, 2>& v, const std::array<uint32_t, 2>& index,
-                 uint32_t provoking, Facing facing, Triangle& out);
+Cull set_up_line(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 2>& v,
+                 const std::array<uint32_t, 2>& index, uint32_t provoking, Facing facing, Triangle& out);
 
 /// The corners of the rectangle that a line is with several samples a pixel, counter-clockwise: right of a, right of b, left of b, left of
 /// a, seen along the line. The ends differ.

@@ -38,7 +38,7 @@ void TriangleBatch::put_list(const uint32_t* indices, int count, uint32_t base) 
     for (int i = 0; i < kLanes; ++i) std::copy_n(list + 3 * std::min(i, count - 1), 3, &few[static_cast<std::size_t>(3 * i)]);
     list = few.data();
   }
-  const std::array<Int, 3> vertex = load_threes<Int>(list);
+  const std::array<Int, 3> vertex = load_aos3<Int>(list);
   for (std::size_t i = 0; i < 3; ++i) store(vertex_[i].data(), vertex[i] - static_cast<int32_t>(base));
 }
 
@@ -47,29 +47,29 @@ void TriangleBatch::put_sequence(uint32_t first, int count, uint32_t base) {
   for (std::size_t i = 0; i < 3; ++i) store(vertex_[i].data(), corner + static_cast<int32_t>(i));
 }
 
-void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
-                           uint32_t segment, PassStatistics& statistics) {
+void TriangleBatch::set_up(const PassContext& context, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
+                           uint32_t range, PassStatistics& statistics) {
   static_assert(sizeof(ScreenVertex) == 4 * sizeof(int32_t));
   std::array<Int, 3> v, x, y;
   std::array<Real, 3> z;
   for (std::size_t i = 0; i < 3; ++i) {
     v[i] = load<Int>(vertex_[i].data());
     const std::array<Int, 4> vertex =
-        load_fours<Int>([&](int k) { return &shaded.screen[static_cast<uint32_t>(vertex_[i][static_cast<std::size_t>(k)])]; });
+        load_aos4<Int>([&](int k) { return &shaded.screen[static_cast<uint32_t>(vertex_[i][static_cast<std::size_t>(k)])]; });
     x[i] = vertex[0];
     y[i] = vertex[1];
     z[i] = as_real(vertex[2]);
   }
-  const uint32_t small = bits(largest(x) - least(x) <= Int(kSmallExtent) && largest(y) - least(y) <= Int(kSmallExtent));
+  const uint32_t small = bits(max_of(x) - min_of(x) <= Int(kSmallExtent) && max_of(y) - min_of(y) <= Int(kSmallExtent));
   large_ = lanes & ~small;
   lanes &= small;
   // Below 2·kSmallExtent² < 2^29.
   const Int area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
-  const Mask turns_left = area > Int(0);
-  const Mask turns_right = !turns_left;
-  const Mask front = draw.state.front == Winding::counter_clockwise ? turns_left : turns_right;
+  const Mask counter_clockwise = area > Int(0);
+  const Mask clockwise = !counter_clockwise;
+  const Mask front = draw.state.front == Winding::counter_clockwise ? counter_clockwise : clockwise;
   const bool culls_front = is_culled(draw.state.cull, true), culls_back = is_culled(draw.state.cull, false);
-  const PixelBox<Int> box = cut(pixel_box(x, y, frame.samples_at, frame.samples_at), draw.bounds);
+  const PixelBox<Int> box = intersect(pixel_box(x, y, context.samples_at, context.samples_at), draw.bounds);
   const auto take = [&](uint32_t which, uint64_t& counter) {
     counter += static_cast<uint64_t>(std::popcount(lanes & which));
     lanes &= ~which;
@@ -77,11 +77,11 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   take(bits(area == Int(0)), statistics.culled_degenerate);
   take(bits(select(front, Mask(culls_front), Mask(culls_back))), statistics.culled_face);
   take(bits(box.empty()), statistics.culled_no_sample);
-  swap_lanes(turns_right, x[1], x[2]);
-  swap_lanes(turns_right, y[1], y[2]);
-  const Mask few = box.is_at_most(kCoverSide, kCoverSide);
+  swap_lanes(clockwise, x[1], x[2]);
+  swap_lanes(clockwise, y[1], y[2]);
+  const Mask few = box.fits_in(kCoverSide, kCoverSide);
   Int covered(0);
-  if (frame.samples == 1 && (bits(few) & lanes) != 0) {
+  if (context.samples == 1 && (bits(few) & lanes) != 0) {
     covered = select(few, covered_centers<Real>(x, y, box), Int(0));
     take(bits(few && covered == Int(0)), statistics.culled_no_sample);
   }
@@ -90,10 +90,10 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
 
   // Order: counter-clockwise, starting at the smallest depth; among equals at the first submitted.
   std::array<Int, 3> order{Int(0), Int(1), Int(2)};
-  swap_lanes(turns_right, z[1], z[2]);
-  swap_lanes(turns_right, v[1], v[2]);
-  swap_lanes(turns_right, order[1], order[2]);
-  const Real z_min = least(z), z_max = largest(z);
+  swap_lanes(clockwise, z[1], z[2]);
+  swap_lanes(clockwise, v[1], v[2]);
+  swap_lanes(clockwise, order[1], order[2]);
+  const Real z_min = min_of(z), z_max = max_of(z);
   const Mask one = (z[0] != z_min) & (z[1] == z_min), two = (z[0] != z_min) & (z[1] != z_min);
   rotate_lanes(one, two, x);
   rotate_lanes(one, two, y);
@@ -107,7 +107,7 @@ void TriangleBatch::set_up(const Frame& frame, const Draw& draw, const ShadedVer
   z_max_ = z_max;
   const Int wanted(static_cast<int32_t>(provoking));
   const Int place = select(order[0] == wanted, Int(0), select(order[1] == wanted, Int(1), Int(2)));
-  flags_ = (place << static_cast<int>(kProvokingShift)) | Int(static_cast<int32_t>(kSmall | segment << kSegmentShift)) |
+  flags_ = (place << static_cast<int>(kProvokingShift)) | Int(static_cast<int32_t>(kSmall | range << kDrawRangeShift)) |
            select(front, Int(static_cast<int32_t>(kFrontFacing)), Int(0)) | covered_flags(box, covered);
   alignas(64) std::array<int32_t, kLanes> areas;
   alignas(64) std::array<float, kLanes> z0, z1, z2, z_edge1, z_edge2;
@@ -138,10 +138,10 @@ void TriangleBatch::write(Triangle* out) const {
   static_assert(sizeof(Triangle) == 14 * sizeof(int32_t) && offsetof(Triangle, z0) == 6 * sizeof(int32_t) &&
                 offsetof(Triangle, vertex) == 10 * sizeof(int32_t));
   const auto& v = ordered_vertex_;
-  store_fours<Int>({x_[0], x_[1], x_[2], y_[0]}, words_from(0));
-  store_fours<Int>({y_[1], y_[2], as_int(z0_), as_int(z_edge1_)}, words_from(4));
-  store_fours<Int>({as_int(z_edge2_), as_int(z_max_), v[0], v[1]}, words_from(8));
-  store_fours<Int>({v[0], v[1], v[2], flags_}, words_from(10));
+  store_aos4<Int>({x_[0], x_[1], x_[2], y_[0]}, words_from(0));
+  store_aos4<Int>({y_[1], y_[2], as_int(z0_), as_int(z_edge1_)}, words_from(4));
+  store_aos4<Int>({as_int(z_edge2_), as_int(z_max_), v[0], v[1]}, words_from(8));
+  store_aos4<Int>({v[0], v[1], v[2], flags_}, words_from(10));
 }
 
 }  // namespace halfspace

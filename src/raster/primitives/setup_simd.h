@@ -29,8 +29,8 @@ class TriangleBatch {
 
   /// Sets up the triangles of `lanes`, whose vertices need no clipping; put() has told the vertices of lane 0 to W − 1. Counts
   /// those it culls. provoking: 0 or 2, the provoking vertex's place. segment: the chunk's that they are of.
-  void set_up(const Frame& frame, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking, uint32_t segment,
-              PassStatistics& statistics);
+  void set_up(const PassContext& context, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
+              uint32_t range, PassStatistics& statistics);
 
   uint32_t kept() const { return kept_; }    ///< lanes that are set up
   uint32_t large() const { return large_; }  ///< lanes that are too large for it: nothing is said of them

@@ -48,7 +48,7 @@ HS_INLINE IntOf<R> covered_centers(const std::array<IntOf<R>, 3>& x, const std::
 template <class I>
 HS_INLINE I covered_flags(const PixelBox<I>& box, I centers) {
   constexpr int32_t rows = std::popcount(kCoveredBits) / kCoverSide;
-  return select(box.is_at_most(kCoverSide, rows), centers << static_cast<int>(kCoveredShift), I(0));
+  return select(box.fits_in(kCoverSide, rows), centers << static_cast<int>(kCoveredShift), I(0));
 }
 
 }  // namespace halfspace

@@ -25,7 +25,7 @@ HS_INLINE A load_attributes(std::span<const VertexStream> streams, Int ids) {
     int32_t k = 0;
     if constexpr (kComponents<A> >= 4) {
       for (; k + 4 <= stream.components && c + 4 <= components.size(); k += 4) {
-        const std::array<Int, 4> words = load_fours<Int>([&](int i) { return stream.data + k + rows[static_cast<std::size_t>(i)]; });
+        const std::array<Int, 4> words = load_aos4<Int>([&](int i) { return stream.data + k + rows[static_cast<std::size_t>(i)]; });
         for (const Int& word : words) components[c++] = as_real(word);
       }
     }
@@ -42,7 +42,7 @@ HS_INLINE void store_varyings(const std::array<Real, N>& components, float* cons
     // The last four may hold some of the four before once more.
     for (std::size_t c = 0; c < N; c += 4) {
       const std::size_t first = std::min(c, N - 4);
-      store_fours<Int>(
+      store_aos4<Int>(
           {as_int(components[first]), as_int(components[first + 1]), as_int(components[first + 2]), as_int(components[first + 3])},
           [&](int k) { return k < count ? row[k] + first : spare.data(); });
     }
@@ -58,7 +58,7 @@ HS_INLINE void store_extra(const PerVertex<Real, N>& v, float* rows) {
   store(rows, v.point_size);
   for (std::size_t i = 0; i < N; ++i) store(rows + (i + 1) * kVertexBatch, v.clip_distance[i]);
 }
-HS_INLINE void store_extra(const SpriteVertex<Real>& v, float* rows) {
+HS_INLINE void store_extra(const PointSpriteVertex<Real>& v, float* rows) {
   store(rows, v.low.x);
   store(rows + kVertexBatch, v.low.y);
   store(rows + 2 * kVertexBatch, v.high.x);

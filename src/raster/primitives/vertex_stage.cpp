@@ -45,7 +45,7 @@ Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* sc
     const int rest = std::min(kLanes, count - begin);
     static_assert(sizeof(ScreenVertex) == 16 && offsetof(ScreenVertex, z) == 8);
     ScreenVertex spare;
-    store_fours<Int>({x_fixed, y_fixed, as_int(z_window), as_int(inv_w)}, [&](int k) { return k < rest ? &screen[begin + k] : &spare; });
+    store_aos4<Int>({x_fixed, y_fixed, as_int(z_window), as_int(inv_w)}, [&](int k) { return k < rest ? &screen[begin + k] : &spare; });
     alignas(64) std::array<int32_t, kLanes> codes;
     store(codes.data(), code);
     std::array<Outcode, kLanes> narrow;
@@ -89,15 +89,15 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.varyings.reset(n * static_cast<std::size_t>(out.varying_count) + kRowSlack);
   out.clip_distance_count = draw.kernels.clip_distance_count;
   out.clip_distances.reset(out.clip_distance_count == 0 ? nullptr : new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
-  out.sprites.reset(draws_points(draw.state) ? new SpriteRect[n] : nullptr);
+  out.sprites.reset(draws_points(draw.state) ? new PointSpriteRect[n] : nullptr);
 }
 
 Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
   alignas(64) std::array<float, 4 * kVertexBatch> clip;
   std::array<ScreenVertex, kVertexBatch> screen;
   std::array<Outcode, kVertexBatch> outcodes;
-  alignas(64) std::array<float, kMostExtraRows * kVertexBatch> extra;
-  std::array<SpriteRect, kVertexBatch> sprites;
+  alignas(64) std::array<float, kMaxExtraRows * kVertexBatch> extra;
+  std::array<PointSpriteRect, kVertexBatch> sprites;
   const std::span<const uint32_t> used = draw.indices->used();
   const std::size_t per_instance = draw.indices->used_count();
   StreamRoom room;
@@ -126,11 +126,11 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
       ScreenVertex* to = out.screen.get() + slot;
       Outcode* codes = out.outcodes.get() + slot;
       any |= project(draw, clip.data(), count, to, codes);
-      if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, to, codes, out.sprites.get() + slot);
+      if (out.sprites) make_point_sprites(draw, clip.data(), extra.data(), count, to, codes, out.sprites.get() + slot);
       continue;
     }
     any |= project(draw, clip.data(), count, screen.data(), outcodes.data());
-    if (out.sprites) make_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
+    if (out.sprites) make_point_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
     for (int i = 0; i < count; ++i) {
       if (out.sprites) out.sprites[ids[i] - slot_base] = sprites[static_cast<std::size_t>(i)];
       out.screen[ids[i] - slot_base] = screen[static_cast<std::size_t>(i)];

@@ -6,7 +6,7 @@
 namespace halfspace {
 
 void constant_colors(const Draw& draw, FragmentOutput& out) {
-  draw.kernels.fragment(draw.shader.get(), {.frame = nullptr,
+  draw.kernels.fragment(draw.shader.get(), {.context = nullptr,
                                             .tile_x0 = 0,
                                             .tile_y0 = 0,
                                             .position = {},

@@ -29,7 +29,7 @@ struct FragmentOutput {
 };
 
 struct FragmentBatch {
-  const Frame* frame;
+  const PassContext* context;
   int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's room
   SamplePosition position;  ///< where in their pixels the shader looks
   const TriangleId* ids;    ///< the tile's triangle of each pixel, or null: uniform_id everywhere

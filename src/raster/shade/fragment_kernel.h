@@ -10,33 +10,33 @@
 namespace halfspace::detail {
 
 /// A packet's pixels in the window, and where its shader looks.
-struct PacketPlace {
+struct PacketOrigin {
   int x, y;                         ///< of its first pixel
   const SamplePosition* centroids;  ///< where centroid varyings are looked up, one a lane; or null: where all are
 };
 /// The place of a batch's n-th packet, which is the tile's `packet`.
 template <class Batch>
-HS_INLINE PacketPlace place_of(const Batch& batch, int n, int packet) {
+HS_INLINE PacketOrigin origin_of(const Batch& batch, int n, int packet) {
   return {batch.tile_x0 + packet_x(packet), batch.tile_y0 + packet_y(packet),
           batch.centroids == nullptr ? nullptr : batch.centroids + n * kLanes};
 }
 
 /// Sets up the Pixel of two packets and interpolates their varyings. at: where in their pixels; ids: what Pixel::z() reads.
 template <class S, std::size_t N, std::size_t P>
-HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::array<PacketPlace, 2>& places, const SamplePosition& at,
+HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::array<PacketOrigin, 2>& origins, const SamplePosition& at,
                                                                     const PacketTriangles<N, P>& t,
                                                                     const std::array<PacketTriangleIds, 2>& ids, Pixel<FragmentReal>& px) {
   using R = FragmentReal;
   using I = IntOf<R>;
   using V = typename S::template Varyings<R>;
-  const I ix(lane_x() + places[0].x, lane_x() + places[1].x), iy(lane_y() + places[0].y, lane_y() + places[1].y);
+  const I ix(lane_x() + origins[0].x, lane_x() + origins[1].x), iy(lane_y() + origins[0].y, lane_y() + origins[1].y);
   const R x_sub = to_real<R>(ix * kSubPixels + at.x);
   const R y_sub = to_real<R>(iy * kSubPixels + at.y);
   px.dx = x_sub - t.lanes.x0;
   px.dy = y_sub - t.lanes.y0;
   px.triangle = &t.lanes;
   px.component_lanes = &t.components;
-  px.weights = weights_at<kUsesLinear<V>>(t.lanes, px.dx, px.dy);
+  px.weights = weights_at<kUsesNoPerspective<V>>(t.lanes, px.dx, px.dy);
   px.x = x_sub * R(1.0f / kSubPixels);
   px.y = y_sub * R(1.0f / kSubPixels);
   px.quad_x = to_real<R>(ix & I(1));
@@ -48,10 +48,10 @@ HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::a
   px.z_source = &ids;
   px.front_facing = t.front;
   if constexpr (kUsesCentroid<typename S::template Varyings<float>>) {
-    if (places[0].centroids != nullptr) {
+    if (origins[0].centroids != nullptr) {
       I cx(0), cy(0);
       for (int i = 0; i < kWidthOf<R>; ++i) {
-        const SamplePosition& c = places[static_cast<std::size_t>(i / kLanes)].centroids[i % kLanes];
+        const SamplePosition& c = origins[static_cast<std::size_t>(i / kLanes)].centroids[i % kLanes];
         set_lane(cx, i, c.x);
         set_lane(cy, i, c.y);
       }
@@ -91,12 +91,12 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     find_triangles<1>(batch, b, recent, triangles);
     const auto ids_of = [&](PacketMask packet) {
       const TriangleId* ids = batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
-      return PacketTriangleIds{batch.frame, ids, batch.uniform_id, packet.lanes};
+      return PacketTriangleIds{batch.context, ids, batch.uniform_id, packet.lanes};
     };
     const std::array<PacketTriangleIds, 2> ids{ids_of(a), ids_of(b)};
     Pixel<R> px;
     const V in =
-        begin_packets<S>({place_of(batch, first, a.packet), place_of(batch, second, b.packet)}, batch.position, triangles, ids, px);
+        begin_packets<S>({origin_of(batch, first, a.packet), origin_of(batch, second, b.packet)}, batch.position, triangles, ids, px);
     P face{};
     if constexpr (p != 0) face = from_components<P, R>(triangles.primitive);
     const auto fragment = call_fragment<S, R>(s, in, face, px);
@@ -123,16 +123,16 @@ HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
   using V = typename S::template Varyings<R>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
-  const TriangleScalars<kComponents<V>> scalars = scalars_of<F>(*batch.frame, batch.id);
+  const TriangleScalars<kComponents<V>> scalars = scalars_of<F>(*batch.context, batch.id);
   spread_triangle<0>(scalars, triangles);
   spread_triangle<1>(scalars, triangles);
-  const PacketTriangleIds id{batch.frame, nullptr, batch.id, kAllBits<Mask>};
+  const PacketTriangleIds id{batch.context, nullptr, batch.id, kAllBits<Mask>};
   const std::array<PacketTriangleIds, 2> ids{id, id};
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);
     const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
     Pixel<R> px;
-    const V in = begin_packets<S>({place_of(batch, first, batch.packets[a]), place_of(batch, second, batch.packets[b])}, batch.position,
+    const V in = begin_packets<S>({origin_of(batch, first, batch.packets[a]), origin_of(batch, second, batch.packets[b])}, batch.position,
                                   triangles, ids, px);
     const Visibility<R> v = static_cast<const S*>(shader)->visibility(in, px);
     if constexpr (kWritesDepth<S>) {

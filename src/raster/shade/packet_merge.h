@@ -20,30 +20,30 @@ template <class V>
 class RecentTriangles {
  public:
   /// What the call before gave is left as it is.
-  HS_INLINE const TriangleScalars<kComponents<V>>& of(const Frame& frame, TriangleId id) {
+  HS_INLINE const TriangleScalars<kComponents<V>>& of(const PassContext& context, TriangleId id) {
     uint32_t same = 0;
-    for (std::size_t i = 0; i < kMost; i += kLanes) same |= bits(load<Int>(&ids_[i]) == Int(std::bit_cast<int32_t>(id))) << i;
+    for (std::size_t i = 0; i < kMaxCount; i += kLanes) same |= bits(load<Int>(&ids_[i]) == Int(std::bit_cast<int32_t>(id))) << i;
     same &= ~(1u << next_);  // the call before may have given that
-    return same != 0 ? scalars_[static_cast<std::size_t>(std::countr_zero(same))] : add(frame, id);
+    return same != 0 ? scalars_[static_cast<std::size_t>(std::countr_zero(same))] : add(context, id);
   }
 
  private:
-  static constexpr std::size_t kMost = 16;
-  static constexpr std::array<TriangleId, kMost> kNone = [] {
-    std::array<TriangleId, kMost> none;
+  static constexpr std::size_t kMaxCount = 16;
+  static constexpr std::array<TriangleId, kMaxCount> kNone = [] {
+    std::array<TriangleId, kMaxCount> none;
     none.fill(kNoTriangle);
     return none;
   }();
 
-  __attribute__((noinline)) const TriangleScalars<kComponents<V>>& add(const Frame& frame, TriangleId id) {
+  __attribute__((noinline)) const TriangleScalars<kComponents<V>>& add(const PassContext& context, TriangleId id) {
     const std::size_t place = next_;
-    next_ = (next_ + 1) % kMost;
+    next_ = (next_ + 1) % kMaxCount;
     ids_[place] = id;
-    return scalars_[place] = scalars_of<V>(frame, id);
+    return scalars_[place] = scalars_of<V>(context, id);
   }
 
-  std::array<TriangleId, kMost> ids_ = kNone;
-  std::array<TriangleScalars<kComponents<V>>, kMost> scalars_;
+  std::array<TriangleId, kMaxCount> ids_ = kNone;
+  std::array<TriangleScalars<kComponents<V>>, kMaxCount> scalars_;
   std::size_t next_ = 0;  ///< place of the next to be added
 };
 
@@ -136,10 +136,10 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
   const auto gather_four = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
     const auto smooth = [&](Int row) { return row_components<V, k, false>(rows.varyings, row * static_cast<int32_t>(N)); };
     const auto v0 = smooth(rows.row[0]), v1 = smooth(rows.row[1]), v2 = smooth(rows.row[2]);
-    const auto held = row_components<V, k, true>(rows.varyings, rows.provoking_row * static_cast<int32_t>(N));
+    const auto flat_values = row_components<V, k, true>(rows.varyings, rows.provoking_row * static_cast<int32_t>(N));
     for (std::size_t c = 0; c < std::min<std::size_t>(4, N - k); ++c) {
       const bool flat = kInterpolations<V>[k + c] == Interpolation::flat;
-      half<i>(out.components.value0[k + c]) = flat ? held[c] : v0[c];
+      half<i>(out.components.value0[k + c]) = flat ? flat_values[c] : v0[c];
       half<i>(out.components.delta1[k + c]) = flat ? Real(0.0f) : v1[c] - v0[c];
       half<i>(out.components.delta2[k + c]) = flat ? Real(0.0f) : v2[c] - v0[c];
     }
@@ -155,7 +155,7 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
 
 /// Of the lanes (a bit each) those whose triangle no lower one shows; beyond `most` of them any may be left out.
 template <class I>
-HS_INLINE uint32_t first_lanes(I packet_ids, const TriangleId* ids, uint32_t lanes, int most) {
+HS_INLINE uint32_t first_lane_of_each(I packet_ids, const TriangleId* ids, uint32_t lanes, int max_triangles) {
 #ifdef __AVX512CD__
   if constexpr (std::is_same_v<I, IntN<16>>) {
     const __m512i equal_before = _mm512_maskz_conflict_epi32(kAll16, (__m512i)packet_ids.v);
@@ -163,7 +163,7 @@ HS_INLINE uint32_t first_lanes(I packet_ids, const TriangleId* ids, uint32_t lan
   }
 #endif
   uint32_t firsts = 0;
-  for (uint32_t rest = lanes; rest != 0 && most > 0; --most) {
+  for (uint32_t rest = lanes; rest != 0 && max_triangles > 0; --max_triangles) {
     const int lane = std::countr_zero(rest);
     firsts |= 1u << lane;
     rest &= ~bits(packet_ids == I(std::bit_cast<int32_t>(ids[lane])));
@@ -176,13 +176,13 @@ inline constexpr int kGatherFrom = 3;
 
 /// The triangles of packet i one after the other, where gather_rows refuses them. firsts: a lane of each.
 template <int i, class V, std::size_t N, std::size_t P>
-__attribute__((noinline)) void merge_many(const Frame& frame, const TriangleId* ids, uint32_t firsts, RecentTriangles<V>& recent,
+__attribute__((noinline)) void merge_many(const PassContext& context, const TriangleId* ids, uint32_t firsts, RecentTriangles<V>& recent,
                                           PacketTriangles<N, P>& t) {
   const Int packet_ids = load<Int>(ids);
-  spread_triangle<i>(recent.of(frame, ids[std::countr_zero(firsts)]), t);
+  spread_triangle<i>(recent.of(context, ids[std::countr_zero(firsts)]), t);
   for (uint32_t rest = firsts & (firsts - 1); rest != 0; rest &= rest - 1) {
     const TriangleId id = ids[std::countr_zero(rest)];
-    add_triangle<i>(recent.of(frame, id), packet_ids == Int(std::bit_cast<int32_t>(id)), t);
+    add_triangle<i>(recent.of(context, id), packet_ids == Int(std::bit_cast<int32_t>(id)), t);
   }
 }
 
@@ -190,32 +190,32 @@ __attribute__((noinline)) void merge_many(const Frame& frame, const TriangleId* 
 template <int i, class V, std::size_t N, std::size_t P>
 HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V>& recent, PacketTriangles<N, P>& t) {
   TriangleId& only = t.only[i];
-  const Frame& frame = *batch.frame;
+  const PassContext& context = *batch.context;
   if (batch.ids == nullptr) {
-    if (only != batch.uniform_id) spread_triangle<i>(recent.of(frame, batch.uniform_id), t);
+    if (only != batch.uniform_id) spread_triangle<i>(recent.of(context, batch.uniform_id), t);
     only = batch.uniform_id;
     return;
   }
   const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
   const Int packet_ids = load<Int>(ids);
-  const uint32_t firsts = first_lanes(packet_ids, ids, packet.lanes, kGatherFrom);
+  const uint32_t firsts = first_lane_of_each(packet_ids, ids, packet.lanes, kGatherFrom);
   const TriangleId first = ids[std::countr_zero(firsts)];
   const int triangles = std::popcount(firsts);
   if (triangles == 1 && only == first) return;
   only = triangles == 1 ? first : kNoTriangle;
   if (triangles < kGatherFrom) {
-    const TriangleScalars<N>& a = recent.of(frame, first);
+    const TriangleScalars<N>& a = recent.of(context, first);
     if (triangles == 1) return spread_triangle<i>(a, t);
     const TriangleId second = ids[std::countr_zero(firsts & (firsts - 1))];
-    return merge_two<i>(a, recent.of(frame, second), packet_ids == Int(std::bit_cast<int32_t>(second)), t);
+    return merge_two<i>(a, recent.of(context, second), packet_ids == Int(std::bit_cast<int32_t>(second)), t);
   }
   TriangleRows rows;
   TriangleLanes<Real> lanes;
-  if (gather_rows(frame, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
+  if (gather_rows(context, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
     for_each_corner_value<i>(t.lanes, [&](Real& to, auto value) { to = value(lanes); });
     return gather_components<i, V>(rows, t);
   }
-  merge_many<i>(frame, ids, first_lanes(packet_ids, ids, packet.lanes, kLanes), recent, t);
+  merge_many<i>(context, ids, first_lane_of_each(packet_ids, ids, packet.lanes, kLanes), recent, t);
 }
 
 }  // namespace detail

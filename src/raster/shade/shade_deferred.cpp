@@ -16,7 +16,7 @@ enum class Share : uint8_t { per_pixel, per_sample };
 // The triangles of a cell of pixels that wait, and where they go.
 struct Job {
   const TriangleId* ids;  // by packet of the tile's room
-  SampleCell cell;
+  SamplePlane plane;
   SamplePosition position;
   Share share;
 };
@@ -24,12 +24,12 @@ struct Job {
 bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
 
 // The pixels that wait, packet by packet; a packet that shows several draws appears once for each.
-int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<ShadingWork, kMaxTilePixels>& work) {
+int list_work(const PassContext& context, const Tile& tile, const Job& job, std::array<ShadingWork, kMaxTilePixels>& work) {
   int count = 0;
   const bool whole = tile.size == kMaxTileSize;
-  const int shift = packet_shift(job.cell);
+  const int shift = packet_shift(job.plane);
   const Draw* only_draw =
-      frame.draws.size() == 1 && !frame.draws[0].shades_samples && job.share == Share::per_pixel ? &frame.draws[0] : nullptr;
+      context.draws.size() == 1 && !context.draws[0].shades_samples && job.share == Share::per_pixel ? &context.draws[0] : nullptr;
   for (int pixels = 0; pixels < kPackets; ++pixels) {
     if (!whole && !is_in_cell(tile, pixels)) continue;
     const int p = pixels + shift;
@@ -45,7 +45,7 @@ int list_work(const Frame& frame, const Tile& tile, const Job& job, std::array<S
       const TriangleId id = ids[std::countr_zero(rest)];
       const uint32_t same = bits(packet_ids == Int(std::bit_cast<int32_t>(id)));
       rest &= ~same;
-      const Draw* draw = &draw_of(frame, id);
+      const Draw* draw = &draw_of(context, id);
       if (draw->shades_samples != (job.share == Share::per_sample)) continue;
       int i = first;
       while (i < count && work[static_cast<std::size_t>(i)].draw != draw) ++i;
@@ -62,8 +62,8 @@ void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, c
                    Tile& tile) {
   const Int shaded = load<Int>(ids + static_cast<std::size_t>(packet.packet) * kLanes);
   for (int s = 0; s < tile.samples; ++s) {
-    const int sample_packet = packet.packet + packet_shift(sample_cell(tile.samples, s, tile.size));
-    const Mask shows = load<Int>(&tile.id[static_cast<std::size_t>(sample_packet) * kLanes]) == shaded;
+    const int sample_packet = packet.packet + packet_shift(sample_plane(tile.samples, s, tile.size));
+    const Mask shows = load<Int>(&tile.visibility[static_cast<std::size_t>(sample_packet) * kLanes]) == shaded;
     const Mask mask = shows & mask_from_bits<Mask>(packet.lanes);
     if (!any(mask)) continue;
     const PacketMask sample{static_cast<uint16_t>(sample_packet), static_cast<uint16_t>(bits(mask))};
@@ -71,9 +71,9 @@ void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, c
   }
 }
 
-void run_job(const Frame& frame, Tile& tile, const Job& job, DeferredShading& memory, PassStatistics& statistics) {
+void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredShading& memory, PassStatistics& statistics) {
   std::array<ShadingWork, kMaxTilePixels>& work = memory.work;
-  const int count = list_work(frame, tile, job, work);
+  const int count = list_work(context, tile, job, work);
   // By draw, so that each shader runs on full batches; pixels are independent, so the order makes no difference.
   const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   if (!std::is_sorted(work.begin(), work.begin() + count, by_draw)) std::stable_sort(work.begin(), work.begin() + count, by_draw);
@@ -88,13 +88,13 @@ void run_job(const Frame& frame, Tile& tile, const Job& job, DeferredShading& me
       statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[static_cast<std::size_t>(n)].lanes));
       ++n;
     }
-    const bool looks_inside = draw.kernels.uses_centroid && tile.samples > 1 && job.share == Share::per_pixel;
-    for (std::size_t i = 0; looks_inside && i < static_cast<std::size_t>(n); ++i) {
+    const bool needs_centroid = draw.kernels.uses_centroid && tile.samples > 1 && job.share == Share::per_pixel;
+    for (std::size_t i = 0; needs_centroid && i < static_cast<std::size_t>(n); ++i) {
       const int p = packets[i].packet;
-      find_centroids(frame, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
+      find_centroids(context, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
     }
-    draw.kernels.fragment(draw.shader.get(), {&frame, tile.x0 - job.cell.x, tile.y0 - job.cell.y, job.position, job.ids, kNoTriangle,
-                                              packets.data(), n, looks_inside ? centroids.data() : nullptr, &out});
+    draw.kernels.fragment(draw.shader.get(), {&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, kNoTriangle,
+                                              packets.data(), n, needs_centroid ? centroids.data() : nullptr, &out});
     if (job.share == Share::per_pixel && tile.samples > 1) {
       for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) write_samples(draw, out, i, packets[i], job.ids, tile);
     } else {
@@ -108,7 +108,7 @@ constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
 
 // Takes from the samples of each pixel one triangle that is still to be shaded, by its first sample; false if there is none.
 // taken: the samples whose triangle has had its turn, as bits.
-bool next_layer(const Frame& frame, const Tile& tile, std::array<uint8_t, kMaxTilePixels>& taken,
+bool next_layer(const PassContext& context, const Tile& tile, std::array<uint8_t, kMaxTilePixels>& taken,
                 std::array<TriangleId, kMaxTilePixels>& layer) {
   bool found = false;
   for (int packet = 0; packet < kPackets; ++packet) {
@@ -118,9 +118,9 @@ bool next_layer(const Frame& frame, const Tile& tile, std::array<uint8_t, kMaxTi
       layer[pixel] = kNoTriangle;
       for (int s = 0; s < tile.samples; ++s) {
         if ((taken[pixel] >> s & 1) != 0) continue;
-        const auto shift = static_cast<std::size_t>(packet_shift(sample_cell(tile.samples, s, tile.size))) * kLanes;
-        const TriangleId id = tile.id[pixel + shift];
-        const bool waits = id != kNoTriangle && (layer[pixel] == kNoTriangle ? !draw_of(frame, id).shades_samples : id == layer[pixel]);
+        const auto shift = static_cast<std::size_t>(packet_shift(sample_plane(tile.samples, s, tile.size))) * kLanes;
+        const TriangleId id = tile.visibility[pixel + shift];
+        const bool waits = id != kNoTriangle && (layer[pixel] == kNoTriangle ? !draw_of(context, id).shades_samples : id == layer[pixel]);
         if (waits) layer[pixel] = id;
         if (waits || id == kNoTriangle) taken[pixel] = static_cast<uint8_t>(taken[pixel] | 1 << s);
       }
@@ -130,21 +130,22 @@ bool next_layer(const Frame& frame, const Tile& tile, std::array<uint8_t, kMaxTi
   return found;
 }
 
-void shade_deferred_samples(const Frame& frame, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
+void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
   for (int s = 0; s < tile.samples; ++s) {
-    run_job(frame, tile, {tile.id.data(), sample_cell(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample},
-            memory, statistics);
+    run_job(context, tile,
+            {tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample}, memory,
+            statistics);
   }
   memory.taken.fill(0);
-  while (next_layer(frame, tile, memory.taken, memory.layer)) {
-    run_job(frame, tile, {memory.layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
+  while (next_layer(context, tile, memory.taken, memory.layer)) {
+    run_job(context, tile, {memory.layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
   }
 }
 
 }  // namespace
 
-void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatistics& statistics) {
-  const Draw& draw = draw_of(frame, id);
+void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, PassStatistics& statistics) {
+  const Draw& draw = draw_of(context, id);
   statistics.fragments_shaded += kMaxTilePixels;
   FragmentOutput out;
   std::array<PacketMask, kFragmentBatch> packets;
@@ -152,18 +153,18 @@ void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatist
     for (int i = 0; i < kFragmentBatch; ++i)
       packets[static_cast<std::size_t>(i)] = {static_cast<uint16_t>(first + i), static_cast<uint16_t>(kAllBits<Mask>)};
     draw.kernels.fragment(draw.shader.get(),
-                          {&frame, tile.x0, tile.y0, kPixelCenter, nullptr, id, packets.data(), kFragmentBatch, nullptr, &out});
+                          {&context, tile.x0, tile.y0, kPixelCenter, nullptr, id, packets.data(), kFragmentBatch, nullptr, &out});
     write_colors(draw, out, 0, packets, tile);
   }
 }
 
-void shade_deferred(const Frame& frame, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
+void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
   if (tile.samples == 1) {
-    run_job(frame, tile, {tile.id.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
+    run_job(context, tile, {tile.visibility.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
   } else {
-    shade_deferred_samples(frame, tile, memory, statistics);
+    shade_deferred_samples(context, tile, memory, statistics);
   }
-  tile.id.fill(kNoTriangle);
+  tile.visibility.fill(kNoTriangle);
 }
 
 }  // namespace halfspace

@@ -21,9 +21,9 @@ struct DeferredShading {
 };
 
 /// Shades all pixels of the tile that wait for it, and writes their colours.
-void shade_deferred(const Frame& frame, Tile& tile, DeferredShading& memory, PassStatistics& statistics);
+void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics);
 
 /// The same where all pixels of the tile's room show one triangle.
-void shade_whole_tile(const Frame& frame, TriangleId id, Tile& tile, PassStatistics& statistics);
+void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, PassStatistics& statistics);
 
 }  // namespace halfspace

@@ -11,8 +11,8 @@ namespace halfspace {
 namespace {
 
 // What the samples of one primitive share.
-struct Context {
-  const Frame& frame;
+struct ImmediateShading {
+  const PassContext& context;
   const Draw& draw;
   TriangleId id;
   VisibilityMode mode;
@@ -28,7 +28,7 @@ Mask alpha_covers(Real alpha, int samples, int sample) {
 }
 
 // The tests that wait for the shader: which lanes of mask are drawn. Writes depth and stencil.
-Mask late_tests(const Context& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask) {
+Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask) {
   const DepthState& state = c.draw.state.depth;
   Real z(0.0f);
   if (c.mode == VisibilityMode::cover_only) {
@@ -51,7 +51,7 @@ Mask late_tests(const Context& c, const FragmentOutput& out, std::size_t i, int 
 }
 
 // Sample s of what was shaded as packet i of a batch.
-void finish_sample(const Context& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
+void finish_sample(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
   Mask mask = mask_from_bits<Mask>(packet.lanes);
   if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
   if (c.mode != VisibilityMode::early) mask = late_tests(c, out, i, packet.packet, mask);
@@ -61,19 +61,20 @@ void finish_sample(const Context& c, const FragmentOutput& out, std::size_t i, i
 
 // Runs the fragment function over packets and hands each to finish(out, its place in the batch, packet).
 template <class F>
-void shade_packets(const Context& c, const PacketMask* packets, int count, const SampleCell& cell, const SamplePosition& at, F finish) {
+void shade_packets(const ImmediateShading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at,
+                   F finish) {
   FragmentOutput out;
   std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
   for (int begin = 0; begin < count; begin += kFragmentBatch) {
     const int n = std::min(kFragmentBatch, count - begin);
-    const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
-    for (int i = 0; looks_inside && i < n; ++i) {
+    const bool needs_centroid = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
+    for (int i = 0; needs_centroid && i < n; ++i) {
       const int p = packets[begin + i].packet;
-      find_centroids(c.frame, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
+      find_centroids(c.context, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
                      &centroids[static_cast<std::size_t>(i * kLanes)]);
     }
-    c.draw.kernels.fragment(c.draw.shader.get(), {&c.frame, c.tile.x0 - cell.x, c.tile.y0 - cell.y, at, nullptr, c.id, packets + begin, n,
-                                                  looks_inside ? centroids.data() : nullptr, &out});
+    c.draw.kernels.fragment(c.draw.shader.get(), {&c.context, c.tile.x0 - plane.x, c.tile.y0 - plane.y, at, nullptr, c.id, packets + begin,
+                                                  n, needs_centroid ? centroids.data() : nullptr, &out});
     for (int i = 0; i < n; ++i) {
       const PacketMask& packet = packets[begin + i];
       c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packet.lanes));
@@ -83,11 +84,11 @@ void shade_packets(const Context& c, const PacketMask* packets, int count, const
 }
 
 // Each sample by itself.
-void shade_samples(const Context& c) {
+void shade_samples(const ImmediateShading& c) {
   int begin = 0;
   for (int s = 0; s < c.tile.samples; ++s) {
     const int end = c.list.sample_end[static_cast<std::size_t>(s)];
-    shade_packets(c, &c.list.packets[static_cast<std::size_t>(begin)], end - begin, sample_cell(c.tile.samples, s, c.tile.size),
+    shade_packets(c, &c.list.packets[static_cast<std::size_t>(begin)], end - begin, sample_plane(c.tile.samples, s, c.tile.size),
                   sample_position(c.tile.samples, s),
                   [&](const FragmentOutput& out, std::size_t i, const PacketMask& p) { finish_sample(c, out, i, s, p); });
     begin = end;
@@ -95,12 +96,12 @@ void shade_samples(const Context& c) {
 }
 
 // Each pixel with a covered sample once.
-void shade_pixels(const Context& c) {
+void shade_pixels(const ImmediateShading& c) {
   std::array<uint16_t, kPackets> covered{};  // by packet of the room
   std::array<uint16_t, kPackets> any_sample{};
   int begin = 0;
   for (int s = 0; s < c.tile.samples; ++s) {
-    const int shift = packet_shift(sample_cell(c.tile.samples, s, c.tile.size));
+    const int shift = packet_shift(sample_plane(c.tile.samples, s, c.tile.size));
     for (; begin < c.list.sample_end[static_cast<std::size_t>(s)]; ++begin) {
       const PacketMask& p = c.list.packets[static_cast<std::size_t>(begin)];
       covered[p.packet] = p.lanes;
@@ -116,7 +117,7 @@ void shade_pixels(const Context& c) {
   shade_packets(c, packets.data(), count, {0, 0}, {kSubPixels / 2, kSubPixels / 2},
                 [&](const FragmentOutput& out, std::size_t i, const PacketMask& p) {
                   for (int s = 0; s < c.tile.samples; ++s) {
-                    const auto packet = static_cast<uint16_t>(p.packet + packet_shift(sample_cell(c.tile.samples, s, c.tile.size)));
+                    const auto packet = static_cast<uint16_t>(p.packet + packet_shift(sample_plane(c.tile.samples, s, c.tile.size)));
                     if (covered[packet] != 0) finish_sample(c, out, i, s, {packet, covered[packet]});
                   }
                 });
@@ -124,12 +125,12 @@ void shade_pixels(const Context& c) {
 
 }  // namespace
 
-void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
+void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      PassStatistics& statistics) {
-  const Triangle& t = triangle_of(frame, id);
+  const Triangle& t = triangle_of(context, id);
   const bool late_stencil = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only;
   const StencilFace* stencil = late_stencil ? stencil_face(draw.state, tile, t.is(kFrontFacing)) : nullptr;
-  const Context c{frame, draw, id, mode, list, tile, stencil, statistics};
+  const ImmediateShading c{context, draw, id, mode, list, tile, stencil, statistics};
   if (tile.samples == 1 || draw.shades_samples) {
     shade_samples(c);
   } else {

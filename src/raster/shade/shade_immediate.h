@@ -8,7 +8,7 @@
 namespace halfspace {
 
 /// Shades one triangle's packets now: late tests where needed, blending, colour write.
-void shade_immediate(const Frame& frame, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
+void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      PassStatistics& statistics);
 
 }  // namespace halfspace

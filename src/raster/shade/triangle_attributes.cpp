@@ -12,7 +12,7 @@ namespace {
 
 // The triangle that interpolates over a sprite: its corners in the window, all as deep and as far as the point. From the first
 // corner to the second the point coordinate's s grows from 0 to 1, from the first to the third t.
-std::array<ScreenVertex, 3> sprite_corners(const Triangle& t, const ScreenVertex& point, PointOrigin origin) {
+std::array<ScreenVertex, 3> point_sprite_corners(const Triangle& t, const ScreenVertex& point, PointOrigin origin) {
   const int32_t x0 = t.x[0], x1 = t.x[1] + 1;
   const bool upper = origin == PointOrigin::upper_left;
   const int32_t first_y = upper ? t.y[1] + 1 : t.y[0], other_y = upper ? t.y[0] : t.y[1] + 1;
@@ -20,7 +20,7 @@ std::array<ScreenVertex, 3> sprite_corners(const Triangle& t, const ScreenVertex
 }
 
 // The vertices of what is clipped, a point or a line.
-void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, const Draw& draw, TriangleSource& s) {
+void find_slow_vertices(const PassContext& context, const Chunk& chunk, const DrawRange& range, const Draw& draw, TriangleSource& s) {
   const Triangle& t = *s.triangle;
   for (std::size_t i = 0; i < (t.is(kLine) ? 2u : 3u); ++i) {
     if (t.is(kClipped)) {
@@ -28,13 +28,13 @@ void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, c
       s.vertex[i] = &v.screen;
       s.varyings[i] = chunk.clip_varyings.data() + v.first_varying;
     } else {
-      const ShadedVertices& shaded = frame.shaded[segment.draw];
+      const ShadedVertices& shaded = context.shaded[range.draw];
       s.vertex[i] = &shaded.screen[t.vertex[i]];
       s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
     }
   }
-  if (t.is(kSprite)) {
-    s.corners = sprite_corners(t, *s.vertex[0], draw.state.point_origin);
+  if (t.is(kPointSprite)) {
+    s.corners = point_sprite_corners(t, *s.vertex[0], draw.state.point_origin);
     for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
   }
   if (t.is(kLine)) {  // the third corner lies beside the first and has its values
@@ -46,43 +46,43 @@ void find_rare(const Frame& frame, const Chunk& chunk, const Segment& segment, c
 }
 
 // Lane by lane the triangle of ids; where `lanes` has none, the first that there is.
-std::array<const Triangle*, kLanes> triangles_of(const Frame& frame, const TriangleId* ids, uint32_t lanes) {
+std::array<const Triangle*, kLanes> triangles_of(const PassContext& context, const TriangleId* ids, uint32_t lanes) {
   const TriangleId first = ids[std::countr_zero(lanes)];
   std::array<const Triangle*, kLanes> triangles;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : first;
-    triangles[i] = &triangle_of(frame, id);
+    triangles[i] = &triangle_of(context, id);
   }
   return triangles;
 }
 
-void find_primitives(const Frame& frame, const TriangleId* ids, uint32_t lanes, const Draw& draw, TriangleRows& rows) {
+void find_primitives(const PassContext& context, const TriangleId* ids, uint32_t lanes, const Draw& draw, TriangleRows& rows) {
   const auto length = static_cast<std::size_t>(draw.kernels.primitive_count);
   if (length == 0) return;
   for (std::size_t i = 0; i < rows.primitive.size(); ++i) {
     const TriangleId id = (lanes >> i & 1) != 0 ? ids[i] : ids[std::countr_zero(lanes)];
-    const Chunk& chunk = frame.chunks[chunk_of(id)];
+    const Chunk& chunk = context.chunks[chunk_of(id)];
     const uint32_t index = index_in_chunk(id);
-    const Segment& segment = chunk.segments[chunk.triangles[index].segment()];
-    rows.primitive[i] = chunk.primitives.data() + segment.first_primitive + (index - segment.first_triangle) * length;
+    const DrawRange& range = chunk.ranges[chunk.triangles[index].range()];
+    rows.primitive[i] = chunk.primitives.data() + range.first_primitive + (index - range.first_triangle) * length;
   }
 }
 
 }  // namespace
 
-void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
-  const Chunk& chunk = frame.chunks[chunk_of(id)];
+void find_triangle(const PassContext& context, TriangleId id, TriangleSource& s) {
+  const Chunk& chunk = context.chunks[chunk_of(id)];
   const uint32_t index = index_in_chunk(id);
   const Triangle& t = chunk.triangles[index];
-  const Segment& segment = chunk.segments[t.segment()];
-  const Draw& draw = frame.draws[segment.draw];
+  const DrawRange& range = chunk.ranges[t.range()];
+  const Draw& draw = context.draws[range.draw];
   s.triangle = &t;
   s.primitive = nullptr;
   s.z_low = draw.depth_low;
-  if (t.is(kClipped | kSprite | kLine)) {
-    find_rare(frame, chunk, segment, draw, s);
+  if (t.is(kClipped | kPointSprite | kLine)) {
+    find_slow_vertices(context, chunk, range, draw, s);
   } else {
-    const ShadedVertices& shaded = frame.shaded[segment.draw];
+    const ShadedVertices& shaded = context.shaded[range.draw];
     for (std::size_t i = 0; i < 3; ++i) {
       s.vertex[i] = &shaded.screen[t.vertex[i]];
       s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
@@ -90,8 +90,8 @@ void find_triangle(const Frame& frame, TriangleId id, TriangleSource& s) {
   }
   s.flat_varyings = s.varyings[t.provoking()];
   if (draw.kernels.primitive_count != 0) {
-    const std::size_t row = index - segment.first_triangle;
-    s.primitive = chunk.primitives.data() + segment.first_primitive + row * static_cast<std::size_t>(draw.kernels.primitive_count);
+    const std::size_t row = index - range.first_triangle;
+    s.primitive = chunk.primitives.data() + range.first_primitive + row * static_cast<std::size_t>(draw.kernels.primitive_count);
   }
 }
 
@@ -103,29 +103,29 @@ Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) {
     const Mask shows = packet.ids == nullptr ? Mask(true) : load<Int>(packet.ids) == Int(std::bit_cast<int32_t>(id));
     rest &= ~bits(shows);
     TriangleSource source;
-    find_triangle(*packet.frame, id, source);
+    find_triangle(*packet.context, id, source);
     const Triangle& t = *source.triangle;
     const auto edge = [](int32_t to, int32_t from) { return Real(static_cast<float>(to - from)); };
     const Real dx = x_sub - Real(static_cast<float>(t.x[0])), dy = y_sub - Real(static_cast<float>(t.y[0]));
     const Real e1 = difference_of_products(dx, edge(t.y[2], t.y[0]), dy, edge(t.x[2], t.x[0]));
     const Real e2 = difference_of_products(edge(t.x[1], t.x[0]), dy, edge(t.y[1], t.y[0]), dx);
-    const float z_high = clamp(t.z_max, draw_of(*packet.frame, id).depth_low, draw_of(*packet.frame, id).depth_high);
+    const float z_high = clamp(t.z_max, draw_of(*packet.context, id).depth_low, draw_of(*packet.context, id).depth_high);
     z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(source.z_low), Real(z_high)), z);
   }
   return z;
 }
 
-bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
+bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
                  TriangleRows& rows) {
-  const Draw& draw = draw_of(frame, ids[std::countr_zero(lanes)]);
-  const ShadedVertices& shaded = frame.shaded[static_cast<std::size_t>(&draw - frame.draws.data())];
+  const Draw& draw = draw_of(context, ids[std::countr_zero(lanes)]);
+  const ShadedVertices& shaded = context.shaded[static_cast<std::size_t>(&draw - context.draws.data())];
   if (!can_gather(shaded, draw)) return false;
-  const std::array<const Triangle*, kLanes> at = triangles_of(frame, ids, lanes);
+  const std::array<const Triangle*, kLanes> at = triangles_of(context, ids, lanes);
   const auto triangle = [&](int k) { return at[static_cast<std::size_t>(k)]; };
   const std::array<Int, 4> ends = load_vertices_and_flags(triangle);
   const Int flags = ends[3];
-  if (any((flags & Int(static_cast<int32_t>(kClipped | kSprite | kLine))) != Int(0))) return false;
-  find_primitives(frame, ids, lanes, draw, rows);
+  if (any((flags & Int(static_cast<int32_t>(kClipped | kPointSprite | kLine))) != Int(0))) return false;
+  find_primitives(context, ids, lanes, draw, rows);
   rows.varyings = shaded.varyings.get();
   rows.row = {ends[0], ends[1], ends[2]};
   const Int provoking = (flags >> static_cast<int>(kProvokingShift)) & 3;
@@ -138,7 +138,7 @@ bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, Tria
     std::array<int32_t, kLanes> vertex;
     store(vertex.data(), rows.row[k]);
     const auto words =
-        load_fours<Int>([&](int lane) { return &shaded.screen[static_cast<std::size_t>(vertex[static_cast<std::size_t>(lane)])]; });
+        load_aos4<Int>([&](int lane) { return &shaded.screen[static_cast<std::size_t>(vertex[static_cast<std::size_t>(lane)])]; });
     x[k] = words[0];
     y[k] = words[1];
     q[k] = as_real(words[3]);

@@ -19,7 +19,7 @@ struct TriangleSource {
   const float* primitive;      ///< the primitive stage's row, or null
   float z_low;                 ///< the least depth in the window
 };
-void find_triangle(const Frame& frame, TriangleId id, TriangleSource& out);
+void find_triangle(const PassContext& context, TriangleId id, TriangleSource& out);
 
 /// What the kernels read where each lane may show another triangle: which rows of the draw's varyings.
 struct TriangleRows {
@@ -30,12 +30,12 @@ struct TriangleRows {
 };
 /// Gathers the triangles of `lanes` (not empty; all of one draw); other lanes repeat the first. False, and nothing is said, if
 /// one of them is clipped, a point or a line, or the draw has too many vertices for gathers.
-bool gather_rows(const Frame& frame, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
+bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
                  TriangleRows& rows);
 
 /// Where Pixel::z() of a packet looks: the triangles of `lanes`.
 struct PacketTriangleIds {
-  const Frame* frame;
+  const PassContext* context;
   const TriangleId* ids;  ///< or null: uniform_id everywhere
   TriangleId uniform_id;
   uint32_t lanes;
@@ -100,9 +100,9 @@ HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
 }
 
 template <class V>
-HS_INLINE TriangleScalars<kComponents<V>> scalars_of(const Frame& frame, TriangleId id) {
+HS_INLINE TriangleScalars<kComponents<V>> scalars_of(const PassContext& context, TriangleId id) {
   TriangleSource source;
-  find_triangle(frame, id, source);
+  find_triangle(context, id, source);
   return triangle_scalars<V>(source);
 }
 

@@ -13,12 +13,12 @@ struct BlendSources {
   const glm::vec4& constant;
   bool fixed_point;
 
-  Real held(Real x) const { return fixed_point ? clamp(x, Real(0.0f), Real(1.0f)) : x; }
+  Real clamped(Real x) const { return fixed_point ? clamp(x, Real(0.0f), Real(1.0f)) : x; }
 };
 
 Real factor(BlendFactor f, const BlendSources& s, std::size_t k) {
   const Real one(1.0f);
-  const auto constant = [&](std::size_t i) { return s.held(Real(s.constant[static_cast<int>(i)])); };
+  const auto constant = [&](std::size_t i) { return s.clamped(Real(s.constant[static_cast<int>(i)])); };
   switch (f) {
     case BlendFactor::zero: return Real(0.0f);
     case BlendFactor::one: return one;
@@ -35,10 +35,10 @@ Real factor(BlendFactor f, const BlendSources& s, std::size_t k) {
     case BlendFactor::constant_alpha: return constant(3);
     case BlendFactor::one_minus_constant_alpha: return one - constant(3);
     case BlendFactor::src_alpha_saturate: return k == 3 ? one : min(s.src[3], one - s.dst[3]);
-    case BlendFactor::src1_color: return s.held(s.src1[k]);
-    case BlendFactor::one_minus_src1_color: return one - s.held(s.src1[k]);
-    case BlendFactor::src1_alpha: return s.held(s.src1[3]);
-    case BlendFactor::one_minus_src1_alpha: return one - s.held(s.src1[3]);
+    case BlendFactor::src1_color: return s.clamped(s.src1[k]);
+    case BlendFactor::one_minus_src1_color: return one - s.clamped(s.src1[k]);
+    case BlendFactor::src1_alpha: return s.clamped(s.src1[3]);
+    case BlendFactor::one_minus_src1_alpha: return one - s.clamped(s.src1[3]);
   }
   return one;
 }

@@ -10,7 +10,7 @@ void resolve_color(const Tile& tile, ColorBuffer& color) {
     if (packet_x(p) >= tile.width || packet_y(p) >= tile.height) continue;
     std::array<PacketColor, kMaxSamples> sums;
     for (int s = 0; s < tile.samples; ++s) {
-      sums[static_cast<std::size_t>(s)] = read_color(color, p + packet_shift(sample_cell(tile.samples, s, tile.size)));
+      sums[static_cast<std::size_t>(s)] = read_color(color, p + packet_shift(sample_plane(tile.samples, s, tile.size)));
     }
     // Two by two, so that samples of one colour have exactly that mean.
     for (auto n = static_cast<std::size_t>(tile.samples); n > 1; n /= 2) {

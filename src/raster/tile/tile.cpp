@@ -3,7 +3,7 @@
 
 namespace halfspace {
 
-void refresh_block_bounds(Tile& tile, int block) {
+void refresh_hiz(Tile& tile, int block) {
   const float* depth = &tile.depth[static_cast<std::size_t>(block) * kPixelsPerBlock];
   Real low = load<Real>(depth), high = low;
   for (int p = 1; p < kPacketsPerBlock; ++p) {
@@ -22,9 +22,9 @@ void refresh_block_bounds(Tile& tile, int block) {
     }
   }
   const auto b = static_cast<std::size_t>(block);
-  tile.block_min[b] = lows[0];
-  tile.block_max[b] = highs[0];
-  tile.block_writes[b] = 0;
+  tile.hiz_min[b] = lows[0];
+  tile.hiz_max[b] = highs[0];
+  tile.hiz_writes[b] = 0;
 }
 
 }  // namespace halfspace

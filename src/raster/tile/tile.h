@@ -49,8 +49,8 @@ HS_INLINE I pixel_at(I x, I y) {
 }
 
 /// How many packets after that of sample 0 the packet of another sample's cell lies.
-constexpr int packet_shift(const SampleCell& cell) {
-  return (cell.y / kBlockSize * kBlocksPerRow + cell.x / kBlockSize) * kPacketsPerBlock;
+constexpr int packet_shift(const SamplePlane& plane) {
+  return (plane.y / kBlockSize * kBlocksPerRow + plane.x / kBlockSize) * kPacketsPerBlock;
 }
 
 /// The lanes' places in their packet.
@@ -94,15 +94,15 @@ struct Tile {
   /// Depth values as the format holds them: d32f the depth itself, d16 and d24 the code (a whole number; exact in float).
   alignas(64) std::array<float, kMaxTilePixels> depth;
   /// The visible triangle of each pixel not shaded yet, or kNoTriangle.
-  alignas(64) std::array<TriangleId, kMaxTilePixels> id;
+  alignas(64) std::array<TriangleId, kMaxTilePixels> visibility;
   alignas(64) std::array<uint8_t, kMaxTilePixels> stencil;
   std::array<ColorBuffer, kMaxColorTargets> color;
   int color_count = 0;
 
   /// Bounds of the depth values in each block: never narrower than the values.
-  std::array<float, kBlocks> block_min, block_max;
+  std::array<float, kBlocks> hiz_min, hiz_max;
   /// Writes since the bounds were last exact.
-  std::array<uint8_t, kBlocks> block_writes;
+  std::array<uint8_t, kBlocks> hiz_writes;
 };
 
 /// What an image holds of pixels with several samples.
@@ -112,16 +112,17 @@ enum class Samples : uint8_t {
 };
 
 // Between tile and image. Images hold the top row first, tiles the bottom row: rows are turned round here.
-void load_color(const ColorTarget& target, int target_width, int target_height, Samples held, const Tile& tile, ColorBuffer& color);
-void load_depth(const DepthTarget& target, int target_width, int target_height, Samples held, Tile& tile);
-void store_color(const ColorTarget& target, int target_width, int target_height, Samples held, const Tile& tile, const ColorBuffer& color);
-void store_depth(const DepthTarget& target, int target_width, int target_height, Samples held, const Tile& tile);
+void load_color(const ColorTarget& target, int target_width, int target_height, Samples stored, const Tile& tile, ColorBuffer& color);
+void load_depth(const DepthTarget& target, int target_width, int target_height, Samples stored, Tile& tile);
+void store_color(const ColorTarget& target, int target_width, int target_height, Samples stored, const Tile& tile,
+                 const ColorBuffer& color);
+void store_depth(const DepthTarget& target, int target_width, int target_height, Samples stored, const Tile& tile);
 
 /// Sets pixels of an image: to a colour, and to the depth and stencil that the target is cleared to.
 void fill_color(const ColorTarget& target, int target_width, int target_height, const PixelBounds& pixels, const PacketColor& color);
 void fill_depth(const DepthTarget& target, int target_width, int target_height, const PixelBounds& pixels);
 
 /// Makes a block's depth bounds exact.
-void refresh_block_bounds(Tile& tile, int block);
+void refresh_hiz(Tile& tile, int block);
 
 }  // namespace halfspace

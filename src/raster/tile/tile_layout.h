@@ -22,11 +22,11 @@ inline constexpr std::array<uint8_t, kPixelsPerBlock> kZOrder = make_z_order();
 // places in the tile are the first one's plus kZOrder[0 … count − 1]. So for every sample; images of one sample give and
 // take the first one's.
 template <class F>
-HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_height, Samples held, int samples, F f) {
+HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_height, Samples stored, int samples, F f) {
   for (int s = 0; s < samples; ++s) {
-    const SampleCell cell = sample_cell(tile.samples, s, tile.size);
-    const std::size_t shift = static_cast<std::size_t>(packet_shift(cell)) * kLanes;
-    const std::size_t image = held == Samples::one ? 0 : static_cast<std::size_t>(s) * static_cast<std::size_t>(target_height);
+    const SamplePlane plane = sample_plane(tile.samples, s, tile.size);
+    const std::size_t shift = static_cast<std::size_t>(packet_shift(plane)) * kLanes;
+    const std::size_t image = stored == Samples::one ? 0 : static_cast<std::size_t>(s) * static_cast<std::size_t>(target_height);
     for (int y = 0; y < tile.height; ++y) {
       const std::size_t row =
           (image + static_cast<std::size_t>(target_height - 1 - (tile.y0 + y))) * static_cast<std::size_t>(target_width);
@@ -42,8 +42,8 @@ HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_heigh
 
 // Calls f(pixel of the tile, pixel of the image) for each.
 template <class F>
-HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_height, Samples held, int samples, F f) {
-  for_each_row(tile, target_width, target_height, held, samples, [&](std::size_t first, std::size_t out, int pixels) {
+HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_height, Samples stored, int samples, F f) {
+  for_each_row(tile, target_width, target_height, stored, samples, [&](std::size_t first, std::size_t out, int pixels) {
     if (pixels == kBlockSize) {  // places known when compiling
       for (std::size_t i = 0; i < kBlockSize; ++i) f(first + kZOrder[i], out + i);
     } else {
@@ -55,7 +55,7 @@ HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_hei
 // for_each_pixel for images of 32 bits a pixel: two neighbours, which lie side by side in both, at a time. load: image to
 // tile, else tile to image.
 template <bool load, class TileBytes, class ImageBytes>
-void copy_words(const Tile& tile, int target_width, int target_height, Samples held, int samples, TileBytes* in_tile,
+void copy_words(const Tile& tile, int target_width, int target_height, Samples stored, int samples, TileBytes* in_tile,
                 ImageBytes* in_image) {
   const auto copy = [&]<std::size_t bytes>(std::integral_constant<std::size_t, bytes>, std::size_t t, std::size_t i) {
     if constexpr (load) {
@@ -64,7 +64,7 @@ void copy_words(const Tile& tile, int target_width, int target_height, Samples h
       std::memcpy(in_image + 4 * i, in_tile + 4 * t, bytes);
     }
   };
-  for_each_row(tile, target_width, target_height, held, samples, [&](std::size_t first, std::size_t out, int pixels) {
+  for_each_row(tile, target_width, target_height, stored, samples, [&](std::size_t first, std::size_t out, int pixels) {
     if (pixels == kBlockSize) {
       for (std::size_t i = 0; i < kBlockSize; i += 2) copy(std::integral_constant<std::size_t, 8>(), first + kZOrder[i], out + i);
     } else {
@@ -76,9 +76,9 @@ void copy_words(const Tile& tile, int target_width, int target_height, Samples h
 }
 
 // An image that a tile is loaded from or stored to.
-struct ImagePlace {
+struct ImageLayout {
   int width, height;
-  Samples held;
+  Samples stored;
 };
 
 // Images from this size on are larger than the caches next to a core. What is written to them goes past these caches, which saves reading
@@ -93,7 +93,7 @@ inline bool streams(const std::byte* data, int width, int height, int bytes) {
 // Calls f(first pixel in the tile, and of its two rows in the image) for each two rows of `columns` pixels, 2 or 4, which lie side by
 // side in the tile, quad by quad; images of one sample, the first one's. False, and nothing is done, if the tile has a part of such.
 template <int columns, class F>
-HS_INLINE bool for_each_two_rows(const Tile& tile, const ImagePlace& place, F f) {
+HS_INLINE bool for_each_two_rows(const Tile& tile, const ImageLayout& place, F f) {
   if (tile.samples != 1 || tile.width % columns != 0 || tile.height % 2 != 0) return false;
   for (int y = 0; y < tile.height; y += 2) {
     const std::size_t row = static_cast<std::size_t>(place.height - 1 - (tile.y0 + y)) * static_cast<std::size_t>(place.width);

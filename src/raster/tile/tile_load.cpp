@@ -9,12 +9,12 @@ namespace halfspace {
 namespace {
 
 template <class F>
-HS_INLINE void for_each_load(const Tile& tile, const ImagePlace& p, F f) {
-  for_each_pixel(tile, p.width, p.height, p.held, tile.samples, f);
+HS_INLINE void for_each_load(const Tile& tile, const ImageLayout& p, F f) {
+  for_each_pixel(tile, p.width, p.height, p.stored, tile.samples, f);
 }
 
 template <class T>
-void load_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
+void load_planes(const std::byte* data, const ImageLayout& place, const Tile& tile, ColorBuffer& color) {
   const T* image = reinterpret_cast<const T*>(data);
   T* to = plane<T>(color, 0);
   for_each_load(tile, place, [&](std::size_t t, std::size_t i) {
@@ -47,7 +47,7 @@ HS_INLINE void split_two_quads(const uint16_t* row0, const uint16_t* row1, uint1
 }
 #endif
 
-void load_half_planes(const std::byte* data, const ImagePlace& place, const Tile& tile, ColorBuffer& color) {
+void load_half_planes(const std::byte* data, const ImageLayout& place, const Tile& tile, ColorBuffer& color) {
   const auto* image = reinterpret_cast<const uint16_t*>(data);
   uint16_t* to = plane<uint16_t>(color, 0);
 #ifdef __AVX2__
@@ -60,7 +60,7 @@ void load_half_planes(const std::byte* data, const ImagePlace& place, const Tile
 
 }  // namespace
 
-void load_color(const ColorTarget& target, int width, int height, Samples held, const Tile& tile, ColorBuffer& color) {
+void load_color(const ColorTarget& target, int width, int height, Samples stored, const Tile& tile, ColorBuffer& color) {
   color.format = target.format;
   if (target.format == ColorFormat::none) return;
   if (target.load == LoadOp::dont_care) {  // zeros, so that even pixels that nothing draws are the same in every run
@@ -72,24 +72,24 @@ void load_color(const ColorTarget& target, int width, int height, Samples held, 
     fill_buffer(color, c);
     return;
   }
-  const ImagePlace place{width, height, held};
+  const ImageLayout place{width, height, stored};
   switch (target.format) {
     case ColorFormat::rgba32f: load_planes<float>(target.data, place, tile, color); break;
     case ColorFormat::rgba16f: load_half_planes(target.data, place, tile, color); break;
-    default: copy_words<true>(tile, width, height, held, tile.samples, color.bytes.data(), target.data); break;
+    default: copy_words<true>(tile, width, height, stored, tile.samples, color.bytes.data(), target.data); break;
   }
 }
 
-void load_depth(const DepthTarget& target, int width, int height, Samples held, Tile& tile) {
+void load_depth(const DepthTarget& target, int width, int height, Samples stored, Tile& tile) {
   tile.depth_format = depth_part(target.format);
   tile.has_stencil = has_stencil(target.format);
   if (target.format == DepthFormat::none) return;
   const float clear = depth_value(tile.depth_format, std::clamp(target.clear_value, 0.0f, 1.0f));
   if (target.load != LoadOp::load) {
     tile.depth.fill(clear);
-    tile.block_min.fill(clear);
-    tile.block_max.fill(clear);
-    tile.block_writes.fill(0);
+    tile.hiz_min.fill(clear);
+    tile.hiz_max.fill(clear);
+    tile.hiz_writes.fill(0);
     if (tile.has_stencil) tile.stencil.fill(target.stencil_clear_value);
     return;
   }
@@ -97,9 +97,9 @@ void load_depth(const DepthTarget& target, int width, int height, Samples held, 
   if (tile.has_stencil) tile.stencil.fill(0);
   with_codec(target.format, [&]<class C>(C) {
     const auto* image = reinterpret_cast<const typename C::Image*>(target.data);
-    for_each_load(tile, {width, height, held}, [&](std::size_t t, std::size_t i) { C::load(image[i], tile.depth[t], tile.stencil[t]); });
+    for_each_load(tile, {width, height, stored}, [&](std::size_t t, std::size_t i) { C::load(image[i], tile.depth[t], tile.stencil[t]); });
   });
-  for (int b = 0; b < kBlocks; ++b) refresh_block_bounds(tile, b);
+  for (int b = 0; b < kBlocks; ++b) refresh_hiz(tile, b);
 }
 
 }  // namespace halfspace

@@ -30,23 +30,23 @@ void stream_words(const Tile& tile, int target_width, int target_height, const s
 #endif
 
 // Tile to image, 32 bits a pixel.
-void store_words(const Tile& tile, int width, int height, Samples held, int samples, const std::byte* in_tile, std::byte* in_image) {
+void store_words(const Tile& tile, int width, int height, Samples stored, int samples, const std::byte* in_tile, std::byte* in_image) {
 #ifdef __AVX2__
   const bool whole = tile.samples == 1 && tile.width == kMaxTileSize && tile.height == kMaxTileSize;
   if (whole && streams(in_image, width, height, 4)) return stream_words(tile, width, height, in_tile, in_image);
 #endif
-  copy_words<false>(tile, width, height, held, samples, in_tile, in_image);
+  copy_words<false>(tile, width, height, stored, samples, in_tile, in_image);
 }
 
-int stored_samples(const Tile& tile, Samples held) { return held == Samples::one ? 1 : tile.samples; }
+int stored_samples(const Tile& tile, Samples stored) { return stored == Samples::one ? 1 : tile.samples; }
 
 template <class F>
-HS_INLINE void for_each_store(const Tile& tile, const ImagePlace& p, F f) {
-  for_each_pixel(tile, p.width, p.height, p.held, stored_samples(tile, p.held), f);
+HS_INLINE void for_each_store(const Tile& tile, const ImageLayout& p, F f) {
+  for_each_pixel(tile, p.width, p.height, p.stored, stored_samples(tile, p.stored), f);
 }
 
 template <class T>
-void store_planes(std::byte* data, const ImagePlace& place, const Tile& tile, const ColorBuffer& color) {
+void store_planes(std::byte* data, const ImageLayout& place, const Tile& tile, const ColorBuffer& color) {
   T* image = reinterpret_cast<T*>(data);
   const T* from = plane<T>(color, 0);
   for_each_store(tile, place, [&](std::size_t t, std::size_t i) {
@@ -74,7 +74,7 @@ HS_INLINE void join_two_quads(const uint16_t* from, uint16_t* row0, uint16_t* ro
 }
 #endif
 
-void store_half_planes(std::byte* data, const ImagePlace& place, const Tile& tile, const ColorBuffer& color) {
+void store_half_planes(std::byte* data, const ImageLayout& place, const Tile& tile, const ColorBuffer& color) {
   auto* image = reinterpret_cast<uint16_t*>(data);
   const uint16_t* from = plane<uint16_t>(color, 0);
 #ifdef __AVX2__
@@ -87,26 +87,27 @@ void store_half_planes(std::byte* data, const ImagePlace& place, const Tile& til
 
 }  // namespace
 
-void store_color(const ColorTarget& target, int width, int height, Samples held, const Tile& tile, const ColorBuffer& color) {
+void store_color(const ColorTarget& target, int width, int height, Samples stored, const Tile& tile, const ColorBuffer& color) {
   if (target.format == ColorFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
-  const ImagePlace place{width, height, held};
+  const ImageLayout place{width, height, stored};
   switch (target.format) {
     case ColorFormat::rgba32f: store_planes<float>(target.data, place, tile, color); break;
     case ColorFormat::rgba16f: store_half_planes(target.data, place, tile, color); break;
-    default: store_words(tile, width, height, held, stored_samples(tile, held), color.bytes.data(), target.data); break;
+    default: store_words(tile, width, height, stored, stored_samples(tile, stored), color.bytes.data(), target.data); break;
   }
 }
 
-void store_depth(const DepthTarget& target, int width, int height, Samples held, const Tile& tile) {
+void store_depth(const DepthTarget& target, int width, int height, Samples stored, const Tile& tile) {
   if (target.format == DepthFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
   if (target.format == DepthFormat::d32f) {  // as the tile holds it
-    store_words(tile, width, height, held, stored_samples(tile, held), reinterpret_cast<const std::byte*>(tile.depth.data()), target.data);
+    store_words(tile, width, height, stored, stored_samples(tile, stored), reinterpret_cast<const std::byte*>(tile.depth.data()),
+                target.data);
     return;
   }
   with_codec(target.format, [&]<class C>(C) {
     auto* image = reinterpret_cast<typename C::Image*>(target.data);
     const bool stencil = tile.has_stencil;
-    for_each_store(tile, {width, height, held},
+    for_each_store(tile, {width, height, stored},
                    [&](std::size_t t, std::size_t i) { image[i] = C::store(tile.depth[t], stencil ? tile.stencil[t] : uint8_t{0}); });
   });
 }

@@ -7,8 +7,8 @@ namespace halfspace {
 
 namespace {
 
-bool covers(const Triangle& t, int64_t x, int64_t y) {
-  if (t.is(kSprite)) return x >= t.x[0] && x <= t.x[1] && y >= t.y[0] && y <= t.y[1];
+bool covers_sample(const Triangle& t, int64_t x, int64_t y) {
+  if (t.is(kPointSprite)) return x >= t.x[0] && x <= t.x[1] && y >= t.y[0] && y <= t.y[1];
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge e = edge_of(t, i);
     if (e.at(x, y) - fill_bias(e) < 0) return false;
@@ -22,7 +22,7 @@ SamplePosition centroid(const Triangle& t, int samples, int x, int y) {
   SamplePosition first = center;
   for (int s = samples - 1; s >= 0; --s) {
     const SamplePosition p = sample_position(samples, s);
-    if (!covers(t, int64_t{x} * kSubPixels + p.x, int64_t{y} * kSubPixels + p.y)) continue;
+    if (!covers_sample(t, int64_t{x} * kSubPixels + p.x, int64_t{y} * kSubPixels + p.y)) continue;
     ++covered;
     first = p;
   }
@@ -31,11 +31,11 @@ SamplePosition centroid(const Triangle& t, int samples, int x, int y) {
 
 }  // namespace
 
-void find_centroids(const Frame& frame, int x, int y, const TriangleId* ids, TriangleId uniform, SamplePosition* out) {
+void find_centroids(const PassContext& context, int x, int y, const TriangleId* ids, TriangleId uniform, SamplePosition* out) {
   for (int i = 0; i < kLanes; ++i) {
     const TriangleId id = ids != nullptr ? ids[i] : uniform;
     out[i] = {kSubPixels / 2, kSubPixels / 2};
-    if (id != kNoTriangle) out[i] = centroid(triangle_of(frame, id), frame.samples, x + block_x(i), y + block_y(i));
+    if (id != kNoTriangle) out[i] = centroid(triangle_of(context, id), context.samples, x + block_x(i), y + block_y(i));
   }
 }
 

@@ -11,6 +11,6 @@ namespace halfspace {
 
 /// Fills a row of W positions for a packet whose lowest pixel is (x, y): of lane i for triangle ids[i], or for `uniform` where
 /// ids is null. Lanes that show no triangle get the centre.
-void find_centroids(const Frame& frame, int x, int y, const TriangleId* ids, TriangleId uniform, SamplePosition* out);
+void find_centroids(const PassContext& context, int x, int y, const TriangleId* ids, TriangleId uniform, SamplePosition* out);
 
 }  // namespace halfspace

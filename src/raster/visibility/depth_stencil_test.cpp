@@ -13,16 +13,16 @@ Int load_values(const Tile& tile, int packet) {
 }
 
 Int apply(StencilOp op, Int value, Int reference) {
-  const Int most(0xff);
+  const Int max_value(0xff);
   switch (op) {
     case StencilOp::keep: return value;
     case StencilOp::zero: return Int(0);
     case StencilOp::replace: return reference;
-    case StencilOp::increment_clamp: return min(value + Int(1), most);
+    case StencilOp::increment_clamp: return min(value + Int(1), max_value);
     case StencilOp::decrement_clamp: return max(value - Int(1), Int(0));
-    case StencilOp::invert: return value ^ most;
-    case StencilOp::increment_wrap: return (value + Int(1)) & most;
-    case StencilOp::decrement_wrap: return (value - Int(1)) & most;
+    case StencilOp::invert: return value ^ max_value;
+    case StencilOp::increment_wrap: return (value + Int(1)) & max_value;
+    case StencilOp::decrement_wrap: return (value - Int(1)) & max_value;
   }
   return value;
 }

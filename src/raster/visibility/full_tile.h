@@ -13,38 +13,38 @@
 namespace halfspace {
 
 /// What waits to be written to one tile: the triangle that all its pixels show, or of a draw without colours its depth, if there is one.
-class WholeTile {
+class FullTileOccluder {
  public:
   /// The triangle `index` of chunk `chunk`, which comes next in the tile. True if nothing is left to do: it passes everywhere, and waits
   /// now itself, or nowhere. Else it is still to be rasterized; what waited has been written.
-  bool take(const DrawInTile& d, uint32_t chunk, uint32_t index, PassStatistics& statistics) {
-    const Triangle& t = d.frame.chunks[chunk].triangles[index];
-    if (!waiting_ && !may_cover(t)) return false;  // as a rule
-    return take_or_write(d, t, triangle_id(chunk, index), statistics);
+  bool draw(const DrawInTile& d, uint32_t chunk, uint32_t index, PassStatistics& statistics) {
+    const Triangle& t = d.context.chunks[chunk].triangles[index];
+    if (!pending_ && !may_cover(t)) return false;  // as a rule
+    return test_or_write(d, t, triangle_id(chunk, index), statistics);
   }
 
   /// Does a triangle wait?
-  bool waits() const { return waiting_.has_value(); }
+  bool is_pending() const { return pending_.has_value(); }
   /// Does one wait that is still to be shaded?
-  bool shows() const { return waiting_ && waiting_->draw.mode == VisibilityMode::deferred; }
+  bool is_visible() const { return pending_ && pending_->draw.mode == VisibilityMode::deferred; }
   /// Writes depth and id of what waits, if something does.
   void write();
   /// The triangle that waits; shows() is true.
-  TriangleId triangle() const { return waiting_->id; }
+  TriangleId triangle() const { return pending_->id; }
   /// Writes the depth of what waits, which has been shaded, and no id.
   void write_depth();
 
  private:
-  static bool may_cover(const Triangle& t) { return !t.is(kSmall | kSprite | kLine); }
-  bool take_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
+  static bool may_cover(const Triangle& t) { return !t.is(kSmall | kPointSprite | kLine); }
+  bool test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
 
-  struct Waiting {
+  struct Pending {
     DrawInTile draw;
     const Triangle* triangle;
     TriangleId id;
     DepthBounds depth;
   };
-  std::optional<Waiting> waiting_;
+  std::optional<Pending> pending_;
 };
 
 // ---- which triangles cover an area, alone or as the two halves of a quad ---------------------------------------

@@ -13,9 +13,9 @@
 namespace halfspace {
 
 /// What the triangles of a plain draw do to the tile.
-class PlainWriter {
+class OpaqueWriter {
  public:
-  PlainWriter(const DrawInTile& d, PassStatistics& statistics)
+  OpaqueWriter(const DrawInTile& d, PassStatistics& statistics)
       : tile_(d.tile),
         statistics_(statistics),
         compare_(d.draw.state.depth.compare),
@@ -40,7 +40,7 @@ class PlainWriter {
     }
     statistics_.samples_passed += static_cast<uint64_t>(std::popcount(passed));
     if (writes_id_ && passed != 0) {
-      TriangleId* ids = &tile_.id[static_cast<std::size_t>(packet) * kLanes];
+      TriangleId* ids = &tile_.visibility[static_cast<std::size_t>(packet) * kLanes];
       store(ids, select(mask_from_bits<Mask>(passed), Int(std::bit_cast<int32_t>(id)), load<Int>(ids)));
     }
     return passed != 0;
@@ -51,10 +51,10 @@ class PlainWriter {
     ++statistics_.samples_tested;
     if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
     ++statistics_.samples_passed;
-    if (writes_id_) tile_.id[pixel] = id;
+    if (writes_id_) tile_.visibility[pixel] = id;
     if (!writes_depth_) return;
     tile_.depth[pixel] = z;
-    widen_block_bounds(compare_, tile_, static_cast<int>(pixel / kPixelsPerBlock), z, z);
+    widen_hiz(compare_, tile_, static_cast<int>(pixel / kPixelsPerBlock), z, z);
   }
 
   /// A packet that is covered wholly and passes wholly.
@@ -63,7 +63,7 @@ class PlainWriter {
     statistics_.samples_tested += kLanes;
     statistics_.samples_passed += kLanes;
     if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z_at());
-    if (writes_id_) store(&tile_.id[static_cast<std::size_t>(packet) * kLanes], Int(std::bit_cast<int32_t>(id)));
+    if (writes_id_) store(&tile_.visibility[static_cast<std::size_t>(packet) * kLanes], Int(std::bit_cast<int32_t>(id)));
   }
 
  private:

@@ -18,12 +18,12 @@ namespace halfspace {
 /// (raster/pipeline/sample_pattern.h) are the packets that hold it.
 struct SampleGrid {
   SampleGrid(const Tile& tile, int s)
-      : cell(s == 0 ? SampleCell{0, 0} : sample_cell(tile.samples, s, tile.size)),
-        x0(tile.x0 - cell.x),
-        y0(tile.y0 - cell.y),
+      : plane(s == 0 ? SamplePlane{0, 0} : sample_plane(tile.samples, s, tile.size)),
+        x0(tile.x0 - plane.x),
+        y0(tile.y0 - plane.y),
         position(sample_position(tile.samples, s)) {}
 
-  SampleCell cell;
+  SamplePlane plane;
   int x0, y0;  ///< window coordinates of pixel (0, 0)
   SamplePosition position;
 
@@ -49,7 +49,7 @@ HS_INLINE void put_edge(const Edge& edge, int64_t offset, int32_t bias, int shif
   r.bias[i] = bias;
   const int64_t e = (edge.at(grid.x_sub(), grid.y_sub()) + offset - bias) >> shift;
   int64_t corner = e;
-  if ((grid.cell.x | grid.cell.y) != 0) corner += step_x * grid.cell.x + step_y * grid.cell.y;
+  if ((grid.plane.x | grid.plane.y) != 0) corner += step_x * grid.plane.x + step_y * grid.plane.y;
   const int64_t low = corner + std::min<int64_t>(0, step_x * last) + std::min<int64_t>(0, step_y * last);
   const int64_t high = corner + std::max<int64_t>(0, step_x * last) + std::max<int64_t>(0, step_y * last);
   if (high < 0) r.outside = true;
@@ -60,16 +60,16 @@ HS_INLINE void put_edge(const Edge& edge, int64_t offset, int32_t bias, int shif
 }
 
 /// Of a point, whose bounds say all, or of a line.
-__attribute__((noinline)) inline TileEdges rare_edges(const Draw& draw, const Triangle& t, const SampleGrid& grid, int tile_size) {
+__attribute__((noinline)) inline TileEdges point_or_line_edges(const Draw& draw, const Triangle& t, const SampleGrid& grid, int tile_size) {
   TileEdges r{};
-  if (t.is(kSprite)) return r;
+  if (t.is(kPointSprite)) return r;
   const std::array<BandEdge, 2> band = band_edges(t, line_pixels(draw.state.line_width));
   for (std::size_t i = 0; i < 2; ++i) put_edge(band[i].edge, band[i].offset, band[i].bias, kSubPixelBits, grid, tile_size, i, r);
   return r;
 }
 
 inline TileEdges tile_edges(const Draw& draw, const Triangle& t, const SampleGrid& grid, int tile_size) {
-  if (t.is(kSprite | kLine)) return rare_edges(draw, t, grid, tile_size);
+  if (t.is(kPointSprite | kLine)) return point_or_line_edges(draw, t, grid, tile_size);
   TileEdges r;
   const int shift = t.is(kSmall) ? 0 : kSubPixelBits;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -17,9 +17,9 @@ namespace {
 
 bool tests_depth(const DepthState& state, const Tile& tile) { return state.test && tile.depth_format != DepthFormat::none; }
 
-// Everything that the packets of one triangle share.
-struct Context {
-  const Frame& frame;
+// What the packets of one triangle share on the slow path.
+struct TriangleVisit {
+  const PassContext& context;
   const Draw& draw;
   const Triangle& triangle;
   TriangleId id;
@@ -27,20 +27,20 @@ struct Context {
   Tile& tile;
   CoverageList* list;
   PassStatistics& statistics;
-  const StencilFace* stencil;  // null: no stencil test here
-  bool tests;                  // there is a depth test here
-  bool writes;                 // and it writes
-  bool asks_shader;            // the shader's visibility function decides
-  bool rejects;                // blocks whose depths no sample can pass are passed over
-  bool is_rare;                // the shader or the stencil has a say
-  bool cut;                    // a covered pixel may lie outside of the primitive's bounds
-  SampleGrid grid;             // which sample of the pixels
-  float low, high;             // bounds of the triangle's depth
-  VisibilityBatch* waiting;    // packets for the shader's visibility function
+  const StencilFace* stencil;     // null: no stencil test before shading
+  bool tests;                     // there is a depth test before shading
+  bool writes;                    // and it writes depth
+  bool asks_shader;               // the shader's visibility function decides
+  bool rejects_blocks;            // blocks in which no depth can pass are skipped
+  bool is_slow;                   // the shader or the stencil takes part in the test
+  bool needs_bounds_test;         // a covered pixel may lie outside of the primitive's bounds
+  VisibilityBatch& pending;       // packets for the shader's visibility function
+  SampleGrid grid;                // the sample that is visited
+  float low = 0.0f, high = 1.0f;  // bounds of the triangle's depth
 };
 
 // Both tests; the stencil remembers what became of each sample.
-Mask test_with_stencil(const Context& c, int packet, Real z, Mask mask) {
+Mask test_with_stencil(const TriangleVisit& c, int packet, Real z, Mask mask) {
   const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
   Mask passed = stencil_passed;
   if (c.tests) {
@@ -51,7 +51,7 @@ Mask test_with_stencil(const Context& c, int packet, Real z, Mask mask) {
 }
 
 // What becomes of the lanes that passed.
-HS_INLINE void finish_packet(const Context& c, int packet, Mask mask, Real z) {
+HS_INLINE void finish_packet(const TriangleVisit& c, int packet, Mask mask, Real z) {
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
   Tile& tile = c.tile;
@@ -62,7 +62,7 @@ HS_INLINE void finish_packet(const Context& c, int packet, Mask mask, Real z) {
   if (c.mode == VisibilityMode::deferred || c.mode == VisibilityMode::depth_only) {
     c.statistics.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
     if (c.mode == VisibilityMode::deferred) {
-      store(&tile.id[first], select(mask, Int(std::bit_cast<int32_t>(c.id)), load<Int>(&tile.id[first])));
+      store(&tile.visibility[first], select(mask, Int(std::bit_cast<int32_t>(c.id)), load<Int>(&tile.visibility[first])));
     }
     return;
   }
@@ -71,32 +71,32 @@ HS_INLINE void finish_packet(const Context& c, int packet, Mask mask, Real z) {
   c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
 }
 
-Mask test_depth(const Context& c, int packet, Real z, Mask mask) {
+Mask test_depth(const TriangleVisit& c, int packet, Real z, Mask mask) {
   if (!c.tests) return mask;
   return mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
 }
 
-void test_and_finish(const Context& c, int packet, Mask mask, Real z) {
+void test_and_finish(const TriangleVisit& c, int packet, Mask mask, Real z) {
   mask = c.stencil != nullptr ? test_with_stencil(c, packet, z, mask) : test_depth(c, packet, z, mask);
   finish_packet(c, packet, mask, z);
 }
 
 // The shader's say on the packets that wait for it: narrows masks, replaces depths.
-void ask_shader(const Context& c) {
-  VisibilityBatch& batch = *c.waiting;
+void ask_shader(const TriangleVisit& c) {
+  VisibilityBatch& batch = c.pending;
   if (batch.count == 0) return;
   std::array<SamplePosition, kVisibilityBatch * kLanes> centroids;
-  const bool looks_inside = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
-  for (std::size_t i = 0; looks_inside && i < static_cast<std::size_t>(batch.count); ++i) {
-    find_centroids(c.frame, c.grid.x0 + packet_x(batch.packets[i]), c.grid.y0 + packet_y(batch.packets[i]), nullptr, c.id,
+  const bool needs_centroid = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
+  for (std::size_t i = 0; needs_centroid && i < static_cast<std::size_t>(batch.count); ++i) {
+    find_centroids(c.context, c.grid.x0 + packet_x(batch.packets[i]), c.grid.y0 + packet_y(batch.packets[i]), nullptr, c.id,
                    &centroids[i * kLanes]);
   }
-  batch.frame = &c.frame;
+  batch.context = &c.context;
   batch.id = c.id;
   batch.tile_x0 = c.grid.x0;
   batch.tile_y0 = c.grid.y0;
   batch.position = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
-  batch.centroids = looks_inside ? centroids.data() : nullptr;
+  batch.centroids = needs_centroid ? centroids.data() : nullptr;
   c.draw.kernels.visibility(c.draw.shader.get(), batch);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
     Real z = batch.depth[i];
@@ -107,7 +107,7 @@ void ask_shader(const Context& c) {
 }
 
 // Where the shader or the stencil has a say.
-__attribute__((noinline)) void visit_rare_packet(const Context& c, int packet, Mask mask, Real z) {
+__attribute__((noinline)) void visit_packet_slowly(const TriangleVisit& c, int packet, Mask mask, Real z) {
   if (c.mode == VisibilityMode::cover_only) {
     c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
     return;
@@ -117,7 +117,7 @@ __attribute__((noinline)) void visit_rare_packet(const Context& c, int packet, M
   if (!c.draw.kernels.writes_depth && c.stencil == nullptr) mask = test_depth(c, packet, z, mask);
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
-  VisibilityBatch& batch = *c.waiting;
+  VisibilityBatch& batch = c.pending;
   const auto i = static_cast<std::size_t>(batch.count++);
   batch.packets[i] = static_cast<uint16_t>(packet);
   batch.lanes[i] = lanes;
@@ -125,29 +125,30 @@ __attribute__((noinline)) void visit_rare_packet(const Context& c, int packet, M
   if (batch.count == kVisibilityBatch) ask_shader(c);
 }
 
-void visit_packet(const Context& c, int packet, Mask mask, Real z) {
+void visit_packet(const TriangleVisit& c, int packet, Mask mask, Real z) {
   c.statistics.samples_tested += static_cast<uint64_t>(std::popcount(bits(mask)));
-  if (c.is_rare) return visit_rare_packet(c, packet, mask, z);
+  if (c.is_slow) return visit_packet_slowly(c, packet, mask, z);
   finish_packet(c, packet, test_depth(c, packet, z, mask), z);
 }
 
 // What is before and after the packets of a block: false if none of its pixels can pass.
-bool enters_block(const Context& c, int block) {
-  return !c.rejects || test_block(c.draw.state.depth.compare, c.tile, block, c.low, c.high) != BlockTest::none_passes;
+bool enters_block(const TriangleVisit& c, int block) {
+  return !c.rejects_blocks || test_block(c.draw.state.depth.compare, c.tile, block, c.low, c.high) != BlockTest::none_passes;
 }
-void leave_block(const Context& c, int block) {
+void leave_block(const TriangleVisit& c, int block) {
   if (!c.writes || c.mode == VisibilityMode::cover_only) return;
-  widen_block_bounds(c.draw.kernels.writes_depth ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
+  widen_hiz(c.draw.kernels.writes_depth ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
 }
 
 template <bool small>
-void visit_block(const Context& c, const BlockEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool whole, int block) {
+void visit_block(const TriangleVisit& c, const BlockEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool whole,
+                 int block) {
   if (!enters_block(c, block)) return;
   for (int packet = block * kPacketsPerBlock; packet < (block + 1) * kPacketsPerBlock; ++packet) {
     const int x = packet_x(packet), y = packet_y(packet);
     if (x >= rect.x1 || y >= rect.y1 || x + kPacketWidth <= rect.x0 || y + kPacketHeight <= rect.y0) continue;
     Mask mask = whole ? Mask(true) : edges.inside(x, y);
-    if (c.cut) mask = mask & inside(rect, x, y);
+    if (c.needs_bounds_test) mask = mask & inside(rect, x, y);
     if (any(mask)) visit_packet(c, packet, mask, plane.at(edges, x, y));
   }
   leave_block(c, block);
@@ -156,7 +157,7 @@ void visit_block(const Context& c, const BlockEdges& edges, const DepthPlane<sma
 constexpr int kBlockMask = ~(kBlockSize - 1);
 
 // Bounds of the depths that may be written: the primitive's, or any.
-void find_depth_bounds(Context& c) {
+void find_depth_bounds(TriangleVisit& c) {
   const DepthBounds bounds = depth_bounds(c.triangle, c.draw, c.tile.depth_format);
   const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
   c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : bounds.low;
@@ -164,7 +165,7 @@ void find_depth_bounds(Context& c) {
 }
 
 template <bool small>
-void visit_triangle(Context& c, const TileEdges& tile_edges, const TileRect& rect) {
+void visit_triangle(TriangleVisit& c, const TileEdges& tile_edges, const TileRect& rect) {
   const DepthPlane<small> plane(c.triangle, tile_edges, c.draw, c.grid, c.tile.depth_format);
   find_depth_bounds(c);
   const BlockEdges edges(tile_edges);
@@ -178,7 +179,7 @@ void visit_triangle(Context& c, const TileEdges& tile_edges, const TileRect& rec
 }
 
 // A point is its rectangle, at one depth.
-void visit_sprite(Context& c, const TileRect& rect) {
+void visit_point_sprite(TriangleVisit& c, const TileRect& rect) {
   find_depth_bounds(c);
   const Real z(depth_value(c.tile.depth_format, std::clamp(c.triangle.z0, c.draw.depth_low, c.draw.depth_high)));
   for (int by = rect.y0 & kBlockMask; by < rect.y1; by += kBlockSize) {
@@ -217,26 +218,27 @@ bool fetches_vertices_ahead(const Draw& draw) {
 
 }  // namespace
 
-DrawInTile::DrawInTile(const Frame& f, const Draw& d, VisibilityMode m, Tile& t)
-    : frame(f),
+DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t)
+    : context(f),
       draw(d),
       mode(m),
       tile(t),
       bounds{std::max(d.bounds.x0, t.x0), std::max(d.bounds.y0, t.y0), std::min(d.bounds.x1, t.x0 + t.width),
              std::min(d.bounds.y1, t.y0 + t.height)},
-      cut(t.size != kMaxTileSize || bounds.x0 > t.x0 || bounds.y0 > t.y0 || d.bounds.x1 < t.x0 + t.size || d.bounds.y1 < t.y0 + t.size),
+      needs_bounds_test(t.size != kMaxTileSize || bounds.x0 > t.x0 || bounds.y0 > t.y0 || d.bounds.x1 < t.x0 + t.size ||
+                        d.bounds.y1 < t.y0 + t.size),
       tests(tests_depth(d.state.depth, t)),
       asks_shader(m == VisibilityMode::deferred && d.kernels.visibility != nullptr),
       fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
-      is_plain((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && t.samples == 1 && (d.sample_mask & 1) != 0 &&
-               !asks_shader && !(d.state.stencil && t.has_stencil)) {}
+      is_opaque((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && t.samples == 1 && (d.sample_mask & 1) != 0 &&
+                !asks_shader && !(d.state.stencil && t.has_stencil)) {}
 
 namespace {
 
-void rasterize_sample(Context& c, const PixelBounds& b) {
+void rasterize_sample(TriangleVisit& c, const PixelBounds& b) {
   const Triangle& t = c.triangle;
   const TileRect rect{b.x0 - c.grid.x0, b.y0 - c.grid.y0, b.x1 - c.grid.x0, b.y1 - c.grid.y0};
-  if (t.is(kSprite)) return visit_sprite(c, rect);
+  if (t.is(kPointSprite)) return visit_point_sprite(c, rect);
   const TileEdges edges = tile_edges(c.draw, t, c.grid, c.tile.size);
   if (edges.outside) return;
   if (t.is(kSmall)) {
@@ -249,37 +251,38 @@ void rasterize_sample(Context& c, const PixelBounds& b) {
 }  // namespace
 
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics) {
-  const Triangle& t = d.frame.chunks[chunk].triangles[index];
-  if (d.is_plain && is_small_triangle(t)) {
+  const Triangle& t = d.context.chunks[chunk].triangles[index];
+  if (d.is_opaque && is_small_triangle(t)) {
     const auto one = static_cast<uint16_t>(index);
     return rasterize_small(d, chunk, {&one, 1}, statistics);
   }
-  if (d.is_plain) return rasterize_plain(d, t, triangle_id(chunk, index), statistics);
+  if (d.is_opaque) return rasterize_opaque(d, t, triangle_id(chunk, index), statistics);
   const StencilFace* stencil = stencil_face(d.draw.state, d.tile, t.is(kFrontFacing));
   // A stencil value changes with what becomes of the sample: where the shader speaks later, so do both tests.
   const bool late = d.mode == VisibilityMode::test_only && stencil != nullptr;
   const bool tests = !late && d.tests;
   const bool counts_failures = stencil != nullptr && (stencil->fail != StencilOp::keep || stencil->depth_fail != StencilOp::keep);
-  VisibilityBatch waiting;  // not initialized but for its count
-  Context c{d.frame,
-            d.draw,
-            t,
-            triangle_id(chunk, index),
-            d.mode,
-            d.tile,
-            list,
-            statistics,
-            late ? nullptr : stencil,
-            tests,
-            tests && d.draw.state.depth.write,
-            d.asks_shader,
-            tests && !(d.asks_shader && d.draw.kernels.writes_depth) && !counts_failures && d.mode != VisibilityMode::cover_only,
-            d.asks_shader || d.mode == VisibilityMode::cover_only || (stencil != nullptr && !late),
-            d.cut || t.is(kSprite | kLine),
-            SampleGrid(d.tile, 0),
-            0.0f,
-            1.0f,
-            &waiting};
+  const bool shader_writes_depth = d.asks_shader && d.draw.kernels.writes_depth;
+  VisibilityBatch pending;  // not initialized except for its count
+  TriangleVisit c{
+      .context = d.context,
+      .draw = d.draw,
+      .triangle = t,
+      .id = triangle_id(chunk, index),
+      .mode = d.mode,
+      .tile = d.tile,
+      .list = list,
+      .statistics = statistics,
+      .stencil = late ? nullptr : stencil,
+      .tests = tests,
+      .writes = tests && d.draw.state.depth.write,
+      .asks_shader = d.asks_shader,
+      .rejects_blocks = tests && !shader_writes_depth && !counts_failures && d.mode != VisibilityMode::cover_only,
+      .is_slow = d.asks_shader || d.mode == VisibilityMode::cover_only || (stencil != nullptr && !late),
+      .needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine),
+      .pending = pending,
+      .grid = SampleGrid(d.tile, 0),
+  };
   for (int s = 0; s < d.tile.samples; ++s) {
     if (s != 0) c.grid = SampleGrid(d.tile, s);
     if ((d.draw.sample_mask >> s & 1) != 0) {
@@ -302,9 +305,9 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
   store(stored, select(mask, z, load<Real>(stored)));
   const auto block = static_cast<std::size_t>(packet / kPacketsPerBlock);
   // The shader may have written anything: bounds are made exact when next asked for.
-  tile.block_min[block] = std::numeric_limits<float>::lowest();
-  tile.block_max[block] = std::numeric_limits<float>::max();
-  tile.block_writes[block] = kRefreshAfter;
+  tile.hiz_min[block] = std::numeric_limits<float>::lowest();
+  tile.hiz_max[block] = std::numeric_limits<float>::max();
+  tile.hiz_writes[block] = kRefreshAfter;
 }
 
 }  // namespace halfspace

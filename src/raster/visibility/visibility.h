@@ -37,28 +37,28 @@ VisibilityMode visibility_mode(const Draw& draw);
 
 /// What the triangles of one draw have in common in one tile.
 struct DrawInTile {
-  DrawInTile(const Frame& frame, const Draw& draw, VisibilityMode mode, Tile& tile);
+  DrawInTile(const PassContext& context, const Draw& draw, VisibilityMode mode, Tile& tile);
 
-  const Frame& frame;
+  const PassContext& context;
   const Draw& draw;
   VisibilityMode mode;
   Tile& tile;
-  PixelBounds bounds;     ///< of the draw in the tile
-  bool cut;               ///< a covered pixel of the tile may lie outside of bounds
-  bool tests;             ///< there is a depth test in this stage (where the stencil does not put it off)
-  bool asks_shader;       ///< the shader's visibility function decides
-  bool fetches_vertices;  ///< vertices are worth fetching ahead: they are points', or several triangles share each
-  bool is_plain;          ///< one sample a pixel, and only coverage and depth decide
+  PixelBounds bounds;      ///< of the draw in the tile
+  bool needs_bounds_test;  ///< a covered pixel of the tile may lie outside of bounds
+  bool tests;              ///< there is a depth test in this stage (where the stencil does not put it off)
+  bool asks_shader;        ///< the shader's visibility function decides
+  bool fetches_vertices;   ///< vertices are worth fetching ahead: they are points', or several triangles share each
+  bool is_opaque;          ///< one sample a pixel, and only coverage and depth decide
 };
 
 /// Rasterizes triangle `index` of chunk `chunk` in the tile. list is needed but for VisibilityMode::deferred and depth_only.
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics);
 
-/// The same for a plain draw (visibility_plain.cpp).
-void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
+/// The same for a plain draw (visibility_blocks.cpp).
+void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
 
 /// Is this for rasterize_small?
-inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kSprite)) == kSmall; }
+inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
 /// Rasterizes small triangles of a plain draw in the tile, one after the other: at most W of the chunk's, by their indices, not none.
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics);
 
@@ -66,7 +66,7 @@ void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16
 bool covers_tile(const DrawInTile& d, const Triangle& t);
 
 /// Writes depth and id of a triangle that covers the tile's room and passes everywhere; bounds: of its depths. Counts nothing.
-void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds);
+void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds);
 
 /// The depth test of a packet: which lanes of mask pass, with z as Tile::depth holds it.
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask);
@@ -79,7 +79,7 @@ inline constexpr int kVisibilityBatch = 16;
 
 /// Packets of one triangle for a shader's visibility function.
 struct VisibilityBatch {
-  const Frame* frame;
+  const PassContext* context;
   TriangleId id;
   int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's room
   SamplePosition position;  ///< where in their pixels the shader looks

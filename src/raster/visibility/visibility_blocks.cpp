@@ -12,11 +12,11 @@ namespace halfspace {
 namespace {
 
 // Remembers that every value of a block was replaced by one in [low, high].
-void set_block_bounds(Tile& tile, int block, float low, float high) {
+void set_hiz(Tile& tile, int block, float low, float high) {
   const auto b = static_cast<std::size_t>(block);
-  tile.block_min[b] = low;
-  tile.block_max[b] = high;
-  tile.block_writes[b] = 0;
+  tile.hiz_min[b] = low;
+  tile.hiz_max[b] = high;
+  tile.hiz_writes[b] = 0;
 }
 
 template <bool small>
@@ -26,8 +26,8 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
   const DepthPlane<small> plane(t, tile_edges, d.draw, grid, tile.depth_format);
   const BlockEdges edges(tile_edges);
   const auto [low, high] = depth_bounds(t, d.draw, tile.depth_format);
-  const bool cut = d.cut || t.is(kSprite | kLine);
-  PlainWriter writer(d, statistics);
+  const bool needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine);
+  OpaqueWriter writer(d, statistics);
   const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
   if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) return;
   constexpr int mask_to_block = ~(kBlockSize - 1);
@@ -39,19 +39,19 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       const BlockTest test = writer.tests() ? test_block(writer.compare_op(), tile, block, low, high) : BlockTest::all_pass;
       if (test == BlockTest::none_passes) continue;
       const int first = block * kPacketsPerBlock;
-      if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !cut) {
+      if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !needs_bounds_test) {
         for (int p = first; p < first + kPacketsPerBlock; ++p)
           writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
-        if (writer.writes_depth()) set_block_bounds(tile, block, low, high);
+        if (writer.writes_depth()) set_hiz(tile, block, low, high);
       } else {
         for (int p = first; p < first + kPacketsPerBlock; ++p) {
           const int px = packet_x(p), py = packet_y(p);
           if (px >= rect.x1 || py >= rect.y1 || px + kPacketWidth <= rect.x0 || py + kPacketHeight <= rect.y0) continue;
           Mask mask = coverage == BlockCoverage::whole ? Mask(true) : edges.inside(px, py);
-          if (cut) mask = mask & inside(rect, px, py);
+          if (needs_bounds_test) mask = mask & inside(rect, px, py);
           if (any(mask)) writer.write(id, p, bits(mask), [&] { return plane.at(edges, px, py); });
         }
-        if (writer.writes_depth()) widen_block_bounds(writer.compare_op(), tile, block, low, high);
+        if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, low, high);
       }
     }
   }
@@ -60,26 +60,26 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
 }  // namespace
 
 bool covers_tile(const DrawInTile& d, const Triangle& t) {
-  if (t.is(kSmall | kSprite | kLine)) return false;
+  if (t.is(kSmall | kPointSprite | kLine)) return false;
   const TileEdges edges = tile_edges(d.draw, t, SampleGrid(d.tile, 0), d.tile.size);
   bool whole = !edges.outside;
   for (std::size_t i = 0; i < 3; ++i) whole &= edges.e[i] == 0 && edges.step_x[i] == 0 && edges.step_y[i] == 0;
   return whole;
 }
 
-void write_whole_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds) {
+void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds) {
   const SampleGrid grid(d.tile, 0);
   const TileEdges tile_edges{};
   const DepthPlane<false> plane(t, tile_edges, d.draw, grid, d.tile.depth_format);
   const BlockEdges edges(tile_edges);
   PassStatistics counted_before;
-  PlainWriter writer(d, counted_before);
+  OpaqueWriter writer(d, counted_before);
   for (int p = 0; p < kPackets; ++p) writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
   if (!writer.writes_depth()) return;
-  for (int b = 0; b < kBlocks; ++b) set_block_bounds(d.tile, b, bounds.low, bounds.high);
+  for (int b = 0; b < kBlocks; ++b) set_hiz(d.tile, b, bounds.low, bounds.high);
 }
 
-void rasterize_plain(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
+void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
   const SampleGrid grid(d.tile, 0);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
   if (b.empty()) return;

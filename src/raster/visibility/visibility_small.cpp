@@ -15,8 +15,8 @@ namespace halfspace {
 namespace {
 
 // Larger ones are better asked by blocks.
-constexpr int kMostSpan = 48;  // px
-constexpr int kMostCovered = std::popcount(kCoveredBits);
+constexpr int kMaxSpan = 48;  // px
+constexpr int kMaxCovered = std::popcount(kCoveredBits);
 
 template <class T>
 using PerTriangle = std::array<T, static_cast<std::size_t>(kLanes)>;
@@ -45,7 +45,7 @@ class SmallTriangles {
     static_assert(offsetof(Triangle, z_edge1) == offsetof(Triangle, z0) + sizeof(float) &&
                   offsetof(Triangle, z_max) == offsetof(Triangle, z0) + 3 * sizeof(float));
     const auto [x, y] = load_corners(triangle);
-    const std::array<Int, 4> depths = load_fours<Int>([&](int k) { return &triangle(k)->z0; });
+    const std::array<Int, 4> depths = load_aos4<Int>([&](int k) { return &triangle(k)->z0; });
     const Int flags = load_vertices_and_flags(triangle)[3];
     const Real low(d.draw.depth_low), high = clamp(as_real(depths[3]), low, Real(d.draw.depth_high));
     const SmallDepth depth{as_real(depths[0]), as_real(depths[1]), as_real(depths[2]), low, high};
@@ -53,10 +53,10 @@ class SmallTriangles {
     const PixelBox<Int> box = pixel_box(x, y, SampleSpan{}, SampleSpan{});
     const Int covered = (flags >> static_cast<int>(kCoveredShift)) & static_cast<int32_t>(kCoveredBits);
     known_ = bits(covered != Int(0));
-    wide_ = bits(largest(x) - least(x) > Int(kMostSpan * kSubPixels) || largest(y) - least(y) > Int(kMostSpan * kSubPixels)) & ~known_;
-    if (known_ != 0) find_pixels(d, x, y, cut(box, d.draw.bounds), covered, depth);
+    wide_ = bits(max_of(x) - min_of(x) > Int(kMaxSpan * kSubPixels) || max_of(y) - min_of(y) > Int(kMaxSpan * kSubPixels)) & ~known_;
+    if (known_ != 0) find_pixels(d, x, y, intersect(box, d.draw.bounds), covered, depth);
     if ((known_ | wide_) == kAllBits<Mask>) return;
-    const PixelBox<Int> seen = cut(box, d.bounds);
+    const PixelBox<Int> seen = intersect(box, d.bounds);
     store(rect_x0_.data(), seen.x0 - d.tile.x0);
     store(rect_y0_.data(), seen.y0 - d.tile.y0);
     store(rect_x1_.data(), seen.x1 - d.tile.x0);
@@ -109,8 +109,8 @@ class SmallTriangles {
     store(count_.data(), count);
   }
 
-  alignas(64) std::array<PerTriangle<int32_t>, kMostCovered> pixel_;
-  alignas(64) std::array<PerTriangle<float>, kMostCovered> z_;
+  alignas(64) std::array<PerTriangle<int32_t>, kMaxCovered> pixel_;
+  alignas(64) std::array<PerTriangle<float>, kMaxCovered> z_;
   alignas(64) PerTriangle<int32_t> count_;
   alignas(64) PerTriangle<int32_t> rect_x0_, rect_y0_, rect_x1_, rect_y1_;
   alignas(64) std::array<PerTriangle<int32_t>, 3> e_, step_x_, step_y_;
@@ -123,7 +123,7 @@ class TrianglePackets {
  public:
   // t: the k-th of triangles.
   TrianglePackets(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, const Triangle& t, TriangleId id,
-                  PlainWriter& writer)
+                  OpaqueWriter& writer)
       : d_(d),
         id_(id),
         writer_(writer),
@@ -153,7 +153,7 @@ class TrianglePackets {
 
  private:
   static constexpr int kFewPackets = 40;
-  static constexpr std::size_t kMostPackets = (kMostSpan / kPacketWidth + 2) * (kMostSpan / kPacketHeight + 2);
+  static constexpr std::size_t kMaxPackets = (kMaxSpan / kPacketWidth + 2) * (kMaxSpan / kPacketHeight + 2);
 
   // A packet with covered pixels.
   struct Covered {
@@ -208,7 +208,7 @@ class TrianglePackets {
   // good as random, so there is no branch on it: it would often be foretold wrongly. All are listed before any is written.
   HS_INLINE void list(const std::array<int32_t, 3>& at, int column, int row) {
     uint32_t lanes = kAllBits<Mask> & ~negative_bits((first_[0] + at[0]) | (first_[1] + at[1]) | (first_[2] + at[2]));
-    if (d_.cut) lanes &= bits(inside(rect_, column * kPacketWidth, row * kPacketHeight));
+    if (d_.needs_bounds_test) lanes &= bits(inside(rect_, column * kPacketWidth, row * kPacketHeight));
     list_[listed_] = {packet_at(column * kPacketWidth, row * kPacketHeight), lanes, at[1], at[2]};
     listed_ += lanes != 0 ? 1 : 0;
   }
@@ -216,13 +216,12 @@ class TrianglePackets {
   HS_INLINE void write(const Covered& c) {
     const auto z_at = [&] { return depth_.at(d_.tile.depth_format, first_[1] + (c.e1 + bias1_), first_[2] + (c.e2 + bias2_)); };
     const bool passed = writer_.write(id_, c.packet, c.lanes, z_at);
-    if (passed && writer_.writes_depth())
-      widen_block_bounds(writer_.compare_op(), d_.tile, c.packet / kPacketsPerBlock, bounds_.low, bounds_.high);
+    if (passed && writer_.writes_depth()) widen_hiz(writer_.compare_op(), d_.tile, c.packet / kPacketsPerBlock, bounds_.low, bounds_.high);
   }
 
   const DrawInTile& d_;
   TriangleId id_;
-  PlainWriter& writer_;
+  OpaqueWriter& writer_;
   TileRect rect_;
   std::array<SmallEdge, 3> edge_;
   int32_t bias1_, bias2_;
@@ -230,21 +229,21 @@ class TrianglePackets {
   SmallDepth depth_;
   DepthBounds bounds_;
   std::size_t listed_ = 0;
-  std::array<Covered, kMostPackets + 1> list_;  // one beyond may be written
+  std::array<Covered, kMaxPackets + 1> list_;  // one beyond may be written
 };
 
 }  // namespace
 
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
-  const Chunk& c = d.frame.chunks[chunk];
+  const Chunk& c = d.context.chunks[chunk];
   const SmallTriangles triangles(d, c, indices);
-  PlainWriter writer(d, statistics);
+  OpaqueWriter writer(d, statistics);
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const TriangleId id = triangle_id(chunk, indices[k]);
     if (triangles.is_known(k)) {
       triangles.for_each_pixel(k, [&](std::size_t pixel, float z) { writer.write_pixel(id, pixel, z); });
     } else if (triangles.is_wide(k)) {
-      rasterize_plain(d, c.triangles[indices[k]], id, statistics);
+      rasterize_opaque(d, c.triangles[indices[k]], id, statistics);
     } else {
       TrianglePackets(d, triangles, k, c.triangles[indices[k]], id, writer).visit();
     }

@@ -49,11 +49,11 @@ double chord_error(const ObjectDescription& o) {
   return 0.0;
 }
 
-int part_step(int least) {
+int part_step(int minimum) {
   int power = 1;
-  while (2 * power <= least) power *= 2;
-  if (least <= power) return power;
-  return 2 * least <= 3 * power ? 3 * power / 2 : 2 * power;
+  while (2 * power <= minimum) power *= 2;
+  if (minimum <= power) return power;
+  return 2 * minimum <= 3 * power ? 3 * power / 2 : 2 * power;
 }
 
 namespace {
@@ -101,7 +101,7 @@ ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps) {
   return o;
 }
 
-int most_parts(const ObjectDescription& o) {
+int max_parts(const ObjectDescription& o) {
   switch (o.shape) {
     case Shape::icosphere: return 1 << 8;
     case Shape::plane:

@@ -15,7 +15,7 @@ double chord_error(const ObjectDescription& o);
 
 /// Numbers of parts from which counts are chosen: 1, 2, 3, 4, 6, 8, 12, 16, …: few, so that a moving view rarely changes a mesh. The
 /// smallest that is not below `least`.
-int part_step(int least);
+int part_step(int minimum);
 
 /// The same object with `parts` from top to bottom (or round a tube, or along an edge), and with as many along the other
 /// direction as make both directions' chords err alike. For an icosphere the level whose triangles are no larger.
@@ -25,6 +25,6 @@ int part_step(int least);
 ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps);
 
 /// The most parts that its keys allow.
-int most_parts(const ObjectDescription& o);
+int max_parts(const ObjectDescription& o);
 
 }  // namespace halfspace

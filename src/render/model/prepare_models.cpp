@@ -19,7 +19,7 @@ namespace halfspace {
 namespace {
 
 // Fewer bands leave the normals of a sphere's vertices so far apart that even their mean is visibly wrong between them.
-constexpr int kLeastParts = 8;
+constexpr int kMinParts = 8;
 
 // Of a textured and shaded globe, against 1024 bands: 2, 8 and 33 codes (99.9th percentile) at 128, 64 and 32 bands. The angle
 // between the ends of a quad's diagonal counts squared.
@@ -42,7 +42,7 @@ struct FilterError {
   double linear;
 };
 constexpr std::array<FilterError, 4> kFilterErrors{{{1, 0.408}, {2, 0.314}, {4, 0.209}, {8, 0.111}}};
-constexpr int kMostAnisotropy = 16;
+constexpr int kMaxAnisotropy = 16;
 
 std::string rounded_text(double x) { return number_text(std::round(x * 1000.0) / 1000.0); }
 
@@ -88,7 +88,7 @@ double diagonal_angle(const ObjectDescription& o) {
 }
 
 // The largest channel of the light that reaches a surface.
-double most_light(const SceneDescription& scene) {
+double max_light(const SceneDescription& scene) {
   glm::dvec3 sum(0.0);
   for (const auto& [name, l] : scene.lights) sum += l.color.linear * l.intensity * l.diffuse;
   return std::max({sum.x, sum.y, sum.z}) * (scene.post.hdr ? scene.post.exposure : 1.0);
@@ -165,10 +165,10 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
     return off_px(o) <= edge_px && (!color || kCodesPerSquaredAngle * angle * angle <= *color);
   };
   const bool has_curves = !is_plane(authored.shape) || is_map(authored.height);
-  int parts = has_curves ? kLeastParts : 1;
+  int parts = has_curves ? kMinParts : 1;
   ObjectDescription o = with_parts(authored, parts, color.has_value());
-  while (presence.is_seen && has_curves && parts < most_parts(o) && !is_enough(o)) {
-    parts = std::min(part_step(parts + 1), most_parts(o));
+  while (presence.is_seen && has_curves && parts < max_parts(o) && !is_enough(o)) {
+    parts = std::min(part_step(parts + 1), max_parts(o));
     o = with_parts(authored, parts, color.has_value());
   }
   if (shades_by_vertex(authored) && columns_of(o) <= columns_of(authored)) return authored;
@@ -184,7 +184,7 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
   tell("level", authored.level, o.level);
   tell("segments", authored.segments, o.segments);
   // A cosine between two vertices lies off the straight line by an eighth of the angle's square at the most.
-  const double angle = diagonal_angle(o), light_error = codes_of(most_light(scene_) * angle * angle / 8.0);
+  const double angle = diagonal_angle(o), light_error = codes_of(max_light(scene_) * angle * angle / 8.0);
   if (color && may_shade_by_vertex(o, scene_) && light_error <= *color && kPixelsPerVertex * vertices_of(o) <= presence.pixels) {
     o.surface.shading = ShadingRate::gouraud;
     choices.push_back({path + ".shading", "gouraud", "up to " + rounded_text(light_error) + " codes off"});
@@ -216,7 +216,7 @@ void fit_shadow(ShadowDescription& shadow, double edge_px, std::vector<ModelChoi
   shadow.resolution = 0;
   shadow.footprint = std::clamp(edge_px / kShadowEdgeTexels, 0.1, 100.0);
   const std::string why = "as fine as edges within " + rounded_text(shadow.footprint * kShadowEdgeTexels) + " px ask, at most " +
-                          std::to_string(kMostShadowTexels) + " texels";
+                          std::to_string(kMaxShadowTexels) + " texels";
   choices.push_back({"shadow.resolution", "0", why});
   choices.push_back({"shadow.footprint", rounded_text(shadow.footprint), why});
 }
@@ -248,12 +248,12 @@ void fit_particles(ParticlesDescription& p, double error_px, double edge_px, std
 
 void fit_textures(Named<TextureDescription>& textures, double color, std::vector<ModelChoice>& choices) {
   const auto enough = std::ranges::find_if(kFilterErrors, [&](const FilterError& e) { return codes_of(e.linear) <= color; });
-  const int anisotropy = enough == kFilterErrors.end() ? kMostAnisotropy : enough->anisotropy;
+  const int anisotropy = enough == kFilterErrors.end() ? kMaxAnisotropy : enough->anisotropy;
   for (auto& [name, t] : textures) {
     if (t.filter != Filter::trilinear || t.anisotropy == anisotropy) continue;
     t.anisotropy = anisotropy;
     const std::string why =
-        anisotropy == kMostAnisotropy ? "the most there are" : "up to " + rounded_text(codes_of(enough->linear)) + " codes";
+        anisotropy == kMaxAnisotropy ? "the most there are" : "up to " + rounded_text(codes_of(enough->linear)) + " codes";
     choices.push_back({"textures." + name + ".anisotropy", std::to_string(anisotropy), why});
   }
 }

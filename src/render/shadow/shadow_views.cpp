@@ -7,6 +7,7 @@
 
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/trig_double.h"
+#include "halfspace/core/vec.h"
 #include "halfspace/geometry/camera.h"
 
 namespace halfspace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Spheres drawn as points. SphereSprite<false> is the classic trick: a square sized by the centre alone, its circle kept, the
+// Spheres drawn as points. SphereImpostor<false> is the classic trick: a square sized by the centre alone, its circle kept, the
 // normal that of a half ball in it, and a depth that is a cone's. What is wrong with it: off the picture's middle a sphere is an
-// ellipse and no circle, and two spheres do not meet where they should. SphereSprite<true> is the sphere: the bounds of
-// its ellipse, and a ray by pixel (shading/sphere_lens.h).
+// ellipse and no circle, and two spheres do not meet where they should. SphereImpostor<true> is the sphere: the bounds of
+// its ellipse, and a ray by pixel (shading/sphere_intersection.h).
 //
 // Light, in linear colours:
 //   color · (ambient + diffuse · D) + specular · S + emissive       (D and S: shading/lighting.h)
@@ -19,8 +19,8 @@
 namespace halfspace {
 
 /// The uniforms of both.
-struct SphereSprites {
-  SphereLens lens;
+struct SphereImpostors {
+  SphereIntersection lens;
   glm::mat3 world_from_camera{1.0f};  ///< its columns: right, up and forward
   glm::vec3 to_eye_ws{0.0f};          ///< orthographic: towards the eye from everywhere; else 0
   float point_scale = 800.0f;         ///< px; of the classic sprite: see point_size
@@ -32,7 +32,7 @@ struct SphereSprites {
 };
 
 template <bool exact>
-struct SphereSprite : SphereSprites {
+struct SphereImpostor : SphereImpostors {
   template <class R>
   struct Attributes {
     vec3<R> center_cs;
@@ -68,9 +68,9 @@ struct SphereSprite : SphereSprites {
     const vec3<R>& c = in.center_cs.value;
     vec3<R> lit_cs = c;
     if constexpr (exact) lit_cs = c + h.n_cs * in.radius.value;
-    const vec3<R> position_ew = world_from_camera * lit_cs, n_ws = world_from_camera * h.n_cs;
-    const vec3<R> v_ws = lens.perspective ? normalize_or_zero(-position_ew) : vec3<R>(to_eye_ws);
-    const Illumination<R> light = illuminate(lights, model, R(shininess), SurfacePoint<R>{position_ew, n_ws, v_ws, n_ws, px.x, px.y});
+    const vec3<R> position_rws = world_from_camera * lit_cs, n_ws = world_from_camera * h.n_cs;
+    const vec3<R> v_ws = lens.perspective ? normalize_or_zero(-position_rws) : vec3<R>(to_eye_ws);
+    const Illumination<R> light = illuminate(lights, model, R(shininess), SurfacePoint<R>{position_rws, n_ws, v_ws, n_ws, px.x, px.y});
     const vec3<R> color = in.color.value * (ambient + diffuse * light.diffuse) + specular * light.specular + emissive;
     return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t, h.t_low)};
   }

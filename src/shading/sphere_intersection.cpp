@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/shading/sphere_lens.h"
+#include "halfspace/shading/sphere_intersection.h"
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ double whole(const SplitDouble& d) { return static_cast<double>(d.high) + static
 }  // namespace
 
 // a·r² − |e × d|², which is the root at the point nearest to the centre.
-double SphereLens::root_in_double(const glm::vec3& center_cs, float radius, float x, float y) const {
+double SphereIntersection::root_in_double(const glm::vec3& center_cs, float radius, float x, float y) const {
   const glm::dvec3 c(center_cs);
   const double px = std::fma(static_cast<double>(x), whole(ray_x.scale), whole(ray_x.bias));
   const double py = std::fma(static_cast<double>(y), whole(ray_y.scale), whole(ray_y.bias)), r = static_cast<double>(radius);

@@ -32,18 +32,18 @@ struct SplitDouble {
 
 /// A number as a sum of two: high is the sum rounded.
 template <class R>
-struct SplitSum {
+struct DoubleFloat {
   R high, low;
 };
 /// a + b, exactly (Knuth).
 template <class R>
-HS_INLINE SplitSum<R> two_sum(R a, R b) {
+HS_INLINE DoubleFloat<R> two_sum(R a, R b) {
   const R sum = a + b, back = sum - a;
   return {sum, (a - (sum - back)) + (b - back)};
 }
 /// a · b, exactly (Dekker).
 template <class R>
-HS_INLINE SplitSum<R> two_product(R a, R b) {
+HS_INLINE DoubleFloat<R> two_product(R a, R b) {
   const R product = a * b;
   return {product, fma(a, b, -product)};
 }
@@ -53,8 +53,8 @@ struct PixelLine {
   SplitDouble scale, bias;
 
   template <class R>
-  HS_INLINE SplitSum<R> at(R x) const {
-    const SplitSum<R> product = two_product(x, R(scale.high)), sum = two_sum(product.high, R(bias.high));
+  HS_INLINE DoubleFloat<R> at(R x) const {
+    const DoubleFloat<R> product = two_product(x, R(scale.high)), sum = two_sum(product.high, R(bias.high));
     return two_sum(sum.high, (sum.low + product.low) + fma(x, R(scale.low), R(bias.low)));
   }
 };
@@ -74,7 +74,7 @@ struct SphereSpan {
 };
 
 /// How a camera sees spheres.
-struct SphereLens {
+struct SphereIntersection {
   bool perspective = true;
   glm::vec2 half{1.0f};       ///< what reaches from the picture's middle to its edges: tangents, or in an orthographic picture units
   glm::vec2 pixel_ndc{0.0f};  ///< size of a pixel in normalized device coordinates
@@ -82,9 +82,9 @@ struct SphereLens {
   float depth_scale = 0.0f, depth_scale_low = 0.0f;
   PixelLine ray_x, ray_y;  ///< from window coordinates to dx and dy
 
-  SphereLens() = default;
+  SphereIntersection() = default;
   /// size_px: of the picture. Depth is reversed: 1 at near, 0 at far.
-  SphereLens(bool is_perspective, const glm::dvec2& half_extent, double z_near, double z_far, const glm::ivec2& size_px)
+  SphereIntersection(bool is_perspective, const glm::dvec2& half_extent, double z_near, double z_far, const glm::ivec2& size_px)
       : perspective(is_perspective),
         half(half_extent),
         pixel_ndc(2.0 / glm::dvec2(size_px)),
@@ -102,8 +102,8 @@ struct SphereLens {
     const R from_far = (R(far) - t) + (R(far_low) - t_low);
     const R scaled = fma(R(depth_scale), from_far, R(depth_scale_low) * from_far);
     if (!perspective) return clamp(scaled, R(0), R(1));
-    const R held = max(t, R(near)), inverse = R(1) / held, quotient = scaled * inverse;
-    const R rest = fma(-quotient, held, scaled) - quotient * t_low;
+    const R clamped = max(t, R(near)), inverse = R(1) / clamped, quotient = scaled * inverse;
+    const R rest = fma(-quotient, clamped, scaled) - quotient * t_low;
     return clamp(fma(rest, inverse, quotient), R(0), R(1));
   }
 
@@ -128,7 +128,7 @@ struct SphereLens {
       const R slope = R(2) * p.forward(ray);  // < 0: the ray enters
       delta = select(is_near, select(slope < R(0), p.inside(radius) / slope, R(0)), delta);
     }
-    SplitSum<R> t = two_sum(c.z, s);
+    DoubleFloat<R> t = two_sum(c.z, s);
     t = two_sum(t.high, t.low + delta);
     const vec3<R> n = vec3<R>(fma(delta, ray.dx.high, p.x.high), fma(delta, ray.dy.high, p.y.high), s + delta) * (R(1) / radius);
     return {(root > R(0)) && (t.high >= R(near)) && (t.high <= R(far)), t.high, t.low, n};
@@ -168,20 +168,21 @@ struct SphereLens {
   // A ray as above: d without its z, which is 1, and e.
   template <class R>
   struct Ray {
-    SplitSum<R> dx, dy, ex, ey;
+    DoubleFloat<R> dx, dy, ex, ey;
   };
   // e + s·d
   template <class R>
   struct RayPoint {
-    SplitSum<R> x, y;
+    DoubleFloat<R> x, y;
     R z;
 
     /// p·d
     HS_INLINE R forward(const Ray<R>& ray) const { return fma(x.high, ray.dx.high, fma(y.high, ray.dy.high, z)); }
     /// r² − |p|²: of the four squares the two sums cancel exactly (Sterbenz) where the point is near the surface.
     HS_INLINE R inside(R r) const {
-      const SplitSum<R> xx = two_product(x.high, x.high), yy = two_product(y.high, y.high), zz = two_product(z, z), rr = two_product(r, r);
-      const SplitSum<R> xy = two_sum(xx.high, yy.high), xyz = two_sum(xy.high, zz.high), left = two_sum(rr.high, -xyz.high);
+      const DoubleFloat<R> xx = two_product(x.high, x.high), yy = two_product(y.high, y.high), zz = two_product(z, z),
+                           rr = two_product(r, r);
+      const DoubleFloat<R> xy = two_sum(xx.high, yy.high), xyz = two_sum(xy.high, zz.high), left = two_sum(rr.high, -xyz.high);
       const R squares_low = (xx.low + yy.low) + (zz.low + (xy.low + xyz.low));
       return left.high + ((left.low - squares_low) + (rr.low - R(2) * fma(x.high, x.low, y.high * y.low)));
     }
@@ -189,8 +190,8 @@ struct SphereLens {
 
   // base + s·along
   template <class R>
-  HS_INLINE static SplitSum<R> step(const SplitSum<R>& base, const SplitSum<R>& along, R s) {
-    const SplitSum<R> product = two_product(s, along.high), sum = two_sum(product.high, base.high);
+  HS_INLINE static DoubleFloat<R> step(const DoubleFloat<R>& base, const DoubleFloat<R>& along, R s) {
+    const DoubleFloat<R> product = two_product(s, along.high), sum = two_sum(product.high, base.high);
     return two_sum(sum.high, (sum.low + product.low) + fma(s, along.low, base.low));
   }
   template <class R>
@@ -199,7 +200,7 @@ struct SphereLens {
   }
   template <class R>
   HS_INLINE Ray<R> ray_of(const vec3<R>& c, R x, R y) const {
-    const SplitSum<R> px = ray_x.at(x), py = ray_y.at(y), none{R(0), R(0)}, from_x{-c.x, R(0)}, from_y{-c.y, R(0)};
+    const DoubleFloat<R> px = ray_x.at(x), py = ray_y.at(y), none{R(0), R(0)}, from_x{-c.x, R(0)}, from_y{-c.y, R(0)};
     if (perspective) return {px, py, step(from_x, px, c.z), step(from_y, py, c.z)};
     return {none, none, step(from_x, px, R(1)), step(from_y, py, R(1))};
   }

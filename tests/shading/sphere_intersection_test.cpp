@@ -2,7 +2,7 @@
 //
 // Rays against spheres in float: inside, depth and normal as the textbook's quadratic has them in long double, which knows nothing
 // of the way they are found here; and bounds that hold every pixel.
-#include "halfspace/shading/sphere_lens.h"
+#include "halfspace/shading/sphere_intersection.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr int kWidth = 640, kHeight = 360;
 constexpr double kNear = 0.1, kFar = 200.0;
 const glm::dvec2 kHalf(1.1, 1.1 * kHeight / kWidth);
 
-SphereLens lens_for(bool perspective) { return {perspective, perspective ? kHalf : kHalf * 10.0, kNear, kFar, {kWidth, kHeight}}; }
+SphereIntersection lens_for(bool perspective) { return {perspective, perspective ? kHalf : kHalf * 10.0, kNear, kFar, {kWidth, kHeight}}; }
 
 // A row of numbers that every machine draws alike.
 class Numbers {
@@ -81,7 +81,7 @@ double change_of_depth(const glm::vec3& c, float r, double x, double y, bool per
   return static_cast<double>(most);
 }
 
-void compare_rim(const SphereLens& lens, const SphereHit<float>& h, const Truth& t, double change, Worst& worst) {
+void compare_rim(const SphereIntersection& lens, const SphereHit<float>& h, const Truth& t, double change, Worst& worst) {
   ++worst.rim;
   const double depth = static_cast<double>(std::fabs(Wide(lens.window_depth(h.t, h.t_low)) - t.depth));
   // The depth itself is a float: what may be lost elsewhere comes on top.
@@ -91,7 +91,7 @@ void compare_rim(const SphereLens& lens, const SphereHit<float>& h, const Truth&
 }
 
 // A sphere round a random point, and pixels in and near it.
-void compare(const SphereLens& lens, const glm::vec3& c, float r, Numbers& random, Worst& worst) {
+void compare(const SphereIntersection& lens, const glm::vec3& c, float r, Numbers& random, Worst& worst) {
   const SphereSpan<float> sx = lens.span(c, r, 0), sy = lens.span(c, r, 1);
   const auto pixel = [&](float low, float high, int size) {
     const double at = std::clamp(random.next(static_cast<double>(low), static_cast<double>(high)), -1.0, 1.0);
@@ -118,7 +118,7 @@ void compare(const SphereLens& lens, const glm::vec3& c, float r, Numbers& rando
 
 // Radius at most a fifth of the distance, to 60 degrees off the axis, of 1/2 px to half the picture.
 Worst of_distant_spheres(bool perspective) {
-  const SphereLens lens = lens_for(perspective);
+  const SphereIntersection lens = lens_for(perspective);
   Numbers random(1);
   Worst worst;
   for (int i = 0; i < 20000; ++i) {
@@ -141,7 +141,7 @@ void expect_exact(const Worst& w) {
   EXPECT_LE(w.rim_normal, 1e-6);
 }
 
-TEST(SphereLens, DistantSpheresAsInLongDouble) {
+TEST(SphereIntersection, DistantSpheresAsInLongDouble) {
   for (const bool perspective : {true, false}) {
     const Worst w = of_distant_spheres(perspective);
     EXPECT_GT(w.seen, 100000);
@@ -155,8 +155,8 @@ TEST(SphereLens, DistantSpheresAsInLongDouble) {
 }
 
 // Spheres that the near plane cuts, whose centre may be behind the eye, and spheres that hold the eye's surroundings.
-TEST(SphereLens, SpheresAtAndThroughTheNearPlane) {
-  const SphereLens lens = lens_for(true);
+TEST(SphereIntersection, SpheresAtAndThroughTheNearPlane) {
+  const SphereIntersection lens = lens_for(true);
   Numbers random(2);
   Worst worst;
   for (int i = 0; i < 20000; ++i) {
@@ -173,8 +173,8 @@ TEST(SphereLens, SpheresAtAndThroughTheNearPlane) {
 }
 
 // Spheres made to pass by the very ray: ten million rays that meet or miss by 2^-8 of the radius to less than its last bit.
-TEST(SphereLens, InsideIsDoublesAtTheRim) {
-  const SphereLens lens = lens_for(true);
+TEST(SphereIntersection, InsideIsDoublesAtTheRim) {
+  const SphereIntersection lens = lens_for(true);
   Numbers random(5);
   int wrong = 0, in = 0, close = 0;
   constexpr int kRays = 10000000;
@@ -199,8 +199,8 @@ TEST(SphereLens, InsideIsDoublesAtTheRim) {
 }
 
 // Every pixel that sees the sphere lies in its bounds, and they are no wider than a pixel and a half beyond those pixels.
-TEST(SphereLens, BoundsHoldTheSphereAndLittleMore) {
-  const SphereLens lens = lens_for(true);
+TEST(SphereIntersection, BoundsHoldTheSphereAndLittleMore) {
+  const SphereIntersection lens = lens_for(true);
   Numbers random(3);
   int cut = 0, whole = 0;
   for (int i = 0; i < 300; ++i) {
@@ -247,8 +247,8 @@ TEST(SphereLens, BoundsHoldTheSphereAndLittleMore) {
 }
 
 // Of a sphere that the near plane cuts: the largest and the least x/z of what lies beyond the plane, by trying round its circle.
-TEST(SphereLens, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
-  const SphereLens lens = lens_for(true);
+TEST(SphereIntersection, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
+  const SphereIntersection lens = lens_for(true);
   Numbers random(4);
   int at_the_plane = 0;
   for (int i = 0; i < 500; ++i) {
@@ -278,8 +278,8 @@ TEST(SphereLens, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
   EXPECT_LT(at_the_plane, 900);
 }
 
-TEST(SphereLens, NothingToDrawOutsideOfDepth) {
-  const SphereLens lens = lens_for(true);
+TEST(SphereIntersection, NothingToDrawOutsideOfDepth) {
+  const SphereIntersection lens = lens_for(true);
   EXPECT_TRUE(lens.in_depth(glm::vec3(0, 0, 5), 1.0f));
   EXPECT_TRUE(lens.in_depth(glm::vec3(0, 0, -0.5), 0.75f));
   EXPECT_FALSE(lens.in_depth(glm::vec3(0, 0, -5), 1.0f));

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// 10,000 instances of one mesh in one draw.
+#include <cmath>
+
+#include "halfspace/geometry/camera.h"
+#include "halfspace/geometry/shapes.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/raster/pass.h"
+
+using namespace halfspace;
+
+struct InstanceShader {
+  glm::mat4 clip_from_world;
+
+  template <class R>
+  struct Attributes {
+    vec3<R> position;  // per vertex
+    vec3<R> normal;    // per vertex
+    vec3<R> offset;    // per instance
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    const R light = max(dot(in.normal, vec3<R>(glm::vec3(0.36f, 0.8f, 0.48f))), R(0)) + R(0.1f);
+    out.color = (in.offset * R(0.01f) + vec3<R>(R(0.5f))) * light;
+    return clip_from_world * vec4<R>(in.position + in.offset, R(1));
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in) const {
+    return {vec4<R>(in.color, R(1))};
+  }
+};
+
+int main(int argc, char** argv) {
+  const Mesh ball = icosphere(1, 0.4f);
+  std::vector<glm::vec3> offsets;
+  for (int z = 0; z < 100; ++z)
+    for (int x = 0; x < 100; ++x) {
+      const auto dx = static_cast<float>(x) - 49.5f, dz = static_cast<float>(z) - 49.5f;
+      offsets.emplace_back(dx, 0.004f * (dx * dx - dz * dz), dz);
+    }
+  const glm::dmat4 camera = perspective_reversed(0.8, 640.0 / 480.0, 1.0, 1000.0) * look_at({0, 60, 90}, {0, 0, 0}, {0, 1, 0});
+
+  Image<glm::u8vec4> image(640, 480);
+  Pass pass(640, 480, srgb8a8_target(image), {.format = DepthFormat::d32f, .clear_value = 0.0f});
+  DrawState state = kReversedZState;
+  state.instances = static_cast<uint32_t>(offsets.size());
+  pass.draw(InstanceShader{glm::mat4(camera)},
+            make_vertex_view(stream(ball.positions), stream(ball.normals), per_instance(stream(offsets))), ball.indices, state);
+  pass.run(Workers(Workers::cores()));
+  write_image(argc > 1 ? argv[1] : "instances.png", image);
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws into a half-float image, uses it as a texture of a second pass, and tone-maps the result on its way out.
+#include "halfspace/image/image_io.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/shading/texture.h"
+#include "halfspace/shading/tone.h"
+
+using namespace halfspace;
+
+// One triangle that covers the window.
+const std::vector<glm::vec2> kFullScreen{{-1, -1}, {3, -1}, {-1, 3}};
+
+struct GlowShader {
+  const Texture2D* texture;  // null: draws the light itself
+
+  template <class R>
+  struct Attributes {
+    vec2<R> position;
+  };
+  template <class R>
+  struct Varyings {
+    vec2<R> uv;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = in.position * R(0.5f) + vec2<R>(R(0.5f));
+    return vec4<R>(in.position.x, in.position.y, R(0), R(1));
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in) const {
+    const R disk = select(length(in.uv - vec2<R>(R(0.5f))) < R(0.2f), R(1), R(0));
+    if (texture == nullptr) return {vec4<R>(R(4) * disk, R(2) * disk, disk, R(1))};
+    return {texture->sample_level<R>(Sampler{}, in.uv, R(4))};  // mip level 4: a cheap blur
+  }
+};
+
+// Runs on every finished pixel, while its tile is in cache.
+struct ToneMap {
+  template <class R>
+  vec4<R> operator()(const vec4<R>& c) const {
+    return vec4<R>(tone_map(SceneLight<R>{vec3<R>(c.x, c.y, c.z)}, ToneMapping{.curve = ToneCurve::reinhard}).rgb, R(1));
+  }
+};
+
+int main(int argc, char** argv) {
+  const Workers workers(Workers::cores());
+  Image<glm::vec4> light(256, 256);
+  Pass first(256, 256, rgba32f_target(light), {});
+  first.draw(GlowShader{nullptr}, make_vertex_view(stream(kFullScreen)));
+  first.run(workers);
+  const Texture2D texture(light, TexelFormat::rgba16f);
+  Image<glm::u8vec4> image(256, 256);
+  Pass second(256, 256, {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care}, {});
+  second.draw(GlowShader{&texture}, make_vertex_view(stream(kFullScreen)));
+  second.post(ToneMap{}, srgb8a8_target(image));
+  second.run(workers);
+  write_image(argc > 1 ? argv[1] : "render_to_texture.png", image);
+}

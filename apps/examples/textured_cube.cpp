@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A cube with a texture, seen by a perspective camera.
+#include "halfspace/geometry/camera.h"
+#include "halfspace/geometry/shapes.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/shading/texture.h"
+
+using namespace halfspace;
+
+struct TexturedShader {
+  glm::mat4 clip_from_object;
+  const Texture2D* texture;  // must exist until the pass has run
+
+  template <class R>
+  struct Attributes {
+    vec3<R> position;
+    vec2<R> uv;
+  };
+  template <class R>
+  struct Varyings {
+    vec2<R> uv;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = in.uv;
+    return clip_from_object * vec4<R>(in.position, R(1));
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    // The derivatives of uv to the right and up choose the mip level.
+    return {texture->sample<R>(Sampler{}, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv))};
+  }
+};
+
+int main(int argc, char** argv) {
+  Image<glm::u8vec4> checkers(64, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      checkers.at(x, y) = (x / 8 + y / 8) % 2 == 0 ? glm::u8vec4(230, 180, 60, 255) : glm::u8vec4(40, 60, 120, 255);
+  const Texture2D texture(checkers, TexelFormat::srgb8a8);
+  const Mesh mesh = cube(1.0f);
+  // Matrices are multiplied in double and rounded to float once. Reversed Z maps near to depth 1 and far to 0.
+  const glm::dmat4 clip_from_view = perspective_reversed(0.7, 640.0 / 480.0, 0.1, 100.0);
+  const glm::dmat4 view_from_world = look_at({1.4, 1.2, 1.9}, {0, 0, 0}, {0, 1, 0});
+
+  Image<glm::u8vec4> image(640, 480);
+  Pass pass(640, 480, srgb8a8_target(image), {.format = DepthFormat::d32f, .clear_value = 0.0f});
+  DrawState state = kReversedZState;
+  state.cull = CullMode::back;
+  pass.draw(TexturedShader{glm::mat4(clip_from_view * view_from_world), &texture},
+            make_vertex_view(stream(mesh.positions), stream(mesh.uvs)), mesh.indices, state);
+  pass.run(Workers(Workers::cores()));
+  write_image(argc > 1 ? argv[1] : "textured_cube.png", image);
+}

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+// A view without streams says how many vertices it has: must not compile, and
+// the message must name: needs the number of vertices.
+#include "halfspace/raster/vertex_input.h"
+
+using namespace halfspace;
+
+VertexView nothing() { return make_vertex_view(); }

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// A vector of indices that ends before the pass runs: must not compile, and
+// the message must name: the index list is a temporary.
+#include "halfspace/raster/pass.h"
+#include "support/shaders.h"
+
+using namespace halfspace;
+
+void draw(Pass& pass, const VertexView& view) { pass.draw(ConstantShader{}, view, std::vector<uint32_t>{0, 1, 2}); }

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// Indices that end before the pass runs: must not compile, and
+// the message must name: the index list is a temporary.
+#include "halfspace/raster/pass.h"
+#include "support/shaders.h"
+
+using namespace halfspace;
+
+void draw(Pass& pass, const VertexView& view, const std::vector<uint32_t>& list) { pass.draw(ConstantShader{}, view, Indices(list, 3)); }

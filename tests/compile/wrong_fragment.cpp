@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shader whose fragment function returns a vec4, not a Fragment: must not compile, and
+// the message must name: the shader's fragment function must return.
+#include "halfspace/raster/pass.h"
+
+using namespace halfspace;
+
+struct WrongFragment {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+  };
+  template <class R>
+  struct Varyings {};
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return in.position;
+  }
+  template <class R>
+  vec4<R> fragment(const Varyings<R>&) const {
+    return vec4<R>(R(1));
+  }
+};
+
+void draw(Pass& pass, const VertexView& view) { pass.draw(WrongFragment{}, view); }

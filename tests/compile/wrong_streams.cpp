@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shader given streams of other sizes than its Attributes have: must not compile, and
+// the message must name: the streams do not match.
+#include "halfspace/raster/pass.h"
+#include "support/shaders.h"
+
+using namespace halfspace;
+
+void draw(Pass& pass, const std::vector<glm::vec3>& positions) { pass.draw(ConstantShader{}, make_vertex_view(stream(positions))); }

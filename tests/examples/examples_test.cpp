@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs every program of apps/examples and checks its picture where the values follow from the program's text.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "halfspace/core/image.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/image/image_io.h"
+
+namespace halfspace {
+namespace {
+
+using Picture = Image<glm::u8vec4>;
+
+// Runs example-NAME in the test's temporary folder and returns the picture it writes.
+Picture run_example(const std::string& name) {
+  const std::filesystem::path out = std::filesystem::path(testing::TempDir()) / ("example-" + name + ".png");
+  const std::string command = std::string(HALFSPACE_EXAMPLES_DIR) + "/example-" + name + " '" + out.string() + "' > '" + out.string() + ".txt'";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  Picture picture = read_image(out);
+  std::filesystem::remove(out);
+  return picture;
+}
+
+uint8_t srgb(float linear) { return static_cast<uint8_t>(linear_to_srgb(linear)); }
+
+// Pixels whose channels all lie between two bounds.
+template <class F>
+double share(const Picture& picture, F is_one) {
+  std::size_t n = 0;
+  for (const glm::u8vec4& c : picture.texels()) n += is_one(c) ? 1 : 0;
+  return static_cast<double>(n) / static_cast<double>(picture.texels().size());
+}
+
+TEST(Examples, Triangle) {
+  const Picture p = run_example("triangle");
+  ASSERT_EQ(p.width(), 640);
+  EXPECT_EQ(p.at(0, 0), glm::u8vec4(srgb(0.01f), srgb(0.01f), srgb(0.02f), 255));
+  // The centre of pixel (320, 240) is (1/640, -1/480) in normalized device coordinates: weights 1/4 of red and green, 1/2 of blue, each
+  // within 0.003 of it, which is at most two codes of the sRGB curve there.
+  const glm::u8vec4 c = p.at(320, 240);
+  EXPECT_NEAR(c.x, srgb(0.25f), 2);
+  EXPECT_NEAR(c.y, srgb(0.25f), 2);
+  EXPECT_NEAR(c.z, srgb(0.5f), 2);
+}
+
+TEST(Examples, TexturedCube) {
+  const Picture p = run_example("textured_cube");
+  EXPECT_EQ(p.at(0, 0), glm::u8vec4(0));
+  const auto is_bright = [](const glm::u8vec4& c) { return c == glm::u8vec4(230, 180, 60, 255); };
+  const auto is_dark = [](const glm::u8vec4& c) { return c == glm::u8vec4(40, 60, 120, 255); };
+  // The two colours cover equal parts of each face. What is left of the cube is filtered between them.
+  EXPECT_GT(share(p, is_bright), 0.05);
+  EXPECT_NEAR(share(p, is_bright), share(p, is_dark), 0.01);
+}
+
+TEST(Examples, OwnShader) {
+  const Picture p = run_example("own_shader");
+  EXPECT_EQ(p.at(10, 240).w, 0);  // |x| > 0.9 is discarded
+  EXPECT_EQ(p.at(30, 240).w, 255);
+  // The two triangles of the quad differ by the factor 1/2 of their flat varying. Pixels mirrored at the diagonal from the lower left to
+  // the upper right have the same distance from the centre.
+  const glm::u8vec4 lower = p.at(300, 400), upper = p.at(479 - 400, 479 - 300);
+  EXPECT_NEAR(srgb_to_linear<float>(int32_t{lower.x}) * 2.0f, srgb_to_linear<float>(int32_t{upper.x}), 0.01f);  // two codes
+}
+
+TEST(Examples, RenderToTexture) {
+  const Picture p = run_example("render_to_texture");
+  // At the centre the blurred light is (4, 2, 1), which Reinhard's curve maps to 4/5, 2/3 and 1/2; far from the disk it is 0.
+  EXPECT_EQ(p.at(128, 128), glm::u8vec4(srgb(0.8f), srgb(2.0f / 3.0f), srgb(0.5f), 255));
+  EXPECT_EQ(p.at(2, 2), glm::u8vec4(0, 0, 0, 255));
+}
+
+TEST(Examples, ShadowMap) {
+  const Picture p = run_example("shadow_map");
+  const glm::u8vec4 lit(srgb(0.7f), srgb(0.65f), srgb(0.6f), 255), shadowed(srgb(0.14f), srgb(0.13f), srgb(0.12f), 255);
+  const double light = share(p, [&](const glm::u8vec4& c) { return c == lit; });
+  const double shadow = share(p, [&](const glm::u8vec4& c) { return c == shadowed; });
+  const double background = share(p, [&](const glm::u8vec4& c) { return c == glm::u8vec4(0); });
+  EXPECT_DOUBLE_EQ(light + shadow + background, 1.0);
+  EXPECT_GT(light, 0.3);
+  EXPECT_GT(shadow, 0.02);
+}
+
+TEST(Examples, Instances) {
+  const Picture p = run_example("instances");
+  EXPECT_EQ(p.at(320, 10), glm::u8vec4(0));
+  EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.w == 255; }), 0.2);
+}
+
+TEST(Examples, Msaa) {
+  const Picture p = run_example("msaa");
+  const auto grays = [&](int x0) {
+    int n = 0;
+    for (int y = 0; y < 256; ++y)
+      for (int x = x0; x < x0 + 256; ++x) n += p.at(x, y).x != 0 && p.at(x, y).x != 255 ? 1 : 0;
+    return n;
+  };
+  EXPECT_EQ(grays(0), 0);      // one sample: inside or outside
+  EXPECT_GT(grays(256), 500);  // four samples: some pixels of the edges are covered in part
+}
+
+TEST(Examples, ReadDepth) {
+  const Picture p = run_example("read_depth");
+  EXPECT_EQ(p.at(2, 2).x, 0);        // the far plane
+  EXPECT_EQ(p.at(128, 128).x, 255);  // the sphere's front, 3 units away
+  // Where the silhouette is, the distance is nearly that of the centre less its inclination: between 3.5 and 4 units.
+  EXPECT_NEAR(p.at(128, 66).x, 255.0 * (4.0 - 3.33), 40.0);
+}
+
+}  // namespace
+}  // namespace halfspace
