@@ -95,9 +95,14 @@ inline DepthTarget d24s8_target(Image<uint32_t>& image) {
 inline DepthTarget d32fs8_target(Image<DepthStencil>& image) {
   return {.format = DepthFormat::d32fs8, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};
 }
-inline DepthTarget d32f_target(Image<float>& image, float clear_value = 1.0f) {
-  return {
-      .format = DepthFormat::d32f, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store, .clear_value = clear_value};
+inline DepthTarget d32f_target(Image<float>& image) {
+  return {.format = DepthFormat::d32f, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};
+}
+/// The same, cleared to another depth than 1: to 0 for reversed Z.
+inline DepthTarget d32f_target(Image<float>& image, float clear_value) {
+  DepthTarget target = d32f_target(image);
+  target.clear_value = clear_value;
+  return target;
 }
 
 }  // namespace halfspace

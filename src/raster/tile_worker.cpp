@@ -164,19 +164,19 @@ class TileWorker {
     tile.height = pixels.y1 - pixels.y0;
   }
 
-  Samples spilled_samples() const { return context_.samples > 1 ? Samples::all : Samples::one; }
+  ImageSamples spilled_samples() const { return context_.samples > 1 ? ImageSamples::all : ImageSamples::one; }
 
   void load(Tile& tile) const {
     const int width = context_.width, height = context_.height;
     for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
       const ColorTarget& c = attachments_.colors[i];
       if (round_.first) {
-        load_color(c, width, height, Samples::one, tile, tile.color[i]);
+        load_color(c, width, height, ImageSamples::one, tile, tile.color[i]);
       } else {
         load_color(between_flushes(c, attachments_.color_spills[i]), width, height, spilled_samples(), tile, tile.color[i]);
       }
     }
-    if (round_.first) load_depth(attachments_.depth, width, height, Samples::one, tile);
+    if (round_.first) load_depth(attachments_.depth, width, height, ImageSamples::one, tile);
     if (!round_.first) load_depth(between_flushes(attachments_.depth, attachments_.depth_spill), width, height, spilled_samples(), tile);
   }
 
@@ -186,13 +186,13 @@ class TileWorker {
       const ColorTarget& c = attachments_.colors[i];
       if (round_.last) {
         resolve_color(tile, tile.color[i]);
-        store_color(c, width, height, Samples::one, tile, tile.color[i]);
+        store_color(c, width, height, ImageSamples::one, tile, tile.color[i]);
       } else {
         store_color(between_flushes(c, attachments_.color_spills[i]), width, height, spilled_samples(), tile, tile.color[i]);
       }
     }
     if (!changes_depth) return;
-    if (round_.last) store_depth(attachments_.depth, width, height, Samples::one, tile);
+    if (round_.last) store_depth(attachments_.depth, width, height, ImageSamples::one, tile);
     if (!round_.last) store_depth(between_flushes(attachments_.depth, attachments_.depth_spill), width, height, spilled_samples(), tile);
   }
 

@@ -2,6 +2,7 @@
 //
 // The end of a picture: exposure measured, curves and encodings in the tile, and what HDR costs where it is off.
 #include "halfspace/render/display.h"
+#include "halfspace/shading/tone.h"
 
 #include <gtest/gtest.h>
 

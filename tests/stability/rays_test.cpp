@@ -39,7 +39,7 @@ TEST(Stability, RaysAtSharedEdges) {
   const World world;
   const glm::dvec3 eye(7000.0, 5000.0, 9000.0);
   const RayScene rays(world.meshes, eye);
-  raster_test::Random random(5);
+  Random random(5);
   const auto& list = world.ball.indices;
   std::vector<std::array<glm::vec3, 3>> triangles;
   for (std::size_t i = 0; i < list.size(); i += 3) {
@@ -76,7 +76,7 @@ TEST(Stability, PointsThatShadeThemselves) {
   const RayScene casters(world.meshes, eye, true);
   RayLight light{{}, 0.0, 1};
   light.light.place_rws = glm::normalize(glm::vec3(0.3f, 1.0f, 0.2f));
-  raster_test::Random random(6);
+  Random random(6);
   int plain = 0, ours = 0, points = 0;
   const auto& list = world.ball.indices;
   for (int n = 0; n < raster_test::effort(20000); ++n) {

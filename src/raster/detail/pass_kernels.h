@@ -67,7 +67,7 @@ KeptShader keep_shader(const S& shader, std::pmr::memory_resource& memory) {
   return {::new (memory.allocate(sizeof(S), alignof(S))) S(shader), [](const void* kept) { static_cast<const S*>(kept)->~S(); }};
 }
 
-/// Floats of each member of a struct of attributes, in order.
+/// Floats of each member of a struct of attributes, in order; 0 for a member that is absent.
 template <class Tuple>
 struct MemberSizes;
 template <class... F>
@@ -81,7 +81,11 @@ template <class A, class... T>
 constexpr bool streams_match() {
   constexpr auto members = MemberSizes<FieldsOf<A>>::value;
   std::size_t next = 0;
+  const auto skip_absent = [&] {
+    while (next < members.size() && members[next] == 0) ++next;
+  };
   const auto take = [&](std::size_t floats, bool is_one_attribute) {
+    skip_absent();
     if (is_one_attribute) return next < members.size() && members[next++] == floats;
     while (floats != 0 && next < members.size() && members[next] <= floats) floats -= members[next++];
     return floats == 0;
@@ -89,7 +93,9 @@ constexpr bool streams_match() {
   const auto is_one = []<class E>(std::type_identity<E>) {
     return std::same_as<E, float> || requires { E::length(); };
   };
-  return (take(sizeof(T) / sizeof(float), is_one(std::type_identity<T>())) && ...) && next == members.size();
+  const bool all_taken = (take(sizeof(T) / sizeof(float), is_one(std::type_identity<T>())) && ...);
+  skip_absent();
+  return all_taken && next == members.size();
 }
 
 template <class A, class V>

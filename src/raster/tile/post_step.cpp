@@ -22,7 +22,7 @@ void run_post_step(const PostStep& post, int target_width, int target_height, co
     write_batch(scratch, batch, colors.data(), colors.data(), {});
     count = 0;
   }
-  store_color(post.target, target_width, target_height, Samples::one, tile, scratch);
+  store_color(post.target, target_width, target_height, ImageSamples::one, tile, scratch);
 }
 
 }  // namespace halfspace

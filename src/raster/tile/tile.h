@@ -106,17 +106,17 @@ struct Tile {
 };
 
 /// What an image holds of pixels with several samples.
-enum class Samples : uint8_t {
+enum class ImageSamples : uint8_t {
   one,  ///< one value a pixel: loaded into all samples, stored from sample 0
   all   ///< an image for each sample, one after the other
 };
 
 // Between tile and image. Images hold the top row first, tiles the bottom row: rows are turned round here.
-void load_color(const ColorTarget& target, int target_width, int target_height, Samples stored, const Tile& tile, ColorBuffer& color);
-void load_depth(const DepthTarget& target, int target_width, int target_height, Samples stored, Tile& tile);
-void store_color(const ColorTarget& target, int target_width, int target_height, Samples stored, const Tile& tile,
+void load_color(const ColorTarget& target, int target_width, int target_height, ImageSamples stored, const Tile& tile, ColorBuffer& color);
+void load_depth(const DepthTarget& target, int target_width, int target_height, ImageSamples stored, Tile& tile);
+void store_color(const ColorTarget& target, int target_width, int target_height, ImageSamples stored, const Tile& tile,
                  const ColorBuffer& color);
-void store_depth(const DepthTarget& target, int target_width, int target_height, Samples stored, const Tile& tile);
+void store_depth(const DepthTarget& target, int target_width, int target_height, ImageSamples stored, const Tile& tile);
 
 /// Sets pixels of an image: to a colour, and to the depth and stencil that the target is cleared to.
 void fill_color(const ColorTarget& target, int target_width, int target_height, const PixelBounds& pixels, const PacketColor& color);

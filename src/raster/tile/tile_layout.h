@@ -22,11 +22,11 @@ inline constexpr std::array<uint8_t, kPixelsPerBlock> kZOrder = make_z_order();
 // places in the tile are the first one's plus kZOrder[0 … count − 1]. So for every sample; images of one sample give and
 // take the first one's.
 template <class F>
-HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_height, Samples stored, int samples, F f) {
+HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_height, ImageSamples stored, int samples, F f) {
   for (int s = 0; s < samples; ++s) {
     const SamplePlane plane = sample_plane(tile.samples, s, tile.size);
     const std::size_t shift = static_cast<std::size_t>(packet_shift(plane)) * kLanes;
-    const std::size_t image = stored == Samples::one ? 0 : static_cast<std::size_t>(s) * static_cast<std::size_t>(target_height);
+    const std::size_t image = stored == ImageSamples::one ? 0 : static_cast<std::size_t>(s) * static_cast<std::size_t>(target_height);
     for (int y = 0; y < tile.height; ++y) {
       const std::size_t row =
           (image + static_cast<std::size_t>(target_height - 1 - (tile.y0 + y))) * static_cast<std::size_t>(target_width);
@@ -42,7 +42,7 @@ HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_heigh
 
 // Calls f(pixel of the tile, pixel of the image) for each.
 template <class F>
-HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_height, Samples stored, int samples, F f) {
+HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_height, ImageSamples stored, int samples, F f) {
   for_each_row(tile, target_width, target_height, stored, samples, [&](std::size_t first, std::size_t out, int pixels) {
     if (pixels == kBlockSize) {  // places known when compiling
       for (std::size_t i = 0; i < kBlockSize; ++i) f(first + kZOrder[i], out + i);
@@ -55,7 +55,7 @@ HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_hei
 // for_each_pixel for images of 32 bits a pixel: two neighbours, which lie side by side in both, at a time. load: image to
 // tile, else tile to image.
 template <bool load, class TileBytes, class ImageBytes>
-void copy_words(const Tile& tile, int target_width, int target_height, Samples stored, int samples, TileBytes* in_tile,
+void copy_words(const Tile& tile, int target_width, int target_height, ImageSamples stored, int samples, TileBytes* in_tile,
                 ImageBytes* in_image) {
   const auto copy = [&]<std::size_t bytes>(std::integral_constant<std::size_t, bytes>, std::size_t t, std::size_t i) {
     if constexpr (load) {
@@ -78,7 +78,7 @@ void copy_words(const Tile& tile, int target_width, int target_height, Samples s
 // An image that a tile is loaded from or stored to.
 struct ImageLayout {
   int width, height;
-  Samples stored;
+  ImageSamples stored;
 };
 
 // Images from this size on are larger than the caches next to a core. What is written to them goes past these caches, which saves reading

@@ -60,7 +60,7 @@ void load_half_planes(const std::byte* data, const ImageLayout& place, const Til
 
 }  // namespace
 
-void load_color(const ColorTarget& target, int width, int height, Samples stored, const Tile& tile, ColorBuffer& color) {
+void load_color(const ColorTarget& target, int width, int height, ImageSamples stored, const Tile& tile, ColorBuffer& color) {
   color.format = target.format;
   if (target.format == ColorFormat::none) return;
   if (target.load == LoadOp::dont_care) {  // zeros, so that even pixels that nothing draws are the same in every run
@@ -80,7 +80,7 @@ void load_color(const ColorTarget& target, int width, int height, Samples stored
   }
 }
 
-void load_depth(const DepthTarget& target, int width, int height, Samples stored, Tile& tile) {
+void load_depth(const DepthTarget& target, int width, int height, ImageSamples stored, Tile& tile) {
   tile.depth_format = depth_part(target.format);
   tile.has_stencil = has_stencil(target.format);
   if (target.format == DepthFormat::none) return;

@@ -30,7 +30,7 @@ void stream_words(const Tile& tile, int target_width, int target_height, const s
 #endif
 
 // Tile to image, 32 bits a pixel.
-void store_words(const Tile& tile, int width, int height, Samples stored, int samples, const std::byte* in_tile, std::byte* in_image) {
+void store_words(const Tile& tile, int width, int height, ImageSamples stored, int samples, const std::byte* in_tile, std::byte* in_image) {
 #ifdef __AVX2__
   const bool whole = tile.samples == 1 && tile.width == kMaxTileSize && tile.height == kMaxTileSize;
   if (whole && streams(in_image, width, height, 4)) return stream_words(tile, width, height, in_tile, in_image);
@@ -38,7 +38,7 @@ void store_words(const Tile& tile, int width, int height, Samples stored, int sa
   copy_words<false>(tile, width, height, stored, samples, in_tile, in_image);
 }
 
-int stored_samples(const Tile& tile, Samples stored) { return stored == Samples::one ? 1 : tile.samples; }
+int stored_samples(const Tile& tile, ImageSamples stored) { return stored == ImageSamples::one ? 1 : tile.samples; }
 
 template <class F>
 HS_INLINE void for_each_store(const Tile& tile, const ImageLayout& p, F f) {
@@ -87,7 +87,7 @@ void store_half_planes(std::byte* data, const ImageLayout& place, const Tile& ti
 
 }  // namespace
 
-void store_color(const ColorTarget& target, int width, int height, Samples stored, const Tile& tile, const ColorBuffer& color) {
+void store_color(const ColorTarget& target, int width, int height, ImageSamples stored, const Tile& tile, const ColorBuffer& color) {
   if (target.format == ColorFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
   const ImageLayout place{width, height, stored};
   switch (target.format) {
@@ -97,7 +97,7 @@ void store_color(const ColorTarget& target, int width, int height, Samples store
   }
 }
 
-void store_depth(const DepthTarget& target, int width, int height, Samples stored, const Tile& tile) {
+void store_depth(const DepthTarget& target, int width, int height, ImageSamples stored, const Tile& tile) {
   if (target.format == DepthFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
   if (target.format == DepthFormat::d32f) {  // as the tile holds it
     store_words(tile, width, height, stored, stored_samples(tile, stored), reinterpret_cast<const std::byte*>(tile.depth.data()),
