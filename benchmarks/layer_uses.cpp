@@ -32,7 +32,7 @@ class Blend final : public Workload {
       for (std::size_t i = 0; i < target.color.texels().size(); ++i) {
         if (layer.depth.data()[i] == 1.0) continue;
         vec4<double>& to = target.color.data()[i];
-        to = vec4<double>(0.5 * (glm::min(vec3<double>(layer.color.data()[i]), 1.0) + vec3<double>(to)), 1.0);
+        to = vec4<double>(0.5 * (glm::min(glm::dvec3(glm::dvec4(layer.color.data()[i])), 1.0) + vec3<double>(to)), 1.0);
       }
     }
     return target;

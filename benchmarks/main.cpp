@@ -2,6 +2,7 @@
 //
 // halfspace-bench: draws the workloads, measures their frames, prints a table or JSON, writes their pictures.
 #include "bench_program.h"
+#include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 
 int main(int argc, char** argv) {
@@ -14,7 +15,7 @@ int main(int argc, char** argv) {
                             .sweeps = [] { return sweeps(); },
                             .identity =
                                 [] {
-                                  return nlohmann::ordered_json{{"program", "halfspace"}, {"arch", HALFSPACE_ARCH}, {"lanes", kLanes}};
+                                  return nlohmann::ordered_json{{"program", "halfspace"}, {"arch", build_arch()}, {"lanes", kLanes}};
                                 }},
                            argc, argv);
 }

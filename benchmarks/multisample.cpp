@@ -63,7 +63,7 @@ class Multisampled final : public Workload {
       const OneSample shader{{shader_}, 128.0 - at.x, 128.0 - at.y, static_cast<double>(size_.width), static_cast<double>(size_.height)};
       draw_naive(one, shader, assets_.vertex_view(), indices_, workload_state());
       for (std::size_t i = 0; i < mean.color.texels().size(); ++i) {
-        mean.color.data()[i] += glm::clamp(one.color.data()[i], 0.0, 1.0) / static_cast<double>(kSamples);
+        mean.color.data()[i] += glm::clamp(glm::dvec4(one.color.data()[i]), 0.0, 1.0) / static_cast<double>(kSamples);
         mean.depth.data()[i] = std::min(mean.depth.data()[i], one.depth.data()[i]);
       }
     }

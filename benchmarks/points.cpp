@@ -58,7 +58,7 @@ class Points final : public Workload {
     const int row = size_.height - 1 - j;
     if (depth >= target.depth.at(i, row)) return;
     target.depth.at(i, row) = depth;
-    const WorkloadLight<double> light = phong(vec3<double>(n), unit(vec3<double>(shader_.light_es) - p), unit(-p));
+    const WorkloadLight<double> light = phong(vec3<double>(n), unit(vec3<double>(shader_.light_es) - p), unit(vec3<double>(-p)));
     target.color.at(i, row) = lit(vec3<double>(0.5 + 0.5 * position), light);
   }
 

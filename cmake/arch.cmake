@@ -1,6 +1,9 @@
-# The instruction set and the lane width of this build, and the flags that every target shares.
+# The instruction set and the lane width of this build, and the flags that come with them. Included after project(halfspace).
 #
 # Bits of pixels do not depend on either (but for x86-64-v2, which has no fma instruction and makes no such promise).
+#
+# halfspace_flags holds what every translation unit that includes a header of Halfspace needs, and reaches consumers through the
+# libraries. Warnings and macros that restrict GLM are options of this directory: they apply to our own sources alone.
 
 set(HALFSPACE_ARCH native CACHE STRING "native, x86-64-v2, x86-64-v3 or x86-64-v4")
 set_property(CACHE HALFSPACE_ARCH PROPERTY STRINGS native x86-64-v2 x86-64-v3 x86-64-v4)
@@ -34,15 +37,13 @@ message(STATUS "halfspace: ${HALFSPACE_ARCH}, ${lanes} lanes")
 
 add_library(halfspace_flags INTERFACE)
 # Headers are included as "halfspace/MODULE/FILE.h": in the build tree by a link, in an installation by a folder of that name.
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/include/halfspace SYMBOLIC)
-target_include_directories(halfspace_flags INTERFACE ${PROJECT_BINARY_DIR}/include)
-target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes} HALFSPACE_ARCH="${HALFSPACE_ARCH}"
-  GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR)
+file(MAKE_DIRECTORY ${halfspace_BINARY_DIR}/include)
+file(CREATE_LINK ${halfspace_SOURCE_DIR}/src ${halfspace_BINARY_DIR}/include/halfspace SYMBOLIC)
+target_include_directories(halfspace_flags INTERFACE ${halfspace_BINARY_DIR}/include)
+target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes})
 # No contraction of a*b + c, no errno: the first would change bits with the compiler, the second only costs.
-# Wpsabi: vectors wider than the baseline are passed between our own translation units only.
-target_compile_options(halfspace_flags INTERFACE -march=${HALFSPACE_ARCH} -ffp-contract=off -fno-math-errno
-  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-psabi)
+# Wpsabi: a note that g++ prints wherever wide vectors are passed by value.
+target_compile_options(halfspace_flags INTERFACE -march=${HALFSPACE_ARCH} -ffp-contract=off -fno-math-errno -Wno-psabi)
 if(arch_macros MATCHES "__AVX512F__")
   target_compile_options(halfspace_flags INTERFACE -mprefer-vector-width=512)
   set(vector_bits 512)
@@ -58,9 +59,11 @@ check_cxx_compiler_flag("-mmove-max=${vector_bits} -mstore-max=${vector_bits}" H
 if(HALFSPACE_HAS_MOVE_MAX)
   target_compile_options(halfspace_flags INTERFACE -mmove-max=${vector_bits} -mstore-max=${vector_bits})
 endif()
+add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wshadow)
 if(HALFSPACE_WERROR)
-  target_compile_options(halfspace_flags INTERFACE -Werror)
+  add_compile_options(-Werror)
 endif()
+add_compile_definitions(GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR)
 if(HALFSPACE_ASSERTS)
   target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_ASSERTS)
 endif()

@@ -32,7 +32,7 @@ void print_text() {
 
 void print_json() {
   const std::filesystem::path tool = find_image_tool();
-  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", HALFSPACE_ARCH},    {"lanes", kLanes},
+  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", build_arch()},      {"lanes", kLanes},
                                  {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_tool", nullptr}};
   if (!tool.empty()) json["image_tool"] = tool.string();
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';

@@ -8,6 +8,7 @@
 
 #include "cli/arguments.h"
 #include "cli/command_line.h"
+#include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "limits/limits.h"
 
@@ -17,8 +18,8 @@ namespace {
 
 void print(const Limit& limit, int threads, bool json) {
   if (json) {
-    const nlohmann::ordered_json line{{"limit", limit.name}, {"unit", limit.unit},     {"value", limit.value},
-                                      {"threads", threads},  {"arch", HALFSPACE_ARCH}, {"lanes", kLanes}};
+    const nlohmann::ordered_json line{{"limit", limit.name}, {"unit", limit.unit},   {"value", limit.value},
+                                      {"threads", threads},  {"arch", build_arch()}, {"lanes", kLanes}};
     std::cout << line.dump() << '\n';
     return;
   }
@@ -43,7 +44,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   program.parse(argc, argv);
 
   const LimitTimer timer(parse_threads(threads_text), parse_real("--seconds", seconds_text, 0.001, 60.0, "0.001 to 60, for example 0.1"));
-  if (!json) std::cout << "threads: " << timer.threads() << ", " HALFSPACE_ARCH ", lanes: " << kLanes << '\n';
+  if (!json) std::cout << "threads: " << timer.threads() << ", " << build_arch() << ", lanes: " << kLanes << '\n';
   for (const auto measure : {compute_limits, bandwidth_limits, frame_limits}) {
     for (const Limit& limit : measure(timer)) print(limit, timer.threads(), json);
   }

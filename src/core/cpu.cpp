@@ -153,6 +153,8 @@ const char* missing_cpu_features() noexcept {
 #define HS_TEXT2(x) #x
 #define HS_TEXT(x) HS_TEXT2(x)
 
+const char* build_arch() noexcept { return HALFSPACE_ARCH; }
+
 const char* build_description() noexcept { return HALFSPACE_ARCH ", " HS_TEXT(HALFSPACE_LANES) " lanes"; }
 
 }  // namespace halfspace

@@ -11,7 +11,10 @@ namespace halfspace {
 /// which this processor lacks; rebuild with …"), or "". The text lives until the next call; not thread-safe.
 const char* missing_cpu_features() noexcept;
 
-/// The instruction set and lane width of the build, for example "native, 16 lanes".
+/// The instruction set of the build (HALFSPACE_ARCH), for example "native".
+const char* build_arch() noexcept;
+
+/// The same with the lane width, for example "native, 16 lanes".
 const char* build_description() noexcept;
 
 }  // namespace halfspace

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "halfspace/core/lanes.h"
 

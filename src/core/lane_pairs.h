@@ -237,6 +237,3 @@ HS_INLINE void set_lane(IntPair<H>& r, int i, int32_t x) {
 }
 
 }  // namespace halfspace
-
-template <class H>
-struct std::numeric_limits<halfspace::RealPair<H>> : std::numeric_limits<float> {};

@@ -17,8 +17,26 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <type_traits>
+
+// After an #error below one lane is assumed, so that the message stands alone.
+#ifndef HALFSPACE_LANES
+#error "HALFSPACE_LANES is not defined: link the CMake target Halfspace::raster, which sets it and the compiler flags it needs"
+#define HALFSPACE_LANES 1
+#elif HALFSPACE_LANES != 1 && HALFSPACE_LANES != 4 && HALFSPACE_LANES != 8 && HALFSPACE_LANES != 16
+#error "HALFSPACE_LANES must be 1, 4, 8 or 16"
+#undef HALFSPACE_LANES
+#define HALFSPACE_LANES 1
+#elif HALFSPACE_LANES == 8 && !defined(__AVX2__)
+#error "HALFSPACE_LANES is 8, which needs AVX2: compile with -march=x86-64-v3, or link the CMake target Halfspace::raster"
+#undef HALFSPACE_LANES
+#define HALFSPACE_LANES 1
+#elif HALFSPACE_LANES == 16 && !(defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
+#error \
+    "HALFSPACE_LANES is 16, which needs AVX-512 F, BW, DQ and VL: compile with -march=x86-64-v4, or link the CMake target Halfspace::raster"
+#undef HALFSPACE_LANES
+#define HALFSPACE_LANES 1
+#endif
 
 // What must be inlined for lanes to stay in registers; and a function that inlines all it calls, shaders included.
 #define HS_INLINE inline __attribute__((always_inline))
@@ -585,7 +603,3 @@ HS_INLINE R difference_of_products(R a, std::type_identity_t<R> b, std::type_ide
 }
 
 }  // namespace halfspace
-
-/// GLM asks this of an element type before it offers normalize, length and the like.
-template <int W>
-struct std::numeric_limits<halfspace::RealN<W>> : std::numeric_limits<float> {};

@@ -89,9 +89,10 @@ inline constexpr bool kTransposes4x4 = requires(std::array<I, 4> words) {
 /// bytes must be readable. I: IntN<W> or int32_t.
 template <class I, class Place>
 HS_INLINE std::array<I, 4> load_aos4(const Place& place) {
-  if constexpr (detail::kTransposes4x4<I>) {
-    const auto part = [&](int k) { return detail::load_quarters(I{}, place, k); };
-    return detail::transposed_4x4({part(0), part(1), part(2), part(3)});
+  using namespace detail;  // unqualified calls: without AVX these functions are not declared
+  if constexpr (kTransposes4x4<I>) {
+    const auto part = [&](int k) { return load_quarters(I{}, place, k); };
+    return transposed_4x4(std::array<I, 4>{part(0), part(1), part(2), part(3)});
   } else {
     std::array<I, 4> words{};
     for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
@@ -106,9 +107,10 @@ HS_INLINE std::array<I, 4> load_aos4(const Place& place) {
 /// be one, where any of them is left.
 template <class I, class Place>
 HS_INLINE void store_aos4(const std::array<I, 4>& words, const Place& place) {
-  if constexpr (detail::kTransposes4x4<I>) {
-    const std::array<I, 4> records = detail::transposed_4x4(words);
-    for (int k = 0; k < 4; ++k) detail::store_quarters(records[static_cast<std::size_t>(k)], place, k);
+  using namespace detail;
+  if constexpr (kTransposes4x4<I>) {
+    const std::array<I, 4> records = transposed_4x4(words);
+    for (int k = 0; k < 4; ++k) store_quarters(records[static_cast<std::size_t>(k)], place, k);
   } else {
     for (int k = 0; k < static_cast<int>(sizeof(I) / sizeof(int32_t)); ++k) {
       detail::store_at(place(k), std::array<int32_t, 4>{lane(words[0], k), lane(words[1], k), lane(words[2], k), lane(words[3], k)});

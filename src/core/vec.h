@@ -1,129 +1,230 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vectors of GLM over float, double or lanes, and what GLM does not give for them: operators that mix a uniform
-// (float, glm::vec, glm::mat: the same for all pixels) with a varying (R, vec<R>: one value a pixel).
+// vec2<R>, vec3<R> and vec4<R>: small vectors of float, double or lanes, the types that shaders compute with.
 //
-// With R = float a uniform and a varying are one type and GLM's own operators apply; those below repeat GLM's order
-// of operations, so that float and lanes give the same bits.
+// Uniforms and vertex data are GLM's types: glm::vec3, glm::mat4 and so on, the same for all pixels. They convert to vec<R> by
+// themselves, so an operator or function takes any mix of the two as long as one argument is a vec<R>: in.normal + light, dot(n, light),
+// world_from_object * position. A vec<float> and a vec<double> convert back to GLM's type of the same numbers.
+//
+// All functions (dot, length, normalize, …) are found by their argument, from any namespace. Each fixes its order of operations, so that
+// float and lanes give the same bits. The dot product of three components rounds once per component, which GLM's does not: the two
+// differ in the last bit.
+//
+// Two uniforms make a uniform, computed by GLM once. The product of a uniform vector and a varying number is a vec3<R> for lanes but a
+// glm::vec3 for float; store it in a vec3<R> before passing it to dot, length, normalize or reflect.
 #pragma once
+
+#ifdef GLM_FORCE_DEFAULT_ALIGNED_GENTYPES
+#error "Halfspace needs GLM's packed vectors (a glm::vec3 of 12 bytes): do not define GLM_FORCE_DEFAULT_ALIGNED_GENTYPES"
+#endif
+
+#include <concepts>
+#include <glm/glm.hpp>
 
 #include "halfspace/core/lanes.h"
 
-// Before GLM: its vec of lanes must find the scalar functions above by their argument's namespace.
-#include <glm/glm.hpp>
-
 namespace halfspace {
 
+template <int L, Number R>
+struct VecN;
 template <class R>
-using vec2 = glm::vec<2, R>;
+using vec2 = VecN<2, R>;
 template <class R>
-using vec3 = glm::vec<3, R>;
+using vec3 = VecN<3, R>;
 template <class R>
-using vec4 = glm::vec<4, R>;
+using vec4 = VecN<4, R>;
 
-/// A number type that differs from float, so that mixing it with uniforms needs the operators below.
+/// The numbers S that convert to R without loss: a vector of them converts to a vector of R by itself.
+template <class S, class R>
+concept WidensTo = std::same_as<S, float> ||(std::same_as<S, double>&& std::same_as<R, double>);
+/// The numbers S that convert to R when asked to.
+template <class S, class R>
+concept CastsTo = WidensTo<S, R> ||(std::same_as<S, double>&& std::same_as<R, float>);
+
+template <Number R>
+struct VecN<2, R> {
+  using value_type = R;
+  R x, y;
+
+  VecN() = default;
+  HS_INLINE constexpr explicit VecN(R s) : x(s), y(s) {}
+  HS_INLINE constexpr VecN(R a, R b) : x(a), y(b) {}
+  HS_INLINE constexpr explicit VecN(const VecN<3, R>& v) : x(v.x), y(v.y) {}
+  HS_INLINE constexpr explicit VecN(const VecN<4, R>& v) : x(v.x), y(v.y) {}
+  template <CastsTo<R> S>
+  HS_INLINE constexpr explicit(!WidensTo<S, R>) VecN(const VecN<2, S>& v) : x(static_cast<R>(v.x)), y(static_cast<R>(v.y)) {}
+  template <CastsTo<R> S>
+  HS_INLINE constexpr explicit(!WidensTo<S, R>) VecN(const glm::vec<2, S>& v) : x(static_cast<R>(v.x)), y(static_cast<R>(v.y)) {}
+  template <class S>
+  requires(!kIsLanes<R>) HS_INLINE constexpr explicit(!std::same_as<S, R>) operator glm::vec<2, S>() const {
+    return glm::vec<2, S>(glm::vec<2, R>(x, y));
+  }
+
+  HS_INLINE constexpr R& operator[](int i) { return i == 0 ? x : y; }
+  HS_INLINE constexpr const R& operator[](int i) const { return i == 0 ? x : y; }
+
+  friend HS_INLINE constexpr VecN operator-(const VecN& a) { return {-a.x, -a.y}; }
+  friend HS_INLINE constexpr VecN operator+(const VecN& a, const VecN& b) { return {a.x + b.x, a.y + b.y}; }
+  friend HS_INLINE constexpr VecN operator-(const VecN& a, const VecN& b) { return {a.x - b.x, a.y - b.y}; }
+  friend HS_INLINE constexpr VecN operator*(const VecN& a, const VecN& b) { return {a.x * b.x, a.y * b.y}; }
+  friend HS_INLINE constexpr VecN operator/(const VecN& a, const VecN& b) { return {a.x / b.x, a.y / b.y}; }
+  friend HS_INLINE constexpr VecN operator*(const VecN& a, R s) { return {a.x * s, a.y * s}; }
+  friend HS_INLINE constexpr VecN operator*(R s, const VecN& a) { return {s * a.x, s * a.y}; }
+  friend HS_INLINE constexpr VecN operator/(const VecN& a, R s) { return {a.x / s, a.y / s}; }
+  HS_INLINE constexpr VecN& operator+=(const VecN& b) { return *this = *this + b; }
+  HS_INLINE constexpr VecN& operator-=(const VecN& b) { return *this = *this - b; }
+  HS_INLINE constexpr VecN& operator*=(const VecN& b) { return *this = *this * b; }
+  HS_INLINE constexpr VecN& operator*=(R s) { return *this = *this * s; }
+  HS_INLINE constexpr VecN& operator/=(R s) { return *this = *this / s; }
+  friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) { return a.x == b.x && a.y == b.y; }
+
+  friend HS_INLINE R dot(const VecN& a, const VecN& b) { return a.x * b.x + a.y * b.y; }
+  friend HS_INLINE R length(const VecN& a) { return sqrt(dot(a, a)); }
+  friend HS_INLINE VecN normalize(const VecN& a) { return a * (R(1) / sqrt(dot(a, a))); }
+  friend HS_INLINE VecN mix(const VecN& a, const VecN& b, R t) { return a * (R(1) - t) + b * t; }
+  friend HS_INLINE VecN reflect(const VecN& v, const VecN& n) { return v - n * dot(n, v) * R(2); }
+};
+
+template <Number R>
+struct VecN<3, R> {
+  using value_type = R;
+  R x, y, z;
+
+  VecN() = default;
+  HS_INLINE constexpr explicit VecN(R s) : x(s), y(s), z(s) {}
+  HS_INLINE constexpr VecN(R a, R b, R c) : x(a), y(b), z(c) {}
+  HS_INLINE constexpr VecN(const VecN<2, R>& ab, R c) : x(ab.x), y(ab.y), z(c) {}
+  HS_INLINE constexpr explicit VecN(const VecN<4, R>& v) : x(v.x), y(v.y), z(v.z) {}
+  template <CastsTo<R> S>
+  HS_INLINE constexpr explicit(!WidensTo<S, R>) VecN(const VecN<3, S>& v)
+      : x(static_cast<R>(v.x)), y(static_cast<R>(v.y)), z(static_cast<R>(v.z)) {}
+  template <CastsTo<R> S>
+  HS_INLINE constexpr explicit(!WidensTo<S, R>) VecN(const glm::vec<3, S>& v)
+      : x(static_cast<R>(v.x)), y(static_cast<R>(v.y)), z(static_cast<R>(v.z)) {}
+  template <class S>
+  requires(!kIsLanes<R>) HS_INLINE constexpr explicit(!std::same_as<S, R>) operator glm::vec<3, S>() const {
+    return glm::vec<3, S>(glm::vec<3, R>(x, y, z));
+  }
+
+  HS_INLINE constexpr R& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+  HS_INLINE constexpr const R& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+
+  friend HS_INLINE constexpr VecN operator-(const VecN& a) { return {-a.x, -a.y, -a.z}; }
+  friend HS_INLINE constexpr VecN operator+(const VecN& a, const VecN& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend HS_INLINE constexpr VecN operator-(const VecN& a, const VecN& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend HS_INLINE constexpr VecN operator*(const VecN& a, const VecN& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+  friend HS_INLINE constexpr VecN operator/(const VecN& a, const VecN& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+  friend HS_INLINE constexpr VecN operator*(const VecN& a, R s) { return {a.x * s, a.y * s, a.z * s}; }
+  friend HS_INLINE constexpr VecN operator*(R s, const VecN& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend HS_INLINE constexpr VecN operator/(const VecN& a, R s) { return {a.x / s, a.y / s, a.z / s}; }
+  HS_INLINE constexpr VecN& operator+=(const VecN& b) { return *this = *this + b; }
+  HS_INLINE constexpr VecN& operator-=(const VecN& b) { return *this = *this - b; }
+  HS_INLINE constexpr VecN& operator*=(const VecN& b) { return *this = *this * b; }
+  HS_INLINE constexpr VecN& operator*=(R s) { return *this = *this * s; }
+  HS_INLINE constexpr VecN& operator/=(R s) { return *this = *this / s; }
+  friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+  /// One rounding per component for float and lanes; in double the sum of the products.
+  friend HS_INLINE R dot(const VecN& a, const VecN& b) {
+    if constexpr (std::same_as<R, double>) {
+      return a.x * b.x + a.y * b.y + a.z * b.z;
+    } else {
+      return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
+    }
+  }
+  friend HS_INLINE R length(const VecN& a) { return sqrt(dot(a, a)); }
+  friend HS_INLINE VecN normalize(const VecN& a) { return a * (R(1) / sqrt(dot(a, a))); }
+  friend HS_INLINE VecN cross(const VecN& a, const VecN& b) {
+    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+  }
+  friend HS_INLINE VecN mix(const VecN& a, const VecN& b, R t) { return a * (R(1) - t) + b * t; }
+  /// v thrown back by a mirror with the unit normal n.
+  friend HS_INLINE VecN reflect(const VecN& v, const VecN& n) { return v - n * dot(n, v) * R(2); }
+};
+
+template <Number R>
+struct VecN<4, R> {
+  using value_type = R;
+  R x, y, z, w;
+
+  VecN() = default;
+  HS_INLINE constexpr explicit VecN(R s) : x(s), y(s), z(s), w(s) {}
+  HS_INLINE constexpr VecN(R a, R b, R c, R d) : x(a), y(b), z(c), w(d) {}
+  HS_INLINE constexpr VecN(const VecN<2, R>& ab, R c, R d) : x(ab.x), y(ab.y), z(c), w(d) {}
+  HS_INLINE constexpr VecN(const VecN<2, R>& ab, const VecN<2, R>& cd) : x(ab.x), y(ab.y), z(cd.x), w(cd.y) {}
+  HS_INLINE constexpr VecN(const VecN<3, R>& abc, R d) : x(abc.x), y(abc.y), z(abc.z), w(d) {}
+  template <CastsTo<R> S>
+  HS_INLINE constexpr explicit(!WidensTo<S, R>) VecN(const VecN<4, S>& v)
+      : x(static_cast<R>(v.x)), y(static_cast<R>(v.y)), z(static_cast<R>(v.z)), w(static_cast<R>(v.w)) {}
+  template <CastsTo<R> S>
+  HS_INLINE constexpr explicit(!WidensTo<S, R>) VecN(const glm::vec<4, S>& v)
+      : x(static_cast<R>(v.x)), y(static_cast<R>(v.y)), z(static_cast<R>(v.z)), w(static_cast<R>(v.w)) {}
+  template <class S>
+  requires(!kIsLanes<R>) HS_INLINE constexpr explicit(!std::same_as<S, R>) operator glm::vec<4, S>() const {
+    return glm::vec<4, S>(glm::vec<4, R>(x, y, z, w));
+  }
+
+  HS_INLINE constexpr R& operator[](int i) { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
+  HS_INLINE constexpr const R& operator[](int i) const { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
+
+  friend HS_INLINE constexpr VecN operator-(const VecN& a) { return {-a.x, -a.y, -a.z, -a.w}; }
+  friend HS_INLINE constexpr VecN operator+(const VecN& a, const VecN& b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
+  friend HS_INLINE constexpr VecN operator-(const VecN& a, const VecN& b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
+  friend HS_INLINE constexpr VecN operator*(const VecN& a, const VecN& b) { return {a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w}; }
+  friend HS_INLINE constexpr VecN operator/(const VecN& a, const VecN& b) { return {a.x / b.x, a.y / b.y, a.z / b.z, a.w / b.w}; }
+  friend HS_INLINE constexpr VecN operator*(const VecN& a, R s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
+  friend HS_INLINE constexpr VecN operator*(R s, const VecN& a) { return {s * a.x, s * a.y, s * a.z, s * a.w}; }
+  friend HS_INLINE constexpr VecN operator/(const VecN& a, R s) { return {a.x / s, a.y / s, a.z / s, a.w / s}; }
+  HS_INLINE constexpr VecN& operator+=(const VecN& b) { return *this = *this + b; }
+  HS_INLINE constexpr VecN& operator-=(const VecN& b) { return *this = *this - b; }
+  HS_INLINE constexpr VecN& operator*=(const VecN& b) { return *this = *this * b; }
+  HS_INLINE constexpr VecN& operator*=(R s) { return *this = *this * s; }
+  HS_INLINE constexpr VecN& operator/=(R s) { return *this = *this / s; }
+  friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+  }
+
+  friend HS_INLINE R dot(const VecN& a, const VecN& b) { return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w); }
+  friend HS_INLINE R length(const VecN& a) { return sqrt(dot(a, a)); }
+  friend HS_INLINE VecN normalize(const VecN& a) { return a * (R(1) / sqrt(dot(a, a))); }
+  friend HS_INLINE VecN mix(const VecN& a, const VecN& b, R t) { return a * (R(1) - t) + b * t; }
+  friend HS_INLINE VecN reflect(const VecN& v, const VecN& n) { return v - n * dot(n, v) * R(2); }
+};
+
+// ---- uniform and varying ---------------------------------------------------------------------------------------
+
+/// Numbers whose product with a uniform vector GLM does not give.
 template <class R>
-concept MixesWithFloat = kIsLanes<R> || std::is_same_v<R, double>;
+concept MixesWithFloat = Number<R> && !std::same_as<R, float>;
 
-}  // namespace halfspace
-
-namespace glm {
-
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> widen(const vec<L, float>& v) {
-  vec<L, R> r;
-  for (length_t i = 0; i < L; ++i) r[i] = R(v[i]);
-  return r;
+template <int L, MixesWithFloat R>
+HS_INLINE VecN<L, R> operator*(const glm::vec<L, float>& a, R s) {
+  return VecN<L, R>(a) * s;
+}
+template <int L, MixesWithFloat R>
+HS_INLINE VecN<L, R> operator*(R s, const glm::vec<L, float>& a) {
+  return s * VecN<L, R>(a);
+}
+template <int L, MixesWithFloat R>
+HS_INLINE VecN<L, R> mix(const glm::vec<L, float>& a, const glm::vec<L, float>& b, R t) {
+  return mix(VecN<L, R>(a), VecN<L, R>(b), t);
 }
 
-// varying op uniform, both ways round
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator+(const vec<L, R>& a, const vec<L, float>& b) {
-  return a + widen<L, R>(b);
+template <Number R, WidensTo<R> S>
+HS_INLINE vec3<R> operator*(const glm::mat<3, 3, S>& m, const vec3<R>& v) {
+  return m[0] * v.x + m[1] * v.y + m[2] * v.z;
 }
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator+(const vec<L, float>& a, const vec<L, R>& b) {
-  return widen<L, R>(a) + b;
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator-(const vec<L, R>& a, const vec<L, float>& b) {
-  return a - widen<L, R>(b);
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator-(const vec<L, float>& a, const vec<L, R>& b) {
-  return widen<L, R>(a) - b;
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator*(const vec<L, R>& a, const vec<L, float>& b) {
-  return a * widen<L, R>(b);
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator*(const vec<L, float>& a, const vec<L, R>& b) {
-  return widen<L, R>(a) * b;
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator/(const vec<L, R>& a, const vec<L, float>& b) {
-  return a / widen<L, R>(b);
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator*(const vec<L, R>& a, float b) {
-  return a * R(b);
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator*(float a, const vec<L, R>& b) {
-  return R(a) * b;
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator/(const vec<L, R>& a, float b) {
-  return a / R(b);
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator*(const vec<L, float>& a, R b) {
-  return widen<L, R>(a) * b;
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> operator*(R a, const vec<L, float>& b) {
-  return a * widen<L, R>(b);
-}
-template <halfspace::MixesWithFloat R>
-HS_INLINE vec<4, R> operator*(const mat<4, 4, float>& m, const vec<4, R>& v) {
-  const vec<4, R> xy = widen<4, R>(m[0]) * v[0] + widen<4, R>(m[1]) * v[1];
-  const vec<4, R> zw = widen<4, R>(m[2]) * v[2] + widen<4, R>(m[3]) * v[3];
+template <Number R, WidensTo<R> S>
+HS_INLINE vec4<R> operator*(const glm::mat<4, 4, S>& m, const vec4<R>& v) {
+  const vec4<R> xy = m[0] * v.x + m[1] * v.y, zw = m[2] * v.z + m[3] * v.w;
   return xy + zw;
 }
-template <halfspace::MixesWithFloat R>
-HS_INLINE vec<3, R> operator*(const mat<3, 3, float>& m, const vec<3, R>& v) {
-  // GLM sums each row from left to right.
-  return widen<3, R>(m[0]) * v[0] + widen<3, R>(m[1]) * v[1] + widen<3, R>(m[2]) * v[2];
-}
 
-/// With one rounding a component. (GLM's is taken for double alone.)
-template <class R>
-requires(halfspace::kIsLanes<R> || std::is_same_v<R, float>) HS_INLINE R dot(const vec<3, R>& a, const vec<3, R>& b) {
-  using halfspace::fma;
-  return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE R dot(const vec<L, R>& a, const vec<L, float>& b) {
-  return dot(a, widen<L, R>(b));
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE R dot(const vec<L, float>& a, const vec<L, R>& b) {
-  return dot(widen<L, R>(a), b);
-}
-template <length_t L, halfspace::MixesWithFloat R>
-HS_INLINE vec<L, R> mix(const vec<L, float>& a, const vec<L, float>& b, R t) {
-  return mix(widen<L, R>(a), widen<L, R>(b), vec<L, R>(t));
-}
-
-}  // namespace glm
-
-namespace halfspace {
-
-template <glm::length_t L, class R>
-HS_INLINE glm::vec<L, R> select(MaskOf<R> m, const glm::vec<L, R>& a, const glm::vec<L, R>& b) {
-  glm::vec<L, R> r;
-  for (glm::length_t i = 0; i < L; ++i) r[i] = select(m, a[i], b[i]);
+/// Each lane of a where m is true, else of b.
+template <int L, Number R>
+HS_INLINE VecN<L, R> select(MaskOf<R> m, const VecN<L, R>& a, const VecN<L, R>& b) {
+  VecN<L, R> r;
+  for (int i = 0; i < L; ++i) r[i] = select(m, a[i], b[i]);
   return r;
 }
 

@@ -126,7 +126,7 @@ double footprint_of(const std::vector<ShadowView>& views, const std::vector<Seen
   std::vector<double> footprints;
   for (const SeenPlace& place : places) {
     for (const ShadowView& view : views) {
-      const ShadowCoordinates<float> p = place_on(view, glm::vec3(place.position_rws));
+      const ShadowCoordinates<float> p = place_on(view, vec3<float>(place.position_rws));
       if (!holds(view, p, margin)) continue;
       footprints.push_back(static_cast<double>(view.texel_per_w * p.w) / place.pixel);
       break;

@@ -23,7 +23,7 @@ namespace detail {
 
 /// Packed 8-bit RGBA as the numbers that are filtered: codes, and linear values where the format decodes. The first N channels.
 template <int N, TexelFormat format, class R>
-HS_INLINE glm::vec<N, R> decode_rgba8(IntOf<R> texel) {
+HS_INLINE VecN<N, R> decode_rgba8(IntOf<R> texel) {
   const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255;
   vec3<R> color;
   if constexpr (format == TexelFormat::srgb8a8) {
@@ -83,14 +83,14 @@ struct TexelPair {
 /// The mean of 2x2 packed 8-bit texels: the first N channels, as decode_rgba8 has them. along, across: weights of the right and of the
 /// upper.
 template <int N, TexelFormat format, class R>
-HS_INLINE glm::vec<N, R> mixed_rgba8(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across) {
+HS_INLINE VecN<N, R> mixed_rgba8(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across) {
   if constexpr (format == TexelFormat::srgb8a8 || std::is_same_v<R, double>) {
     const auto row = [&](const TexelPair<IntOf<R>>& of) {
       return lerp(decode_rgba8<N, format, R>(of.left), decode_rgba8<N, format, R>(of.right), along);
     };
     return lerp(row(lower), row(upper), across);
   } else {
-    glm::vec<N, R> mean;
+    VecN<N, R> mean;
     for (int k = 0; k < N; ++k) {
       const auto row = [&](const TexelPair<IntOf<R>>& of) {
         const OffsetCode<R> left = offset_code<R>(of.left, k), right = offset_code<R>(of.right, k);

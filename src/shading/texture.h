@@ -131,7 +131,7 @@ class Texture2D {
   vec4<R> with_lookup(const Sampler& sampler, const Function& function) const;
 
   template <int N, class R>
-  glm::vec<N, R> sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
+  VecN<N, R> sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   LevelChoice<R> choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const;
   /// At a level of detail; and at that of derivatives.
@@ -200,7 +200,7 @@ HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, R n) {
 
 template <int N, TexelFormat texel_format, class R>
 struct Texture2D::CommonLookup {
-  using Value = glm::vec<N, R>;
+  using Value = VecN<N, R>;
 
   const Texture2D& texture;
   const Sampler& sampler;
@@ -288,10 +288,10 @@ vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::
 }
 
 template <int N, class R>
-HS_INLINE glm::vec<N, R> Texture2D::sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx,
-                                                    const vec2<R>& duv_dy) const {
+HS_INLINE VecN<N, R> Texture2D::sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx,
+                                                const vec2<R>& duv_dy) const {
   if (format_ != TexelFormat::rgba8 || !is_common(sampler) || sampler.anisotropy > 1)
-    return glm::vec<N, R>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
+    return VecN<N, R>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
   const CommonLookup<N, TexelFormat::rgba8, R> lookup{*this, sampler};
   return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
 }

@@ -51,8 +51,8 @@ struct FieldTraits<R> {
   static constexpr std::size_t components = 1;
   static constexpr Interpolation interpolation = Interpolation::smooth;
 };
-template <glm::length_t L, Number R>
-struct FieldTraits<glm::vec<L, R>> {
+template <int L, Number R>
+struct FieldTraits<VecN<L, R>> {
   static constexpr std::size_t components = static_cast<std::size_t>(L);
   static constexpr Interpolation interpolation = Interpolation::smooth;
 };

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # expect_error.sh SOURCE.cpp COMPILER FLAGS...
 # Passes if the compiler rejects the source in under 20 lines that hold the text after "the message must name: ", and, where
-# it is a shader, say so.
+# it is a shader, say so. Flags after "compile with: " in the source follow the others.
 set -u
 source=$1
 shift
 expected=$(sed -n 's/.*the message must name: //p' "$source" | sed 's/\.$//')
 [ -n "$expected" ] || { echo "$source does not say what the message must name"; exit 1; }
-if message=$("$@" "$source" 2>&1); then
+read -ra flags <<< "$(sed -n 's/.*compile with: //p' "$source")"
+if message=$("$@" "${flags[@]}" "$source" 2>&1); then
   echo "$source compiles, but must not"
   exit 1
 fi
@@ -17,4 +18,4 @@ printf '%s\n' "$message"
 if grep -q "A shader" "$source"; then
   printf '%s\n' "$message" | grep -qF "the shader" || { echo "the message does not say what the shader lacks"; exit 1; }
 fi
-printf '%s\n' "$message" | grep -qF "$expected" || { echo "the message does not name '$expected'"; exit 1; }
+printf '%s\n' "$message" | grep -qF -- "$expected" || { echo "the message does not name '$expected'"; exit 1; }

@@ -2,6 +2,7 @@
 //
 // halfspace-bench-embree: the sphere workloads by rays.
 #include "bench_program.h"
+#include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "peers/embree/embree_workload.h"
 
@@ -15,7 +16,7 @@ int main(int argc, char** argv) {
                             .sweeps = [] { return embree_sweeps(); },
                             .identity =
                                 [] {
-                                  return nlohmann::ordered_json{{"program", "embree"}, {"arch", HALFSPACE_ARCH}, {"lanes", kLanes}};
+                                  return nlohmann::ordered_json{{"program", "embree"}, {"arch", build_arch()}, {"lanes", kLanes}};
                                 }},
                            argc, argv);
 }
