@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -13,6 +14,8 @@
 #include <string>
 
 #include "cli/arguments.h"
+#include "cli/command_line.h"
+#include "cli/errors.h"
 #include "cli/frames.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/atomic_output.h"
@@ -205,7 +208,7 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   app.add_option("--check", args.check, "Hold pictures against double precision (slow; kept in DIR)")->type_name("DIR");
   app.add_flag("--json", args.json, "Print a JSON object a line, one for each workload");
   app.add_flag("--list", args.list, "Print the workloads and exit");
-  if (program.add_options) program.add_options(app);
+  for (const BenchOption& option : program.options) app.add_option(option.name, *option.value, option.help)->type_name(option.value_name);
   app.footer(
       "Times are milliseconds a frame; cpu is that of all threads together.\n"
       "Examples:\n  " +

@@ -8,19 +8,25 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "cli/command_line.h"
 #include "sweeps.h"
 #include "workload.h"
 
 namespace halfspace {
 
+/// An option with a value that one program has of its own.
+struct BenchOption {
+  std::string name, value_name, help;
+  std::string* value;
+};
+
 /// What one program has of its own.
 struct BenchProgram {
   std::string name;
-  std::string what;                            ///< one line
-  std::function<void(CLI::App&)> add_options;  ///< its own options; may be empty
-  std::function<void(int threads)> start;      ///< called once, before anything is prepared; may be empty
+  std::string what;  ///< one line
+  std::vector<BenchOption> options;
+  std::function<void(int threads)> start;  ///< called once, before anything is prepared; may be empty
   /// Which workloads it draws, and which series of them.
   std::function<std::span<const WorkloadKind>()> kinds;
   std::function<std::span<const Sweep>()> sweeps;

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
   using namespace halfspace;
   return run_bench_program({.name = "halfspace-bench",
                             .what = "Draws the workloads of the benchmark and measures their frames",
-                            .add_options = {},
+                            .options = {},
                             .start = {},
                             .kinds = [] { return workloads(); },
                             .sweeps = [] { return sweeps(); },

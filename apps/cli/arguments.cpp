@@ -5,7 +5,7 @@
 #include <charconv>
 #include <string>
 
-#include "cli/commands.h"
+#include "cli/errors.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/image/atomic_output.h"
 

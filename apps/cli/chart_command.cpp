@@ -3,12 +3,12 @@
 // `halfspace chart STUDY|all`: what each way of drawing costs and how right it is, as data, charts and a page.
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <vector>
 
 #include "cli/arguments.h"
 #include "cli/charting.h"
 #include "cli/commands.h"
+#include "cli/errors.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/atomic_output.h"
@@ -17,11 +17,6 @@
 namespace halfspace {
 
 namespace {
-
-struct ChartArguments {
-  std::string study, out = "charts", threads;
-  bool quick = false;
-};
 
 std::vector<StudyEntry> chosen_studies(const std::string& name) {
   std::vector<StudyEntry> all = studies();
@@ -33,6 +28,8 @@ std::vector<StudyEntry> chosen_studies(const std::string& name) {
   }
   throw UsageError("unknown study '" + name + "'" + suggestion(name, names));
 }
+
+}  // namespace
 
 void chart_command(const ChartArguments& args) {
   const std::vector<StudyEntry> chosen = chosen_studies(args.study);
@@ -51,7 +48,6 @@ void chart_command(const ChartArguments& args) {
   std::cout << (folder / "index.html").string() << '\n';
 }
 
-// Their names, in lines of less than 80 characters.
 std::string study_lines() {
   std::string text;
   std::size_t width = 80;
@@ -60,26 +56,11 @@ std::string study_lines() {
       text += "\n ";
       width = 1;
     }
-    text += " " + std::string(s.name);
+    text += " ";
+    text += s.name;
     width += s.name.size() + 1;
   }
   return text;
-}
-
-}  // namespace
-
-void add_chart_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("chart", "Measure error against time, as charts");
-  const auto args = std::make_shared<ChartArguments>();
-  command->add_option("STUDY", args->study, "all, or one of those below")->required()->type_name("");
-  command->add_option("-o,--output", args->out, "Folder (default charts)")->type_name("DIR");
-  command->add_flag("--quick", args->quick, "Small pictures: to see that it works");
-  command->add_option("--threads", args->threads, "Default: one per core")->type_name("N");
-  command->footer("Studies:" + study_lines() +
-                  "\nExamples:\n"
-                  "  halfspace chart all -o charts\n"
-                  "  halfspace chart shading_rate --quick");
-  command->callback([args] { chart_command(*args); });
 }
 
 }  // namespace halfspace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -8,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/commands.h"
+#include "cli/errors.h"
 #include "cli/frames.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
@@ -114,6 +115,14 @@ class HelpFormatter : public CLI::Formatter {
 }  // namespace
 
 std::string suggested_command(std::string_view wrong, const CLI::App& program) { return suggestion(wrong, names_of(program, false)); }
+
+std::vector<std::string> words_after(const CLI::App& program, const std::string& command) {
+  if (command.empty()) return names_of(program, false);
+  for (const CLI::App* c : program.get_subcommands([](const CLI::App*) { return true; })) {
+    if (c->get_name() == command) return names_of(*c, true);
+  }
+  return {};
+}
 
 void set_common_options(CLI::App& program) {
   program.set_help_flag("-h,--help", "Print this help and exit");

@@ -7,8 +7,11 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "cli/commands.h"
+namespace CLI {
+class App;
+}
 
 namespace halfspace {
 
@@ -17,6 +20,9 @@ void set_common_options(CLI::App& program);
 
 /// "; did you mean 'COMMAND'?" or the list of the program's subcommands: the tail of an error line.
 std::string suggested_command(std::string_view wrong, const CLI::App& program);
+
+/// The options of the subcommand of that name ("--NAME"), or the names of all subcommands for "".
+std::vector<std::string> words_after(const CLI::App& program, const std::string& command);
 
 /// Runs parse_and_run, which names the program, parses and may throw what parsers and commands do. Returns the exit code.
 int run_program(CLI::App& program, const std::function<void()>& parse_and_run);

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/errors.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/atomic_output.h"
@@ -19,11 +19,6 @@
 namespace halfspace {
 
 namespace {
-
-struct CompareArguments {
-  std::string a, b, out, tolerance;
-  bool json = false;
-};
 
 // What was compared: linear light where both files hold it, else 8-bit codes.
 struct Comparison {
@@ -91,6 +86,8 @@ Image<glm::u8vec4> read_codes(const std::string& path, bool linear) {
   return codes;
 }
 
+}  // namespace
+
 void compare_command(const CompareArguments& args) {
   const double tolerance =
       args.tolerance.empty() ? -1.0 : parse_real("--tolerance", args.tolerance, 0, 1e9, "a difference of 0 or more, for example 0.004");
@@ -103,23 +100,6 @@ void compare_command(const CompareArguments& args) {
     throw DifferenceError(args.b + ": differs from " + args.a + " by " + number("%.6g", c.difference.max) + "; expected at most " +
                           args.tolerance);
   }
-}
-
-}  // namespace
-
-void add_compare_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("compare", "Tell how far two pictures are from each other");
-  const auto args = std::make_shared<CompareArguments>();
-  command->add_option("A", args->a, "A picture")->required()->type_name("");
-  command->add_option("B", args->b, "Another one of the same size")->required()->type_name("");
-  command->add_flag("--json", args->json, "Report as JSON");
-  command->add_option("-o,--output", args->out, "Write the differences as colours (PNG)")->type_name("DIFF");
-  command->add_option("--tolerance", args->tolerance, "Exit 1 where a channel differs by more")->type_name("T");
-  command->footer(
-      "Examples:\n"
-      "  halfspace compare before.png after.png -o difference.png\n"
-      "  halfspace compare golden.exr moon.exr --tolerance 0.004 --json");
-  command->callback([args] { compare_command(*args); });
 }
 
 }  // namespace halfspace

@@ -2,9 +2,9 @@
 //
 // `halfspace completion SHELL`: a script that completes commands, options, scenes, cameras and keys.
 #include <iostream>
-#include <memory>
 
 #include "cli/commands.h"
+#include "cli/errors.h"
 #include "halfspace/study/study.h"
 
 namespace halfspace {
@@ -48,18 +48,6 @@ complete -c halfspace -n '__fish_seen_subcommand_from convert-normal compare' -F
 complete -c halfspace -n 'not __fish_use_subcommand' -a '(halfspace completion words (commandline -opc)[2])'
 )script";
 
-// The words that may follow: commands, or a command's options.
-void print_words(const CLI::App& program, const std::string& command) {
-  const auto all = [](const CLI::App*) { return true; };
-  for (const CLI::App* c : program.get_subcommands(all)) {
-    if (command.empty()) std::cout << c->get_name() << '\n';
-    if (c->get_name() != command) continue;
-    for (const CLI::Option* option : c->get_options()) {
-      for (const std::string& name : option->get_lnames()) std::cout << "--" << name << '\n';
-    }
-  }
-}
-
 void print_studies() {
   std::cout << "all\n";
   if constexpr (HALFSPACE_HAS_RAYS)
@@ -68,32 +56,20 @@ void print_studies() {
 
 }  // namespace
 
-void add_completion_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("completion", "Print a script that completes words in a shell");
-  struct Arguments {
-    std::string shell, command;
-  };
-  const auto args = std::make_shared<Arguments>();
-  command->add_option("SHELL", args->shell, "bash, zsh or fish; words or studies for a list")->required()->type_name("");
-  command->add_option("COMMAND", args->command, "With words: the command whose options to print")->type_name("");
-  command->footer(
-      "Examples:\n  halfspace completion bash >> ~/.bashrc\n  halfspace completion fish | "
-      "source");
-  command->callback([args, &program] {
-    if (args->shell == "bash") {
-      std::cout << kBash;
-    } else if (args->shell == "zsh") {
-      std::cout << kZsh << kBash;
-    } else if (args->shell == "fish") {
-      std::cout << kFish;
-    } else if (args->shell == "words") {
-      print_words(program, args->command);
-    } else if (args->shell == "studies") {
-      print_studies();
-    } else {
-      throw UsageError("completion: no shell '" + args->shell + "'; expected bash, zsh or fish");
-    }
-  });
+void completion_command(const CompletionArguments& args, const std::function<std::vector<std::string>(const std::string& command)>& words) {
+  if (args.shell == "bash") {
+    std::cout << kBash;
+  } else if (args.shell == "zsh") {
+    std::cout << kZsh << kBash;
+  } else if (args.shell == "fish") {
+    std::cout << kFish;
+  } else if (args.shell == "words") {
+    for (const std::string& word : words(args.command)) std::cout << word << '\n';
+  } else if (args.shell == "studies") {
+    print_studies();
+  } else {
+    throw UsageError("completion: no shell '" + args.shell + "'; expected bash, zsh or fish");
+  }
 }
 
 }  // namespace halfspace

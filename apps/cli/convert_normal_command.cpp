@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `halfspace convert-normal HEIGHT -o NORMAL`: a normal map of a map of heights.
-#include <memory>
 #include <string>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/errors.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/normal_map.h"
@@ -16,10 +16,6 @@ namespace halfspace {
 
 namespace {
 
-struct ConvertArguments {
-  std::string height, out, strength, edges = "repeat";
-};
-
 MapEdges parse_edges(const std::string& text) {
   if (text == "repeat") return MapEdges::torus;
   if (text == "clamp") return MapEdges::sheet;
@@ -27,7 +23,9 @@ MapEdges parse_edges(const std::string& text) {
   throw UsageError("--edges is '" + text + "'; expected repeat, clamp or sphere");
 }
 
-void convert_normal_command(const ConvertArguments& args) {
+}  // namespace
+
+void convert_normal_command(const ConvertNormalArguments& args) {
   const double strength =
       args.strength.empty() ? 8.0 : parse_real("--strength", args.strength, -1e6, 1e6, "texels from black to white, for example 8");
   const MapEdges edges = parse_edges(args.edges);
@@ -38,22 +36,6 @@ void convert_normal_command(const ConvertArguments& args) {
   const Image<float> heights = read_gray(args.height);
   if (heights.width() < 2) throw InputError(args.height + ": is one texel wide; expected a map of heights");
   write_data_png(args.out, normal_map(heights, strength, edges, Workers(Workers::cores())));
-}
-
-}  // namespace
-
-void add_convert_normal_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("convert-normal", "Make a normal map of a map of heights");
-  const auto args = std::make_shared<ConvertArguments>();
-  command->add_option("HEIGHT", args->height, "Image of heights, 8 or 16 bits or floats")->required()->type_name("");
-  command->add_option("-o,--output", args->out, "PNG in tangent space, green up")->required()->type_name("NORMAL");
-  command->add_option("--strength", args->strength, "Texels from black up to white (default 8)")->type_name("S");
-  command->add_option("--edges", args->edges, "repeat (default), clamp, or sphere")->type_name("E");
-  command->footer(
-      "Examples:\n"
-      "  halfspace convert-normal bricks_height.png -o bricks_normal.png\n"
-      "  halfspace convert-normal earthbump.tif -o out.png --strength 30 --edges sphere");
-  command->callback([args] { convert_normal_command(*args); });
 }
 
 }  // namespace halfspace

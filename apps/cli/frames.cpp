@@ -11,7 +11,7 @@
 #include <string>
 
 #include "cli/arguments.h"
-#include "cli/commands.h"
+#include "cli/errors.h"
 
 namespace halfspace {
 
@@ -80,7 +80,8 @@ void Progress::advance(bool skipped) {
 
 void Progress::show() const {
   if (!on_terminal_) return;
-  std::string text = " " + std::to_string(done_) + "/" + std::to_string(total_);
+  std::string text = " ";
+  text += std::to_string(done_) + "/" + std::to_string(total_);
   if (rendered_ > 0) {
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     text += "  " + time_text(static_cast<int>(std::min(spent / rendered_ * (total_ - done_) + 0.5, 1e9))) + " left";
@@ -91,7 +92,9 @@ void Progress::show() const {
   std::string line = "\r\033[K";
   if (width > 0) {
     const auto filled = static_cast<std::size_t>(static_cast<int64_t>(width) * done_ / total_);
-    line += "[" + std::string(filled, '#') + std::string(static_cast<std::size_t>(width) - filled, '.') + "]";
+    line += '[';
+    line.append(filled, '#').append(static_cast<std::size_t>(width) - filled, '.');
+    line += ']';
   }
   std::fputs((line + text).c_str(), stderr);
   std::fflush(stderr);

@@ -2,7 +2,6 @@
 //
 // `halfspace info`: what this program is and what it found on this machine.
 #include <iostream>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
@@ -40,12 +39,6 @@ void print_json() {
 
 }  // namespace
 
-void add_info_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("info", "Tell version, instruction set, compiler, cores and modules");
-  const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "As JSON");
-  command->footer("Examples:\n  halfspace info\n  halfspace info --json");
-  command->callback([json] { *json ? print_json() : print_text(); });
-}
+void info_command(const InfoArguments& args) { args.json ? print_json() : print_text(); }
 
 }  // namespace halfspace

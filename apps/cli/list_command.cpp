@@ -3,7 +3,6 @@
 // `halfspace list [SCENE]`: the scenes that ship, or every key of one scene.
 #include <algorithm>
 #include <iostream>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
@@ -70,26 +69,14 @@ void list_paths(const std::string& name) {
 
 }  // namespace
 
-void add_list_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("list", "List the scenes, or the keys of a scene");
-  struct Arguments {
-    std::string scene;
-    bool names = false, schema = false;
-  };
-  const auto args = std::make_shared<Arguments>();
-  command->add_option("SCENE", args->scene, "A scene's name or file: list its keys")->type_name("");
-  command->add_flag("--names", args->names, "Names alone, one a line");
-  command->add_flag("--schema", args->schema, "The JSON Schema of scene files instead");
-  command->footer("Examples:\n  halfspace list\n  halfspace list moon");
-  command->callback([args] {
-    if (args->schema) {
-      std::cout << scene_schema();
-    } else if (args->scene.empty()) {
-      list_scenes(args->names);
-    } else {
-      args->names ? list_paths(args->scene) : list_keys(args->scene);
-    }
-  });
+void list_command(const ListArguments& args) {
+  if (args.schema) {
+    std::cout << scene_schema();
+  } else if (args.scene.empty()) {
+    list_scenes(args.names);
+  } else {
+    args.names ? list_paths(args.scene) : list_keys(args.scene);
+  }
 }
 
 }  // namespace halfspace

@@ -5,13 +5,13 @@
 #include <chrono>
 #include <cstdint>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/errors.h"
 #include "cli/frames.h"
 #include "cli/scene_arguments.h"
 #include "cli/statistics.h"
@@ -26,23 +26,6 @@
 namespace halfspace {
 
 namespace {
-
-struct RenderArguments {
-  std::string scene;
-  std::string out;  // empty: SCENE.png
-  std::string size = "1920x1080";
-  std::vector<std::string> set;
-  std::string camera;   // empty: the scene's
-  std::string shading;  // empty: the objects'
-  std::string time;     // empty: 0
-  std::string frames;   // empty: one picture
-  std::string fps;      // empty: 30
-  std::string threads;  // empty: one a core
-  std::string statistics;
-  std::string max_error, max_error_color;  // empty: the scene as it is
-  bool resume = false;
-  bool print = false;
-};
 
 // Arguments understood.
 struct RenderJob {
@@ -220,6 +203,8 @@ RenderReport run(const RenderJob& job) {
   return report;
 }
 
+}  // namespace
+
 void render_command(const RenderArguments& args) {
   const RenderJob job = understand(args);
   if (args.print) {
@@ -236,33 +221,6 @@ void render_command(const RenderArguments& args) {
   // Not into the picture.
   std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;
   out << (args.statistics == "json" ? json_report(report) : text_report(report));
-}
-
-}  // namespace
-
-void add_render_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("render", "Render a scene to a picture, or to numbered frames");
-  const auto args = std::make_shared<RenderArguments>();
-  command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->required()->type_name("");
-  command->add_option("-o,--output", args->out, ".png .jpg .tif, or linear .exr .hdr")->type_name("OUT");
-  command->add_option("--size", args->size, "Pixels (default 1920x1080)")->type_name("WxH");
-  add_set_option(command, args->set);
-  command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
-  command->add_option("--shading", args->shading, "Light all by: none flat provoking gouraud phong")->type_name("RATE");
-  command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
-  command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");
-  command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
-  command->add_option("--max-error", args->max_error, "Cheapest model with edges this right")->type_name("PX");
-  command->add_option("--max-error-color", args->max_error_color, "... with colours this right, in codes")->type_name("E");
-  command->add_flag("--resume", args->resume, "Leave out frames that are there, whole");
-  command->add_option("--threads", args->threads, "Threads (default: one a core)")->type_name("N");
-  command->add_flag("--stats{text}", args->statistics, "Print times and counts, as text or JSON")->option_text("[=json]");
-  command->add_flag("--print", args->print, "Print the scene with all settings instead");
-  command->footer(
-      "Examples:\n"
-      "  halfspace render earth -o earth.png --size 1280x720\n"
-      "  halfspace render moon --set moon.color=lroc.png --frames 0..47 -o out/moon.png");
-  command->callback([args] { render_command(*args); });
 }
 
 }  // namespace halfspace

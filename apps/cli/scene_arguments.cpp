@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cli/commands.h"
+#include "cli/errors.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
 #include "halfspace/scene/scene_file.h"
@@ -21,13 +21,6 @@ void set_camera(SceneFile& scene, const std::string& name) {
 }
 
 }  // namespace
-
-void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
-  command->add_option("--set", settings, "Set a key ('halfspace list SCENE' tells all)")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
 
 SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera) {
   SceneFile file = SceneFile::open(scene);

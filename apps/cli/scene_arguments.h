@@ -3,16 +3,12 @@
 // Which scene a command is about: SCENE, --set and --camera.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 namespace halfspace {
 
 class SceneFile;
-
-/// The option --set KEY=VALUE, which may be given several times.
-void add_set_option(CLI::App* command, std::vector<std::string>& settings);
 
 /// The scene of that name or file with its settings made, seen by the camera of that name (empty: the scene's own). Throws
 /// UsageError and InputError.

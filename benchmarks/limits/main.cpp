@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // halfspace-limits: what this machine can do at best.
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <iostream>

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   using namespace halfspace;
   return run_bench_program({.name = "halfspace-bench-embree",
                             .what = "Draws the sphere workloads of the benchmark by Embree's rays and measures their frames",
-                            .add_options = {},
+                            .options = {},
                             .start = {},
                             .kinds = [] { return embree_workloads(); },
                             .sweeps = [] { return embree_sweeps(); },

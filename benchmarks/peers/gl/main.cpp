@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bench_program.h"
+#include "cli/errors.h"
 #include "peers/gl/gl_context.h"
 #include "peers/gl/gl_workload.h"
 
@@ -19,10 +20,7 @@ int run(int argc, char** argv) {
       {"llvmpipe", GlDriver::llvmpipe}, {"swiftshader", GlDriver::swiftshader}, {"softpipe", GlDriver::softpipe}};
   return run_bench_program({.name = "halfspace-bench-gl",
                             .what = "Draws the workloads of the benchmark with a software OpenGL and measures their frames",
-                            .add_options =
-                                [&](CLI::App& program) {
-                                  program.add_option("--driver", driver, "llvmpipe (default), swiftshader or softpipe")->type_name("NAME");
-                                },
+                            .options = {{"--driver", "NAME", "llvmpipe (default), swiftshader or softpipe", &driver}},
                             .start =
                                 [&](int threads) {
                                   if (!drivers.contains(driver))
