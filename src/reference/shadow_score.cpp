@@ -25,7 +25,7 @@ struct Pixels {
 // Width of a texel at a place, in the world: of the view that a look-up there would use.
 double texel_at(const Shadow& shadow, const glm::dvec3& position_rws) {
   for (const ShadowView& view : shadow.views) {
-    const ShadowCoordinates<float> p = place_on(view, glm::vec3(position_rws));
+    const ShadowCoordinates<float> p = place_on(view, vec3<float>(glm::vec3(position_rws)));
     if (holds(view, p, filter_reach(shadow.settings))) return static_cast<double>(view.texel_per_w * p.w);
   }
   return 0.0;
@@ -193,7 +193,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
       const IncidentLight<double> arriving = light_at<double>(light.light, hit->position_rws);
       const PictureRay ray = picture_ray(view, width, height, x + 0.5, y + 0.5);
       const double side = glm::dot(hit->face_normal_ws, glm::dvec3(ray.direction_ws)) < 0.0 ? 1.0 : -1.0;
-      const double face_l = side * glm::dot(hit->face_normal_ws, arriving.l_ws);
+      const double face_l = side * glm::dot(hit->face_normal_ws, glm::dvec3(arriving.l_ws));
       if ((face_l > 0.0) != (mask.y > 0.0f)) {
         pixels.kind.at(x, y) = PixelKind::sides_differ;
         continue;

@@ -65,7 +65,7 @@ Integrated integrate(const Texture2D& texture, int width, int height, const Work
       glm::dvec3 sums[2]{};
       for (int i = 0; i < kSide * kSide; ++i) {
         const glm::dvec2 uv = uv_seen(x + (i % kSide + 0.5) / kSide, y + (i / kSide + 0.5) / kSide, width, height);
-        sums[(i + i / kSide) & 1] += glm::dvec3(texture.sample_level<double>({}, vec2<double>(uv), 0.0));
+        sums[(i + i / kSide) & 1] += glm::dvec3(vec3<double>(texture.sample_level<double>({}, vec2<double>(uv), 0.0)));
       }
       const glm::dvec3 a = sums[0] / (0.5 * kSide * kSide), b = sums[1] / (0.5 * kSide * kSide);
       out.mean.at(x, y) = glm::vec4(glm::vec3(0.5 * (a + b)), 1.0f);

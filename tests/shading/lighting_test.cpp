@@ -154,8 +154,8 @@ TEST(Lighting, ZeroNormalsAreDark) {
 }
 
 TEST(Lighting, NormalizeOrZero) {
-  EXPECT_EQ(normalize_or_zero(glm::vec3(0.0f)), glm::vec3(0.0f));
-  const glm::vec3 up = normalize_or_zero(glm::vec3(0, 3, 0));
+  EXPECT_EQ(normalize_or_zero(vec3<float>(0.0f)), vec3<float>(0.0f));
+  const glm::vec3 up = glm::vec3(normalize_or_zero(vec3<float>(0, 3, 0)));
   EXPECT_EQ(glm::vec3(up.x, 0.0f, up.z), glm::vec3(0.0f));
   EXPECT_NEAR(up.y, 1.0f, 0x1p-22f);  // 1/3 within 1.32 ulp of 2^-25, three times, and rounded
 }

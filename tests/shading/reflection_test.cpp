@@ -27,16 +27,16 @@ TEST(Reflection, DerivativesAreThoseOfTheReflectedRay) {
     const Differential<double> normal{random_vector(random), random_vector(random), random_vector(random)};
     const double h = 1e-6;
     const auto ray = [&](double x, double y) {
-      const glm::dvec3 d = eye.at + eye.dx * x + eye.dy * y, n = glm::normalize(normal.at + normal.dx * x + normal.dy * y);
+      const glm::dvec3 d = eye.at + eye.dx * x + eye.dy * y, n = normalize(normal.at + normal.dx * x + normal.dy * y);
       return d - n * (2 * glm::dot(d, n));
     };
     const Differential<double> got = reflected(eye, normalized(normal));
-    const double scale = (1 + glm::length(normal.dx) + glm::length(normal.dy)) / glm::length(normal.at);
+    const double scale = (1 + length(normal.dx) + length(normal.dy)) / length(normal.at);
     // A central difference errs by h²·f''', and f''' goes with the cube of the normal's turning.
     const double tolerance = 1e-7 + 1e-9 * scale * scale * scale;
-    EXPECT_LT(glm::length(got.at - ray(0, 0)), 1e-12);
-    EXPECT_LT(glm::length(got.dx - (ray(h, 0) - ray(-h, 0)) / (2 * h)), tolerance * glm::length(eye.at) + tolerance * glm::length(eye.dx));
-    EXPECT_LT(glm::length(got.dy - (ray(0, h) - ray(0, -h)) / (2 * h)), tolerance * glm::length(eye.at) + tolerance * glm::length(eye.dy));
+    EXPECT_LT(length(got.at - ray(0, 0)), 1e-12);
+    EXPECT_LT(length(got.dx - (ray(h, 0) - ray(-h, 0)) / (2 * h)), tolerance * length(eye.at) + tolerance * length(eye.dx));
+    EXPECT_LT(length(got.dy - (ray(0, h) - ray(0, -h)) / (2 * h)), tolerance * length(eye.at) + tolerance * length(eye.dy));
   }
 }
 

@@ -299,8 +299,8 @@ TEST(ShadowBias, PlanesOfASpotAreFlatInItsWindowToo) {
   const auto on_wall = [&](double x, double y) { return glm::dvec3(x, y, -1) * (glm::dot(n, q) / glm::dot(n, glm::dvec3(x, y, -1))); };
   const auto depth_of = [&](const glm::dvec3& p) { return static_cast<double>(a) / -p.z + static_cast<double>(b); };
   const glm::vec3 p(on_wall(0.1, -0.2));
-  ShadowCoordinates<float> place = place_on(view, p);
-  set_plane(view, p, glm::vec3(n), 1e3f, place);
+  ShadowCoordinates<float> place = place_on(view, vec3<float>(p));
+  set_plane(view, vec3<float>(p), vec3<float>(glm::vec3(n)), 1e3f, place);
   for (int step = -8; step <= 8; step += 2) {
     const double x = 0.1 + step / 64.0, y = -0.2 - step / 128.0;
     const double by_plane =

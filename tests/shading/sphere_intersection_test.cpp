@@ -92,14 +92,14 @@ void compare_rim(const SphereIntersection& lens, const SphereHit<float>& h, cons
 
 // A sphere round a random point, and pixels in and near it.
 void compare(const SphereIntersection& lens, const glm::vec3& c, float r, Numbers& random, Worst& worst) {
-  const SphereSpan<float> sx = lens.span(c, r, 0), sy = lens.span(c, r, 1);
+  const SphereSpan<float> sx = lens.span(vec3<float>(c), r, 0), sy = lens.span(vec3<float>(c), r, 1);
   const auto pixel = [&](float low, float high, int size) {
     const double at = std::clamp(random.next(static_cast<double>(low), static_cast<double>(high)), -1.0, 1.0);
     return std::floor((at + 1.0) * 0.5 * size) + 0.5;
   };
   for (int i = 0; i < 40; ++i) {
     const double x = pixel(sx.low, sx.high, kWidth), y = pixel(sy.low, sy.high, kHeight);
-    const SphereHit<float> h = lens.hit(c, r, static_cast<float>(x), static_cast<float>(y));
+    const SphereHit<float> h = lens.hit(vec3<float>(c), r, static_cast<float>(x), static_cast<float>(y));
     const Truth t = truth_of(c, r, x, y, lens.perspective);
     const bool seen = t.root > 0 && t.t >= Wide(lens.near) && t.t <= Wide(lens.far);
     const bool at_the_plane = std::fabs(t.t - Wide(lens.near)) < 0x1p-22L * Wide(lens.near);
@@ -163,7 +163,7 @@ TEST(SphereIntersection, SpheresAtAndThroughTheNearPlane) {
     const float r = static_cast<float>(std::exp2(random.next(-3.0, 2.0)));
     const auto rd = static_cast<double>(r);
     const glm::vec3 c(random.next(-1.5, 1.5) * rd, random.next(-1.5, 1.5) * rd, kNear + random.next(-1.0, 1.5) * rd);
-    if (lens.in_depth(c, r)) compare(lens, c, r, random, worst);
+    if (lens.in_depth(vec3<float>(c), r)) compare(lens, c, r, random, worst);
   }
   EXPECT_GT(worst.seen, 5000);
   EXPECT_GT(worst.rim, 100);
@@ -188,7 +188,7 @@ TEST(SphereIntersection, InsideIsDoublesAtTheRim) {
     const auto r = static_cast<float>(distance * (1.0 + std::exp2(random.next(-30.0, -8.0)) * (i % 2 == 0 ? 1.0 : -1.0)));
     if (!(r > 0.0f) || c.z - r < lens.near) continue;
     const Truth t = truth_of(c, r, x, y, true);
-    const bool seen = lens.hit(c, r, static_cast<float>(x), static_cast<float>(y)).seen;
+    const bool seen = lens.hit(vec3<float>(c), r, static_cast<float>(x), static_cast<float>(y)).seen;
     wrong += seen != (t.root > 0);
     in += seen;
     close += std::fabs(t.root) < 0x1p-22L;
@@ -209,11 +209,11 @@ TEST(SphereIntersection, BoundsHoldTheSphereAndLittleMore) {
     const auto rd = static_cast<double>(r);
     const double z = near_one ? kNear + random.next(-0.9, 1.2) * rd : random.next(3.0, 20.0) * rd + 1.0;
     const glm::vec3 c(random.next(-0.9, 0.9) * std::max(z, rd), random.next(-0.5, 0.5) * std::max(z, rd), z);
-    if (!lens.in_depth(c, r)) continue;
+    if (!lens.in_depth(vec3<float>(c), r)) continue;
     int x0 = kWidth, x1 = -1, y0 = kHeight, y1 = -1;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        if (!lens.hit(c, r, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f).seen) continue;
+        if (!lens.hit(vec3<float>(c), r, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f).seen) continue;
         x0 = std::min(x0, x);
         x1 = std::max(x1, x);
         y0 = std::min(y0, y);
@@ -221,7 +221,7 @@ TEST(SphereIntersection, BoundsHoldTheSphereAndLittleMore) {
       }
     }
     if (x1 < 0) continue;
-    const SphereSpan<float> sx = lens.span(c, r, 0), sy = lens.span(c, r, 1);
+    const SphereSpan<float> sx = lens.span(vec3<float>(c), r, 0), sy = lens.span(vec3<float>(c), r, 1);
     const auto window = [](float ndc, int size) { return (static_cast<double>(ndc) + 1.0) * 0.5 * size; };
     const double low[2] = {window(sx.low, kWidth), window(sy.low, kHeight)}, high[2] = {window(sx.high, kWidth), window(sy.high, kHeight)};
     ASSERT_LE(low[0], x0 + 0.5) << i;
@@ -265,7 +265,7 @@ TEST(SphereIntersection, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
       high = std::max(high, (cx + rd * std::sin(angle)) / z);
     }
     at_the_plane += (low == plane_low ? 1 : 0) + (high == plane_high ? 1 : 0);
-    const SphereSpan<float> s = lens.span(c, r, 0);
+    const SphereSpan<float> s = lens.span(vec3<float>(c), r, 0);
     // Held, and by little: an eighth of a pixel, and where the eye is all but on the surface what the tangent's length is uncertain by.
     const double eye = std::fabs(static_cast<double>(glm::dot(c, c)) / (rd * rd) - 1.0);
     const auto most = [&](double end) { return 0.26 / kWidth + std::fabs(end) * (1e-4 + 1e-6 / eye); };
@@ -280,12 +280,12 @@ TEST(SphereIntersection, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
 
 TEST(SphereIntersection, NothingToDrawOutsideOfDepth) {
   const SphereIntersection lens = lens_for(true);
-  EXPECT_TRUE(lens.in_depth(glm::vec3(0, 0, 5), 1.0f));
-  EXPECT_TRUE(lens.in_depth(glm::vec3(0, 0, -0.5), 0.75f));
-  EXPECT_FALSE(lens.in_depth(glm::vec3(0, 0, -5), 1.0f));
-  EXPECT_FALSE(lens.in_depth(glm::vec3(0, 0, 250), 1.0f));
-  EXPECT_FALSE(lens.in_depth(glm::vec3(0, 0, 5), 0.0f));
-  EXPECT_FALSE(lens.in_depth(glm::vec3(0, 0, 5), std::nanf("")));
+  EXPECT_TRUE(lens.in_depth(vec3<float>(0, 0, 5), 1.0f));
+  EXPECT_TRUE(lens.in_depth(vec3<float>(0, 0, -0.5f), 0.75f));
+  EXPECT_FALSE(lens.in_depth(vec3<float>(0, 0, -5), 1.0f));
+  EXPECT_FALSE(lens.in_depth(vec3<float>(0, 0, 250), 1.0f));
+  EXPECT_FALSE(lens.in_depth(vec3<float>(0, 0, 5), 0.0f));
+  EXPECT_FALSE(lens.in_depth(vec3<float>(0, 0, 5), std::nanf("")));
 }
 
 }  // namespace

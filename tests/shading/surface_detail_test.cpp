@@ -71,7 +71,7 @@ TEST(Heights, TiltAPlaneByItsSlope) {
   EXPECT_EQ(n.z, 1.0);
   // Seen from below, as in a mirror, steps turn the other way round; the surface is the same.
   const vec3<double> m = normal_from_heights<double>({0, 0, 1}, {rise(dp_dy), rise(dp_dx)}, dp_dy, dp_dx);
-  EXPECT_NEAR(glm::length(m - n), 0, 1e-14);
+  EXPECT_NEAR(length(m - n), 0, 1e-14);
 }
 
 TEST(Heights, AnySizeOfStepAndEdgeOnSurfaces) {
@@ -104,7 +104,7 @@ TEST(SurfaceDetail, SlopesTiltTheSphereNormal) {
       const glm::dvec3 slope(0.3 - 0.02 * i, 0.04 * j - 0.4, 1.02);
       const glm::dvec3 want = n * slope.z - east * slope.x - north * slope.y;
       const vec3<double> got = normal_from_slopes<double>(n, slope);
-      EXPECT_LT(glm::length(got - want), 1e-14);
+      EXPECT_LT(length(got - want), 1e-14);
       const vec3<float> single = normal_from_slopes<float>(glm::vec3(n), glm::vec3(slope));
       EXPECT_LT(glm::length(glm::dvec3(single) - want), 1e-6);  // n rounded to float, over a ring of at least 0.15
     }

@@ -87,9 +87,9 @@ TEST(ToneCurves, OnLuminanceHuesStay) {
   const ToneMapping tone{.curve = ToneCurve::reinhard, .on = ToneOn::luminance};
   const glm::vec3 light(2.0f, 1.0f, 0.5f);
   const glm::vec3 c = tone_map(SceneLight<float>{light}, tone).rgb;
-  const float y = luminance(light);
+  const float y = luminance(vec3<float>(light));
   for (int k = 0; k < 3; ++k) EXPECT_FLOAT_EQ(c[k], light[k] / (1 + y));
-  EXPECT_FLOAT_EQ(luminance(c), y / (1 + y));
+  EXPECT_FLOAT_EQ(luminance(vec3<float>(c)), y / (1 + y));
   // A channel alone is bent as if it were grey; so hues go.
   const glm::vec3 each = tone_map(SceneLight<float>{light}, {.curve = ToneCurve::reinhard}).rgb;
   for (int k = 0; k < 3; ++k) EXPECT_FLOAT_EQ(each[k], light[k] / (1 + light[k]));

@@ -38,7 +38,7 @@ TEST(Stability, NormalMapsWithoutFrames) {
       for (int texel = 0; texel < 3; ++texel) {
         const vec2<float> uv((static_cast<float>(texel) + 0.5f) / 3.0f, 0.5f);
         const MapCoordinates<float> at{uv, vec2<float>(0.0f), vec2<float>(0.0f)};
-        const vec3<float> m = normalize_or_zero(normal_from_map(detail, at, n, tangent, 1.0f));
+        const vec3<float> m = normalize_or_zero(normal_from_map(detail, at, vec3<float>(n), vec3<float>(tangent), 1.0f));
         ours += !(std::isfinite(m.x) && std::isfinite(m.y) && std::isfinite(m.z));
         // The textbook's frame: every axis made a unit vector.
         const glm::vec3 t = glm::normalize(tangent - n * glm::dot(n, tangent)), b = glm::cross(glm::normalize(n), t);
