@@ -219,7 +219,7 @@ template <class F>
 Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format) {
   Framebuffer to(from.width(), from.height(), {format}, DepthFormat::none);
   for (int y = 0; y < from.height(); ++y) {
-    for (int x = 0; x < from.width(); ++x) to.set_color(0, {x, y, 0}, function(from.color(0, {x, y, 0})));
+    for (int x = 0; x < from.width(); ++x) to.set_color(0, {x, y, 0}, glm::vec4(function(vec4<float>(from.color(0, {x, y, 0})))));
   }
   return to;
 }
