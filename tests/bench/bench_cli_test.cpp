@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/program.h"
+#include "support/errors.h"
 
 namespace halfspace {
 
@@ -22,25 +23,27 @@ using test::Outcome;
 Outcome bench(const std::string& arguments) { return test::run_program(HALFSPACE_BENCH_PROGRAM, arguments); }
 
 struct Mistake {
-  std::string arguments, message;
+  std::string arguments, place;
+  std::vector<std::string> keywords;
 };
 class BenchMistake : public testing::TestWithParam<Mistake> {};
 
 TEST_P(BenchMistake, IsToldInOneLine) {
   const Outcome outcome = bench(GetParam().arguments);
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.text, "halfspace-bench: " + GetParam().message + "\n");
+  ASSERT_TRUE(outcome.text.ends_with('\n')) << outcome.text;
+  EXPECT_TRUE(tells(outcome.text.substr(0, outcome.text.size() - 1), "halfspace-bench: " + GetParam().place, GetParam().keywords));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BenchMistake,
-                         testing::Values(Mistake{"--only fil", "--only: unknown workload 'fil'; did you mean 'fill'?"},
-                                         Mistake{"--sweep overdrew", "--sweep: unknown series 'overdrew'; did you mean 'overdraw'?"},
-                                         Mistake{"--size 0x4", "--size is '0x4'; expected WxH with 1 to 16384 each, for example 1920x1080"},
-                                         Mistake{"--threads 0", "--threads is '0'; expected 1 to 1024"},
-                                         Mistake{"--seconds -1", "--seconds is '-1'; expected 0 to 3600, for example 2.5"},
-                                         Mistake{"--sise 4x4", "unknown option '--sise'; did you mean '--size'?"},
-                                         Mistake{"--only fill tiny_1m", "unexpected argument 'tiny_1m'; see 'halfspace-bench --help'"},
-                                         Mistake{"fill", "unexpected argument 'fill'; see 'halfspace-bench --help'"}));
+                         testing::Values(Mistake{"--only fil", "--only", {"'fil'", "'fill'"}},
+                                         Mistake{"--sweep overdrew", "--sweep", {"'overdrew'", "'overdraw'"}},
+                                         Mistake{"--size 0x4", "--size", {"'0x4'", "WxH"}},
+                                         Mistake{"--threads 0", "--threads", {"'0'", "1 to 1024"}},
+                                         Mistake{"--seconds -1", "--seconds", {"'-1'", "0 to 3600"}},
+                                         Mistake{"--sise 4x4", "unknown option", {"'--sise'", "'--size'"}},
+                                         Mistake{"--only fill tiny_1m", "unexpected argument", {"'tiny_1m'", "--help"}},
+                                         Mistake{"fill", "unexpected argument", {"'fill'", "--help"}}));
 
 TEST(BenchCli, HelpFitsAScreenAndEndsInTwoExamples) {
   const Outcome outcome = bench("--help");

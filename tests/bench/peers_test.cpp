@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/program.h"
+#include "support/errors.h"
 #include "sweeps.h"
 
 #ifndef HALFSPACE_BENCH_GL_PROGRAM
@@ -88,7 +89,8 @@ TEST(BenchGl, SaysWhichDriversThereAre) {
   if (program.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built";
   const Outcome outcome = test::run_program(program, "--driver llvm --only fill");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.text, "halfspace-bench-gl: --driver is 'llvm'; expected llvmpipe, swiftshader or softpipe\n");
+  ASSERT_TRUE(outcome.text.ends_with('\n')) << outcome.text;
+  EXPECT_TRUE(tells(outcome.text.substr(0, outcome.text.size() - 1), "halfspace-bench-gl: --driver", {"'llvm'", "llvmpipe", "softpipe"}));
 }
 
 TEST(BenchPeers, HaveTheSeriesOfHalfspace) {
@@ -99,7 +101,7 @@ TEST(BenchPeers, HaveTheSeriesOfHalfspace) {
     EXPECT_EQ(test::lines_of(list.text).size(), kTriangleCounts.size()) << list.text;
     const Outcome wrong = test::run_program(program, "--sweep triangle_cuont");
     EXPECT_EQ(wrong.exit_code, 2);
-    EXPECT_NE(wrong.text.find("unknown series 'triangle_cuont'; did you mean 'triangle_count'?"), std::string::npos) << wrong.text;
+    for (const char* word : {"'triangle_cuont'", "'triangle_count'"}) EXPECT_NE(wrong.text.find(word), std::string::npos) << wrong.text;
   }
 }
 

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <numbers>
+
+#include "support/expected_hash.h"
+#include "support/hash.h"
 
 namespace halfspace {
 namespace {
@@ -77,16 +80,12 @@ TEST(TrigDouble, OddAndEven) {
 
 // The bits themselves, so that every compiler and processor is held to the same.
 TEST(TrigDouble, SameBitsEverywhere) {
-  uint64_t hash = 14695981039346656037u;
+  Hash hash;
   for (int i = 0; i < 10000; ++i) {
     const SinCosDouble a = sincos_turns(i * 0.000123456789);
-    for (const double d : {a.sin, a.cos}) {
-      uint64_t bits = 0;
-      std::memcpy(&bits, &d, sizeof bits);
-      hash = (hash ^ bits) * 1099511628211u;
-    }
+    for (const double d : {a.sin, a.cos}) hash.add(std::bit_cast<uint64_t>(d));
   }
-  EXPECT_EQ(hash, 5913197546559461670u);
+  expect_hash("sincos-turns", hash.value());
 }
 
 }  // namespace

@@ -98,8 +98,7 @@ TEST_F(ToolNumbers, InfinitiesAreHeldAsLightAndRefusedAsHeights) {
   depth.at(1, 1) = kInfinity;
   write_depth_exr(path, depth);
   EXPECT_EQ(read_linear(path).at(1, 1), glm::vec4(kMaxHalf, kMaxHalf, kMaxHalf, 1.0f));
-  EXPECT_EQ(input_error([&] { read_gray(path); }),
-            path.string() + ": holds an infinity at pixel (1, 1), counted from 0 at the upper left; expected finite numbers");
+  EXPECT_TRUE(tells(input_error([&] { read_gray(path); }), path.string(), {"infinity", "(1, 1)"}));
   depth.at(1, 1) = -kInfinity;
   write_depth_exr(path, depth);
   EXPECT_EQ(read_linear(path).at(1, 1).x, -kMaxHalf);
@@ -110,25 +109,24 @@ TEST_F(ToolNumbers, NaNIsRefusedByItsPixel) {
   Image<float> depth(3, 2);
   depth.at(2, 0) = kNaN;
   write_depth_exr(path, depth);
-  const std::string line = path.string() + ": holds NaN at pixel (2, 0), counted from 0 at the upper left; expected finite numbers";
-  EXPECT_EQ(input_error([&] { read_gray(path); }), line);
-  EXPECT_EQ(input_error([&] { read_linear(path); }), line);
+  for (const std::string& error : {input_error([&] { read_gray(path); }), input_error([&] { read_linear(path); })})
+    EXPECT_TRUE(tells(error, path.string(), {"NaN", "(2, 0)"}));
 }
 
 TEST_F(ToolNumbers, NumbersAreNoCodes) {
-  const std::string expected = "; expected 8- or 16-bit codes: PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS";
   const std::filesystem::path tiff = put("a.tif", gray_tiff_row<float>({1.0f, 2.0f}, TiffSamples::number));
-  EXPECT_EQ(input_error([&] { read_image(tiff); }), tiff.string() + ": holds linear numbers" + expected);
+  EXPECT_TRUE(tells(input_error([&] { read_image(tiff); }), tiff.string(), {"linear numbers", "16-bit codes", "PNG"}));
   const std::filesystem::path pfm_file = put("a.pfm", pfm(1, 1, {1.0f, 2.0f, 3.0f}));
-  EXPECT_EQ(input_error([&] { read_image(pfm_file); }), pfm_file.string() + ": is PFM, which holds linear numbers" + expected);
+  EXPECT_TRUE(tells(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear numbers", "16-bit codes", "PNG"}));
 }
 
+// The lists of formats in full: they are what a user can choose from.
 TEST_F(ImageNumbers, SayWhichFilesTheyRead) {
   const std::filesystem::path path = put("a.txt", "This is not a picture.");
   const std::string line =
       path.string() + ": is no image that can be read; expected PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, OpenEXR, HDR or PFM";
   EXPECT_EQ(input_error([&] { read_gray(path); }), line);
-  EXPECT_EQ(input_error([&] { read_linear(path); }), line);
+  EXPECT_TRUE(tells(input_error([&] { read_linear(path); }), path.string(), {"OpenEXR, HDR or PFM"}));
 }
 
 // ---- files of others -------------------------------------------------------------------------------------------

@@ -12,7 +12,9 @@
 #include <glm/glm.hpp>
 #include <iterator>
 #include <span>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_tool.h"
@@ -59,42 +61,42 @@ class ImageTool : public FolderTest {
   }
 };
 
-TEST_F(ImageTool, Absent) {
-  const std::string line = ": cannot write (halfspace-image-tool is not installed; expected a name that ends in .png, or that program)\n";
-  EXPECT_EQ(lines_beside(""), "a.jpg" + line + "a.exr" + line +
-                                  "a.ppm: is pnm, and halfspace-image-tool is not installed; expected PNG, or that program (built where "
-                                  "OpenImageIO is)\nnothing was written\n");
+// Both pictures were not written and the third not read, for these reasons, and no file is left.
+void expect_failures(const std::string& told, const std::string& of_writing, const std::string& of_reading) {
+  std::istringstream lines(told);
+  std::string line;
+  const std::pair<const char*, std::string> expected[] = {
+      {"a.jpg: cannot write", of_writing}, {"a.exr: cannot write", of_writing}, {"a.ppm: ", of_reading}};
+  for (const auto& [place, reason] : expected) {
+    ASSERT_TRUE(std::getline(lines, line)) << told;
+    EXPECT_TRUE(tells(line, place, {reason}));
+  }
+  std::getline(lines, line);
+  EXPECT_EQ(line, "nothing was written");
+  EXPECT_FALSE(std::getline(lines, line)) << told;
 }
 
-TEST_F(ImageTool, DiesAtOnce) {
-  EXPECT_EQ(lines_beside("kill -SEGV $$"),
-            "a.jpg: cannot write (the encoder of jpeg died: Segmentation fault)\n"
-            "a.exr: cannot write (the encoder of openexr died: Segmentation fault)\n"
-            "a.ppm: cannot be read as pnm (the decoder died: Segmentation fault); expected a whole image file\nnothing was written\n");
-}
+TEST_F(ImageTool, Absent) { expect_failures(lines_beside(""), "not installed", "not installed"); }
+
+TEST_F(ImageTool, DiesAtOnce) { expect_failures(lines_beside("kill -SEGV $$"), "died: Segmentation fault", "died: Segmentation fault"); }
 
 TEST_F(ImageTool, EndsHalfWay) {
   // It hears 1000 bytes of the picture and begins a right answer of 100 bytes.
-  EXPECT_EQ(lines_beside("head -c 1000 >/dev/null; printf 'HIT1\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'"),
-            "a.jpg: cannot write (the encoder of jpeg ended early)\n"
-            "a.exr: cannot write (the encoder of openexr ended early)\n"
-            "a.ppm: cannot be read as pnm (the decoder ended early); expected a whole image file\nnothing was written\n");
+  const std::string script = "head -c 1000 >/dev/null; printf 'HIT1\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
+  expect_failures(lines_beside(script), "ended early", "ended early");
 }
 
 TEST_F(ImageTool, IsOfAnotherVersion) {
-  const std::string line = ": cannot write (halfspace-image-tool is of another version than this program)\n";
-  EXPECT_EQ(lines_beside("cat >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'"),
-            "a.jpg" + line + "a.exr" + line +
-                "a.ppm: cannot be read: halfspace-image-tool is of another version than this program\nnothing was written\n");
+  const std::string script = "cat >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'";
+  expect_failures(lines_beside(script), "another version", "another version");
 }
 
 TEST_F(ImageTool, PromisesTooMuch) {
   // A file of 2^63 bytes; a picture of 2^31 − 1 pixels on an edge.
-  const std::string line = ": cannot write (halfspace-image-tool is of another version than this program)\n";
-  EXPECT_EQ(lines_beside("case $1 in write) printf 'HIT1\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
-                         "*) printf 'HIT1\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac"),
-            "a.jpg" + line + "a.exr" + line +
-                "a.ppm: claims 2147483647x1 pixels; expected at most 2^28 pixels and 32768 on an edge\nnothing was written\n");
+  const std::string script =
+      "case $1 in write) printf 'HIT1\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
+      "*) printf 'HIT1\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
+  expect_failures(lines_beside(script), "another version", "2147483647x1");
 }
 
 TEST_F(ImageTool, RefusesWhatItCannotWrite) {
@@ -104,17 +106,16 @@ TEST_F(ImageTool, RefusesWhatItCannotWrite) {
   header.height = 3000;
   header.channels = 3;
   const auto black = [](int, std::span<std::byte> row) { std::ranges::fill(row, std::byte{0}); };
-  EXPECT_EQ(output_error([&] { encode_by_tool("a.xyz", "xyz", header, black); }),
-            "a.xyz: cannot write (this OpenImageIO does not write xyz)");
+  EXPECT_TRUE(tells(output_error([&] { encode_by_tool("a.xyz", "xyz", header, black); }), "a.xyz: cannot write", {"OpenImageIO", "xyz"}));
   header.channels = 2;
-  EXPECT_EQ(output_error([&] { encode_by_tool("a.jpg", "jpeg", header, black); }), "a.jpg: cannot write (the picture's header is damaged)");
+  EXPECT_TRUE(tells(output_error([&] { encode_by_tool("a.jpg", "jpeg", header, black); }), "a.jpg: cannot write", {"header"}));
 }
 
 TEST_F(ImageTool, AFullDiskIsTold) {
   if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   fs::create_symlink("/dev/full", directory / "a.jpg");
-  EXPECT_EQ(output_error([&] { write_image(directory / "a.jpg", test_picture(true)); }),
-            (directory / "a.jpg").string() + ": cannot write (No space left on device)");
+  EXPECT_TRUE(tells(output_error([&] { write_image(directory / "a.jpg", test_picture(true)); }), (directory / "a.jpg").string(),
+                    {"No space left on device"}));
 }
 
 TEST_F(ImageTool, ADirectoryThatCannotBeWrittenIsTold) {
@@ -124,7 +125,7 @@ TEST_F(ImageTool, ADirectoryThatCannotBeWrittenIsTold) {
     if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);  // root may write everywhere, nobody may not
     const fs::path path = directory / "a.exr";
     const std::string what = output_error([&] { write_image(path, Image<glm::vec4>(2, 2)); });
-    ::_exit(what == path.string() + ": cannot write (Permission denied)" ? 0 : 1);
+    ::_exit(tells(what, path.string(), {"cannot write", "Permission denied"}) ? 0 : 1);
   }
   int status = -1;
   ::waitpid(child, &status, 0);

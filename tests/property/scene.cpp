@@ -5,6 +5,9 @@
 #include <cstring>
 #include <sstream>
 
+#include "halfspace/core/half.h"
+#include "halfspace/core/srgb.h"
+
 namespace halfspace {
 
 namespace {
@@ -229,6 +232,27 @@ std::string difference(const Scene& scene, const Pictures& expected, const Pictu
     out += compare_color("further colour", scene, scene.more_colors[i].format, expected.more[i], actual.more[i]);
   }
   return out;
+}
+
+Image<glm::u8vec4> codes_of(const Scene& scene, const Pictures& pictures) {
+  const bool is_color = !pictures.color.empty(), is_post = !is_color && !pictures.post.empty();
+  const std::vector<std::byte>& bytes = is_color ? pictures.color : is_post ? pictures.post : pictures.depth;
+  const ColorFormat color = is_color ? scene.color.format : is_post ? scene.post_format : ColorFormat::none;
+  const std::size_t components = color == ColorFormat::none ? 1 : 4, size = bytes.size() / pixels_of(scene) / components;
+  const auto code_at = [&](std::size_t i) {
+    const double value = value_at(bytes, i, size, color == ColorFormat::rgba32f || scene.depth.format == DepthFormat::d32f);
+    if (size == 1) return static_cast<int>(value);
+    if (color == ColorFormat::rgba16f) return linear_to_srgb(half_to_float(static_cast<uint16_t>(value)));
+    if (color == ColorFormat::rgba32f) return linear_to_srgb(static_cast<float>(value));
+    const double most = scene.depth.format == DepthFormat::d16 ? 0xffff : scene.depth.format == DepthFormat::d24 ? 0xffffff : 1;
+    return static_cast<int>(std::lround(255.0 * value / most));
+  };
+  Image<glm::u8vec4> codes(scene.width, scene.height);
+  for (std::size_t i = 0; i < pixels_of(scene); ++i) {
+    const auto code = [&](std::size_t k) { return code_at(i * components + std::min(k, components - 1)); };
+    codes.data()[i] = glm::u8vec4(code(0), code(1), code(2), 255);
+  }
+  return codes;
 }
 
 std::string describe(const PassOptions& o, int threads) {

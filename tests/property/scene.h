@@ -65,6 +65,9 @@ OracleResult run_oracle(const Scene& scene);
 /// Empty if a and b are the same, else where they differ most: "colour: 12 of 7000 pixels differ; worst (x, y): … against …".
 std::string difference(const Scene& scene, const Pictures& expected, const Pictures& actual);
 
+/// The colours as codes, or the post step's, or depth as greys: for a look at what is wrong.
+Image<glm::u8vec4> codes_of(const Scene& scene, const Pictures& pictures);
+
 std::string describe(const PassOptions& options, int threads);
 std::string describe(const Scene& scene);
 

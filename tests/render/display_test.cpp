@@ -14,6 +14,7 @@
 
 #include "halfspace/core/half.h"
 #include "halfspace/scene/scene_file.h"
+#include "halfspace/shading/tone.h"
 #include "render/naive_picture.h"
 #include "support/sanitized.h"
 

@@ -87,8 +87,7 @@ TEST(EnvironmentScene, FadesAndMakesOnlyWhatIsSeen) {
   SceneFile scene = SceneFile::parse(text, "test.json", ".");
   EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(1, 0.5f, 0, 1)) << "night's file is not missed";
   scene.set("background.weight=0.001");
-  EXPECT_EQ(input_error([&] { light_of(scene.description(), 4, 4); }),
-            "environments.night.map: /none.png: no such file; expected an image");
+  EXPECT_TRUE(tells(input_error([&] { light_of(scene.description(), 4, 4); }), "environments.night.map: /none.png", {"no such file"}));
   scene.set("background.second=dusk");
   scene.set("background.weight=0.5");
   EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.625f, 0.375f, 0.125f, 1));
@@ -181,8 +180,7 @@ TEST(Reflections, AreOfWhatTheirKeysSay) {
   EXPECT_EQ(middle({"background.type=color", "background.color=0.5"}), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "nothing but a colour";
   EXPECT_EQ(middle({"reflections.on=false"}), glm::vec4(0, 0, 0, 1));
   EXPECT_EQ(middle({"ball.reflection=0"}), glm::vec4(0, 0, 0, 1));
-  EXPECT_EQ(input_error([&] { middle({"reflections.environment=c"}); }),
-            "test.json: reflections.environment: no environment 'c'; expected one of a, b");
+  EXPECT_TRUE(tells(input_error([&] { middle({"reflections.environment=c"}); }), "test.json: reflections.environment", {"'c'", "a, b"}));
 }
 
 TEST(Reflections, AreWithinOneCodeOfDoublePrecisionWithEveryKindOfNormal) {
@@ -235,30 +233,27 @@ TEST_F(EnvironmentFiles, SixFacesAreSeenWhereTheirNamesSay) {
 TEST_F(EnvironmentFiles, AFaceOfItsOwnComesBeforeTheFolder) {
   put_faces();
   std::filesystem::rename(directory / "front.png", directory / "other.png");
-  EXPECT_EQ(error_of(cube()),
-            "environments.globe: " + directory.string() + ": has no file for the face front; expected front.png or the like");
+  EXPECT_TRUE(tells(error_of(cube()), "environments.globe: " + directory.string(), {"face front", "front.png"}));
   EXPECT_EQ(error_of(cube({"globe.front=" + (directory / "other.png").string()})), "(no error)");
 }
 
 TEST_F(EnvironmentFiles, MistakesAreToldInOneLine) {
-  EXPECT_EQ(error_of({"globe.type=cube"}), "environments.globe: the face right is missing; expected an image file, or a folder of six");
-  EXPECT_EQ(error_of({"globe.type=cube", "globe.folder=/none"}),
-            "environments.globe: /none: cannot be read (No such file or directory); expected a folder of six faces");
+  EXPECT_TRUE(tells(error_of({"globe.type=cube"}), "environments.globe", {"face right", "folder"}));
+  EXPECT_TRUE(
+      tells(error_of({"globe.type=cube", "globe.folder=/none"}), "environments.globe: /none", {"No such file or directory", "six"}));
   put_faces();
+  const std::string bottom = "environments.globe: " + (directory / "bottom.png").string();
   put_face(3, 4, 5);
-  EXPECT_EQ(error_of(cube()),
-            "environments.globe: " + (directory / "bottom.png").string() + ": is 4x5; expected a square face, all six of one size");
+  EXPECT_TRUE(tells(error_of(cube()), bottom, {"4x5", "square"}));
   put_face(3, 8, 8);
-  EXPECT_EQ(error_of(cube()),
-            "environments.globe: " + (directory / "bottom.png").string() + ": is 8x8; expected a square face, all six of one size");
+  EXPECT_TRUE(tells(error_of(cube()), bottom, {"8x8", "one size"}));
   put_face(3, 4, 4);
   put("left.jpg", "x");
-  EXPECT_EQ(error_of(cube()), "environments.globe: " + directory.string() + ": has two files for the face left; expected one");
-  EXPECT_EQ(error_of({"background.environment=glob"}),
-            "scene environment: background.environment: no environment 'glob'; did you mean 'globe'?");
-  EXPECT_EQ(error_of({"background.second=glob"}), "scene environment: background.second: no environment 'glob'; did you mean 'globe'?");
-  EXPECT_EQ(input_error([] { SceneFile::parse(R"({"version": 1, "background": {"type": "environment"}})", "t.json", "."); }),
-            "t.json: background.type: the scene has no environment; expected one in environments");
+  EXPECT_TRUE(tells(error_of(cube()), "environments.globe: " + directory.string(), {"two files", "face left"}));
+  for (const std::string key : {"background.environment", "background.second"})
+    EXPECT_TRUE(tells(error_of({key + "=glob"}), "scene environment: " + key, {"'glob'", "'globe'"}));
+  EXPECT_TRUE(tells(input_error([] { SceneFile::parse(R"({"version": 1, "background": {"type": "environment"}})", "t.json", "."); }),
+                    "t.json: background.type", {"environment"}));
 }
 
 TEST_F(EnvironmentFiles, LightBeyondOneIsKept) {

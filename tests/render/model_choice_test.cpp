@@ -11,6 +11,7 @@
 #include "halfspace/render/model/chord_error.h"
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/scene_file.h"
+#include "support/errors.h"
 
 namespace halfspace {
 namespace {
@@ -115,12 +116,8 @@ TEST(ModelChoice, MoreThanThereIsRoomForIsToldInOneLine) {
   std::string copies;
   for (int i = 0; i < 3000; ++i) copies += R"({"position": [0, 0, 0]},)";
   copies.pop_back();
-  try {
-    fitted(objects(kMirror + R"(, "instances": [)" + copies + "]"), {0.01, std::nullopt});
-    FAIL() << "no error";
-  } catch (const InputError& e) {
-    EXPECT_TRUE(std::string(e.what()).starts_with("the cheapest model: objects: have ")) << e.what();
-  }
+  const std::string error = input_error([&] { fitted(objects(kMirror + R"(, "instances": [)" + copies + "]"), {0.01, std::nullopt}); });
+  EXPECT_TRUE(tells(error, "the cheapest model: objects", {"vertices"}));
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
+#include "support/errors.h"
+#include "support/workers.h"
 
 namespace halfspace {
 namespace {
@@ -23,14 +25,8 @@ SceneDescription moon_with(const std::vector<std::string>& settings) {
 }
 
 std::string error_of(const SceneDescription& scene) {
-  const Workers workers(1);
-  SceneAssets assets(workers);
-  try {
-    assets.prepare(scene, 64, 64);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  SceneAssets assets(one_worker());
+  return input_error([&] { assets.prepare(scene, 64, 64); });
 }
 
 TEST(Moon, IsWithinOneCodeOfDoublePrecision) {
@@ -348,17 +344,15 @@ TEST(PreparedScene, RotationsAreDegreesAboutTheAxes) {
 
 TEST(PreparedScene, WhatCannotBeUsedIsToldInOneLine) {
   EXPECT_THROW(moon_with({"moon.height_scale=2.5"}), InputError) << "2.5 can turn the sphere inside out";
-  EXPECT_EQ(error_of(moon_with({"moon.height=surface"})), "objects.moon.height: is a map of colours; expected a map of heights");
-  EXPECT_EQ(error_of(moon_with({"moon.color=relief"})), "objects.moon.color: is a map of heights; expected a map of colours");
-  EXPECT_EQ(error_of(moon_with({"moon.normal_map=surface"})), "objects.moon.normal_map: is a map of colours; expected a map of numbers");
-  EXPECT_EQ(error_of(moon_with({"moon.normal=map"})),
-            "objects.moon.normal: is map, and normal_map is none; expected a texture or an image file as normal_map");
-  EXPECT_EQ(error_of(moon_with({"moon.normal=bump"})),
-            "objects.moon.normal: is bump, and bump_map is none; expected a texture or an image file as bump_map");
-  EXPECT_EQ(error_of(moon_with({"moon.color=/none.png"})), "objects.moon.color: /none.png: no such file; expected an image");
-  EXPECT_EQ(error_of(moon_with({"moon.height=/none.png"})), "objects.moon.height: /none.png: no such file; expected an image");
-  EXPECT_EQ(error_of(parsed(R"({"version": 1, "textures": {"t": {}}, "objects": {"a": {"color": "t"}}})")),
-            "textures.t.file: missing; expected an image file");
+  EXPECT_TRUE(tells(error_of(moon_with({"moon.height=surface"})), "objects.moon.height", {"map of colours", "heights"}));
+  EXPECT_TRUE(tells(error_of(moon_with({"moon.color=relief"})), "objects.moon.color", {"map of heights", "colours"}));
+  EXPECT_TRUE(tells(error_of(moon_with({"moon.normal_map=surface"})), "objects.moon.normal_map", {"map of colours", "numbers"}));
+  EXPECT_TRUE(tells(error_of(moon_with({"moon.normal=map"})), "objects.moon.normal", {"normal_map", "image file"}));
+  EXPECT_TRUE(tells(error_of(moon_with({"moon.normal=bump"})), "objects.moon.normal", {"bump_map", "image file"}));
+  EXPECT_TRUE(tells(error_of(moon_with({"moon.color=/none.png"})), "objects.moon.color: /none.png", {"no such file"}));
+  EXPECT_TRUE(tells(error_of(moon_with({"moon.height=/none.png"})), "objects.moon.height: /none.png", {"no such file"}));
+  EXPECT_TRUE(tells(error_of(parsed(R"({"version": 1, "textures": {"t": {}}, "objects": {"a": {"color": "t"}}})")), "textures.t.file",
+                    {"missing", "image file"}));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "halfspace/core/check.h"
 #include "halfspace/scene/scene_paths.h"
@@ -160,8 +162,7 @@ TEST(SceneFile, PrintedObjectsFollowTheirMaterial) {
 TEST(SceneFile, KindsHaveTheirOwnKeys) {
   SceneFile scene = scene_of(R"({"version": 1, "objects": {"floor": {"shape": "plane", "size": 4}}})");
   EXPECT_EQ(scene.print().find("latitudes"), std::string::npos);
-  EXPECT_EQ(input_error([&] { scene.set("floor.latitudes=8"); }).substr(0, 57),
-            "--set: floor.latitudes: unknown key 'latitudes'; expected");
+  EXPECT_TRUE(tells(input_error([&] { scene.set("floor.latitudes=8"); }), "--set: floor.latitudes", {"unknown key 'latitudes'", "size"}));
 }
 
 TEST(SceneFile, AnotherKindDropsTheKeysItHasNot) {
@@ -204,9 +205,8 @@ TEST(SceneFile, TooMuchInAllIsRefused) {
     for (int i = 1; i < copies; ++i) text += ", {}";
     return text + "]}}}";
   };
-  EXPECT_EQ(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 52)); }),
-            "test.json: objects: have 34078824 vertices with all their instances; expected at most 33554432 (2^25): fewer instances or "
-            "coarser shapes");
+  EXPECT_TRUE(tells(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 52)); }), "test.json: objects",
+                    {"34078824 vertices", "33554432"}));
   EXPECT_EQ(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 51)); }), "(no error)");
   EXPECT_EQ(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, "visible": false, )", 4096)); }), "(no error)");
   std::string text = R"({"version": 1, "objects": {)";
@@ -215,113 +215,144 @@ TEST(SceneFile, TooMuchInAllIsRefused) {
     text += std::string(i == 0 ? "" : ", ") + "\"p" + std::to_string(i) +
             "\": " + list.substr(list.find("{\"shape"), list.find("]}") + 2 - list.find("{\"shape"));
   }
-  EXPECT_EQ(input_error([&] { scene_of(text + "}}"); }), "test.json: objects: are 69632 with all their instances; expected at most 65536");
+  EXPECT_TRUE(tells(input_error([&] { scene_of(text + "}}"); }), "test.json: objects", {"69632", "65536"}));
 }
 
-// ---- errors: file, path, what is wrong, what would be right ----------------------------------------------------
+// ---- errors: file and key, what is wrong, what would be right ----------------------------------------------------
 
 struct Wrong {
   const char* name;
   const char* text;
-  const char* line;
+  const char* place;
+  std::vector<std::string> keywords;
 };
 void PrintTo(const Wrong& w, std::ostream* os) { *os << w.name; }
 
 const Wrong kWrong[] = {
-    {"Empty", "", "test.json:1:1: no JSON: syntax error while parsing value - unexpected end of input; expected '[', '{', or a literal"},
-    {"Comma", "{\n \"version\": 1,\n}",
-     "test.json:3:1: no JSON: syntax error while parsing object key - unexpected '}'; expected string literal"},
-    {"Array", "[1]", "test.json: expected an object { … }"},
-    {"NoVersion", "{}", "test.json: version: missing; expected \"version\": 1"},
-    {"OtherVersion", "{\"version\": 2}", "test.json: version: expected 1"},
-    {"TwiceTheSame", R"({"version": 1, "version": 1})", "test.json: 'version' stands twice in one object; expected each name once"},
-    {"Section", R"({"version": 1, "lihgts": {}})", "test.json: lihgts: unknown key; did you mean 'lights'?"},
-    {"Key", R"({"version": 1, "objects": {"a": {"raduis": 1}}})", "test.json: objects.a.raduis: unknown key; did you mean 'radius'?"},
-    {"Type", R"({"version": 1, "objects": {"a": {"radius": "big"}}})",
-     "test.json: objects.a.radius: expected a number from 1e-06 to 1e+06 (units), got \"big\""},
-    {"Range", R"({"version": 1, "objects": {"a": {"latitudes": 1}}})",
-     "test.json: objects.a.latitudes: expected a whole number from 2 to 8192, got 1"},
-    {"Fraction", R"({"version": 1, "objects": {"a": {"latitudes": 8.5}}})",
-     "test.json: objects.a.latitudes: expected a whole number from 2 to 8192, got 8.5"},
-    {"Vector", R"({"version": 1, "objects": {"a": {"position": [1, 2]}}})",
-     "test.json: objects.a.position: expected three numbers [x, y, z] (units), got [1,2]"},
-    {"Choice", R"({"version": 1, "objects": {"a": {"shape": "uv_spere"}}})",
-     "test.json: objects.a.shape: \"uv_spere\" is no choice; did you mean 'uv_sphere'?"},
-    {"Colour", R"({"version": 1, "ambient": "#12345"})",
-     "test.json: ambient: expected a colour: \"#rrggbb\", [r, g, b] or one number of at least 0, got \"#12345\""},
-    {"Boolean", R"({"version": 1, "objects": {"a": {"visible": 1}}})", "test.json: objects.a.visible: expected true or false, got 1"},
-    {"Name", R"({"version": 1, "objects": {"A b": {}}})",
-     "test.json: objects.A b: a name begins with a letter a to z and goes on with letters, digits and _"},
-    {"NoObject", R"({"version": 1, "objects": {"a": 3}})", "test.json: objects.a: expected an object { … }, got 3"},
-    {"NoCollection", R"({"version": 1, "objects": []})", "test.json: objects: expected an object of names, { \"name\": { … }, … }"},
-    {"Material", R"({"version": 1, "materials": {"stone": {}}, "objects": {"a": {"material": "stoen"}}})",
-     "test.json: objects.a.material: no material 'stoen'; did you mean 'stone'?"},
-    {"Camera", R"({"version": 1, "camera": "frnot", "cameras": {"front": {}}})",
-     "test.json: camera: no camera 'frnot'; did you mean 'front'?"},
-    {"NearAndFar", R"({"version": 1, "cameras": {"c": {"near": 2, "far": 1}}})", "test.json: cameras.c.far: expected more than near"},
-    {"Up", R"({"version": 1, "cameras": {"c": {"up": [0, 0, 3]}}})",
-     "test.json: cameras.c.up: the camera's position, target and up lie on one line; expected them to differ"},
-    {"Direction", R"({"version": 1, "lights": {"l": {"direction": [0, 0, 0]}}})",
-     "test.json: lights.l.direction: is zero; expected a direction"},
-    {"Attenuation", R"({"version": 1, "lights": {"l": {"type": "point", "attenuation": [0, 0, 0]}}})",
-     "test.json: lights.l.attenuation: is zero; expected one term of at least 1e-06"},
-    {"Cone", R"({"version": 1, "lights": {"l": {"type": "spot", "inner": 40}}})",
-     "test.json: lights.l.inner: 40 is more than outer; expected at most 30"},
-    {"ShadingRate", R"({"version": 1, "objects": {"a": {"shading": "gourad"}}})",
-     "test.json: objects.a.shading: \"gourad\" is no choice; did you mean 'gouraud'?"},
-    {"Word", R"({"version": 1, "objects": {"camera": {}}})",
-     "test.json: objects.camera: is a word of the file itself; expected another name"},
-    {"Texture", R"({"version": 1, "textures": {"ground": {}}, "objects": {"a": {"color": "gruond"}}})",
-     "test.json: objects.a.color: no texture and no file 'gruond'; did you mean 'ground'?"},
-    {"OddWidth", R"({"version": 1, "textures": {"t": {"source": "moon_color", "width": 7}}})",
-     "test.json: textures.t.width: expected 0 or an even number, got 7"},
-    {"Vertices", R"({"version": 1, "objects": {"a": {"latitudes": 8192, "longitudes": 16384}}})",
-     "test.json: objects.a.longitudes: more than 2^23 vertices; expected fewer latitudes or longitudes"},
-    {"PatternWidth", R"({"version": 1, "textures": {"t": {"source": "rock_color", "width": 4098}}})",
-     "test.json: textures.t.width: expected at most 4096 of a map that tiles, got 4098"},
-    {"ShadowTooCoarse", R"({"version": 1, "objects": {"a": {}}, "shadow": {"resolution": 64}})",
-     "test.json: shadow.resolution: expected 0, or from 256 on (filters look that far), got 64"},
-    {"SunTooWide", R"({"version": 1, "objects": {"a": {}}, "lights": {"l": {"size": 46}}})",
-     "test.json: lights.l.size: 46 degrees are no directional light; expected at most 45"},
-    {"TorusTube", R"({"version": 1, "objects": {"a": {"shape": "torus", "tube": 2}}})",
-     "test.json: objects.a.tube: 2 fills the ring; expected less than radius, 1"},
-    {"TorusBands", R"({"version": 1, "objects": {"a": {"shape": "torus", "latitudes": 2}}})",
-     "test.json: objects.a.latitudes: 2 make no tube; expected at least 3"},
-    {"InsideOut", R"({"version": 1, "textures": {"h": {"source": "rock_height"}}, "objects": {"a": {"shape": "cube", "height": "h",
+    {"Empty", "", "test.json:1:1", {"JSON", "end of input"}},
+    {"Comma", "{\n \"version\": 1,\n}", "test.json:3:1", {"JSON", "'}'"}},
+    {"Array", "[1]", "test.json", {"object"}},
+    {"NoVersion", "{}", "test.json: version", {"missing", "1"}},
+    {"OtherVersion", "{\"version\": 2}", "test.json: version", {"1"}},
+    {"TwiceTheSame", R"({"version": 1, "version": 1})", "test.json", {"'version'", "once"}},
+    {"Section", R"({"version": 1, "lihgts": {}})", "test.json: lihgts", {"unknown key", "'lights'"}},
+    {"Key", R"({"version": 1, "objects": {"a": {"raduis": 1}}})", "test.json: objects.a.raduis", {"unknown key", "'radius'"}},
+    {"Type",
+     R"({"version": 1, "objects": {"a": {"radius": "big"}}})",
+     "test.json: objects.a.radius",
+     {"number", "1e-06", "1e+06", "\"big\""}},
+    {"Range", R"({"version": 1, "objects": {"a": {"latitudes": 1}}})", "test.json: objects.a.latitudes", {"2 to 8192", "got 1"}},
+    {"Fraction", R"({"version": 1, "objects": {"a": {"latitudes": 8.5}}})", "test.json: objects.a.latitudes", {"2 to 8192", "8.5"}},
+    {"Vector", R"({"version": 1, "objects": {"a": {"position": [1, 2]}}})", "test.json: objects.a.position", {"[x, y, z]", "[1,2]"}},
+    {"Choice", R"({"version": 1, "objects": {"a": {"shape": "uv_spere"}}})", "test.json: objects.a.shape", {"\"uv_spere\"", "'uv_sphere'"}},
+    {"Colour", R"({"version": 1, "ambient": "#12345"})", "test.json: ambient", {"#rrggbb", "\"#12345\""}},
+    {"Boolean", R"({"version": 1, "objects": {"a": {"visible": 1}}})", "test.json: objects.a.visible", {"true or false", "got 1"}},
+    {"Name", R"({"version": 1, "objects": {"A b": {}}})", "test.json: objects.A b", {"letter", "digits"}},
+    {"NoObject", R"({"version": 1, "objects": {"a": 3}})", "test.json: objects.a", {"object", "got 3"}},
+    {"NoCollection", R"({"version": 1, "objects": []})", "test.json: objects", {"object", "names"}},
+    {"Material",
+     R"({"version": 1, "materials": {"stone": {}}, "objects": {"a": {"material": "stoen"}}})",
+     "test.json: objects.a.material",
+     {"'stoen'", "'stone'"}},
+    {"Camera", R"({"version": 1, "camera": "frnot", "cameras": {"front": {}}})", "test.json: camera", {"'frnot'", "'front'"}},
+    {"NearAndFar", R"({"version": 1, "cameras": {"c": {"near": 2, "far": 1}}})", "test.json: cameras.c.far", {"near"}},
+    {"Up", R"({"version": 1, "cameras": {"c": {"up": [0, 0, 3]}}})", "test.json: cameras.c.up", {"position", "target", "line"}},
+    {"Direction", R"({"version": 1, "lights": {"l": {"direction": [0, 0, 0]}}})", "test.json: lights.l.direction", {"zero"}},
+    {"Attenuation",
+     R"({"version": 1, "lights": {"l": {"type": "point", "attenuation": [0, 0, 0]}}})",
+     "test.json: lights.l.attenuation",
+     {"zero", "1e-06"}},
+    {"Cone", R"({"version": 1, "lights": {"l": {"type": "spot", "inner": 40}}})", "test.json: lights.l.inner", {"40", "outer", "30"}},
+    {"ShadingRate",
+     R"({"version": 1, "objects": {"a": {"shading": "gourad"}}})",
+     "test.json: objects.a.shading",
+     {"\"gourad\"", "'gouraud'"}},
+    {"Word", R"({"version": 1, "objects": {"camera": {}}})", "test.json: objects.camera", {"name"}},
+    {"Texture",
+     R"({"version": 1, "textures": {"ground": {}}, "objects": {"a": {"color": "gruond"}}})",
+     "test.json: objects.a.color",
+     {"'gruond'", "'ground'"}},
+    {"OddWidth",
+     R"({"version": 1, "textures": {"t": {"source": "moon_color", "width": 7}}})",
+     "test.json: textures.t.width",
+     {"even", "got 7"}},
+    {"Vertices",
+     R"({"version": 1, "objects": {"a": {"latitudes": 8192, "longitudes": 16384}}})",
+     "test.json: objects.a.longitudes",
+     {"2^23 vertices", "latitudes"}},
+    {"PatternWidth",
+     R"({"version": 1, "textures": {"t": {"source": "rock_color", "width": 4098}}})",
+     "test.json: textures.t.width",
+     {"4096", "got 4098"}},
+    {"ShadowTooCoarse",
+     R"({"version": 1, "objects": {"a": {}}, "shadow": {"resolution": 64}})",
+     "test.json: shadow.resolution",
+     {"256", "got 64"}},
+    {"SunTooWide", R"({"version": 1, "objects": {"a": {}}, "lights": {"l": {"size": 46}}})", "test.json: lights.l.size", {"46", "45"}},
+    {"TorusTube", R"({"version": 1, "objects": {"a": {"shape": "torus", "tube": 2}}})", "test.json: objects.a.tube", {"2", "radius", "1"}},
+    {"TorusBands",
+     R"({"version": 1, "objects": {"a": {"shape": "torus", "latitudes": 2}}})",
+     "test.json: objects.a.latitudes",
+     {"2", "at least 3"}},
+    {"InsideOut",
+     R"({"version": 1, "textures": {"h": {"source": "rock_height"}}, "objects": {"a": {"shape": "cube", "height": "h",
      "height_scale": 2}}})",
-     "test.json: objects.a.height_scale: 2 can turn the surface inside out; expected less than 1"},
-    {"Level", R"({"version": 1, "objects": {"a": {"shape": "icosphere", "level": 9}}})",
-     "test.json: objects.a.level: expected a whole number from 0 to 8, got 9"},
-    {"TargetThatStands", R"({"version": 1, "materials": {"m": {}}, "animations": {"t": {"target": "m.shininess"}}})",
-     "test.json: animations.t.target: m.shininess cannot change in time; expected a key of an object, a light, a camera or the background"},
-    {"OrbitOfANumber", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "orbit", "target": "a.radius"}}})",
-     "test.json: animations.t.target: a.radius is a number, and an orbit moves a vector; expected the path of one"},
-    {"NoKeyframes", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "keyframes", "target": "a.radius"}}})",
-     "test.json: animations.t.keys: is empty; expected rows [seconds, value]"},
-    {"Scale", R"({"version": 1, "objects": {"a": {"scale": [1, 0, 1]}}})",
-     "test.json: objects.a.scale: has a zero; expected at least 1e-06 either way"},
-    {"Target", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.radios"}}})",
-     "test.json: animations.t.target: a.radios: unknown key 'radios'; did you mean 'radius'?"},
-    {"TargetType", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.visible"}}})",
-     "test.json: animations.t.target: a.visible is no number and no vector; expected the path of one"},
-    {"RateSize", R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.position", "rate": 1}}})",
-     "test.json: animations.t.rate: expected [x, y, z], as a.position has"},
-    {"Keyframes", R"({"version": 1, "animations": {"t": {"type": "keyframes", "keys": [[1, 0], [0, 1]]}}})",
-     "test.json: animations.t.keys: expected rows [seconds, value], later and later, values all numbers or all [x, y, z], got "
-     "[[1,0],[0,1]]"},
+     "test.json: objects.a.height_scale",
+     {"2", "inside out", "less than 1"}},
+    {"Level", R"({"version": 1, "objects": {"a": {"shape": "icosphere", "level": 9}}})", "test.json: objects.a.level", {"0 to 8", "got 9"}},
+    {"TargetThatStands",
+     R"({"version": 1, "materials": {"m": {}}, "animations": {"t": {"target": "m.shininess"}}})",
+     "test.json: animations.t.target",
+     {"m.shininess", "object", "camera"}},
+    {"OrbitOfANumber",
+     R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "orbit", "target": "a.radius"}}})",
+     "test.json: animations.t.target",
+     {"a.radius", "number", "vector"}},
+    {"NoKeyframes",
+     R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "keyframes", "target": "a.radius"}}})",
+     "test.json: animations.t.keys",
+     {"empty", "[seconds, value]"}},
+    {"Scale", R"({"version": 1, "objects": {"a": {"scale": [1, 0, 1]}}})", "test.json: objects.a.scale", {"zero", "1e-06"}},
+    {"Target",
+     R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.radios"}}})",
+     "test.json: animations.t.target",
+     {"a.radios", "'radius'"}},
+    {"TargetType",
+     R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.visible"}}})",
+     "test.json: animations.t.target",
+     {"a.visible", "number", "vector"}},
+    {"RateSize",
+     R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"target": "a.position", "rate": 1}}})",
+     "test.json: animations.t.rate",
+     {"[x, y, z]", "a.position"}},
+    {"Keyframes",
+     R"({"version": 1, "animations": {"t": {"type": "keyframes", "keys": [[1, 0], [0, 1]]}}})",
+     "test.json: animations.t.keys",
+     {"[seconds, value]", "[[1,0],[0,1]]"}},
 };
 
 class SceneFileError : public testing::TestWithParam<Wrong> {};
 
 TEST_P(SceneFileError, IsOneClearLine) {
-  EXPECT_EQ(input_error([&] { scene_of(GetParam().text); }), GetParam().line);
+  EXPECT_TRUE(tells(input_error([&] { scene_of(GetParam().text); }), GetParam().place, GetParam().keywords));
+}
+
+// A few messages as they are read.
+TEST(SceneFile, ErrorsInFullSentences) {
+  const auto error = [](const char* text) { return input_error([&] { scene_of(text); }); };
+  EXPECT_EQ(error("{\n \"version\": 1,\n}"),
+            "test.json:3:1: no JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
+  EXPECT_EQ(error(R"({"version": 1, "objects": {"a": {"raduis": 1}}})"),
+            "test.json: objects.a.raduis: unknown key; did you mean 'radius'?");
+  EXPECT_EQ(error(R"({"version": 1, "objects": {"a": {"radius": "big"}}})"),
+            "test.json: objects.a.radius: expected a number from 1e-06 to 1e+06 (units), got \"big\"");
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, SceneFileError, testing::ValuesIn(kWrong), [](const auto& p) { return p.param.name; });
 
 TEST(SceneFile, SettingsAreJudgedTogether) {
   SceneFile scene = SceneFile::open("earth");
-  EXPECT_EQ(input_error([&] { scene.set("equator.near=200"); }), "scene earth: cameras.equator.far: expected more than near");
+  EXPECT_TRUE(tells(input_error([&] { scene.set("equator.near=200"); }), "scene earth: cameras.equator.far", {"near"}));
   const std::vector<std::string> both{"equator.near=200", "equator.far=300"};
   scene.set(both);
   EXPECT_EQ(scene.description().cameras[0].second.far, 300.0);
@@ -339,9 +370,8 @@ TEST(SceneFile, SettingsAreJudgedTogether) {
 TEST(SceneFile, HostileTextIsRefused) {
   SceneFile scene = SceneFile::open("earth");
   for (const std::string& bad : {std::string("\xff"), std::string("a\nb"), std::string("a\0b", 3), std::string("\x1b[31m")}) {
-    EXPECT_EQ(input_error([&] { scene.set("title=" + bad); }), "--set: title: has a control character or is no UTF-8; expected plain text");
-    EXPECT_EQ(input_error([&] { scene.set("earth.color=" + bad); }),
-              "--set: earth.color: has a control character or is no UTF-8; expected plain text");
+    EXPECT_TRUE(tells(input_error([&] { scene.set("title=" + bad); }), "--set: title", {"control character"}));
+    EXPECT_TRUE(tells(input_error([&] { scene.set("earth.color=" + bad); }), "--set: earth.color", {"control character"}));
   }
   EXPECT_NO_THROW(scene.set("title=Lüneburg – 月"));
   EXPECT_NE(scene.print().find("月"), std::string::npos);
@@ -350,7 +380,7 @@ TEST(SceneFile, HostileTextIsRefused) {
 TEST(SceneFile, ManyNamesAreRefusedAtOnce) {
   std::string text = "{\"version\": 1";
   for (int i = 0; i < 100000; ++i) text += ", \"a" + std::to_string(i) + "\": 0";
-  EXPECT_EQ(input_error([&] { scene_of(text + "}"); }), "test.json: an object has more than 4096 names");
+  EXPECT_TRUE(tells(input_error([&] { scene_of(text + "}"); }), "test.json", {"4096 names"}));
 }
 
 TEST(SceneFile, TinyDirectionsAreDirections) {
@@ -361,30 +391,28 @@ TEST(SceneFile, TinyDirectionsAreDirections) {
 }
 
 TEST(SceneFile, DeepNestingIsRefused) {
-  EXPECT_EQ(input_error([] { scene_of("{\"version\": " + std::string(100000, '[')); }), "test.json: is nested deeper than 32 levels");
+  EXPECT_TRUE(tells(input_error([] { scene_of("{\"version\": " + std::string(100000, '[')); }), "test.json", {"nested", "32"}));
 }
 
 TEST(SceneFile, NamesInTwoCollectionsMustBeToldApart) {
   SceneFile scene = scene_of(R"({"version": 1, "lights": {"sun": {}}, "objects": {"sun": {}}})");
-  EXPECT_EQ(input_error([&] { scene.set("sun.intensity=2"); }),
-            "--set: sun.intensity: 'sun' is in lights and in objects; expected that word before it");
+  EXPECT_TRUE(tells(input_error([&] { scene.set("sun.intensity=2"); }), "--set: sun.intensity", {"'sun'", "lights", "objects"}));
   scene.set("lights.sun.intensity=2");
   EXPECT_EQ(scene.description().lights[0].second.intensity, 2.0);
 }
 
 TEST(SceneFile, PathsOfSectionsAreToldFromKeys) {
   SceneFile scene = SceneFile::open("earth");
-  EXPECT_EQ(input_error([&] { scene.set("earth=1"); }), "--set: earth: is a section; expected objects.earth.KEY");
-  EXPECT_EQ(input_error([&] { scene.set("background=1"); }), "--set: background: is a section; expected background.KEY");
-  EXPECT_EQ(input_error([&] { scene.set("earth.instances.0.position=1,1,1"); }),
-            "--set: earth.instances.0.position: no such key; expected objects.earth.KEY");
-  EXPECT_EQ(input_error([&] { scene.set("objects.erth.radius=1"); }),
-            "--set: objects.erth.radius: no 'erth' in objects; did you mean 'earth'?");
+  EXPECT_TRUE(tells(input_error([&] { scene.set("earth=1"); }), "--set: earth", {"section", "objects.earth.KEY"}));
+  EXPECT_TRUE(tells(input_error([&] { scene.set("background=1"); }), "--set: background", {"section", "background.KEY"}));
+  EXPECT_TRUE(tells(input_error([&] { scene.set("earth.instances.0.position=1,1,1"); }), "--set: earth.instances.0.position",
+                    {"no such key", "objects.earth.KEY"}));
+  EXPECT_TRUE(tells(input_error([&] { scene.set("objects.erth.radius=1"); }), "--set: objects.erth.radius", {"'erth'", "'earth'"}));
 }
 
 TEST(SceneFile, UnknownScenesSuggestTheNearest) {
-  EXPECT_EQ(input_error([] { SceneFile::open("mooon"); }), "unknown scene 'mooon'; did you mean 'moon'?");
-  EXPECT_EQ(input_error([] { SceneFile::open("none.json"); }), "none.json: no such scene file");
+  EXPECT_TRUE(tells(input_error([] { SceneFile::open("mooon"); }), "unknown scene", {"'mooon'", "'moon'"}));
+  EXPECT_TRUE(tells(input_error([] { SceneFile::open("none.json"); }), "none.json", {"no such"}));
 }
 
 // ---- time ------------------------------------------------------------------------------------------------------
@@ -424,7 +452,7 @@ TEST(Animation, SpeedScalesTime) {
 TEST(Animation, LeavingTheRangeIsTold) {
   const SceneFile scene =
       scene_of(R"({"version": 1, "objects": {"a": {"radius": 1}}, "animations": {"t": {"target": "a.radius", "rate": -1}}})");
-  EXPECT_EQ(input_error([&] { scene.at(2); }), "test.json: animations.t: a.radius: expected a number from 1e-06 to 1e+06 (units), got -1");
+  EXPECT_TRUE(tells(input_error([&] { scene.at(2); }), "test.json: animations.t: a.radius", {"1e-06", "got -1"}));
 }
 
 // ---- schema ----------------------------------------------------------------------------------------------------

@@ -6,6 +6,8 @@
 
 #include "halfspace/core/half.h"
 #include "shading/texture_reference.h"
+#include "support/expected_hash.h"
+#include "support/hash.h"
 
 namespace halfspace {
 namespace {
@@ -387,7 +389,7 @@ TEST(TextureFormats, LanesHoldTheBitsOfFloat) {
 
 TEST(TextureFormats, BitsAreTheCommittedOnes) {
   const std::vector<Point> all = points(512, 17);
-  uint64_t hash = 14695981039346656037u;  // FNV-1a
+  Hash hash;
   for (const TexelFormat format : kFormats) {
     const Texture2D texture = test::make_noise(37, 64, format, 18);
     for_each_sampler([&](Sampler sampler) {
@@ -397,14 +399,13 @@ TEST(TextureFormats, BitsAreTheCommittedOnes) {
         for (std::size_t i = 0; i < all.size(); i += kLanes) {
           const vec4<Real> c = sample_points<Real>(texture, sampler, &all[i]);
           for (int k = 0; k < kLanes; ++k) {
-            for (int channel = 0; channel < 4; ++channel)
-              hash = (hash ^ static_cast<uint32_t>(as_int(lane(c[channel], k)))) * 1099511628211u;
+            for (int channel = 0; channel < 4; ++channel) hash.add(static_cast<uint32_t>(as_int(lane(c[channel], k))));
           }
         }
       }
     });
   }
-  EXPECT_EQ(hash, 2858990045113592702u);
+  expect_hash("texture-look-ups", hash.value());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/shading/pixel.h"
+#include "support/hash.h"
 
 namespace halfspace::stability {
 
@@ -24,7 +25,7 @@ inline std::vector<float> hash_inputs() {
   return in;
 }
 
-/// FNV-1a over the bits of all results, lane by lane.
+/// The hash of the bytes of all results, lane by lane.
 template <class R>
 uint64_t lane_hash(const std::vector<float>& in) {
   constexpr std::size_t width = sizeof(R) / sizeof(float);
@@ -38,14 +39,14 @@ uint64_t lane_hash(const std::vector<float>& in) {
     const R values[8] = {exp2(x), log2(x), pow(x, other), sin(x), atan2(x, other), w.p1, w.denominator, to_real<R>(linear_to_srgb(x))};
     for (std::size_t k = 0; k < 8; ++k) store(&results[k][i], values[k]);
   }
-  uint64_t h = 0xcbf29ce484222325u;
+  Hash hash;
   for (const std::vector<float>& row : results) {
     for (const float r : row) {
       const auto bits = static_cast<uint32_t>(as_int(r));
-      for (int k = 0; k < 32; k += 8) h = (h ^ ((bits >> k) & 255u)) * 0x100000001b3u;
+      for (int k = 0; k < 32; k += 8) hash.add((bits >> k) & 255u);
     }
   }
-  return h;
+  return hash.value();
 }
 
 }  // namespace halfspace::stability

@@ -70,9 +70,7 @@ class UnusedNames : public testing::Environment {
   void TearDown() override {
     const testing::UnitTest& tests = *testing::UnitTest::GetInstance();
     if (testing::GTEST_FLAG(filter) != "*" || !tests.Passed() || tests.test_to_run_count() != tests.total_test_count()) return;
-    HashFile& file = program_hashes();
-    if (file.mode() == HashFile::Mode::renew) return file.remove_unused();
-    for (const std::string& name : file.unused()) ADD_FAILURE() << file.path() << ": no test has the name '" << name << "'";
+    expect_no_other_hashes();
   }
 };
 [[maybe_unused]] testing::Environment* const kUnusedNames = testing::AddGlobalTestEnvironment(new UnusedNames);
@@ -114,8 +112,16 @@ bool expect_hash(const std::string& name, uint64_t hash) {
   return problem.empty();
 }
 
+void expect_no_other_hashes() {
+  HashFile& file = program_hashes();
+  if (file.mode() == HashFile::Mode::renew) return file.remove_unused();
+  for (const std::string& name : file.unused()) ADD_FAILURE() << file.path() << ": no test has the name '" << name << "'";
+}
+
 bool expect_picture(const std::string& name, const Image<glm::u8vec4>& picture, const std::function<Image<glm::u8vec4>()>& expected) {
-  const std::string problem = program_hashes().check(name, hash_of(picture));
+  Hash hash;
+  hash.add_codes(picture);
+  const std::string problem = program_hashes().check(name, hash.value());
   if (problem.empty()) return true;
   ADD_FAILURE() << problem << '\n' << write_failed_picture(name, picture, expected ? expected() : Image<glm::u8vec4>());
   return false;

@@ -44,6 +44,9 @@ class HashFile {
 /// Fails the test if the hash is not the one of this program's file. Returns whether it is, or was renewed. `name`: no spaces.
 bool expect_hash(const std::string& name, uint64_t hash);
 
+/// Fails the test if the program's file has names that no test used: for a test that uses them all.
+void expect_no_other_hashes();
+
 /// Compares the hash of a picture's codes. A picture that differs is written to the build folder's test-output; so are its
 /// differences from `expected`, if that is given: it draws the right picture, or one close to it, in another way.
 bool expect_picture(const std::string& name, const Image<glm::u8vec4>& picture, const std::function<Image<glm::u8vec4>()>& expected = {});
