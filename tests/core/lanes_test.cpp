@@ -352,8 +352,8 @@ TEST(Vec, UniformsMixWithLanesAsWithFloat) {
     const vec3<R> turned = glm::mat3(m) * three;
     for (int c = 0; c < 4; ++c) EXPECT_EQ(as_int(lane(product[c], 1)), as_int((m * v)[c]));
     for (int c = 0; c < 3; ++c) EXPECT_EQ(as_int(lane(turned[c], 1)), as_int((glm::mat3(m) * glm::vec3(v))[c]));
-    EXPECT_EQ(as_int(lane(dot(three, u), 1)), as_int(glm::dot(glm::vec3(v), u)));
-    EXPECT_EQ(as_int(lane(normalize(three).y, 1)), as_int(glm::normalize(glm::vec3(v)).y));
+    EXPECT_EQ(as_int(lane(dot(three, u), 1)), as_int(dot(vec3<float>(glm::vec3(v)), u)));
+    EXPECT_EQ(as_int(lane(normalize(three).y, 1)), as_int(normalize(vec3<float>(glm::vec3(v))).y));
     const vec3<R> picked = select(MaskOf<R>(true), three, -three);
     EXPECT_EQ(lane(picked.z, 0), v.z);
   });

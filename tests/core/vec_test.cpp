@@ -149,8 +149,8 @@ TYPED_TEST(VecOfLanes, HoldTheBitsOfFloat) {
     for (int k = 0; k < 4; ++k) m4[k] = random_vector<4, float>(random);
     const glm::mat3 m3(m4);
     std::array<std::array<float, 7>, kWidthOf<R>> numbers;
-    vec3<R> a, b;
-    R t;
+    vec3<R> a(R(0)), b(R(0));
+    R t(0);
     for (int i = 0; i < kWidthOf<R>; ++i) {
       auto& n = numbers[static_cast<std::size_t>(i)];
       for (float& x : n) x = random_number<float>(random);
