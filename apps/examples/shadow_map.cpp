@@ -9,8 +9,9 @@
 using namespace halfspace;
 constexpr int kMapSize = 512;
 
-struct ShadowedShader {
+struct Shadowed {
   glm::mat4 clip_from_world, light_from_world;
+  glm::vec3 to_light;
   const Image<float>* shadow_map;
 
   template <class R>
@@ -27,31 +28,32 @@ struct ShadowedShader {
     return clip_from_world * vec4<R>(in.position, R(1));
   }
   template <class R>
-  Fragment<R> fragment(const Varyings<R>& in) const {
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec3<R> normal = normalize(cross(px.ddx(&Varyings<R>::position), px.ddy(&Varyings<R>::position)));
     const vec4<R> p = light_from_world * vec4<R>(in.position, R(1));  // an orthographic light: w is 1
     const R last(static_cast<float>(kMapSize - 1));
     const IntOf<R> x = truncate_to_int(clamp((p.x + R(1)) * R(0.5f * kMapSize), R(0), last));
     const IntOf<R> row = truncate_to_int(clamp((R(1) - p.y) * R(0.5f * kMapSize), R(0), last));  // the top row comes first
     const R nearest = gather(shadow_map->data(), row * kMapSize + x);
-    const R lit = select(p.z + R(0.005f) >= nearest, R(1), R(0.2f));  // reversed Z: larger is nearer to the light
-    return {vec4<R>(vec3<R>(glm::vec3(0.7f, 0.65f, 0.6f)) * lit, R(1))};
+    const R lit = select(p.z + R(0.005f) >= nearest, max(dot(normal, vec3<R>(to_light)), R(0)), R(0));
+    return {vec4<R>(vec3<R>(glm::vec3(0.7f, 0.65f, 0.6f)) * (lit * R(0.8f) + R(0.2f)), R(1))};
   }
 };
 
 int main(int argc, char** argv) {
-  const Workers workers(Workers::cores());
-  const std::vector<Mesh> meshes{cube(1.0f), plane(6.0f)};  // the ground cuts the box in half
+  const glm::vec3 sun = glm::normalize(glm::vec3(3, 4, 2));  // the direction to the light
+  const std::vector<Mesh> meshes{cube(1.0f), plane(6.0f)};   // the ground cuts the box in half
   const glm::dmat4 light = orthographic_reversed(6.0, 1.0, 0.1, 12.0) * look_at({3, 4, 2}, {0, 0, 0}, {0, 1, 0});
   const glm::dmat4 camera = perspective_reversed(0.8, 640.0 / 480.0, 0.1, 100.0) * look_at({-2.5, 2.2, 3.5}, {0, 0, 0}, {0, 1, 0});
   Image<float> map(kMapSize, kMapSize);
   Pass from_light(kMapSize, kMapSize, {}, d32f_target(map, 0.0f));
   for (const Mesh& m : meshes)
-    from_light.draw_depth(ShadowedShader{glm::mat4(light), {}, nullptr}, make_vertex_view(stream(m.positions)), m.indices, kReversedZState);
-  from_light.run(workers);
+    from_light.draw_depth(Shadowed{glm::mat4(light), {}, {}, nullptr}, make_vertex_view(stream(m.positions)), m.indices, kReversedZState);
+  from_light.run(Workers(Workers::cores()));
   Image<glm::u8vec4> image(640, 480);
   Pass pass(640, 480, srgb8a8_target(image), {.format = DepthFormat::d32f, .clear_value = 0.0f});
   for (const Mesh& m : meshes)
-    pass.draw(ShadowedShader{glm::mat4(camera), glm::mat4(light), &map}, make_vertex_view(stream(m.positions)), m.indices, kReversedZState);
-  pass.run(workers);
+    pass.draw(Shadowed{glm::mat4(camera), glm::mat4(light), sun, &map}, make_vertex_view(stream(m.positions)), m.indices, kReversedZState);
+  pass.run(Workers(Workers::cores()));
   write_image(argc > 1 ? argv[1] : "shadow_map.png", image);
 }
