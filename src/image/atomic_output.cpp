@@ -36,7 +36,7 @@ std::mutex writing;  // one file at a time
 std::optional<struct stat> status_of(const std::filesystem::path& path) {
   struct stat s = {};
   if (::stat(path.c_str(), &s) == 0) return s;
-  if (errno != ENOENT) fail_errno(path, errno);
+  if (errno != ENOENT && errno != ENOTDIR) fail_errno(path, errno);
   return std::nullopt;
 }
 
@@ -53,6 +53,17 @@ std::filesystem::path real_path(const std::filesystem::path& path, bool exists) 
 std::filesystem::path directory_of(const std::filesystem::path& path) {
   const std::filesystem::path parent = path.parent_path();
   return parent.empty() ? "." : parent;
+}
+
+// The directory, or the nearest one above it that exists: there the missing ones are made.
+std::filesystem::path existing_part(std::filesystem::path directory) {
+  std::error_code error;
+  while (!std::filesystem::exists(directory, error)) {
+    const std::filesystem::path above = directory_of(directory);
+    if (above == directory) break;
+    directory = above;
+  }
+  return directory;
 }
 
 // An open file descriptor.
@@ -112,18 +123,20 @@ bool is_standard_output(const std::filesystem::path& path) {
 void make_directory(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) throw OutputError(path.string() + ": cannot make the directory (" + error.message() + ")");
+  if (error) fail(path, "cannot make the directory (" + error.message() + ")");
 }
 
 void check_writable(const std::filesystem::path& path) {
   if (path.empty()) throw OutputError("the output has no name; expected a file name");
   const auto status = status_of(path);
-  if (status && S_ISDIR(status->st_mode)) fail(path, "is a directory; expected a file name");
+  if (!path.has_filename() || (status && S_ISDIR(status->st_mode))) fail(path, "is a directory; expected a file name");
   if (status && ::access(path.c_str(), W_OK) != 0) fail_errno(path, errno);
   if (status && !S_ISREG(status->st_mode)) return;
-  const std::filesystem::path directory = directory_of(real_path(path, status.has_value()));
-  if (::access(directory.c_str(), F_OK) != 0) fail(path, "cannot write (there is no directory " + directory.string() + ")");
-  if (::access(directory.c_str(), W_OK | X_OK) != 0) fail_errno(path, errno);
+  const std::filesystem::path directory = existing_part(directory_of(real_path(path, status.has_value())));
+  std::error_code error;
+  if (!std::filesystem::is_directory(directory, error)) fail(path, "cannot write (" + directory.string() + " is not a directory)");
+  if (::access(directory.c_str(), W_OK | X_OK) != 0)
+    fail(path, "cannot write in " + directory.string() + " (" + std::strerror(errno) + ")");
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
@@ -137,6 +150,7 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
   if (status && !S_ISREG(status->st_mode)) return write_in_place(path, bytes);
 
   const std::filesystem::path target = real_path(path, status.has_value());
+  make_directory(directory_of(target));
   const int fd = create_aside(target);
   if (fd < 0) fail_errno(path, errno);
   int error = write_all(fd, bytes);

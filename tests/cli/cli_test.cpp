@@ -167,7 +167,11 @@ const Mistake kMistakes[] = {
     {"CompareOne", {"compare", "a.png"}, 2, "B", {"required", "compare --help"}},
     {"CompareNothing", {"compare", "a.png", "b.png"}, 3, "a.png", {"no such file"}},
     {"CompareTolerance", {"compare", "a.png", "b.png", "--tolerance", "-1"}, 2, "--tolerance", {"'-1'", "0 or more"}},
-    {"CompareNowhere", {"compare", "a.png", "b.png", "-o", "no/d.png"}, 4, "no/d.png", {"cannot write", "directory no"}},
+    {"CompareNowhere",
+     {"compare", "a.png", "b.png", "-o", "/dev/null/d.png"},
+     4,
+     "/dev/null/d.png",
+     {"cannot write", "/dev/null is not a directory"}},
     {"ChartNothing", {"chart"}, 2, "STUDY", {"required", "chart --help"}},
     {"ChartNear", {"chart", "shading_rat"}, 2, "unknown study", {"'shading_rat'", "'shading_rate'"}},
     {"ChartThreads", {"chart", "tone", "--threads", "0"}, 2, "--threads", {"'0'", "1 to 1024"}},
@@ -177,7 +181,11 @@ const Mistake kMistakes[] = {
     {"NormalStrength", {"convert-normal", "a.png", "-o", "n.png", "--strength", "strong"}, 2, "--strength", {"'strong'", "black to white"}},
     {"NormalEdges", {"convert-normal", "a.png", "-o", "n.png", "--edges", "round"}, 2, "--edges", {"'round'", "repeat", "clamp", "sphere"}},
     {"NormalOfNothing", {"convert-normal", "a.png", "-o", "n.png"}, 3, "a.png", {"no such file"}},
-    {"NormalNowhere", {"convert-normal", "a.png", "-o", "no/n.png"}, 4, "no/n.png", {"cannot write", "directory no"}},
+    {"NormalNowhere",
+     {"convert-normal", "a.png", "-o", "/dev/null/n.png"},
+     4,
+     "/dev/null/n.png",
+     {"cannot write", "/dev/null is not a directory"}},
     {"Shell", {"completion", "tcsh"}, 2, "completion", {"'tcsh'", "bash", "zsh", "fish"}},
     {"NoMap",
      {"render", "earth", "--set", "earth.color=none.jpg"},
@@ -190,7 +198,17 @@ const Mistake kMistakes[] = {
      3,
      "scene earth: objects.earth.color: /dev/zero",
      {"regular file"}},
-    {"NoDirectory", {"render", "earth", "-o", "none/earth.png"}, 4, "none/earth.png", {"cannot write", "directory none"}},
+    {"NormalOfNothingIntoNewFolder", {"convert-normal", "a.png", "-o", "new/n.png"}, 3, "a.png", {"no such file"}},
+    {"ParentIsAFile",
+     {"render", "earth", "-o", "/dev/null/new/earth.png"},
+     4,
+     "/dev/null/new/earth.png",
+     {"cannot write", "/dev/null is not a directory"}},
+    {"ParentCannotBeMade",
+     {"render", "earth", "--size", "8x8", "-o", "/proc/none/earth.png"},
+     4,
+     "/proc/none",
+     {"cannot make the directory"}},
     {"OutputIsADirectory", {"render", "earth", "-o", ".."}, 4, "..", {"is a directory"}},
     {"FullDisk", {"render", "earth", "--size", "8x8", "-o", "/dev/full"}, 4, "/dev/full", {"cannot write", "No space left on device"}},
 };
@@ -255,6 +273,21 @@ TEST_F(Cli, RenderWritesTheSceneUnderItsName) {
   EXPECT_EQ(o.exit_code, 0) << o.err;
   EXPECT_EQ(o.out + o.err, "") << "nothing is said where nothing was asked";
   EXPECT_EQ(files(), std::vector<std::string>{"earth.png"});
+}
+
+TEST_F(Cli, OutputsMakeMissingFolders) {
+  const auto succeeds = [&](const std::vector<std::string>& arguments) {
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+  };
+  succeeds({"render", "earth", "--size", "8x8", "-o", "new/folder/earth.png"});
+  succeeds({"render", "earth", "--size", "8x8", "--frames", "0..1", "-o", "frames/earth.png"});
+  succeeds({"convert-normal", "new/folder/earth.png", "-o", "normals/earth.png"});
+  succeeds({"compare", "frames/earth_0000.png", "frames/earth_0001.png", "-o", "differences/earth.png"});
+  for (const char* name :
+       {"new/folder/earth.png", "frames/earth_0000.png", "frames/earth_0001.png", "normals/earth.png", "differences/earth.png"})
+    EXPECT_TRUE(fs::exists(directory / name)) << name;
 }
 
 TEST_F(Cli, ThreadsDoNotChangeTheFile) {

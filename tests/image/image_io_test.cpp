@@ -88,13 +88,42 @@ TEST_F(ImageIo, WritesToADeviceInPlace) {
 }
 
 TEST_F(ImageIo, SaysWhyItCannotWrite) {
-  const fs::path missing = directory / "no" / "a.png";
-  EXPECT_EQ(output_error([&] { write_png(missing, test_picture(true)); }),
-            missing.string() + ": cannot write (there is no directory " + missing.parent_path().string() + ")");
   EXPECT_EQ(output_error([&] { write_png(directory, test_picture(true)); }), directory.string() + ": is a directory; expected a file name");
-  const fs::path below_file = put("file", "x") / "a.png";
-  EXPECT_EQ(output_error([&] { write_png(below_file, test_picture(true)); }), below_file.string() + ": cannot write (Not a directory)");
+  const fs::path slash = directory / "no/";
+  EXPECT_EQ(output_error([&] { write_png(slash, test_picture(true)); }), slash.string() + ": is a directory; expected a file name");
+  EXPECT_FALSE(fs::exists(slash));
+  const fs::path file = put("file", "x");
+  for (const fs::path& below_file : {file / "a.png", file / "no" / "a.png"}) {
+    EXPECT_EQ(output_error([&] { write_png(below_file, test_picture(true)); }),
+              below_file.string() + ": cannot write (" + file.string() + " is not a directory)");
+  }
   EXPECT_EQ(output_error([&] { write_png("/dev/full", test_picture(true)); }), "/dev/full: cannot write (No space left on device)");
+}
+
+TEST_F(ImageIo, MakesMissingDirectories) {
+  const fs::path path = directory / "new" / "folder" / "a.png";
+  check_writable(path);
+  EXPECT_FALSE(fs::exists(directory / "new")) << "asking makes nothing";
+  write_png(path, test_picture(true));
+  EXPECT_TRUE(read_image(path) == test_picture(true));
+}
+
+TEST_F(ImageIo, SaysThatADirectoryMayNotBeWrittenTo) {
+  // Without root's rights, which reach everywhere.
+  const pid_t child = ::fork();
+  if (child == 0) {
+    fs::permissions(directory, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
+    for (const fs::path& path : {directory / "a.png", directory / "no" / "a.png"}) {
+      if (output_error([&] { check_writable(path); }) != path.string() + ": cannot write in " + directory.string() + " (Permission denied)")
+        ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  fs::permissions(directory, fs::perms::owner_all);
+  EXPECT_EQ(status, 0);
 }
 
 TEST_F(ImageIo, LeavesNothingBehindWhereTheDiskIsFull) {

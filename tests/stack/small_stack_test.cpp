@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Passes and scenes on stacks of 128 KiB, both the calling thread's and those of std::thread workers. (TBB chooses the
+// stacks of its own threads.)
+#include "support/small_stack.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "halfspace/core/parallel.h"
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/scene/scene_file.h"
+#include "support/random.h"
+#include "support/sanitized.h"
+#include "support/shaders.h"
+
+namespace halfspace {
+namespace {
+
+class SmallStack : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    if (kSanitized) GTEST_SKIP() << "sanitizers widen the frames of functions";
+  }
+};
+
+// One thread is the calling one; a team larger than the machine has std::threads.
+INSTANTIATE_TEST_SUITE_P(Threads, SmallStack, testing::Values(1, Workers::cores() + 2));
+
+// ---- the stacks are small indeed -------------------------------------------------------------------------------
+
+__attribute__((noinline)) char touch_stack(std::size_t bytes) {
+  volatile char* memory = static_cast<volatile char*>(__builtin_alloca(bytes));
+  for (std::size_t i = 0; i < bytes; i += 1024) memory[bytes - 1 - i] = 1;
+  return memory[0];
+}
+
+TEST(SmallStackDeathTest, AnOverflowEndsTheProgram) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers report an overflow themselves";
+  on_small_stack([] { touch_stack(kSmallStack / 2); });
+  on_small_stack([] { std::thread([] { touch_stack(kSmallStack / 2); }).join(); });
+  EXPECT_EXIT(on_small_stack([] { touch_stack(kSmallStack); }), testing::KilledBySignal(SIGSEGV), "");
+  EXPECT_EXIT(on_small_stack([] { std::thread([] { touch_stack(kSmallStack); }).join(); }), testing::KilledBySignal(SIGSEGV), "");
+  EXPECT_EXIT(on_small_stack([] { touch_stack(8 * kSmallStack); }), testing::KilledBySignal(SIGSEGV), "");
+}
+
+// ---- a pass ----------------------------------------------------------------------------------------------------
+
+/// Smooth colour, with depth and coverage by the shader.
+template <bool has_visibility>
+struct WaveShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec4<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    vec4<R> color;
+  };
+  template <class R>
+  PerVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return {in.position, R(4.0f) + in.color.x * R(20.0f)};
+  }
+  template <class R>
+  DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const Visibility<R> v{in.color.y > R(0.25f), px.z() * R(0.5f) + in.color.x * R(0.25f)};
+    return {in.color, v.keep, v.depth};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
+    return {in.color.y > R(0.25f), px.z() * R(0.5f) + in.color.x * R(0.25f)};
+  }
+};
+
+/// Two colours.
+struct TwoColorShader : FlatColorShader {
+  template <class R>
+  FragmentMRT<R, 2> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {{in.color.value, vec4<R>(R(1.0f), R(0.5f), R(0.25f), R(1.0f))}};
+  }
+};
+
+struct Vertices {
+  std::vector<glm::vec4> positions, colors;
+  auto view() const { return make_vertex_view(stream(positions), stream(colors)); }
+};
+
+/// Triangles of every size, some of which are clipped.
+Vertices random_vertices(int triangles) {
+  Random r(7);
+  Vertices v;
+  for (int t = 0; t < triangles; ++t) {
+    const glm::vec2 center(r.real(-1.2f, 1.2f), r.real(-1.2f, 1.2f));
+    const auto size = static_cast<float>(r.magnitude(0.01, 4.0));
+    for (int i = 0; i < 3; ++i) {
+      v.positions.emplace_back(center + size * glm::vec2(r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f)), r.real(-1.1f, 1.0f),
+                               r.real(0.4f, 1.5f));
+      v.colors.emplace_back(r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f));
+    }
+  }
+  return v;
+}
+
+constexpr int kWidth = 300, kHeight = 200;
+
+DrawState blended() {
+  DrawState state;
+  state.blend = BlendState{};
+  return state;
+}
+
+void add_draws(Pass& pass, const Vertices& v) {
+  pass.draw(FlatColorShader{}, v.view());
+  pass.draw(ConstantShader{}, make_vertex_view(stream(v.positions)), blended());
+  pass.draw(WaveShader<true>{}, v.view());
+  pass.draw(WaveShader<false>{}, v.view(), blended());
+  DrawState state;
+  state.topology = Topology::points;
+  state.point_size = 9.5f;
+  pass.draw(FlatColorShader{}, v.view(), state);
+  pass.draw(WaveShader<true>{}, v.view(), state);
+  state.topology = Topology::line_strip;
+  state.line_width = 3.0f;
+  pass.draw(FlatColorShader{}, v.view(), state);
+  state = blended();
+  state.polygon_mode = PolygonMode::line;
+  state.stencil = StencilState{{.pass = StencilOp::increment_wrap}, {.pass = StencilOp::invert}};
+  state.sample_shading = true;
+  state.query = 0;
+  pass.draw(FlatColorShader{}, v.view(), state);
+  pass.draw_depth(ConstantShader{}, make_vertex_view(stream(v.positions)));
+}
+
+void run_pass(int threads, const Vertices& v, const PassOptions& options) {
+  Image<glm::vec4> light(kWidth, kHeight);
+  Image<glm::u8vec4> codes(kWidth, kHeight), post(kWidth, kHeight);
+  Image<DepthStencil> depth(kWidth, kHeight);
+  const Workers workers(threads);
+  Pass pass(kWidth, kHeight, std::vector{srgb8a8_target(codes), rgba32f_target(light)}, d32fs8_target(depth), options);
+  add_draws(pass, v);
+  pass.draw(TwoColorShader{}, v.view(), blended());
+  pass.post([]<class R>(const vec4<R>& c) { return c * R(0.5f); }, srgb8a8_target(post));
+  pass.run(workers);
+  Pass packed(kWidth, kHeight, rgba8_target(codes), {.format = DepthFormat::d24s8}, options);
+  add_draws(packed, v);
+  packed.run(workers);
+  EXPECT_TRUE(std::ranges::any_of(post.texels(), [](const glm::u8vec4& c) { return c.x > 0; }));
+}
+
+TEST_P(SmallStack, Pass) {
+  const Vertices v = random_vertices(200);
+  on_small_stack([&] {
+    for (const int samples : {1, 4, 8}) {
+      for (const bool defer : {true, false}) {
+        run_pass(GetParam(), v, {.samples = samples, .defer = defer});
+        run_pass(GetParam(), v, {.samples = samples, .supersample = true, .chunk_triangles = 16, .bin_budget = 0, .defer = defer});
+      }
+    }
+  });
+}
+
+// ---- scenes ----------------------------------------------------------------------------------------------------
+
+void render_scene(const std::string& name, const std::vector<std::string>& settings, int threads) {
+  SceneFile file = SceneFile::open(name);
+  file.set(settings);
+  const Workers workers(threads);
+  SceneAssets assets(workers);
+  Image<glm::u8vec4> picture(96, 54);
+  render(assets.prepare(file.at(0.0), picture.width(), picture.height()), picture, workers);
+  EXPECT_TRUE(std::ranges::any_of(picture.texels(), [&](const glm::u8vec4& c) { return c != picture.at(0, 0); })) << name;
+}
+
+TEST_P(SmallStack, Scenes) {
+  on_small_stack([&] {
+    render_scene("shapes", {}, GetParam());
+    render_scene("day-night", {"samples=4"}, GetParam());
+    render_scene("moon", {"shadow.method=moments"}, GetParam());
+    render_scene("particles", {}, GetParam());
+  });
+}
+
+}  // namespace
+}  // namespace halfspace
