@@ -3,7 +3,6 @@
 // `halfspace list [SCENE]`: the scenes that ship, or every key of one scene.
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "halfspace/core/check.h"
@@ -26,13 +25,6 @@ void list_scenes(bool names) {
   }
 }
 
-// "uv_sphere", "[0, 0, 1]", without JSON's quotation marks.
-std::string shown(const Json& value) {
-  if (!value.is_string()) return value.dump();
-  const std::string text = value.get<std::string>();
-  return text.empty() ? "none" : text;
-}
-
 void list_keys(const std::string& name) {
   SceneDescription scene = SceneFile::open(name).description();
   std::cout << name << ": " << scene.head.title
@@ -41,8 +33,8 @@ void list_keys(const std::string& name) {
     std::cout << '\n' << (s.path.empty() ? "(top)" : s.path) << "  -- " << s.help << '\n';
     for (const Field& field : fields_of(s.section)) {
       const std::string key = field.key->name;
-      std::cout << "  " << key << std::string(key.size() < 18 ? 18 - key.size() : 1, ' ') << shown(value_of(field)) << " (default "
-                << shown(s.defaults[key]) << ")\n"
+      std::cout << "  " << key << std::string(key.size() < 18 ? 18 - key.size() : 1, ' ') << value_text(field) << " (default "
+                << s.defaults.at(key) << ")\n"
                 << std::string(20, ' ') << field.key->help << ": " << expectation(*field.key) << '\n';
     }
   }

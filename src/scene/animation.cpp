@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/trig_double.h"

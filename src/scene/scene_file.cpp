@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "halfspace/core/check.h"
@@ -234,8 +235,8 @@ SceneFile SceneFile::parse(std::string_view text, const std::string& source, con
   SceneFile file;
   file.source_ = source;
   file.directory_ = directory;
-  file.json_ = parse_json(text, source);
-  file.description_ = read_scene(file.json_, source, directory);
+  file.json_ = std::make_shared<const Json>(parse_json(text, source));
+  file.description_ = read_scene(*file.json_, source, directory);
   return file;
 }
 
@@ -256,6 +257,7 @@ SceneFile SceneFile::open(const std::string& name_or_file) {
 
 void SceneFile::set(std::span<const std::string> settings) {
   SceneFile next = *this;
+  Json json = *json_;
   for (const std::string& setting : settings) {
     const std::string source = "--set";
     const std::size_t equals = setting.find('=');
@@ -267,13 +269,14 @@ void SceneFile::set(std::span<const std::string> settings) {
     const ReadContext context{source, working_directory(), textures};
     // Read to check it, and written to have absolute paths.
     read_value(found.field, parse_text(*found.field.key, std::string_view(setting).substr(equals + 1), path, context), path, context);
-    Json& section = at_words(next.json_, std::span(found.words).first(found.words.size() - 1));
+    Json& section = at_words(json, std::span(found.words).first(found.words.size() - 1));
     section[found.words.back()] = value_of(found.field);
     // Another kind of thing has other keys: what the new one lacks goes.
     const Section fields = section_at(next.description_, std::span(found.words).first(found.words.size() - 1));
     if (found.field.key == &fields.front().keys.front() && found.field.key->type == KeyType::choice) drop_foreign_keys(fields, section);
   }
-  next.description_ = read_scene(next.json_, source_, directory_);
+  next.description_ = read_scene(json, source_, directory_);
+  next.json_ = std::make_shared<const Json>(std::move(json));
   *this = std::move(next);
 }
 

@@ -4,7 +4,7 @@
 // Out: the description of the scene at a time.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,7 +53,7 @@ class SceneFile {
  private:
   std::string source_;
   std::filesystem::path directory_;
-  Json json_;  ///< as read, and set since
+  std::shared_ptr<const Json> json_;  ///< as read, and set since; never null
   SceneDescription description_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
@@ -56,16 +57,23 @@ std::vector<std::string_view> things_in(SceneDescription& scene, std::string_vie
 }
 
 template <class T>
-Json defaults_of() {
+std::map<std::string, std::string> defaults_of() {
   T fresh;
-  Json json = Json::object();
+  std::map<std::string, std::string> texts;
   for (const Fields& part : section_of(fresh)) {
-    for (const Key& key : part.keys) json[key.name] = value_of({&key, key.member(part.data)});
+    for (const Key& key : part.keys) texts[key.name] = value_text({&key, key.member(part.data)});
   }
-  return json;
+  return texts;
 }
 
 }  // namespace
+
+std::string value_text(const Field& field) {
+  const Json value = value_of(field);
+  if (!value.is_string()) return value.dump();
+  const std::string text = value.get<std::string>();
+  return text.empty() ? "none" : text;
+}
 
 std::vector<std::string_view> top_words(SceneDescription& scene) {
   std::vector<std::string_view> words{"version", "$schema"};

@@ -3,7 +3,7 @@
 // Dotted paths: the way from "moon.radius" to the value it names.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,12 +15,15 @@ namespace halfspace {
 /// The key of an object's list of places.
 inline constexpr std::string_view kInstances = "instances";
 
+/// A value for people: as in JSON, but a text without quotation marks, and "none" for an empty one.
+std::string value_text(const Field& field);
+
 /// A section of a scene with its dotted path ("objects.moon", "" for the head) and its help.
 struct NamedSection {
   std::string path;
   std::string help;
   Section section;
-  Json defaults;  ///< of all keys of its kinds
+  std::map<std::string, std::string> defaults;  ///< of all keys of its kinds, as value_text
 };
 
 /// All sections, in the order of a scene file.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/scene/scene_file.h"
+
+#include <nlohmann/json.hpp>
+
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
