@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-glm::dvec3 unit(const glm::dvec3& v) {
+glm::dvec3 checked_unit(const glm::dvec3& v) {
   const glm::dvec3 u = unit_or_zero(v);
   const double length = glm::dot(u, u);
   HS_CHECK_OP(length, >, 0.0);
@@ -50,8 +50,8 @@ glm::dmat4 orthographic(double height, double aspect, double a, double b) {
 }  // namespace
 
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
-  const glm::dvec3 back = unit(eye - target);
-  const glm::dvec3 right = unit(glm::cross(up, back));
+  const glm::dvec3 back = checked_unit(eye - target);
+  const glm::dvec3 right = checked_unit(glm::cross(up, back));
   const glm::dvec3 true_up = glm::cross(back, right);
   glm::dmat4 m(1.0);
   for (int i = 0; i < 3; ++i) {

@@ -7,6 +7,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/trig_double.h"
+#include "halfspace/geometry/double_vectors.h"
 #include "halfspace/geometry/shapes.h"
 
 namespace halfspace {
@@ -25,12 +26,6 @@ glm::dvec3 slopes_of(const HeightSample& s, const Relief& r, double sin_pi_v) {
   const double north = -r.height_scale * s.dv / (std::numbers::pi * r.radius);
   return {east, north, 1.0 + height_of(s, r) / r.radius};
 }
-
-// + 0.0: no negative zeros, so that equal vectors have equal bits.
-glm::vec3 rounded(const glm::dvec3& v) { return glm::vec3(v + 0.0); }
-
-// GLM divides by an inverse square root of its own making; this one is correctly rounded step by step.
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 void displace_row(Mesh& mesh, const SphereRow& row, const HeightField& field, const Relief& relief, ReliefNormals normals) {
   const SinCosDouble pi_v = sincos_turns(0.5 * row.v);

@@ -8,6 +8,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/lane_math.h"
+#include "halfspace/geometry/double_vectors.h"
 #include "halfspace/geometry/shapes.h"
 
 namespace halfspace {
@@ -39,8 +40,6 @@ Polyhedron icosahedron() {
   }
   return p;
 }
-
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 // Each triangle becomes four. A new corner is made once for both triangles of its edge.
 Polyhedron divided(const Polyhedron& from) {

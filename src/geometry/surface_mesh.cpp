@@ -3,12 +3,11 @@
 
 #include <cmath>
 
+#include "halfspace/geometry/double_vectors.h"
+
 namespace halfspace {
 
 namespace {
-
-// + 0.0: no negative zeros, so that equal vectors have equal bits.
-glm::vec3 rounded(const glm::dvec3& v) { return glm::vec3(v + 0.0); }
 
 double length_of(const glm::dvec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 

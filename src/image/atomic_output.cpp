@@ -15,6 +15,7 @@
 #include <string>
 
 #include "halfspace/core/check.h"
+#include "halfspace/image/image_errors.h"
 
 namespace halfspace {
 
@@ -26,10 +27,8 @@ std::atomic<bool> unfinished = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 std::mutex writing;  // one file at a time
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) { throw OutputError(path.string() + ": " + what); }
-
 [[noreturn]] void fail_errno(const std::filesystem::path& path, int error) {
-  fail(path, std::string("cannot write (") + std::strerror(error) + ")");
+  fail_writing(path, std::string("cannot write (") + std::strerror(error) + ")");
 }
 
 // What stands at the path, symbolic links followed; empty where nothing does.
@@ -106,7 +105,7 @@ int create_aside(const std::filesystem::path& path) {
 // Opening a pipe that no one reads would wait for ever: without waiting it is an error. Writing then waits for the reader.
 void write_in_place(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const Descriptor file{::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)};
-  if (file.fd < 0 && errno == ENXIO) fail(path, "no one reads from it; expected a program that does, or a file name");
+  if (file.fd < 0 && errno == ENXIO) fail_writing(path, "no one reads from it; expected a program that does, or a file name");
   if (file.fd < 0) fail_errno(path, errno);
   const int flags = ::fcntl(file.fd, F_GETFL);
   if (flags < 0 || ::fcntl(file.fd, F_SETFL, flags & ~O_NONBLOCK) != 0) fail_errno(path, errno);
@@ -123,20 +122,20 @@ bool is_standard_output(const std::filesystem::path& path) {
 void make_directory(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) fail(path, "cannot make the directory (" + error.message() + ")");
+  if (error) fail_writing(path, "cannot make the directory (" + error.message() + ")");
 }
 
 void check_writable(const std::filesystem::path& path) {
   if (path.empty()) throw OutputError("the output has no name; expected a file name");
   const auto status = status_of(path);
-  if (!path.has_filename() || (status && S_ISDIR(status->st_mode))) fail(path, "is a directory; expected a file name");
+  if (!path.has_filename() || (status && S_ISDIR(status->st_mode))) fail_writing(path, "is a directory; expected a file name");
   if (status && ::access(path.c_str(), W_OK) != 0) fail_errno(path, errno);
   if (status && !S_ISREG(status->st_mode)) return;
   const std::filesystem::path directory = existing_part(directory_of(real_path(path, status.has_value())));
   std::error_code error;
-  if (!std::filesystem::is_directory(directory, error)) fail(path, "cannot write (" + directory.string() + " is not a directory)");
+  if (!std::filesystem::is_directory(directory, error)) fail_writing(path, "cannot write (" + directory.string() + " is not a directory)");
   if (::access(directory.c_str(), W_OK | X_OK) != 0)
-    fail(path, "cannot write in " + directory.string() + " (" + std::strerror(errno) + ")");
+    fail_writing(path, "cannot write in " + directory.string() + " (" + std::strerror(errno) + ")");
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "halfspace/core/check.h"
+#include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_format.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_samples.h"
@@ -18,34 +19,32 @@ namespace halfspace {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) { throw InputError(path.string() + ": " + what); }
-
-[[noreturn]] void fail_memory(const std::filesystem::path& path) {
-  fail(path, "needs more memory than there is; expected a smaller picture");
+[[noreturn]] void fail_without_memory(const std::filesystem::path& path) {
+  fail_reading(path, "needs more memory than there is; expected a smaller picture");
 }
 
 [[noreturn]] void fail_linear(const std::filesystem::path& path, const std::string& what) {
-  fail(path, what + "; expected 8- or 16-bit codes: " + kCodeFormats);
+  fail_reading(path, what + "; expected 8- or 16-bit codes: " + kCodeFormats);
 }
 
 uint64_t checked_file_size(const std::filesystem::path& path, const char* expected) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) fail(path, "no such file; expected an image");
-  if (error) fail(path, "cannot be read (" + error.message() + "); expected an image");
+  if (status.type() == std::filesystem::file_type::not_found) fail_reading(path, "no such file; expected an image");
+  if (error) fail_reading(path, "cannot be read (" + error.message() + "); expected an image");
   // A pipe or device could go on for ever.
-  if (status.type() == std::filesystem::file_type::directory) fail(path, "is a directory; expected an image file");
-  if (status.type() != std::filesystem::file_type::regular) fail(path, "is no regular file; expected an image file");
+  if (status.type() == std::filesystem::file_type::directory) fail_reading(path, "is a directory; expected an image file");
+  if (status.type() != std::filesystem::file_type::regular) fail_reading(path, "is no regular file; expected an image file");
   const uint64_t size = std::filesystem::file_size(path, error);
-  if (error) fail(path, "cannot be read (" + error.message() + "); expected an image");
-  if (size == 0) fail(path, std::string("is empty; expected ") + expected);
-  if (size > uint64_t{1} << 31) fail(path, "has more than 2 GiB; expected a smaller image");
+  if (error) fail_reading(path, "cannot be read (" + error.message() + "); expected an image");
+  if (size == 0) fail_reading(path, std::string("is empty; expected ") + expected);
+  if (size > uint64_t{1} << 31) fail_reading(path, "has more than 2 GiB; expected a smaller image");
   return size;
 }
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& path, uint64_t count) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, std::string("cannot be read (") + std::strerror(errno) + "); expected an image");
+  if (!file) fail_reading(path, std::string("cannot be read (") + std::strerror(errno) + "); expected an image");
   std::vector<std::byte> bytes(count);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
@@ -64,7 +63,7 @@ Source open_source(const std::filesystem::path& path, const char* expected) {
   const std::vector<std::byte> start = read_bytes(path, std::min<uint64_t>(source.bytes, 16));
   if (is_png(start)) return source;
   source.tool_format = find_tool_format(path, std::string_view(reinterpret_cast<const char*>(start.data()), start.size()));
-  if (!source.tool_format) fail(path, std::string("is no image that can be read; expected ") + expected);
+  if (!source.tool_format) fail_reading(path, std::string("is no image that can be read; expected ") + expected);
   return source;
 }
 
@@ -90,7 +89,7 @@ Image<glm::u8vec4> read_image(const std::filesystem::path& path) try {
   if (auto* codes = std::get_if<Image<glm::u8vec4>>(&picture)) return std::move(*codes);
   fail_linear(path, "holds linear numbers");
 } catch (const std::bad_alloc&) {
-  fail_memory(path);
+  fail_without_memory(path);
 }
 
 Image<float> read_gray(const std::filesystem::path& path) try {
@@ -98,7 +97,7 @@ Image<float> read_gray(const std::filesystem::path& path) try {
   if (source.tool_format) return to_numbers(read_gray_by_tool(path, source.tool_format->name, source.bytes), path.string());
   return to_numbers(first_channel(read_color(path, source)), path.string());
 } catch (const std::bad_alloc&) {
-  fail_memory(path);
+  fail_without_memory(path);
 }
 
 Image<glm::vec4> read_linear(const std::filesystem::path& path) try {
@@ -106,7 +105,7 @@ Image<glm::vec4> read_linear(const std::filesystem::path& path) try {
   const bool premultiplied = source.tool_format && source.tool_format->name == std::string_view("openexr");
   return to_linear(read_color(path, source), premultiplied, path.string());
 } catch (const std::bad_alloc&) {
-  fail_memory(path);
+  fail_without_memory(path);
 }
 
 }  // namespace halfspace

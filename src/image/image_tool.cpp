@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "halfspace/core/check.h"
+#include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_limits.h"
 #include "halfspace/image/tool_process.h"
 
@@ -18,11 +18,8 @@ namespace {
 
 constexpr const char* kOtherVersion = " is of another version than this program";
 
-[[noreturn]] void fail_reading(const std::filesystem::path& path, const std::string& what) {
-  throw InputError(path.string() + ": " + what);
-}
-[[noreturn]] void fail_writing(const std::filesystem::path& path, const std::string& what) {
-  throw OutputError(path.string() + ": cannot write (" + what + ")");
+[[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& what) {
+  fail_writing(path, "cannot write (" + what + ")");
 }
 
 std::optional<std::string> receive_message(ToolProcess& tool, uint32_t bytes) {
@@ -94,11 +91,11 @@ bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::functi
 std::optional<std::vector<std::byte>> receive_file(ToolProcess& tool, uint64_t max_bytes, const std::filesystem::path& path) {
   FileHeader h;
   if (!tool.receive(&h, sizeof h)) return std::nullopt;
-  if (h.magic != kImageToolMagic || h.file_bytes > max_bytes) fail_writing(path, std::string(kImageToolName) + kOtherVersion);
+  if (h.magic != kImageToolMagic || h.file_bytes > max_bytes) cannot_write(path, std::string(kImageToolName) + kOtherVersion);
   if (h.file_bytes == 0) {
     const std::optional<std::string> message = receive_message(tool, h.message_bytes);
     if (!message) return std::nullopt;
-    fail_writing(path, *message);
+    cannot_write(path, *message);
   }
   std::vector<std::byte> bytes(h.file_bytes);
   if (!tool.receive(bytes.data(), bytes.size())) return std::nullopt;
@@ -119,18 +116,18 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
                                       const std::function<void(int y, std::span<std::byte> row)>& fill_row) {
   const std::filesystem::path program = find_image_tool();
   if (program.empty()) {
-    fail_writing(path, std::string(kImageToolName) + " is not installed; expected a name that ends in .png, or that program");
+    cannot_write(path, std::string(kImageToolName) + " is not installed; expected a name that ends in .png, or that program");
   }
   ToolProcess tool;
   const int error = tool.start(program, {"write", format});
-  if (error != 0) fail_writing(path, program.string() + " does not start: " + std::strerror(error));
+  if (error != 0) cannot_write(path, program.string() + " does not start: " + std::strerror(error));
   // An encoder that refuses ends before it has heard all; its answer says why.
   const bool sent = tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
   tool.end_sending();
   const uint64_t max_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + (1 << 20);
   std::optional<std::vector<std::byte>> file = receive_file(tool, max_bytes, path);
   if (sent && file) return *std::move(file);
-  fail_writing(path, std::string("the encoder of ") + format + " " + tool.how_it_ended());
+  cannot_write(path, std::string("the encoder of ") + format + " " + tool.how_it_ended());
 }
 
 std::filesystem::path find_image_tool() {

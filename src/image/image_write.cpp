@@ -9,6 +9,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/half.h"
 #include "halfspace/image/atomic_output.h"
+#include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_format.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_tool.h"
@@ -18,14 +19,12 @@ namespace halfspace {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) { throw OutputError(path.string() + ": " + what); }
-
 ImageFile checked_image_file(const std::filesystem::path& path, bool linear) {
   const char* expected = linear ? "a name that ends in .exr or .hdr" : "a name that ends in .png, .jpg or .tif";
   const std::optional<ImageFile> file = image_file_of(path);
-  if (!file) fail(path, std::string("its name tells no format of pictures; expected ") + expected);
+  if (!file) fail_writing(path, std::string("its name tells no format of pictures; expected ") + expected);
   if (is_linear(*file) != linear)
-    fail(path, std::string("holds ") + (linear ? "8-bit codes" : "linear numbers") + "; expected " + expected);
+    fail_writing(path, std::string("holds ") + (linear ? "8-bit codes" : "linear numbers") + "; expected " + expected);
   return *file;
 }
 
@@ -101,8 +100,8 @@ void write_hdr(const std::filesystem::path& path, const Image<glm::vec4>& image)
   write_by_tool(path, "hdr", image, header_of(image, 3, Sample::number), rgbe_texel);
 }
 
-[[noreturn]] void fail_memory(const std::filesystem::path& path) {
-  fail(path, "cannot write (needs more memory than there is); expected a smaller picture");
+[[noreturn]] void fail_for_memory(const std::filesystem::path& path) {
+  fail_writing(path, "cannot write (needs more memory than there is); expected a smaller picture");
 }
 
 }  // namespace
@@ -131,19 +130,19 @@ void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& im
   if (file == ImageFile::jpeg) return write_codes(path, "jpeg", image, false);
   write_codes(path, "tiff", image, std::ranges::any_of(image.texels(), [](const glm::u8vec4& t) { return t.w != 255; }));
 } catch (const std::bad_alloc&) {
-  fail_memory(path);
+  fail_for_memory(path);
 }
 
 void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image) try {
   checked_image_file(path, true) == ImageFile::exr ? write_exr(path, image) : write_hdr(path, image);
 } catch (const std::bad_alloc&) {
-  fail_memory(path);
+  fail_for_memory(path);
 }
 
 void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth) try {
   write_by_tool(path, "openexr", depth, header_of(depth, 1, Sample::number), [](float z) { return z; });
 } catch (const std::bad_alloc&) {
-  fail_memory(path);
+  fail_for_memory(path);
 }
 
 }  // namespace halfspace

@@ -10,6 +10,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/procedural/noise.h"
+#include "halfspace/procedural/palette.h"
 
 namespace halfspace {
 
@@ -66,11 +67,6 @@ constexpr glm::vec3 kAbyss(9, 24, 58), kOcean(15, 47, 98), kShelf(42, 110, 148),
 constexpr glm::vec3 kRainForest(30, 68, 30), kForest(52, 86, 42), kGrass(112, 126, 68), kSavanna(158, 144, 86);
 constexpr glm::vec3 kDesert(211, 182, 132), kSand(222, 200, 158), kTaiga(58, 78, 56), kTundra(128, 120, 98);
 constexpr glm::vec3 kRock(112, 98, 84), kSnow(242, 246, 250), kSeaIce(214, 228, 238);
-
-HS_INLINE Vec tint(const glm::vec3& c) { return Vec(Real(c.x), Real(c.y), Real(c.z)); }
-HS_INLINE Vec blend(const Vec& a, const glm::vec3& b, Real t) {
-  return Vec(lerp(a.x, Real(b.x), t), lerp(a.y, Real(b.y), t), lerp(a.z, Real(b.z), t));
-}
 
 Vec sea_color(const Terrain& t) {
   Vec c = blend(tint(kAbyss), kOcean, step(-0.75f, -0.18f, t.height));

@@ -11,6 +11,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/procedural/craters.h"
 #include "halfspace/procedural/noise.h"
+#include "halfspace/procedural/palette.h"
 
 namespace halfspace {
 
@@ -196,19 +197,15 @@ void flood(MoonRow& row) {
 }
 
 // sRGB codes from 0 to 255, mixed as they are.
-constexpr glm::vec3 kHighland(158, 154, 148), kSeaBlue(82, 83, 85), kSeaBrown(95, 92, 88), kFresh(232, 230, 226);
-
-HS_INLINE Vec blend(const Vec& a, const glm::vec3& b, Real t) {
-  return Vec(lerp(a.x, Real(b.x), t), lerp(a.y, Real(b.y), t), lerp(a.z, Real(b.z), t));
-}
+constexpr glm::vec3 kHighland(158, 154, 148), kSeaBlue(82, 83, 85), kSeaBrown(95, 92, 88), kFreshDust(232, 230, 226);
 
 Vec color_at(const Moon& moon, const Vec& p, Real sea, Real light) {
   const Real wide = cloud(scaled(p, 3.4f, 5.1f, 9.2f, 2.4f), 5, 561), fine = cloud(scaled(p, 31.0f, 1.8f, 3.7f, 6.1f), moon.octaves, 571);
-  const Vec lava = blend(Vec(Real(kSeaBlue.x), Real(kSeaBlue.y), Real(kSeaBlue.z)), kSeaBrown, step(-0.25f, 0.35f, wide));
-  Vec c = Vec(Real(kHighland.x), Real(kHighland.y), Real(kHighland.z)) * (Real(1.0f) + Real(0.10f) * wide + Real(0.08f) * fine);
+  const Vec lava = blend(tint(kSeaBlue), kSeaBrown, step(-0.25f, 0.35f, wide));
+  Vec c = tint(kHighland) * (Real(1.0f) + Real(0.10f) * wide + Real(0.08f) * fine);
   const Vec dark = lava * (Real(1.0f) + Real(0.14f) * wide + Real(0.10f) * fine);
   c = Vec(lerp(c.x, dark.x, sea), lerp(c.y, dark.y, sea), lerp(c.z, dark.z, sea));
-  return blend(c, kFresh, Real(0.75f) * min(light, Real(1.0f)));
+  return blend(c, kFreshDust, Real(0.75f) * min(light, Real(1.0f)));
 }
 
 void finish(const Moon& moon, const MoonRow& row, std::span<glm::u8vec4> color, std::span<uint16_t> height) {

@@ -9,18 +9,13 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/hash.h"
 #include "halfspace/procedural/noise.h"
+#include "halfspace/procedural/palette.h"
 
 namespace halfspace {
 
 namespace {
 
 using namespace procedural;
-
-// sRGB codes from 0 to 255, mixed as they are.
-HS_INLINE Vec tint(const glm::vec3& c) { return Vec(Real(c.x), Real(c.y), Real(c.z)); }
-HS_INLINE Vec blend(const Vec& a, const glm::vec3& b, Real t) {
-  return Vec(lerp(a.x, Real(b.x), t), lerp(a.y, Real(b.y), t), lerp(a.z, Real(b.z), t));
-}
 
 // What one texel is made of.
 struct Matter {

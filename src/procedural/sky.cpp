@@ -8,15 +8,13 @@
 #include "halfspace/core/cube_map.h"
 #include "halfspace/core/lane_math.h"
 #include "halfspace/procedural/noise.h"
+#include "halfspace/procedural/palette.h"
 
 namespace halfspace {
 
 namespace {
 
 using namespace procedural;
-
-HS_INLINE Vec tint(const glm::vec3& c) { return Vec(Real(c.x), Real(c.y), Real(c.z)); }
-HS_INLINE Vec blend(const Vec& a, const Vec& b, Real t) { return Vec(lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t)); }
 
 // x^(2^n) for x in [0, 1].
 HS_INLINE Real squared(Real x, int n) {

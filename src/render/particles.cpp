@@ -33,7 +33,7 @@ class Draws {
   int32_t seed_, drawn_ = 0;
 };
 
-struct Placed {
+struct PlacedParticle {
   glm::dvec3 position;
   glm::vec3 color;
 };
@@ -47,7 +47,7 @@ glm::dvec3 on_circle(double angle, double radius, double y) {
 // A point that is even in [−1, 1], the i-th of n; alone it is 0.
 double step(int i, int n) { return n == 1 ? 0.0 : 2.0 * i / (n - 1) - 1.0; }
 
-Placed on_helix(const ParticlesDescription& p, int i) {
+PlacedParticle on_helix(const ParticlesDescription& p, int i) {
   const double y = 0.5 * p.height * step(i, p.count);
   return {on_circle(p.angle + y, p.orbit_radius, y), glm::vec3(1.0f)};
 }
@@ -63,12 +63,12 @@ int rows_for(int count) {
   return n;
 }
 
-Placed in_grid(const ParticlesDescription& p, int rows, int i) {
+PlacedParticle in_grid(const ParticlesDescription& p, int rows, int i) {
   const glm::dvec3 at(step(i % rows, rows), step(i / rows % rows, rows), step(i / (rows * rows), rows));
   return {turned(p, at * p.orbit_radius), glm::vec3(0.55 + 0.45 * at)};
 }
 
-Placed in_ball(const ParticlesDescription& p, int i) {
+PlacedParticle in_ball(const ParticlesDescription& p, int i) {
   Draws draws(i);
   glm::dvec3 at;
   do {
@@ -78,7 +78,7 @@ Placed in_ball(const ParticlesDescription& p, int i) {
   return {turned(p, at * p.orbit_radius), glm::vec3(0.6 + 0.4 * shade, 0.75, 1.0 - 0.4 * shade)};
 }
 
-Placed in_galaxy(const ParticlesDescription& p, int i) {
+PlacedParticle in_galaxy(const ParticlesDescription& p, int i) {
   constexpr double kArms = 3.0, kWound = 0.9, kSpread = 0.1, kThickness = 0.06;
   Draws draws(i);
   const auto middle = [&] { return draws.next() + draws.next() + draws.next() - 1.5; };  // a bell round 0
@@ -105,7 +105,7 @@ Particles make_particles(const ParticlesDescription& p) {
   out.radii.assign(count, static_cast<float>(particle_radius(p)));
   const int rows = rows_for(p.count);
   for (int i = 0; i < p.count; ++i) {
-    Placed s{};
+    PlacedParticle s{};
     switch (p.arrangement) {
       case ParticleArrangement::helix: s = on_helix(p, i); break;
       case ParticleArrangement::grid: s = in_grid(p, rows, i); break;

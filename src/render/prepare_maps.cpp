@@ -28,11 +28,11 @@ Sampler make_sampler(const TextureDescription& t) {
 namespace {
 
 // What the map spans from left to right on the object, and the radius of the ball that holds the object; units.
-struct Extent {
+struct MapExtent {
   double map_width, radius;
 };
 
-Extent extent_of(const ObjectDescription& o) {
+MapExtent extent_of(const ObjectDescription& o) {
   const auto round = [](double radius) { return 2.0 * std::numbers::pi * radius; };
   switch (o.shape) {
     case Shape::uv_sphere:

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
-#include <numbers>
 
 #include "halfspace/core/trig_double.h"
+#include "halfspace/core/units.h"
 #include "halfspace/render/preparation.h"
 #include "halfspace/render/shadow/moment_map.h"
 #include "halfspace/render/shadow/shadow_fit.h"
@@ -20,8 +20,6 @@
 namespace halfspace {
 
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 // A light's maps: what its shadow points to.
 struct ShadowMaps {

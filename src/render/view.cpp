@@ -3,16 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "halfspace/core/trig_double.h"
+#include "halfspace/core/units.h"
 #include "halfspace/geometry/camera.h"
 
 namespace halfspace {
-
-namespace {
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-}  // namespace
 
 View make_view(const CameraDescription& c, int width, int height) {
   const double aspect = static_cast<double>(width) / height;

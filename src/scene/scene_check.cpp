@@ -22,42 +22,43 @@ constexpr int kMaxPatternWidth = 4096;              // 14 bytes a texel, and squ
 constexpr int64_t kMaxCopies = 65536;
 constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // of all copies that are drawn: 2 GB while a frame is rendered
 
-[[noreturn]] void fail(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
+[[noreturn]] void refuse(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
 
 void check(const CameraDescription& c, const std::string& where) {
-  if (c.near >= c.far) fail(where + ".far", "expected more than near");
+  if (c.near >= c.far) refuse(where + ".far", "expected more than near");
   const glm::dvec3 side = glm::cross(unit_or_zero(c.target - c.position), unit_or_zero(c.up));
   if (glm::dot(side, side) <= 1e-24) {
-    fail(where + ".up", "the camera's position, target and up lie on one line; expected them to differ");
+    refuse(where + ".up", "the camera's position, target and up lie on one line; expected them to differ");
   }
 }
 
 void check(const LightDescription& l, const std::string& where) {
-  if (l.direction == glm::dvec3(0.0)) fail(where + ".direction", "is zero; expected a direction");
+  if (l.direction == glm::dvec3(0.0)) refuse(where + ".direction", "is zero; expected a direction");
   if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kMinTerm) {
-    fail(where + ".attenuation", "is zero; expected one term of at least " + number_text(kMinTerm));
+    refuse(where + ".attenuation", "is zero; expected one term of at least " + number_text(kMinTerm));
   }
   if (l.type == LightType::spot && l.inner > l.outer)
-    fail(where + ".inner", number_text(l.inner) + " is more than outer; expected at most " + number_text(l.outer));
+    refuse(where + ".inner", number_text(l.inner) + " is more than outer; expected at most " + number_text(l.outer));
   if (l.type == LightType::directional && l.size > 45.0)
-    fail(where + ".size", number_text(l.size) + " degrees are no directional light; expected at most 45");
+    refuse(where + ".size", number_text(l.size) + " degrees are no directional light; expected at most 45");
 }
 
 void check(const ShadowDescription& s, const std::string& where) {
   if (s.resolution != 0 && s.resolution < kMinShadowTexels) {
-    fail(where + ".resolution",
-         "expected 0, or from " + std::to_string(kMinShadowTexels) + " on (filters look that far), got " + std::to_string(s.resolution));
+    refuse(where + ".resolution",
+           "expected 0, or from " + std::to_string(kMinShadowTexels) + " on (filters look that far), got " + std::to_string(s.resolution));
   }
 }
 
 void check(const TextureDescription& t, const std::string& where) {
-  if (t.width % 2 != 0) fail(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
+  if (t.width % 2 != 0) refuse(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
   if (is_pattern(t.source) && t.width > kMaxPatternWidth)
-    fail(where + ".width", "expected at most " + std::to_string(kMaxPatternWidth) + " of a map that tiles, got " + std::to_string(t.width));
+    refuse(where + ".width",
+           "expected at most " + std::to_string(kMaxPatternWidth) + " of a map that tiles, got " + std::to_string(t.width));
 }
 
 void check(const EnvironmentDescription& e, const std::string& where) {
-  if (e.sun == glm::dvec3(0.0)) fail(where + ".sun", "is zero; expected a direction");
+  if (e.sun == glm::dvec3(0.0)) refuse(where + ".sun", "is zero; expected a direction");
 }
 
 void check(const SurfaceDescription&, const std::string&) {}
@@ -65,7 +66,7 @@ void check(const SurfaceDescription&, const std::string&) {}
 void check(const Placement& p, const std::string& where) {
   const glm::dvec3 s = glm::abs(p.scale);
   if (std::min({s.x, s.y, s.z}) < kMinScale)
-    fail(where + ".scale", "has a zero; expected at least " + number_text(kMinScale) + " either way");
+    refuse(where + ".scale", "has a zero; expected at least " + number_text(kMinScale) + " either way");
 }
 
 // Of the object's mesh; for an icosphere, without the few that its seam takes twice.
@@ -94,20 +95,20 @@ void check(const ObjectDescription& o, const std::string& where) {
   check(o.placement, where);
   for (std::size_t i = 0; i < o.instances.size(); ++i)
     check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));
-  if (vertices_of(o) > kMaxVertices) fail(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
+  if (vertices_of(o) > kMaxVertices) refuse(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
   if (is_ring(o.shape) && o.tube >= o.radius)
-    fail(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
-  if (is_ring(o.shape) && o.latitudes < 3) fail(where + ".latitudes", "2 make no tube; expected at least 3");
+    refuse(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
+  if (is_ring(o.shape) && o.latitudes < 3) refuse(where + ".latitudes", "2 make no tube; expected at least 3");
   if (const std::string_view key = key_for_meshes(o); o.shape == Shape::sphere && !key.empty()) {
-    fail(where + "." + std::string(key),
-         std::string("is more than the shape sphere shows (constant factors, light by pixel from outside, one scale for ") +
-             "all axes); expected the shape uv_sphere or icosphere");
+    refuse(where + "." + std::string(key),
+           std::string("is more than the shape sphere shows (constant factors, light by pixel from outside, one scale for ") +
+               "all axes); expected the shape uv_sphere or icosphere");
   }
   const bool displaced = o.shape != Shape::plane && is_map(o.height);
   if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness_of(o)) {
-    fail(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +
-                                      " inside out; expected less than " + (o.shape == Shape::uv_sphere ? "its radius, " : "") +
-                                      number_text(thickness_of(o)));
+    refuse(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +
+                                        " inside out; expected less than " + (o.shape == Shape::uv_sphere ? "its radius, " : "") +
+                                        number_text(thickness_of(o)));
   }
 }
 
@@ -115,13 +116,13 @@ void check_environments(SceneDescription& scene, const std::string& source) {
   const BackgroundDescription& b = scene.background;
   const auto check_name = [&](const char* key, const std::string& name) {
     if (name.empty() || find_named(scene.environments, name) != nullptr) return;
-    fail(source, std::string(key) + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
+    refuse(source, std::string(key) + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
   };
   check_name("background.environment", b.environment);
   check_name("background.second", b.second);
   check_name("reflections.environment", scene.reflections.environment);
   if (b.type == BackgroundType::environment && scene.environments.empty())
-    fail(source, "background.type: the scene has no environment; expected one in environments");
+    refuse(source, "background.type: the scene has no environment; expected one in environments");
 }
 
 }  // namespace
@@ -147,19 +148,19 @@ void check_room(const Named<ObjectDescription>& objects, const std::string& sour
     vertices += vertices_of(o) * count;
   }
   if (copies > kMaxCopies)
-    fail(source, "objects: are " + std::to_string(copies) + " with all their instances; expected at most " + std::to_string(kMaxCopies));
+    refuse(source, "objects: are " + std::to_string(copies) + " with all their instances; expected at most " + std::to_string(kMaxCopies));
   if (vertices > kMaxDrawnVertices) {
-    fail(source, "objects: have " + std::to_string(vertices) +
-                     " vertices with all their instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
+    refuse(source, "objects: have " + std::to_string(vertices) +
+                       " vertices with all their instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
   }
 }
 
 void check_scene(SceneDescription& scene, const std::string& source) {
   if (!scene.head.camera.empty() && find_named(scene.cameras, scene.head.camera) == nullptr) {
-    fail(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
+    refuse(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
   }
   if (!std::has_single_bit(static_cast<unsigned>(scene.head.samples)))
-    fail(source, "samples: expected 1, 2, 4 or 8, got " + std::to_string(scene.head.samples));
+    refuse(source, "samples: expected 1, 2, 4 or 8, got " + std::to_string(scene.head.samples));
   check_environments(scene, source);
   for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
     for (auto& entry : list) {

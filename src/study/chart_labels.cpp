@@ -9,8 +9,8 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kHeight = 15.0;  // of a line of text
-constexpr double kPoint = 5.0;    // radius of a point
+constexpr double kLineHeight = 15.0;  // of a line of text
+constexpr double kPoint = 5.0;        // radius of a point
 
 double overlap(const ChartBox& a, const ChartBox& b) {
   return std::max(0.0, std::min(a.x1, b.x1) - std::max(a.x0, b.x0)) * std::max(0.0, std::min(a.y1, b.y1) - std::max(a.y0, b.y0));
@@ -18,7 +18,7 @@ double overlap(const ChartBox& a, const ChartBox& b) {
 
 ChartBox box_of(const LabelPlace& p, double width) {
   const double x0 = p.anchor > 0 ? p.x : p.anchor < 0 ? p.x - width : p.x - 0.5 * width;
-  return {x0, p.y - 0.5 * kHeight, x0 + width, p.y + 0.5 * kHeight};
+  return {x0, p.y - 0.5 * kLineHeight, x0 + width, p.y + 0.5 * kLineHeight};
 }
 
 // Right, left, above, below, the corners; then the same farther out.
@@ -44,7 +44,7 @@ std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, cons
     LabelPlace best{};
     for (const LabelPlace& place : candidates(points[i])) {
       const ChartBox box = box_of(place, widths[i]);
-      const double area = widths[i] * kHeight;
+      const double area = widths[i] * kLineHeight;
       double cost = 3.0 * (area - overlap(box, room)) + (place.far ? 0.01 * area : 0.0);
       for (const ChartBox& other : taken) cost += overlap(box, other);
       cost += 1e-3 * (std::abs(place.x - points[i].x) + std::abs(place.y - points[i].y));

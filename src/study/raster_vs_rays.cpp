@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr const char* kScene = R"({{
+constexpr const char* kMeshScene = R"({{
   "version": 1,
   "cameras": {{ "main": {{ "position": [0.3, 0.7, 3], "fov": 45, "near": 0.1, "far": 100 }} }},
   "lights": {{ "sun": {{ "direction": [1, 1, 1.5] }} }},
@@ -84,7 +84,7 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers) 
       .truth = {"the side of every triangle's edges, in double, nothing snapped", 0.1 / pixels, "a tenth of what one pixel counts"},
   };
   for (const int latitudes : options.quick ? std::vector{8, 64} : std::vector{8, 32, 128, 512, 1024}) {
-    const SceneDescription description = SceneFile::parse(fmt::format(kScene, latitudes, 2 * latitudes), "study", ".").description();
+    const SceneDescription description = SceneFile::parse(fmt::format(kMeshScene, latitudes, 2 * latitudes), "study", ".").description();
     SceneAssets assets(workers);
     const PreparedScene scene = assets.prepare(description, width, height);
     const ExactTriangles truth = exact_triangles(scene, width, height);

@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr const char* kScene = R"({{
+constexpr const char* kLitScene = R"({{
   "version": 1,
   "cameras": {{ "main": {{ "position": [0, 0, 4], "fov": 32, "near": 0.1, "far": 100 }} }},
   "lights": {{ "sun": {{ "direction": [1, 1, 1.5] }} }},
@@ -51,7 +51,7 @@ Study study_shading_rate(const StudyOptions& options, const Workers& workers) {
   SphereTruth truth{};
   for (const auto& [rate, group] : {std::pair("flat", "flat"), std::pair("gouraud", "Gouraud"), std::pair("phong", "Phong")}) {
     for (const int latitudes : options.quick ? std::vector{8, 32} : std::vector{8, 16, 32, 64, 128, 256, 512}) {
-      const SceneDescription scene = SceneFile::parse(fmt::format(kScene, latitudes, 2 * latitudes, rate), "study", ".").description();
+      const SceneDescription scene = SceneFile::parse(fmt::format(kLitScene, latitudes, 2 * latitudes, rate), "study", ".").description();
       if (truth.light.empty()) {
         truth = sphere_truth({.ambient = 0.05, .diffuse = 0.7, .specular = 0.5, .shininess = 40.0},
                              make_view(scene.cameras.front().second, size, size));

@@ -37,7 +37,7 @@ HS_INLINE R by_squaring(R c, int n) {  // n: a power of two
   return c;
 }
 
-constexpr int kValues = 1 << 16, kRepeats = 16;
+constexpr int kValues = 1 << 16, kRounds = 16;
 
 template <class F>
 Variant judged(const std::string& name, int exponent, const F& f, const StudyOptions& options) {
@@ -45,10 +45,10 @@ Variant judged(const std::string& name, int exponent, const F& f, const StudyOpt
   for (int i = 0; i < kValues; ++i) in[static_cast<std::size_t>(i)] = static_cast<float>((i + 0.5) / kValues);
   Variant v{.name = fmt::format("{} {}", name, exponent),
             .group = name,
-            .parameters = {{"exponent", static_cast<double>(exponent)}, {"values", static_cast<double>(kValues) * kRepeats}},
+            .parameters = {{"exponent", static_cast<double>(exponent)}, {"values", static_cast<double>(kValues) * kRounds}},
             .time = time_of(
                 [&] {
-                  for (int k = 0; k < kRepeats; ++k)
+                  for (int k = 0; k < kRounds; ++k)
                     for (std::size_t i = 0; i < kValues; i += kLanes) store(&out[i], f(load<Real>(&in[i])));
                 },
                 options)};

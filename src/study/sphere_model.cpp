@@ -15,7 +15,7 @@ namespace halfspace {
 namespace {
 
 // The sphere is seen 22 degrees off the axis, where it is no circle.
-constexpr const char* kScene = R"({{
+constexpr const char* kModelScene = R"({{
   "version": 1,
   "cameras": {{ "main": {{ "position": [0, 0, 5], "target": [2, 0, 0], "fov": 50, "near": 0.1, "far": 100 }} }},
   "lights": {{ "sun": {{ "direction": [1, 1, 1.5] }} }},
@@ -64,7 +64,7 @@ Study study_sphere_model(const StudyOptions& options, const Workers& workers) {
   };
   SphereTruth truth{};
   for (const Model& model : models(options.quick)) {
-    const SceneDescription scene = SceneFile::parse(fmt::format(kScene, model.keys), "study", ".").description();
+    const SceneDescription scene = SceneFile::parse(fmt::format(kModelScene, model.keys), "study", ".").description();
     const View view = make_view(scene.cameras.front().second, size, size);
     if (truth.light.empty()) {
       truth = sphere_truth({.model = LightModel::phong}, view);

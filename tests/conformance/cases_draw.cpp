@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::pair<const char*, ColorFormat> kColors[] = {
     {"rgba8", ColorFormat::rgba8}, {"srgb8", ColorFormat::srgb8a8}, {"rgba16f", ColorFormat::rgba16f}, {"rgba32f", ColorFormat::rgba32f}};
-constexpr std::pair<const char*, DepthFormat> kDepths[] = {{"d16", DepthFormat::d16},
-                                                           {"d24", DepthFormat::d24},
-                                                           {"d32f", DepthFormat::d32f},
-                                                           {"d24s8", DepthFormat::d24s8},
-                                                           {"d32fs8", DepthFormat::d32fs8}};
+constexpr std::pair<const char*, DepthFormat> kDepthFormats[] = {{"d16", DepthFormat::d16},
+                                                                 {"d24", DepthFormat::d24},
+                                                                 {"d32f", DepthFormat::d32f},
+                                                                 {"d24s8", DepthFormat::d24s8},
+                                                                 {"d32fs8", DepthFormat::d32fs8}};
 
 // Everything has the value that its format makes of the clear value.
 std::string cleared(const Picture& p, const Seen& seen) {
@@ -59,7 +59,7 @@ void add_clears(Cases& cases) {
     }
   }
   constexpr std::pair<float, uint8_t> kPairs[] = {{0.0f, 0}, {1.0f, 255}, {0.3f, 0x5a}};
-  for (const auto& [name, format] : kDepths) {
+  for (const auto& [name, format] : kDepthFormats) {
     for (int i = 0; i < 3; ++i) {
       const DepthFormat f = format;
       cases.push_back({std::string("depth_stencil_") + name + "_" + std::to_string(i),

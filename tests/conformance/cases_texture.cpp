@@ -65,7 +65,7 @@ std::string derivative_formula(const Picture& p, const Seen& seen) {
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
-constexpr const char* kFormatNames[] = {"rgba8", "srgb8", "r8", "r16", "rgba16f", "rgba32f"};
+constexpr const char* kTexelNames[] = {"rgba8", "srgb8", "r8", "r16", "rgba16f", "rgba32f"};
 constexpr const char* kFilterNames[] = {"nearest", "linear", "mipmap"};
 constexpr const char* kWrapNames[] = {"repeat", "mirror", "clamp", "border"};
 
@@ -131,7 +131,7 @@ void add_filters(Cases& cases) {
         const glm::vec4 uv = magnified ? glm::vec4(-0.31f, 0.13f, 0.57f, 0.91f) : glm::vec4(-3.1f, 1.2f, 4.7f, 6.3f);
         add_filter(
             cases,
-            std::string(kFormatNames[f]) + "_" + kFilterNames[mag] + "_" + kFilterNames[min] + (magnified ? "_magnified" : "_minified"), 16,
+            std::string(kTexelNames[f]) + "_" + kFilterNames[mag] + "_" + kFilterNames[min] + (magnified ? "_magnified" : "_minified"), 16,
             16, static_cast<TexelFormat>(f), s, uv, f % 2 == 1);
       }
     }

@@ -88,7 +88,7 @@ TEST(Half, FiniteStoreKeepsInfinityOut) {
 }
 
 template <int W>
-void expect_lanes_agree() {
+void expect_conversion_of_lanes_agrees() {
   for (int h = 0; h < 65536; h += W) {
     const IntN<W> codes = iota<IntN<W>>() + h;
     const RealN<W> x = half_to_float(codes | 0x5a5a0000);  // the high half is ignored
@@ -115,9 +115,9 @@ void expect_lanes_agree() {
 }
 
 TEST(Half, InstructionsBitOperationsAndLanesAgree) {
-  expect_lanes_agree<4>();
-  expect_lanes_agree<8>();
-  expect_lanes_agree<16>();
+  expect_conversion_of_lanes_agrees<4>();
+  expect_conversion_of_lanes_agrees<8>();
+  expect_conversion_of_lanes_agrees<16>();
 }
 
 }  // namespace

@@ -18,14 +18,12 @@
 #include <random>
 #include <vector>
 
+#include "support/constants.h"
 #include "support/expected_hash.h"
 #include "support/hash.h"
 
 namespace halfspace {
 namespace {
-
-constexpr float kInf = detail::kInfinity;
-constexpr float kNaN = detail::kNaN;
 
 /// |got − want| in units of the last place that a float of want's size has.
 double ulps(float got, double want) {

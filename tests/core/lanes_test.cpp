@@ -14,12 +14,11 @@
 
 #include "halfspace/core/lane_pairs.h"
 #include "halfspace/core/vec.h"
+#include "support/constants.h"
 
 namespace halfspace {
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kMax = std::numeric_limits<float>::max();
 constexpr int32_t kIntMin = std::numeric_limits<int32_t>::min(), kIntMax = std::numeric_limits<int32_t>::max();
 

@@ -126,7 +126,7 @@ TEST(Srgb, WhatIsOutsideGoesToTheEnds) {
 }
 
 template <int W>
-void expect_lanes_agree() {
+void expect_encoding_of_lanes_agrees() {
   for (uint64_t i = 0; i < 1ull << 32; i += 4093 * W) {
     RealN<W> x;
     for (int k = 0; k < W; ++k) set_lane(x, k, as_real(static_cast<int32_t>(i + static_cast<uint64_t>(k) * 4093)));
@@ -142,9 +142,9 @@ void expect_lanes_agree() {
 }
 
 TEST(Srgb, LanesHoldTheBitsOfFloat) {
-  expect_lanes_agree<4>();
-  expect_lanes_agree<8>();
-  expect_lanes_agree<16>();
+  expect_encoding_of_lanes_agrees<4>();
+  expect_encoding_of_lanes_agrees<8>();
+  expect_encoding_of_lanes_agrees<16>();
 }
 
 }  // namespace

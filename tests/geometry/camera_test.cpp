@@ -5,12 +5,12 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "support/constants.h"
 
 namespace halfspace {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 glm::dvec3 divided(const glm::dvec4& clip) { return glm::dvec3(clip.x, clip.y, clip.z) / clip.w; }

@@ -6,21 +6,19 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
 #include "geometry/rough_map.h"
 #include "halfspace/geometry/shapes.h"
+#include "support/constants.h"
+#include "support/workers.h"
 
 namespace halfspace {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr float kRadius = 2.5f;
 constexpr double kScale = 0.4, kZero = 0.3;
-
-const Workers kWorkers(2);
 
 Image<float> constant_map(float value) {
   Image<float> map(8, 4);
@@ -31,7 +29,7 @@ Image<float> constant_map(float value) {
 }
 
 const HeightField& rough_field() {
-  static const HeightField field(rough_map(32, 16, 99), 0.7, kWorkers);
+  static const HeightField field(rough_map(32, 16, 99), 0.7, two_workers());
   return field;
 }
 
@@ -86,7 +84,7 @@ TEST(DisplacedSphere, SlopesGiveTheNormalOfTheSurface) {
 // Vertices are rounded to float: 6e-8 of a unit, and 1e-7 for the three components.
 TEST(DisplacedSphere, VerticesLieOnTheSurfaceWithItsNormals) {
   const int latitudes = 24, longitudes = 48;
-  const Mesh m = displaced_uv_sphere(latitudes, longitudes, kRadius, rough_field(), kScale, kZero, kWorkers);
+  const Mesh m = displaced_uv_sphere(latitudes, longitudes, kRadius, rough_field(), kScale, kZero, two_workers());
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
     if (at_pole(m, i)) continue;
     const auto [u, v] = place(m, i, latitudes, longitudes);
@@ -105,7 +103,7 @@ TEST(DisplacedSphere, VerticesLieOnTheSurfaceWithItsNormals) {
 // differences to 1e-6 over |P'u| = 2πr·sin πv, and roundings to float.
 TEST(DisplacedSphere, TangentsAreTheDirectionsOfItsMap) {
   const int latitudes = 24, longitudes = 48;
-  const Mesh m = displaced_uv_sphere(latitudes, longitudes, kRadius, rough_field(), kScale, kZero, kWorkers);
+  const Mesh m = displaced_uv_sphere(latitudes, longitudes, kRadius, rough_field(), kScale, kZero, two_workers());
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
     if (at_pole(m, i)) continue;
     const auto [u, v] = place(m, i, latitudes, longitudes);
@@ -121,7 +119,7 @@ TEST(DisplacedSphere, TangentsAreTheDirectionsOfItsMap) {
 
 // Every triangle is seen from outside as uv_sphere's is.
 TEST(DisplacedSphere, TrianglesFaceOutward) {
-  const Mesh m = displaced_uv_sphere(48, 96, kRadius, rough_field(), kScale, kZero, kWorkers);
+  const Mesh m = displaced_uv_sphere(48, 96, kRadius, rough_field(), kScale, kZero, two_workers());
   const Mesh sphere = uv_sphere(48, 96, kRadius);
   EXPECT_EQ(m.indices, sphere.indices);
   EXPECT_EQ(m.uvs, sphere.uvs);
@@ -137,8 +135,8 @@ TEST(DisplacedSphere, TrianglesFaceOutward) {
 TEST(DisplacedSphere, WithoutHeightItIsUvSphere) {
   const Mesh sphere = uv_sphere(24, 48, kRadius);
   for (const double scale : {0.0, 0.7}) {
-    const HeightField field = scale == 0.0 ? rough_field() : HeightField(constant_map(0.25f), 0.0, kWorkers);
-    const Mesh m = displaced_uv_sphere(24, 48, kRadius, field, scale, 0.25, kWorkers);
+    const HeightField field = scale == 0.0 ? rough_field() : HeightField(constant_map(0.25f), 0.0, two_workers());
+    const Mesh m = displaced_uv_sphere(24, 48, kRadius, field, scale, 0.25, two_workers());
     EXPECT_EQ(m.positions, sphere.positions);
     for (std::size_t i = 0; i < m.normals.size(); ++i) {
       for (int c = 0; c < 3; ++c) {
@@ -150,8 +148,8 @@ TEST(DisplacedSphere, WithoutHeightItIsUvSphere) {
 }
 
 TEST(DisplacedSphere, AConstantHeightGivesALargerSphere) {
-  const HeightField field(constant_map(0.75f), 0.0, kWorkers);
-  const Mesh m = displaced_uv_sphere(24, 48, kRadius, field, 0.5, 0.25, kWorkers);
+  const HeightField field(constant_map(0.75f), 0.0, two_workers());
+  const Mesh m = displaced_uv_sphere(24, 48, kRadius, field, 0.5, 0.25, two_workers());
   const Mesh sphere = uv_sphere(24, 48, kRadius + 0.25f);
   EXPECT_EQ(m.positions, sphere.positions);
   for (std::size_t i = 0; i < m.normals.size(); ++i) {
@@ -160,7 +158,7 @@ TEST(DisplacedSphere, AConstantHeightGivesALargerSphere) {
 }
 
 TEST(DisplacedSphere, APoleHasOneHeightAndTheSpheresFrame) {
-  const Mesh m = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, kWorkers);
+  const Mesh m = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, two_workers());
   const Mesh sphere = uv_sphere(24, 48, kRadius);
   for (const float pole : {0.0f, 1.0f}) {
     std::set<float> heights;
@@ -184,7 +182,7 @@ TEST(DisplacedSphere, APoleHasOneHeightAndTheSpheresFrame) {
 }
 
 TEST(DisplacedSphere, BothSidesOfTheSeamHaveTheSameBits) {
-  const Mesh m = displaced_uv_sphere(24, 46, kRadius, rough_field(), kScale, kZero, kWorkers);
+  const Mesh m = displaced_uv_sphere(24, 46, kRadius, rough_field(), kScale, kZero, two_workers());
   std::map<float, std::size_t> west;  // by v
   int pairs = 0;
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
@@ -202,8 +200,8 @@ TEST(DisplacedSphere, BothSidesOfTheSeamHaveTheSameBits) {
 }
 
 TEST(DisplacedSphere, MayKeepTheSpheresNormals) {
-  const Mesh m = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, kWorkers, ReliefNormals::undisplaced);
-  const Mesh displaced = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, kWorkers);
+  const Mesh m = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, two_workers(), ReliefNormals::undisplaced);
+  const Mesh displaced = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, two_workers());
   const Mesh sphere = uv_sphere(24, 48, kRadius);
   EXPECT_EQ(m.positions, displaced.positions);
   EXPECT_EQ(m.normals, sphere.normals);
@@ -213,7 +211,7 @@ TEST(DisplacedSphere, MayKeepTheSpheresNormals) {
 
 TEST(SlopeMap, HoldsTheSlopesAtTexelCentres) {
   const double r = static_cast<double>(kRadius);
-  const Image<glm::vec4> map = slope_map(rough_field(), 64, 32, r, kScale, kZero, kWorkers);
+  const Image<glm::vec4> map = slope_map(rough_field(), 64, 32, r, kScale, kZero, two_workers());
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 64; ++x) {
       const glm::vec3 s(slopes_at(rough_field(), (x + 0.5) / 64, (y + 0.5) / 32, r, kScale, kZero));
@@ -229,12 +227,12 @@ TEST(SlopeMap, SignsAndUnits) {
   for (int y = 0; y < 16; ++y) {
     for (float& t : map.row(y)) t = 1.0f - 0.0625f * static_cast<float>(y);  // higher in the north
   }
-  const HeightField field(map, 0.0, kWorkers);
+  const HeightField field(map, 0.0, two_workers());
   const glm::dvec3 s = slopes_at(field, 0.2, 0.5, 1000.0, 80.0, 0.0);
   EXPECT_NEAR(s.x, 0.0, 1e-15);
   EXPECT_NEAR(s.y, 80.0 / (1000.0 * kPi), 1e-12);
   EXPECT_NEAR(s.z, 1.0 + 80.0 * (1.0 - 0.0625 * 7.5) / 1000.0, 1e-12);
-  const HeightField wave(rough_map(32, 16, 99), 0.0, kWorkers);
+  const HeightField wave(rough_map(32, 16, 99), 0.0, two_workers());
   const double step = 1e-6, sine = std::sin(kPi * 0.4);
   const double rise = 80.0 * (wave.at(0.3 + step, 0.4).value - wave.at(0.3 - step, 0.4).value);
   EXPECT_NEAR(slopes_at(wave, 0.3, 0.4, 1000.0, 80.0, 0.0).x, rise / (2 * step * 2 * kPi * 1000.0 * sine), 1e-6);

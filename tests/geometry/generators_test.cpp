@@ -5,19 +5,17 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "geometry/mesh_checks.h"
 #include "geometry/rough_map.h"
 #include "halfspace/geometry/shapes.h"
+#include "support/constants.h"
+#include "support/workers.h"
 
 namespace halfspace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-const Workers kWorkers(1);
 
 // A face of a shape: a point and its unit normal by (u, v), and the factor of heights there.
 struct Face {
@@ -219,15 +217,15 @@ TEST_P(Generator, AreaAndVolumeConvergeToTheClosedForm) {
 
 // ---- displaced -------------------------------------------------------------------------------------------------
 
-constexpr double kScale = 0.2, kZero = 0.3;
+constexpr double kReliefScale = 0.2, kReliefZero = 0.3;
 
 // Rough, and different at all edges.
-HeightField rough_field(MapEdges edges) { return HeightField(rough_map(12, 7, 7), 0.5, kWorkers, edges); }
+HeightField rough_field(MapEdges edges) { return HeightField(rough_map(12, 7, 7), 0.5, one_worker(), edges); }
 
 TEST_P(Generator, DisplacedStaysClosed) {
   const ShapeCase& s = GetParam();
   const HeightField field = rough_field(s.edges);
-  const Displacement d{&field, kScale, kZero};
+  const Displacement d{&field, kReliefScale, kReliefZero};
   for (const int n : {2, 8, 32}) {
     const Mesh m = s.make(n, &d);
     if (s.volume != 0) expect_closed(m);
@@ -243,12 +241,12 @@ TEST_P(Generator, DisplacedStaysClosed) {
 }
 
 // P' = P + n·g·fade, its normal P'v × P'u and its tangent P'u by central differences over h: they err by P'''·h²/6 with P'''
-// up to kScale·4·12³ = 1400 (splines) and up to 1400 (fades, whose second derivative jumps: h·6/(0.125)²·kScale = 8e-5·h/1e-6),
+// up to kReliefScale·4·12³ = 1400 (splines) and up to 1400 (fades, whose second derivative jumps: h·6/(0.125)²·kReliefScale = 8e-5·h/1e-6),
 // so by less than 1e-4 with h = 1e-6; the shortest |P'u| away from poles is 0.2.
 TEST_P(Generator, DisplacedHasTheNormalsAndTangentsOfItsSurface) {
   const ShapeCase& s = GetParam();
   const HeightField field = rough_field(s.edges);
-  const Displacement d{&field, kScale, kZero};
+  const Displacement d{&field, kReliefScale, kReliefZero};
   const Mesh base = s.make(16, nullptr), m = s.make(16, &d);
   const double h = 1e-6;
   int compared = 0;
@@ -260,7 +258,7 @@ TEST_P(Generator, DisplacedHasTheNormalsAndTangentsOfItsSurface) {
       continue;
     }
     const auto surface = [&](double a, double b) {
-      return face.position(a, b) + kScale * (field.at(a, b).value - kZero) * face.fade(a, b) * face.normal(a, b);
+      return face.position(a, b) + kReliefScale * (field.at(a, b).value - kReliefZero) * face.fade(a, b) * face.normal(a, b);
     };
     EXPECT_LT(glm::length(glm::dvec3(m.positions[i]) - surface(u, v)), 2e-6);
     const glm::dvec3 du = surface(u + h, v) - surface(u - h, v), dv = surface(u, v + h) - surface(u, v - h);

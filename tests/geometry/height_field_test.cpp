@@ -8,24 +8,21 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/rough_map.h"
+#include "support/constants.h"
 #include "support/expected_hash.h"
 #include "support/hash.h"
+#include "support/workers.h"
 
 namespace halfspace {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-const Workers kWorkers(2);
-
 // A smooth function on the sphere (a polynomial in the place), from 0 to 1.
-double smooth(double u, double v) {
+double smooth_height(double u, double v) {
   const double s = std::sin(kPi * v);
   const double x = s * std::cos(2 * kPi * u), y = std::cos(kPi * v), z = -s * std::sin(2 * kPi * u);
   return 0.5 + 0.2 * x * y + 0.15 * z * z * x + 0.1 * y * z - 0.1 * x;
@@ -53,7 +50,7 @@ bool same_bits(const HeightSample& a, const HeightSample& b) { return std::memcm
 // h = 1e-7 / W leaves that at 1e-14·W, and its rounding at 1e-16 / h = 1e-9·W.
 TEST(HeightField, GradientIsThatOfTheValue) {
   for (const double smoothing : {0.0, 1.5}) {
-    const HeightField f(rough_map(32, 16, 12345), smoothing, kWorkers);
+    const HeightField f(rough_map(32, 16, 12345), smoothing, two_workers());
     for (const double u : {0.0, 0.013, 0.25, 0.4999, 0.7, 0.98, 0.999}) {
       for (const double v : {0.001, 0.02, 0.21, 0.5, 0.77, 0.96, 0.999}) {
         const double hu = 1e-7 / 32, hv = 1e-7 / 16;
@@ -68,7 +65,7 @@ TEST(HeightField, GradientIsThatOfTheValue) {
 // Value and gradient go on without a step over texel borders, the seam and the poles.
 TEST(HeightField, ManyPlacesOfARowAreThoseOneByOne) {
   for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
-    const HeightField field(map_of(34, 17, smooth), 0.7, kWorkers, edges);
+    const HeightField field(map_of(34, 17, smooth_height), 0.7, two_workers(), edges);
     std::vector<double> places{0.0, 1.0, 0.5, -0.25};
     for (int x = 0; x < 50; ++x) places.push_back((x + 0.5) / 50);
     std::vector<HeightTaps> taps;
@@ -91,7 +88,7 @@ TEST(HeightField, ManyPlacesOfARowAreThoseOneByOne) {
 TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
   for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
     for (const auto& [width, height] : {std::pair(32, 16), std::pair(2, 1), std::pair(30, 11)}) {
-      const HeightField field(rough_map(width, height, 12345), 0.0, kWorkers, edges);
+      const HeightField field(rough_map(width, height, 12345), 0.0, two_workers(), edges);
       const bool exact = std::has_single_bit(static_cast<unsigned>(width)) && std::has_single_bit(static_cast<unsigned>(height));
       std::vector<HeightSample> samples(static_cast<std::size_t>(width));
       for (int row = 0; row < height; ++row) {
@@ -109,7 +106,7 @@ TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
 }
 
 TEST(HeightField, IsSmoothOverSeamAndPoles) {
-  const HeightField f(rough_map(32, 16, 12345), 0.0, kWorkers);
+  const HeightField f(rough_map(32, 16, 12345), 0.0, two_workers());
   const double tiny = 1e-12;
   for (const double a : {0.0, 0.1, 0.35, 0.8, 1.0}) {
     EXPECT_TRUE(same_bits(f.at(0, a), f.at(1, a)));
@@ -130,8 +127,8 @@ TEST(HeightField, ConstantsAreExact) {
   for (int y = 0; y < 6; ++y) {
     for (float& t : map.row(y)) t = 0.3f;
   }
-  const HeightField plain(map, 0.0, kWorkers), smoothed(map, 2.3, kWorkers);
-  for (const HeightField& f : {plain, smoothed, smoothed.filtered(5, kWorkers)}) {
+  const HeightField plain(map, 0.0, two_workers()), smoothed(map, 2.3, two_workers());
+  for (const HeightField& f : {plain, smoothed, smoothed.filtered(5, two_workers())}) {
     for (const double u : {0.0, 0.12, 0.9}) {
       for (const double v : {0.0, 0.3, 1.0}) {
         const HeightSample s = f.at(u, v);
@@ -147,25 +144,26 @@ TEST(HeightField, ConstantsAreExact) {
 // ramp's texels are multiples of 2^-7, so only double rounds, and smoothed texels are rounded to float.
 TEST(HeightField, RampsAlongVAreKept) {
   const Image<float> map = map_of(128, 64, [](double, double v) { return v; });
-  const HeightField plain(map, 0.0, kWorkers), smoothed(map, 1.5, kWorkers);
+  const HeightField plain(map, 0.0, two_workers()), smoothed(map, 1.5, two_workers());
   for (double v = 0.2; v < 0.8; v += 0.0137) {
     EXPECT_NEAR(plain.at(0.3, v).value, v, 1e-14);
     EXPECT_NEAR(plain.at(0.3, v).dv, 1.0, 1e-13);
     EXPECT_NEAR(plain.at(0.3, v).du, 0.0, 1e-14);
     EXPECT_NEAR(smoothed.at(0.3, v).value, v, 1e-7);
     EXPECT_NEAR(smoothed.at(0.3, v).dv, 1.0, 1e-5);
-    EXPECT_NEAR(plain.filtered(64, kWorkers).at(0.3, v).value, v, 1e-7);
+    EXPECT_NEAR(plain.filtered(64, two_workers()).at(0.3, v).value, v, 1e-7);
   }
 }
 
 // Halved, a pattern of the map's finest stripes is gone: its mean is left. Where texels are not cut at their borders, the side
 // lobes of the average let a ninth of the slope through.
 TEST(HeightField, FilteringRemovesWhatIsTooFine) {
-  const HeightField stripes(map_of(64, 32, [](double u, double) { return static_cast<int>(u * 64) % 2 == 0 ? 0.0 : 1.0; }), 0.0, kWorkers);
-  const HeightField half = stripes.filtered(32, kWorkers);
+  const HeightField stripes(map_of(64, 32, [](double u, double) { return static_cast<int>(u * 64) % 2 == 0 ? 0.0 : 1.0; }), 0.0,
+                            two_workers());
+  const HeightField half = stripes.filtered(32, two_workers());
   EXPECT_EQ(half.width(), 32);
   EXPECT_EQ(half.height(), 16);
-  const HeightField uneven = stripes.filtered(23, kWorkers);
+  const HeightField uneven = stripes.filtered(23, two_workers());
   EXPECT_EQ(uneven.width(), 22);
   EXPECT_EQ(uneven.height(), 11);
   double most = 0, most_uneven = 0, before = 0;
@@ -181,11 +179,11 @@ TEST(HeightField, FilteringRemovesWhatIsTooFine) {
 }
 
 TEST(HeightField, FilteringKeepsWhatIsCoarse) {
-  const HeightField fine(map_of(512, 256, smooth), 0.0, kWorkers);
-  EXPECT_EQ(fine.filtered(512, kWorkers).width(), 512);
-  const HeightField coarse = fine.filtered(128, kWorkers);
+  const HeightField fine(map_of(512, 256, smooth_height), 0.0, two_workers());
+  EXPECT_EQ(fine.filtered(512, two_workers()).width(), 512);
+  const HeightField coarse = fine.filtered(128, two_workers());
   for (double u = 0; u < 1; u += 0.07) {
-    for (double v = 0.05; v < 1; v += 0.09) EXPECT_NEAR(coarse.at(u, v).value, smooth(u, v), 2e-3);
+    for (double v = 0.05; v < 1; v += 0.09) EXPECT_NEAR(coarse.at(u, v).value, smooth_height(u, v), 2e-3);
   }
 }
 
@@ -198,7 +196,7 @@ TEST(HeightField, PolesAreNotNoisy) {
     for (int i = 0; i < 1000; ++i) sum += std::pow(f.at(i / 1000.0, v).du / std::sin(kPi * v), 2);
     return sum / 1000;
   };
-  const HeightField rough(map, 0.0, kWorkers), even(map, 1.0, kWorkers);
+  const HeightField rough(map, 0.0, two_workers()), even(map, 1.0, two_workers());
   for (const double v : {0.5 / 128, 2.0 / 128, 0.05, 0.96}) {
     EXPECT_LT(mean_square_slope(even, v), 2.0 * mean_square_slope(even, 0.5));
     EXPECT_GT(mean_square_slope(rough, v), 10.0 * mean_square_slope(rough, 0.5));
@@ -212,8 +210,8 @@ double gradient_error(const HeightField& f) {
     for (double v = 0.15; v < 0.85; v += 0.0137) {
       const double h = 1e-5;
       const HeightSample s = f.at(u, v);
-      most = std::max(most, std::fabs(s.du - (smooth(u + h, v) - smooth(u - h, v)) / (2 * h)));
-      most = std::max(most, std::fabs(s.dv - (smooth(u, v + h) - smooth(u, v - h)) / (2 * h)));
+      most = std::max(most, std::fabs(s.du - (smooth_height(u + h, v) - smooth_height(u - h, v)) / (2 * h)));
+      most = std::max(most, std::fabs(s.dv - (smooth_height(u, v + h) - smooth_height(u, v - h)) / (2 * h)));
     }
   }
   return most;
@@ -221,9 +219,9 @@ double gradient_error(const HeightField& f) {
 
 // The terraces of 8 bits make slopes of up to 1/255 a texel, which is far more than the map's own.
 TEST(HeightField, SmoothingRemovesTerraces) {
-  const Image<float> map = quantized(map_of(512, 256, smooth));
-  const double rough = gradient_error(HeightField(map, 0.0, kWorkers));
-  const double smoothed = gradient_error(HeightField(map, 3.0, kWorkers));
+  const Image<float> map = quantized(map_of(512, 256, smooth_height));
+  const double rough = gradient_error(HeightField(map, 0.0, two_workers()));
+  const double smoothed = gradient_error(HeightField(map, 3.0, two_workers()));
   RecordProperty("unsmoothed", std::to_string(rough));
   RecordProperty("smoothed", std::to_string(smoothed));
   EXPECT_GT(rough, 1.0);
@@ -253,7 +251,7 @@ TEST(HeightField, ThreadsChangeNothing) {
 }
 
 TEST(HeightField, SameBitsEverywhere) {
-  const HeightField f = HeightField(rough_map(100, 50, 12345), 1.2, kWorkers).filtered(60, kWorkers);
+  const HeightField f = HeightField(rough_map(100, 50, 12345), 1.2, two_workers()).filtered(60, two_workers());
   Hash hash;
   for (double u = 0; u < 1; u += 0.0625) {
     for (double v = 0; v < 1; v += 0.0625) {

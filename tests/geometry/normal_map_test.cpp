@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/workers.h"
+
 namespace halfspace {
 namespace {
 
-const Workers kWorkers(2);
-
 template <class F>
-Image<float> map_of(int width, int height, F value) {
+Image<float> heights_of(int width, int height, F value) {
   Image<float> map(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) map.at(x, y) = static_cast<float>(value(x, y));
@@ -31,8 +31,8 @@ TEST(NormalMap, OfWavesIsTheClosedForm) {
   const int width = 48, height = 32;
   for (const auto& [along_x, along_y] : {std::pair(1, 0), std::pair(0, 3), std::pair(2, 1), std::pair(-5, 4)}) {
     const double a = 2 * std::numbers::pi * along_x / width, b = 2 * std::numbers::pi * along_y / height, amplitude = 0.4, strength = 30;
-    const Image<float> heights = map_of(width, height, [&](int x, int y) { return 0.5 + amplitude * std::sin(a * x + b * y); });
-    const Image<glm::u8vec4> map = normal_map(heights, strength, MapEdges::torus, kWorkers);
+    const Image<float> heights = heights_of(width, height, [&](int x, int y) { return 0.5 + amplitude * std::sin(a * x + b * y); });
+    const Image<glm::u8vec4> map = normal_map(heights, strength, MapEdges::torus, two_workers());
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         const double cosine = std::cos(a * x + b * y);
@@ -51,7 +51,7 @@ TEST(NormalMap, OfALongWaveIsItsSlope) {
   const int n = 48;
   const double a = 2 * std::numbers::pi / n;
   const Image<glm::u8vec4> map =
-      normal_map(map_of(n, 8, [&](int x, int) { return 0.5 + 0.5 * std::sin(a * x); }), 10, MapEdges::torus, kWorkers);
+      normal_map(heights_of(n, 8, [&](int x, int) { return 0.5 + 0.5 * std::sin(a * x); }), 10, MapEdges::torus, two_workers());
   for (int x = 0; x < n; ++x) {
     const double slope = 10 * 0.5 * a * std::cos(a * x);
     EXPECT_NEAR(decoded(map.at(x, 3)).x, -slope / std::sqrt(slope * slope + 1), kHalfCode + 0.003 * std::abs(slope) + 1e-9) << x;
@@ -61,21 +61,21 @@ TEST(NormalMap, OfALongWaveIsItsSlope) {
 // A ramp of one texel a texel: 45°. What rises to the right turns the normal to the left, what rises upwards turns it down.
 TEST(NormalMap, SignsAndUnits) {
   const double side = std::sqrt(0.5);
-  const auto center = [](const Image<float>& heights) { return decoded(normal_map(heights, 16, MapEdges::sheet, kWorkers).at(8, 8)); };
-  const glm::dvec3 right = center(map_of(17, 17, [](int x, int) { return x / 16.0; }));
-  const glm::dvec3 up = center(map_of(17, 17, [](int, int y) { return 1 - y / 16.0; }));
+  const auto center = [](const Image<float>& heights) { return decoded(normal_map(heights, 16, MapEdges::sheet, two_workers()).at(8, 8)); };
+  const glm::dvec3 right = center(heights_of(17, 17, [](int x, int) { return x / 16.0; }));
+  const glm::dvec3 up = center(heights_of(17, 17, [](int, int y) { return 1 - y / 16.0; }));
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(right[c], glm::dvec3(-side, 0, side)[c], kHalfCode);
     EXPECT_NEAR(up[c], glm::dvec3(0, -side, side)[c], kHalfCode);
   }
-  EXPECT_EQ(normal_map(map_of(4, 4, [](int, int) { return 0.3; }), 100, MapEdges::torus, kWorkers).at(1, 1),
+  EXPECT_EQ(normal_map(heights_of(4, 4, [](int, int) { return 0.3; }), 100, MapEdges::torus, two_workers()).at(1, 1),
             glm::u8vec4(128, 128, 255, 255));
 }
 
 // A step at the edge shows where the map repeats, and not where it ends.
 TEST(NormalMap, EdgesAreTheChosenOnes) {
-  const Image<float> ramp = map_of(16, 16, [](int x, int y) { return (x + y) / 32.0; });
-  const auto at = [&](MapEdges edges, int x, int y) { return decoded(normal_map(ramp, 8, edges, kWorkers).at(x, y)); };
+  const Image<float> ramp = heights_of(16, 16, [](int x, int y) { return (x + y) / 32.0; });
+  const auto at = [&](MapEdges edges, int x, int y) { return decoded(normal_map(ramp, 8, edges, two_workers()).at(x, y)); };
   EXPECT_GT(at(MapEdges::torus, 0, 8).x, 0.3) << "the left neighbour of column 0 is the highest";
   EXPECT_LT(at(MapEdges::sheet, 0, 8).x, 0);
   EXPECT_LT(at(MapEdges::torus, 8, 0).y, -0.3);
@@ -83,7 +83,7 @@ TEST(NormalMap, EdgesAreTheChosenOnes) {
 }
 
 TEST(NormalMap, ThreadsChangeNothing) {
-  const Image<float> heights = map_of(37, 23, [](int x, int y) { return (x * 7 + y * y * 3) % 11 / 10.0; });
+  const Image<float> heights = heights_of(37, 23, [](int x, int y) { return (x * 7 + y * y * 3) % 11 / 10.0; });
   EXPECT_TRUE(normal_map(heights, 3, MapEdges::torus, Workers(1)) == normal_map(heights, 3, MapEdges::torus, Workers(5)));
 }
 

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/camera.h"
@@ -13,11 +12,11 @@
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/shading/surface_shader.h"
+#include "support/constants.h"
 
 namespace halfspace {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSize = 256;
 constexpr double kHalf = 1.05;  // of the view's height, in units
 

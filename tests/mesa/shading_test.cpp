@@ -10,7 +10,7 @@ namespace halfspace::test {
 
 namespace {
 
-constexpr int kWidth = 640, kHeight = 360;
+constexpr int kShadingWidth = 640, kShadingHeight = 360;
 constexpr int kJudged = 100;
 
 void finish(TwinPass& pass, const char* what_mesa_does = nullptr) {
@@ -56,14 +56,14 @@ TEST_P(ColorsOnGrid, NoPerspective) { draw(LinearColor{}); }
 TEST_P(ColorsOnGrid, FlatFromTheLastVertex) { draw(FlatColor{}); }
 TEST_P(ColorsOnGrid, FlatFromTheFirstVertex) { draw(FlatColor{}, kFirstVertex); }
 
-constexpr float kGrid = 1.0f / 256.0f;
+constexpr float kShadingGrid = 1.0f / 256.0f;
 INSTANTIATE_TEST_SUITE_P(
     Soup, ColorsOnGrid,
-    testing::Values(SoupCase{"tiny", {.triangles = 50000, .size = 2, .grid = kGrid, .inside = true}},    //
-                    SoupCase{"small", {.triangles = 10000, .size = 12, .grid = kGrid, .inside = true}},  //
-                    SoupCase{"large", {.triangles = 100, .size = 120, .grid = kGrid, .inside = true}},   //
-                    SoupCase{"slivers", {.triangles = 2000, .size = 120, .thickness = 0.7f, .grid = kGrid, .inside = true}},
-                    SoupCase{"in_perspective", {.triangles = 500, .size = 100, .w_ratio = 100, .grid = kGrid, .inside = true}}),
+    testing::Values(SoupCase{"tiny", {.triangles = 50000, .size = 2, .grid = kShadingGrid, .inside = true}},    //
+                    SoupCase{"small", {.triangles = 10000, .size = 12, .grid = kShadingGrid, .inside = true}},  //
+                    SoupCase{"large", {.triangles = 100, .size = 120, .grid = kShadingGrid, .inside = true}},   //
+                    SoupCase{"slivers", {.triangles = 2000, .size = 120, .thickness = 0.7f, .grid = kShadingGrid, .inside = true}},
+                    SoupCase{"in_perspective", {.triangles = 500, .size = 100, .w_ratio = 100, .grid = kShadingGrid, .inside = true}}),
     case_name);
 
 // Positions as they come, beyond the window and through the near plane too.
@@ -73,7 +73,7 @@ class ColorsOf : public SoupTest {
   void draw(const S& shader, const DrawState& state = {}) {
     const bool linear = std::is_same_v<S, LinearColor>;
     const bool clipped = GetParam().soup.w_ratio > 1 || GetParam().soup.crosses_near;
-    draw_soup(shader, kWidth, kHeight, linear && clipped ? kClippedLinear : GetParam().what_mesa_does, state);
+    draw_soup(shader, kShadingWidth, kShadingHeight, linear && clipped ? kClippedLinear : GetParam().what_mesa_does, state);
   }
 };
 TEST_P(ColorsOf, Smooth) { draw(SmoothColor{}); }
@@ -99,8 +99,8 @@ class SphereOf : public MesaFixture<testing::TestWithParam<ColorFormat>> {
                    const glm::vec3& eye = {0.0f, 0.8f, 2.7f}) {
     shader.eye = eye;
     shader.light = {2.0f, 3.0f, 4.0f};
-    shader.clip_from_world = sphere_camera(eye, kWidth, kHeight);
-    TwinPass pass({.width = kWidth, .height = kHeight, .format = GetParam()});
+    shader.clip_from_world = sphere_camera(eye, kShadingWidth, kShadingHeight);
+    TwinPass pass({.width = kShadingWidth, .height = kShadingHeight, .format = GetParam()});
     pass.draw(shader, sphere.view(), sphere.indices, state_with([](DrawState& s) { s.cull = CullMode::back; }));
     finish(pass, what_mesa_does);
   }

@@ -10,8 +10,8 @@ namespace halfspace::test {
 
 namespace {
 
-constexpr int kWidth = 256, kHeight = 256;
-constexpr TargetSpec kTarget{.width = kWidth, .height = kHeight};
+constexpr int kStateWidth = 256, kStateHeight = 256;
+constexpr TargetSpec kTarget{.width = kStateWidth, .height = kStateHeight};
 constexpr Soup kHeap{.triangles = 150, .size = 70, .w_ratio = 8, .grid = 1.0f / 256.0f, .inside = true, .seed = 3};
 
 struct StateCase {
@@ -91,7 +91,7 @@ class StateOf : public MesaFixture<testing::TestWithParam<StateCase>> {};
 
 TEST_P(StateOf, DrawsTheSamePicture) {
   const StateCase& c = GetParam();
-  const ColoredMesh mesh = make_soup(c.soup, kWidth, kHeight);
+  const ColoredMesh mesh = make_soup(c.soup, kStateWidth, kStateHeight);
   TwinPass pass(c.target);
   pass.draw(SmoothColor{}, mesh.positions_and_colors(), mesh.indices, c.state);
   pass.run();
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Heap, StateOf, testing::ValuesIn(all_cases()), case_nam
 using State = MesaTest;
 
 TEST_F(State, NothingIsDrawnByNeverAndByCullingBothFaces) {
-  const ColoredMesh mesh = make_soup(kHeap, kWidth, kHeight);
+  const ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   TwinPass pass(kTarget);
   pass.draw(SmoothColor{}, mesh.positions_and_colors(), mesh.indices, with_depth({.compare = CompareOp::never}));
   pass.draw(SmoothColor{}, mesh.positions_and_colors(), mesh.indices, with_cull(CullMode::front_and_back));
@@ -115,7 +115,7 @@ TEST_F(State, NothingIsDrawnByNeverAndByCullingBothFaces) {
 
 // The same triangles twice, the second time with EQUAL and in other colours: all of the first are replaced.
 TEST_F(State, EqualReplacesWhatTheSameTrianglesDrew) {
-  const ColoredMesh mesh = make_soup(kHeap, kWidth, kHeight);
+  const ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   TwinPass pass(kTarget);
   pass.draw(OneColor{glm::vec4(1.0f)}, mesh.positions(), mesh.indices);
   pass.draw(SmoothColor{}, mesh.positions_and_colors(), mesh.indices, with_depth({.compare = CompareOp::equal}));
@@ -153,7 +153,7 @@ class OffsetOf : public MesaFixture<testing::TestWithParam<OffsetCase>> {};
 
 // The heap, and the same heap in other colours pushed by the offset: where the second shows, and the depth it leaves.
 TEST_P(OffsetOf, DrawsTheSamePictureAndDepth) {
-  const ColoredMesh mesh = make_soup(kHeap, kWidth, kHeight);
+  const ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   TwinPass pass(kTarget);
   pass.draw(OneColor{glm::vec4(1.0f)}, mesh.positions(), mesh.indices);
   pass.draw(SmoothColor{}, mesh.positions_and_colors(), mesh.indices, state_with([](DrawState& s) { s.offset = GetParam().offset; }));
@@ -203,7 +203,7 @@ TEST_P(BlendOf, OneLayerOntoAPicture) {
 
 // Some twenty layers. Each is rounded to 8 bits; Halfspace computes it in float, Mesa from 8-bit colours and factors.
 TEST_P(BlendOf, ManyLayers) {
-  ColoredMesh mesh = make_soup(kHeap, kWidth, kHeight);
+  ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   for (std::size_t i = 0; i < mesh.colors.size(); ++i) mesh.colors[i].w = 0.2f + 0.1f * static_cast<float>(i % 6);
   TargetSpec target = kTarget;
   target.clear_color = {0.6f, 0.7f, 0.8f, 0.0f};

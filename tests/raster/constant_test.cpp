@@ -30,17 +30,17 @@ struct PaintShader {
   }
 };
 
-constexpr int kSize = 256;  // 16 tiles
+constexpr int kPictureSize = 256;  // 16 tiles
 
-struct Drawn {
-  Image<glm::u8vec4> color{kSize, kSize};
+struct ConstantPicture {
+  Image<glm::u8vec4> color{kPictureSize, kPictureSize};
   PassStatistics statistics;
 };
 
 template <class Shader>
-Drawn drawn(const Shader& shader, std::span<const glm::vec4> positions, const DrawState& state) {
-  Drawn out;
-  Pass pass(kSize, kSize, rgba8_target(out.color), {});  // with a depth to find, no tile is filled
+ConstantPicture drawn(const Shader& shader, std::span<const glm::vec4> positions, const DrawState& state) {
+  ConstantPicture out;
+  Pass pass(kPictureSize, kPictureSize, rgba8_target(out.color), {});  // with a depth to find, no tile is filled
   pass.draw(shader, make_vertex_view(stream(positions)), state);
   out.statistics = pass.run(one_worker());
   return out;
@@ -53,8 +53,9 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
     // Up to twice the picture's size, so that some tiles are inside, some outside, most neither; alone in their bins.
     std::vector<glm::vec4> positions;
     for (int k = 0; k < 3; ++k) {
-      const Point p{random.integer(-kSize * 256, 2 * kSize * 256), random.integer(-kSize * 256, 2 * kSize * 256)};
-      positions.push_back(clip_position(p, kSize, kSize, random.real(-0.9f, 0.9f)));
+      const Point p{random.integer(-kPictureSize * 256, 2 * kPictureSize * 256),
+                    random.integer(-kPictureSize * 256, 2 * kPictureSize * 256)};
+      positions.push_back(clip_position(p, kPictureSize, kPictureSize, random.real(-0.9f, 0.9f)));
     }
     // Half of the time with a second triangle, over an edge of the first or (rarely) anywhere.
     if (i % 2 == 1) {
@@ -65,7 +66,7 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
     }
     DrawState state;
     if (i % 4 == 1) state.scissor = Rect{random.integer(0, 100), random.integer(0, 100), random.integer(1, 200), random.integer(1, 200)};
-    const Drawn paint = drawn(PaintShader{color}, positions, state), any = drawn(ConstantShader{color}, positions, state);
+    const ConstantPicture paint = drawn(PaintShader{color}, positions, state), any = drawn(ConstantShader{color}, positions, state);
     ASSERT_TRUE(std::ranges::equal(paint.color.texels(), any.color.texels())) << i;
     ASSERT_EQ(paint.statistics.samples_passed, any.statistics.samples_passed) << i;
     ASSERT_EQ(paint.statistics.fragments_shaded, any.statistics.fragments_shaded) << i;

@@ -11,7 +11,7 @@
 namespace halfspace::raster_test {
 namespace {
 
-constexpr int kSize = 96;
+constexpr int kDrawsSize = 96;
 
 struct Primitives {
   Topology topology;
@@ -37,15 +37,15 @@ Primitives many(Topology topology, std::size_t corners, int count) {
   return p;
 }
 
-struct Drawn {
-  Image<glm::vec4> image{kSize, kSize};
+struct DrawsPicture {
+  Image<glm::vec4> image{kDrawsSize, kDrawsSize};
   PassStatistics statistics;
 };
 
 // The primitives in draws of these many, over and over.
-Drawn draw_in_parts(const Primitives& p, const std::vector<std::size_t>& sizes, int threads, const PassOptions& options = {}) {
-  Drawn drawn;
-  Pass pass(kSize, kSize, rgba32f_target(drawn.image), {}, options);
+DrawsPicture draw_in_parts(const Primitives& p, const std::vector<std::size_t>& sizes, int threads, const PassOptions& options = {}) {
+  DrawsPicture drawn;
+  Pass pass(kDrawsSize, kDrawsSize, rgba32f_target(drawn.image), {}, options);
   std::size_t first = 0;
   for (std::size_t i = 0; first < p.positions.size(); ++i) {
     const std::size_t n = std::min(p.corners * sizes[i % sizes.size()], p.positions.size() - first);
@@ -58,14 +58,14 @@ Drawn draw_in_parts(const Primitives& p, const std::vector<std::size_t>& sizes, 
   return drawn;
 }
 
-void expect_same(const Drawn& a, const Drawn& b) {
+void expect_same(const DrawsPicture& a, const DrawsPicture& b) {
   EXPECT_TRUE(std::ranges::equal(a.image.texels(), b.image.texels()));
   EXPECT_EQ(a.statistics, b.statistics);
 }
 
 // Whole, in chunks of the pass's own choice and in the smallest, and in parts.
 void expect_any_parts_are_the_same(const Primitives& p, const std::vector<std::vector<std::size_t>>& splits) {
-  const Drawn whole = draw_in_parts(p, {p.count()}, 1);
+  const DrawsPicture whole = draw_in_parts(p, {p.count()}, 1);
   EXPECT_EQ(whole.statistics.primitives_in, p.count());
   EXPECT_EQ(whole.statistics.vertices_shaded, p.positions.size());
   EXPECT_GT(whole.statistics.fragments_shaded, 0u);

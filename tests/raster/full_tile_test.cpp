@@ -14,7 +14,7 @@
 namespace halfspace::raster_test {
 namespace {
 
-constexpr int kWidth = 128, kHeight = 64;
+constexpr int kStepsWidth = 128, kStepsHeight = 64;
 
 struct Step {
   std::vector<glm::vec4> positions;  // clip space
@@ -44,15 +44,16 @@ Step random_step(Random& r) {
   return s;
 }
 
-struct Drawn {
-  Image<glm::vec4> color{kWidth, kHeight};
-  Image<float> depth{kWidth, kHeight};
+struct StepsPicture {
+  Image<glm::vec4> color{kStepsWidth, kStepsHeight};
+  Image<float> depth{kStepsWidth, kStepsHeight};
   PassStatistics statistics;
 };
 
-Drawn drawn(const std::vector<Step>& steps, int tile_size, bool has_depth) {
-  Drawn out;
-  Pass pass(kWidth, kHeight, rgba32f_target(out.color), has_depth ? d32f_target(out.depth) : DepthTarget{}, {.tile_size = tile_size});
+StepsPicture drawn(const std::vector<Step>& steps, int tile_size, bool has_depth) {
+  StepsPicture out;
+  Pass pass(kStepsWidth, kStepsHeight, rgba32f_target(out.color), has_depth ? d32f_target(out.depth) : DepthTarget{},
+            {.tile_size = tile_size});
   const Indices triangle = Indices::sequential(3);
   std::deque<std::vector<glm::vec3>> origins;
   std::deque<std::vector<glm::vec4>> colors;
@@ -77,7 +78,7 @@ TEST(FullTileOccluder, IsDrawnAsSmallerTilesAre) {
     std::vector<Step> steps;
     for (int n = r.integer(1, 8); n > 0; --n) steps.push_back(random_step(r));
     const bool has_depth = r.integer(0, 3) != 0;
-    const Drawn whole = drawn(steps, 64, has_depth), parts = drawn(steps, 32, has_depth);
+    const StepsPicture whole = drawn(steps, 64, has_depth), parts = drawn(steps, 32, has_depth);
     ASSERT_TRUE(std::ranges::equal(whole.color.texels(), parts.color.texels())) << seed;
     ASSERT_TRUE(std::ranges::equal(whole.depth.texels(), parts.depth.texels())) << seed;
     ASSERT_EQ(whole.statistics.queries, parts.statistics.queries) << seed;
@@ -101,11 +102,11 @@ struct DeepShader : FlatColorShader {
 TEST(FullTileOccluder, IsTestedAgainstDepthsThatAShaderWrote) {
   for (const float written : {0.125f, 0.875f}) {
     for (const CompareOp op : {CompareOp::less, CompareOp::greater}) {
-      Image<glm::vec4> color(kWidth, kHeight);
-      Image<float> depth(kWidth, kHeight);
+      Image<glm::vec4> color(kStepsWidth, kStepsHeight);
+      Image<float> depth(kStepsWidth, kStepsHeight);
       DepthTarget target = d32f_target(depth);
       target.clear_value = 0.5f;
-      Pass pass(kWidth, kHeight, rgba32f_target(color), target);
+      Pass pass(kStepsWidth, kStepsHeight, rgba32f_target(color), target);
       const float z = 0.5f * (written + 0.5f);  // between what is written and what was there
       const auto place = [](float window_z) {
         const float z_ndc = 2.0f * window_z - 1.0f;
@@ -130,9 +131,9 @@ TEST(FullTileOccluder, ShadesWhatIsSeenAlone) {
   std::vector<Step> steps;
   for (const float z : {0.5f, 0.25f, 0.75f, -0.5f, 0.0f})
     steps.push_back({{{-4, -4, z, 1}, {8, -4, z, 1}, {-4, 8, z, 1}}, glm::vec4(z), {}, false});
-  const Drawn d = drawn(steps, 64, true);
-  EXPECT_EQ(d.statistics.fragments_shaded, uint64_t{kWidth} * kHeight);
-  EXPECT_EQ(d.statistics.samples_tested, 3 * uint64_t{kWidth} * kHeight);
+  const StepsPicture d = drawn(steps, 64, true);
+  EXPECT_EQ(d.statistics.fragments_shaded, uint64_t{kStepsWidth} * kStepsHeight);
+  EXPECT_EQ(d.statistics.samples_tested, 3 * uint64_t{kStepsWidth} * kStepsHeight);
   EXPECT_EQ(d.color.at(100, 10), glm::vec4(-0.5f));
   EXPECT_EQ(d.depth.at(100, 10), 0.25f);
 }

@@ -59,7 +59,7 @@ TEST(Multisample, DeferredPixelsAreShadedOncePerPrimitive) {
 }
 
 // The window position as a colour: what per-sample shading sees, and what per-pixel shading does.
-struct PositionShader {
+struct PlaceShader {
   template <class R>
   struct Attributes {
     vec4<R> position;
@@ -86,7 +86,7 @@ TEST(Multisample, ShadingByPixelAndBySample) {
       for (const bool by_sample : {false, true}) {
         Image<glm::vec4> image(16, 16);
         Pass pass(16, 16, rgba32f_target(image), {}, {.samples = static_cast<int>(kStandard[pattern].size())});
-        pass.draw(PositionShader{}, make_vertex_view(stream(p)), {.sample_shading = by_sample, .sample_mask = 1u << s});
+        pass.draw(PlaceShader{}, make_vertex_view(stream(p)), {.sample_shading = by_sample, .sample_mask = 1u << s});
         pass.run(one_worker());
         const glm::vec4 c = pixel(image, 3, 9) * static_cast<float>(kStandard[pattern].size());
         const Point at = by_sample ? kStandard[pattern][s] : Point{8, 8};

@@ -11,7 +11,7 @@
 namespace halfspace::raster_test {
 namespace {
 
-constexpr int kSize = 128;
+constexpr int kSmallSize = 128;
 
 struct Triangles {
   std::vector<glm::vec4> positions, colors;
@@ -23,11 +23,11 @@ Triangles random_triangles(Random& r) {
   Triangles t;
   const int count = r.integer(1, 48), largest = r.coin() ? 3 : r.coin() ? 16 : 70;
   for (int i = 0; i < count; ++i) {
-    const Point at{r.integer(-8 * kSubPixels, (kSize + 8) * kSubPixels), r.integer(-8 * kSubPixels, (kSize + 8) * kSubPixels)};
+    const Point at{r.integer(-8 * kSubPixels, (kSmallSize + 8) * kSubPixels), r.integer(-8 * kSubPixels, (kSmallSize + 8) * kSubPixels)};
     const glm::vec4 color(r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 1.0f);
     for (int corner = 0; corner < 3; ++corner) {
       const Point p{at.x + r.integer(0, largest * kSubPixels), at.y + r.integer(0, largest * kSubPixels)};
-      t.positions.push_back(clip_position(p, kSize, kSize, 0.25f * static_cast<float>(r.integer(-2, 2))));
+      t.positions.push_back(clip_position(p, kSmallSize, kSmallSize, 0.25f * static_cast<float>(r.integer(-2, 2))));
       t.colors.push_back(color);
     }
   }
@@ -38,18 +38,18 @@ Triangles random_triangles(Random& r) {
   return t;
 }
 
-struct Drawn {
-  Image<glm::vec4> color{kSize, kSize};
-  Image<float> depth{kSize, kSize};
+struct SmallPicture {
+  Image<glm::vec4> color{kSmallSize, kSmallSize};
+  Image<float> depth{kSmallSize, kSmallSize};
   PassStatistics statistics;
 };
 
 // Draws into what is there.
-void draw(std::span<const Triangles> draws, Drawn& out) {
+void draw(std::span<const Triangles> draws, SmallPicture& out) {
   ColorTarget color = rgba32f_target(out.color);
   DepthTarget depth = d32f_target(out.depth);
   color.load = depth.load = LoadOp::load;
-  Pass pass(kSize, kSize, color, depth);
+  Pass pass(kSmallSize, kSmallSize, color, depth);
   for (const Triangles& t : draws) pass.draw(FlatColorShader{}, make_vertex_view(stream(t.positions), stream(t.colors)), t.state);
   out.statistics += pass.run(one_worker());
 }
@@ -69,14 +69,14 @@ TEST(SmallTriangles, AreDrawnTogetherAsOneByOne) {
   for (int i = 0; i < effort(400); ++i) {
     std::vector<Triangles> draws(static_cast<std::size_t>(random.integer(1, 3)));
     for (Triangles& t : draws) t = random_triangles(random);
-    Drawn together, single;
-    for (Drawn* d : {&together, &single}) std::fill_n(d->depth.data(), kSize * kSize, 0.5f);
+    SmallPicture together, single;
+    for (SmallPicture* d : {&together, &single}) std::fill_n(d->depth.data(), kSmallSize * kSmallSize, 0.5f);
     draw(draws, together);
     for (const Triangles& t : draws) {
       for (std::size_t k = 0; k < t.positions.size() / 3; ++k) draw(std::array{only(t, k)}, single);
     }
-    ASSERT_TRUE(std::equal(together.color.data(), together.color.data() + kSize * kSize, single.color.data())) << i;
-    ASSERT_TRUE(std::equal(together.depth.data(), together.depth.data() + kSize * kSize, single.depth.data())) << i;
+    ASSERT_TRUE(std::equal(together.color.data(), together.color.data() + kSmallSize * kSmallSize, single.color.data())) << i;
+    ASSERT_TRUE(std::equal(together.depth.data(), together.depth.data() + kSmallSize * kSmallSize, single.depth.data())) << i;
     ASSERT_EQ(together.statistics.samples_passed, single.statistics.samples_passed) << i;
     passed += together.statistics.samples_passed;
   }

@@ -15,7 +15,7 @@
 namespace halfspace {
 namespace {
 
-constexpr int kFrames = 100, kWidth = 192, kHeight = 108;
+constexpr int kFrames = 100, kFrameWidth = 192, kFrameHeight = 108;
 
 SceneDescription contact_scene(const std::string& method, int resolution) {
   SceneFile file = SceneFile::open("shadow-contact");
@@ -28,8 +28,8 @@ bool is_lit(const Image<float>& light, int x, int y) { return light.at(x, y) > 0
 
 // Does the light pass 1/2 between a pixel and one of its eight neighbours?
 bool is_edge(const Image<float>& light, int x, int y) {
-  for (int j = std::max(0, y - 1); j <= std::min(kHeight - 1, y + 1); ++j)
-    for (int i = std::max(0, x - 1); i <= std::min(kWidth - 1, x + 1); ++i)
+  for (int j = std::max(0, y - 1); j <= std::min(kFrameHeight - 1, y + 1); ++j)
+    for (int i = std::max(0, x - 1); i <= std::min(kFrameWidth - 1, x + 1); ++i)
       if (is_lit(light, i, j) != is_lit(light, x, y)) return true;
   return false;
 }
@@ -44,18 +44,18 @@ struct Shimmer {
 Shimmer of_a_turning_light(const std::string& method, int resolution) {
   SceneDescription scene = contact_scene(method, resolution);
   SceneAssets assets(two_workers());
-  std::vector<int> passes(kWidth * kHeight), true_passes(kWidth * kHeight);
+  std::vector<int> passes(kFrameWidth * kFrameHeight), true_passes(kFrameWidth * kFrameHeight);
   Shimmer sum;
   ShadowComparison last;
   for (int frame = 0; frame <= kFrames; ++frame) {
     const double turn = 0.5 + 0.1 * frame * std::numbers::pi / 180.0;
     scene.lights.front().second.direction = {-0.75 * std::cos(turn), 0.9, 0.75 * std::sin(turn)};
-    const PreparedScene prepared = assets.prepare(scene, kWidth, kHeight);
+    const PreparedScene prepared = assets.prepare(scene, kFrameWidth, kFrameHeight);
     const RayScene rays(prepared.meshes, prepared.view.eye_ws), casters(prepared.meshes, prepared.view.eye_ws, true);
-    ShadowComparison now = compare_shadow({&prepared, 0}, rays, casters, kWidth, kHeight, 1, two_workers());
-    for (int y = 0; y < kHeight && frame > 0; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        const auto i = static_cast<std::size_t>(y * kWidth + x);
+    ShadowComparison now = compare_shadow({&prepared, 0}, rays, casters, kFrameWidth, kFrameHeight, 1, two_workers());
+    for (int y = 0; y < kFrameHeight && frame > 0; ++y) {
+      for (int x = 0; x < kFrameWidth; ++x) {
+        const auto i = static_cast<std::size_t>(y * kFrameWidth + x);
         const bool passes_here = is_lit(now.map, x, y) != is_lit(last.map, x, y);
         const bool truly = is_lit(now.truth, x, y) != is_lit(last.truth, x, y);
         const bool at_edge = is_edge(now.truth, x, y) || is_edge(last.truth, x, y);
@@ -76,9 +76,9 @@ class WatchedPoints {
  public:
   explicit WatchedPoints(const PreparedScene& scene) {
     const RayScene rays(scene.meshes, scene.view.eye_ws);
-    const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, kWidth, kHeight, two_workers());
-    for (int y = kHeight / 4; y < kHeight * 3 / 4; ++y) {
-      for (int x = kWidth / 4; x < kWidth * 3 / 4; ++x) {
+    const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, kFrameWidth, kFrameHeight, two_workers());
+    for (int y = kFrameHeight / 4; y < kFrameHeight * 3 / 4; ++y) {
+      for (int x = kFrameWidth / 4; x < kFrameWidth * 3 / 4; ++x) {
         const std::optional<RayHit>& hit = hits.at(x, y);
         if (!hit || glm::dot(hit->face_normal_ws, to_light_of(scene)) <= 0.0) continue;
         points_.push_back({hit->position_rws + scene.view.eye_ws, glm::vec3(hit->face_normal_ws), false});
@@ -114,12 +114,12 @@ class WatchedPoints {
 int64_t passes_of_a_moving_camera(const std::string& method, bool scene_too) {
   SceneDescription scene = contact_scene(method, 2048);
   SceneAssets assets(two_workers());
-  WatchedPoints points(assets.prepare(scene, kWidth, kHeight));
+  WatchedPoints points(assets.prepare(scene, kFrameWidth, kFrameHeight));
   const glm::dvec3 step(0.0017, 0.0, 0.0011);  // units a frame; a texel is 0.004
   int64_t count = 0;
   double texel = 0.0;
   for (int frame = 0; frame <= kFrames; ++frame) {
-    const PreparedScene prepared = assets.prepare(scene, kWidth, kHeight);
+    const PreparedScene prepared = assets.prepare(scene, kFrameWidth, kFrameHeight);
     const double now = static_cast<double>(prepared.lights.front().light.shadow->views.front().texel_per_w);
     count += points.passes(prepared, scene_too ? step * static_cast<double>(frame) : glm::dvec3(0.0), now != texel);
     texel = now;

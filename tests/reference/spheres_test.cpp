@@ -14,21 +14,21 @@
 namespace halfspace {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240;
+constexpr int kSpheresWidth = 320, kSpheresHeight = 240;
 
 PreparedScene prepared(const std::string& sections, const std::vector<std::string>& settings = {}) {
   const std::string head = R"({ "version": 1, "cameras": { "main": { "position": [0, 1.5, 6], "target": [0, 0, 0], "fov": 50 } },)";
   SceneFile file = SceneFile::parse(head + sections + "}", "test", {});
   file.set(settings);
   SceneAssets assets(two_workers());
-  return assets.prepare(file.description(), kWidth, kHeight);
+  return assets.prepare(file.description(), kSpheresWidth, kSpheresHeight);
 }
 
 // Each pixel's number: of a sphere its own from 1 on, of a mesh −1, −2, …; 0: nothing.
 Image<glm::vec4> numbers_of(const PreparedScene& scene) {
-  Image<glm::vec4> image(kWidth, kHeight);
+  Image<glm::vec4> image(kSpheresWidth, kSpheresHeight);
   DepthTarget depth{.format = DepthFormat::d32f, .clear_value = 0.0f};
-  Pass pass(kWidth, kHeight, rgba32f_target(image), depth);
+  Pass pass(kSpheresWidth, kSpheresHeight, rgba32f_target(image), depth);
   std::vector<glm::vec3> numbers;
   for (std::size_t i = 0; i < scene.spheres.at(0).particles->radii.size(); ++i) numbers.emplace_back(static_cast<float>(i + 1));
   for (const PreparedDraw& draw : scene.draws) {
@@ -51,7 +51,8 @@ Image<glm::vec4> numbers_of(const PreparedScene& scene) {
 }
 
 glm::vec3 direction_of(const View& v, double x, double row) {
-  return glm::vec3(v.forward_ws + v.right_ws * (v.tan_x * (2.0 * x / kWidth - 1.0)) + v.up_ws * (v.tan_y * (1.0 - 2.0 * row / kHeight)));
+  return glm::vec3(v.forward_ws + v.right_ws * (v.tan_x * (2.0 * x / kSpheresWidth - 1.0)) +
+                   v.up_ws * (v.tan_y * (1.0 - 2.0 * row / kSpheresHeight)));
 }
 
 float number_of(const RayScene& rays, const View& v, double x, double row) {
@@ -69,8 +70,8 @@ TEST(Spheres, AreSeenWhereEmbreeSeesThem) {
   const RayScene rays(scene.meshes, scene.view.eye_ws, false, scene.spheres);
   const Image<glm::vec4> picture = numbers_of(scene);
   int same = 0, beside = 0, wrong = 0, spheres = 0, meshes = 0;
-  for (int row = 0; row < kHeight; ++row) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int row = 0; row < kSpheresHeight; ++row) {
+    for (int x = 0; x < kSpheresWidth; ++x) {
       const float seen = picture.at(x, row).x;
       spheres += seen > 0.0f;
       meshes += seen < 0.0f;
@@ -91,7 +92,7 @@ TEST(Spheres, AreSeenWhereEmbreeSeesThem) {
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(spheres, 10000);
   EXPECT_GT(meshes, 15000);
-  EXPECT_LT(beside, kWidth * kHeight / 100);
+  EXPECT_LT(beside, kSpheresWidth * kSpheresHeight / 100);
 }
 
 // ---- shadows -------------------------------------------------------------------------------------------------------
@@ -106,7 +107,7 @@ constexpr const char* kLamp = R"({ "type": "point", "position": [2, 4, 3] } })";
 constexpr const char* kSpot = R"({ "type": "spot", "position": [2, 5, 3], "direction": [2, 5, 3], "inner": 40, "outer": 45 } })";
 
 Image<glm::vec4> rendered(const PreparedScene& scene) {
-  Image<glm::vec4> image(kWidth, kHeight);
+  Image<glm::vec4> image(kSpheresWidth, kSpheresHeight);
   render(scene, image, two_workers());
   return image;
 }
@@ -136,8 +137,8 @@ ShadowErrors shadow_errors(const std::string& light) {
     if (glm::dot(n, glm::dvec3(way)) < 0.15 * static_cast<double>(glm::length(way))) return -1;  // dark or grazing anyway
     return rays.occluded(glm::vec3(hit->position_rws + 1e-3 * n), way, 0.0f, 1.0f) ? 1 : 0;
   };
-  for (int row = 1; row < kHeight - 1; ++row) {
-    for (int x = 1; x < kWidth - 1; ++x) {
+  for (int row = 1; row < kSpheresHeight - 1; ++row) {
+    for (int x = 1; x < kSpheresWidth - 1; ++x) {
       bool sphere = false, other = false;
       const int truth = is_shaded(x + 0.5, row + 0.5, sphere);
       bool certain = truth >= 0 && bright.at(x, row).y > 1e-3f;
@@ -169,7 +170,7 @@ TEST(Spheres, CastAndReceiveShadowsOfEveryKindOfLight) {
 
 int differs(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
   int n = 0;
-  for (int i = 0; i < kWidth * kHeight; ++i) n += a.data()[i] != b.data()[i];
+  for (int i = 0; i < kSpheresWidth * kSpheresHeight; ++i) n += a.data()[i] != b.data()[i];
   return n;
 }
 

@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
+#include "support/constants.h"
 
 namespace halfspace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The Earth seen from a place, with that meridian at +z.
 SceneDescription earth_from(const glm::dvec3& eye, double meridian) {

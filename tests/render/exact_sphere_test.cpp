@@ -12,7 +12,7 @@
 namespace halfspace {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 200;
+constexpr int kBallWidth = 320, kBallHeight = 200;
 
 SceneDescription scene_of(const std::string& sections) {
   return SceneFile::parse(R"({"version": 1, "ambient": 0.1, "cameras": {"c": {"position": [0, 1, 6], "fov": 45}},
@@ -22,11 +22,11 @@ SceneDescription scene_of(const std::string& sections) {
       .description();
 }
 
-Image<glm::u8vec4> picture_of(const std::string& sections) {
+Image<glm::u8vec4> ball_picture(const std::string& sections) {
   static const Workers team(2);
   SceneAssets assets(team);
-  Image<glm::u8vec4> picture(kWidth, kHeight);
-  render(assets.prepare(scene_of(sections), kWidth, kHeight), picture, team);
+  Image<glm::u8vec4> picture(kBallWidth, kBallHeight);
+  render(assets.prepare(scene_of(sections), kBallWidth, kBallHeight), picture, team);
   return picture;
 }
 
@@ -41,11 +41,11 @@ TEST(ExactSphere, IsWhatTheFinestMeshNears) {
     for (const std::string place : {R"("radius": 0.5, "position": [0.4, 0.2, 1], "rotation": [10, 20, 30], "scale": [2, 2, -2])",
                                     R"("instances": [{"position": [-1, 0, 0]}, {"position": [1, 0.5, 0], "scale": [0.5, 0.5, 0.5]}])"}) {
       const auto with = [&](const std::string& shape) {
-        return picture_of(R"("shadow": {"method": "bilinear"}, "objects": {)" + floor + R"(, "ball": {"shape": )" + shape + ", " + look +
-                          ", " + place + "}}");
+        return ball_picture(R"("shadow": {"method": "bilinear"}, "objects": {)" + floor + R"(, "ball": {"shape": )" + shape + ", " + look +
+                            ", " + place + "}}");
       };
       const ImageDifference d = compare_images(with(R"("uv_sphere", "latitudes": 512, "longitudes": 1024)"), with(R"("sphere")"));
-      EXPECT_LE(d.share_above * kWidth * kHeight, 4.5) << look << place;
+      EXPECT_LE(d.share_above * kBallWidth * kBallHeight, 4.5) << look << place;
       EXPECT_LT(d.mean, 2e-5) << look << place;
     }
   }
@@ -53,7 +53,7 @@ TEST(ExactSphere, IsWhatTheFinestMeshNears) {
 
 // A factor that is not passed on would hide where it has its default. A highlight is some hundred pixels.
 TEST(ExactSphere, HasEveryFactorOfItsMaterial) {
-  const auto with = [](const std::string& look) { return picture_of(R"("objects": {"ball": {"shape": "sphere")" + look + "}}"); };
+  const auto with = [](const std::string& look) { return ball_picture(R"("objects": {"ball": {"shape": "sphere")" + look + "}}"); };
   const auto is_other = [&](const std::string& a, const std::string& b) { return compare_images(with(a), with(b)).share_above > 0.001; };
   for (const std::string look : {R"(, "color": [1, 0.5, 0.5])", R"(, "tint": 0.5)", R"(, "ambient": 0)", R"(, "diffuse": 0.5)",
                                  R"(, "specular": 0.5)", R"(, "emissive": 0.2)"}) {

@@ -16,7 +16,7 @@
 namespace halfspace {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 360;
+constexpr int kViewWidth = 640, kViewHeight = 360;
 
 FittedScene fitted(const std::string& sections, const AllowedError& allowed) {
   static const Workers team(2);
@@ -24,7 +24,7 @@ FittedScene fitted(const std::string& sections, const AllowedError& allowed) {
   const std::string text = R"({"version": 1, "cameras": {"c": {"position": [0, 0, 6], "fov": 40}}, )"
                            R"("lights": {"l": {"direction": [1, 1, 1]}}, )" +
                            sections + "}";
-  return assets.fit(SceneFile::parse(text, "test", ".").description(), kWidth, kHeight, allowed);
+  return assets.fit(SceneFile::parse(text, "test", ".").description(), kViewWidth, kViewHeight, allowed);
 }
 
 std::map<std::string, std::string> choices(const std::string& sections, const AllowedError& allowed) {
@@ -44,7 +44,7 @@ std::string objects(const std::string& keys) { return R"("objects": {"a": {)" + 
 TEST(ModelChoice, TakesTheFewestBandsThatAreEnough) {
   const FittedScene f = fitted(objects(R"("latitudes": 4, "longitudes": 8, )" + kMirror), kHalfPixel);
   const ObjectDescription& o = f.scene.objects.front().second;
-  const View view = make_view(f.scene.cameras.front().second, kWidth, kHeight);
+  const View view = make_view(f.scene.cameras.front().second, kViewWidth, kViewHeight);
   const double per_unit = silhouette_pixels_per_unit(view, {0, 0, 0}, 1.0);
   EXPECT_LE(chord_error(o) * per_unit, 0.5);
   const int fewer = o.latitudes == part_step(o.latitudes * 3 / 4) ? o.latitudes / 2 : o.latitudes * 3 / 4;

@@ -4,19 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "halfspace/core/check.h"
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
+#include "support/constants.h"
 #include "support/errors.h"
 #include "support/workers.h"
 
 namespace halfspace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 SceneDescription moon_with(const std::vector<std::string>& settings) {
   SceneFile scene = SceneFile::open("moon");

@@ -11,8 +11,8 @@ namespace halfspace {
 
 namespace {
 
-constexpr int kWidth = 640, kHeight = 360;
-const double kTanY = std::tan(50.0 * std::acos(-1.0) / 180.0), kTanX = kTanY * kWidth / kHeight;
+constexpr int kParticlesWidth = 640, kParticlesHeight = 360;
+const double kTanY = std::tan(50.0 * std::acos(-1.0) / 180.0), kTanX = kTanY * kParticlesWidth / kParticlesHeight;
 
 // Spheres in a scene whose camera is at the origin and looks along -z, 100 degrees high. Their light is ambient alone.
 SceneDescription scene_of(const std::filesystem::path& csv, const std::string& sprite, const std::string& more = "") {
@@ -24,7 +24,8 @@ SceneDescription scene_of(const std::filesystem::path& csv, const std::string& s
       .description();
 }
 
-Image<glm::vec4> picture_of(const SceneDescription& scene, int threads = 2, int width = kWidth, int height = kHeight) {
+Image<glm::vec4> linear_picture_of(const SceneDescription& scene, int threads = 2, int width = kParticlesWidth,
+                                   int height = kParticlesHeight) {
   const Workers workers(threads);
   SceneAssets assets(workers);
   Image<glm::vec4> image(width, height);
@@ -34,7 +35,7 @@ Image<glm::vec4> picture_of(const SceneDescription& scene, int threads = 2, int 
 
 // The depth along z at which the ray of a pixel enters a sphere, in double, or 0. squared: of the half chord, in radii.
 double entry(const glm::dvec3& c, double r, int x, int row, double& squared) {
-  const glm::dvec3 d((2 * (x + 0.5) / kWidth - 1) * kTanX, (1 - 2 * (row + 0.5) / kHeight) * kTanY, -1.0);
+  const glm::dvec3 d((2 * (x + 0.5) / kParticlesWidth - 1) * kTanX, (1 - 2 * (row + 0.5) / kParticlesHeight) * kTanY, -1.0);
   const double a = glm::dot(d, d), b = glm::dot(d, c), discriminant = b * b - a * (glm::dot(c, c) - r * r);
   squared = discriminant / (a * r * r);
   return discriminant > 0.0 ? (b - std::sqrt(discriminant)) / a : 0.0;
@@ -54,10 +55,10 @@ TEST_F(ParticlePictures, SilhouetteByOffAxisAngle) {
     char row[200];
     std::snprintf(row, sizeof row, "%.17g,0,%.17g,%g\n", center.x, center.z, r);
     const std::filesystem::path csv = put("one.csv", row);
-    const Image<glm::vec4> original = picture_of(scene_of(csv, "original")), exact = picture_of(scene_of(csv, "exact"));
+    const Image<glm::vec4> original = linear_picture_of(scene_of(csv, "original")), exact = linear_picture_of(scene_of(csv, "exact"));
     int inside = 0, original_wrong = 0, exact_wrong = 0;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kParticlesHeight; ++y) {
+      for (int x = 0; x < kParticlesWidth; ++x) {
         double squared = 0.0;
         const bool truth = entry(center, r, x, y, squared) > 0.0;
         inside += truth ? 1 : 0;
@@ -89,10 +90,10 @@ TEST_F(ParticlePictures, ExactSpheresMeetWhereTheyShould) {
     std::snprintf(row, sizeof row, "%.17g,%.17g,%.17g,%.17g,%d,0,0\n", c.x, c.y, c.z, r, i + 1);
     rows += row;
   }
-  const Image<glm::vec4> image = picture_of(scene_of(put("many.csv", rows), "exact"));
+  const Image<glm::vec4> image = linear_picture_of(scene_of(put("many.csv", rows), "exact"));
   int compared = 0, shown = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kParticlesHeight; ++y) {
+    for (int x = 0; x < kParticlesWidth; ++x) {
       double best = 1e9, second = 1e9;
       int id = 0;
       bool close_call = false;
@@ -113,19 +114,19 @@ TEST_F(ParticlePictures, ExactSpheresMeetWhereTheyShould) {
       ASSERT_EQ(image.at(x, y).x, static_cast<float>(id)) << x << ' ' << y;
     }
   }
-  EXPECT_GT(compared, kWidth * kHeight * 95 / 100);
-  EXPECT_GT(shown, kWidth * kHeight / 4);
+  EXPECT_GT(compared, kParticlesWidth * kParticlesHeight * 95 / 100);
+  EXPECT_GT(shown, kParticlesWidth * kParticlesHeight / 4);
 }
 
 // A wall at z = -3 stands before the middle of a sphere, which shows where its surface is nearer.
 TEST_F(ParticlePictures, SpheresPierceMeshes) {
   const glm::dvec3 center(0.7, 0.2, -3.4);
   const std::filesystem::path csv = put("one.csv", "0.7,0.2,-3.4,0.9,1,0,0\n");
-  const Image<glm::vec4> image = picture_of(scene_of(csv, "exact", R"(, "objects": { "wall": { "shape": "plane", "size": 60,
+  const Image<glm::vec4> image = linear_picture_of(scene_of(csv, "exact", R"(, "objects": { "wall": { "shape": "plane", "size": 60,
       "position": [0, 0, -3], "rotation": [90, 0, 0], "shading": "none", "color": [0, 1, 0] } })"));
   int red = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kParticlesHeight; ++y) {
+    for (int x = 0; x < kParticlesWidth; ++x) {
       double squared = 0.0;
       const double t = entry(center, 0.9, x, y, squared);
       if (std::fabs(t - 3.0) < 1e-5) continue;  // roundings of depths at 3 with a float centre
@@ -141,9 +142,9 @@ TEST(ParticlePicture, SamePixelsForAnyNumberOfThreads) {
   for (const char* sprite : {"original", "exact"}) {
     SceneFile file = SceneFile::open("particles");
     file.set(std::vector<std::string>{"particles.count=3000", "particles.arrangement=ball", std::string("particles.sprite=") + sprite});
-    const Image<glm::vec4> one = picture_of(file.description(), 1, 320, 180);
+    const Image<glm::vec4> one = linear_picture_of(file.description(), 1, 320, 180);
     for (const int threads : {2, 7}) {
-      const Image<glm::vec4> image = picture_of(file.description(), threads, 320, 180);
+      const Image<glm::vec4> image = linear_picture_of(file.description(), threads, 320, 180);
       for (int i = 0; i < 320 * 180; ++i) ASSERT_EQ(one.data()[i], image.data()[i]) << sprite << ' ' << threads << ": " << i;
     }
   }
@@ -152,13 +153,13 @@ TEST(ParticlePicture, SamePixelsForAnyNumberOfThreads) {
 // The classic sprite's depth is a cone's: a wall half a unit behind the centre cuts its circle at half the radius, whatever that is.
 TEST_F(ParticlePictures, OriginalsAreAsDeepAsACone) {
   const std::filesystem::path csv = put("one.csv", "0,0,-3,1.4,1,0,0\n");
-  const Image<glm::vec4> image = picture_of(scene_of(csv, "original", R"(, "objects": { "wall": { "shape": "plane", "size": 60,
+  const Image<glm::vec4> image = linear_picture_of(scene_of(csv, "original", R"(, "objects": { "wall": { "shape": "plane", "size": 60,
       "position": [0, 0, -3.5], "rotation": [90, 0, 0], "shading": "none", "color": [0, 1, 0] } })"));
-  const double radius = 0.5 * kWidth / kTanX * 1.4 / 3.0;
+  const double radius = 0.5 * kParticlesWidth / kTanX * 1.4 / 3.0;
   int red = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const double from_middle = std::hypot(x + 0.5 - kWidth / 2, y + 0.5 - kHeight / 2) / radius;
+  for (int y = 0; y < kParticlesHeight; ++y) {
+    for (int x = 0; x < kParticlesWidth; ++x) {
+      const double from_middle = std::hypot(x + 0.5 - kParticlesWidth / 2, y + 0.5 - kParticlesHeight / 2) / radius;
       if (std::fabs(from_middle - 0.5) < 1e-3) continue;  // the square is placed to 1/256 px, and 70 px wide either way
       red += from_middle < 0.5 ? 1 : 0;
       ASSERT_EQ(image.at(x, y), from_middle < 0.5 ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1)) << x << ' ' << y;
@@ -179,7 +180,7 @@ TEST_F(ParticlePictures, AreLitByPhong) {
     scene.particles.ambient = Color{glm::dvec3(0.1)};
     scene.particles.specular = Color{glm::dvec3(0.4)};
     scene.particles.shininess = 5.0;
-    const Image<glm::vec4> image = picture_of(scene, 1, 641, 361);
+    const Image<glm::vec4> image = linear_picture_of(scene, 1, 641, 361);
     for (const glm::ivec2 px : {glm::ivec2(0, 0), glm::ivec2(12, 7), glm::ivec2(-20, -15)}) {  // from the middle, down
       // The original takes light and eye from the centre.
       glm::dvec3 n(px.x / radius_px, -px.y / radius_px, 0), point = center;

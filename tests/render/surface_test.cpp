@@ -23,7 +23,7 @@ std::string scene_text(const std::string& rest) {
   return R"({"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "height": 2.2, "far": 30}}, )" + rest + "}";
 }
 
-SceneDescription parsed(const std::string& text) { return SceneFile::parse(text, "test.json", "/").description(); }
+SceneDescription parsed_at_root(const std::string& text) { return SceneFile::parse(text, "test.json", "/").description(); }
 
 Image<glm::vec4> linear_picture(const SceneDescription& scene, int size = kSize) {
   const Workers workers(1);
@@ -32,7 +32,9 @@ Image<glm::vec4> linear_picture(const SceneDescription& scene, int size = kSize)
   render(assets.prepare(scene, size, size), picture, workers);
   return picture;
 }
-Image<glm::vec4> linear_picture(const std::string& rest, int size = kSize) { return linear_picture(parsed(scene_text(rest)), size); }
+Image<glm::vec4> linear_picture(const std::string& rest, int size = kSize) {
+  return linear_picture(parsed_at_root(scene_text(rest)), size);
+}
 
 struct Spot {
   double x, y;  // of a pixel's centre, in units
@@ -100,7 +102,7 @@ TEST(Surface, HighlightsPeakAtTheMirrorPoint) {
       "lights": {"lamp": {"type": "point", "position": [-1, 1, 0], "intensity": 0.5}},
       "objects": {"a": {"shape": "plane", "size": 9, "diffuse": 0, "specular": 0.8, "shininess": 200, "model": ")") +
                              model + "\"}}}";
-    const Image<glm::vec4> p = linear_picture(parsed(text), 161);
+    const Image<glm::vec4> p = linear_picture(parsed_at_root(text), 161);
     glm::ivec2 peak(0);
     for_each_pixel([&](int x, int row) { peak = p.at(x, row).x > p.at(peak.x, peak.y).x ? glm::ivec2(x, row) : peak; }, 161);
     EXPECT_EQ(peak, glm::ivec2(80, 80)) << model;
@@ -230,10 +232,11 @@ TEST(Rates, ATwoSidedSurfaceIsLitOnTheSideThatIsSeen) {
   }
   // A closed mesh with its front cut off by the near plane: one-sided its inside is not seen, two-sided it is lit.
   const auto inside = [](const char* sides) {
-    return linear_picture(parsed(std::string(R"({"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 1], "near": 0.9,
+    return linear_picture(
+               parsed_at_root(std::string(R"({"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 1], "near": 0.9,
       "height": 1}}, "lights": {"sun": {}}, "objects": {"a": {"two_sided": )") +
-                                 sides + "}}}"),
-                          8)
+                              sides + "}}}"),
+               8)
         .at(4, 4)
         .x;
   };
@@ -308,7 +311,7 @@ TEST_F(FactorMaps, AreReadOnlyWhereTheyCount) {
   const auto uses = [&](const std::string& surface) {
     const Workers workers(1);
     SceneAssets assets(workers);
-    const PreparedScene scene = assets.prepare(parsed(scene_text(R"("objects": {"a": {"shape": "plane")" + surface + "}}")), 8, 8);
+    const PreparedScene scene = assets.prepare(parsed_at_root(scene_text(R"("objects": {"a": {"shape": "plane")" + surface + "}}")), 8, 8);
     int maps = 0;
     for (const Factor& f : surface_of(scene.draws.front()).factors) maps += f.map != nullptr;
     return maps;

@@ -7,12 +7,10 @@
 #include <numbers>
 
 #include "shading/texture_reference.h"
+#include "support/constants.h"
 
 namespace halfspace {
 namespace {
-
-constexpr float kInf = detail::kInfinity;
-constexpr float kNaN = detail::kNaN;
 
 /// A footprint made from its axes, in texels, and turned: J = turn(angle)·diag(longer, shorter)·turn(inner).
 struct Ellipse {

@@ -7,15 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "support/constants.h"
 #include "support/random.h"
 
 namespace halfspace {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Faces = std::array<Image<glm::vec4>, 6>;
 
 Image<glm::vec4> random_image(int width, int height, uint32_t seed) {

@@ -7,13 +7,12 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
+
+#include "support/constants.h"
 
 namespace halfspace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 template <class R>
 Illumination<R> at(const Light& light, LightModel model, double shininess, const vec3<R>& n, const vec3<R>& v,

@@ -6,13 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "support/constants.h"
 
 namespace halfspace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A map of one texel, as floats: exact.
 Texture2D texel(const glm::vec3& c) {

@@ -6,6 +6,7 @@
 
 #include "halfspace/core/half.h"
 #include "shading/texture_reference.h"
+#include "support/constants.h"
 #include "support/expected_hash.h"
 #include "support/hash.h"
 
@@ -15,8 +16,6 @@ namespace {
 using test::kFormats;
 using test::kWraps;
 
-constexpr float kInf = detail::kInfinity;
-constexpr float kNaN = detail::kNaN;
 constexpr glm::ivec2 kSizes[] = {{8, 4}, {7, 5}, {1, 1}, {1, 13}, {33, 1}, {3, 2}};
 
 template <class Function>

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <random>
 
+#include "support/constants.h"
+
 namespace halfspace {
 namespace {
 
-constexpr float kInf = detail::kInfinity;
-constexpr float kNaN = detail::kNaN;
 constexpr Sampler kBilinear{Filter::bilinear, Filter::bilinear, Wrap::repeat, Wrap::repeat};
 constexpr Sampler kBilinearClamp{Filter::bilinear, Filter::bilinear, Wrap::clamp, Wrap::clamp};
 constexpr Sampler kNearest{Filter::nearest, Filter::nearest, Wrap::repeat, Wrap::repeat};

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <random>
 
 #include "halfspace/core/lane_math.h"
@@ -15,12 +14,11 @@
 #include "halfspace/shading/tone.h"
 #include "stability/judge.h"
 #include "stability/lane_hash.h"
+#include "support/constants.h"
 #include "support/program.h"
 
 namespace halfspace::stability {
 namespace {
-
-constexpr float kInf = std::numeric_limits<float>::infinity(), kNaN = std::numeric_limits<float>::quiet_NaN();
 
 // ---- normal maps --------------------------------------------------------------------------------------------------------
 

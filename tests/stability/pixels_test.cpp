@@ -2,7 +2,6 @@
 //
 // Values of pixels where plain shaders fail: faces, bumps, seams, derivatives at edges.
 #include <cmath>
-#include <numbers>
 
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/height_slopes.h"
@@ -10,11 +9,10 @@
 #include "halfspace/raster/pass.h"
 #include "halfspace/shading/surface_detail.h"
 #include "stability/judge.h"
+#include "support/constants.h"
 
 namespace halfspace::stability {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 template <class S>
 Image<glm::vec4> drawn(const S& shader, const VertexView& view, const std::vector<uint32_t>& list, int size, std::size_t vertex_count,

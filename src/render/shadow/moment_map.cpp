@@ -11,8 +11,8 @@ namespace halfspace {
 namespace {
 
 // Four floats a texel, side by side; as many more at the end as fill the last lanes.
-using Row = std::vector<float>;
-Row make_row(int texels) { return Row(static_cast<std::size_t>(4 * texels + kLanes - 1)); }
+using MomentRow = std::vector<float>;
+MomentRow make_row(int texels) { return MomentRow(static_cast<std::size_t>(4 * texels + kLanes - 1)); }
 
 // out = share · Σ of count rows, which begin at `rows(k)`.
 template <class Rows>
@@ -49,7 +49,7 @@ class RowFilter {
 
   const ShadowView& view_;
   int size_, radius_;
-  Row powers_;
+  MomentRow powers_;
 };
 
 }  // namespace
@@ -62,9 +62,9 @@ Image<glm::vec4> filtered_moments(const ShadowView& view, const Image<float>& de
     const int first = band * kBand, end = std::min(first + kBand, size);
     RowFilter filter(view, size, radius);
     // The last `count` rows, filtered along themselves: row r in slot r modulo count.
-    std::vector<Row> slots(static_cast<std::size_t>(count), make_row(size));
+    std::vector<MomentRow> slots(static_cast<std::size_t>(count), make_row(size));
     const auto slot = [&](int row) { return slots[static_cast<std::size_t>((row + count) % count)].data(); };
-    Row mean = make_row(size);
+    MomentRow mean = make_row(size);
     for (int row = first - radius; row < end + radius; ++row) {
       filter(depth.row(std::clamp(row, 0, size - 1)).data(), slot(row));
       const int done = row - radius;

@@ -2,16 +2,15 @@
 #include "halfspace/render/shadow/shadow_fit.h"
 
 #include <algorithm>
-#include <numbers>
 #include <optional>
 
+#include "halfspace/core/units.h"
 #include "halfspace/geometry/camera.h"
 
 namespace halfspace {
 
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 // Degrees from the axis: beyond, one plane's texels grow too wide at its border (from 90 on it is no plane), and faces are better.
 constexpr double kWidestSpot = 60.0;
 

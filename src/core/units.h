@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Factors between units.
+#pragma once
+
+#include <numbers>
+
+namespace halfspace {
+
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+}  // namespace halfspace
