@@ -18,13 +18,6 @@ namespace halfspace {
 
 namespace {
 
-struct DeviceDeleter {
-  void operator()(RTCDevice d) const { rtcReleaseDevice(d); }
-};
-struct SceneDeleter {
-  void operator()(RTCScene s) const { rtcReleaseScene(s); }
-};
-
 RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float near, float far) {
   RTCRay ray{};
   ray.org_x = origin.x;
@@ -63,6 +56,12 @@ bool is_occluded(RTCScene scene, RTCRay& ray) {
 }  // namespace
 
 struct RayScene::Impl {
+  struct DeviceDeleter {
+    void operator()(RTCDevice d) const { rtcReleaseDevice(d); }
+  };
+  struct SceneDeleter {
+    void operator()(RTCScene s) const { rtcReleaseScene(s); }
+  };
   struct Placed {
     std::vector<glm::dvec3> positions_rws;
     std::shared_ptr<const Indices> indices;
