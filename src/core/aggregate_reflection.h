@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The members of a plain struct, counted and visited at compile time, so that a shader's attributes and varyings
-// need no registration: field_count<T>() and tie_fields(t). T is an aggregate of at most 12 members, none an array.
+// Compile-time reflection for plain structs: field_count<T>() counts the members and tie_fields(t) returns references to
+// them, so that shader attributes and varyings need no registration. T must be an aggregate with at most 12 members, none
+// of which is an array.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace halfspace {
 
 namespace detail {
 
-// Converts to anything: T{AnyField, AnyField} compiles while T has at least that many members.
+// Converts to any type. T{AnyField, AnyField} compiles only if T has at least that many members.
 struct AnyField {
   template <class T>
   operator T() const;
@@ -39,16 +40,16 @@ constexpr std::size_t count_fields() {
 
 inline constexpr std::size_t kMaxFields = 12;
 
-/// The number of members of the aggregate T.
+/// Returns the number of members of the aggregate T.
 template <class T>
 constexpr std::size_t field_count() {
-  static_assert(std::is_aggregate_v<T>, "attributes and varyings are plain structs without constructors");
+  static_assert(std::is_aggregate_v<T>, "attributes and varyings must be plain structs without constructors");
   static_assert(!detail::has_fields<T>(std::make_index_sequence<kMaxFields + 1>{}),
-                "a struct of attributes or varyings has at most 12 members");
+                "a struct of attributes or varyings must not have more than 12 members");
   return detail::count_fields<T, kMaxFields>();
 }
 
-/// A tuple of references to the members of t, in order of declaration.
+/// Returns a tuple of references to the members of t, in declaration order.
 template <class T>
 HS_INLINE constexpr auto tie_fields(T& t) {
   constexpr std::size_t n = field_count<std::remove_const_t<T>>();

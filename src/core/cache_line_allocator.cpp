@@ -15,7 +15,7 @@ constexpr std::align_val_t kLine{64};
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 constexpr std::size_t kLarge = std::size_t{4} << 20;
 
-// Whole large pages, mapped anew.
+// Maps zeroed memory aligned to a large page. bytes must be a multiple of kLargePage.
 void* map_pages(std::size_t bytes) {
   void* mapping = ::mmap(nullptr, bytes + kLargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapping == MAP_FAILED) throw std::bad_alloc();
@@ -23,7 +23,7 @@ void* map_pages(std::size_t bytes) {
   const std::size_t before = (kLargePage - reinterpret_cast<uintptr_t>(first) % kLargePage) % kLargePage;
   if (before != 0) ::munmap(first, before);
   ::munmap(first + before + bytes, kLargePage - before);
-  ::madvise(first + before, bytes, MADV_HUGEPAGE);  // a wish: where it is refused, pages are small
+  ::madvise(first + before, bytes, MADV_HUGEPAGE);  // only a hint: without huge pages the kernel uses small ones
   return first + before;
 }
 

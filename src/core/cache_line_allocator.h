@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Memory for images and textures.
+// Zero-initialized memory for images and textures.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,16 @@
 
 namespace halfspace {
 
-/// bytes of memory, all 0, that start at a cache line, so that whole lines can be written at once. Large memory comes from the
-/// system, which clears a page when it is first touched, and so in the thread that writes it; it is put on large pages where there are
-/// any: it is had and given back in a fraction of the time, so that a program with gigabytes of picture ends at once. Throws
-/// std::bad_alloc.
+/// Allocates zeroed memory that starts on a cache line boundary, so that code can write whole lines. Blocks of 4 MiB or more
+/// are mapped directly from the system, on huge pages where available. The kernel clears such pages when they are first
+/// touched, on the thread that touches them, and allocating and freeing them is much faster: a program with gigabytes of
+/// images exits without delay. Throws std::bad_alloc on failure.
 void* allocate_lines(std::size_t bytes);
-/// Gives back what allocate_lines(bytes) gave.
+/// Frees memory returned by allocate_lines. bytes must be the value passed to that call.
 void free_lines(void* memory, std::size_t bytes) noexcept;
 
-/// allocate_lines for containers that only grow: a new value is taken to be 0 already, and is not touched.
+/// Standard allocator on top of allocate_lines. Value-initialized elements are not written, since fresh memory is already
+/// zero. A container must therefore only grow: elements that reuse old storage would keep their previous values.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;

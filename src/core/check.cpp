@@ -46,7 +46,7 @@ namespace detail {
 void check_failed(const char* file, int line, const char* condition) { report({file, line, condition}); }
 
 void check_failed(const char* file, int line, const char* condition, const std::string& left, const std::string& right) {
-  report({file, line, std::string(condition) + " (" + left + " against " + right + ")"});
+  report({file, line, std::string(condition) + " (" + left + " vs " + right + ")"});
 }
 
 std::string value_text(int64_t value) { return characters(value); }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CPUID against the macros that the compiler defined for HALFSPACE_ARCH (src/CMakeLists.txt hands them over as one
-// string and compiles this file alone for plain x86-64). CPUID directly rather than __builtin_cpu_supports: clang 14
-// has no name there for F16C, LZCNT and MOVBE, which x86-64-v3 code uses.
+// Compares CPUID with the feature macros that the compiler defined for HALFSPACE_ARCH. src/CMakeLists.txt passes those
+// macros as one string and compiles this file, and no other, for baseline x86-64. CPUID is queried directly because
+// __builtin_cpu_supports in clang 14 has no names for F16C, LZCNT and MOVBE, which x86-64-v3 code uses.
 //
-// Bits: Intel SDM volume 2A, CPUID; AMD APM volume 3, appendix E. State: SDM volume 1, section 13.3 (XCR0).
+// Feature bits: Intel SDM volume 2A, CPUID; AMD APM volume 3, appendix E. Register state: SDM volume 1, section 13.3 (XCR0).
 #include "halfspace/core/cpu.h"
 
 #include <cpuid.h>
@@ -17,12 +17,12 @@ namespace {
 enum class Register : unsigned char { eax, ebx, ecx, edx };
 
 struct Feature {
-  const char* macro;  // as in __AVX2__
-  const char* name;   // as people say it; what starts with "512" is printed in the parentheses of AVX-512 (…)
+  const char* macro;  // macro name without underscores: AVX2 for __AVX2__
+  const char* name;   // display name; a leading "512" puts it in the list "AVX-512 (...)"
   unsigned leaf, subleaf;
   Register where;
   unsigned bit;
-  unsigned state;  // bits of XCR0 that the operating system must save
+  unsigned state;  // XCR0 bits that the operating system must enable
 };
 
 constexpr unsigned kYmm = 0x06;
@@ -64,11 +64,11 @@ constexpr Feature kFeatures[] = {
     {"AVX512FP16", "512FP16", 7, 0, Register::edx, 23, kZmm},
 };
 
-// What x86-64-v2 and v3 promise, to name the build that would run here.
+// Features required by x86-64-v2 and v3, used to name a build that would run on this processor.
 constexpr char kLevel2[] = " SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT ";
 constexpr char kLevel3[] = " SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT AVX AVX2 BMI BMI2 F16C FMA LZCNT MOVBE ";
 
-// The low half of XCR0: which registers the operating system saves. 0 where it saves none beyond SSE.
+// Returns the low half of XCR0, which tells which register state the operating system saves; 0 if XGETBV is unavailable.
 unsigned saved_state() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c >> 27 & 1u) == 0) return 0;
@@ -83,7 +83,7 @@ bool has(const Feature& f, unsigned state) {
   return (r[static_cast<unsigned>(f.where)] >> f.bit & 1u) != 0 && (state & f.state) == f.state;
 }
 
-// Does the list " A B C " hold the word?
+// Returns whether the space-separated list " A B C " contains the word.
 bool lists(const char* list, const char* word) {
   const size_t n = strlen(word);
   for (const char* p = strstr(list, word); p != nullptr; p = strstr(p + n, word)) {
@@ -99,7 +99,7 @@ bool runs(const char* list, unsigned state) {
   return true;
 }
 
-// A line that grows and is cut at its end rather than overrun.
+// A growing line of text. Text that does not fit is cut off.
 struct Line {
   char text[768];
   size_t size;
@@ -109,7 +109,7 @@ struct Line {
   }
 };
 
-// Adds the missing features of one kind, separated by commas; how many there were.
+// Appends the missing features of one kind, separated by commas, and returns how many there were.
 int add_missing(Line& line, bool avx512, unsigned state) {
   int count = 0;
   for (const Feature& f : kFeatures) {
@@ -139,13 +139,13 @@ const char* missing_cpu_features() noexcept {
   } else {
     line.text[line.size = before] = '\0';
   }
-  line.add(", which this processor lacks; ");
+  line.add(", which this processor does not support; ");
   if (runs(kLevel3, state)) {
     line.add("rebuild with -DHALFSPACE_ARCH=x86-64-v3");
   } else if (runs(kLevel2, state)) {
     line.add("rebuild with -DHALFSPACE_ARCH=x86-64-v2");
   } else {
-    line.add("no build of halfspace runs here: x86-64-v2 is the least");
+    line.add("halfspace needs a processor with at least x86-64-v2");
   }
   return line.text;
 }

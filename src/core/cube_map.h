@@ -5,8 +5,9 @@
 
 namespace halfspace {
 
-/// The direction in map space through (s, t) of a cube map's face. face: 0 … 5 for +x, −x, +y, −y, +z, −z; s and t in [−1, 1], t
-/// downwards. The component along the face's axis is ±1; the direction is not normalized.
+/// Returns the direction through the point (s, t) of a cube map face, in cube map space. face is 0 to 5 for +x, −x, +y, −y,
+/// +z, −z; s and t are in [−1, 1], and t points down. The direction is not normalized: its component along the axis of the
+/// face is ±1.
 inline glm::dvec3 cube_direction(int face, double s, double t) {
   switch (face) {
     case 0: return {1, -t, -s};

@@ -7,7 +7,8 @@
 
 namespace halfspace {
 
-/// For containers whose resize() leaves new values as they are: they are written next.
+/// Allocator for containers whose resize() default-initializes new elements instead of clearing them. Use it when the
+/// elements are overwritten anyway.
 template <class T>
 struct DefaultInitAllocator : std::allocator<T> {
   template <class U>

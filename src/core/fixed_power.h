@@ -8,10 +8,12 @@
 
 namespace halfspace {
 
-/// x^y for an exponent 0 < y <= 1 that is known before, as a display's gamma is: cheaper than unit_pow, which has to find a logarithm.
+/// Computes x^y for an exponent 0 < y <= 1 that is known in advance, such as the gamma of a display. Cheaper than unit_pow,
+/// which has to compute a logarithm.
 ///
-/// x = m·2^e with 1 <= m < 2, so x^y = m^y·2^(e·y): a polynomial of m times one entry for the lower four bits of the exponent's
-/// eight and one for the upper. The constructor calls no library function, so its numbers are the same on every machine.
+/// With x = m·2^e and 1 <= m < 2, x^y = m^y·2^(e·y). The first factor is a polynomial in m. The second is the product of two
+/// table entries, one for the lower and one for the upper four bits of the biased exponent. The constructor calls no library
+/// functions, so the tables are identical on every machine.
 class FixedPower {
  public:
   explicit constexpr FixedPower(float y) : y_(y) {
@@ -23,7 +25,7 @@ class FixedPower {
     fit(exponent);
   }
 
-  /// x^y for 0 <= x < infinity, with a relative error of at most 3e-7; what is below 2^-126 counts as 0. NaN gives NaN, as x < 0 does.
+  /// Returns x^y for 0 <= x < infinity, with a relative error of at most 3e-7. Subnormal x counts as 0. x < 0 and NaN give NaN.
   template <Number R>
   HS_INLINE R operator()(R x) const {
     if constexpr (std::is_same_v<R, double>) {
@@ -44,7 +46,7 @@ class FixedPower {
 
   static constexpr int32_t bits(double value) { return std::bit_cast<int32_t>(static_cast<float>(value)); }
 
-  // e^z for |z| <= 88: its series at z/2^7, squared seven times.
+  // e^z for |z| <= 88, computed as the Taylor series at z/2^7, squared seven times.
   static constexpr double exp(double z) {
     const double part = z / 128;
     double sum = 1;
@@ -53,14 +55,14 @@ class FixedPower {
     return sum;
   }
 
-  // (1 + u)^y for |u| <= 1/3: the binomial series.
+  // (1 + u)^y for |u| <= 1/3, by the binomial series.
   static constexpr double binomial(double u, double y) {
     double sum = 1;
     for (int k = 40; k > 0; --k) sum = 1 + (y - k + 1) / k * u * sum;
     return sum;
   }
 
-  // The polynomial through (middle + t)^y at the Chebyshev points of |t| <= 1/2, by Newton's divided differences.
+  // Interpolates (kMiddle + t)^y at the Chebyshev points of |t| <= 1/2, using Newton's divided differences.
   constexpr void fit(double y) {
     constexpr std::array<double, kTerms> points{-0.490392640, -0.415734806, -0.277785117, -0.097545161,
                                                 0.097545161,  0.277785117,  0.415734806,  0.490392640};
@@ -81,7 +83,7 @@ class FixedPower {
 
   float y_;
   float mantissa_[kTerms] = {};
-  std::array<int32_t, 16> low_{}, high_{};  // 2^(i·y) and 2^((16·i − 127)·y), as bits
+  std::array<int32_t, 16> low_{}, high_{};  // bits of 2^(i·y) and 2^((16·i − 127)·y)
 };
 
 }  // namespace halfspace

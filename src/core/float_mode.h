@@ -5,9 +5,9 @@
 
 namespace halfspace {
 
-/// While it lives, this thread computes in IEEE's default mode: round to nearest, denormals kept, exceptions masked.
-/// Hosts and libraries (Embree among them) change the mode; results must not depend on that. The old mode comes back
-/// at the end.
+/// Sets the default IEEE mode for the current thread (round to nearest, denormals kept, exceptions masked) and restores the
+/// previous mode on destruction. Host programs and libraries such as Embree change the mode, and results must not depend on
+/// that.
 class FloatMode {
  public:
   FloatMode() : saved_(_mm_getcsr()) { _mm_setcsr(kDefault); }
@@ -16,7 +16,7 @@ class FloatMode {
   FloatMode& operator=(const FloatMode&) = delete;
 
  private:
-  static constexpr unsigned kDefault = 0x1f80;  // all exceptions masked, nearest even, no flush to zero
+  static constexpr unsigned kDefault = 0x1f80;  // all exceptions masked, round to nearest even, no flush to zero
   unsigned saved_;
 };
 

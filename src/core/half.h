@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Float ↔ half (IEEE 754 binary16), one number or lanes of numbers. The F16C instructions do it where the build has
-// them; elsewhere bit operations give the same bits, which tests/core/half_test.cpp holds them to.
+// Conversion between float and half (IEEE 754 binary16), for scalars and lanes. Uses the F16C instructions where the build
+// has them; otherwise bit operations produce the same bits (checked by tests/core/half_test.cpp).
 //
-// Lanes hold one half an int, in the low 16 bits; the high 16 bits are 0 in results and ignored in arguments.
+// Lanes store one half per int, in the low 16 bits. The high 16 bits are 0 in results and ignored in arguments.
 #pragma once
 
 #include "halfspace/core/lanes.h"
@@ -15,24 +15,24 @@ inline constexpr float kMaxHalf = 65504.0f;
 
 namespace detail {
 
-/// To half by bit operations. R is float or lanes.
+/// Converts to half with bit operations. R is float or lanes.
 template <class R>
 HS_INLINE IntOf<R> float_to_half_by_bits(R x) {
   using I = IntOf<R>;
   const I sign = (as_int(x) >> 16) & 0x8000;
   const I i = as_int(x) & 0x7fffffff;
-  // From 2^-14 on: change the bias of the exponent from 127 to 15 and round away 13 bits, ties to even. From 2^16 on
-  // all is infinity; 65520 … 2^16 gets there by the carry of the rounding.
+  // Normal halves (2^-14 and above): rebias the exponent from 127 to 15 and round off 13 mantissa bits, ties to even. Inputs
+  // are clamped to 2^16, which becomes infinity; 65520 … 2^16 becomes infinity through the carry of the rounding.
   const I clamped = min(i, I(0x47800000));
   const I normal = (clamped - 0x38000000 + 0xfff + ((clamped >> 13) & 1)) >> 13;
-  // Below: beside 0.5 the last bit of a float weighs 2^-24, as that of a subnormal half. The sum rounds.
+  // Smaller values: the ulp of a float near 0.5 is 2^-24, the same as that of a subnormal half, so the addition rounds.
   const I subnormal = as_int(abs(x) + R(0.5f)) - 0x3f000000;
   const I nan = ((i >> 13) & 0x3ff) | 0x7e00;
   const I finite = select(i < I(0x38800000), subnormal, normal);
   return sign | select(i > I(0x7f800000), nan, finite);
 }
 
-/// From half by bit operations; bits 16 and up are ignored.
+/// Converts from half with bit operations. Bits 16 and above are ignored.
 template <class R>
 HS_INLINE R half_to_float_by_bits(IntOf<R> h) {
   using I = IntOf<R>;
@@ -48,7 +48,8 @@ HS_INLINE R half_to_float_by_bits(IntOf<R> h) {
 
 }  // namespace detail
 
-/// The nearest half, ties to even. From 65520 on it is infinity; NaN keeps its sign and high bits and becomes quiet.
+/// Converts to the nearest half, ties to even. 65520 and above become infinity. NaN becomes quiet and keeps its sign and
+/// high mantissa bits.
 HS_INLINE uint16_t float_to_half(float x) {
 #ifdef __F16C__
   return static_cast<uint16_t>(_mm_extract_epi16(_mm_cvtps_ph(_mm_set_ss(x), _MM_FROUND_TO_NEAREST_INT), 0));
@@ -72,7 +73,7 @@ HS_INLINE IntN<W> float_to_half(RealN<W> x) {
   return detail::float_to_half_by_bits(x);
 }
 
-/// The number that the half means (exact); a signalling NaN becomes quiet.
+/// Converts a half to float. Exact; a signaling NaN becomes quiet.
 HS_INLINE float half_to_float(uint16_t h) {
 #ifdef __F16C__
   return _mm_cvtss_f32(_mm_cvtph_ps(_mm_cvtsi32_si128(h)));
@@ -92,7 +93,7 @@ HS_INLINE RealN<W> half_to_float(IntN<W> h) {
 #if defined(__F16C__) && defined(__AVX2__)
   const IntN<W> low = h & 0xffff;
   if constexpr (W == 8) {
-    const __m256i pairs = _mm256_packus_epi32((__m256i)low.v, (__m256i)low.v);  // within 128 bits: 0123 0123 4567 4567
+    const __m256i pairs = _mm256_packus_epi32((__m256i)low.v, (__m256i)low.v);  // within each 128 bits: 0123 0123 4567 4567
     return RealN<W>((V)_mm256_cvtph_ps(_mm256_castsi256_si128(_mm256_permute4x64_epi64(pairs, 0b1000))));
   }
   if constexpr (W == 4) return RealN<W>((V)_mm_cvtph_ps(_mm_packus_epi32((__m128i)low.v, (__m128i)low.v)));
@@ -100,8 +101,8 @@ HS_INLINE RealN<W> half_to_float(IntN<W> h) {
   return detail::half_to_float_by_bits<RealN<W>>(h);
 }
 
-/// The nearest half that is not an infinity, for colour that is stored: what is beyond ±65504, infinities included,
-/// becomes ±65504. NaN stays a quiet NaN.
+/// Converts to the nearest finite half, for storing colors. Values beyond ±65504, including infinities, become ±65504. NaN
+/// stays a quiet NaN.
 HS_INLINE uint16_t float_to_finite_half(float x) { return float_to_half(min(kMaxHalf, max(-kMaxHalf, x))); }
 template <int W>
 HS_INLINE IntN<W> float_to_finite_half(RealN<W> x) {

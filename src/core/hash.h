@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A hash of small whole numbers for procedural patterns: the same for int32_t and lanes of any width.
+// Integer hash for procedural patterns, with identical results for int32_t and for lanes of any width.
 #pragma once
 
 #include <type_traits>
@@ -9,7 +9,7 @@
 
 namespace halfspace {
 
-/// a·b modulo 2^32.
+/// Returns a·b modulo 2^32.
 template <class I>
 HS_INLINE I wrapping_mul(I a, int32_t b) {
   if constexpr (std::is_same_v<I, int32_t>) {
@@ -19,17 +19,17 @@ HS_INLINE I wrapping_mul(I a, int32_t b) {
   }
 }
 
-/// x with its bits well mixed: every bit of the result depends on every bit of x. Multipliers after C. Wellons' search for
-/// low-bias 32-bit hashes (lowbias32).
+/// Hashes x so that every bit of the result depends on every bit of x. The multipliers are those of lowbias32, from
+/// C. Wellons' search for low-bias 32-bit hashes.
 template <class I>
 HS_INLINE I mix_bits(I x) {
-  const auto shifted = [](I v, int n) { return (v >> n) & I(static_cast<int32_t>(0xffffffffu >> n)); };  // without the sign
+  const auto shifted = [](I v, int n) { return (v >> n) & I(static_cast<int32_t>(0xffffffffu >> n)); };  // logical shift
   x = wrapping_mul(x ^ shifted(x, 16), 0x7feb352d);
   x = wrapping_mul(x ^ shifted(x, 15), static_cast<int32_t>(0x846ca68bu));
   return x ^ shifted(x, 16);
 }
 
-/// The hash's top 24 bits as a number in [0, 1).
+/// Maps the top 24 bits of a hash to a number in [0, 1).
 template <class R>
 HS_INLINE R unit_fraction(IntOf<R> hash) {
   return to_real<R>((hash >> 8) & 0xffffff) * R(0x1p-24f);

@@ -10,13 +10,14 @@
 
 namespace halfspace {
 
-/// A rectangle of texels or pixels, row by row without gaps. Row 0 is the top row of a picture, and t = 0 of a texture.
-/// The image owns its memory; copying copies the texels.
+/// A 2D array of texels or pixels, stored row by row without padding. Row 0 is the top row of a picture and corresponds to
+/// t = 0 of a texture. The image owns its memory, and copying it copies the texels. Accessors require coordinates inside the
+/// image, which is checked only in builds with asserts.
 template <class T>
 class Image {
  public:
   Image() = default;
-  /// width, height >= 0; texels start as T().
+  /// Creates an image of texels initialized to T(). width and height must not be negative.
   Image(int width, int height) : width_(width), height_(height) {
     HS_CHECK_OP(width, >=, 0);
     HS_CHECK_OP(height, >=, 0);

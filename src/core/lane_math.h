@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Elementary functions that give the same bits at every width, on every CPU and compiler: exp2 log2 exp log pow unit_pow
-// inverse_sqrt sin cos atan2 atan asin acos.
+// Elementary functions with bit-identical results at every SIMD width, on every CPU and with every compiler: exp2 log2 exp log
+// pow unit_pow inverse_sqrt sin cos atan2 atan asin acos.
 //
-// One template serves float and lanes of float. It uses only + − × ÷ sqrt, fma and bit operations, each correctly
-// rounded, so lane i holds what plain float would. libm is not used because it picks its code by CPU. For double the
-// functions are std's own: the accuracy reference, which makes no promise of bits. (x86-64-v2 has no fma instruction;
-// there fma goes to libm's, which is exact too but slow.)
+// A single template serves float and lanes of float. It uses only + − × ÷ sqrt, fma and bit operations, all of them correctly
+// rounded, so each lane holds exactly what the scalar code would compute. libm is not used because it selects its code by CPU.
+// For double the functions call std and serve as accuracy reference, with no guarantee about bits. (x86-64-v2 has no fma
+// instruction; fma then calls libm, which is also exact but slow.)
 //
-// How: split off the exponent or the quadrant exactly (Cody and Waite, Software Manual for the Elementary Functions,
-// 1980), then a minimax polynomial. The coefficients come from scripts/fit_polynomials.py, which also prints the error
-// of each fit. The errors named below are in units in the last place (ulp) of the exact result (correct rounding: 0.5),
-// measured over every float of the domain, and by tests/core/lane_math_test.cpp over a part of them; pow's and atan2's
-// over random pairs only. NaN gives NaN unless said otherwise.
+// Method: split off the exponent or the quadrant exactly (Cody and Waite, Software Manual for the Elementary Functions, 1980),
+// then evaluate a minimax polynomial. The coefficients come from scripts/fit_polynomials.py, which also prints the error of
+// each fit. Error bounds are in ulps of the exact result, where correct rounding is 0.5. They were measured over all floats of
+// the domain, except for pow and atan2, which were measured on random pairs; tests/core/lane_math_test.cpp repeats a part of
+// this. NaN inputs give NaN unless stated otherwise.
 //
-// Call them as halfspace::exp2(x), or from within namespace halfspace: a plain float argument elsewhere finds libm's.
+// Call these as halfspace::exp2(x), or from within namespace halfspace. Elsewhere an unqualified call with a float argument
+// resolves to libm's function.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 inline constexpr int32_t kSignBit = std::numeric_limits<int32_t>::min();
 
-/// The sum of c[i]·x^i in pairs, pairs of pairs and so on (Estrin): a chain of log2 N steps.
+/// Evaluates the sum of c[i]·x^i by Estrin's scheme, with a dependency chain of log2 N steps.
 template <class R, std::size_t N>
 HS_INLINE R polynomial_in_pairs(R x, const std::array<R, N>& c) {
   if constexpr (N == 1) {
@@ -43,7 +44,7 @@ HS_INLINE R polynomial_in_pairs(R x, const std::array<R, N>& c) {
   }
 }
 
-/// c[first] + c[first+1]·x + … + c[N−1]·x^(N−1−first). The last step, whose rounding counts, is Horner's.
+/// Evaluates c[first] + c[first+1]·x + … + c[N−1]·x^(N−1−first). The last step, whose rounding dominates the error, is a Horner step.
 template <std::size_t first = 0, class R, std::size_t N>
 HS_INLINE R polynomial(R x, const float (&c)[N]) {
   std::array<R, N - 1 - first> rest;
@@ -51,46 +52,48 @@ HS_INLINE R polynomial(R x, const float (&c)[N]) {
   return fma(polynomial_in_pairs(x, rest), x, R(c[first]));
 }
 
-/// 2^f for |f| <= 0.50001, and log2(1 + f)/f for sqrt(1/2) <= 1 + f < sqrt(2).
+/// Coefficients of 2^f for |f| <= 0.50001, and of log2(1 + f)/f for sqrt(1/2) <= 1 + f < sqrt(2).
 inline constexpr float kExp2[] = {1.0f, 0.693147182f, 0.240226477f, 0.0555033237f, 0.00961843692f, 0.00133988773f, 0.000153533663f};
 inline constexpr float kLog2[] = {1.44269502f,   -0.721347332f, 0.480898231f,  -0.360696584f, 0.288567483f,
                                   -0.239618421f, 0.204600647f,  -0.191055983f, 0.186170802f,  -0.109957926f};
 
-/// p·2^n, rounded once (also into the subnormals) for 0.5 < p < 2 and −200 < n < 200: two factors, for 2^n itself may
-/// not be a float, and the first product is exact.
+/// Returns p·2^n rounded once, including subnormal results, for 0.5 < p < 2 and −200 < n < 200. The power is applied as two
+/// factors because 2^n itself may not be representable; the first product is exact.
 template <class R>
 HS_INLINE R scale(R p, IntOf<R> n) {
   const IntOf<R> half = n >> 1;
   return p * as_real((half + 127) << 23) * as_real((n - half + 127) << 23);
 }
 
-/// 2^f for |f| <= 0.50001.
+/// Returns 2^f for |f| <= 0.50001.
 template <class R>
 HS_INLINE R exp2_of_fraction(R f) {
   return fma(f, polynomial<1>(f, kExp2), R(1.0f));
 }
 
-/// x = m·2^e with sqrt(1/2) <= m < sqrt(2), for 0 < x < infinity.
+/// Represents x = m·2^e with sqrt(1/2) <= m < sqrt(2), for 0 < x < infinity.
 template <class R>
 struct MantissaExponent {
   R m;
   IntOf<R> e;
 };
+/// Splits a normal number 2^-126 <= x < infinity.
 template <class R>
 HS_INLINE MantissaExponent<R> split_normal(R x) {
   const IntOf<R> root_half = 0x3f3504f3;                    // the bits of sqrt(1/2)
-  const IntOf<R> i = (as_int(x) & 0x7fffffff) - root_half;  // no sign: no overflow for x < 0
+  const IntOf<R> i = (as_int(x) & 0x7fffffff) - root_half;  // clearing the sign avoids an overflow for x < 0
   return {as_real((i & 0x7fffff) + root_half), i >> 23};
 }
-/// log2(x) for 2^-126 <= x < infinity, by the coefficients c of a polynomial for log2(1 + f)/f; it errs as that does, relative to
-/// log2 of what is left of x beside a power of two. 0 and what is below count as some number below −125, infinity and NaN as some number
-/// from 128 on.
+/// Returns log2(x) for 2^-126 <= x < infinity, where c is a polynomial for log2(1 + f)/f. With x = m·2^e, the error of the
+/// polynomial is relative to log2(m). Zero and subnormal x give some number below −125; infinity and NaN give some number that
+/// is at least 128.
 template <class R, std::size_t N>
 HS_INLINE R log2_of_normal(R x, const float (&c)[N]) {
   const MantissaExponent<R> me = split_normal(x);
   const R f = me.m - R(1.0f);
   return fma(f, polynomial(f, c), to_real<R>(me.e));
 }
+/// Splits any number 0 < x < infinity, including subnormals.
 template <class R>
 HS_INLINE MantissaExponent<R> split(R x) {
   const MaskOf<R> subnormal = x < R(0x1p-126f);
@@ -98,23 +101,23 @@ HS_INLINE MantissaExponent<R> split(R x) {
   return {me.m, me.e - select(subnormal, IntOf<R>(23), IntOf<R>(0))};
 }
 
-/// A logarithm where the argument is not a positive finite number: log 0 = −inf, log inf = inf, else NaN.
+/// Handles the special cases of logarithms: log 0 = −inf and log inf = inf; negative x and NaN give NaN.
 template <class R>
 HS_INLINE R hold_log_domain(R x, R log_x) {
   const R special = select(x == R(0.0f), R(-kInfinity), select(x > R(0.0f), R(kInfinity), R(kNaN)));
   return select(x > R(0.0f) && x < R(kInfinity), log_x, special);
 }
 
-/// A number held as high + low, |low| <= about an ulp of high: some 45 bits.
+/// An unevaluated sum high + low, where |low| is at most about one ulp of high. Holds about 45 bits.
 template <class R>
 struct Sum {
   R high, low;
 };
 
-/// log2(x) with a relative error below 2^-34, for 0 < x < infinity.
+/// Returns log2(x) with a relative error below 2^-34, for 0 < x < infinity.
 ///
-/// With s = (m − 1)/(m + 1), log2(m) = (2/ln 2)·(s + s³/3 + s⁵/5 + …) = s·(c + u), u = s²·(c1 + s²·(c2 + …)) < c/100.
-/// Each float product or sum that matters keeps its rounding error, found exactly by fma or by Dekker's fast two-sum.
+/// With s = (m − 1)/(m + 1), log2(m) = (2/ln 2)·(s + s³/3 + s⁵/5 + …) = s·(c + u), u = s²·(c1 + s²·(c2 + …)) < c/100. The
+/// rounding error of each significant product and sum is kept; it is computed exactly with fma or Dekker's fast two-sum.
 template <class R>
 HS_INLINE Sum<R> log2_in_two(R x) {
   static constexpr float kC[] = {0.577082872f, 0.411706328f, 0.340218514f};
@@ -138,7 +141,7 @@ HS_INLINE Sum<R> log2_in_two(R x) {
   const R l = s * g;
   const R l_low = fma(s, g, -l) + fma(s, g_low, s_low * g);
   const R e = to_real<R>(me.e);
-  const R high = e + l;  // |e| >= 1 > |l|, or e = 0
+  const R high = e + l;  // fast two-sum is valid: |e| >= 1 > |l|, or e = 0
   return {high, (e - high) + l + l_low};
 }
 
@@ -149,8 +152,8 @@ HS_INLINE R copy_sign_bits(R magnitude, IntOf<R> sign) {
 
 }  // namespace detail
 
-/// 2^x. Error at most 0.96 ulp (subnormal results too); exact for integers.
-/// Below −150 it gives 0, from 128 on infinity.
+/// Returns 2^x. The error is at most 0.96 ulp, also for subnormal results; integers give exact results. Returns 0 for x < −150
+/// and infinity for x >= 128.
 template <Number R>
 HS_INLINE R exp2(R x) {
   if constexpr (std::is_same_v<R, double>)
@@ -163,7 +166,7 @@ HS_INLINE R exp2(R x) {
   }
 }
 
-/// e^x. Error at most 1.02 ulp. Below −104 it gives 0, above 88.8 infinity.
+/// Returns e^x. The error is at most 1.02 ulp. Returns 0 for x < −104 and infinity for x > 88.8.
 template <Number R>
 HS_INLINE R exp(R x) {
   if constexpr (std::is_same_v<R, double>)
@@ -172,14 +175,14 @@ HS_INLINE R exp(R x) {
     static constexpr float kC[] = {0.49999994f, 0.166665211f, 0.041668389f, 0.00836871099f, 0.00138146093f};
     const R clamped = clamp(x, -110.0f, 110.0f);
     const R n = round_even(clamped * R(1.44269502f));
-    const R f = fma(-n, R(1.42860677e-06f), fma(-n, R(0.693145752f), clamped));  // ln 2 in two parts; the first step is exact
+    const R f = fma(-n, R(1.42860677e-06f), fma(-n, R(0.693145752f), clamped));  // ln 2 is split in two; the first step is exact
     const R p = fma(f * f, detail::polynomial(f, kC), f) + R(1.0f);
     return select(x == x, detail::scale(p, round_to_int(n)), x);
   }
 }
 
-/// The logarithm to base 2. Error at most 1.04 ulp; exact for powers of two. log2(±0) = −inf, log2(inf) = inf, x < 0
-/// gives NaN.
+/// Returns the base-2 logarithm. The error is at most 1.04 ulp; powers of two give exact results. log2(±0) = −inf,
+/// log2(inf) = inf, and x < 0 gives NaN.
 template <Number R>
 HS_INLINE R log2(R x) {
   if constexpr (std::is_same_v<R, double>)
@@ -192,7 +195,7 @@ HS_INLINE R log2(R x) {
   }
 }
 
-/// The natural logarithm. Error at most 0.9 ulp. Zero, infinity and x < 0 as log2.
+/// Returns the natural logarithm. The error is at most 0.9 ulp. Zero, infinity and x < 0 are handled as in log2.
 template <Number R>
 HS_INLINE R log(R x) {
   if constexpr (std::is_same_v<R, double>)
@@ -208,11 +211,12 @@ HS_INLINE R log(R x) {
   }
 }
 
-/// x^y for x >= 0. Error at most 1.2 ulp wherever the result is a float, for any y (1.07 found; subnormal results too).
+/// Returns x^y for x >= 0 and any y. The error is at most 1.2 ulp wherever the result is representable, including subnormal
+/// results (the largest error found is 1.07 ulp).
 ///
-/// pow(x, 0) = 1 and pow(1, y) = 1 for every x and y, NaN included; pow(0, y) = 0 for y > 0 and inf for y < 0;
-/// infinities as in IEEE 754. Unlike std::pow, x < 0 gives NaN for every y but 0, also where y is an integer; −0
-/// counts as 0. R = double follows the same rules.
+/// pow(x, 0) = 1 and pow(1, y) = 1 for every x and y, including NaN. pow(0, y) is 0 for y > 0 and infinity for y < 0.
+/// Infinities follow IEEE 754. Unlike std::pow, x < 0 gives NaN for every y except 0, even if y is an integer, and −0 is
+/// treated as 0. R = double follows the same rules.
 template <Number R>
 HS_INLINE R pow(R x, std::type_identity_t<R> y) {
   if constexpr (std::is_same_v<R, double>) {
@@ -222,7 +226,7 @@ HS_INLINE R pow(R x, std::type_identity_t<R> y) {
     const R special = select(x > R(0.0f), R(detail::kInfinity), R(-detail::kInfinity));
     const R high = select(x > R(0.0f) && x < R(detail::kInfinity), log_x.high, special);
     const R product = y * high;
-    // The rest of y·log2(x). Where the product is far out of range it may be NaN, and does not matter.
+    // The remainder of y·log2(x). It may be NaN where the product is far out of range, and is not needed there.
     const R rest = select(abs(product) < R(200.0f), fma(y, high, -product) + y * log_x.low, R(0.0f));
     const R clamped = clamp(product, -200.0f, 200.0f);
     const R n = round_even(clamped);
@@ -232,11 +236,13 @@ HS_INLINE R pow(R x, std::type_identity_t<R> y) {
   }
 }
 
-/// x^y for 0 <= x <= 1 and y >= 0, as highlights ask: absolute error at most 6e-7 (pow's is relative), at a fifth of pow's cost (alone,
-/// 16 lanes). unit_pow(x, 0) = 1, unit_pow(0, y) = 0 for y > 0. NaN gives NaN, but y = 0 always 1. What is below 2^-126 counts as 0.
+/// Returns x^y for 0 <= x <= 1 and y >= 0, as needed for specular highlights. The absolute error is at most 6e-7, whereas that
+/// of pow is relative, at a fifth of the cost of pow (measured in isolation with 16 lanes). unit_pow(x, 0) = 1 for every x,
+/// even NaN, and unit_pow(0, y) = 0 for y > 0. Otherwise NaN gives NaN. x < 2^-126 is treated as 0.
 ///
-/// y·log2 x errs by 2^-19.8 of itself, the result by that times ln 2·2^(y·log2 x): t·2^-t is 0.54 at most, which makes 4.1e-7. The power of
-/// two errs by 1.1e-7 of the result; together they are 4.6e-7 at most, beside roundings of some 1e-7.
+/// Error bound: let t = −y·log2(x). t has a relative error of 2^-19.8, so the result 2^-t has an absolute error of
+/// ln 2·t·2^-t·2^-19.8 <= 4.1e-7, because t·2^-t is at most 0.54. The polynomial for the power of two adds a relative error of
+/// 1.1e-7. Together these are at most 4.6e-7; rounding adds about 1e-7.
 template <Number R>
 HS_INLINE R unit_pow(R x, std::type_identity_t<R> y) {
   if constexpr (std::is_same_v<R, double>) {
@@ -246,18 +252,19 @@ HS_INLINE R unit_pow(R x, std::type_identity_t<R> y) {
                                             0.295699507f, -0.269319504f, 0.171623692f};
     static constexpr float kCoarseExp2[] = {1.0f, 0.693147004f, 0.240222424f, 0.0555073358f, 0.00967151485f, 0.00132647296f};
     const R product = max(R(-125.0f), y * detail::log2_of_normal(x, kCoarseLog2));
-    const R shifted = product + R(0x1.8p23f);  // whole numbers are the last bits beside 2^23
+    const R shifted = product + R(0x1.8p23f);  // the low mantissa bits now hold the nearest integer
     const R power_of_two = as_real((as_int(shifted) + 127) << 23);
     const R r = detail::polynomial(product - (shifted - R(0x1.8p23f)), kCoarseExp2) * power_of_two;
     return select(y == R(0.0f), R(1.0f), select(x >= R(0x1p-126f), r, x - x));
   }
 }
 
-/// 1/sqrt(x) for 2^-126 <= x < infinity. Error at most 1.32 ulp. It costs less than a root and a division, and it leaves their unit
-/// to others. Smaller x > 0 give a finite number below the root, other x nothing that means anything.
+/// Returns 1/sqrt(x) for 2^-126 <= x < infinity, with an error of at most 1.32 ulp. It is cheaper than a square root and a
+/// division, and leaves the divider free for other instructions. Subnormal x > 0 give a finite number below 1/sqrt(x); other
+/// inputs give meaningless results.
 ///
-/// A first guess y by halving the exponent (as in Moroz et al., "Fast calculation of inverse square root with the use of
-/// magic constant", 2016), for which r = 1 − x·y² lies within 0.07 of 0; the root is then y/sqrt(1 − r), by a polynomial of r.
+/// The first guess y halves the exponent (see Moroz et al., "Fast calculation of inverse square root with the use of magic
+/// constant", 2016). r = 1 − x·y² is then within 0.07 of 0, and the result is y/sqrt(1 − r), evaluated as a polynomial in r.
 template <Number R>
 HS_INLINE R inverse_sqrt(R x) {
   if constexpr (std::is_same_v<R, double>) {
@@ -270,15 +277,15 @@ HS_INLINE R inverse_sqrt(R x) {
   }
 }
 
-/// The sine and cosine of one angle.
+/// Sine and cosine of the same angle.
 template <class R>
 struct SinCos {
   R sin, cos;
 };
 
-/// sin and cos of x radians. Error at most 1.54 ulp for |x| <= 1e4, at the zeros too: π/2 is taken off in three parts, the
-/// first of them without rounding. Up to |x| = 1e6 the absolute error is below 1e-6; beyond, the result is in [−1, 1] but
-/// has nothing to do with x. ±infinity gives NaN. sin is odd (sin(−0) = −0), cos even, bit by bit.
+/// Returns the sine and cosine of x radians. For |x| <= 1e4 the error is at most 1.54 ulp, even near zeros of the functions:
+/// π/2 is subtracted in three parts, the first of them without rounding. For |x| <= 1e6 the absolute error is below 1e-6. Beyond
+/// that the results are in [−1, 1] but meaningless. ±infinity gives NaN. sin is exactly odd (sin(−0) = −0) and cos exactly even.
 template <Number R>
 HS_INLINE SinCos<R> sin_cos(R x) {
   if constexpr (std::is_same_v<R, double>)
@@ -291,7 +298,7 @@ HS_INLINE SinCos<R> sin_cos(R x) {
     R r = fma(-n, R(1.57079637f), a);
     r = fma(-n, R(-4.37113883e-08f), r);
     r = fma(-n, R(-1.71512451e-15f), r);
-    r = clamp(r, -1.0f, 1.0f);  // holds back only what is out of range
+    r = clamp(r, -1.0f, 1.0f);  // has an effect only for |x| that is out of range
     const R z = r * r;
     const R s = fma(r * z, detail::polynomial(z, kSin), r);
     const R c = fma(z, fma(z, detail::polynomial(z, kCos), R(-0.5f)), R(1.0f));
@@ -312,8 +319,8 @@ HS_INLINE R cos(R x) {
   return sin_cos(x).cos;
 }
 
-/// The angle of the point (x, y), in [−π, π] rounded to float. Error at most 1.5 ulp (1.39 found). Zeros and infinities as in
-/// IEEE 754: atan2(±0, +0) = ±0, atan2(±0, −0) = ±π, atan2(±inf, inf) = ±π/4. The sign is y's.
+/// Returns the angle of the point (x, y) in [−π, π], with the sign of y. The error is at most 1.5 ulp (the largest error found
+/// is 1.39). Zeros and infinities follow IEEE 754: atan2(±0, +0) = ±0, atan2(±0, −0) = ±π, atan2(±inf, inf) = ±π/4.
 template <Number R>
 HS_INLINE R atan2(R y, std::type_identity_t<R> x) {
   if constexpr (std::is_same_v<R, double>)
@@ -321,23 +328,23 @@ HS_INLINE R atan2(R y, std::type_identity_t<R> x) {
   else {
     static constexpr float kC[] = {
         -0.333332986f, 0.199985474f,   -0.142642379f, 0.10952165f,    -0.0840339512f,
-        0.0579567254f, -0.0311770439f, 0.0109142046f, -0.00179352728f};  // the last moved by 1e-8, so that atan(1) is π/4
+        0.0579567254f, -0.0311770439f, 0.0109142046f, -0.00179352728f};  // the last one is shifted by 1e-8 so that atan(1) is π/4
     const R ax = abs(x), ay = abs(y);
     const MaskOf<R> steep = ay > ax;
     const MaskOf<R> left = as_int(x) < 0;  // −0 is left of the y axis
     const R low = select(steep, ax, ay), high = select(steep, ay, ax);
-    const R diagonal = select(high > R(0.0f), R(1.0f), R(0.0f));  // instead of 0/0 and inf/inf
+    const R diagonal = select(high > R(0.0f), R(1.0f), R(0.0f));  // replaces 0/0 and inf/inf
     const R t = select(low == high, diagonal, low / high);
     const R z = t * t;
-    const R r = fma(t * z, detail::polynomial(z, kC), t);  // atan of 0 <= t <= 1
+    const R r = fma(t * z, detail::polynomial(z, kC), t);  // atan(t) for 0 <= t <= 1
     const R from = select(steep, R(1.57079637f), select(left, R(3.14159274f), R(0.0f)));
-    const R from_low = from * R(-2.78275e-08f);  // π/2 and π less their floats
+    const R from_low = from * R(-2.78275e-08f);  // π/2 and π minus their float values
     const R angle = from + (select(steep ^ left, -r, r) + from_low);
     return detail::copy_sign_bits(angle, as_int(y));
   }
 }
 
-/// The arc tangent, in [−π/2, π/2]. Error at most 1.4 ulp.
+/// Returns the arc tangent in [−π/2, π/2]. The error is at most 1.4 ulp.
 template <Number R>
 HS_INLINE R atan(R x) {
   return atan2(x, R(1.0f));
@@ -345,7 +352,7 @@ HS_INLINE R atan(R x) {
 
 namespace detail {
 
-/// asin(s) − s over s³, s² = z <= 1/4.
+/// Returns (asin(s) − s)/s³ for s² = z <= 1/4.
 template <class R>
 HS_INLINE R asin_tail(R z) {
   static constexpr float kC[] = {0.166667521f, 0.0749529749f, 0.0454703756f, 0.0241795238f, 0.0421662852f};
@@ -354,7 +361,8 @@ HS_INLINE R asin_tail(R z) {
 
 }  // namespace detail
 
-/// The arc sine, in [−π/2, π/2]. Error at most 2.37 ulp; |x| > 1 gives NaN. From 1/2 on, asin(x) = π/2 − 2·asin(sqrt((1 − x)/2)).
+/// Returns the arc sine in [−π/2, π/2]. The error is at most 2.37 ulp; |x| > 1 gives NaN. For x > 1/2 it uses
+/// asin(x) = π/2 − 2·asin(sqrt((1 − x)/2)).
 template <Number R>
 HS_INLINE R asin(R x) {
   if constexpr (std::is_same_v<R, double>)
@@ -369,7 +377,7 @@ HS_INLINE R asin(R x) {
   }
 }
 
-/// The arc cosine, in [0, π]. Error at most 1.13 ulp; |x| > 1 gives NaN.
+/// Returns the arc cosine in [0, π]. The error is at most 1.13 ulp; |x| > 1 gives NaN.
 template <Number R>
 HS_INLINE R acos(R x) {
   if constexpr (std::is_same_v<R, double>)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pairs: two lots of lanes computed side by side, operation by operation.
+// Pairs of lanes: two independent groups of lanes that are processed together, one operation at a time.
 //
-// A shader is a long chain of operations, each of which needs the one before; a processor that looks some hundred operations ahead finds
-// little else to do. Two chains beside each other keep it busy. RealPair<H>, IntPair<H> and MaskPair<H>, H being float or RealN<W>, are
-// used as lanes are (lanes.h), and each half computes what it would compute alone: the bits are the same.
+// A shader is a long chain of dependent operations, and an out-of-order window of a few hundred instructions finds little else
+// to execute. Interleaving two such chains keeps the execution units busy. RealPair<H>, IntPair<H> and MaskPair<H>, where H is
+// float or RealN<W>, are used like lanes (lanes.h). Each half gives the same bits as if it were computed separately.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ struct IntPair;
 
 namespace detail {
 
-/// f(a, b) for a sum or a product that wraps round, of plain integers too.
+/// Applies f, a sum, difference or product, with wrapping arithmetic. Also works for plain int32_t.
 template <class I, class F>
 HS_INLINE I wrapping(I a, I b, F f) {
   if constexpr (std::is_same_v<I, int32_t>) {
@@ -32,7 +32,7 @@ HS_INLINE I wrapping(I a, I b, F f) {
 
 }  // namespace detail
 
-/// Truth values of a RealPair<H>.
+/// Booleans that belong to a RealPair<H>.
 template <class H>
 struct MaskPair {
   using Half = MaskOf<H>;
@@ -64,7 +64,7 @@ struct MaskPair {
   }
 };
 
-/// Integers of a RealPair<H>.
+/// Integers that belong to a RealPair<H>.
 template <class H>
 struct IntPair {
   using Half = IntOf<H>;
@@ -108,7 +108,7 @@ struct IntPair {
   }
 };
 
-/// Numbers in two halves H.
+/// Floating-point numbers in two halves of type H.
 template <class H>
 struct RealPair {
   using Half = H;
@@ -170,7 +170,7 @@ inline constexpr bool kIsPair<RealPair<H>> = true;
 template <class H>
 inline constexpr uint32_t kAllBits<MaskPair<H>> = kAllBits<MaskOf<H>> << kWidthOf<H> | kAllBits<MaskOf<H>>;
 
-/// Half i of a pair.
+/// Returns half i of a pair: 0 is low, 1 is high.
 template <int i, class T>
 HS_INLINE auto& half(T& pair) {
   if constexpr (i == 0) {
@@ -180,7 +180,7 @@ HS_INLINE auto& half(T& pair) {
   }
 }
 
-/// What pixels are shaded with: two packets of this build's lanes.
+/// The number type of fragment shading: two packets of the lanes of this build.
 using FragmentReal = RealPair<Real>;
 
 template <class H>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lanes: W pixels, vertices or triangles computed at once.
+// SIMD lanes: W pixels, vertices or triangles processed at once.
 //
-// RealN<W>, IntN<W> and MaskN<W> wrap the vector extension of GCC and Clang. Every operation is lane-wise and
-// correctly rounded (IEEE 754 binary32), so lane i of any width holds the bits that plain float would hold: the
-// same function template run with R = float, RealN<8> or RealN<16> gives the same bits. Nothing here adds across
-// lanes. A mask never turns into bool by itself: say any(m), all(m), none(m), or select(m, a, b).
+// RealN<W>, IntN<W> and MaskN<W> wrap the vector extension of GCC and Clang. Every operation works lane by lane and is
+// correctly rounded (IEEE 754 binary32), so each lane holds exactly the bits that scalar code would compute: the same function
+// template instantiated with R = float, RealN<8> or RealN<16> gives the same results. There are no horizontal sums. A mask does
+// not convert to bool implicitly; use any(m), all(m), none(m) or select(m, a, b).
 //
-// Width 1 is plain float, int32_t and bool; all functions below exist for them too.
+// At width 1 the types are float, int32_t and bool. All functions below are overloaded for them.
 #pragma once
 
 #include <immintrin.h>
@@ -19,7 +19,7 @@
 #include <cstring>
 #include <type_traits>
 
-// After an #error below one lane is assumed, so that the message stands alone.
+// Each #error below falls back to one lane, so that no further errors hide the message.
 #ifndef HALFSPACE_LANES
 #error "HALFSPACE_LANES is not defined: link the CMake target Halfspace::raster, which sets it and the compiler flags it needs"
 #define HALFSPACE_LANES 1
@@ -38,7 +38,7 @@
 #define HALFSPACE_LANES 1
 #endif
 
-// What must be inlined for lanes to stay in registers; and a function that inlines all it calls, shaders included.
+// HS_INLINE forces inlining, which keeps lanes in registers. HS_FLATTEN inlines everything that a function calls, including shaders.
 #define HS_INLINE inline __attribute__((always_inline))
 #define HS_FLATTEN __attribute__((flatten))
 
@@ -46,9 +46,10 @@ namespace halfspace {
 
 namespace detail {
 
-// The compiler's vector types, one explicit row a width: g++ 12 drops a vector_size that depends on a template.
-// may_alias as in the compiler's own __m128: else g++ 12 takes one lane of as_real(i), read by a variable index, for an
-// access to float memory, and reorders it against the writes of i's ints (tests/core/lanes_test.cpp met it at -O2).
+// The vector types of the compiler, specialized per width because g++ 12 ignores a vector_size that depends on a template
+// parameter. may_alias is also on the compiler's own __m128. Without it, g++ 12 treats reading a lane of as_real(i) at a
+// variable index as an access to float memory and reorders it with writes to the integers (found by tests/core/lanes_test.cpp
+// at -O2).
 template <int W>
 struct Vectors;
 template <>
@@ -68,14 +69,14 @@ struct Vectors<16> {
 };
 
 #ifdef __AVX512F__
-// The unmasked 512-bit intrinsics of g++ 12 read an uninitialized register by design and warn of it; those with a
-// mask do not, and a full mask costs nothing.
+// In g++ 12 the unmasked 512-bit intrinsics read an uninitialized register by design, which causes warnings. The masked
+// variants do not, and a full mask costs nothing.
 inline constexpr __mmask16 kAll16 = 0xffff;
 #endif
 
 }  // namespace detail
 
-/// W booleans, each held as an int of all zeros (false) or all ones (true).
+/// W booleans, each stored as an int of all zeros (false) or all ones (true).
 template <int W>
 struct MaskN {
   using V = typename detail::Vectors<W>::I;
@@ -95,7 +96,7 @@ struct MaskN {
   HS_INLINE MaskN& operator|=(MaskN b) { return v |= b.v, *this; }
 };
 
-/// W 32-bit integers. Arithmetic wraps round as two's complement; >> on them is arithmetic.
+/// W 32-bit integers. Arithmetic wraps in two's complement; >> is an arithmetic shift.
 template <int W>
 struct IntN {
   using V = typename detail::Vectors<W>::I;
@@ -108,7 +109,7 @@ struct IntN {
   HS_INLINE IntN(int32_t s) : v(V{} + s) {}
   HS_INLINE explicit IntN(V lanes) : v(lanes) {}
 
-  // Sums and products go through unsigned, where wrapping round is defined.
+  // Sums and products are computed on unsigned integers, where wrapping is defined.
   friend HS_INLINE IntN operator+(IntN a, IntN b) { return IntN((V)((U)a.v + (U)b.v)); }
   friend HS_INLINE IntN operator-(IntN a, IntN b) { return IntN((V)((U)a.v - (U)b.v)); }
   friend HS_INLINE IntN operator*(IntN a, IntN b) { return IntN((V)((U)a.v * (U)b.v)); }
@@ -130,14 +131,14 @@ struct IntN {
   friend HS_INLINE MaskN<W> operator!=(IntN a, IntN b) { return MaskN<W>(a.v != b.v); }
 };
 
-/// W binary32 numbers.
+/// W floats (IEEE 754 binary32).
 template <int W>
 struct RealN {
   using V = typename detail::Vectors<W>::F;
   V v;
 
   RealN() = default;
-  HS_INLINE RealN(float s) : v(s - V{}) {}  // s - 0 keeps the sign of a zero; 0 + s would not
+  HS_INLINE RealN(float s) : v(s - V{}) {}  // s − 0 keeps the sign of a zero, 0 + s does not
   HS_INLINE explicit RealN(V lanes) : v(lanes) {}
 
   friend HS_INLINE RealN operator+(RealN a, RealN b) { return RealN(a.v + b.v); }
@@ -159,9 +160,9 @@ struct RealN {
   friend HS_INLINE MaskN<W> operator!=(RealN a, RealN b) { return MaskN<W>(a.v != b.v); }
 };
 
-// ---- the types that go with a number type R -------------------------------------------------------------------
+// ---- types that belong to a number type R ----------------------------------------------------------------------
 
-/// What a shader's letter R implies: how many values it holds, and its integer and truth types.
+/// Properties of a number type R: its width in lanes, and the matching integer and mask types.
 template <class R>
 struct LaneTraits;
 template <>
@@ -191,11 +192,11 @@ inline constexpr bool kIsLanes = false;
 template <int W>
 inline constexpr bool kIsLanes<RealN<W>> = true;
 
-/// float, double, or lanes of float: what may stand for R in a shader.
+/// float, double or lanes of float: the types that can be the parameter R of a shader.
 template <class R>
 concept Number = std::is_same_v<R, float> || std::is_same_v<R, double> || kIsLanes<R>;
 
-// The width that this build computes with (CMake sets HALFSPACE_LANES; 1, 4, 8 or 16).
+// The SIMD width of this build. CMake sets HALFSPACE_LANES to 1, 4, 8 or 16.
 inline constexpr int kLanes = HALFSPACE_LANES;
 using Real = std::conditional_t<kLanes == 1, std::type_identity<float>, std::type_identity<RealN<kLanes == 1 ? 4 : kLanes>>>::type;
 using Int = IntOf<Real>;
@@ -204,7 +205,7 @@ using Mask = MaskOf<Real>;
 // ---- masks -----------------------------------------------------------------------------------------------------
 
 HS_INLINE uint32_t negative_bits(int32_t i) { return i < 0 ? 1u : 0u; }
-/// The lanes below 0, one bit each, lane 0 lowest.
+/// Returns one bit per lane, set where the lane is negative. Lane 0 is the lowest bit.
 template <int W>
 HS_INLINE uint32_t negative_bits(IntN<W> i) {
 #ifdef __AVX512DQ__
@@ -220,7 +221,7 @@ HS_INLINE uint32_t negative_bits(IntN<W> i) {
 }
 
 HS_INLINE uint32_t bits(bool m) { return m ? 1u : 0u; }
-/// One bit a lane, lane 0 lowest.
+/// Returns one bit per lane, set where the mask is true. Lane 0 is the lowest bit.
 template <int W>
 HS_INLINE uint32_t bits(MaskN<W> m) {
   return negative_bits(IntN<W>(m.v));
@@ -247,7 +248,7 @@ HS_INLINE float select(bool m, float a, float b) { return m ? a : b; }
 HS_INLINE double select(bool m, double a, double b) { return m ? a : b; }
 HS_INLINE int32_t select(bool m, int32_t a, int32_t b) { return m ? a : b; }
 HS_INLINE bool select(bool m, bool a, bool b) { return m ? a : b; }
-/// Lane by lane: a where m, else b.
+/// Selects a where m is true and b elsewhere, lane by lane.
 template <int W>
 HS_INLINE RealN<W> select(MaskN<W> m, RealN<W> a, std::type_identity_t<RealN<W>> b) {
   return RealN<W>(m.v ? a.v : b.v);
@@ -271,7 +272,7 @@ HS_INLINE MaskN<W> select(MaskN<W> m, MaskN<W> a, std::type_identity_t<MaskN<W>>
 
 // ---- memory ----------------------------------------------------------------------------------------------------
 
-/// Loads the width of T from consecutive values; p need not be aligned.
+/// Loads a T from consecutive values of type S. p need not be aligned.
 template <class T, class S>
 HS_INLINE T load(const S* p) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0);
@@ -279,7 +280,7 @@ HS_INLINE T load(const S* p) {
   std::memcpy(&t, p, sizeof t);
   return t;
 }
-/// Stores all lanes of t to consecutive values; p need not be aligned.
+/// Stores all lanes of t to consecutive values of type S. p need not be aligned.
 template <class S, class T>
 HS_INLINE void store(S* p, const T& t) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0);
@@ -288,7 +289,7 @@ HS_INLINE void store(S* p, const T& t) {
 
 HS_INLINE float gather(const float* base, int32_t i) { return base[i]; }
 HS_INLINE int32_t gather(const int32_t* base, int32_t i) { return base[i]; }
-/// base[i] lane by lane. Every lane's index must be valid, whether its result is used or not.
+/// Loads base[i] lane by lane. Every lane must have a valid index, even if its result is not used.
 template <int W>
 HS_INLINE RealN<W> gather(const float* base, IntN<W> i) {
 #ifdef __AVX512F__
@@ -319,7 +320,7 @@ HS_INLINE IntN<W> gather(const int32_t* base, IntN<W> i) {
 }
 
 HS_INLINE int32_t look_up(const std::array<int32_t, 16>& table, int32_t i) { return table[static_cast<std::size_t>(i)]; }
-/// table[i] lane by lane, i in 0 … 15: cheaper than gather, for the table is in registers.
+/// Returns table[i] lane by lane, for i in 0 … 15. Cheaper than gather, because the table is kept in registers.
 template <int W>
 HS_INLINE IntN<W> look_up(const std::array<int32_t, 16>& table, IntN<W> i) {
   using V = typename IntN<W>::V;
@@ -335,7 +336,7 @@ HS_INLINE IntN<W> look_up(const std::array<int32_t, 16>& table, IntN<W> i) {
   return gather(table.data(), i);
 }
 
-// One lane as a scalar, and one lane set.
+// Access to a single lane.
 HS_INLINE float lane(float r, int) { return r; }
 HS_INLINE double lane(double r, int) { return r; }
 HS_INLINE int32_t lane(int32_t r, int) { return r; }
@@ -364,7 +365,7 @@ HS_INLINE void set_lane(IntN<W>& r, int i, int32_t x) {
   r.v[i] = x;
 }
 
-/// 0, 1, 2, … one a lane.
+/// Returns 0, 1, 2, … in consecutive lanes.
 template <class I>
 HS_INLINE I iota() {
   I r{};
@@ -372,7 +373,7 @@ HS_INLINE I iota() {
   return r;
 }
 
-/// Lanes 0 … n−1 true.
+/// Returns a mask with lanes 0 … n−1 true.
 template <class M>
 HS_INLINE M first_lanes(int n) {
   if constexpr (std::is_same_v<M, bool>) {
@@ -382,7 +383,7 @@ HS_INLINE M first_lanes(int n) {
   }
 }
 
-/// The mask whose bits() are b.
+/// Returns the mask m for which bits(m) == b. The inverse of bits().
 template <class M>
 HS_INLINE M mask_from_bits(uint32_t b) {
   if constexpr (std::is_same_v<M, bool>) {
@@ -412,7 +413,7 @@ HS_INLINE RealN<W> as_real(IntN<W> i) {
   return RealN<W>((typename RealN<W>::V)i.v);
 }
 
-/// The nearest float (ties to even).
+/// Converts to the nearest float, ties to even.
 template <class R>
 HS_INLINE R to_real(int32_t i) {
   return static_cast<R>(i);
@@ -423,7 +424,7 @@ HS_INLINE RealN<W> to_real(IntN<W> i) {
   return RealN<W>(__builtin_convertvector(i.v, typename RealN<W>::V));
 }
 
-// Rounding to an integer. NaN and what does not fit an int32 give INT32_MIN, at every width (the x86 convention).
+// Rounding to an integer. NaN and values outside the range of int32_t give INT32_MIN at every width, as x86 does.
 HS_INLINE int32_t truncate_to_int(float r) { return _mm_cvttss_si32(_mm_set_ss(r)); }
 HS_INLINE int32_t round_to_int(float r) { return _mm_cvtss_si32(_mm_set_ss(r)); }
 HS_INLINE int32_t truncate_to_int(double r) { return _mm_cvttsd_si32(_mm_set_sd(r)); }
@@ -441,7 +442,7 @@ HS_INLINE IntN<W> truncate_to_int(RealN<W> r) {
   for (int k = 0; k < W; ++k) i.v[k] = truncate_to_int(r.v[k]);
   return i;
 }
-/// To the nearest integer, ties to even.
+/// Rounds to the nearest integer, ties to even.
 template <int W>
 HS_INLINE IntN<W> round_to_int(RealN<W> r) {
 #ifdef __AVX512F__
@@ -460,7 +461,7 @@ HS_INLINE IntN<W> round_to_int(RealN<W> r) {
 
 HS_INLINE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
 HS_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
-/// a·b + c, rounded once.
+/// Returns a·b + c, rounded once.
 template <int W>
 HS_INLINE RealN<W> fma(RealN<W> a, std::type_identity_t<RealN<W>> b, std::type_identity_t<RealN<W>> c) {
   using V [[maybe_unused]] = typename RealN<W>::V;
@@ -515,7 +516,7 @@ HS_INLINE RealN<W> floor(RealN<W> a) {
 
 HS_INLINE float round_even(float a) { return __builtin_rintf(a); }
 HS_INLINE double round_even(double a) { return __builtin_rint(a); }
-/// The nearest integer as a float, ties to even.
+/// Rounds to the nearest integer, ties to even, and returns it as a float.
 template <int W>
 HS_INLINE RealN<W> round_even(RealN<W> a) {
   using V [[maybe_unused]] = typename RealN<W>::V;
@@ -538,8 +539,8 @@ HS_INLINE RealN<W> abs(RealN<W> a) {
   return as_real(as_int(a) & 0x7fffffff);
 }
 
-// min and max return the second argument when either is NaN, as the SSE instructions do, at every width. (Compilers make a comparison
-// and a blend of a > b ? a : b.)
+// min and max return the second argument if either is NaN, like the SSE instructions, at every width. (They use intrinsics
+// because compilers turn a > b ? a : b into a comparison and a blend.)
 HS_INLINE float min(float a, float b) { return a < b ? a : b; }
 HS_INLINE float max(float a, float b) { return a > b ? a : b; }
 HS_INLINE double min(double a, double b) { return a < b ? a : b; }
@@ -587,14 +588,14 @@ HS_INLINE IntN<W> max(IntN<W> a, std::type_identity_t<IntN<W>> b) {
   return IntN<W>(a.v > b.v ? a.v : b.v);
 }
 
-/// x held to [lo, hi]; NaN gives lo.
+/// Clamps x to [lo, hi]. NaN gives lo.
 template <Number R>
 HS_INLINE R clamp(R x, std::type_identity_t<R> lo, std::type_identity_t<R> hi) {
   return min(max(x, lo), hi);
 }
 
-/// a·b − c·d with an error of at most 1.5 ulp (Kahan; Jeannerod, Louvet and Muller, "Further analysis of Kahan's
-/// algorithm for the accurate computation of 2x2 determinants", Math. Comp. 82, 2013).
+/// Returns a·b − c·d with an error of at most 1.5 ulp. This is Kahan's algorithm; see Jeannerod, Louvet and Muller, "Further
+/// analysis of Kahan's algorithm for the accurate computation of 2x2 determinants", Math. Comp. 82, 2013.
 template <Number R>
 HS_INLINE R difference_of_products(R a, std::type_identity_t<R> b, std::type_identity_t<R> c, std::type_identity_t<R> d) {
   const R cd = c * d;

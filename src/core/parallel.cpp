@@ -22,7 +22,7 @@ namespace {
 
 using Task = std::function<void(int)>;
 
-/// Runs the tasks on the calling thread and on threads started for this call. After an exception no further task starts.
+/// Runs the tasks on the calling thread and on threads started for this call. No new task starts after an exception.
 void run_on_std_threads(int threads, int count, const Task& task) {
   std::atomic<int> next = 0;
   std::mutex mutex;
@@ -57,11 +57,11 @@ struct Workers::Impl {
 
 #else
 
-/// A team of TBB's threads. The arena bounds only our own tasks: TBB's other users in the process keep their threads.
+/// A team that runs on TBB's threads. The arena limits only our own tasks; other users of TBB in the process are unaffected.
 struct Workers::Impl {
   explicit Impl(int threads) : arena(threads) {}
 
-  /// Null where std::thread does the work: TBB has no more threads than the machine has cores.
+  /// Returns null if std::thread should do the work instead: TBB does not start more threads than the machine has cores.
   static std::unique_ptr<Impl> make(int threads) {
     return threads > 1 && threads <= tbb::info::default_concurrency() ? std::make_unique<Impl>(threads) : nullptr;
   }
@@ -72,7 +72,7 @@ struct Workers::Impl {
       const detail::TaskScope scope;
       task(i);
     };
-    // One task at a time: each is a tile or some thousand triangles, so stealing costs little and balance is best.
+    // Grain size 1: a task is a tile or several thousand triangles, so stealing is cheap and gives the best load balance.
     arena.execute([&] { tbb::parallel_for(0, count, 1, work, tbb::simple_partitioner()); });
   }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Threads. A team runs on TBB, or on std::thread: where TBB is absent (HALFSPACE_STD_THREADS, also for ThreadSanitizer,
-// which must see every lock), and where the team is larger than the machine.
+// Thread teams on top of TBB. A team uses std::thread instead if it has more threads than TBB would start, or if the build
+// has no TBB (HALFSPACE_STD_THREADS, also used for ThreadSanitizer, which must see every lock). A single task, or a team of
+// one, runs on the calling thread.
 #pragma once
 
 #include <functional>
@@ -9,11 +10,11 @@
 
 namespace halfspace {
 
-/// A team of threads. Results must never depend on its size: it decides who does a task, not what a task does.
+/// A team of threads. Results must never depend on the number of threads, which only determines who runs a task.
 class Workers {
  public:
-  /// threads >= 1 counts the calling thread; it may exceed the machine's cores. Other users of TBB in the process are
-  /// not affected. A limit that the host sets (tbb::global_control) holds for teams up to the machine's cores.
+  /// Creates a team of threads >= 1, including the calling thread. The count may exceed the number of cores. Other users of TBB
+  /// in the process are not affected. A limit set by the host (tbb::global_control) applies to teams that run on TBB.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -21,12 +22,13 @@ class Workers {
 
   int threads() const { return threads_; }
 
-  /// Calls task(i) once for every i in [0, count), in any order, on any of the threads, in IEEE's default float mode
-  /// (FloatMode), and returns when all are done. If tasks throw, no further task starts, and one of the exceptions is
-  /// rethrown here when none is running. A check that fails in a task reaches the check handler (check.h) here too.
+  /// Calls task(i) once for each i in [0, count) and returns when all calls have finished. Tasks run in any order, on any
+  /// thread of the team, in the default IEEE floating-point mode (see FloatMode). If a task throws, no further tasks start, and
+  /// one of the exceptions is rethrown to the caller after the running tasks have ended. A check that fails in a task is
+  /// reported to the check handler (check.h) in the same way.
   void for_each(int count, const std::function<void(int)>& task) const;
 
-  /// The number of cores this process may use.
+  /// Returns the number of hardware threads of this machine, at least 1.
   static int cores();
 
  private:

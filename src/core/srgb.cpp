@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The two tables of srgb.h, made by the compiler. decode(v) is needed to a float's 24 bits; double arithmetic gives it
-// to about 2^-50. Should an exact value lie so near to a rounding boundary that this could matter, the test with long
-// double would say so: the nearest is 2^-35 away, relative to the value.
+// The two tables of srgb.h, computed at compile time. Double arithmetic gives decode(v) to about 2^-50, and the tables need 24
+// bits. If an exact value were so close to a rounding boundary that this mattered, the test that uses long double would fail.
+// The closest one is at a relative distance of 2^-35.
 #include "halfspace/core/srgb.h"
 
 namespace halfspace {
 
 namespace {
 
-/// a^2.4 for 0 < a <= 1: the fifth root of a^12, by Newton's iteration from above.
+/// Returns a^2.4 for 0 < a <= 1: the fifth root of a^12, by Newton's method from above.
 constexpr double power_of_2_4(double a) {
   const double a2 = a * a, a4 = a2 * a2, a12 = a4 * a4 * a4;
   double y = 1.0;
-  for (int i = 0; i < 60; ++i) {  // shrinks by 4/5 at first (a^2.4 > 1/900: 31 steps), then squares its error
+  for (int i = 0; i < 60; ++i) {  // first shrinks by 4/5 per step (a^2.4 > 1/900: 31 steps), then converges quadratically
     const double y2 = y * y;
     y -= (y2 * y2 * y - a12) / (5.0 * y2 * y2);
   }
@@ -22,7 +22,7 @@ constexpr double power_of_2_4(double a) {
 
 constexpr double decode(double v) { return v <= 0.04045 ? v / 12.92 : power_of_2_4((v + 0.055) / 1.055); }
 
-/// The bits of the smallest float that is not below x > 0.
+/// Returns the bits of the smallest float that is not below x, for x > 0.
 constexpr int32_t bits_at_or_above(double x) {
   const float f = static_cast<float>(x);
   return std::bit_cast<int32_t>(f) + (static_cast<double>(f) < x ? 1 : 0);
@@ -34,7 +34,7 @@ constexpr std::array<float, 256> make_decode_table() {
   return table;
 }
 
-/// Where code c begins: the first float that is nearer to it than to c − 1.
+/// Returns the bits of the first float that encodes to code c, i.e. is nearer to c than to c − 1.
 constexpr int32_t threshold_bits(int c) { return bits_at_or_above(decode((c - 0.5) / 255.0)); }
 
 struct EncodeTable {
@@ -49,7 +49,7 @@ constexpr EncodeTable make_encode_table() {
   for (int b = 0; b < detail::kSrgbBuckets; ++b) {
     const int32_t begin = detail::kSrgbFirstBits + (b << 16);
     const int32_t end = begin + 0x10000;
-    int32_t carry = 0;  // what lifts the threshold's low bits to 2^16; 0 never carries
+    int32_t carry = 0;  // makes the low bits of the threshold reach 2^16; 0 never carries
     if (code < 255 && next < end) carry = end - next;
     table.entries[static_cast<std::size_t>(b)] = (code << 16) + carry;
     if (carry == 0) continue;

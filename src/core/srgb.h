@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// 8-bit codes ↔ linear values: the sRGB curve (IEC 61966-2-1) and plain unsigned normalized numbers (decoded from 16 bits
-// too), both correctly rounded, both the same bits at every width. No powers are computed here: decoding reads a table of
-// 256 floats, encoding a table of thresholds, and the compiler makes both tables with + − × ÷ alone (srgb.cpp).
+// Conversion between 8-bit codes and linear values, for the sRGB transfer function (IEC 61966-2-1) and for unsigned normalized
+// integers, which can also be decoded from 16 bits. Results are correctly rounded and bit-identical at every width. Nothing here
+// computes a power: decoding uses a table of 256 floats, encoding a table of thresholds. Both tables are computed at compile
+// time using only + − × ÷ (srgb.cpp).
 //
 //   decode(v) = v/12.92 for v <= 0.04045, else ((v + 0.055)/1.055)^2.4        encode is its inverse
 #pragma once
@@ -15,10 +16,10 @@ namespace halfspace {
 
 namespace detail {
 
-// The encoder cuts [2^-13, 1) into buckets of equal exponent and 7 leading mantissa bits. The codes change slowly
-// enough that no bucket holds more than one threshold (srgb.cpp asserts it). A bucket's entry is, in 16.16 fixed
-// point, its first code plus what must be added to a float's 16 low bits so that they carry from the threshold on.
-inline constexpr int32_t kSrgbFirstBits = 0x39000000;  // 2^-13; all below encodes to 0
+// The encoder divides [2^-13, 1) into buckets of equal exponent and equal leading 7 mantissa bits. Codes change slowly enough
+// that a bucket has at most one threshold (asserted in srgb.cpp). The entry of a bucket, in 16.16 fixed point, is its first code
+// plus an offset that makes the low 16 bits of a float carry into the code at and above the threshold.
+inline constexpr int32_t kSrgbFirstBits = 0x39000000;  // 2^-13; everything below encodes to 0
 inline constexpr int kSrgbBuckets = 13 * 128;
 extern const std::array<int32_t, kSrgbBuckets> kSrgbEncode;
 
@@ -30,8 +31,8 @@ alignas(64) extern const std::array<float, 256> kSrgbToLinear;
 #ifdef __AVX512F__
 namespace detail {
 
-/// table[code] for codes 0 … 255, by permutes of the table's 16 registers: a third of a gather's time. Five bits of the
-/// code pick from two registers, three pick the pair.
+/// Returns table[code] for codes 0 … 255, by permuting the table in 16 registers; takes a third of the time of a gather. Five
+/// bits of the code select within two registers, and the other three select the pair.
 HS_INLINE RealN<16> permute_256(const float* table, IntN<16> code) {
   const __m512i c = (__m512i)code.v;
   const auto pair = [&](int i) { return _mm512_permutex2var_ps(_mm512_load_ps(table + 32 * i), c, _mm512_load_ps(table + 32 * i + 16)); };
@@ -46,7 +47,7 @@ HS_INLINE RealN<16> permute_256(const float* table, IntN<16> code) {
 }  // namespace detail
 #endif
 
-/// The linear value of each sRGB code: the nearest float. Every lane of code must lie in 0 … 255.
+/// Returns the linear value of each sRGB code, correctly rounded. Every lane of code must be in 0 … 255.
 template <Number R>
 HS_INLINE R srgb_to_linear(IntOf<R> code) {
   if constexpr (kIsPair<R>) {
@@ -59,8 +60,8 @@ HS_INLINE R srgb_to_linear(IntOf<R> code) {
   }
 }
 
-/// The sRGB code 0 … 255 nearest to 255·encode(x), for every float x. Below 0 and NaN: 0; above 1: 255. (A double is
-/// first rounded to float.)
+/// Returns the sRGB code 0 … 255 nearest to 255·encode(x), for every float x. x < 0 and NaN give 0; x > 1 gives 255. A double
+/// is first rounded to float.
 template <Number R>
 HS_INLINE IntOf<R> linear_to_srgb(R x) {
   if constexpr (std::is_same_v<R, double>)
@@ -71,7 +72,8 @@ HS_INLINE IntOf<R> linear_to_srgb(R x) {
   }
 }
 
-/// code/255 to the nearest float, for code (whole or between two codes) in [0, 255]: never decreasing, 255 gives 1.
+/// Returns code/255 for a code in [0, 255], rounded to the nearest float if the code is an integer. Codes may be fractional,
+/// as between two texels; the function is monotonic, and 255 gives 1.
 template <Number R>
 HS_INLINE R unorm8_to_linear(R code) {
   if constexpr (std::is_same_v<R, double>)
@@ -83,7 +85,7 @@ HS_INLINE R unorm8_to_linear(R code) {
   }
 }
 
-/// code/65535 to the nearest float, for code (whole or between two codes) in [0, 65535]: never decreasing, 65535 gives 1.
+/// Returns code/65535 for a code in [0, 65535], with the same properties as unorm8_to_linear.
 template <Number R>
 HS_INLINE R unorm16_to_linear(R code) {
   if constexpr (std::is_same_v<R, double>)
@@ -95,14 +97,14 @@ HS_INLINE R unorm16_to_linear(R code) {
   }
 }
 
-/// The code 0 … 255 nearest to 255·x, for every float x. Below 0 and NaN: 0; above 1: 255. (No float lies half-way
-/// between two codes.)
+/// Returns the code 0 … 255 nearest to 255·x, for every float x. x < 0 and NaN give 0; x > 1 gives 255. No float lies halfway
+/// between two codes.
 template <Number R>
 HS_INLINE IntOf<R> linear_to_unorm8(R x) {
   if constexpr (std::is_same_v<R, double>)
     return round_to_int(clamp(x, 0.0, 1.0) * 255.0);
   else {
-    // Beside 2^23 the last bit of a float weighs 1: the sum of the exact product rounds to a whole code, once.
+    // The ulp of a float is 1 in [2^23, 2^24), so fma rounds the exact product to an integer, once.
     return as_int(fma(clamp(x, 0.0f, 1.0f), R(255.0f), R(0x1p23f))) & 0xff;
   }
 }

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a check that fails in a task reaches the thread that called Workers::for_each. For parallel.cpp only.
+// Forwards a check that fails in a task to the thread that called Workers::for_each. Used by parallel.cpp and check.cpp only.
 #pragma once
 
 #include "halfspace/core/check.h"
 
 namespace halfspace::detail {
 
-/// Thrown by a check that fails in a task while a handler is set. It is no std::exception, so that a task that catches
-/// those does not take it for one of its own errors.
+/// Thrown by a check that fails in a task while a handler is set. It does not derive from std::exception, so that a task that
+/// catches its own exceptions does not swallow it.
 struct TaskCheckFailure {
   CheckFailure failure;
 };
 
-/// While it lives, a task runs on this thread. Scopes may be nested.
+/// Marks that a task runs on this thread. Scopes can be nested.
 class TaskScope {
  public:
   TaskScope();
@@ -25,8 +25,7 @@ class TaskScope {
   bool outer_;
 };
 
-/// Reports a failure that was caught after the tasks had ended: to the enclosing task if there is one, else to the
-/// handler.
+/// Reports a failure that was caught after the tasks ended, to the enclosing task if there is one and otherwise to the handler.
 [[noreturn]] void report_from_task(const TaskCheckFailure& failure);
 
 }  // namespace halfspace::detail

@@ -6,7 +6,7 @@
 
 namespace halfspace {
 
-// Rows of the table of distances between prefixes (optimal string alignment): the current one and the two before it.
+// Computes the optimal string alignment distance. Only three rows of the table of prefix distances are kept.
 int edit_distance(std::string_view a, std::string_view b) {
   const std::size_t n = b.size();
   std::vector<int> before(n + 1), last(n + 1), row(n + 1);
@@ -26,7 +26,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string_view nearest_name(std::string_view wrong, std::span<const std::string_view> names) {
-  if (wrong.size() > 64) return {};  // no name is that long
+  if (wrong.size() > 64) return {};  // bounds the cost; no known name is that long
   std::string_view best;
   int best_distance = std::max(2, static_cast<int>(wrong.size()) / 3) + 1;
   for (const std::string_view name : names) {

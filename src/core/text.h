@@ -7,14 +7,14 @@
 
 namespace halfspace {
 
-/// The fewest insertions, deletions, replacements and swaps of neighbouring letters that turn a into b.
+/// Returns the minimum number of insertions, deletions, substitutions and swaps of adjacent letters that turn a into b.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The name nearest to a wrong one, or empty where none is near (more than a third of its letters are wrong, and more
-/// than two). The first of equally near names wins.
+/// Returns the known name with the smallest edit distance to `wrong`; the first one wins ties. Returns an empty view if no name
+/// is close, i.e. if all distances are greater than 2 and greater than a third of the length of `wrong`.
 std::string_view nearest_name(std::string_view wrong, std::span<const std::string_view> names);
 
-/// "; did you mean 'NAME'?" or, where no name is near, "; expected one of A, B, C" (for a tail of an error line).
+/// Returns "; did you mean 'NAME'?" or, if no name is close, "; expected one of A, B, C". Meant to be appended to an error line.
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> names);
 
 }  // namespace halfspace

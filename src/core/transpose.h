@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Records that lie anywhere, read and written by lanes: four neighbouring words of each at once, turned word by word in registers, where
-// gathers would fetch every word by itself; the same of neighbours by their index; and records of three words that lie side by side.
+// Conversion between records in memory (AoS) and lanes (SoA). For scattered records, four consecutive words of each record are
+// loaded at once and transposed in registers, where gathers would fetch every word separately. There are variants for records
+// given by an index and for consecutive records of three words.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ HS_INLINE void store_at(void* p, const T& value) {
 }
 
 #ifdef __AVX512F__
-/// A 4x4 matrix in each quarter, turned.
+/// Transposes the 4x4 matrix in each 128-bit quarter.
 HS_INLINE std::array<IntN<16>, 4> transposed_4x4(const std::array<IntN<16>, 4>& of) {
   const auto row = [&](std::size_t i) { return (__m512)of[i].v; };
   const auto pairs = [](__m512 x) { return _mm512_castps_pd(x); };
@@ -37,7 +38,7 @@ HS_INLINE std::array<IntN<16>, 4> transposed_4x4(const std::array<IntN<16>, 4>& 
   return {word(_mm512_maskz_unpacklo_pd(all8, low_ab, low_cd)), word(_mm512_maskz_unpackhi_pd(all8, low_ab, low_cd)),
           word(_mm512_maskz_unpacklo_pd(all8, high_ab, high_cd)), word(_mm512_maskz_unpackhi_pd(all8, high_ab, high_cd))};
 }
-/// Records k, 4 + k, 8 + k, 12 + k, one a quarter.
+/// Loads the records k, k + 4, k + 8 and k + 12 into the four quarters.
 template <class Place>
 HS_INLINE IntN<16> load_quarters(IntN<16>, const Place& place, int k) {
   const __m512 one = _mm512_zextps128_ps512(load_at<__m128>(place(k)));
@@ -56,7 +57,7 @@ HS_INLINE void store_quarters(IntN<16> records, const Place& place, int k) {
 #endif
 
 #ifdef __AVX__
-/// The same with halves.
+/// The same for two 128-bit halves.
 HS_INLINE std::array<IntN<8>, 4> transposed_4x4(const std::array<IntN<8>, 4>& of) {
   const auto row = [&](std::size_t i) { return (__m256)of[i].v; };
   const auto pairs = [](__m256 x) { return _mm256_castps_pd(x); };
@@ -77,7 +78,7 @@ HS_INLINE void store_quarters(IntN<8> records, const Place& place, int k) {
 }
 #endif
 
-/// Whether records of as many lanes are turned in registers.
+/// Whether lanes of type I can be transposed in registers in this build.
 template <class I>
 inline constexpr bool kTransposes4x4 = requires(std::array<I, 4> words) {
   transposed_4x4(words);
@@ -85,11 +86,11 @@ inline constexpr bool kTransposes4x4 = requires(std::array<I, 4> words) {
 
 }  // namespace detail
 
-/// Four neighbouring 32-bit words of each lane's record: lane k of element i holds word i from place(k) on, a pointer to anything. All 16
-/// bytes must be readable. I: IntN<W> or int32_t.
+/// Loads four consecutive 32-bit words of the record of each lane. place(k) returns a pointer of any type to the record of lane
+/// k; all 16 bytes must be readable. Lane k of element i of the result is word i of that record. I is IntN<W> or int32_t.
 template <class I, class Place>
 HS_INLINE std::array<I, 4> load_aos4(const Place& place) {
-  using namespace detail;  // unqualified calls: without AVX these functions are not declared
+  using namespace detail;  // unqualified calls, because these functions are not declared without AVX
   if constexpr (kTransposes4x4<I>) {
     const auto part = [&](int k) { return load_quarters(I{}, place, k); };
     return transposed_4x4(std::array<I, 4>{part(0), part(1), part(2), part(3)});
@@ -103,8 +104,8 @@ HS_INLINE std::array<I, 4> load_aos4(const Place& place) {
   }
 }
 
-/// The other way: writes lane k of the four words to place(k) … place(k) + 15, in the order of k or any other. Places of several lanes may
-/// be one, where any of them is left.
+/// Stores lane k of the four words to the 16 bytes at place(k); the inverse of load_aos4. The order of the stores is unspecified:
+/// lanes may share a place only if it does not matter which of them remains.
 template <class I, class Place>
 HS_INLINE void store_aos4(const std::array<I, 4>& words, const Place& place) {
   using namespace detail;
@@ -120,8 +121,8 @@ HS_INLINE void store_aos4(const std::array<I, 4>& words, const Place& place) {
 
 namespace detail {
 
-/// Word I of each of W threes, which lie in a, b and c one after the other. (Of two vectors that are shuffled the second's lanes count from
-/// W on.)
+/// Returns word I of each of W three-word records that are stored consecutively in a, b and c. (A shuffle numbers the lanes of its
+/// second operand starting at W.)
 template <std::size_t I, class V, std::size_t... K>
 HS_INLINE V third(V a, V b, V c, std::index_sequence<K...>) {
   constexpr std::size_t w = sizeof...(K);
@@ -131,7 +132,7 @@ HS_INLINE V third(V a, V b, V c, std::index_sequence<K...>) {
 
 }  // namespace detail
 
-/// Threes that lie side by side, 3W words from p on: lane k of element i holds word 3k + i.
+/// Loads consecutive three-word records, 3W words starting at p. Lane k of element i is word 3k + i.
 template <class I>
 HS_INLINE std::array<I, 3> load_aos3(const int32_t* p) {
   constexpr std::size_t w = sizeof(I) / sizeof(int32_t);
@@ -144,11 +145,11 @@ HS_INLINE std::array<I, 3> load_aos3(const int32_t* p) {
   }
 }
 
-/// How many words behind the last that is asked for gather_row may read: it reads four where two are asked for.
+/// The number of words that gather_row may read past the last requested one: for N = 2 it reads four words.
 inline constexpr std::size_t kRowSlack = 2;
 
-/// base[i], …, base[i + N − 1] lane by lane, N up to 4: faster than N gathers where N > 1, for which four words from base[i]
-/// on must be readable for every lane, whether its result is used or not.
+/// Loads base[i], …, base[i + N − 1] lane by lane, for N up to 4. For N > 1 this is faster than N gathers, but four words starting
+/// at base[i] must be readable for every lane, even if its result is not used.
 template <int N, class Word, class I>
 HS_INLINE auto gather_row(const Word* base, I i) {
   std::array<decltype(gather(base, i)), N> row;

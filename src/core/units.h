@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Factors between units.
+// Unit conversion factors.
 #pragma once
 
 #include <numbers>

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// vec2<R>, vec3<R> and vec4<R>: small vectors of float, double or lanes, the types that shaders compute with.
+// vec2<R>, vec3<R> and vec4<R>: small vectors of float, double or lanes, which shaders compute with.
 //
-// Uniforms and vertex data are GLM's types: glm::vec3, glm::mat4 and so on, the same for all pixels. They convert to vec<R> by
-// themselves, so an operator or function takes any mix of the two as long as one argument is a vec<R>: in.normal + light, dot(n, light),
-// world_from_object * position. A vec<float> and a vec<double> convert back to GLM's type of the same numbers.
+// Uniforms and vertex data use GLM's types (glm::vec3, glm::mat4 and so on), whose values are the same for all pixels. These
+// convert to vec<R> implicitly, so operators and functions accept any mix of the two as long as one argument is a vec<R>:
+// in.normal + light, dot(n, light), world_from_object * position. A vec<float> or vec<double> converts back to the GLM type with
+// the same component type.
 //
-// All functions (dot, length, normalize, …) are found by their argument, from any namespace. Each fixes its order of operations, so that
-// float and lanes give the same bits. The dot product of three components rounds once per component, which GLM's does not: the two
-// differ in the last bit.
+// All functions (dot, length, normalize, …) are found by argument-dependent lookup, from any namespace. Each has a fixed order
+// of operations, so that float and lanes give the same bits. The dot product of three components rounds once per component,
+// which GLM's does not: the two differ in the last bit.
 //
-// Two uniforms make a uniform, computed by GLM once. The product of a uniform vector and a varying number is a vec3<R> for lanes but a
-// glm::vec3 for float; store it in a vec3<R> before passing it to dot, length, normalize or reflect.
+// An expression of two uniforms is a uniform and is computed once, by GLM. The product of a uniform vector and a varying scalar
+// is a vec3<R> for lanes but a glm::vec3 for float; store it in a vec3<R> before passing it to dot, length, normalize or reflect.
 #pragma once
 
 #ifdef GLM_FORCE_DEFAULT_ALIGNED_GENTYPES
@@ -34,10 +35,10 @@ using vec3 = VecN<3, R>;
 template <class R>
 using vec4 = VecN<4, R>;
 
-/// The numbers S that convert to R without loss: a vector of them converts to a vector of R by itself.
+/// S converts to R without loss: a vector of S converts to a vector of R implicitly.
 template <class S, class R>
 concept WidensTo = std::same_as<S, float> ||(std::same_as<S, double>&& std::same_as<R, double>);
-/// The numbers S that convert to R when asked to.
+/// S converts to R, possibly with loss: a vector of S converts to a vector of R at least explicitly.
 template <class S, class R>
 concept CastsTo = WidensTo<S, R> ||(std::same_as<S, double>&& std::same_as<R, float>);
 
@@ -124,7 +125,7 @@ struct VecN<3, R> {
   HS_INLINE constexpr VecN& operator/=(R s) { return *this = *this / s; }
   friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-  /// One rounding per component for float and lanes; in double the sum of the products.
+  /// Rounds once per component for float and lanes. For double it is the plain sum of products.
   friend HS_INLINE R dot(const VecN& a, const VecN& b) {
     if constexpr (std::same_as<R, double>) {
       return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -138,7 +139,7 @@ struct VecN<3, R> {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
   }
   friend HS_INLINE VecN mix(const VecN& a, const VecN& b, R t) { return a * (R(1) - t) + b * t; }
-  /// v thrown back by a mirror with the unit normal n.
+  /// Reflects v at a plane with the unit normal n.
   friend HS_INLINE VecN reflect(const VecN& v, const VecN& n) { return v - n * dot(n, v) * R(2); }
 };
 
@@ -193,7 +194,7 @@ struct VecN<4, R> {
 
 // ---- uniform and varying ---------------------------------------------------------------------------------------
 
-/// Numbers whose product with a uniform vector GLM does not give.
+/// Number types whose product with a uniform vector is not defined by GLM.
 template <class R>
 concept MixesWithFloat = Number<R> && !std::same_as<R, float>;
 
@@ -220,7 +221,7 @@ HS_INLINE vec4<R> operator*(const glm::mat<4, 4, S>& m, const vec4<R>& v) {
   return xy + zw;
 }
 
-/// Each lane of a where m is true, else of b.
+/// Selects a where m is true and b elsewhere, lane by lane.
 template <int L, Number R>
 HS_INLINE VecN<L, R> select(MaskOf<R> m, const VecN<L, R>& a, const VecN<L, R>& b) {
   VecN<L, R> r;
@@ -228,7 +229,7 @@ HS_INLINE VecN<L, R> select(MaskOf<R> m, const VecN<L, R>& a, const VecN<L, R>& 
   return r;
 }
 
-/// v divided by its length. No intermediate overflows or underflows, whatever v's size; the zero vector stays zero.
+/// Returns v divided by its length, or zero if v is zero. No intermediate result overflows or underflows, whatever the length of v.
 glm::dvec3 unit_or_zero(const glm::dvec3& v);
 
 }  // namespace halfspace

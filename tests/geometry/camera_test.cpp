@@ -88,7 +88,7 @@ TEST(Camera, OrthographicMapsItsBox) {
 TEST(Camera, BrokenPreconditionsAbort) {
   EXPECT_DEATH(perspective_gl(1, 1, 1, kInfinity), "far < ");
   EXPECT_DEATH(perspective_gl(4, 1, 1, 2), "fovy < ");
-  EXPECT_DEATH(perspective_reversed(1, 1, 0, 2), "near > 0.0 \\(0 against 0\\)");
+  EXPECT_DEATH(perspective_reversed(1, 1, 0, 2), "near > 0.0 \\(0 vs 0\\)");
   EXPECT_DEATH(look_at({1, 1, 1}, {1, 1, 1}, {0, 1, 0}), "length > 0.0");
   EXPECT_DEATH(look_at({0, 0, 0}, {0, 1, 0}, {0, 1, 0}), "length > 0.0");
 }

@@ -47,7 +47,7 @@ TEST_F(PassCheckTest, DrawRefusesAnIndexBeyondTheVertices) {
     Pass pass(16, 16, rgba32f_target(image_), {});
     pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)));
     const std::string message = failure_of([&] { pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)), of_six); });
-    EXPECT_NE(message.find("(6 against 3)"), std::string::npos) << message;
+    EXPECT_NE(message.find("(6 vs 3)"), std::string::npos) << message;
   }
   Pass pass(16, 16, rgba32f_target(image_), {});
   pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)));
@@ -59,7 +59,7 @@ TEST_F(PassCheckTest, RunPassesOnACheckThatFailsInAShader) {
   for (const int threads : {1, 3}) {
     Pass pass(16, 16, rgba32f_target(image_), {}, {.tile_size = 8});
     pass.draw(FailingShader{}, make_vertex_view(stream(positions_)));
-    EXPECT_EQ(failure_of([&] { pass.run(Workers(threads)); }), "color.x > 1.0f (1 against 1)");
+    EXPECT_EQ(failure_of([&] { pass.run(Workers(threads)); }), "color.x > 1.0f (1 vs 1)");
   }
 }
 
