@@ -21,17 +21,17 @@ namespace halfspace {
 
 namespace {
 
-// The file being written aside, for the signal handler. The flag is set while the name is whole.
+// Name of the temporary file being written, for the signal handler. The flag is set while the name is valid.
 char unfinished_name[4096];
 std::atomic<bool> unfinished = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
-std::mutex writing;  // one file at a time
+std::mutex writing;  // only one file is written at a time
 
 [[noreturn]] void fail_errno(const std::filesystem::path& path, int error) {
   fail_writing(path, std::string("cannot write (") + std::strerror(error) + ")");
 }
 
-// What stands at the path, symbolic links followed; empty where nothing does.
+// Returns the status of the file at path, following symbolic links, or nothing if it does not exist.
 std::optional<struct stat> status_of(const std::filesystem::path& path) {
   struct stat s = {};
   if (::stat(path.c_str(), &s) == 0) return s;
@@ -39,7 +39,7 @@ std::optional<struct stat> status_of(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-// Where the bytes will really go: a link's target is replaced, not the link.
+// Returns the path of the file to replace. If path is a symbolic link, that is its target, not the link itself.
 std::filesystem::path real_path(const std::filesystem::path& path, bool exists) {
   if (!exists) return path;
   char* resolved = ::realpath(path.c_str(), nullptr);
@@ -54,7 +54,7 @@ std::filesystem::path directory_of(const std::filesystem::path& path) {
   return parent.empty() ? "." : parent;
 }
 
-// The directory, or the nearest one above it that exists: there the missing ones are made.
+// Returns the directory or its nearest existing ancestor, in which the missing directories will be created.
 std::filesystem::path existing_part(std::filesystem::path directory) {
   std::error_code error;
   while (!std::filesystem::exists(directory, error)) {
@@ -65,7 +65,7 @@ std::filesystem::path existing_part(std::filesystem::path directory) {
   return directory;
 }
 
-// An open file descriptor.
+// Owns an open file descriptor.
 struct Descriptor {
   int fd;
   ~Descriptor() {
@@ -73,7 +73,8 @@ struct Descriptor {
   }
 };
 
-// 0, or the errno of the first write that failed. In pieces: a signal is heard only between two writes to a disk.
+// Returns 0, or the errno of the first failed write. Writes in pieces, because a write to a disk cannot be interrupted by a
+// signal until it is complete.
 int write_all(int fd, std::span<const std::byte> bytes) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   while (!bytes.empty()) {
@@ -85,7 +86,7 @@ int write_all(int fd, std::span<const std::byte> bytes) {
   return 0;
 }
 
-// Creates a file of a new name beside path; the name is left in unfinished_name.
+// Creates a temporary file with a unique name in the directory of path, and stores its name in unfinished_name.
 int create_aside(const std::filesystem::path& path) {
   static std::atomic<unsigned> counter = 0;
   for (int attempt = 0; attempt < 100; ++attempt) {
@@ -93,7 +94,7 @@ int create_aside(const std::filesystem::path& path) {
     const std::string full = (directory_of(path) / name).string();
     if (full.size() >= sizeof unfinished_name) return errno = ENAMETOOLONG, -1;
     std::memcpy(unfinished_name, full.c_str(), full.size() + 1);
-    unfinished = true;  // before the file exists: a signal in between finds nothing to remove
+    unfinished = true;  // set before the file exists: a signal in between finds nothing to remove
     const int fd = ::open(unfinished_name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd >= 0) return fd;
     unfinished = false;
@@ -102,10 +103,10 @@ int create_aside(const std::filesystem::path& path) {
   return -1;
 }
 
-// Opening a pipe that no one reads would wait for ever: without waiting it is an error. Writing then waits for the reader.
+// Opens with O_NONBLOCK, because a blocking open of a pipe without a reader would never return. The writes themselves block.
 void write_in_place(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const Descriptor file{::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)};
-  if (file.fd < 0 && errno == ENXIO) fail_writing(path, "no one reads from it; expected a program that does, or a file name");
+  if (file.fd < 0 && errno == ENXIO) fail_writing(path, "no process is reading from it; expected a pipe with a reader, or a file name");
   if (file.fd < 0) fail_errno(path, errno);
   const int flags = ::fcntl(file.fd, F_GETFL);
   if (flags < 0 || ::fcntl(file.fd, F_SETFL, flags & ~O_NONBLOCK) != 0) fail_errno(path, errno);
@@ -122,11 +123,11 @@ bool is_standard_output(const std::filesystem::path& path) {
 void make_directory(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) fail_writing(path, "cannot make the directory (" + error.message() + ")");
+  if (error) fail_writing(path, "cannot create the directory (" + error.message() + ")");
 }
 
 void check_writable(const std::filesystem::path& path) {
-  if (path.empty()) throw OutputError("the output has no name; expected a file name");
+  if (path.empty()) throw OutputError("the name of the output file is empty; expected a file name");
   const auto status = status_of(path);
   if (!path.has_filename() || (status && S_ISDIR(status->st_mode))) fail_writing(path, "is a directory; expected a file name");
   if (status && ::access(path.c_str(), W_OK) != 0) fail_errno(path, errno);
@@ -135,7 +136,7 @@ void check_writable(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_directory(directory, error)) fail_writing(path, "cannot write (" + directory.string() + " is not a directory)");
   if (::access(directory.c_str(), W_OK | X_OK) != 0)
-    fail_writing(path, "cannot write in " + directory.string() + " (" + std::strerror(errno) + ")");
+    fail_writing(path, "cannot write to directory " + directory.string() + " (" + std::strerror(errno) + ")");
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
@@ -154,7 +155,7 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
   if (fd < 0) fail_errno(path, errno);
   int error = write_all(fd, bytes);
   if (error == 0 && status && ::fchmod(fd, status->st_mode & 07777) != 0) error = errno;
-  if (::close(fd) != 0 && error == 0) error = errno;  // some file systems say only now that the disk is full
+  if (::close(fd) != 0 && error == 0) error = errno;  // some file systems report a full disk only here
   if (error == 0 && ::rename(unfinished_name, target.c_str()) != 0) error = errno;
   if (error != 0) ::unlink(unfinished_name);
   unfinished = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files appear whole or not at all: written aside in the same directory, then renamed.
+// Atomic file output: data is written to a temporary file in the target directory, which is then renamed.
 #pragma once
 
 #include <cstddef>
@@ -9,23 +9,23 @@
 
 namespace halfspace {
 
-/// Writes the bytes to path, replacing what is there (an existing file keeps its permissions; a symbolic link keeps
-/// pointing at the file, which is replaced). Missing directories are made. Standard output under any name, and something
-/// that is no regular file, is written to in place; a pipe that no one reads is an error. Throws OutputError; then path
-/// is untouched and nothing else is left behind but directories. Thread-safe.
+/// Writes the bytes to path, replacing an existing file, and creates missing directories. An existing file keeps its
+/// permissions; if path is a symbolic link, its target is replaced. Standard output (under any name) and other files that are not
+/// regular are written in place; a pipe without a reader is an error. Throws OutputError on failure. A regular file at path is
+/// then unchanged, and nothing is left behind except created directories. Thread-safe.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// Throws the OutputError that write_file would meet at once (a parent that is a file, no right to write), so that a
-/// program can say so before it computes what it cannot keep. Makes nothing.
+/// Throws the OutputError that write_file would throw immediately, for example if a parent is a file or permission is missing.
+/// Programs call this before they compute a result that they could not save. Creates nothing.
 void check_writable(const std::filesystem::path& path);
 
-/// Is that the file, pipe or terminal that standard output goes to, such as /dev/stdout?
+/// Returns whether path is the file, pipe or terminal that standard output is connected to, such as /dev/stdout.
 bool is_standard_output(const std::filesystem::path& path);
 
-/// Makes the directory, and those above it, where they are absent. Throws OutputError.
+/// Creates the directory and its missing parents. Throws OutputError.
 void make_directory(const std::filesystem::path& path);
 
-/// Removes the file that is being written aside, if there is one. For signal handlers: async-signal-safe.
+/// Removes the temporary file that is being written, if any. Async-signal-safe, for use in signal handlers.
 void remove_unfinished_output() noexcept;
 
 }  // namespace halfspace

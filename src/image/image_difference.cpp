@@ -26,7 +26,7 @@ bool is_opaque(const Image<glm::vec4>& image) {
   return std::ranges::all_of(image.texels(), [](const glm::vec4& c) { return c.w == 1.0f; });
 }
 
-// Rec. 709 luma: the weighted sum of encoded channels, as a number in [0, 1].
+// Rec. 709 luma: the weighted sum of the encoded channels, in [0, 1].
 double luma(const glm::u8vec4& c) { return (0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z) / 255.0; }
 double luma(const glm::vec4& c) {
   const auto encoded = [](float x) { return static_cast<double>(srgb_curve(glm::clamp(x, 0.0f, 1.0f))); };
@@ -44,7 +44,7 @@ std::array<double, 2 * kRadius + 1> gaussian() {
   return weights;
 }
 
-// Means along one axis: `count` numbers, `step` apart.
+// Computes Gaussian-weighted means along one axis, for `count` numbers that are `step` apart.
 void blur_line(const double* from, double* to, int count, std::size_t step) {
   static const std::array<double, 2 * kRadius + 1> kWeights = gaussian();
   for (int i = 0; i < count; ++i) {
@@ -79,7 +79,7 @@ Image<double> luma_of(const Image<Texel>& image) {
   return out;
 }
 
-// Equation 13 of the paper, its mean over all pixels (17).
+// Mean over all pixels (equation 17 of the paper) of the SSIM index (equation 13).
 double mean_ssim(const Image<double>& a, const Image<double>& b) {
   constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
   const Image<double> mean_a = blurred(a), mean_b = blurred(b), aa = blurred(product(a, a)), bb = blurred(product(b, b)),
@@ -93,7 +93,7 @@ double mean_ssim(const Image<double>& a, const Image<double>& b) {
   return sum / static_cast<double>(a.texels().size());
 }
 
-// ---- all of them --------------------------------------------------------------------------------------------------------
+// ---- all measures -------------------------------------------------------------------------------------------------------
 
 template <class Texel>
 int compared_channels(const Image<Texel>& a, const Image<Texel>& b) {
@@ -143,7 +143,7 @@ Image<float> map_of(const Image<Texel>& a, const Image<Texel>& b) {
 
 glm::u8vec4 heat(float e) {
   constexpr std::array<glm::vec3, 5> kRamp = {glm::vec3(0, 0, 0), {0.1f, 0.1f, 0.9f}, {0.9f, 0.1f, 0.2f}, {1, 0.9f, 0.2f}, {1, 1, 1}};
-  // One step of the ramp at 1/255, all four at 1.
+  // A difference of 1/255 is one step along the ramp, and a difference of 1 is all four.
   const float codes = e * 255.0f, x = codes <= 1.0f ? codes : std::min(1.0f + 3.0f * log2(codes) / log2(255.0f), 4.0f);
   const auto i = std::min(static_cast<std::size_t>(x), kRamp.size() - 2);
   const glm::vec3 c = glm::mix(kRamp[i], kRamp[i + 1], x - static_cast<float>(i));

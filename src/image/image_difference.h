@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far two pictures are from each other, in numbers and as a picture.
+// Measures the difference between two images, as numbers and as an image.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,30 +9,31 @@
 
 namespace halfspace {
 
-/// Differences of red, green and blue, and of alpha where it is not 1 throughout both pictures. Codes count as code/255.
+/// Differences over red, green and blue, and over alpha unless both images are fully opaque. 8-bit codes count as code/255.
 struct ImageDifference {
   int channels = 3;
-  double rmse = 0.0;     ///< root of the mean square, over all channels
-  double mean = 0.0;     ///< of the absolute differences
-  double psnr_db = 0.0;  ///< 20·log10(1/rmse); infinite where nothing differs
-  double max = 0.0;      ///< of any channel
-  double p999 = 0.0;     ///< 99.9th percentile over pixels of the largest difference of a channel: so much or less differ 99.9 % of them
-  double share_above = 0.0;  ///< share of the pixels where a channel differs by more than 1/255
-  double ssim = 1.0;         ///< mean structural similarity: 1 where nothing differs
+  double rmse = 0.0;         ///< root of the mean squared difference, over all channels
+  double mean = 0.0;         ///< mean absolute difference
+  double psnr_db = 0.0;      ///< 20·log10(1/rmse); infinite for identical images
+  double max = 0.0;          ///< maximum over all channels
+  double p999 = 0.0;         ///< 99.9th percentile over pixels of the maximum difference over channels
+  double share_above = 0.0;  ///< fraction of pixels with a channel that differs by more than 1/255
+  double ssim = 1.0;         ///< mean structural similarity; 1 for identical images
 };
 
-/// Compares 8-bit codes. Both of one size, not empty. SSIM is that of Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment:
-/// from error visibility to structural similarity", 2004: on luma, a Gaussian window of 11 x 11 px and 1.5 px standard deviation,
-/// K1 = 0.01, K2 = 0.03; at the picture's border the part of the window that lies inside.
+/// Compares images of 8-bit codes, which must have the same size and not be empty. SSIM follows Wang, Bovik, Sheikh and
+/// Simoncelli, "Image quality assessment: from error visibility to structural similarity", 2004. It is computed on luma with
+/// K1 = 0.01, K2 = 0.03 and an 11 x 11 px Gaussian window with a standard deviation of 1.5 px. At the image border the window
+/// is cropped and its weights are renormalized.
 ImageDifference compare_images(const Image<glm::u8vec4>& a, const Image<glm::u8vec4>& b);
-/// Compares linear light; all finite. SSIM looks at it held to [0, 1] and encoded to sRGB.
+/// Compares images of linear light. All values must be finite. SSIM is computed after clamping to [0, 1] and sRGB encoding.
 ImageDifference compare_images(const Image<glm::vec4>& a, const Image<glm::vec4>& b);
 
-/// The largest difference of a channel at each pixel. Both of one size.
+/// Returns the maximum difference over channels for each pixel. Both images must have the same size.
 Image<float> difference_map(const Image<glm::u8vec4>& a, const Image<glm::u8vec4>& b);
 Image<float> difference_map(const Image<glm::vec4>& a, const Image<glm::vec4>& b);
 
-/// A map of differences as colours on a logarithmic scale, black for none over blue (1/255), red and yellow to white (1 and more).
+/// Maps differences to colors on a logarithmic scale: black for 0, blue at 1/255, then red and yellow, and white at 1 and above.
 Image<glm::u8vec4> difference_colors(const Image<float>& differences);
 
 }  // namespace halfspace

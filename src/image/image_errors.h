@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Errors that name their file.
+// Throws errors whose message starts with the path of the file.
 #pragma once
 
 #include <filesystem>

@@ -7,7 +7,7 @@ namespace halfspace {
 
 namespace {
 
-// A format and the bytes that its files begin with.
+// A file signature and the format it identifies.
 struct Signature {
   std::string_view magic;
   ToolFormat format;

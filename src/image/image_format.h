@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The formats that halfspace-image-tool reads, told by what files begin with.
+// Detects the formats that halfspace-image-tool reads, by the first bytes of a file.
 #pragma once
 
 #include <filesystem>
@@ -10,22 +10,22 @@
 
 namespace halfspace {
 
-/// For messages: the formats of 8- or 16-bit codes, and all formats.
+/// Lists for messages: formats that store 8- or 16-bit codes, and all formats.
 inline constexpr const char* kCodeFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS";
 inline constexpr const char* kAllFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, OpenEXR, HDR or PFM";
 
 struct ToolFormat {
-  /// OpenImageIO's name.
+  /// OpenImageIO's name for the format.
   const char* name = nullptr;
-  /// The format's own name where it holds linear numbers only; nullptr for a format of codes.
+  /// Display name if the format stores only linear values; nullptr for formats of codes.
   const char* linear_name = nullptr;
 };
 
-/// The format of a file that begins with head (16 bytes are enough), or nothing. TGA has no signature: there the
-/// extension of path decides.
+/// Returns the format of a file that begins with head (16 bytes are sufficient), or nothing if it is unknown. TGA has no
+/// signature and is recognized by the extension of path.
 std::optional<ToolFormat> find_tool_format(const std::filesystem::path& path, std::string_view head);
 
-/// The extension of path in small letters (ASCII), with its dot.
+/// Returns the extension of path in ASCII lower case, including the dot.
 std::string small_extension(const std::filesystem::path& path);
 
 }  // namespace halfspace

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures and maps as files. PNG is read and written here; the other formats go through a program of its own,
-// halfspace-image-tool (the only user of OpenImageIO), in a process that a hostile file may kill.
+// Reads and writes image files. PNG is handled in this process. All other formats go through a separate program,
+// halfspace-image-tool, which is the only user of OpenImageIO, so that a malicious file can only crash that program.
 //
-// Pictures hold straight alpha and their top row first. What is read and written:
-//   codes    PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS: 8 or 16 bits a channel, sRGB where it is colour
-//   numbers  OpenEXR, Radiance HDR, PFM, and TIFF, PSD or DDS of floats: linear
-// The format of a file that is read is told by its content, of one that is written by its name. Readers throw InputError
-// ("PATH: what is wrong; what would be right") for what is missing, damaged or too large (more than 2^28 pixels or
-// 32768 on an edge), writers OutputError; a file appears whole or not at all. All functions are thread-safe.
+// Images have straight alpha and store the top row first. There are two kinds of files:
+//   codes          PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS: 8 or 16 bits per channel, sRGB for colors
+//   linear values  OpenEXR, Radiance HDR, PFM, and floating-point TIFF, PSD or DDS
+// Readers detect the format by the content of a file, writers by its name. Readers throw InputError ("PATH: problem; expected
+// what would be right") for files that are missing, damaged or too large (more than 2^28 pixels or 32768 pixels per side).
+// Writers throw OutputError; an output file is either complete or not created. All functions are thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -19,52 +19,55 @@
 
 namespace halfspace {
 
-/// A format that pictures are written in.
+/// Formats that images can be written in.
 enum class ImageFile { png, jpeg, tiff, exr, hdr };
 
-/// The format that the extension of path asks for (.png, .jpg or .jpeg, .tif or .tiff, .exr, .hdr, small or capital),
-/// or nothing where it is another or there is none.
+/// Returns the format for the extension of path (.png, .jpg or .jpeg, .tif or .tiff, .exr, .hdr; case-insensitive), or nothing
+/// for any other name.
 std::optional<ImageFile> image_file_of(const std::filesystem::path& path);
 
-/// Does the format hold linear numbers (exr, hdr), not 8-bit codes?
+/// Returns whether the format stores linear values (exr, hdr) instead of 8-bit codes.
 bool is_linear(ImageFile file);
 
-/// Does the file hold linear numbers by its format (OpenEXR, Radiance HDR, PFM)? Throws InputError as readers do.
+/// Returns whether the format of the file implies linear values (OpenEXR, Radiance HDR, PFM). Throws InputError like the readers.
 bool holds_linear_numbers(const std::filesystem::path& path);
 
-/// Reads a file of codes as 8-bit codes: grey is repeated, absent alpha is 255, 16 bits are rounded to 8. No colour
-/// conversion, no turning by EXIF; the first picture of several. A file of numbers is refused.
+/// Reads a file of codes as 8-bit RGBA. Gray is replicated to all color channels, missing alpha becomes 255, and 16-bit codes are
+/// rounded to 8 bits. Color profiles and EXIF orientation are ignored; only the first image of a file is read. Throws InputError
+/// for files of linear values.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
 
-/// Reads the first channel (the only one of a grey file, red of a colour file) of any file, such as a map of heights:
-/// 8-bit codes over 255, 16-bit codes over 65535, numbers as they are, no sRGB decoding. Every result is finite: an
-/// infinity or NaN in the file is an InputError that names its pixel.
+/// Reads the first channel (gray or red) of any file, such as a height map. 8-bit codes are divided by 255 and 16-bit codes by
+/// 65535, without sRGB decoding; linear values are unchanged. All results are finite: an infinity or NaN in the file throws an
+/// InputError that names the pixel.
 Image<float> read_gray(const std::filesystem::path& path);
 
-/// Reads any file as linear light with straight alpha: codes are decoded from sRGB (alpha: over 255 or 65535), numbers
-/// are taken as they are, but that OpenEXR's colours are divided by their alpha where it is not 0. Infinities are held
-/// to ±65504; NaN is an InputError that names its pixel.
+/// Reads any file as linear light with straight alpha. Codes are decoded from sRGB, except that alpha is divided by 255 or 65535.
+/// Linear values are unchanged, except that OpenEXR colors are divided by alpha where it is positive. Infinities are clamped to
+/// ±65504; NaN throws an InputError that names the pixel.
 Image<glm::vec4> read_linear(const std::filesystem::path& path);
 
-/// Writes 8-bit sRGB codes with straight alpha as PNG (without alpha where all are 255), whatever the name of the file.
+/// Writes 8-bit sRGB codes with straight alpha as PNG, regardless of the file name. Opaque images are written without alpha.
 void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
 
-/// Writes codes that are numbers, no colours, such as a normal map, as PNG that does not say sRGB.
+/// Writes codes that are data rather than colors, such as a normal map, as PNG without the sRGB marker.
 void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
 
-/// Writes 8-bit sRGB codes with straight alpha by the extension of path: .png and .tif (deflate) exactly, without alpha
-/// where all are 255; .jpg at quality 95 with colour at full resolution, alpha dropped. The image must not be empty.
+/// Writes 8-bit sRGB codes with straight alpha, in the format given by the extension of path. PNG and TIFF (deflate) are
+/// lossless, and omit alpha if the image is opaque. JPEG uses quality 95 without chroma subsampling, and drops alpha. The image
+/// must not be empty.
 void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
 
-/// Writes linear light with straight alpha by the extension of path. NaN is written as 0. The image must not be empty.
-///   .exr  channels R, G, B, and A where some alpha is not 1; the nearest half, at most ±65504, ZIP; colours multiplied
-///         by alpha, as OpenEXR has it: they are lost where alpha is 0
-///   .hdr  RGBE (8 bits and an exponent that the pixel shares): the error is at most 1/256 of the pixel's largest channel;
-///         alpha dropped, negative numbers 0, infinities 65504
+/// Writes linear light with straight alpha, in the format given by the extension of path. NaN is written as 0. The image must
+/// not be empty.
+///   .exr  Channels R, G, B, and A unless the image is opaque, as half floats with ZIP compression. Values are rounded to the
+///         nearest half and clamped to ±65504. Colors are multiplied by alpha, as OpenEXR requires, and are lost where it is 0.
+///   .hdr  RGBE: 8 bits per channel and a shared exponent per pixel. The error is at most 1/256 of the pixel's largest channel.
+///         Alpha is dropped, negative values become 0, and infinities become 65504.
 void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image);
 
-/// Writes one channel Z of 32-bit floats as OpenEXR (ZIP), bit for bit, whatever the name of the file. The image must
-/// not be empty.
+/// Writes a single 32-bit float channel Z as OpenEXR (ZIP), regardless of the file name. Values are stored exactly. The image
+/// must not be empty.
 void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an image file may claim before memory is set aside for it.
+// Limits on image sizes, checked before memory is allocated.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace halfspace {
 
-inline constexpr uint32_t kMaxImageEdge = 32768;  // as Texture2D::kMaxSize
+inline constexpr uint32_t kMaxImageEdge = 32768;  // same as Texture2D::kMaxSize
 inline constexpr uint64_t kMaxImagePixels = uint64_t{1} << 28;
 
-/// Throws an InputError that begins with name where an image of that size is not accepted.
+/// Throws an InputError that begins with `name` if an image of this size is not supported.
 inline void check_image_size(uint64_t width, uint64_t height, const std::string& name) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
   if (width == 0 || height == 0) throw InputError(name + ": has " + size + "; expected at least 1x1");
   if (width > kMaxImageEdge || height > kMaxImageEdge || width * height > kMaxImagePixels) {
-    throw InputError(name + ": claims " + size + "; expected at most 2^28 pixels and 32768 on an edge");
+    throw InputError(name + ": claims " + size + "; expected at most 2^28 pixels and 32768 pixels per side");
   }
 }
 

@@ -20,7 +20,7 @@ namespace halfspace {
 namespace {
 
 [[noreturn]] void fail_without_memory(const std::filesystem::path& path) {
-  fail_reading(path, "needs more memory than there is; expected a smaller picture");
+  fail_reading(path, "not enough memory; expected a smaller image");
 }
 
 [[noreturn]] void fail_linear(const std::filesystem::path& path, const std::string& what) {
@@ -32,13 +32,13 @@ uint64_t checked_file_size(const std::filesystem::path& path, const char* expect
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) fail_reading(path, "no such file; expected an image");
   if (error) fail_reading(path, "cannot be read (" + error.message() + "); expected an image");
-  // A pipe or device could go on for ever.
+  // A pipe or device could be endless.
   if (status.type() == std::filesystem::file_type::directory) fail_reading(path, "is a directory; expected an image file");
-  if (status.type() != std::filesystem::file_type::regular) fail_reading(path, "is no regular file; expected an image file");
+  if (status.type() != std::filesystem::file_type::regular) fail_reading(path, "is not a regular file; expected an image file");
   const uint64_t size = std::filesystem::file_size(path, error);
   if (error) fail_reading(path, "cannot be read (" + error.message() + "); expected an image");
   if (size == 0) fail_reading(path, std::string("is empty; expected ") + expected);
-  if (size > uint64_t{1} << 31) fail_reading(path, "has more than 2 GiB; expected a smaller image");
+  if (size > uint64_t{1} << 31) fail_reading(path, "is larger than 2 GiB; expected a smaller image");
   return size;
 }
 
@@ -51,10 +51,10 @@ std::vector<std::byte> read_bytes(const std::filesystem::path& path, uint64_t co
   return bytes;
 }
 
-// A file that is there and begins like an image.
+// A file that exists and begins like an image.
 struct Source {
   uint64_t bytes = 0;
-  /// Nothing where it is PNG.
+  /// Empty for PNG.
   std::optional<ToolFormat> tool_format;
 };
 
@@ -63,7 +63,7 @@ Source open_source(const std::filesystem::path& path, const char* expected) {
   const std::vector<std::byte> start = read_bytes(path, std::min<uint64_t>(source.bytes, 16));
   if (is_png(start)) return source;
   source.tool_format = find_tool_format(path, std::string_view(reinterpret_cast<const char*>(start.data()), start.size()));
-  if (!source.tool_format) fail_reading(path, std::string("is no image that can be read; expected ") + expected);
+  if (!source.tool_format) fail_reading(path, std::string("is not a supported image; expected ") + expected);
   return source;
 }
 
@@ -82,12 +82,12 @@ bool holds_linear_numbers(const std::filesystem::path& path) {
 Image<glm::u8vec4> read_image(const std::filesystem::path& path) try {
   const Source source = open_source(path, kCodeFormats);
   if (source.tool_format && source.tool_format->linear_name != nullptr) {
-    fail_linear(path, std::string("is ") + source.tool_format->linear_name + ", which holds linear numbers");
+    fail_linear(path, std::string("is ") + source.tool_format->linear_name + ", which contains linear values");
   }
   ColorPicture picture = read_color(path, source);
   if (const auto* wide = std::get_if<Image<glm::u16vec4>>(&picture)) return round_to_8_bits(*wide);
   if (auto* codes = std::get_if<Image<glm::u8vec4>>(&picture)) return std::move(*codes);
-  fail_linear(path, "holds linear numbers");
+  fail_linear(path, "contains linear values");
 } catch (const std::bad_alloc&) {
   fail_without_memory(path);
 }

@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace {
 
-// What convert makes of each texel, in order.
+// Returns an image of the converted texels.
 template <class To, class From, class F>
 Image<To> map_texels(const Image<From>& from, F&& convert) {
   Image<To> to(from.width(), from.height());
@@ -23,8 +23,8 @@ Image<To> map_texels(const Image<From>& from, F&& convert) {
 
 [[noreturn]] void fail_at(std::size_t texel, int width, const char* what, const std::string& name) {
   const std::size_t columns = static_cast<std::size_t>(width);
-  throw InputError(name + ": holds " + what + " at pixel (" + std::to_string(texel % columns) + ", " + std::to_string(texel / columns) +
-                   "), counted from 0 at the upper left; expected finite numbers");
+  throw InputError(name + ": contains " + what + " at pixel (" + std::to_string(texel % columns) + ", " + std::to_string(texel / columns) +
+                   "), counted from 0 at the top left; expected finite numbers");
 }
 
 Image<float> numbers(const Image<uint8_t>& codes, const std::string&) {
@@ -41,7 +41,7 @@ Image<float> numbers(Image<float>&& image, const std::string& name) {
   return std::move(image);
 }
 
-// decode(c/65535) of core/srgb.h, to about one ulp; the very numbers of 8-bit codes where c is 257 times one.
+// decode(c/65535) of core/srgb.h to within about one ulp. Multiples of 257 give the same values as the matching 8-bit codes.
 std::vector<float> make_srgb16_to_linear() {
   std::vector<float> table(65536);
   for (std::size_t c = 0; c < table.size(); ++c) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What decoders give, codes of 8 or 16 bits or numbers, and its conversions. `name` stands before the message of an
-// InputError that is thrown.
+// The output of image decoders, and conversions of it. Functions that throw InputError begin the message with `name`.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +12,21 @@
 
 namespace halfspace {
 
-/// A decoded file as it is: codes of 8 or 16 bits, or numbers.
+/// A decoded file: 8-bit codes, 16-bit codes or floating-point values.
 using ColorPicture = std::variant<Image<glm::u8vec4>, Image<glm::u16vec4>, Image<glm::vec4>>;
 using GrayPicture = std::variant<Image<uint8_t>, Image<uint16_t>, Image<float>>;
 
-/// The nearest 8-bit codes: 255·code/65535.
+/// Rounds 16-bit codes to the nearest 8-bit codes, 255·code/65535.
 Image<glm::u8vec4> round_to_8_bits(const Image<glm::u16vec4>& wide);
 
-/// The first channel (red, or grey).
+/// Returns the first channel (red or gray).
 GrayPicture first_channel(const ColorPicture& picture);
 
-/// Codes over 255 or 65535 (to the nearest float), numbers as they are; throws where a number is infinite or NaN.
+/// Returns codes divided by 255 or 65535, correctly rounded, and floats unchanged. Throws if a float is infinite or NaN.
 Image<float> to_numbers(GrayPicture picture, const std::string& name);
 
-/// Linear RGB and alpha: codes are decoded from sRGB (alpha: over 255 or 65535), numbers are as they are, infinities
-/// ±65504; throws where one is NaN. Numbers that are premultiplied are divided by their alpha where it is above 0.
+/// Converts to linear RGB and alpha. Codes are decoded from sRGB, except that alpha is divided by 255 or 65535. Floats are
+/// unchanged, but infinities become ±65504 and NaN throws. Premultiplied colors are divided by their alpha where it is positive.
 Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::string& name);
 
 }  // namespace halfspace

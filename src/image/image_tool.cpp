@@ -16,7 +16,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr const char* kOtherVersion = " is of another version than this program";
+constexpr const char* kOtherVersion = " has a different version than this program";
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& what) {
   fail_writing(path, "cannot write (" + what + ")");
@@ -35,7 +35,7 @@ std::optional<Picture> receive_pixels(ToolProcess& tool, int width, int height) 
   return image;
 }
 
-// The decoder's answer, or nothing where it ended before all was said.
+// Receives the decoder's answer. Returns nothing if the decoder ended before the answer was complete.
 template <class Picture>
 std::optional<Picture> receive_picture(ToolProcess& tool, uint32_t channels, const std::filesystem::path& path) {
   PictureHeader h;
@@ -63,10 +63,10 @@ Picture read_by_tool(const std::filesystem::path& path, const char* format, uint
   const std::filesystem::path program = find_image_tool();
   if (program.empty()) {
     fail_reading(path, std::string("is ") + format + ", and " + kImageToolName +
-                           " is not installed; expected PNG, or that program (built where OpenImageIO is)");
+                           " is not installed; expected PNG, or that program (it is built if OpenImageIO is available)");
   }
   ToolProcess tool;
-  // "./": a name that begins with a dash stays a name.
+  // The "./" keeps a name that begins with a dash from being taken for an option.
   const std::string name = path.is_absolute() ? path.string() : "./" + path.string();
   const int error = tool.start(
       program, {"read", name, format, channels == 1 ? "gray" : "rgba", std::to_string(file_bytes), std::to_string(kMaxImagePixels)});
@@ -74,10 +74,10 @@ Picture read_by_tool(const std::filesystem::path& path, const char* format, uint
   tool.end_sending();
   if (std::optional<Picture> picture = receive_picture<Picture>(tool, channels, path)) return *std::move(picture);
   fail_reading(path,
-               std::string("cannot be read as ") + format + " (the decoder " + tool.how_it_ended() + "); expected a whole image file");
+               std::string("cannot be read as ") + format + " (the decoder " + tool.how_it_ended() + "); expected a complete image file");
 }
 
-// False where the encoder has ended.
+// Returns false if the encoder has ended.
 bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::function<void(int y, std::span<std::byte> row)>& fill_row) {
   std::vector<std::byte> row(row_bytes(header));
   for (int y = 0; y < header.height; ++y) {
@@ -87,7 +87,7 @@ bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::functi
   return true;
 }
 
-// The encoder's answer, or nothing where it ended before all was said.
+// Receives the encoder's answer. Returns nothing if the encoder ended before the answer was complete.
 std::optional<std::vector<std::byte>> receive_file(ToolProcess& tool, uint64_t max_bytes, const std::filesystem::path& path) {
   FileHeader h;
   if (!tool.receive(&h, sizeof h)) return std::nullopt;
@@ -116,18 +116,18 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
                                       const std::function<void(int y, std::span<std::byte> row)>& fill_row) {
   const std::filesystem::path program = find_image_tool();
   if (program.empty()) {
-    cannot_write(path, std::string(kImageToolName) + " is not installed; expected a name that ends in .png, or that program");
+    cannot_write(path, std::string(kImageToolName) + " is not installed; expected a file name ending in .png, or that program");
   }
   ToolProcess tool;
   const int error = tool.start(program, {"write", format});
   if (error != 0) cannot_write(path, program.string() + " does not start: " + std::strerror(error));
-  // An encoder that refuses ends before it has heard all; its answer says why.
+  // An encoder that reports an error ends before it has received all rows; its answer contains the reason.
   const bool sent = tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
   tool.end_sending();
   const uint64_t max_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + (1 << 20);
   std::optional<std::vector<std::byte>> file = receive_file(tool, max_bytes, path);
   if (sent && file) return *std::move(file);
-  cannot_write(path, std::string("the encoder of ") + format + " " + tool.how_it_ended());
+  cannot_write(path, std::string("the ") + format + " encoder " + tool.how_it_ended());
 }
 
 std::filesystem::path find_image_tool() {

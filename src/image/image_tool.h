@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decoding and encoding by the program halfspace-image-tool, in a process of its own.
+// Decoding and encoding by halfspace-image-tool, in a separate process.
 #pragma once
 
 #include <cstddef>
@@ -15,20 +15,21 @@
 
 namespace halfspace {
 
-/// Decodes the file; format is OpenImageIO's name, file_bytes the file's size. Throws InputError where the file is
-/// damaged, takes the decoder down, or where the program is not installed.
+/// Decodes the file. format is OpenImageIO's name of the format, and file_bytes is the size of the file. Throws InputError if the
+/// file is damaged or crashes the decoder, or if the program is not installed.
 ColorPicture read_color_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes);
-/// The same of the first channel alone.
+/// The same, for the first channel only.
 GrayPicture read_gray_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes);
 
-/// Encodes a picture of the header's size, channels and sample. fill_row(y, row) writes row y (0: the top one) into row,
-/// which has row_bytes(header) bytes; rows are asked for once each, in order. Throws OutputError, beginning with path,
-/// where the program is not installed, refuses or dies; nothing is written to path.
+/// Encodes an image with the size, channels and sample type of the header, and returns the bytes of the file. fill_row(y, row)
+/// writes row y, counted from the top, into row, which has row_bytes(header) bytes; it is called once per row, in order. Throws
+/// OutputError, with a message that begins with path, if the program is not installed, reports an error or crashes. Nothing is
+/// written to path.
 std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, const PictureHeader& header,
                                       const std::function<void(int y, std::span<std::byte> row)>& fill_row);
 
-/// Where halfspace-image-tool lies, or empty where it is not installed: beside this program or in
-/// ../lib/halfspace from there.
+/// Returns the path of halfspace-image-tool, or an empty path if it is not installed. Searches the directory of the running
+/// program and ../lib/halfspace relative to it.
 std::filesystem::path find_image_tool();
 
 }  // namespace halfspace

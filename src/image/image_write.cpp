@@ -20,11 +20,11 @@ namespace halfspace {
 namespace {
 
 ImageFile checked_image_file(const std::filesystem::path& path, bool linear) {
-  const char* expected = linear ? "a name that ends in .exr or .hdr" : "a name that ends in .png, .jpg or .tif";
+  const char* expected = linear ? "a file name ending in .exr or .hdr" : "a file name ending in .png, .jpg or .tif";
   const std::optional<ImageFile> file = image_file_of(path);
-  if (!file) fail_writing(path, std::string("its name tells no format of pictures; expected ") + expected);
+  if (!file) fail_writing(path, std::string("unknown image format; expected ") + expected);
   if (is_linear(*file) != linear)
-    fail_writing(path, std::string("holds ") + (linear ? "8-bit codes" : "linear numbers") + "; expected " + expected);
+    fail_writing(path, std::string("this format stores ") + (linear ? "8-bit codes" : "linear values") + "; expected " + expected);
   return *file;
 }
 
@@ -39,8 +39,8 @@ PictureHeader header_of(const Image<T>& image, uint32_t channels, Sample sample)
   return header;
 }
 
-// Encodes the image and writes the file. samples(texel) gives an array of Sample-sized channels; the header's number of
-// them is sent.
+// Encodes the image and writes the file. samples(texel) returns an array of channels of the header's sample type; the first
+// header.channels of them are sent.
 template <class T, class F>
 void write_by_tool(const std::filesystem::path& path, const char* format, const Image<T>& image, const PictureHeader& header, F&& samples) {
   check_writable(path);
@@ -61,7 +61,7 @@ void write_codes(const std::filesystem::path& path, const char* format, const Im
 
 float number_or_0(float x) { return std::isnan(x) ? 0.0f : x; }
 
-// Premultiplied; an infinity times an alpha of 0 is NaN and becomes 0 too.
+// Premultiplies by alpha. An infinity times an alpha of 0 is NaN, which becomes 0 too.
 glm::u16vec4 exr_texel(const glm::vec4& t) {
   const float alpha = number_or_0(t.w);
   glm::u16vec4 halves;
@@ -75,12 +75,12 @@ void write_exr(const std::filesystem::path& path, const Image<glm::vec4>& image)
   write_by_tool(path, "openexr", image, header_of(image, opaque ? 3 : 4, Sample::half), exr_texel);
 }
 
-// The nearest numbers that RGBE has: whole multiples, up to 255, of 2^(e − 8), where 2^(e − 1) <= largest < 2^e. OpenImageIO
-// cuts the fractions off, an error of up to 1/128 of the largest; of these numbers nothing is left to cut. Rounded, the
-// error is half a step, 2^(e − 9), at most 1/256 of the largest.
+// Rounds to the nearest values that RGBE can represent: integer multiples, up to 255, of 2^(e − 8), where
+// 2^(e − 1) <= largest < 2^e. OpenImageIO would truncate, with an error of up to 1/128 of the largest channel; after this
+// rounding it has nothing to truncate. The error of rounding is half a step, 2^(e − 9), at most 1/256 of the largest channel.
 glm::vec3 rgbe_texel(const glm::vec4& t) {
-  constexpr float kLargest = 0x1p126f;    // the exponent's byte ends there
-  constexpr float kSmallest = 0x1p-105f;  // OpenImageIO writes 0 for less than 1e-32
+  constexpr float kLargest = 0x1p126f;    // limited by the exponent byte
+  constexpr float kSmallest = 0x1p-105f;  // OpenImageIO writes 0 for values below 1e-32
   glm::vec3 color;
   for (int c = 0; c < 3; ++c) {
     const float x = t[c] == std::numeric_limits<float>::infinity() ? kMaxHalf : number_or_0(t[c]);
@@ -91,7 +91,7 @@ glm::vec3 rgbe_texel(const glm::vec4& t) {
   int exponent = 0;
   std::frexp(largest, &exponent);
   float step = std::ldexp(1.0f, exponent - 8);
-  if (std::floor(largest / step + 0.5f) > 255.0f) step *= 2.0f;  // the largest rounds up to a power of two
+  if (std::floor(largest / step + 0.5f) > 255.0f) step *= 2.0f;  // the largest channel rounds up to a power of two
   for (int c = 0; c < 3; ++c) color[c] = std::floor(color[c] / step + 0.5f) * step;
   return color;
 }
@@ -101,7 +101,7 @@ void write_hdr(const std::filesystem::path& path, const Image<glm::vec4>& image)
 }
 
 [[noreturn]] void fail_for_memory(const std::filesystem::path& path) {
-  fail_writing(path, "cannot write (needs more memory than there is); expected a smaller picture");
+  fail_writing(path, "cannot write (not enough memory); expected a smaller image");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ void close_if_open(int fd) {
   if (fd >= 0) ::close(fd);
 }
 
-// Where this program runs without standard streams, its first descriptors would be 0 to 2, which the child replaces.
+// If this program runs without standard streams, new descriptors could be 0 to 2, which the child process replaces.
 bool move_above_streams(int& fd) {
   if (fd > STDERR_FILENO) return true;
   const int moved = ::fcntl(fd, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
@@ -31,8 +31,8 @@ bool move_above_streams(int& fd) {
   return true;
 }
 
-// A socket pair, not a pipe, for what is sent: only sockets can be written to without SIGPIPE where the reader is gone.
-// [0] and [2] are ours; errno of the failure, or 0.
+// Creates the channels to and from the child; [0] and [2] are our ends. Returns 0, or the errno of the failure. The channel to
+// the child is a socket pair, because unlike a pipe it can be written without SIGPIPE after the reader has exited.
 int open_ends(int (&ends)[4]) {
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, &ends[0]) != 0 || ::pipe2(&ends[2], O_CLOEXEC) != 0) return errno;
   for (int& fd : ends) {
@@ -50,7 +50,7 @@ int spawn(const std::filesystem::path& program, std::vector<std::string> words, 
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-  // Decoders print warnings; this program's standard error is for its own one line.
+  // Decoders print warnings, but standard error is reserved for this program's own one-line message.
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   const int error = ::posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
@@ -109,7 +109,7 @@ std::string ToolProcess::how_it_ended() {
   return signal == 0 ? "ended early" : std::string("died: ") + ::strsignal(signal);
 }
 
-// The signal that the tool died of, or 0.
+// Returns the signal that terminated the tool, or 0.
 int ToolProcess::wait() {
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-image-tool as a running process.
+// A running halfspace-image-tool process.
 #pragma once
 
 #include <sys/types.h>
@@ -12,7 +12,7 @@
 
 namespace halfspace {
 
-/// The running tool and the pipes to and from it. When this is gone, so are they: a tool that still runs is killed.
+/// Owns the running tool and the channels to and from it. The destructor closes them and kills the tool if it is still running.
 class ToolProcess {
  public:
   ToolProcess() = default;
@@ -20,19 +20,19 @@ class ToolProcess {
   ToolProcess(const ToolProcess&) = delete;
   ToolProcess& operator=(const ToolProcess&) = delete;
 
-  /// Starts the program; words are what follows its name. The errno of the failure, or 0. Once only.
+  /// Starts the program with the given command-line arguments. Returns 0, or the errno of the failure. Call only once.
   int start(const std::filesystem::path& program, std::vector<std::string> words);
 
-  /// Sends all of the memory to the tool's standard input; false where the tool has ended (no signal is raised).
+  /// Sends all bytes to the tool's standard input. Returns false if the tool has ended; no signal is raised.
   bool send(const void* memory, std::size_t bytes);
 
-  /// Ends the tool's standard input.
+  /// Closes the tool's standard input.
   void end_sending();
 
-  /// Fills all of the memory from the tool's standard output; false where the tool ended before.
+  /// Fills the memory from the tool's standard output. Returns false if the tool ended before that.
   bool receive(void* memory, std::size_t bytes);
 
-  /// Waits for the end: "died: ..." with the signal's name, or "ended early".
+  /// Waits for the tool to exit. Returns "died: ..." with the name of the signal, or "ended early".
   std::string how_it_ended();
 
  private:

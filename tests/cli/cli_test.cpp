@@ -208,7 +208,7 @@ const Mistake kMistakes[] = {
      {"render", "earth", "--size", "8x8", "-o", "/proc/none/earth.png"},
      4,
      "/proc/none",
-     {"cannot make the directory"}},
+     {"cannot create the directory"}},
     {"OutputIsADirectory", {"render", "earth", "-o", ".."}, 4, "..", {"is a directory"}},
     {"FullDisk", {"render", "earth", "--size", "8x8", "-o", "/dev/full"}, 4, "/dev/full", {"cannot write", "No space left on device"}},
 };

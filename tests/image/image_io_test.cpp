@@ -115,7 +115,8 @@ TEST_F(ImageIo, SaysThatADirectoryMayNotBeWrittenTo) {
     fs::permissions(directory, fs::perms(0555));  // read and enter, for everyone
     if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
     for (const fs::path& path : {directory / "a.png", directory / "no" / "a.png"}) {
-      if (output_error([&] { check_writable(path); }) != path.string() + ": cannot write in " + directory.string() + " (Permission denied)")
+      if (output_error([&] { check_writable(path); }) !=
+          path.string() + ": cannot write to directory " + directory.string() + " (Permission denied)")
         ::_exit(1);
     }
     ::_exit(0);
@@ -153,7 +154,7 @@ TEST_F(ImageIo, SaysWhatIsWrongWithAnInput) {
   const std::string head = "\x89PNG\r\n\x1a\n";
   const Case cases[] = {
       {"empty.png", "", {"empty", "PNG", "DDS"}},
-      {"text.png", "This is not a picture.", {"no image", "PNG", "DDS"}},
+      {"text.png", "This is not a picture.", {"not a supported image", "PNG", "DDS"}},
       {"cut.png", head, {"damaged PNG", "end of stream"}},
       {"picture.exr", "\x76\x2f\x31\x01 and so on", {"OpenEXR", "linear", "16-bit", "PNG"}},
   };
@@ -192,7 +193,7 @@ TEST_F(ImageIo, PngThatClaimsMoreThanItHoldsIsRefused) {
   const std::string header = big_endian(30000, 4) + big_endian(2000, 4) + std::string{8, 6, 0, 0, 0};
   const fs::path path = put("bomb.png", "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header));
   EXPECT_EQ(input_error([&] { read_image(path); }),
-            path.string() + ": claims 30000x2000 pixels but has only 33 bytes; expected a whole PNG file");
+            path.string() + ": claims 30000x2000 pixels but has only 33 bytes; expected a complete PNG file");
 }
 
 TEST_F(ImageIo, ReadsOtherFormats) {

@@ -115,16 +115,16 @@ TEST_F(ToolNumbers, NaNIsRefusedByItsPixel) {
 
 TEST_F(ToolNumbers, NumbersAreNoCodes) {
   const std::filesystem::path tiff = put("a.tif", gray_tiff_row<float>({1.0f, 2.0f}, TiffSamples::number));
-  EXPECT_TRUE(tells(input_error([&] { read_image(tiff); }), tiff.string(), {"linear numbers", "16-bit codes", "PNG"}));
+  EXPECT_TRUE(tells(input_error([&] { read_image(tiff); }), tiff.string(), {"linear values", "16-bit codes", "PNG"}));
   const std::filesystem::path pfm_file = put("a.pfm", pfm(1, 1, {1.0f, 2.0f, 3.0f}));
-  EXPECT_TRUE(tells(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear numbers", "16-bit codes", "PNG"}));
+  EXPECT_TRUE(tells(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear values", "16-bit codes", "PNG"}));
 }
 
 // The lists of formats in full: they are what a user can choose from.
 TEST_F(ImageNumbers, SayWhichFilesTheyRead) {
   const std::filesystem::path path = put("a.txt", "This is not a picture.");
   const std::string line =
-      path.string() + ": is no image that can be read; expected PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, OpenEXR, HDR or PFM";
+      path.string() + ": is not a supported image; expected PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, OpenEXR, HDR or PFM";
   EXPECT_EQ(input_error([&] { read_gray(path); }), line);
   EXPECT_TRUE(tells(input_error([&] { read_linear(path); }), path.string(), {"OpenEXR, HDR or PFM"}));
 }

@@ -88,7 +88,7 @@ TEST_F(ImageTool, EndsHalfWay) {
 
 TEST_F(ImageTool, IsOfAnotherVersion) {
   const std::string script = "cat >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'";
-  expect_failures(lines_beside(script), "another version", "another version");
+  expect_failures(lines_beside(script), "different version", "different version");
 }
 
 TEST_F(ImageTool, PromisesTooMuch) {
@@ -96,7 +96,7 @@ TEST_F(ImageTool, PromisesTooMuch) {
   const std::string script =
       "case $1 in write) printf 'HIT1\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
       "*) printf 'HIT1\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
-  expect_failures(lines_beside(script), "another version", "2147483647x1");
+  expect_failures(lines_beside(script), "different version", "2147483647x1");
 }
 
 TEST_F(ImageTool, RefusesWhatItCannotWrite) {

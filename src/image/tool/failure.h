@@ -8,22 +8,22 @@
 
 namespace halfspace {
 
-/// Why halfspace-image-tool cannot do what it is asked: one line, what is wrong; what would be right.
+/// The reason why halfspace-image-tool cannot fulfill a request. The text is one line: the problem; what was expected.
 struct Failure {
   std::string text;
 };
 
-/// A decoder's or encoder's message as a part of one line: OpenImageIO's messages may have several.
+/// Converts a message of a decoder or encoder, which may have several lines, to a part of one line.
 inline std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
   if (text.size() > 200) text.resize(200);
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text.empty() ? "no reason is given" : text;
+  return text.empty() ? "no reason given" : text;
 }
 
-/// Writes a header and what follows it to standard output.
+/// Writes a header and the message that follows it to standard output.
 template <class Header>
 void put_answer(const Header& header, const std::string& message) {
   std::fwrite(&header, sizeof header, 1, stdout);

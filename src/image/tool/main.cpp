@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-image-tool: decodes and encodes what is not PNG, through OpenImageIO, for halfspace (see protocol.h). It is
-// a program of its own for two reasons. Files are not trusted, and decoders of many formats have many faults:
-// OpenImageIO 2.4 dies on a public JPEG with a damaged colour profile. Here such a file ends this process and no other.
-// And merely linking OpenImageIO costs a program 0.2 s of start-up, which most runs of halfspace need not pay.
+// halfspace-image-tool decodes and encodes all formats other than PNG with OpenImageIO, on behalf of halfspace (see
+// protocol.h). It is a separate program for two reasons. Input files are untrusted, and decoders for many formats have many
+// bugs: OpenImageIO 2.4 crashes on a public JPEG with a damaged color profile. Such a file only crashes this process. Also,
+// merely linking OpenImageIO adds 0.2 s to the startup of a program, which most runs of halfspace should not pay.
 #include <OpenImageIO/imageio.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -22,15 +22,14 @@ namespace {
 
 constexpr int kMaxChannels = 64;
 constexpr rlim_t kReadSeconds = 60;
-constexpr rlim_t kWriteSeconds = 1200;             // the picture is ours, and 16384x16384 pixels of EXR take minutes
-constexpr rlim_t kAddressSpace = rlim_t{6} << 30;  // 2^28 pixels of 16 bytes, and the libraries
+constexpr rlim_t kWriteSeconds = 1200;             // images to write are our own, and 16384x16384 pixels of EXR take minutes
+constexpr rlim_t kAddressSpace = rlim_t{6} << 30;  // 2^28 pixels of 16 bytes, plus the libraries
 
-// A decoder that loops ends after a minute, one that wants all memory is refused it; none leaves a core file; the
-// program that asked takes this one with it.
+// Limits CPU time and memory, disables core files, and makes this process end together with the one that started it.
 void limit_this_process(rlim_t cpu_seconds) {
   const rlimit cpu = {cpu_seconds, cpu_seconds};
   ::setrlimit(RLIMIT_CPU, &cpu);
-  if (!HALFSPACE_SANITIZED) {  // a sanitizer reserves terabytes of addresses
+  if (!HALFSPACE_SANITIZED) {  // sanitizers reserve terabytes of address space
     const rlimit memory = {kAddressSpace, kAddressSpace};
     ::setrlimit(RLIMIT_AS, &memory);
   }
@@ -66,11 +65,11 @@ bool serve(int argc, char** argv) {
 int main(int argc, char** argv) {
   if (!halfspace::serve(argc, argv)) {
     std::fputs(
-        "halfspace-image-tool serves halfspace; usage: halfspace-image-tool read PATH FORMAT gray|rgba FILE_BYTES MOST_PIXELS\n"
-        "                                       or:    halfspace-image-tool write FORMAT\n",
+        "halfspace-image-tool is started by halfspace; usage: halfspace-image-tool read PATH FORMAT gray|rgba FILE_BYTES MAX_PIXELS\n"
+        "                                               or:    halfspace-image-tool write FORMAT\n",
         stderr);
     return 2;
   }
   std::fflush(stdout);
-  std::_Exit(0);  // OpenImageIO's statics have nothing left to do
+  std::_Exit(0);  // skips the destructors of OpenImageIO's statics, which are not needed
 }

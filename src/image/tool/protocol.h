@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What passes between halfspace-image-tool and the program that started it.
+// The protocol between halfspace-image-tool and the program that started it.
 //
-//   halfspace-image-tool read PATH FORMAT CHANNELS FILE_BYTES MOST_PIXELS
+//   halfspace-image-tool read PATH FORMAT CHANNELS FILE_BYTES MAX_PIXELS
 //
-// writes to standard output a PictureHeader, then its pixels or, where width is 0, message_bytes of a message.
-// CHANNELS is "gray" (the first channel of the file alone) or "rgba" (grey repeated, absent alpha opaque).
+// writes a PictureHeader to standard output, followed by the pixels or, if width is 0, by a message of message_bytes bytes.
+// CHANNELS is "gray" (only the first channel of the file) or "rgba" (gray replicated, missing alpha opaque).
 //
 //   halfspace-image-tool write FORMAT
 //
-// reads from standard input a PictureHeader and its pixels, and writes to standard output a FileHeader, then the bytes
-// of the file or, where file_bytes is 0, message_bytes of a message.
+// reads a PictureHeader and its pixels from standard input. It writes a FileHeader to standard output, followed by the bytes of
+// the file or, if file_bytes is 0, by a message of message_bytes bytes.
 //
-// FORMAT is OpenImageIO's name of it, for example "jpeg". Pixels are rows without gaps, the top row first, channels side
-// by side, in the machine's byte order. A message is one line: what is wrong; what would be right.
+// FORMAT is OpenImageIO's name of the format, for example "jpeg". Pixels are stored in rows without padding, top row first, with
+// interleaved channels in native byte order. A message is one line: the problem; what was expected.
 #pragma once
 
 #include <cstddef>
@@ -22,9 +22,9 @@
 namespace halfspace {
 
 inline constexpr const char* kImageToolName = "halfspace-image-tool";
-inline constexpr uint32_t kImageToolMagic = 0x31544948;  // "HIT1": the number changes with the protocol
+inline constexpr uint32_t kImageToolMagic = 0x31544948;  // "HIT1": the digit is the protocol version
 
-/// What one channel of one pixel is: a code of 8 or 16 bits that fills its range, or a number.
+/// The type of one channel of a pixel: an 8-bit or 16-bit code that spans its full range, a half or a float.
 enum class Sample : uint32_t { code8, code16, half, number };
 
 inline constexpr std::size_t sample_bytes(Sample s) { return s == Sample::code8 ? 1 : s == Sample::number ? 4 : 2; }
@@ -32,7 +32,7 @@ inline constexpr std::size_t sample_bytes(Sample s) { return s == Sample::code8 
 struct PictureHeader {
   uint32_t magic = kImageToolMagic;
   int32_t width = 0, height = 0;
-  /// 1 (grey, or depth where written), 3 or 4.
+  /// 1 (gray, or depth when writing), 3 or 4.
   uint32_t channels = 0;
   Sample sample = Sample::code8;
   uint32_t message_bytes = 0;

@@ -16,11 +16,11 @@ namespace halfspace {
 
 namespace {
 
-// A picture may claim this many pixels for each byte of its file (constant JPEG: about 100; bilevel TIFF: 8000).
+// Limit on the pixels per byte of file that a header may claim (a constant JPEG has about 100, a bilevel TIFF 8000).
 constexpr uint64_t kMaxPixelsPerByte = 8192;
 constexpr int kMaxChannels = 64;
 
-// A decoded picture with the channels that were asked for: all of the file's, or the first alone.
+// A decoded image with the requested channels: all channels of the file, or only the first.
 struct Picture {
   int width = 0, height = 0, channels = 0, alpha_channel = -1;
   Sample sample = Sample::code8;
@@ -28,25 +28,25 @@ struct Picture {
 };
 
 Failure damaged(const ReadRequest& request, const std::string& why) {
-  return {"cannot be read as " + request.format + " (" + one_line(why) + "); expected a whole image file"};
+  return {"cannot be read as " + request.format + " (" + one_line(why) + "); expected a complete image file"};
 }
 
 void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
   const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels";
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1) throw Failure{"has " + size + "; expected a flat picture of at least 1x1"};
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1) throw Failure{"has " + size + "; expected a flat image of at least 1x1"};
   const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-  if (pixels > request.max_pixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 on an edge"};
+  if (pixels > request.max_pixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 pixels per side"};
   if (pixels > (1u << 20) && pixels / kMaxPixelsPerByte > request.file_bytes) {
-    throw Failure{"claims " + size + " but has only " + std::to_string(request.file_bytes) + " bytes; expected a whole image file"};
+    throw Failure{"claims " + size + " but has only " + std::to_string(request.file_bytes) + " bytes; expected a complete image file"};
   }
   if (spec.nchannels < 1 || spec.nchannels > kMaxChannels) {
     throw Failure{"has " + std::to_string(spec.nchannels) + " channels; expected 1 to " + std::to_string(kMaxChannels)};
   }
   const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) * static_cast<uint64_t>(std::max(spec.tile_height, 0));
-  if (spec.deep || tile > request.max_pixels) throw Failure{"has deep pixels or oversized tiles; expected a flat picture"};
+  if (spec.deep || tile > request.max_pixels) throw Failure{"has deep pixels or oversized tiles; expected a flat image"};
 }
 
-// Codes of up to 16 bits stay codes; everything else is a number (signed and 32-bit integers: scaled to 1).
+// Codes of up to 16 bits stay codes. All other types become floats; signed and 32-bit integers are scaled to 1.
 Sample sample_of(const OIIO::TypeDesc& type) {
   if (type.basetype == OIIO::TypeDesc::UINT8) return Sample::code8;
   return type.basetype == OIIO::TypeDesc::UINT16 ? Sample::code16 : Sample::number;
@@ -58,12 +58,12 @@ OIIO::TypeDesc type_of(Sample sample) {
 }
 
 Picture read_picture(const ReadRequest& request) {
-  // create, not open: open would try every other reader on a file that the right one refuses.
+  // Uses create() instead of open(), which would try all other readers if the matching one rejects the file.
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(request.format);
   if (input == nullptr) throw Failure{"is " + request.format + ", which this OpenImageIO cannot read; expected PNG or JPEG"};
   OIIO::ImageSpec spec;
   OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);  // straight alpha stays straight
+  hints.attribute("oiio:UnassociatedAlpha", 1);  // keep straight alpha as it is
   if (!input->open(request.path, spec, hints)) throw damaged(request, input->geterror());
   check_spec(spec, request);
   Picture p{spec.width, spec.height, request.gray ? 1 : spec.nchannels, request.gray ? -1 : spec.alpha_channel, sample_of(spec.format), {}};
@@ -73,7 +73,7 @@ Picture read_picture(const ReadRequest& request) {
   return p;
 }
 
-// One channel of one pixel that is fully opaque, in the bytes of the sample.
+// Returns the bytes of one fully opaque sample.
 std::vector<std::byte> opaque(Sample sample) {
   std::vector<std::byte> bytes(sample_bytes(sample), std::byte{255});
   const float one = 1.0f;
@@ -81,7 +81,8 @@ std::vector<std::byte> opaque(Sample sample) {
   return bytes;
 }
 
-// Row by row, so that no second picture is held: three colours, or one repeated; a missing alpha is opaque.
+// Writes RGBA row by row, to avoid a second copy of the image. Fewer than three color channels are replicated from the first,
+// and missing alpha is opaque.
 void put_rgba(const Picture& p) {
   const int colors = p.channels - (p.alpha_channel >= 0 ? 1 : 0);
   const int from[4] = {0, colors >= 3 ? 1 : 0, colors >= 3 ? 2 : 0, p.alpha_channel};
@@ -120,7 +121,7 @@ void read_and_answer(const ReadRequest& request) {
   } catch (const Failure& failure) {
     refuse(failure.text);
   } catch (const std::bad_alloc&) {
-    refuse("needs more memory than there is; expected a smaller picture");
+    refuse("not enough memory; expected a smaller image");
   } catch (const std::exception& e) {
     refuse(damaged(request, e.what()).text);
   }

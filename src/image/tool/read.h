@@ -8,7 +8,7 @@ namespace halfspace {
 
 struct ReadRequest {
   std::string path, format;
-  /// The first channel alone, instead of RGBA.
+  /// Read only the first channel instead of RGBA.
   bool gray = false;
   uint64_t file_bytes = 0, max_pixels = 0;
 };

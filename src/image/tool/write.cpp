@@ -20,14 +20,14 @@ namespace halfspace {
 
 namespace {
 
-// Rows that are received, converted and handed to the encoder together: a multiple of the 16 rows of an EXR block.
+// Number of rows that are received, converted and encoded together. A multiple of 16, the number of rows of an EXR block.
 constexpr int kBandRows = 64;
 
-// The file while it is encoded. Encoders need one that they can seek in, which a pipe is not; this one has no name.
+// The encoded file. Encoders need a seekable file, which a pipe is not, so this is an unnamed file in memory.
 class MemoryFile {
  public:
   MemoryFile() : fd_(::memfd_create("halfspace", MFD_CLOEXEC)) {
-    if (fd_ < 0) throw Failure{std::string("there is no memory for the file (") + std::strerror(errno) + ")"};
+    if (fd_ < 0) throw Failure{std::string("cannot create a file in memory (") + std::strerror(errno) + ")"};
   }
   ~MemoryFile() { ::close(fd_); }
   MemoryFile(const MemoryFile&) = delete;
@@ -53,16 +53,15 @@ class MemoryFile {
 };
 
 void receive(void* memory, std::size_t bytes) {
-  if (std::fread(memory, 1, bytes, stdin) != bytes) throw Failure{"the picture ends early"};
+  if (std::fread(memory, 1, bytes, stdin) != bytes) throw Failure{"the image data ended early"};
 }
 
 PictureHeader receive_header() {
   PictureHeader h;
   receive(&h, sizeof h);
-  if (h.magic != kImageToolMagic) throw Failure{std::string(kImageToolName) + " is of another version than the program that started it"};
+  if (h.magic != kImageToolMagic) throw Failure{std::string(kImageToolName) + " has a different version than the program that started it"};
   check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), "picture");
-  if ((h.channels != 1 && h.channels != 3 && h.channels != 4) || h.sample > Sample::number)
-    throw Failure{"the picture's header is damaged"};
+  if ((h.channels != 1 && h.channels != 3 && h.channels != 4) || h.sample > Sample::number) throw Failure{"the image header is damaged"};
   return h;
 }
 
@@ -76,19 +75,19 @@ OIIO::ImageSpec spec_of(const PictureHeader& h, const std::string& format) {
   OIIO::ImageSpec spec(h.width, h.height, static_cast<int>(h.channels), type_of(h.sample));
   if (h.channels == 1) spec.channelnames = {"Z"};
   spec.attribute("oiio:ColorSpace", h.sample == Sample::code8 ? "sRGB" : "Linear");
-  spec.attribute("oiio:UnassociatedAlpha", format == "tiff" ? 1 : 0);  // pixels go into the file as they come
-  spec.attribute("DateTime", "");  // OpenImageIO would write the present: the same picture would be another file
+  spec.attribute("oiio:UnassociatedAlpha", format == "tiff" ? 1 : 0);  // store the pixels unchanged
+  spec.attribute("DateTime", "");  // OpenImageIO would write the current time, and equal images would give different files
   spec.attribute("compression", format == "jpeg" ? "jpeg:95" : "zip");
-  spec.attribute("jpeg:subsampling", "4:4:4");  // edges between colours stay sharp
+  spec.attribute("jpeg:subsampling", "4:4:4");  // keeps edges between colors sharp
   return spec;
 }
 
 void encode(const std::string& format, const MemoryFile& file) {
   const PictureHeader h = receive_header();
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-  if (output == nullptr) throw Failure{"this OpenImageIO does not write " + format};
+  if (output == nullptr) throw Failure{"this OpenImageIO cannot write " + format};
   const auto check = [&](bool ok) {
-    if (!ok) throw Failure{"the encoder of " + format + " says: " + one_line(output->geterror())};
+    if (!ok) throw Failure{"the " + format + " encoder reported: " + one_line(output->geterror())};
   };
   check(output->open(file.name(), spec_of(h, format)));
   std::vector<std::byte> band(row_bytes(h) * static_cast<std::size_t>(std::min(h.height, kBandRows)));
@@ -113,7 +112,7 @@ void write_and_answer(const std::string& format) {
   } catch (const Failure& failure) {
     refuse(failure.text);
   } catch (const std::exception& e) {
-    refuse("the encoder of " + format + " says: " + one_line(e.what()));
+    refuse("the " + format + " encoder reported: " + one_line(e.what()));
   }
 }
 
