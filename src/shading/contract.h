@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a shader is: a plain struct whose members are its uniforms, with
+// The interface of a shader. A shader is a plain struct whose members are its uniforms, with
 //
 //   template <class R> struct Attributes { … };      the vertex streams, e.g. vec3<R> position; vec2<R> uv;
-//   template <class R> struct Varyings { … };        what the vertex function hands to the fragment function
+//   template <class R> struct Varyings { … };        the values passed from the vertex function to the fragment function
 //   template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;      → clip space
-//   template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const; → linear colour
+//   template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const; → linear color
 //
-// and, where it wants them,
+// The following are optional:
 //
 //   template <class R> Fragment<R> fragment(const Varyings<R>& in) const;
-//     for a colour that needs nothing of the pixel but the varyings. With no varyings it is one colour for the whole draw, and
-//     is computed once.
+//     For colors that depend only on the varyings. Without varyings there is one color per draw call, which is computed once.
 //   template <class R> vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const;
-//     a vertex function that is told which vertex of which instance it makes.
-//   template <class R> struct Primitive { … };       one value a triangle, and the function that makes it, run once
+//     A vertex function that also receives the indices of the vertex and the instance.
+//   template <class R> struct Primitive { … };       per-triangle values, and the function that computes them
 //   template <class R> Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const;
-//     per surviving triangle; fragment then takes (const Varyings<R>&, const Primitive<R>&, const Pixel<R>&).
-//   PerVertex<R> or PerVertex<R, N> as what vertex returns: a point size and N clip distances beside the position; or
-//   PointSpriteVertex<R>: the rectangle that a point covers, for shaders that know the bounds of what they draw in it.
+//     Runs once per triangle that survives culling. fragment then has the parameters (const Varyings<R>&, const Primitive<R>&,
+//     const Pixel<R>&).
+//   PerVertex<R> or PerVertex<R, N> as the return type of vertex: adds a point size and N clip distances to the position.
+//   PointSpriteVertex<R> as the return type of vertex: the rectangle that a point covers, for shaders that know the bounds of
+//     what they draw in it.
 //   template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;
-//     the keep mask and depth that fragment will return, without its colour: lets a shader that discards or writes
-//     depth be shaded once per visible pixel like an opaque one.
+//     Computes the keep mask and the depth that fragment will return, without the color. With it, a shader that discards
+//     fragments or writes depth can be shaded once per visible pixel, like an opaque one.
 //
-// R is float, double or lanes; float and glm::vec3 are uniform, R and vec3<R> vary from pixel to pixel. What fragment
-// returns says what it does: Fragment (colour only), DiscardingFragment, DepthFragment; or Fragments<R, N>,
-// DiscardingFragmentMRT<R, N>, DepthFragmentMRT<R, N> with a colour for each of N attachments.
+// R is float, double or lanes. float and glm::vec3 are uniform; R and vec3<R> vary per pixel. The return type of fragment states
+// what it can do: Fragment (color only), DiscardingFragment or DepthFragment, or their variants FragmentMRT<R, N>,
+// DiscardingFragmentMRT<R, N> and DepthFragmentMRT<R, N> with one color for each of N attachments.
 #pragma once
 
 #include <array>
@@ -34,43 +35,43 @@
 
 namespace halfspace {
 
-/// Which vertex a vertex function makes.
+/// Identifies the vertex that a vertex function computes.
 template <class R>
 struct VertexId {
-  IntOf<R> vertex;   ///< its row in the streams: the index plus DrawState::base_vertex
+  IntOf<R> vertex;   ///< row in the vertex streams: the index plus DrawState::base_vertex
   int32_t instance;  ///< 0 … DrawState::instances − 1
 };
 
-/// What a vertex function returns that says more than the position in clip space.
+/// Return type of vertex functions that output more than the clip-space position.
 template <class R, std::size_t clip_distances = 0>
 struct PerVertex {
   vec4<R> position;
-  R point_size{1.0f};                             ///< px; where points are drawn
-  std::array<R, clip_distances> clip_distance{};  ///< at most 8: what lies where one of them is negative is cut away
+  R point_size{1.0f};                             ///< pixels; used when points are drawn
+  std::array<R, clip_distances> clip_distance{};  ///< at most 8; parts where a distance is negative are clipped
 };
 
-/// What a vertex function of points returns that sets their bounds itself: pixels whose samples lie in the rectangle are drawn.
+/// Return type of vertex functions that compute the bounds of a point. Pixels with a sample inside the rectangle are drawn.
 template <class R>
 struct PointSpriteVertex {
-  vec2<R> low, high;  ///< normalized device coordinates (x/w, y/w) of its corners
-  R depth;            ///< z/w, for the test unless the shader writes depth; clipped at near and far
-  MaskOf<R> drawn;    ///< false: there is nothing to draw
+  vec2<R> low, high;  ///< corners of the rectangle in NDC (x/w, y/w)
+  R depth;            ///< z/w for the depth test, unless the shader writes depth; clipped at near and far
+  MaskOf<R> drawn;    ///< false: the point is not drawn
 };
 
-/// Colour only: linear, straight alpha.
+/// A color: linear, with straight alpha.
 template <class R>
 struct Fragment {
   vec4<R> color;
 };
 
-/// Colour, and whether the fragment lives (keep false: discard).
+/// A color and the keep mask. Fragments with keep == false are discarded.
 template <class R>
 struct DiscardingFragment {
   vec4<R> color;
   MaskOf<R> keep;
 };
 
-/// Colour, whether the fragment lives, and its window depth in [0, 1] instead of the triangle's.
+/// A color, the keep mask, and a window depth in [0, 1] that replaces that of the triangle.
 template <class R>
 struct DepthFragment {
   vec4<R> color;
@@ -78,7 +79,7 @@ struct DepthFragment {
   R depth;
 };
 
-/// The same with N colours: one an attachment, or the two sources of dual source blending.
+/// The same with N colors: one per attachment, or the two sources of dual-source blending.
 template <class R, std::size_t N>
 struct FragmentMRT {
   std::array<vec4<R>, N> color;
@@ -95,7 +96,7 @@ struct DepthFragmentMRT {
   R depth;
 };
 
-/// What decides visibility: the part of a DepthFragment that is not colour.
+/// The part of a DepthFragment that determines visibility.
 template <class R>
 struct Visibility {
   MaskOf<R> keep;
@@ -126,7 +127,7 @@ inline constexpr bool kIsPerVertex<PerVertex<R, N>> = true;
 template <class T>
 inline constexpr bool kIsPointSpriteVertex = std::is_same_v<T, PointSpriteVertex<float>>;
 }  // namespace detail
-/// What a vertex function may return.
+/// The types that a vertex function may return.
 template <class T>
 concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsPointSpriteVertex<T>;
 
@@ -146,7 +147,7 @@ inline constexpr bool kIsFragment<DiscardingFragmentMRT<R, N>> = true;
 template <class R, std::size_t N>
 inline constexpr bool kIsFragment<DepthFragmentMRT<R, N>> = true;
 }  // namespace detail
-/// What a fragment function may return.
+/// The types that a fragment function may return.
 template <class T>
 concept FragmentResult = detail::kIsFragment<T>;
 
@@ -187,7 +188,7 @@ concept HasVisibilityFunction = requires(const S& s, const typename S::template 
   { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
 };
 
-/// Calls the shader's vertex function, with the vertex's number where it asks for it.
+/// Calls the vertex function of the shader, passing the vertex ID if it has such a parameter.
 template <class S, class R>
 HS_INLINE auto call_vertex(const S& s, const typename S::template Attributes<R>& in, const VertexId<R>& id,
                            typename S::template Varyings<R>& out) {
@@ -198,7 +199,7 @@ HS_INLINE auto call_vertex(const S& s, const typename S::template Attributes<R>&
   }
 }
 
-/// Calls the shader's fragment function, with its primitive's value where it has one.
+/// Calls the fragment function of the shader, passing the per-triangle value if there is one.
 template <class S, class R, class P>
 HS_INLINE auto call_fragment(const S& s, const typename S::template Varyings<R>& in, const P& face, const Pixel<R>& px) {
   if constexpr (HasPrimitive<S>) {
@@ -250,7 +251,7 @@ HS_INLINE const vec4<R>& nth_color(const std::array<vec4<R>, N>& colors, std::si
 }
 }  // namespace detail
 
-/// The shader's per-triangle value, or an empty struct.
+/// The per-triangle value of the shader, or an empty struct.
 template <class S, class R>
 using PrimitiveOf = typename detail::PrimitiveOfT<S, R>::type;
 
@@ -259,38 +260,38 @@ using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), st
                                                     std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
 
 namespace detail {
-// A member template that is called visibility, whatever its signature.
+// S has a member template named visibility, of any signature.
 template <class S>
 concept HasVisibilityMember = requires {
   &S::template visibility<float>;
 };
 }  // namespace detail
 
-/// What Pass::draw_depth requires of a shader.
+/// The requirements of Pass::draw_depth.
 template <class S>
 concept VertexShader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> &&
     (HasVisibilityFunction<S> || !detail::HasVisibilityMember<S>);
 
-/// What Pass::draw requires of a shader.
+/// The requirements of Pass::draw.
 template <class S>
 concept Shader = VertexShader<S> && HasFragmentFunction<S> && FragmentResult<FragmentOf<S>>;
 
 namespace detail {
-// False for every S, but not before S is known.
+// Always false, but dependent on S, so that static_assert fails only on instantiation.
 template <class S>
 inline constexpr bool kComplete = false;
 }  // namespace detail
 
-/// True if Pass::draw_depth takes S, else a compile-time error that says what S lacks.
+/// Returns true if Pass::draw_depth accepts S; otherwise compilation fails with a message that says what is missing.
 template <class S>
 consteval bool require_vertex_shader() {
   if constexpr (!HasAttributes<S>) {
-    static_assert(detail::kComplete<S>, "the shader lacks: template <class R> struct Attributes { vec3<R> position; … };");
+    static_assert(detail::kComplete<S>, "the shader is missing: template <class R> struct Attributes { vec3<R> position; … };");
   } else if constexpr (!HasVaryings<S>) {
-    static_assert(detail::kComplete<S>, "the shader lacks: template <class R> struct Varyings { … };");
+    static_assert(detail::kComplete<S>, "the shader is missing: template <class R> struct Varyings { … };");
   } else if constexpr (!HasVertexFunction<S>) {
     static_assert(detail::kComplete<S>,
-                  "the shader lacks: template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;");
+                  "the shader is missing: template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;");
   } else if constexpr (!HasVisibilityFunction<S> && detail::HasVisibilityMember<S>) {
     static_assert(detail::kComplete<S>,
                   "the shader's visibility function must be: template <class R> Visibility<R> visibility(const Varyings<R>& in, "
@@ -299,26 +300,26 @@ consteval bool require_vertex_shader() {
   return VertexShader<S>;
 }
 
-/// True if Pass::draw takes S, else a compile-time error that says what S lacks.
+/// Returns true if Pass::draw accepts S; otherwise compilation fails with a message that says what is missing.
 template <class S>
 consteval bool require_shader() {
   if constexpr (!require_vertex_shader<S>()) {
     return false;
   } else if constexpr (HasPrimitive<S> && !HasPrimitiveFunction<S>) {
     static_assert(detail::kComplete<S>,
-                  "the shader has a Primitive struct and lacks: template <class R> Primitive<R> primitive(const Varyings<R>& v0, "
+                  "the shader has a Primitive struct but is missing: template <class R> Primitive<R> primitive(const Varyings<R>& v0, "
                   "const Varyings<R>& v1, const Varyings<R>& v2) const;");
   } else if constexpr (HasPrimitive<S> && !HasPrimitiveFragmentFunction<S>) {
     static_assert(detail::kComplete<S>,
-                  "the shader has a Primitive struct and lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, "
+                  "the shader has a Primitive struct but is missing: template <class R> Fragment<R> fragment(const Varyings<R>& in, "
                   "const Primitive<R>& face, const Pixel<R>& px) const;");
   } else if constexpr (!HasFragmentFunction<S>) {
     static_assert(detail::kComplete<S>,
-                  "the shader lacks: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
+                  "the shader is missing: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
   } else {
     static_assert(FragmentResult<FragmentOf<S>>,
-                  "the shader's fragment function must return Fragment<R>, DiscardingFragment<R> or DepthFragment<R>, or one of them "
-                  "with several colours");
+                  "the shader's fragment function must return Fragment<R>, DiscardingFragment<R> or DepthFragment<R>, or the variant of "
+                  "one of them for several colors");
     return Shader<S>;
   }
   return false;
@@ -328,17 +329,18 @@ template <class S>
 using VertexOf =
     decltype(call_vertex<S, float>(std::declval<const S&>(), std::declval<const typename S::template Attributes<float>&>(),
                                    std::declval<const VertexId<float>&>(), std::declval<typename S::template Varyings<float>&>()));
-/// Clip distances that the vertex function gives.
+/// Number of clip distances that the vertex function outputs.
 template <class S>
 inline constexpr std::size_t kClipDistances = detail::kClipDistancesIn<VertexOf<S>>;
-/// Does it give a point size?
+/// Whether the vertex function outputs a point size.
 template <class S>
 inline constexpr bool kGivesPointSize = detail::kIsPerVertex<VertexOf<S>>;
-/// Does it give the bounds of a sprite?
+/// Whether the vertex function outputs the bounds of a point sprite.
 template <class S>
 inline constexpr bool kGivesPointSprite = detail::kIsPointSpriteVertex<VertexOf<S>>;
 
-/// The position in what a vertex function returned; that of a sprite is its depth at w = 1, or at w = −1 if it is not drawn.
+/// Returns the clip-space position in the result of a vertex function. For a point sprite this is (0, 0, depth, 1), or w = −1 if
+/// it is not drawn.
 template <class R>
 HS_INLINE vec4<R> position_of(const vec4<R>& v) {
   return v;
@@ -352,16 +354,16 @@ HS_INLINE vec4<R> position_of(const PointSpriteVertex<R>& v) {
   return vec4<R>(R(0.0f), R(0.0f), v.depth, select(v.drawn, R(1.0f), R(-1.0f)));
 }
 
-/// How many colours does the shader return?
+/// Number of colors that the shader returns.
 template <class S>
 inline constexpr std::size_t kColors = detail::kColorsIn<decltype(FragmentOf<S>::color)>;
-/// May the shader drop a fragment?
+/// Whether the shader may discard fragments.
 template <class S>
 inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;
-/// Does the shader replace the triangle's depth?
+/// Whether the shader replaces the depth of the triangle.
 template <class S>
 inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>>;
-/// Is the shader's colour the same for a whole draw?
+/// Whether the shader has a single color for the whole draw call.
 template <class S>
 inline constexpr bool kIsConstant =
     !HasPrimitive<S> && HasFragmentFunctionOfVaryings<S> && kComponents<typename S::template Varyings<float>> == 0 && !kDiscards<S>;

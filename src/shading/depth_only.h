@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws a mesh's depth and nothing else: for shadow maps.
+// Draws only the depth of a mesh, for shadow maps.
 #pragma once
 
 #include "halfspace/shading/contract.h"

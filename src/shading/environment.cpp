@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// EnvironmentMap's look-up, compiled once for all shaders. Lanes do not touch each other: where they fall on different
-// images, each image is asked in turn and a lane keeps what its own said.
+// The lookup of EnvironmentMap, compiled once for all shaders. Lanes are independent: if they need different images, the images
+// are sampled one after the other, and each lane keeps the result of its own.
 #include "halfspace/shading/environment.h"
 
 #include <algorithm>
@@ -22,10 +22,10 @@ HS_INLINE R inverse_pi() {
     return R(std::numbers::inv_pi_v<float>);
 }
 
-// Levels are chosen by EnvironmentMap; within one there is nothing but bilinear.
+// EnvironmentMap selects the levels itself; the lookup within a level is bilinear.
 constexpr Sampler kSampler{.mag = Filter::bilinear, .min = Filter::bilinear, .wrap_s = Wrap::repeat, .wrap_t = Wrap::clamp};
 
-// A vector in the coordinates of the face on which d lies: along s, along t, and outwards.
+// A vector in the coordinates of the cube face that d points to: along s, along t, and outward.
 template <class R>
 struct OnFace {
   R s, t, out;
@@ -60,7 +60,7 @@ EnvironmentMap::Coordinates<R> EnvironmentMap::cube_coordinates(const vec3<R>& d
           halfspace::level_of_detail(width(), height(), dst_dx, dst_dy)};
 }
 
-// The angle that a step of the direction turns it by is |d × step| / |d|².
+// A step of the direction rotates it by the angle |d × step| / |d|².
 template <class R>
 EnvironmentMap::Coordinates<R> EnvironmentMap::place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
   const auto squared = [](const vec3<R>& v) { return dot(v, v); };
@@ -84,7 +84,7 @@ vec4<R> EnvironmentMap::fetch(const Coordinates<R>& at, IntOf<R> level) const {
     const int32_t first = lane(index, std::countr_zero(left));
     const MaskOf<R> here = index == IntOf<R>(first);
     const Texture2D& texture = images_[static_cast<std::size_t>(first)];
-    const auto inside = [](R coordinate, int whole) {  // of a border one texel wide on both sides
+    const auto inside = [](R coordinate, int whole) {  // skips a border of one texel on both sides
       return fma(coordinate, R(static_cast<float>(whole - 2)), R(1.0f)) / R(static_cast<float>(whole));
     };
     const bool cube = layout_ == EnvironmentLayout::cube;

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light from far away by its direction: a panorama (equirectangular) or the six faces of a cube.
+// Distant light as a function of direction: an equirectangular panorama or the six faces of a cube map.
 //
-// Map space (ms) is left-handed: x to the right, y up, z ahead, as seen from within by whoever took the picture. That is the
-// space of OpenGL's cube maps (OpenGL 4.6, section 8.13, table 8.19).
-//   panorama  u = 1/2 + atan2(x, z)/2π, v = angle from +y over π: the middle shows +z, the left and right edge −z
-//   cube      faces +x −x +y −y +z −z (right, left, top, bottom, front, back), row 0 on top, as OpenGL has them
+// Map space (suffix _ms) is left-handed, with x right, y up and z forward, as seen from inside the map. It is the space of OpenGL
+// cube maps (OpenGL 4.6, section 8.13, table 8.19).
+//   panorama  u = 1/2 + atan2(x, z)/2π, v = angle from +y divided by π; the center shows +z, the left and right edges −z
+//   cube      faces +x −x +y −y +z −z (right, left, top, bottom, front, back), row 0 at the top, as in OpenGL
 //
-// Nothing jumps. Each level of a panorama has a row more beyond either pole: the row beside the pole, half a turn on; u
-// wraps. Each level of a face has a border of its neighbours' texels; at a cube's corner, where three faces meet, the
-// fourth texel is the mean of the three. So both faces mix the same four texels on their common edge.
+// Filtering is seamless. Each level of a panorama has an additional row beyond either pole: the row next to the pole, rotated by
+// half a turn. u wraps around. Each level of a cube face has a border of texels of its neighbors, so that both faces filter the
+// same four texels at a common edge. At a cube corner, where only three faces meet, the fourth texel is the mean of the three.
 //
-// The level of detail comes from the derivatives of the direction. A panorama's is the angle that a pixel spans, over that of
-// a texel beside the equator: it knows of no seam and no pole. (GL's rule, by the derivative of u, goes to infinity there.)
-// Texels crowd round the poles, so the smaller levels are averaged along each row over W/(2H sin) texels at that angle from
-// the pole: a texel's own width on the sphere. Level 0 is as given. A cube's level is GL's.
+// The level of detail is computed from the derivatives of the direction. For a panorama it is the angle that a pixel spans
+// relative to the angle of a texel at the equator, and therefore has no discontinuity at the seam or the poles. (OpenGL's rule
+// uses the derivative of u, which goes to infinity there.) Texels are crowded near the poles, so levels below level 0 are
+// averaged along each row over W/(2H·sin θ) texels at the angle θ from the pole, which is the height of a texel on the sphere.
+// For a cube map the level of detail is OpenGL's.
 #pragma once
 
 #include <array>
@@ -26,41 +27,41 @@ namespace halfspace {
 
 enum class EnvironmentLayout : uint8_t { panorama, cube };
 
-/// Right-handed world space (x right, y up, −z ahead) into map space.
+/// Rotates right-handed world space (x right, y up, −z forward) to map space.
 inline const glm::mat3 kMapFromWorld{1, 0, 0, 0, 1, 0, 0, 0, -1};
-/// The world round the map of a globe, seen from the globe's middle: u and v as uv_sphere has them. East lies to the left.
+/// Rotates world space to a map of a globe seen from its center, where u and v match those of uv_sphere. East is on the left.
 inline const glm::mat3 kMapFromGlobe{0, 0, -1, 0, 1, 0, 1, 0, 0};
 
-/// An immutable environment. It owns its texels; any number of threads may read it at once.
+/// An immutable environment map. It owns its texels. Any number of threads may read it concurrently.
 class EnvironmentMap {
  public:
-  /// A panorama: all of 2π wide and π high, whatever its proportion. Texel is u8vec4 (format srgb8a8) or vec4 (linear;
-  /// rgba16f or rgba32f). Alpha is not used. At least 1 × 1.
+  /// Creates a panorama, which always spans 2π by π radians, regardless of its aspect ratio. Texel is u8vec4 (format srgb8a8) or
+  /// vec4 (linear; rgba16f or rgba32f). Alpha is ignored. The image must have at least 1 x 1 texels.
   template <class Texel>
   EnvironmentMap(const Image<Texel>& panorama, TexelFormat format);
-  /// Six square faces of one size, in the order of the header.
+  /// Creates a cube map from six square faces of equal size, in the order given at the top of this file.
   template <class Texel>
   EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format);
 
   EnvironmentLayout layout() const { return layout_; }
   TexelFormat format() const { return images_.front().format(); }
   int levels() const { return levels_; }
-  /// Of one face, or the panorama.
+  /// Size of the panorama or of one face, without borders.
   int width(int level = 0) const { return image(level, 0).width() - (layout_ == EnvironmentLayout::cube ? 2 : 0); }
   int height(int level = 0) const { return image(level, 0).height() - 2; }
 
-  /// The filtered linear light from direction d_ms (any length but 0), for a pixel whose steps to the right and up change it
-  /// by dx_ms and dy_ms. Trilinear. Any bits are allowed: where the direction is 0 or not finite the result is some
-  /// texel's.
+  /// Returns the trilinearly filtered linear light from direction d_ms, which may have any length except 0. dx_ms and dy_ms are the
+  /// changes of the direction from this pixel to the next one to the right and up. All inputs are safe: if the direction is 0 or
+  /// not finite, the result is the light of an arbitrary direction.
   template <Number R>
   vec3<R> sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const;
 
-  /// The level of detail that sample takes, before it is held to the levels that there are.
+  /// Returns the level of detail that sample uses, before it is clamped to the existing levels.
   template <Number R>
   R level_of_detail(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const;
 
  private:
-  // Where a direction falls: which image of a level, coordinates in [0, 1], and the level.
+  // The result of mapping a direction: the image within a level, coordinates in [0, 1], and the level of detail.
   template <class R>
   struct Coordinates {
     IntOf<R> face;
@@ -82,26 +83,26 @@ class EnvironmentMap {
 
   EnvironmentLayout layout_;
   int levels_ = 0;
-  std::vector<Texture2D> images_;  // with borders, of one level each; level by level, face by face
+  std::vector<Texture2D> images_;  // one texture per level and face, with borders; all faces of a level are consecutive
 };
 
-/// An environment in its place.
+/// An environment map with its orientation and brightness.
 struct Environment {
   const EnvironmentMap* map = nullptr;
   glm::mat3 map_from_world = kMapFromWorld;
   float brightness = 1.0f;
 
-  /// Light from direction d_ws; see EnvironmentMap::sample.
+  /// Returns the light from direction d_ws; see EnvironmentMap::sample.
   template <class R>
   vec3<R> light(const vec3<R>& d_ws, const vec3<R>& dx_ws, const vec3<R>& dy_ws) const {
     return map->sample<R>(map_from_world * d_ws, map_from_world * dx_ws, map_from_world * dy_ws) * R(brightness);
   }
 };
 
-/// Two environments, one fading into the other. Only those that are seen are looked up.
+/// A blend of two environments. An environment with weight 0 is not sampled.
 struct EnvironmentBlend {
-  Environment first, second;  ///< where weight is 0 or 1, the map that is not seen may be null
-  float weight = 0.0f;        ///< of the second, 0 to 1
+  Environment first, second;  ///< the map of an environment with weight 0 may be null
+  float weight = 0.0f;        ///< weight of the second, 0 to 1
 
   template <class R>
   vec3<R> light(const vec3<R>& d_ws, const vec3<R>& dx_ws, const vec3<R>& dy_ws) const {

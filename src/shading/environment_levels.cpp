@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// EnvironmentMap's levels: averaged, low-passed towards a panorama's poles, and given their borders.
+// Construction of the levels of EnvironmentMap: averaging, low-pass filtering near the poles of a panorama, and borders.
 #include <algorithm>
 
 #include "halfspace/core/check.h"
@@ -20,7 +20,7 @@ glm::dvec3 light_of(const glm::vec4& t) { return glm::dvec3(t); }
 void set_light(glm::u8vec4& t, const glm::dvec3& v) { t = glm::u8vec4(linear_to_srgb(v.x), linear_to_srgb(v.y), linear_to_srgb(v.z), 255); }
 void set_light(glm::vec4& t, const glm::dvec3& v) { t = glm::vec4(glm::vec3(v), 1.0f); }
 
-// A constant stays itself: a double's error is lost when the mean is rounded to a float or a code.
+// Averaging equal texels gives exactly that texel: the error of double arithmetic is lost when the mean is rounded.
 template <class Texel, class... More>
 Texel mean(const Texel& a, const More&... more) {
   Texel t;
@@ -36,7 +36,7 @@ std::vector<Image<Texel>> levels_of(const Image<Texel>& base, TexelFormat format
   return levels;
 }
 
-// As texture of one level.
+// Creates a texture with a single level.
 Texture2D one_level(const Image<glm::u8vec4>& image, TexelFormat format) { return Texture2D(std::span(&image, 1), format); }
 Texture2D one_level(const Image<glm::vec4>& image, TexelFormat format) { return Texture2D(std::span(&image, 1), format); }
 
@@ -44,7 +44,7 @@ Texture2D one_level(const Image<glm::vec4>& image, TexelFormat format) { return 
 
 int wrapped(int x, int width) { return (x % width + width) % width; }
 
-// Each row averaged over the width on the sphere that a texel has beside the equator.
+// Averages each row over a fixed arc on the sphere, which is the height of a texel.
 template <class Texel>
 Image<Texel> low_passed(const Image<Texel>& level) {
   const int width = level.width(), height = level.height();
@@ -52,8 +52,8 @@ Image<Texel> low_passed(const Image<Texel>& level) {
   for (int row = 0; row < height; ++row) {
     const double sine = sincos_turns((row + 0.5) / (2.0 * height)).sin;
     const double span = std::clamp(width / (2.0 * height * sine), 1.0, static_cast<double>(width));
-    const int whole = static_cast<int>((span - 1.0) / 2.0);  // texels on either side that count in full
-    const double part = (span - 1.0) / 2.0 - whole;          // of the next on either side
+    const int whole = static_cast<int>((span - 1.0) / 2.0);  // full texels on either side
+    const double part = (span - 1.0) / 2.0 - whole;          // fraction of the next texel on either side
     for (int x = 0; x < width; ++x) {
       const auto at = [&](int i) { return light_of(level.at(wrapped(x + i, width), row)); };
       glm::dvec3 sum = part * (at(-whole - 1) + at(whole + 1));
@@ -64,13 +64,13 @@ Image<Texel> low_passed(const Image<Texel>& level) {
   return out;
 }
 
-// With the rows beyond the poles.
+// Adds a row beyond each pole.
 template <class Texel>
 Image<Texel> bordered(const Image<Texel>& level) {
   const int width = level.width(), height = level.height();
   Image<Texel> out(width, height + 2);
   for (int row = 0; row < height; ++row) std::copy(level.row(row).begin(), level.row(row).end(), out.row(row + 1).begin());
-  for (int x = 0; x < width; ++x) {  // half a turn on; between two texels where the width is odd
+  for (int x = 0; x < width; ++x) {  // half a turn around; between two texels if the width is odd
     const int a = (x + width / 2) % width, b = (x + (width + 1) / 2) % width;
     out.at(x, 0) = mean(level.at(a, 0), level.at(b, 0));
     out.at(x, height + 1) = mean(level.at(a, height - 1), level.at(b, height - 1));
@@ -83,12 +83,12 @@ Image<Texel> bordered(const Image<Texel>& level) {
 template <class Texel>
 using Faces = std::array<Image<Texel>, 6>;
 
-// The texel of another face that lies beside texel (x, y), which is one step beyond an edge of this face.
+// Returns the texel of the adjacent face next to texel (x, y), which is one step beyond an edge of this face.
 template <class Texel>
 const Texel& beyond_edge(const Faces<Texel>& faces, int face, int x, int y) {
   const int n = faces[0].width();
   const auto clamped = [n](int i) { return std::clamp((2 * i + 1.0) / n - 1.0, -1.0, 1.0); };
-  glm::dvec3 d = cube_direction(face, clamped(x), clamped(y));  // on the edge; then over it by half a texel
+  glm::dvec3 d = cube_direction(face, clamped(x), clamped(y));  // on the edge; the next line moves it across by half a texel
   d[face / 2] *= 1.0 - 1.0 / n;
   for (int other = 0; other < 6; ++other) {
     const double sign = other % 2 == 0 ? 1.0 : -1.0;
@@ -98,7 +98,7 @@ const Texel& beyond_edge(const Faces<Texel>& faces, int face, int x, int y) {
     const auto index = [n](double at) { return std::clamp(static_cast<int>((at + 1.0) / 2.0 * n), 0, n - 1); };
     return faces[static_cast<std::size_t>(other)].at(index(glm::dot(d, s)), index(glm::dot(d, t)));
   }
-  return faces[static_cast<std::size_t>(face)].at(0, 0);  // not reached: the point lies on another face
+  return faces[static_cast<std::size_t>(face)].at(0, 0);  // unreachable: the point is on another face
 }
 
 template <class Texel>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// An environment as background, drawn as one triangle that covers the target behind everything. A night sky has stars of its
-// own before its map, as sharp as the picture (star_sky.h); they go down at its horizon.
+// An environment as background, drawn as one triangle that covers the target behind everything else. A night sky can have
+// procedural stars (star_sky.h) in addition to its map. They are as sharp as the render target allows, and fade at the horizon.
 #pragma once
 
 #include "halfspace/core/lane_math.h"
@@ -16,7 +16,7 @@ struct EnvironmentSky {
   glm::vec3 right_ws{1, 0, 0};     ///< unit vector times the tangent of half the horizontal field of view
   glm::vec3 up_ws{0, 1, 0};        ///< unit vector times the tangent of half the vertical field of view
   EnvironmentBlend environment;
-  StarSky first_stars{.density = 0.0f}, second_stars{.density = 0.0f};  ///< of either environment; density 0: none
+  StarSky first_stars{.density = 0.0f}, second_stars{.density = 0.0f};  ///< stars of the two environments; density 0 means none
 
   template <class R>
   struct Attributes {
@@ -30,7 +30,7 @@ struct EnvironmentSky {
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.ray_ws = forward_ws + right_ws * in.corner.x + up_ws * in.corner.y;
-    return vec4<R>(in.corner, R(0), R(1));  // reversed Z: 0 is farthest
+    return vec4<R>(in.corner, R(0), R(1));  // reversed Z: 0 is the far plane
   }
 
   template <class R>
@@ -42,7 +42,7 @@ struct EnvironmentSky {
     return {vec4<R>(light, R(1))};
   }
 
-  /// The light of an environment's stars from direction d_ws: dimmed by the air below 12 degrees.
+  /// Returns the light of an environment's stars from direction d_ws. They are dimmed below an altitude of 12 degrees.
   template <class R>
   static vec3<R> star_light(const StarSky& stars, const Environment& sky, const vec3<R>& d_ws) {
     const vec3<R> d_ms = sky.map_from_world * d_ws;

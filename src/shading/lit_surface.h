@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the shaders of lit surfaces have in common: where the surface stands, what it looks like, what light falls on it.
+// The common part of shaders for lit surfaces: transforms, material and lights.
 //
-//   colour = color · (ambient + diffuse · D) + specular · S + emissive + reflection · M
+//   color = color · (ambient + diffuse · D) + specular · S + emissive + reflection · M
 //
-// with D and S the diffuse and specular light of shading/lighting.h, M the light of the surroundings that the surface mirrors
-// (shading/reflection.h; by pixel alone). Each factor but reflection is a constant times a map where there is one.
+// where D and S are the diffuse and specular light of shading/lighting.h, and M is the reflected light of the environment
+// (shading/reflection.h; only for per-pixel shading). Each factor except reflection is a constant, multiplied by a map if set.
 #pragma once
 
 #include <array>
@@ -16,50 +16,50 @@
 
 namespace halfspace {
 
-/// The factors of a surface's answer to light.
+/// The factors of a material.
 enum MaterialFactor : uint8_t { kColor, kAmbient, kDiffuse, kSpecular, kEmissive, kShininess };
 inline constexpr std::size_t kMaterialFactors = 6;
 
-/// A factor: linear, of kShininess the first component.
+/// A material factor as a linear color. Only the first component of kShininess is used.
 struct Factor {
   glm::vec3 constant{1.0f};
-  const Texture2D* map = nullptr;  ///< null: 1 everywhere; not owned
+  const Texture2D* map = nullptr;  ///< null means 1 everywhere; not owned
   Sampler sampler{};
 };
 
-/// All factors at one place.
+/// The values of all factors at one point.
 template <class R>
 using Material = std::array<vec3<R>, kMaterialFactors>;
 
-/// A place on a surface's maps, for a pixel whose steps to the right and up change uv by duv_dx and duv_dy.
+/// Texture coordinates of a pixel. duv_dx and duv_dy are the changes of uv from this pixel to the next one to the right and up.
 template <class R>
 struct MapCoordinates {
   vec2<R> uv, duv_dx, duv_dy;
 };
 
-/// What tells a pixel's normal beyond those of the vertices; shading/surface_detail.h.
+/// A map that modifies the normal per pixel (shading/surface_detail.h).
 struct DetailMap {
   const Texture2D* map = nullptr;  ///< not owned
   Sampler sampler{};
-  float strength = 1.0f;    ///< of a normal map's tilt; of a bump map the height of 1, in the world's unit
-  bool flip_green = false;  ///< of a normal map: green is down
-  bool difference = false;  ///< of a bump map: it holds heights, to be subtracted in the 2x2 quad; else slopes
+  float strength = 1.0f;    ///< normal map: factor of the tilt; bump map: height of the value 1, in world units
+  bool flip_green = false;  ///< normal map: green points down
+  bool difference = false;  ///< bump map: it stores heights, which are differenced within the 2x2 quad; otherwise it stores slopes
 };
 
-/// Uniforms, to be inherited by a shader.
+/// Uniforms of a lit surface. Shaders inherit from this struct.
 struct LitSurface {
   glm::mat4 clip_from_object;
-  glm::mat4 world_from_object;    ///< to the world's axes round the eye (_rws, see Light)
-  glm::mat3 normal_from_object;   ///< inverse transpose of world_from_object's upper left 3x3
-  float handedness = 1.0f;        ///< −1 where world_from_object mirrors
-  glm::vec3 to_eye_ws{0.0f};      ///< unit vector towards the eye where that is the same everywhere (orthographic); else 0
+  glm::mat4 world_from_object;    ///< to camera-relative world space (_rws, see Light)
+  glm::mat3 normal_from_object;   ///< inverse transpose of the upper left 3x3 of world_from_object
+  float handedness = 1.0f;        ///< −1 if world_from_object mirrors, otherwise 1
+  glm::vec3 to_eye_ws{0.0f};      ///< orthographic: the constant unit vector towards the eye; perspective: 0
   std::span<const Light> lights;  ///< not owned
-  bool shadowed = false;          ///< one of them at least has a shadow
+  bool shadowed = false;          ///< at least one light has a shadow
   LightModel model = LightModel::blinn_phong;
-  bool two_sided = false;  ///< a back face is lit by the turned normal
+  bool two_sided = false;  ///< flip the normal of back faces for lighting
   std::array<Factor, kMaterialFactors> factors;
   DetailMap detail;
-  const EnvironmentBlend* surroundings = nullptr;  ///< what is mirrored; null: nothing; not owned
+  const EnvironmentBlend* surroundings = nullptr;  ///< reflected environment; null: none; not owned
   glm::vec3 reflection{0.0f};
 
   template <class R>
@@ -72,7 +72,7 @@ struct LitSurface {
     return to_eye_ws == glm::vec3(0.0f) ? normalize_or_zero(-position_rws) : vec3<R>(to_eye_ws);
   }
 
-  /// The factors without their maps.
+  /// Returns the factors without their maps.
   template <class R>
   HS_INLINE Material<R> constants() const {
     Material<R> m;
@@ -80,12 +80,12 @@ struct LitSurface {
     return m;
   }
 
-  /// The factors with their maps. A map that is the colour's own is not read again.
+  /// Returns the factors with their maps. A map that is shared with the color is sampled only once.
   template <class R>
   HS_INLINE Material<R> material_at(const MapCoordinates<R>& place) const {
     Material<R> m;
     vec3<R> color_texel(R(1));
-    for (std::size_t i = 0; i < kMaterialFactors; ++i) {  // a loop, for one copy of the look-up
+    for (std::size_t i = 0; i < kMaterialFactors; ++i) {  // a loop, so that the lookup is inlined only once
       const Factor& f = factors[i];
       m[i] = vec3<R>(f.constant);
       if (f.map == nullptr) continue;
@@ -97,7 +97,7 @@ struct LitSurface {
     return m;
   }
 
-  /// Light as the surface sends it back.
+  /// Returns the light that the surface reflects and emits.
   template <class R>
   static HS_INLINE vec3<R> reflected(const Material<R>& m, const Illumination<R>& light) {
     return m[kColor] * (m[kAmbient] + m[kDiffuse] * light.diffuse) + m[kSpecular] * light.specular + m[kEmissive];

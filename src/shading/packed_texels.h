@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What texels hold, and how those of 8 bits a channel, packed into a word with red lowest, become the numbers that are filtered.
+// Texel formats, and decoding of 8-bit texels, which are packed into a 32-bit word with red in the low byte.
 #pragma once
 
 #include "halfspace/core/lanes.h"
@@ -9,19 +9,19 @@
 
 namespace halfspace {
 
-/// What a texel holds. Formats of one channel read as (r, 0, 0, 1).
+/// Storage formats of texels. Formats with one channel read as (r, 0, 0, 1).
 enum class TexelFormat : uint8_t {
   rgba8,    ///< value = code/255
-  srgb8a8,  ///< red, green and blue sRGB-coded; alpha linear, code/255
+  srgb8a8,  ///< sRGB-encoded red, green and blue; linear alpha, code/255
   r8,       ///< value = code/255
   r16,      ///< value = code/65535
-  rgba16f,  ///< linear halfs, finite: beyond ±65504 become ±65504, NaN becomes 0
-  rgba32f   ///< linear floats within ±kMaxTexel, which hold what is beyond; NaN becomes 0
+  rgba16f,  ///< linear halfs, always finite: values are clamped to ±65504, NaN becomes 0
+  rgba32f   ///< linear floats, clamped to ±kMaxTexel; NaN becomes 0
 };
 
 namespace detail {
 
-/// Packed 8-bit RGBA as the numbers that are filtered: codes, and linear values where the format decodes. The first N channels.
+/// Unpacks the first N channels of an 8-bit texel to the numbers that are filtered: linear values for sRGB colors, otherwise codes.
 template <int N, TexelFormat format, class R>
 HS_INLINE VecN<N, R> decode_rgba8(IntOf<R> texel) {
   const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255;
@@ -37,7 +37,7 @@ HS_INLINE VecN<N, R> decode_rgba8(IntOf<R> texel) {
     return {color, to_real<R>((texel >> 24) & 255)};
   }
 }
-/// Filtered numbers as linear values.
+/// Converts filtered numbers to linear values.
 template <TexelFormat format, class R>
 HS_INLINE vec3<R> rgba8_to_linear(const vec3<R>& c) {
   if constexpr (format == TexelFormat::srgb8a8) return c;
@@ -48,8 +48,8 @@ HS_INLINE vec4<R> rgba8_to_linear(const vec4<R>& c) {
   return vec4<R>(rgba8_to_linear<format>(vec3<R>(c)), unorm8_to_linear(c.w));
 }
 
-/// a + f·(b − a) for 0 <= f <= 1 − 2^-15. It stays between a and b: the rounding of b − a lengthens it by at most 2^-24 of
-/// itself, f shortens it by more, so before the last rounding, which is monotone, the result is between them.
+/// Returns a + f·(b − a) for 0 <= f <= 1 − 2^-15. The result is always between a and b: rounding increases b − a by at most a
+/// relative 2^-24, and f reduces it by more. The value before the final, monotonic rounding is therefore between a and b.
 template <class R>
 HS_INLINE R lerp(R a, R b, R f) {
   return fma(f, b - a, a);
@@ -63,7 +63,8 @@ HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
   return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f), lerp(a.w, b.w, f)};
 }
 
-/// Channel k of packed 8-bit texels, plus an offset: what was masked out of a texel is a number once the offset's bits are set above it.
+/// Channel k of a packed 8-bit texel plus an offset. Masking the channel and setting the exponent bits of the offset above it
+/// gives a float without a conversion.
 template <class R>
 struct OffsetCode {
   R value, offset;
@@ -74,14 +75,14 @@ HS_INLINE OffsetCode<R> offset_code(IntOf<R> texel, int k) {
   return {as_real(((texel >> (8 * (k - 1))) & 0xff00) | 0x47000000), R(0x1p15f)};
 }
 
-/// Two texels of a row.
+/// Two adjacent texels of a row.
 template <class I>
 struct TexelPair {
   I left, right;
 };
 
-/// The mean of 2x2 packed 8-bit texels: the first N channels, as decode_rgba8 has them. along, across: weights of the right and of the
-/// upper.
+/// Bilinearly filters 2x2 packed 8-bit texels and returns the first N channels, in the units of decode_rgba8. along is the weight of
+/// the right texels, and across is the weight of the upper ones.
 template <int N, TexelFormat format, class R>
 HS_INLINE VecN<N, R> mixed_rgba8(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across) {
   if constexpr (format == TexelFormat::srgb8a8 || std::is_same_v<R, double>) {

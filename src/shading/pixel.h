@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Interpolation, and what a fragment shader is told of its pixel.
+// Interpolation of varyings, and the pixel information that is available to fragment shaders.
 //
-// In: for each lane a triangle (snapped positions, 1/w, component values) and a pixel centre. Out: perspective-correct
-// weights, component values there, their exact derivatives, and values at other pixels of the 2x2 quad.
+// The input is a triangle per lane (snapped positions, 1/w, component values) and a pixel position. The output is the
+// perspective-correct weights, the interpolated components, their exact derivatives, and values at other pixels of the 2x2 quad.
 //
-// Let d = p − v0, e1 = v1 − v0, e2 = v2 − v0 in units of 1/256 px (whole numbers, exact in a float), and
+// Let d = p − v0, e1 = v1 − v0, e2 = v2 − v0 in units of 1/256 px (integers, exact in a float), and
 //   E0 = (e1 − d) × (e2 − d),  E1 = d × e2,  E2 = e1 × d,  A = e1 × e2 = E0 + E1 + E2,
-// so that E0/A, E1/A and E2/A are the barycentric weights. With q = 1/w the perspective weights (OpenGL 4.6, section
+// so that E0/A, E1/A and E2/A are the barycentric weights. With q = 1/w the perspective-correct weights (OpenGL 4.6, section
 // 14.6.1, equation 14.9) are
 //   pi = Ei·qi / D,  D = E0·q0 + E1·q1 + E2·q2.
-// Inside of the triangle every term of D is non-negative, and the 2x2 determinants come from difference_of_products, so
-// nothing cancels at any shape of triangle and any ratio of w. A value is a = a0 + p1·(a1 − a0) + p2·(a2 − a0), which
-// keeps constants exact but counts an error of the weights up to twice: `normalized` takes out of the weights what
-// division and sum have put in. Then a errs by less than 3e-7 of the largest |ai|.
+// Inside the triangle every term of D is non-negative, and the 2x2 determinants are computed by difference_of_products. There is
+// no cancellation, for any shape of the triangle and any ratio of w. A value is a = a0 + p1·(a1 − a0) + p2·(a2 − a0), which
+// reproduces constants exactly but can double an error of the weights. `normalized` therefore removes the rounding errors of the
+// division and the sum from the weights. The error of a is then less than 3e-7 of the largest |ai|.
 #pragma once
 
 #include <array>
@@ -23,27 +23,27 @@
 
 namespace halfspace {
 
-/// The triangle of each lane, ready to interpolate. Positions are 24.8 fixed point window coordinates.
+/// The triangle of each lane, prepared for interpolation. Positions are window coordinates in 24.8 fixed point.
 template <class R>
 struct TriangleLanes {
-  R x0, y0;              ///< v0 in 1/256 px: a whole number, |x| ≤ 2^22, as the lanes' float
+  R x0, y0;              ///< v0 in 1/256 px: an integer with |x| ≤ 2^22, stored as float
   R e1x, e1y, e2x, e2y;  ///< edge vectors from v0 in 1/256 px
   R area;                ///< A > 0, in (1/256 px)²
-  R q0, q1, q2;          ///< 1/w of the vertices times q_scale: the largest lies in [1, 2)
+  R q0, q1, q2;          ///< 1/w of the vertices times q_scale; the largest is in [1, 2)
   R q_unscale;           ///< 1/q_scale, a power of two
 };
 
-/// Weights of a point in its lane's triangle.
+/// Interpolation weights at a point of the triangle.
 template <class R>
 struct Weights {
   R p1, p2;       ///< perspective-correct weights of v1, v2
-  R b1, b2;       ///< window-space (linear) weights of v1, v2; where no varying is linear, p1 and p2
-  R denominator;  ///< D above: 1/w at the point is D / A, rescaled
+  R b1, b2;       ///< linear weights of v1, v2 in window space; equal to p1 and p2 if no varying needs them
+  R denominator;  ///< D as defined above; 1/w at the point is D / A · q_unscale
   R inverse;      ///< 1 / D
 };
 
-/// n1 and n2 over the sum of all three. The quotients are rounded, and so is the sum; what they lack of adding up to 1
-/// is then shared out. 1 − larger is exact where it matters: from 1/2 on.
+/// n1 and n2 divided by the sum of n0, n1 and n2. The sum and the quotients are rounded, and the amount by which the three weights
+/// miss a sum of 1 is then distributed among them. 1 − max(p1, p2) is exact where it matters, i.e. if the maximum is at least 1/2.
 template <class R>
 struct Normalized {
   R p1, p2, sum, inverse;
@@ -57,7 +57,7 @@ HS_INLINE Normalized<R> normalized(R n0, R n1, R n2) {
   return {fma(p1, rest, p1), fma(p2, rest, p2), sum, inverse};
 }
 
-/// linear: the window-space weights are needed too.
+/// Returns the weights at the offset (dx, dy) from v0. linear: also compute the linear weights in window space.
 template <bool linear = true, class R>
 HS_INLINE Weights<R> weights_at(const TriangleLanes<R>& t, R dx, R dy) {
   const R e0 = difference_of_products(t.e1x - dx, t.e2y - dy, t.e1y - dy, t.e2x - dx);
@@ -68,7 +68,7 @@ HS_INLINE Weights<R> weights_at(const TriangleLanes<R>& t, R dx, R dy) {
   return {p.p1, p.p2, b.p1, b.p2, p.sum, p.inverse};
 }
 
-/// One component at a point with weights w: value0 at v0, and its differences to v1 and v2.
+/// Interpolates one component, given its value at v0 and the differences to v1 and v2.
 template <Interpolation mode, class R>
 HS_INLINE R interpolate(const Weights<R>& w, R value0, R delta1, R delta2) {
   if constexpr (mode == Interpolation::flat) {
@@ -80,22 +80,22 @@ HS_INLINE R interpolate(const Weights<R>& w, R value0, R delta1, R delta2) {
   }
 }
 
-/// The component values of each lane's triangle, for the N components of a Varyings struct.
+/// The component values of the triangle in each lane, for the N components of a Varyings struct.
 template <class R, std::size_t N>
 struct ComponentLanes {
-  std::array<R, N> value0;  ///< at v0; for flat components the triangle's one value
+  std::array<R, N> value0;  ///< at v0; for flat components the value of the provoking vertex
   std::array<R, N> delta1;  ///< value at v1 − value at v0
   std::array<R, N> delta2;  ///< value at v2 − value at v0
 };
 
-/// All components of the varyings V at weights w.
+/// Interpolates all components of the varyings V with weights w.
 template <class V, class R, std::size_t... I>
 HS_INLINE V interpolate_all(const Weights<R>& w, const ComponentLanes<R, sizeof...(I)>& c, std::index_sequence<I...>) {
   std::array<R, sizeof...(I)> out{interpolate<kInterpolations<V>[I]>(w, c.value0[I], c.delta1[I], c.delta2[I])...};
   return from_components<V, R>(out);
 }
 
-/// The same with the centroid components at weights of their own.
+/// The same, with separate weights for centroid components.
 template <class V, class R, std::size_t... I>
 HS_INLINE V interpolate_all(const Weights<R>& w, const Weights<R>& centroid, const ComponentLanes<R, sizeof...(I)>& c,
                             std::index_sequence<I...>) {
@@ -105,34 +105,36 @@ HS_INLINE V interpolate_all(const Weights<R>& w, const Weights<R>& centroid, con
   return from_components<V, R>(out);
 }
 
-/// What a fragment shader is told of its pixel, lane by lane.
+/// Per-pixel information for a fragment shader.
 template <class R>
 struct Pixel {
-  R x, y;                  ///< window coordinates of the pixel centre (origin lower left, centres at +0.5)
-  MaskOf<R> front_facing;  ///< the triangle is counter-clockwise (as DrawState::front says)
+  R x, y;                  ///< window coordinates (origin lower left) of the pixel center, or of the sample with per-sample shading
+  MaskOf<R> front_facing;  ///< the winding matches DrawState::front; always true for point and line primitives
 
-  /// Window depth of the fragment, in [0, 1]. Found when asked for: few shaders do.
+  /// Returns the window depth of the fragment, in [0, 1]. It is computed on demand, because few shaders need it.
   HS_INLINE R z() const { return find_z(*this); }
-  /// 1/w_clip at the pixel.
+  /// Returns 1/w_clip at the pixel.
   HS_INLINE R inv_w() const { return weights.denominator / triangle->area * triangle->q_unscale; }
 
-  /// d/dx of a varying, per pixel: px.ddx(&Varyings<R>::uv). Exact by the triangle's plane, with no helper lanes.
+  /// Returns d/dx of a varying, per pixel: px.ddx(&Varyings<R>::uv). It is computed exactly from the plane of the triangle, without
+  /// helper lanes.
   template <class V, class F>
   HS_INLINE F ddx(F V::*member) const {
     return derivative(member, dy, triangle->e1y, triangle->e2y, R(256));
   }
-  /// d/dy of a varying, per pixel (y up).
+  /// Returns d/dy of a varying, per pixel; y points up.
   template <class V, class F>
   HS_INLINE F ddy(F V::*member) const {
     return derivative(member, dx, triangle->e1x, triangle->e2x, R(-256));
   }
 
-  /// Where in a point's square the pixel lies: 0 to 1 from left to right and from the top to the bottom, or the bottom to the
-  /// top (DrawState::point_origin). Of points alone.
+  /// Returns the position of the pixel within a point, from 0 to 1: left to right, and top to bottom or bottom to top as set by
+  /// DrawState::point_origin. Valid only for points.
   HS_INLINE vec2<R> point_coord() const { return {dx / triangle->e1x, dy / triangle->e2y}; }
 
-  /// The varyings V at pixel (i, j) of the 2x2 quad that holds this pixel (i, j in {0, 1}; quads start at even window
-  /// coordinates), by the same triangle, which need not cover it. For differences of computed values, as dFdx takes.
+  /// Returns the varyings V at pixel (i, j) of the 2x2 quad that contains this pixel, where i and j are 0 or 1 and quads start at even
+  /// window coordinates. They are extrapolated if the triangle does not cover that pixel. Used for differences of computed values,
+  /// like dFdx in GLSL.
   template <class V>
   HS_INLINE V at_quad(int i, int j) const {
     const R to_x = (R(static_cast<float>(i)) - quad_x) * R(256);
@@ -141,14 +143,14 @@ struct Pixel {
     return interpolate_all<V>(w, components<V>(), std::make_index_sequence<kComponents<V>>());
   }
 
-  // Filled by the pipeline.
+  // Set by the pipeline.
   const TriangleLanes<R>* triangle;
   const void* component_lanes;  ///< ComponentLanes<R, kComponents<V>> of the shader's Varyings V
   Weights<R> weights;
-  R dx, dy;          ///< pixel centre − v0, in 1/256 px
-  R quad_x, quad_y;  ///< 0 or 1: the pixel's place in its quad
+  R dx, dy;          ///< pixel position − v0, in 1/256 px
+  R quad_x, quad_y;  ///< 0 or 1: position of the pixel within its quad
   R (*find_z)(const Pixel&);
-  const void* z_source;  ///< what find_z reads
+  const void* z_source;  ///< data for find_z
 
  private:
   template <class V>
@@ -156,10 +158,10 @@ struct Pixel {
     return *static_cast<const ComponentLanes<R, kComponents<V>>*>(component_lanes);
   }
 
-  // Along x, dp1 = q1·(E1'·D − E1·D') / D². The terms with q1 drop out; E1 and E2 vanish together at v0, so
-  // E1'·E2 − E1·E2' is A·(y − y0), and likewise with v2 for E0. With r = y − y0, r1 and r2 the edges' y,
-  //   dp1 = q1·A·(q2·r − q0·(r − r2)) / D²,  dp2 = q2·A·(q0·(r − r1) − q1·r) / D²,
-  // and along y the same of x with the other sign. Nothing is lost where w differs much from vertex to vertex.
+  // Along x, dp1 = q1·(E1'·D − E1·D') / D². The terms with q1 cancel. E1 and E2 both vanish at v0, so E1'·E2 − E1·E2' is
+  // A·(y − y0), and likewise at v2 for E0. With r = y − y0, and r1 and r2 the y components of the edges,
+  //   dp1 = q1·A·(q2·r − q0·(r − r2)) / D²,  dp2 = q2·A·(q0·(r − r1) − q1·r) / D².
+  // The derivatives along y have x in place of y and the opposite sign. Nothing is lost if w differs strongly between vertices.
   template <class V, class F>
   HS_INLINE F derivative(F V::*member, R r, R r1, R r2, R sub_pixels) const {
     using Traits = detail::FieldTraits<F>;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mirrored light: the ray from the eye thrown back by a surface, with its derivatives on the screen, looked up in an
-// environment (Igehy, "Tracing Ray Differentials", 1999, section 3.2: reflection).
+// Environment reflection: the view ray is reflected at the surface together with its screen-space derivatives, and looked up in
+// an environment (Igehy, "Tracing Ray Differentials", 1999, section 3.2).
 //
-// With d the vector from the eye to the surface and n the unit normal, r = d − 2 (d·n) n, and for a step of the screen
+// With d the vector from the eye to the surface and n the unit normal, r = d − 2 (d·n) n. For a step on the screen,
 //   r' = d' − 2 ((d'·n + d·n') n + (d·n) n').
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace halfspace {
 
-/// A value that varies over the screen, and its derivatives by a pixel to the right and up.
+/// A vector and its derivatives for one pixel to the right and up.
 template <class R>
 struct Differential {
   vec3<R> at, dx, dy;
 };
 
-/// The unit vector of v, which must not be 0: v/|v| changes by what of v' is across v, over |v|.
+/// Normalizes v, which must not be 0. The derivative of v/|v| is the part of v' perpendicular to v, divided by |v|.
 template <Number R>
 HS_INLINE Differential<R> normalized(const Differential<R>& v) {
   const R inverse = inverse_sqrt(dot(v.at, v.at));
@@ -27,7 +27,7 @@ HS_INLINE Differential<R> normalized(const Differential<R>& v) {
   return {n, across(v.dx), across(v.dy)};
 }
 
-/// d thrown back by a mirror with the unit normal n, on either side of it. Has the length of d.
+/// Reflects d at a mirror with the unit normal n, which may be on either side. The length of d is preserved.
 template <Number R>
 HS_INLINE Differential<R> reflected(const Differential<R>& d, const Differential<R>& n) {
   const R along = dot(d.at, n.at);
@@ -37,8 +37,8 @@ HS_INLINE Differential<R> reflected(const Differential<R>& d, const Differential
   return {d.at - n.at * (R(2.0f) * along), step(d.dx, n.dx), step(d.dy, n.dy)};
 }
 
-/// The light of the surroundings in a mirror: from_eye_ws is the vector from the eye to the surface (of any length), normal_ws
-/// the unit normal, both with their derivatives.
+/// Returns the light of the environment reflected at a surface. from_eye_ws is the vector from the eye to the surface, of any
+/// length. normal_ws is the unit normal. Both include their derivatives.
 template <Number R>
 HS_INLINE vec3<R> environment_reflection(const EnvironmentBlend& environment, const Differential<R>& from_eye_ws,
                                          const Differential<R>& normal_ws) {

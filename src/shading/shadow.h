@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The share of one light that arrives at a point: what a surface's shader asks of a shadow map.
+// The shadow lookup that surface shaders call.
 #pragma once
 
 #include "halfspace/core/lane_pairs.h"
@@ -8,8 +8,8 @@
 
 namespace halfspace {
 
-/// 0 (in shadow) … 1 (lit). Of several views the first counts that holds the point with all texels that the filter asks.
-/// Outside of all views, and behind the light, a point is lit.
+/// Returns the fraction of the light that reaches the point, from 0 (in shadow) to 1 (lit). The first view that contains the point
+/// with the whole filter kernel is used. Points outside all views or behind the light are lit.
 template <class R>
 R shadow_factor(const Shadow& shadow, const ShadowReceiver<R>& at);
 

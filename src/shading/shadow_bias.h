@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Keeps a surface out of its own shadow. A map knows one depth per texel, the surface's depth changes over it: by the
-// texel's width times the tangent of the light's angle. Every method either lifts the point by about so much, or asks for
-// the surface's depth where the map took its own.
+// Shadow bias, which prevents self-shadowing. A shadow map stores one depth per texel, but the depth of the surface changes
+// within the texel, by its width times the tangent of the light's angle. Each method either moves the point by about that much,
+// or evaluates the depth of the surface at the point that the texel was sampled at.
 #pragma once
 
 #include "halfspace/shading/shadow_view.h"
 
 namespace halfspace {
 
-/// How far from the point, in texels, the filter looks: a bias has to hold over that distance.
+/// Returns the radius of the filter kernel in texels, over which the bias has to be sufficient.
 inline float filter_reach(const ShadowSettings& s) {
   switch (s.filter) {
     case ShadowFilter::hard: return 0.5f;
@@ -22,7 +22,7 @@ inline float filter_reach(const ShadowSettings& s) {
   }
 }
 
-/// The place of the receiver lifted along its face's normal by `texels` times the sine of the light's angle.
+/// Moves the receiver along the face normal by `texels` times the sine of the light's angle, and projects it to the view.
 template <class R>
 HS_INLINE ShadowCoordinates<R> normal_offset_coordinates(const ShadowView& view, const ShadowReceiver<R>& at, R cosine, float texels) {
   const R w = place_on(view, at.position_rws).w;
@@ -30,21 +30,22 @@ HS_INLINE ShadowCoordinates<R> normal_offset_coordinates(const ShadowView& view,
   return place_on(view, at.position_rws + at.face_normal_ws * step);
 }
 
-/// Tangent of the angle whose cosine is given, up to a limit.
+/// Returns the tangent of the angle with the given cosine, clamped to limit.
 template <class R>
 HS_INLINE R tangent_of(R cosine, float limit) {
   return min(sqrt(R(1) - cosine * cosine) / max(cosine, R(1e-6f)), R(limit));
 }
 
-/// How far `automatic` lifts a point, texels. With the triangle's own plane nothing more is needed on it; its neighbours lean
-/// away from it, and what they rise grows with the filter's reach and with the light's angle. Half a texel more is for the depths that
-/// the map rounds over a texel. Only pcss looks farther than pcf7, and at what stands far away.
+/// Returns the offset in texels that ShadowBias::automatic applies. On the triangle itself its plane is sufficient. Neighboring
+/// triangles are tilted away from that plane, by an amount that grows with the radius of the filter and with the light's angle.
+/// Half a texel is added for the rounding of depths within a texel. The radius is capped at that of pcf7: pcss reaches
+/// farther, but only for occluders that are far away.
 template <class R>
 HS_INLINE R automatic_lift(const ShadowSettings& s, R tangent) {
   return R(kAutomaticLift) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));
 }
 
-/// Where the receiver lies on the view, moved by the bias that the settings ask for.
+/// Projects the receiver to the view and applies the bias of the settings.
 template <class R>
 HS_INLINE ShadowCoordinates<R> biased_place(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
   const R cosine = clamp(dot(at.face_normal_ws, at.to_light_ws), R(0), R(1));
@@ -61,7 +62,7 @@ HS_INLINE ShadowCoordinates<R> biased_place(const ShadowView& view, const Shadow
       set_plane(view, at.position_rws, at.face_normal_ws, s.max_slope, p);
       p.depth += texel * R(s.constant);
       break;
-    case ShadowBias::adaptive:  // a ten-thousandth of the view's length, besides the plane
+    case ShadowBias::adaptive:  // a ten-thousandth of the depth range of the view, in addition to the plane
       set_plane(view, at.position_rws, at.shading_normal_ws, s.max_slope, p);
       p.depth += R((view.far - view.near) * 1e-4f * view.depth_per_unit) / (p.w * p.w);
       break;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The share of a light that arrives at a place of its map, by comparing depths and averaging.
+// Shadow map filters: the fraction of a light that reaches a point, from depth comparisons and averaging.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace halfspace {
 
 namespace detail {
 
-/// N points spread evenly over the unit disk: r = sqrt((i + 1/2)/N), each turned by the golden angle from the one before.
-/// H. Vogel, "A better way to construct the sunflower head", Mathematical Biosciences 44 (1979).
+/// Returns N points spread evenly over the unit disk: r = sqrt((i + 1/2)/N), each rotated by the golden angle relative to the
+/// previous one. H. Vogel, "A better way to construct the sunflower head", Mathematical Biosciences 44 (1979).
 template <int N>
 const std::array<glm::vec2, N>& vogel_disk() {
   static const std::array<glm::vec2, N> points = [] {
@@ -27,7 +27,7 @@ const std::array<glm::vec2, N>& vogel_disk() {
   return points;
 }
 
-/// A fraction of a turn by pixel that neighbours do not share: interleaved gradient noise (Jimenez, SIGGRAPH course 2014).
+/// Returns a fraction of a turn that differs between neighboring pixels: interleaved gradient noise (Jimenez, SIGGRAPH course 2014).
 template <class R>
 HS_INLINE R pixel_turn(R x_px, R y_px) {
   const R a = x_px * R(0.06711056f) + y_px * R(0.00583715f);
@@ -48,14 +48,14 @@ HS_INLINE Turn<R> turn_of(const ShadowReceiver<R>& at) {
 
 }  // namespace detail
 
-/// By the texel that holds the place.
+/// Compares with the texel that contains the point.
 template <class R>
 HS_INLINE R hard_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
   return lit_by_texel(view, p, truncate_to_int(floor(p.x)), truncate_to_int(floor(p.y)));
 }
 
-/// The mean over a square of width x width texels round the place: whole texels count 1, those at the square's border by
-/// their part within it. width is odd; 1 is bilinear comparison.
+/// Returns the mean over a square of width x width texels centered at the point. Texels that the square covers partially are weighted
+/// by their covered area. width must be odd; 1 is bilinear comparison.
 template <int width, class R>
 HS_INLINE R box_pcf(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const R left = p.x - R(0.5f * width), low = p.y - R(0.5f * width);
@@ -76,7 +76,7 @@ HS_INLINE R box_pcf(const ShadowView& view, const ShadowCoordinates<R>& p) {
   return sum * R(1.0f / (width * width));
 }
 
-/// The mean of nine texels, all alike: the plain form of pcf3, as the day and night's original has it.
+/// Returns the unweighted mean of nine texels: the simple form of pcf3, as in the original day-night demo.
 template <class R>
 HS_INLINE R pcf_3x3(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const IntOf<R> i = truncate_to_int(floor(p.x)), j = truncate_to_int(floor(p.y));
@@ -87,7 +87,7 @@ HS_INLINE R pcf_3x3(const ShadowView& view, const ShadowCoordinates<R>& p) {
   return sum * R(1.0f / 9.0f);
 }
 
-/// The mean of N texels on a disk of `radius` texels.
+/// Returns the mean of N texels on a disk with a radius of `radius` texels.
 template <int N, class R>
 HS_INLINE R disk_shadow(const ShadowView& view, const ShadowCoordinates<R>& p, R radius, const detail::Turn<R>& turn) {
   R sum(0);
@@ -98,24 +98,24 @@ HS_INLINE R disk_shadow(const ShadowView& view, const ShadowCoordinates<R>& p, R
   return sum * R(1.0f / N);
 }
 
-/// The radius, in texels, of the penumbra that an occluder at the given depth throws at the place, by similar triangles.
-/// Directional: tan · Δz, with Δz = Δdepth / depth_per_unit. Perspective: radius · (1/w_occluder − 1/w) on the plane w = 1, and
-/// depth is depth_per_unit/w + constant: the same formula.
+/// Returns the radius in texels of the penumbra that an occluder at the given depth casts on the point, by similar triangles.
+/// Directional lights: tan · Δz, with Δz = Δdepth / depth_per_unit. Perspective views: radius · (1/w_occluder − 1/w) on the plane
+/// w = 1. Since depth is depth_per_unit/w + constant, both give the same formula.
 template <class R>
 HS_INLINE R penumbra_texels(const ShadowView& view, float light_radius, const ShadowCoordinates<R>& p, R occluder_depth) {
   return (occluder_depth - p.depth) * R(light_radius / (view.depth_per_unit * view.texel_per_w));
 }
 
-/// The share of a light with a size. First a search for what stands in the way, which tells how wide the penumbra can be (as
-/// in percentage-closer soft shadows); then each texel in that width is projected back onto the light from the place: it hides
-/// the light where it lies within the light's cone at its own depth, and of the light's area the more the nearer it is
-/// (Guennebaud, Barthe and Paulin, "Real-time soft shadow mapping by backprojection", EGSR 2006). Texels behind each other are
-/// taken as beside each other.
+/// Returns the visible fraction of an area light. As in percentage-closer soft shadows, a blocker search determines the maximum
+/// width of the penumbra. Then each texel within that width is projected back from the point onto the light. It occludes the light
+/// if it is inside the cone of the light at its own depth, and the area that it occludes is larger the closer it is to the point
+/// (Guennebaud, Barthe and Paulin, "Real-time soft shadow mapping by backprojection", EGSR 2006). Texels that overlap as seen
+/// from the point are counted separately.
 template <class R>
 HS_INLINE R soft_shadow(const ShadowView& view, const ShadowCoordinates<R>& p, float light_radius, const detail::Turn<R>& turn) {
   constexpr int kSearched = 64, kProjected = 128;
-  constexpr float kMinimum = 0.5f;  // texels: below, one texel hides all
-  // Of a texel d away from the place: 1 if it lies nearer to the light, and the radius of the light's cone at its depth.
+  constexpr float kMinimum = 0.5f;  // in texels; below this radius a single texel occludes the whole light
+  // A texel at offset d: blocks is 1 if it is closer to the light than the point, and cone is the radius of the light's cone at its depth.
   struct Tap {
     R blocks, cone;
   };
@@ -141,7 +141,7 @@ HS_INLINE R soft_shadow(const ShadowView& view, const ShadowCoordinates<R>& p, f
   return max(R(1) - hidden * R(1.0f / kProjected), R(0));
 }
 
-/// The share of light at a place by the settings' filter.
+/// Returns the fraction of light at a point, using the filter of the settings.
 template <class R>
 HS_INLINE R filtered_shadow(const ShadowView& view, const ShadowSettings& s, const ShadowCoordinates<R>& p, const ShadowReceiver<R>& at) {
   switch (s.filter) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The body of shadow_factor (shading/shadow.h). Compiled once, in shadow.cpp: shaders call it, and do not grow by it.
+// Implementation of shadow_factor (shading/shadow.h). It is compiled only in shadow.cpp, so that it is not inlined into every shader.
 #pragma once
 
 #include "halfspace/shading/shadow.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a light sees: the depth of the nearest surface, on a grid of texels, and how a point of the world is found on it.
+// Shadow maps: a grid with the depth of the surface closest to a light, and the data that is needed to look up a point in it.
 //
-//   receiver (point, normal) ─ shadow_view.h: the view that holds it → place: texel, depth, slope of its plane
-//                            ─ shadow_bias.h: the same place, moved so that a surface does not shade itself
-//                            ─ shadow_filter.h: share of the light that arrives
+//   receiver (point, normal) ─ shadow_view.h: position in the view that contains it: texel, depth, slope of its plane
+//                            ─ shadow_bias.h: the same position, moved so that a surface does not shadow itself
+//                            ─ shadow_filter.h: fraction of the light that reaches it
 //
-// Depth is reversed (1 nearest to the light, 0 farthest, cleared to 0), so where nothing was drawn nothing shades.
+// Depth is reversed: 1 is closest to the light, 0 farthest. Maps are cleared to 0, so empty texels cast no shadow.
 // L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978.
 #pragma once
 
@@ -18,39 +18,39 @@
 
 namespace halfspace {
 
-/// The widest penumbra that pcss looks for, texels.
+/// Maximum penumbra radius of pcss, in texels.
 inline constexpr float kMaxPenumbra = 64.0f;
-/// Of ShadowBias::automatic: texels (see automatic_lift), and the largest tangent of the light's angle that it follows, 89.99 degrees.
+/// For ShadowBias::automatic: offset in texels (see automatic_lift), and the maximum tangent of the light's angle (89.99 degrees).
 inline constexpr float kAutomaticLift = 0.5f, kSteepestSlope = 1e4f;
 
-/// One picture taken from a light. Positions come with the world's axes and the eye as origin (_rws, see Light).
+/// One depth image as seen from a light. Positions are in camera-relative world space (_rws, see Light).
 struct ShadowView {
   glm::mat4 clip_from_rws{1.0f};        ///< clip depth in [0, w], reversed
-  glm::mat4 clip_plane_from_rws{1.0f};  ///< its inverse transpose: takes planes where the other takes points
-  float texel_per_w = 1.0f;             ///< world width of a texel where clip w is 1; it grows with w
-  float depth_per_unit = 1.0f;          ///< window depth per world unit along the view's axis where w is 1; it falls with w²
-  bool perspective = false;             ///< w is the distance along the axis, in units; else w is 1
-  float near = 0.0f, far = 1.0f;        ///< units along the axis from the light
-  int size = 0;                         ///< texels a side
+  glm::mat4 clip_plane_from_rws{1.0f};  ///< inverse transpose of clip_from_rws; transforms planes
+  float texel_per_w = 1.0f;             ///< width of a texel in world units where clip w is 1; proportional to w
+  float depth_per_unit = 1.0f;          ///< window depth per world unit along the axis where w is 1; falls off with w²
+  bool perspective = false;             ///< true: w is the distance along the axis in world units; false: w is 1
+  float near = 0.0f, far = 1.0f;        ///< distances along the axis from the light, in world units
+  int size = 0;                         ///< texels per side
   const float* depth = nullptr;         ///< size² reversed window depths, top row first; not owned
-  const glm::vec4* moments = nullptr;   ///< size² filtered powers 1 to 4 of the linear depth (0 near, 1 far); for vsm and moments
+  const glm::vec4* moments = nullptr;   ///< size² filtered powers 1 to 4 of the linear depth (0 near, 1 far); used by vsm and moments
 };
 
-/// The shadows of one light: one view, up to four cascades (finest first), or the six of a point light. A point that no view
-/// holds is lit.
+/// The shadow of one light: a single view, up to four cascades (finest first), or the six views of a point light. Points outside
+/// all views are lit.
 struct Shadow {
-  std::span<const ShadowView> views;  ///< not owned; empty: the light casts none
+  std::span<const ShadowView> views;  ///< not owned; if empty, the light casts no shadow
   ShadowSettings settings;
 };
 
-/// What is asked: a point on a surface. All unit vectors.
+/// The surface point that is tested for shadow. All vectors are unit vectors.
 template <class R>
 struct ShadowReceiver {
   vec3<R> position_rws;
-  vec3<R> face_normal_ws;     ///< of the triangle, on the side of the light
-  vec3<R> shading_normal_ws;  ///< as the light is computed with
+  vec3<R> face_normal_ws;     ///< normal of the triangle, on the side of the light
+  vec3<R> shading_normal_ws;  ///< the normal that is used for lighting
   vec3<R> to_light_ws;
-  R x_px, y_px;  ///< window coordinates; turn vogel's and pcss's disk
+  R x_px, y_px;  ///< window coordinates; they determine the rotation of the disks of vogel and pcss
 };
 
 }  // namespace halfspace

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadows from the moments of a filtered depth distribution: the map holds the means of d, d², d³, d⁴ over a neighbourhood,
-// d being the linear depth from 0 (near) to 1 (far); the light that arrives at depth d is bounded by them.
+// Shadows from the moments of a filtered depth distribution. The map stores the means of d, d², d³ and d⁴ over a neighborhood,
+// where d is the linear depth from 0 (near) to 1 (far). They give an upper bound of the light that reaches a given depth.
 #pragma once
 
 #include "halfspace/shading/shadow_view.h"
 
 namespace halfspace {
 
-/// 0 at the view's near end, 1 at its far end, in units along the axis.
+/// Returns the linear depth: 0 at the near plane of the view, 1 at its far plane, proportional to the distance along the axis.
 template <class R>
 HS_INLINE R linear_depth(const ShadowView& view, R depth, R w) {
   if (!view.perspective) return R(1) - depth;
   return (w - R(view.near)) * R(1.0f / (view.far - view.near));
 }
 
-/// The moments at a place, mixed from four texels.
+/// Returns the bilinearly interpolated moments at a point.
 template <class R>
 HS_INLINE vec4<R> moments_at(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const R x = p.x - R(0.5f), y = p.y - R(0.5f);
@@ -34,7 +34,8 @@ HS_INLINE vec4<R> moments_at(const ShadowView& view, const ShadowCoordinates<R>&
   return lower * (R(1) - fy) + upper * fy;
 }
 
-/// The largest share of light that mean and variance allow (Chebyshev's inequality). Two occluders of different depth leak.
+/// Returns the upper bound of the light given by mean and variance (Chebyshev's inequality). Light leaks where occluders at two
+/// different depths overlap.
 template <class R>
 HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const vec4<R> m = moments_at(view, p);
@@ -44,15 +45,16 @@ HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowCoordinates<R>&
   return select(beyond <= R(0), R(1), variance / (variance + beyond * beyond));
 }
 
-/// The largest share of light that four moments allow: the distribution on two depths and the receiver's own that has
-/// these moments. C. Peters and R. Klein, "Moment shadow mapping", I3D 2015, section 3 (Hamburger, four moments).
+/// Returns the upper bound of the light given by four moments. It is attained by the distribution with these moments that is
+/// concentrated at the depth of the receiver and two other depths. C. Peters and R. Klein, "Moment shadow mapping", I3D 2015,
+/// section 3 (Hamburger, four moments).
 template <class R>
 HS_INLINE R four_moment_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
-  // The moments are drawn a little towards those of a spread-out distribution, against rounding.
+  // Biases the moments slightly towards those of a spread-out distribution, to make up for rounding errors.
   constexpr float kSpread = 1e-5f;
   const vec4<R> m = moments_at(view, p) * (1.0f - kSpread) + vec4<R>(R(0.5f * kSpread));
   const R z0 = linear_depth(view, p.depth, p.w);
-  // Cholesky factors of the Hankel matrix (1 b1 b2; b1 b2 b3; b2 b3 b4), and its solution for (1, z0, z0²).
+  // Cholesky factorization of the Hankel matrix (1 b1 b2; b1 b2 b3; b2 b3 b4), solved for (1, z0, z0²).
   const R l32_d22 = fma(-m.x, m.y, m.z);
   const R d22 = fma(-m.x, m.x, m.y);
   const R variance_of_square = fma(-m.y, m.y, m.w);
@@ -68,7 +70,7 @@ HS_INLINE R four_moment_shadow(const ShadowView& view, const ShadowCoordinates<R
   const R half = R(-0.5f) * c1 * inverse_c2;
   const R root = sqrt(max(half * half - c0 * inverse_c2, R(0)));
   const R z1 = half - root, z2 = half + root;
-  // How much of the distribution lies nearer than z0: none, the part at z1, or all but the part at z0.
+  // The fraction of the distribution closer than z0: none, the weight at z1, or all except the weight at z0.
   const R at_z1 = (z0 * z2 - m.x * (z0 + z2) + m.y) / ((z2 - z1) * (z0 - z1));
   const R at_z0 = (z1 * z2 - m.x * (z1 + z2) + m.y) / ((z0 - z1) * (z0 - z2));
   const R shadow = select(z0 <= z1, R(0), select(z0 <= z2, at_z1, R(1) - at_z0));

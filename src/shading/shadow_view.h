@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a point lies on a shadow map.
+// Projection of points to shadow maps.
 #pragma once
 
 #include "halfspace/core/lane_math.h"
@@ -9,16 +9,17 @@
 
 namespace halfspace {
 
-/// A point on a view. Texel coordinates count from the lower left corner; texel i spans [i, i + 1].
+/// A point in a shadow view. Texel coordinates start at the lower left corner; texel i covers [i, i + 1].
 template <class R>
 struct ShadowCoordinates {
-  R x, y;                ///< texels
+  R x, y;                ///< in texels
   R depth;               ///< reversed window depth
   R w;                   ///< clip w: distance along the axis, or 1
-  R depth_dx, depth_dy;  ///< change of depth per texel on the plane that the texels are compared with; 0: no plane
+  R depth_dx, depth_dy;  ///< change of depth per texel, on the plane that texels are compared with; 0: no plane
 };
 
-/// The window depth that one texel's width spans along the view's axis, at clip w. (z = a/w + b in perspective.)
+/// Returns the window depth at clip w that corresponds to the width of one texel along the axis of the view. (In a perspective
+/// view z = a/w + b.)
 template <class R>
 HS_INLINE R depth_of_texel(const ShadowView& view, R w) {
   return R(view.texel_per_w * view.depth_per_unit) / w;
@@ -32,15 +33,15 @@ HS_INLINE ShadowCoordinates<R> place_on(const ShadowView& view, const vec3<R>& p
   return {fma(p.x * inverse, half, half), fma(p.y * inverse, half, half), p.z * inverse, p.w, R(0), R(0)};
 }
 
-/// Does the view show the point, with `margin` texels of picture around it? Beyond its far end a cascade knows nothing.
+/// Returns whether the view contains the point and `margin` texels around it. Points beyond the far plane are not contained.
 template <class R>
 HS_INLINE MaskOf<R> holds(const ShadowView& view, const ShadowCoordinates<R>& p, float margin) {
   const R low(margin), high(static_cast<float>(view.size) - margin);
   return p.w > R(0) && p.x >= low && p.x <= high && p.y >= low && p.y <= high && p.depth >= R(0) && p.depth <= R(1);
 }
 
-/// Gives the place the plane through position_rws with the given normal. A plane stays one in window space, so the slope is
-/// the same at every texel. Slopes beyond max_slope texels of depth per texel are held to it.
+/// Sets the depth slopes to those of the plane through position_rws with the given normal. A plane in world space is also a plane in
+/// window space, so the slopes are the same at every texel. They are limited to max_slope times the depth of a texel.
 template <class R>
 HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_rws, const vec3<R>& normal_ws, float max_slope,
                          ShadowCoordinates<R>& p) {
@@ -54,14 +55,14 @@ HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_rws, co
 
 namespace detail {
 
-/// The map's row of texels (…, j); beyond the map's edge the nearest.
+/// Returns the row index in memory of texel row j. Rows outside the map are clamped.
 template <class R>
 HS_INLINE IntOf<R> row_of(const ShadowView& view, IntOf<R> j) {
   const IntOf<R> last(view.size - 1);
   return last - min(max(j, IntOf<R>(0)), last);
 }
 
-/// 1 where the light reaches the place as far as texel (i, j) of depth `nearest` tells, else 0.
+/// Returns 1 if texel (i, j), which has the depth `nearest`, does not occlude the point, and 0 if it does.
 template <class R>
 HS_INLINE R lit(const ShadowCoordinates<R>& p, IntOf<R> i, IntOf<R> j, R nearest) {
   const R dx = to_real<R>(i) + R(0.5f) - p.x, dy = to_real<R>(j) + R(0.5f) - p.y;
@@ -71,21 +72,21 @@ HS_INLINE R lit(const ShadowCoordinates<R>& p, IntOf<R> i, IntOf<R> j, R nearest
 
 }  // namespace detail
 
-/// Depth of texel (i, j); beyond the map's edge that of the nearest texel.
+/// Returns the depth of texel (i, j). Coordinates outside the map are clamped.
 template <class R>
 HS_INLINE R map_depth(const ShadowView& view, IntOf<R> i, IntOf<R> j) {
   const IntOf<R> column = min(max(i, IntOf<R>(0)), IntOf<R>(view.size - 1));
   return R(gather(view.depth, IntOf<R>(detail::row_of<R>(view, j) * IntOf<R>(view.size) + column)));
 }
 
-/// 1 where the light reaches the place as far as texel (i, j) tells, else 0. Where nothing was drawn the texel is 0 and the place is
-/// lit, even if its plane falls beyond the view's far end.
+/// Returns 1 if texel (i, j) does not occlude the point, and 0 if it does. An empty texel has depth 0 and never occludes, even if
+/// the plane of the point extends beyond the far plane of the view.
 template <class R>
 HS_INLINE R lit_by_texel(const ShadowView& view, const ShadowCoordinates<R>& p, IntOf<R> i, IntOf<R> j) {
   return detail::lit(p, i, j, map_depth<R>(view, i, j));
 }
 
-/// The same of texels (i, j), …, (i + N − 1, j), N up to 4.
+/// The same for texels (i, j), …, (i + N − 1, j), N up to 4.
 template <int N, class R>
 HS_INLINE std::array<R, N> lit_by_texels(const ShadowView& view, const ShadowCoordinates<R>& p, IntOf<R> i, IntOf<R> j) {
   std::array<R, N> texels = map_row<N, R>(view.depth, view.size, i, detail::row_of<R>(view, j));

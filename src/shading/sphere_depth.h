@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws spheres' depth and nothing else: for shadow maps.
+// Draws only the depth of spheres, for shadow maps.
 #pragma once
 
 #include "halfspace/shading/contract.h"
@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// The rectangle that a sphere's sprite covers, and its nearest depth.
+/// Returns the rectangle that the sprite of a sphere covers, and its minimum depth.
 template <class R>
 HS_INLINE PointSpriteVertex<R> sphere_bounds(const SphereIntersection& lens, const vec3<R>& center_cs, R radius) {
   const SphereSpan<R> x = lens.span(center_cs, radius, 0), y = lens.span(center_cs, radius, 1);
@@ -40,7 +40,7 @@ struct SphereDepth {
     const SphereHit<R> h = lens.hit(in.center_cs.value, in.radius.value, px.x, px.y);
     return {h.seen, lens.window_depth(h.t, h.t_low)};
   }
-  /// No colour is written; a depth by pixel asks for a fragment function.
+  /// The color is not used, but shaders that write depth need a fragment function.
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const Visibility<R> v = visibility(in, px);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Spheres drawn as points. SphereImpostor<false> is the classic trick: a square sized by the centre alone, its circle kept, the
-// normal that of a half ball in it, and a depth that is a cone's. What is wrong with it: off the picture's middle a sphere is an
-// ellipse and no circle, and two spheres do not meet where they should. SphereImpostor<true> is the sphere: the bounds of
-// its ellipse, and a ray by pixel (shading/sphere_intersection.h).
+// Spheres drawn as points. SphereImpostor<false> is the classic approximation: a square whose size depends only on the center, cut
+// to a circle, with the normals of a hemisphere and the depth of a cone. It is wrong in two ways: away from the image center a
+// sphere appears as an ellipse, not a circle, and intersections of spheres are in the wrong place. SphereImpostor<true> is exact: it
+// covers the bounds of the ellipse and intersects a ray with the sphere per pixel (shading/sphere_intersection.h).
 //
-// Light, in linear colours:
+// The linear color is
 //   color · (ambient + diffuse · D) + specular · S + emissive       (D and S: shading/lighting.h)
-// at the pixel's point of the sphere; the classic sprite takes light and eye as its centre sees them. Shadows fall on the exact one.
+// at the point of the sphere that the pixel shows. The classic sprite uses the light and view vectors of its center. Only exact
+// spheres receive shadows.
 #pragma once
 
 #include <span>
@@ -18,13 +19,13 @@
 
 namespace halfspace {
 
-/// The uniforms of both.
+/// Uniforms of both variants.
 struct SphereImpostors {
   SphereIntersection lens;
-  glm::mat3 world_from_camera{1.0f};  ///< its columns: right, up and forward
-  glm::vec3 to_eye_ws{0.0f};          ///< orthographic: towards the eye from everywhere; else 0
-  float point_scale = 800.0f;         ///< px; of the classic sprite: see point_size
-  glm::vec3 ambient{0.0f};            ///< the ambient light is in it
+  glm::mat3 world_from_camera{1.0f};  ///< columns are right, up and forward
+  glm::vec3 to_eye_ws{0.0f};          ///< orthographic: constant unit vector towards the eye; perspective: 0
+  float point_scale = 800.0f;         ///< pixels; size of classic sprites, see point_size
+  glm::vec3 ambient{0.0f};            ///< includes the ambient light
   glm::vec3 diffuse{1.0f}, specular{0.0f}, emissive{0.0f};
   LightModel model = LightModel::phong;
   float shininess = 32.0f;
@@ -75,8 +76,8 @@ struct SphereImpostor : SphereImpostors {
     return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t, h.t_low)};
   }
 
-  /// Side of the classic sprite's square, px: point_scale · radius / distance, the distance being that along z times the
-  /// tangent of half the width of view (orthographic: half the picture's width).
+  /// Returns the side length of the classic sprite in pixels: point_scale · radius / distance, where distance is z times the
+  /// tangent of half the horizontal field of view (orthographic: half the width of the view).
   template <class R>
   HS_INLINE R point_size(const vec3<R>& center_cs, R radius) const {
     const R size = R(point_scale / lens.half.x) * radius;
@@ -92,8 +93,8 @@ struct SphereImpostor : SphereImpostors {
     return {vec4<R>(c.x / R(lens.half.x), c.y / R(lens.half.y), z, w), point_size(c, in.radius), {}};
   }
 
-  // Of the classic sprite: the half ball over the point's circle, as deep as the centre and, in units, the distance from the
-  // circle's middle in radii.
+  // For the classic sprite: a hemisphere over the circle of the point. Its depth is that of the center plus the distance to the middle
+  // of the circle in radii, taken as world units.
   template <class R>
   HS_INLINE SphereHit<R> hit(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec3<R>& c = in.center_cs.value;

@@ -11,7 +11,7 @@ double whole(const SplitDouble& d) { return static_cast<double>(d.high) + static
 
 }  // namespace
 
-// a·r² − |e × d|², which is the root at the point nearest to the centre.
+// Returns a·r² − |e × d|², which is the term under the root at the point closest to the center.
 double SphereIntersection::root_in_double(const glm::vec3& center_cs, float radius, float x, float y) const {
   const glm::dvec3 c(center_cs);
   const double px = std::fma(static_cast<double>(x), whole(ray_x.scale), whole(ray_x.bias));

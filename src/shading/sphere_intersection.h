@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A sphere as a picture sees it: its bounds in the picture, where a pixel's ray meets it, and how deep that lies.
+// Geometry of spheres in a view: screen-space bounds, and the intersection with the ray of a pixel and its depth.
 //
-// All is told in the camera's axes, suffix _cs: x to the right, y up, z forward from the eye, in units.
+// All positions are in camera space (suffix _cs): x right, y up, z forward from the eye, in world units.
 //
-// The ray of a pixel is t·d with d = (dx, dy, 1) and t the depth along z, or (dx, dy, t) in an orthographic picture. It is
-// followed from where it crosses the plane z = c.z of the sphere's centre c: there it is at e = d·c.z − c from the centre, which
-// has no z. So all lengths are of the sphere's size, however far it is. From a point p = e + s·d of the ray it is still δ to
-// the sphere, with a = d·d:
+// The ray of a pixel is t·d with d = (dx, dy, 1), where t is the depth along z; in an orthographic view it is (dx, dy, t). The
+// computation starts where the ray crosses the plane z = c.z through the center c of the sphere. Relative to c this is the point
+// e = d·c.z − c, which has z = 0, so that all lengths are of the order of the sphere even if it is far away. The distance δ from a
+// point p = e + s·d of the ray to the sphere satisfies, with a = d·d:
 //   a·δ² + 2·(p·d)·δ + |p|² − r² = 0, δ = (−p·d − √((p·d)² + a·(r² − |p|²))) / a, t = c.z + s + δ, normal = (p + δ·d) / r.
-// Taken from the point nearest to the centre, s = −(e·d)/a, p·d is no more than rounding has left, and r² − |p|² says how much of the
-// sphere the ray meets: at the rim nothing, and all that was rounded before stands in it. So d, e, p and that difference are kept as
-// sums of two floats (Dekker's and Knuth's exact products and sums): it is known to some 2^-44·r², and √ and normal to float's last bits up
-// to the rim. What is within 2^-38·r² of neither meeting nor missing is decided in double.
+// If p is the point closest to the center, s = −(e·d)/a, then p·d is only a rounding error, and r² − |p|² is a measure of how deep the
+// ray enters the sphere. At the silhouette it is 0 and consists of the accumulated rounding errors. For that reason d, e, p and this
+// difference are kept as sums of two floats (exact products and sums by Dekker and Knuth). It is then accurate to about 2^-44·r², and
+// the root and the normal have full float precision up to the silhouette. Cases within 2^-38·r² of the limit between hit and miss are
+// decided in double.
 //
-// δ is as long as the sphere. Where the eye is near to that (r > a fifth of the centre's distance) little of c.z + s + δ may be left, and
-// the depth needs more of δ than a float: one step of Newton from s + δ, in sums of two floats again, has it.
+// δ is of the order of the radius. If the eye is close to the sphere (r is more than a fifth of the distance to the center),
+// c.z + s + δ may cancel, and the depth needs δ to more than float precision. One Newton step from s + δ, again in sums of two
+// floats, provides it.
 #pragma once
 
 #include "halfspace/core/lane_math.h"
@@ -23,32 +25,32 @@
 
 namespace halfspace {
 
-/// A double as the sum of two floats.
+/// A double, stored as the sum of two floats.
 struct SplitDouble {
   float high = 0.0f, low = 0.0f;
   SplitDouble() = default;
   explicit SplitDouble(double d) : high(static_cast<float>(d)), low(static_cast<float>(d - static_cast<double>(high))) {}
 };
 
-/// A number as a sum of two: high is the sum rounded.
+/// A number represented as the sum of two; high is the rounded sum.
 template <class R>
 struct DoubleFloat {
   R high, low;
 };
-/// a + b, exactly (Knuth).
+/// Returns a + b exactly (Knuth).
 template <class R>
 HS_INLINE DoubleFloat<R> two_sum(R a, R b) {
   const R sum = a + b, back = sum - a;
   return {sum, (a - (sum - back)) + (b - back)};
 }
-/// a · b, exactly (Dekker).
+/// Returns a · b exactly (Dekker).
 template <class R>
 HS_INLINE DoubleFloat<R> two_product(R a, R b) {
   const R product = a * b;
   return {product, fma(a, b, -product)};
 }
 
-/// A line through window coordinates.
+/// A linear function of a window coordinate.
 struct PixelLine {
   SplitDouble scale, bias;
 
@@ -59,31 +61,31 @@ struct PixelLine {
   }
 };
 
-/// Where a ray meets a sphere.
+/// Intersection of a ray with a sphere.
 template <class R>
 struct SphereHit {
-  MaskOf<R> seen;  ///< the ray enters the sphere between near and far
-  R t, t_low;      ///< depth along z, units: t, and what its rounding took away
-  vec3<R> n_cs;    ///< unit normal, outwards
+  MaskOf<R> seen;  ///< the ray enters the sphere between the near and far planes
+  R t, t_low;      ///< depth along z in world units: t, and its rounding error
+  vec3<R> n_cs;    ///< outward unit normal
 };
 
-/// From low to high in normalized device coordinates.
+/// An interval in NDC.
 template <class R>
 struct SphereSpan {
   R low, high;
 };
 
-/// How a camera sees spheres.
+/// Projection of spheres by a camera.
 struct SphereIntersection {
   bool perspective = true;
-  glm::vec2 half{1.0f};       ///< what reaches from the picture's middle to its edges: tangents, or in an orthographic picture units
-  glm::vec2 pixel_ndc{0.0f};  ///< size of a pixel in normalized device coordinates
-  float near = 0.1f, far = 1000.0f, far_low = 0.0f;  ///< far + far_low is the double
+  glm::vec2 half{1.0f};                              ///< half the extent of the view: tangents, or world units if orthographic
+  glm::vec2 pixel_ndc{0.0f};                         ///< size of a pixel in NDC
+  float near = 0.1f, far = 1000.0f, far_low = 0.0f;  ///< far + far_low is the value in double
   float depth_scale = 0.0f, depth_scale_low = 0.0f;
-  PixelLine ray_x, ray_y;  ///< from window coordinates to dx and dy
+  PixelLine ray_x, ray_y;  ///< map window coordinates to dx and dy
 
   SphereIntersection() = default;
-  /// size_px: of the picture. Depth is reversed: 1 at near, 0 at far.
+  /// size_px is the size of the image in pixels. Depth is reversed: 1 at near, 0 at far.
   SphereIntersection(bool is_perspective, const glm::dvec2& half_extent, double z_near, double z_far, const glm::ivec2& size_px)
       : perspective(is_perspective),
         half(half_extent),
@@ -96,7 +98,7 @@ struct SphereIntersection {
         ray_x{SplitDouble(2.0 * half_extent.x / size_px.x), SplitDouble(-half_extent.x)},
         ray_y{SplitDouble(2.0 * half_extent.y / size_px.y), SplitDouble(-half_extent.y)} {}
 
-  /// Window depth of depth t + t_low, held to [0, 1].
+  /// Returns the window depth at the depth t + t_low, clamped to [0, 1].
   template <class R>
   HS_INLINE R window_depth(R t, R t_low = R(0)) const {
     const R from_far = (R(far) - t) + (R(far_low) - t_low);
@@ -107,14 +109,14 @@ struct SphereIntersection {
     return clamp(fma(rest, inverse, quotient), R(0), R(1));
   }
 
-  /// The ray of the window coordinates x and y, and a sphere of radius r > 0. What lies before the near plane is cut away: a
-  /// pixel whose ray enters the sphere there sees nothing of it, as of a closed surface whose back faces are culled.
+  /// Intersects the ray through the window coordinates x and y with a sphere of radius r > 0. The part in front of the near plane
+  /// is clipped: a ray that enters the sphere there does not hit it, as for a closed mesh with back-face culling.
   template <class R>
   HS_INLINE SphereHit<R> hit(const vec3<R>& center_cs, R radius, R x, R y) const {
     const vec3<R>& c = center_cs;
     const Ray<R> ray = ray_of(c, x, y);
     const R a = fma(ray.dx.high, ray.dx.high, fma(ray.dy.high, ray.dy.high, R(1)));
-    R s = -fma(ray.ex.high, ray.dx.high, ray.ey.high * ray.dy.high) / a;  // nearest to the centre, but for rounding
+    R s = -fma(ray.ex.high, ray.dx.high, ray.ey.high * ray.dy.high) / a;  // closest to the center, except for rounding
     RayPoint<R> p = point_at(ray, s);
     const R forward = p.forward(ray);
     R root = fma(forward, forward, a * p.inside(radius));
@@ -125,7 +127,7 @@ struct SphereIntersection {
     if (any(is_near)) {
       s = select(is_near, s + delta, s);
       p = point_at(ray, s);
-      const R slope = R(2) * p.forward(ray);  // < 0: the ray enters
+      const R slope = R(2) * p.forward(ray);  // negative if the ray enters
       delta = select(is_near, select(slope < R(0), p.inside(radius) / slope, R(0)), delta);
     }
     DoubleFloat<R> t = two_sum(c.z, s);
@@ -134,14 +136,14 @@ struct SphereIntersection {
     return {(root > R(0)) && (t.high >= R(near)) && (t.high <= R(far)), t.high, t.low, n};
   }
 
-  /// Does any of the sphere lie between near and far?
+  /// Returns whether any part of the sphere is between near and far.
   template <class R>
   HS_INLINE MaskOf<R> in_depth(const vec3<R>& center_cs, R radius) const {
     return (radius > R(0)) && (center_cs.z + radius > R(near)) && (center_cs.z - radius < R(far));
   }
 
-  /// What the part of the sphere beyond the near plane spans along an axis (0: x, 1: y), with an eighth of a pixel and what
-  /// rounding may take on either side.
+  /// Returns the interval that the part of the sphere beyond the near plane covers along an axis (0: x, 1: y), extended on both
+  /// sides by an eighth of a pixel and a bound of the rounding error.
   template <class R>
   HS_INLINE SphereSpan<R> span(const vec3<R>& center_cs, R radius, int axis) const {
     const R scale(1.0f / half[axis]);
@@ -151,9 +153,9 @@ struct SphereIntersection {
   }
 
  private:
-  /// The root of hit in double; > 0 where the ray meets the sphere.
+  /// Returns the term under the root of hit, computed in double. It is positive if the ray hits the sphere.
   double root_in_double(const glm::vec3& center_cs, float radius, float x, float y) const;
-  // One of many millions of pixels: what two floats leave open.
+  // Decides the rare cases that two floats leave open, about one in many millions of pixels.
   template <class R>
   HS_INLINE void decide_in_double(MaskOf<R> which, const vec3<R>& c, R radius, R x, R y, R& root) const {
     if constexpr (std::is_same_v<decltype(lane(radius, 0)), float>) {
@@ -165,7 +167,7 @@ struct SphereIntersection {
     }
   }
 
-  // A ray as above: d without its z, which is 1, and e.
+  // A ray as described above: d without its z component, which is 1, and e.
   template <class R>
   struct Ray {
     DoubleFloat<R> dx, dy, ex, ey;
@@ -178,7 +180,7 @@ struct SphereIntersection {
 
     /// p·d
     HS_INLINE R forward(const Ray<R>& ray) const { return fma(x.high, ray.dx.high, fma(y.high, ray.dy.high, z)); }
-    /// r² − |p|²: of the four squares the two sums cancel exactly (Sterbenz) where the point is near the surface.
+    /// r² − |p|². Near the surface the leading parts of the four squares cancel exactly (Sterbenz).
     HS_INLINE R inside(R r) const {
       const DoubleFloat<R> xx = two_product(x.high, x.high), yy = two_product(y.high, y.high), zz = two_product(z, z),
                            rr = two_product(r, r);
@@ -205,20 +207,21 @@ struct SphereIntersection {
     return {none, none, step(from_x, px, R(1)), step(from_y, py, R(1))};
   }
 
-  // Largest (side 1) or least (side −1) x/z of the disk round (x, z) where it lies beyond the near plane: that of the tangent
-  // from the eye, or where that touches before the plane, of the disk's chord in it. Orthographic: largest or least x.
+  // Returns the maximum (side 1) or minimum (side −1) of x/z over the part of the disk around (x, z) that is beyond the near plane. It
+  // is at the tangent from the eye or, if that touches the disk in front of the plane, at the end of the chord that the plane cuts
+  // from the disk. For orthographic views it is the maximum or minimum of x.
   template <class R>
   HS_INLINE R edge(R x, R z, R r, R side) const {
     if (!perspective) return fma(side, r, x);
     const R squared = fma(x, x, z * z), tangent_squared = squared - r * r;
     const R tangent = sqrt(max(tangent_squared, R(0)));
-    const R touch_x = fma(side * r, z, x * tangent), touch_z = fma(-side * r, x, z * tangent);  // times |c|² / tangent
+    const R touch_x = fma(side * r, z, x * tangent), touch_z = fma(-side * r, x, z * tangent);  // scaled by |c|² / tangent
     const R down = R(near) - z, chord = sqrt(max(fma(-down, down, r * r), R(0)));
     const MaskOf<R> touches = (tangent_squared > R(0)) && (touch_z * tangent >= R(near) * squared);
     return select(touches, touch_x / select(touches, touch_z, R(1)), fma(side, chord, x) / R(near));
   }
 
-  // The tangent's length is a difference of squares, which is the less certain the nearer the eye is to the surface.
+  // The length of the tangent comes from a difference of squares, whose relative error grows as the eye approaches the surface.
   template <class R>
   HS_INLINE R margin(R ndc, R x, R z, R r, float pixel) const {
     const R squared = fma(x, x, z * z), left = max(abs(squared - r * r), squared * R(0x1p-20f));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Normals by pixel, finer than the vertices': from a normal map, from a map of heights, from the slopes of a displaced sphere.
-// All results have any length; where a map says nothing, they are the normal that went in.
+// Per-pixel normals from a normal map, a bump map, or the slopes of a displaced sphere. Results are not normalized. Where a map has
+// no detail, they equal the input normal.
 #pragma once
 
 #include "halfspace/shading/lit_surface.h"
@@ -9,9 +9,9 @@
 
 namespace halfspace {
 
-/// A normal map in tangent space: x along the tangent, y along the bitangent, which points where the map's image goes up,
-/// each coded as 2c − 1 (as in glTF 2.0). n_ws and tangent_ws are used as they were interpolated, not made unit vectors
-/// (the convention of M. Mikkelsen's MikkTSpace, which tools that bake such maps go by); `side` is ±1, mirroring included.
+/// Applies a tangent-space normal map. x is along the tangent and y along the bitangent, which points up in the image of the map;
+/// components are encoded as 2c − 1 (as in glTF 2.0). n_ws and tangent_ws are the interpolated vectors, not renormalized
+/// (the convention of M. Mikkelsen's MikkTSpace, which baking tools follow). `side` is ±1 and includes mirroring.
 template <class R>
 HS_INLINE vec3<R> normal_from_map(const DetailMap& detail, const MapCoordinates<R>& at, const vec3<R>& n_ws, const vec3<R>& tangent_ws,
                                   R side) {
@@ -22,13 +22,13 @@ HS_INLINE vec3<R> normal_from_map(const DetailMap& detail, const MapCoordinates<
   return select(dot(n, n) > R(0), n, n_ws);
 }
 
-/// The change of height along a step to the right and up.
+/// The change of height from this pixel to the next one to the right and up.
 template <class R>
 struct HeightSteps {
   R right, up;
 };
 
-/// From a map that holds (∂h/∂u, ∂h/∂v): the slope of the filtered heights.
+/// Uses a map that stores (∂h/∂u, ∂h/∂v), the slopes of the filtered heights.
 template <class R>
 HS_INLINE HeightSteps<R> height_steps(const DetailMap& detail, const MapCoordinates<R>& at) {
   const vec3<R> slope = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
@@ -36,8 +36,8 @@ HS_INLINE HeightSteps<R> height_steps(const DetailMap& detail, const MapCoordina
   return {s * fma(slope.x, at.duv_dx.x, slope.y * at.duv_dx.y), s * fma(slope.x, at.duv_dy.x, slope.y * at.duv_dy.y)};
 }
 
-/// From a map that holds h: differences within the 2x2 quad, as GLSL's dFdx and dFdy take them. All four pixels have one
-/// value, which shows as blocks. uv_of tells the coordinates of varyings.
+/// Uses a map that stores h, and takes differences within the 2x2 quad, like dFdx and dFdy in GLSL. All four pixels of a quad get the
+/// same value, which is visible as blocks. uv_of(varyings) must return the texture coordinates.
 template <class V, class R, class F>
 HS_INLINE HeightSteps<R> height_differences(const DetailMap& detail, const Pixel<R>& px, const MapCoordinates<R>& at, const F& uv_of) {
   std::array<R, 3> h;
@@ -49,8 +49,8 @@ HS_INLINE HeightSteps<R> height_differences(const DetailMap& detail, const Pixel
   return {s * (h[1] - h[0]), s * (h[2] - h[0])};
 }
 
-/// The normal of a surface that heights raise along its unit normal n, where steps to the right and up move the position by
-/// dp_dx and dp_dy: n − ∇h, with the gradient within the surface
+/// Returns the normal of a surface that is displaced by h along its unit normal n. dp_dx and dp_dy are the changes of the position
+/// from this pixel to the next one to the right and up. The result is n − ∇h with the surface gradient
 ///
 ///   ∇h = (h_x · (p_y × n) + h_y · (n × p_x)) / (p_x · (p_y × n))
 ///
@@ -63,9 +63,9 @@ HS_INLINE vec3<R> normal_from_heights(const vec3<R>& n, const HeightSteps<R>& h,
   return n - (right * h.right + up * h.up) * inverse;
 }
 
-/// The displaced sphere's normal where the sphere's unit normal is n, y towards the north pole, and slope is
-/// (∂g/∂east, ∂g/∂north, 1 + g/r): n·(1 + g/r) − east·∂g/∂east − north·∂g/∂north (geometry/height_field.h derives it). At the
-/// poles themselves, which have no east, n.
+/// Returns the normal of a displaced sphere where the unit normal of the sphere is n, with y towards the north pole. slope is
+/// (∂g/∂east, ∂g/∂north, 1 + g/r), and the result is n·(1 + g/r) − east·∂g/∂east − north·∂g/∂north (derived in
+/// geometry/height_field.h). At the poles, where east is undefined, the slopes have no effect.
 template <class R>
 HS_INLINE vec3<R> normal_from_slopes(const vec3<R>& n, const vec3<R>& slope) {
   const R ring = sqrt(fma(n.x, n.x, n.z * n.z));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shader of surfaces. How often light is computed is a property of the draw: one formula (shading/lighting.h), at the
-// rate that the first parameter says. Maps are read by pixel at every rate; what a variant does not need it does not carry.
+// The shader for surfaces. The shading rate, a template parameter, determines how often lighting (shading/lighting.h) is computed.
+// Maps are sampled per pixel at every rate. Each variant has only the attributes and varyings that it needs.
 #pragma once
 
 #include "halfspace/shading/contract.h"
@@ -10,16 +10,16 @@
 
 namespace halfspace {
 
-/// What tells a pixel's normal beyond the vertices' (shading/surface_detail.h). Only phong has any.
+/// The source of per-pixel normal detail (shading/surface_detail.h). Only ShadingRate::phong supports it.
 enum class NormalDetail : uint8_t {
   none,
-  map,    ///< LitSurface::detail is a normal map; vertices have tangents
-  bump,   ///< it is a bump map
-  slopes  ///< it is a map of the slopes of a displaced sphere whose vertices lie in the directions of its normals
+  map,    ///< LitSurface::detail is a normal map, and vertices have tangents
+  bump,   ///< LitSurface::detail is a bump map
+  slopes  ///< LitSurface::detail stores the slopes of a displaced sphere; the vertex positions are along its normals
 };
 
-/// mapped: the draw has texture coordinates, and maps may be set. Without it all maps are null. highlight: the material has specular
-/// light; without it, which gouraud with maps knows, none is carried.
+/// mapped: the draw call has texture coordinates and may have maps; otherwise all maps are null. highlight: the material has
+/// specular light. Without it, which only gouraud with maps supports, the varying for it is omitted.
 template <ShadingRate rate, bool mapped, NormalDetail normal_detail = NormalDetail::none, bool highlight = true>
 struct SurfaceShader : LitSurface {
   static_assert(normal_detail == NormalDetail::none || (rate == ShadingRate::phong && mapped));
@@ -35,17 +35,17 @@ struct SurfaceShader : LitSurface {
   struct Attributes {
     vec3<R> position_os;
     [[no_unique_address]] MemberIf<kNormals, vec3<R>, 0> normal_os;
-    [[no_unique_address]] MemberIf<kTangents, vec4<R>, 1> tangent_os;  ///< w: side of the bitangent
+    [[no_unique_address]] MemberIf<kTangents, vec4<R>, 1> tangent_os;  ///< w is the sign of the bitangent
     [[no_unique_address]] MemberIf<mapped, vec2<R>, 2> uv;
   };
 
-  // The light of a vertex: all that becomes of it (color) where no map follows, else what maps are applied to.
+  // Light computed per vertex: the final color if there are no maps, otherwise the light that the maps are applied to.
   template <class T>
   using PerVertex = std::conditional_t<rate == ShadingRate::provoking, Flat<T>, T>;
 
   template <class R>
   struct Varyings {
-    [[no_unique_address]] MemberIf<rate == ShadingRate::flat, Flat<vec3<R>>, 0> corner_rws;  ///< for the primitive stage alone
+    [[no_unique_address]] MemberIf<rate == ShadingRate::flat, Flat<vec3<R>>, 0> corner_rws;  ///< only for the primitive function
     [[no_unique_address]] MemberIf<kSlopes, vec3<R>, 1> position_os;
     [[no_unique_address]] MemberIf<kByPixel && !kSlopes, vec3<R>, 2> position_rws;
     [[no_unique_address]] MemberIf<kByPixel && !kSlopes, vec3<R>, 3> normal_ws;
@@ -127,7 +127,7 @@ struct SurfaceShader : LitSurface {
     return flat.value;
   }
 
-  /// A point whose side that is seen is not known otherwise.
+  /// Returns a surface point for cases where the visible side has to be determined from the normal.
   template <class R>
   HS_INLINE SurfacePoint<R> point_towards_eye(const vec3<R>& position_rws, const vec3<R>& n_ws) const {
     const vec3<R> v_ws = to_eye(position_rws);
@@ -186,7 +186,7 @@ struct SurfaceShader : LitSurface {
     return p;
   }
 
-  /// The unit normal of the triangle that a pixel shows, on the side of the eye; zero where it is seen edge-on.
+  /// Returns the unit normal of the triangle on the side of the eye, or zero if it is seen edge-on.
   template <class R>
   HS_INLINE vec3<R> face_normal(const Pixel<R>& px, const vec3<R>& v_ws) const {
     using V = Varyings<R>;
@@ -216,7 +216,7 @@ struct SurfaceShader : LitSurface {
     }
   }
 
-  /// The vector from the eye to the pixel's point, with its derivatives.
+  /// Returns the vector from the eye to the surface point of the pixel, with its derivatives.
   template <class R>
   HS_INLINE Differential<R> from_eye(const Varyings<R>& in, const Pixel<R>& px) const {
     using V = Varyings<R>;
@@ -229,7 +229,7 @@ struct SurfaceShader : LitSurface {
     }
   }
 
-  /// The pixel's normal n_ws, with the derivatives of the surface's own: how maps turn it from pixel to pixel is not known.
+  /// Returns n_ws with the derivatives of the surface normal. Changes of the normal that come from maps are not taken into account.
   template <class R>
   HS_INLINE Differential<R> normal_with_steps(const Varyings<R>& in, const Pixel<R>& px, const vec3<R>& n_ws) const {
     using V = Varyings<R>;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How the texels of each format lie in a texture's 32-bit words, and how they are read: one struct a format, with
+// The layout of each texel format in the 32-bit words of a texture, and how it is read. There is one struct per format, with
 //
-//   Value               what is filtered: R (one channel) or vec4<R>
-//   operator()(i)       texel i in the numbers that are filtered: whole codes or linear values
-//   to_linear(value)    such a number, filtered or not, as a linear value
+//   Value               the type that is filtered: R (one channel) or vec4<R>
+//   operator()(i)       loads texel i in the units that are filtered: integer codes or linear values
+//   to_linear(value)    converts such a number, filtered or not, to a linear value
 //
-// rgba8, srgb8a8: a word each, red in the low byte. r8, r16: four or two in a word, the first lowest. rgba16f: two words, red
-// in the low half of the first. rgba32f: four words.
+// rgba8, srgb8a8: one word per texel, red in the low byte. r8, r16: four or two texels per word, the first in the low bits.
+// rgba16f: two words per texel, red in the low half of the first. rgba32f: four words per texel.
 #pragma once
 
 #include "halfspace/core/half.h"
@@ -49,7 +49,7 @@ struct R16Texels {
   HS_INLINE Value to_linear(Value v) const { return unorm16_to_linear(v); }
 };
 
-/// The half in the low 16 bits.
+/// Converts the half in the low 16 bits of each word.
 template <class R>
 HS_INLINE R low_half(IntOf<R> word) {
   if constexpr (kIsPair<R>)
@@ -85,7 +85,7 @@ struct Rgba32fTexels {
   HS_INLINE Value to_linear(const Value& v) const { return v; }
 };
 
-// ---- linear values of all pixels, and filtered ones, by number of channels --------------------------------------------
+// ---- uniform linear values, and filtered values, by number of channels ------------------------------------------------
 
 template <class Value>
 HS_INLINE Value uniform_value(const glm::vec4& v) {
@@ -106,10 +106,10 @@ HS_INLINE vec4<R> to_rgba(const vec4<R>& v) {
   return v;
 }
 
-/// Four channels at once.
+/// Four channels, processed at once.
 using Channels = RealN<4>;
 
-/// A linear value as it may stand in an rgba32f texel.
+/// Clamps a linear value to what an rgba32f texel may contain.
 inline Channels clamped_texel(const glm::vec4& v) {
   const auto x = load<Channels>(&v.x);
   return select(x == x, clamp(x, Channels(-kMaxTexel), Channels(kMaxTexel)), Channels(0.0f));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Texture2D's levels: taken over or computed, checked, and packed into one allocation.
+// Construction of Texture2D: levels are copied or computed, checked, and packed into one allocation.
 #include "halfspace/shading/texture.h"
 
 #include <algorithm>
@@ -16,11 +16,11 @@ namespace {
 
 constexpr int half_size(int size) { return std::max(1, size / 2); }
 
-// ---- texels as they are averaged: in which numbers, from texels, and back -----------------------------------------------
+// ---- averaging: number types, and conversion from and to texels ---------------------------------------------------------
 
-/// Number: of weights. Sum: of a texel's channels in the units that are averaged: whole codes, and linear values for the
-/// colour of srgb8a8 and for floats. A constant stays itself: for codes the sums err by far less than half a code, for
-/// floats by far less than half of a float's last bit.
+/// Number is the type of the weights. Sum holds the channels of a texel in the units that are averaged: linear values for floats and
+/// for the color of srgb8a8, otherwise integer codes. Averaging equal texels is exact: the error of a sum is far less than half a
+/// code, or far less than half an ulp of a float.
 template <class Texel>
 struct Averaging;
 template <>
@@ -46,10 +46,10 @@ struct Averaging<glm::vec4> {
 template <class Texel>
 using SumOf = typename Averaging<Texel>::Sum;
 
-/// As the halves of an rgba16f texel.
+/// Returns the channels of an rgba16f texel.
 IntN<4> halves(const glm::vec4& v) { return float_to_finite_half(detail::clamped_texel(v)); }
 
-/// A linear colour as the format holds it.
+/// Returns the linear color as the format stores it.
 glm::vec4 stored(const glm::vec4& v, TexelFormat format) {
   glm::vec4 r;
   store(&r.x, format == TexelFormat::rgba32f ? detail::clamped_texel(v) : half_to_float(halves(v)));
@@ -72,7 +72,7 @@ glm::u8vec4 to_texel(const glm::vec4& v, TexelFormat format) {
 }
 glm::vec4 to_texel(const glm::dvec4& v, TexelFormat format) { return stored(glm::vec4(v), format); }
 
-// f(row) for every row, by the workers where there are some.
+// Calls f(row) for every row, using the workers if there are any.
 template <class F>
 void for_each_row(const Workers* workers, int rows, const F& f) {
   if (workers != nullptr && rows > 1) return workers->for_each(rows, f);
@@ -81,7 +81,7 @@ void for_each_row(const Workers* workers, int rows, const F& f) {
 
 // ---- the next level ---------------------------------------------------------------------------------------------------
 
-/// Which texels of a side one texel of the next level averages, and with which weights (they add up to 1).
+/// The texels along one axis that a texel of the next level averages, and their weights, which add up to 1.
 template <class Number>
 struct Taps {
   int first;
@@ -97,7 +97,7 @@ Taps<Number> taps_of(int size, int i) {
   return {2 * i, 3, {(n - at) / whole, n / whole, (at + 1) / whole}};
 }
 
-/// The next level of a picture of the given size; row(r, buffer) gives its row r, perhaps by filling the buffer.
+/// Computes the next level of an image of the given size. row_of(r, buffer) returns a pointer to row r, and may use the buffer for it.
 template <class Texel, class RowOf>
 Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const Workers* workers) {
   using Number = typename Averaging<Texel>::Number;
@@ -106,7 +106,7 @@ Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const
   std::vector<Taps<Number>> columns;
   for (int x = 0; x < to.width(); ++x) columns.push_back(taps_of<Number>(width, x));
   const auto row_length = static_cast<std::size_t>(width);
-  if (width % 2 == 0 && height % 2 == 0) {  // the same numbers as below, for halves are exact
+  if (width % 2 == 0 && height % 2 == 0) {  // the same result as below, since multiplication by 1/2 is exact
     for_each_row(workers, to.height(), [&](int y) {
       std::vector<Sum, DefaultInitAllocator<Sum>> buffer(2 * row_length);
       const Sum *first = row_of(2 * y, buffer.data()), *second = row_of(2 * y + 1, buffer.data() + row_length);
@@ -137,12 +137,12 @@ Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const
   return to;
 }
 
-// ---- texels in 32-bit words, as texels.h reads them -------------------------------------------------------------------
+// ---- packing of texels into 32-bit words, as texels.h reads them ------------------------------------------------------
 
-/// The texels of a level and of the border round it.
+/// Number of texels of a level, including its border.
 std::size_t with_border(int width, int height) { return static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2); }
 
-/// How many words so many texels fill.
+/// Number of 32-bit words that hold the given number of texels.
 std::size_t words_of(std::size_t texels, TexelFormat format) {
   switch (format) {
     case TexelFormat::r8: return (texels + 3) / 4;
@@ -158,7 +158,7 @@ int32_t packed(glm::u8vec4 t) {
   return static_cast<int32_t>(bits);
 }
 
-// Texel i into words that are still 0.
+// Stores texel i; r8 and r16 need words that are still 0.
 void put(int32_t* words, std::size_t i, uint8_t t, TexelFormat) {
   words[i / 4] |= static_cast<int32_t>(static_cast<uint32_t>(t) << (i % 4 * 8));
 }
@@ -256,7 +256,7 @@ void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
     begin = index_of(last, width(last) - 1, height(last) - 1) + static_cast<std::size_t>(width(last)) + 4;
   }
   const std::size_t end = begin + with_border(image.width(), image.height());
-  HS_CHECK_OP(words_of(end, format_), <, std::size_t{1} << 31);  // 32-bit indices reach no farther
+  HS_CHECK_OP(words_of(end, format_), <, std::size_t{1} << 31);  // limit of 32-bit indices
   texels_.resize(words_of(end, format_) + kRowSlack);
   const auto l = static_cast<std::size_t>(levels_++);
   width_[l] = image.width();
@@ -265,7 +265,7 @@ void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
   columns_[l] = as_int(static_cast<float>(image.width()));
   rows_[l] = as_int(static_cast<float>(image.height()));
   offset_[l] = static_cast<int32_t>(begin) + image.width() + 3;
-  // Rows of r8 and r16 may share a word: those have no workers.
+  // Rows of r8 and r16 may share a word, but these formats never have workers.
   const int last_y = image.height() - 1;
   const std::size_t pitch = static_cast<std::size_t>(image.width()) + 2;
   for_each_row(workers, image.height() + 2, [&](int i) {
@@ -277,7 +277,7 @@ void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
   });
 }
 
-/// In texels, from the first of level 0.
+/// Returns an index in texels, counted from the start of the allocation.
 std::size_t Texture2D::index_of(int level, int x, int row) const {
   HS_CHECK(level >= 0 && level < levels_);
   HS_CHECK(x >= 0 && x < width(level) && row >= 0 && row < height(level));

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A two-dimensional texture: texels, mip levels, and the look-up that turns texture coordinates into a colour.
+// Two-dimensional textures: texels, mip levels, and the lookup that converts texture coordinates to a color.
 //
-// In: coordinates (s, t) and their screen derivatives, or a level of detail. Out: linear RGBA. The rules are those of
-// OpenGL 4.6, section 8.14 (scale factor, wrapping, minification, magnification) and 8.15, and of
-// EXT_texture_filter_anisotropic; row 0 of the image is t = 0.
+// A lookup takes coordinates (s, t) with their screen-space derivatives or a level of detail, and returns linear RGBA. It follows
+// OpenGL 4.6, sections 8.14 (scale factor, wrapping, minification, magnification) and 8.15, and EXT_texture_filter_anisotropic.
+// Row 0 of the image is t = 0.
 //
-// Filtering works on whole codes (rgba8, r8, r16, and alpha of srgb8a8) or on linear values (the colour of srgb8a8, the
-// float formats, and every format beside a border). The fraction of a texel is rounded to 1/32768, which is what a float
-// position itself resolves from texel 256 on. With that the bilinear code of rgba8 is the exact one rounded once (and then
-// divided by 255), and for every format: a constant texture gives exactly its constant, a fraction of zero exactly the
-// texel, and no result leaves the interval of the texels it mixes.
+// Filtering uses integer codes (rgba8, r8, r16, and alpha of srgb8a8) or linear values (color of srgb8a8, the float formats, and all
+// formats if an axis wraps to the border color). Texel fractions are rounded to 1/32768, which is the resolution of a float
+// position at texel 256 and above. As a result, the bilinear code of rgba8 is the exact one rounded once, before the division by
+// 255. For every format, a constant texture gives exactly its constant, a fraction of zero gives exactly the texel, and no result is
+// outside the range of the texels that it mixes.
 //
-// Common look-ups (rgba8, repeat or clamp, bilinear or trilinear) are inlined into shaders from here; all others are one call
-// away, in texture_lookup.cpp.
-// R = double filters in double with unrounded fractions (over the same decoded texels): the accuracy reference.
+// Common lookups (rgba8, repeat or clamp, bilinear or trilinear) are inlined into shaders from this header. All others call
+// texture_lookup.cpp.
+// R = double filters in double with unrounded fractions, on the same decoded texels. It is the accuracy reference.
 #pragma once
 
 #include <array>
@@ -32,23 +32,23 @@
 
 namespace halfspace {
 
-/// The largest rgba32f texel: half of the largest float, so that the difference of two texels is a float.
+/// The largest rgba32f texel: half of the largest float, so that the difference of two texels cannot overflow.
 inline constexpr float kMaxTexel = 0x1.fffffep126f;
 
-/// An immutable texture. It owns its texels; any number of threads may read it at once.
+/// An immutable texture. It owns its texels. Any number of threads may read it concurrently.
 class Texture2D {
  public:
-  static constexpr int kMaxSize = 32768;  ///< per side; all levels together stay below 8 GiB
+  static constexpr int kMaxSize = 32768;  ///< per side; all levels together must be smaller than 8 GiB
 
-  /// Level 0 from an image of 1 … kMaxSize texels a side, and all levels below it down to 1 × 1 by mip_chain. rgba8 or
-  /// srgb8a8. workers, if any, share the work; the bits are the same.
+  /// Creates an rgba8 or srgb8a8 texture from a level 0 of 1 … kMaxSize texels per side. The smaller levels, down to 1 x 1, are computed
+  /// by mip_chain. If workers are given they share the work; the result is bit-identical.
   Texture2D(const Image<glm::u8vec4>& base, TexelFormat format, const Workers* workers = nullptr);
   explicit Texture2D(const Image<uint8_t>& base);   ///< r8
   explicit Texture2D(const Image<uint16_t>& base);  ///< r16
-  /// rgba16f or rgba32f; base is linear
+  /// rgba16f or rgba32f; base is linear.
   Texture2D(const Image<glm::vec4>& base, TexelFormat format, const Workers* workers = nullptr);
-  /// Given levels: level 0 as above, then each half of the one before, rounded down, but at least 1. At least one level;
-  /// a shorter chain than down to 1 × 1 is allowed, and then ends the choice of levels.
+  /// Creates a texture from given levels, at least one. Each level must be half the size of the previous one, rounded down but at
+  /// least 1. The chain may end before 1 x 1; lookups then use only the given levels.
   Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format);
   Texture2D(std::span<const Image<glm::vec4>> levels, TexelFormat format);  ///< rgba16f or rgba32f
 
@@ -56,44 +56,45 @@ class Texture2D {
   int height(int level = 0) const { return height_[static_cast<std::size_t>(level)]; }
   int levels() const { return levels_; }
   TexelFormat format() const { return format_; }
-  /// The codes of one texel of rgba8 or srgb8a8; level, x and row must exist.
+  /// Returns the codes of a texel of an rgba8 or srgb8a8 texture. level, x and row must be valid.
   glm::u8vec4 texel(int level, int x, int row) const;
-  /// The linear colour that a texel of any format stands for; level, x and row must exist.
+  /// Returns the linear color of a texel of any format. level, x and row must be valid.
   glm::vec4 value(int level, int x, int row) const;
 
-  /// The filtered linear colour at uv, for a pixel whose steps to the right and up change uv by duv_dx and duv_dy.
+  /// Returns the filtered linear color at uv. duv_dx and duv_dy are the changes of uv from this pixel to the next one to the right
+  /// and up.
   ///
-  /// Any bits are allowed. A NaN coordinate reads as 0, or the border; an infinite one as the edge (clamp), the border, or
-  /// 0 (repeat, mirrored). A level of detail of NaN is level 0, and NaN derivatives mean one probe. Coordinates so large that
-  /// a float has no fraction left read as 0 under repeat.
+  /// All inputs are safe. A NaN coordinate is treated as 0 or as the border. An infinite one is treated as the edge (clamp), the border,
+  /// or 0 (repeat, mirrored). A level of detail that is NaN means level 0, and NaN derivatives mean one probe. With repeat,
+  /// coordinates that are so large that a float has no fraction bits are treated as 0.
   template <Number R>
   vec4<R> sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
-  /// Red, green and blue alone: alpha, which most shaders do not ask for, is a quarter of the filtering.
+  /// Returns only red, green and blue. Alpha, which most shaders do not need, is a quarter of the filtering cost.
   template <Number R>
   vec3<R> sample_rgb(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
-  /// The same with a given level of detail (0 is the largest level); lod <= 0 and NaN magnify.
+  /// Samples at a given level of detail, where 0 is the largest level. lod <= 0 and NaN use the magnification filter.
   template <Number R>
   vec4<R> sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const;
 
  private:
   static constexpr std::size_t kMaxLevels = 16;
 
-  // Which levels a look-up reads: level index, and where between, at weight fraction, the one below it.
+  // The levels that a lookup reads: index and, for lanes that are between levels, index + 1 with weight fraction.
   template <class R>
   struct LevelChoice {
     IntOf<R> index;
-    R fraction;  // 0 … 1 − 2^-14; 0 where not between
+    R fraction;  // 0 … 1 − 2^-14; 0 for lanes that are not between levels
     MaskOf<R> between, nearest;
   };
-  // What one look-up in one level needs.
+  // The properties of a level that a lookup needs.
   template <class R>
   struct Level {
     IntOf<R> width, height, offset, pitch;
-    R columns, rows;  // width and height once more
+    R columns, rows;  // width and height as floats
   };
-  // Where a look-up falls on one axis: between texel i (−1 … size − 1) and its neighbour, whose weight is fraction.
+  // Position of a lookup along one axis: between texel i (−1 … size − 1) and the next one, whose weight is fraction.
   template <class R>
   struct Axis {
     IntOf<R> i;
@@ -108,21 +109,21 @@ class Texture2D {
   void add_level(const Image<Texel>& image, const Workers* workers);
   std::size_t index_of(int level, int x, int row) const;
 
-  /// Whether CommonLookup reads what the sampler asks for.
+  /// Returns whether CommonLookup supports this sampler.
   bool is_common(const Sampler& sampler) const {
     const auto common = [](Wrap w) { return w == Wrap::repeat || w == Wrap::clamp; };
     return format_ <= TexelFormat::srgb8a8 && common(sampler.wrap_s) && common(sampler.wrap_t) && sampler.mag != Filter::nearest &&
            sampler.min != Filter::nearest;
   }
-  // sample and sample_level for every format and sampler. In texture_lookup.cpp, for all Numbers.
+  // Implementations of sample and sample_level for every format and sampler, in texture_lookup.cpp, for all Number types.
   template <class R>
   vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
-  // A look-up of any format, written for the texels of one (texels.h).
+  // A lookup for any sampler, for one format (texels.h).
   template <class R, class Texels>
   struct AnyLookup;
-  // The first N channels (3 or 4) of an 8-bit format, by a common sampler.
+  // A lookup of the first N channels (3 or 4) of an 8-bit format, for common samplers.
   template <int N, TexelFormat texel_format, class R>
   struct CommonLookup;
   template <class R, class Function>
@@ -134,7 +135,7 @@ class Texture2D {
   VecN<N, R> sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   LevelChoice<R> choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const;
-  /// At a level of detail; and at that of derivatives.
+  /// Select the levels for a level of detail or for derivatives.
   template <class R>
   LevelChoice<R> levels_at(const Sampler& sampler, R lod) const;
   template <class R>
@@ -148,26 +149,25 @@ class Texture2D {
 
   TexelFormat format_;
   int levels_ = 0;
-  std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{}, pitch_{};  // offset: index of a level's texel (0, 0)
-  std::array<int32_t, kMaxLevels> columns_{}, rows_{};                       // width and height as floats' bits
-  // All levels, texel after texel as texels.h reads them; red in the low byte. Round each level stands a border of the texels
-  // that repeating would show there, so that a texel's neighbours lie beside it, across the seams too. Behind the last
-  // are some words that gather_row may read.
+  std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{}, pitch_{};  // offset: index of texel (0, 0) of a level
+  std::array<int32_t, kMaxLevels> columns_{}, rows_{};                       // width and height as bits of floats
+  // All levels, in the layout of texels.h. Each level has a border of one texel that repeats the opposite edge, so that neighbors are
+  // adjacent in memory even across the seams. The last texels are followed by a few words that gather_row may read.
   std::vector<int32_t, CacheLineAllocator<int32_t>> texels_;
 };
 
-/// The full chain of levels below base, largest first, base not included; the last is 1 × 1.
+/// Computes all mip levels below base, largest first. base is not included; the last level is 1 x 1.
 ///
-/// A side of even size is halved by averaging pairs; one of odd size 2n + 1 becomes n, texel i being the area average of
-/// [i, i + 1]·(2n + 1)/n, that is of three texels with the weights n − i, n, i + 1 over 2n + 1: centred, and every texel
-/// counts the same. srgb8a8 is averaged in linear light. The chain is computed in float (8-bit codes) or double (all else)
-/// from level to level, and only the results are rounded to texels. Channels are averaged one by one (alpha does not
-/// weight colour), as GL's do. workers, if any, share the work; the bits are the same. Texel is u8vec4 (rgba8, srgb8a8), uint8_t (r8),
-/// uint16_t (r16) or vec4 (rgba16f, rgba32f).
+/// An even size is halved by averaging pairs. An odd size 2n + 1 becomes n: texel i is the area average over
+/// [i, i + 1]·(2n + 1)/n, i.e. three texels with weights n − i, n, i + 1 divided by 2n + 1. This keeps the levels centered and gives
+/// every texel the same total weight. srgb8a8 is averaged in linear light. Each level is computed from the unrounded previous
+/// one, in float (8-bit codes) or double (all others), and only the results are rounded to texels. Channels are averaged
+/// separately, as in OpenGL, so alpha does not weight color. If workers are given they share the work; the result is
+/// bit-identical. Texel is u8vec4 (rgba8, srgb8a8), uint8_t (r8), uint16_t (r16) or vec4 (rgba16f, rgba32f).
 template <class Texel>
 std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format, const Workers* workers = nullptr);
 
-// ---- the look-up, inlined into shaders --------------------------------------------------------------------------
+// ---- the lookup, inlined into shaders ---------------------------------------------------------------------------
 
 template <class R>
 HS_INLINE Texture2D::Level<R> Texture2D::level(IntOf<R> index) const {
@@ -179,20 +179,20 @@ HS_INLINE Texture2D::Level<R> Texture2D::level(IntOf<R> index) const {
           R(as_real(look_up(rows_, index)))};
 }
 
-/// A coordinate brought into [0, 1]: all that follows is then in range. NaN becomes 0.
+/// Wraps a coordinate to [0, 1], so that all later computations are in range. NaN becomes 0.
 template <class R>
 HS_INLINE R Texture2D::wrapped(R coordinate, Wrap wrap) {
   return wrap == Wrap::repeat ? max(coordinate - floor(coordinate), R(0.0f)) : clamp(coordinate, R(0.0f), R(1.0f));
 }
 
-/// Texel centres lie at i + 1/2. In: a coordinate in [0, 1].
+/// Converts a coordinate in [0, 1] to a position between texel centers, which are at i + 1/2.
 template <class R>
 HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, R n) {
   if constexpr (std::is_same_v<R, double>) {
     const double u = coordinate * n - 0.5;
     return {truncate_to_int(floor(u)), u - floor(u)};
   } else {
-    constexpr int kBits = 15;  // of the fraction; kMaxSize leaves room for them
+    constexpr int kBits = 15;  // fraction bits; kMaxSize is small enough to leave room for them
     const IntOf<R> u = round_to_int(fma(coordinate * R(1 << kBits), n, R(-(1 << kBits) / 2)));
     return {u >> kBits, to_real<R>(u & ((1 << kBits) - 1)) * R(1.0f / (1 << kBits))};
   }
@@ -205,27 +205,27 @@ struct Texture2D::CommonLookup {
   const Texture2D& texture;
   const Sampler& sampler;
 
-  /// Where clamped, what lies beyond the middle of the outermost texels is those alone.
+  /// With clamping, positions beyond the center of the outermost texel use only that texel.
   HS_INLINE static Axis<R> clamped(const Axis<R>& a, IntOf<R> size, Wrap wrap) {
     if (wrap == Wrap::repeat) return a;
     return {max(a.i, IntOf<R>(0)), select(a.i >= 0 && a.i < size - 1, a.fraction, R(0.0f))};
   }
 
-  /// The texels at index and right of it.
+  /// Returns the texel at index and its right neighbor.
   HS_INLINE detail::TexelPair<IntOf<R>> pair(IntOf<R> index) const {
     const auto [left, right] = gather_row<2>(texture.texels_.data(), index);
     return {left, right};
   }
 
-  /// One level, in filtering units. st in [0, 1].
+  /// Filters one level, in filtering units. st must be in [0, 1].
   HS_INLINE Value filter(const vec2<R>& st, IntOf<R> level_index) const {
     const Level<R> l = texture.level<R>(level_index);
     const Axis<R> x = clamped(axis(st.x, l.columns), l.width, sampler.wrap_s), y = clamped(axis(st.y, l.rows), l.height, sampler.wrap_t);
-    const IntOf<R> row = y.i * l.pitch + (l.offset + x.i);  // the product comes last
+    const IntOf<R> row = y.i * l.pitch + (l.offset + x.i);  // adds the product last, because it has the longest latency
     return detail::mixed_rgba8<N, texel_format>(pair(row), pair(row + l.pitch), x.fraction, y.fraction);
   }
 
-  /// Mixed of one level or two, in filtering units.
+  /// Filters one or two levels, in filtering units.
   HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const {
     const vec2<R> st(wrapped(uv.x, sampler.wrap_s), wrapped(uv.y, sampler.wrap_t));
     const Value c = filter(st, levels.index);
@@ -238,17 +238,18 @@ struct Texture2D::CommonLookup {
 
 namespace detail {
 
-/// Levels whose fraction is below this are read alone (it would shift a value by less than contrast/16384): a quad drawn at its own size
-/// has a level of detail of some 1e-7.
+/// If the fraction between two levels is below this, only the larger level is read; the value changes by less than contrast/16384. A
+/// quad drawn at its native size has a level of detail of about 1e-7.
 template <class R>
 inline constexpr float kLevelSnap = std::is_same_v<R, double> ? 0.0f : 0x1p-14f;
 
-/// log2(1 + f)/f for log2_of_normal: levels of detail within 2^-16, which shifts a value by less than contrast/65536.
+/// Coefficients of log2(1 + f)/f for log2_of_normal. Levels of detail are accurate to 2^-16, which changes values by less than
+/// contrast/65536.
 inline constexpr float kLevelLog2[] = {1.44264627f, -0.720555007f, 0.485306472f, -0.390892416f, 0.254752129f};
 
 }  // namespace detail
 
-/// whole: floor(lod + kLevelSnap), or for what is no level any other number beyond the ends.
+/// whole must be floor(lod + kLevelSnap). If lod is out of range, any number beyond the same end of the chain is sufficient.
 template <class R>
 HS_INLINE Texture2D::LevelChoice<R> Texture2D::choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const {
   const MaskOf<R> minified = lod > R(0.0f);
@@ -265,12 +266,12 @@ HS_INLINE Texture2D::LevelChoice<R> Texture2D::levels_at(const Sampler& sampler,
   return choose_level(sampler, lod, truncate_to_int(floor(clamp(lod, R(0.0f), R(kMaxLevels)) + R(detail::kLevelSnap<R>))));
 }
 
-/// The whole part is half of the exponent of ρ²: texels can be fetched before the logarithm is known.
+/// The integer part of the level is half the exponent of ρ², so texels can be fetched before the logarithm is known.
 template <class R>
 HS_INLINE Texture2D::LevelChoice<R> Texture2D::levels_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
   if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return choose_level(sampler, R(0.0f), IntOf<R>(0));
-  const R rho2 = max(squared_scale_factor(width(), height(), duv_dx, duv_dy), R(0x1p-126f));  // NaN too: level 0
+  const R rho2 = max(squared_scale_factor(width(), height(), duv_dx, duv_dy), R(0x1p-126f));  // NaN gives level 0, too
   if constexpr (std::is_same_v<R, double>) {
     return levels_at(sampler, 0.5 * log2(rho2));
   } else {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Texture2D's look-up for every format, wrap and anisotropy. What is common runs inlined (texture.h) and only with anisotropy
-// here. Lanes do not touch each other: a lane's probes, levels and texels are its own, and where lanes wait for
-// others their results are kept.
+// The lookup of Texture2D for every format, wrap mode and anisotropy. Common cases are inlined from texture.h, and reach this file
+// only with anisotropy. Lanes are independent: each has its own probes, levels and texels, and lanes that have finished keep
+// their results while others continue.
 #include "halfspace/shading/texels.h"
 #include "halfspace/shading/texture.h"
 
@@ -10,22 +10,22 @@ namespace halfspace {
 
 namespace {
 
-/// A coordinate as its wrap needs it: [0, 1], but [−1, 2] beside a border.
+/// A coordinate after wrapping, in [0, 1], or in [−1, 2] if the axis wraps to the border.
 template <class R>
 struct Wrapped {
   R at;
-  MaskOf<R> mirrored;  // runs against the image
+  MaskOf<R> mirrored;  // runs opposite to the image
 };
 
-/// The two texels of one axis that a look-up mixes.
+/// The two texels along one axis that a lookup mixes.
 template <class R>
 struct Taps {
   IntOf<R> first, second;  // valid indices
-  R fraction;              // the weight of the second
+  R fraction;              // weight of the second
   MaskOf<R> first_inside, second_inside;
 };
 
-/// Coordinates of period 2, there and back: the distance from the nearest even number, exact for every float. At the ends
+/// Mirrors a coordinate with period 2: the result is the distance to the nearest even number, exact for every float. At the edges
 /// texel −1 is texel 0 and texel n is texel n − 1, as with clamp. NaN and infinities become 0.
 template <class R>
 HS_INLINE Wrapped<R> wrapped_mirrored(R coordinate) {
@@ -35,7 +35,7 @@ HS_INLINE Wrapped<R> wrapped_mirrored(R coordinate) {
   return {clamp(min(m, R(2.0f) - m), 0.0f, 1.0f), select(coordinate < R(0.0f), !back, back)};
 }
 
-/// GL's border values (8.14.2): held to what the format's texels can be.
+/// Clamps the border color to what the texels of the format can store (OpenGL 4.6, section 8.14.2).
 glm::vec4 clamped_border(const glm::vec4& color, TexelFormat format) {
   glm::vec4 v;
   store(&v.x, detail::clamped_texel(color));
@@ -46,7 +46,7 @@ glm::vec4 clamped_border(const glm::vec4& color, TexelFormat format) {
 
 }  // namespace
 
-/// Reads any wrap and filter. Beside a border it filters linear values, for the border's is one.
+/// A lookup for any wrap mode and filter. If an axis wraps to the border, it filters linear values, because the border color is linear.
 template <class R, class Texels>
 struct Texture2D::AnyLookup {
   using Value = typename Texels::Value;
@@ -63,11 +63,11 @@ struct Texture2D::AnyLookup {
     return {wrapped(coordinate, wrap), MaskOf<R>(false)};
   }
 
-  /// The texel that a coordinate lies in; beside a border it may lie outside.
+  /// Returns the texel that contains a coordinate. It may be outside the image if the axis wraps to the border.
   HS_INLINE static IntOf<R> texel_at(const Wrapped<R>& coordinate, IntOf<R> size, Wrap wrap) {
     const R position = coordinate.at * to_real<R>(size);
     R i = floor(position);
-    i = select(coordinate.mirrored && i == position, i - R(1.0f), i);  // between two texels: the one farther from 0, unmirrored
+    i = select(coordinate.mirrored && i == position, i - R(1.0f), i);  // at a boundary: the texel farther from 0 before mirroring
     const IntOf<R> texel = truncate_to_int(i);
     return wrap == Wrap::border ? texel : min(texel, size - 1);
   }
@@ -98,7 +98,7 @@ struct Texture2D::AnyLookup {
     return texel(l.offset + clamped(y, l.height) * l.pitch + clamped(x, l.width), is_inside(x, l.width) && is_inside(y, l.height));
   }
 
-  /// One level, bilinear or one texel.
+  /// Filters one level, bilinearly or to the nearest texel.
   HS_INLINE Value filter(const Wrapped<R>& s, const Wrapped<R>& t, IntOf<R> level_index, MaskOf<R> nearest) const {
     const Level<R> l = texture.level<R>(level_index);
     if (all(nearest)) return nearest_texel(s, t, l);
@@ -122,7 +122,7 @@ struct Texture2D::AnyLookup {
   HS_INLINE vec4<R> finish(const Value& v) const { return detail::to_rgba(has_border ? v : texels.to_linear(v)); }
 };
 
-/// function(how to read this texture's format).
+/// Calls function with a reader for the texel format of this texture.
 template <class R, class Function>
 HS_INLINE vec4<R> Texture2D::with_texels(const Function& function) const {
   const int32_t* words = texels_.data();
@@ -136,7 +136,7 @@ HS_INLINE vec4<R> Texture2D::with_texels(const Function& function) const {
   }
 }
 
-/// function(a look-up that serves this texture and sampler).
+/// Calls function with a lookup that supports this texture and the sampler.
 template <class R, class Function>
 HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function& function) const {
   if (is_common(sampler)) {
@@ -166,7 +166,7 @@ vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const v
       const R along = fma(R(static_cast<float>(i)), step, R(-0.5f));
       return lookup(vec2<R>(fma(area.span.x, along, uv.x), fma(area.span.y, along, uv.y)), levels);
     };
-    // The mean, kept from probe to probe: by lerp it stays within the probes' range, and exactly at their common value.
+    // A running mean: with lerp it stays within the range of the probes, and is exact if all probes are equal.
     auto mean = probe(0);
     for (int i = 1;; ++i) {
       const MaskOf<R> more = area.probes > i;

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From light to codes: exposure, tone curve, display encoding, dithering.
+// Conversion from light to codes: exposure, tone mapping, display encoding and dithering.
 //
 //   SceneLight ── tone_map ──→ DisplayLight ── encode_srgb, encode_gamma ──→ Encoded
-//   any linear number           linear, [0, 1]                                 [0, 1], what a code over 255 means
+//   linear, unbounded           linear, [0, 1]                                 [0, 1], code/255
 //
-// The three are types of their own, so that nothing is encoded twice or shown without its curve.
+// These are separate types, so that nothing can be encoded twice or displayed without a tone curve.
 //
-// Curves of x >= 0, light times exposure. All of them never fall (after being held to 1), give 0 for 0 and 1 at last:
+// The curves are functions of x >= 0, the light times the exposure. After clamping to 1 they are monotonic, map 0 to 0 and
+// end at 1:
 //   none               x
 //   reinhard           x / (1 + x)                              Reinhard, Stark, Shirley and Ferwerda, "Photographic Tone
 //   reinhard_extended  x (1 + x/w²) / (1 + x), 1 at x = w         Reproduction for Digital Images", 2002, equations 3 and 4
 //   exponential        1 − e^(−x): with exposure k, 1 − e^(−k·light)
 //   aces               x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14): Narkowicz, "ACES Filmic Tone Mapping Curve", 2015; it
-//                      peaks at 1.033 and is held to 1
+//                      peaks at 1.033 and is clamped to 1
 //
-// NaN and what is below 0 count as 0; infinite light gives the curve's limit, held to 1, and 0 at exposure 0.
+// NaN and negative light count as 0. Infinite light gives the limit of the curve, clamped to 1, or 0 if the exposure is 0.
 #pragma once
 
 #include <array>
@@ -29,7 +30,7 @@ namespace halfspace {
 
 template <class R>
 struct SceneLight {
-  vec3<R> rgb;  ///< linear, any number
+  vec3<R> rgb;  ///< linear, unbounded
 };
 template <class R>
 struct DisplayLight {
@@ -40,22 +41,22 @@ struct Encoded {
   vec3<R> rgb;  ///< in [0, 1]
 };
 
-/// Light beyond it counts as this much: enough for every curve to end, little enough for their squares to be floats.
+/// Upper limit of light: large enough for every curve to reach its limit, small enough for its square to be a float.
 inline constexpr float kMaxLight = 1e15f;
 
-/// Rec. 709 (ITU-R BT.709-6, section 3): the luminance of linear light.
+/// Returns the Rec. 709 luminance of linear light (ITU-R BT.709-6, section 3).
 template <Number R>
 HS_INLINE R luminance(const vec3<R>& rgb) {
   return fma(R(0.2126f), rgb.x, fma(R(0.7152f), rgb.y, R(0.0722f) * rgb.z));
 }
 
-/// A channel without what no curve can take.
+/// Clamps a channel to [0, kMaxLight]. NaN becomes 0.
 template <Number R>
 HS_INLINE R sound_light(R x) {
   return clamp(x, 0.0f, kMaxLight);
 }
 
-/// The curve at 0 <= x <= kMaxLight, not held to 1.
+/// Returns the value of the curve at 0 <= x <= kMaxLight, not clamped to 1.
 template <Number R>
 HS_INLINE R tone_curve(ToneCurve curve, R x, float white) {
   const R one(1.0f);
@@ -64,7 +65,7 @@ HS_INLINE R tone_curve(ToneCurve curve, R x, float white) {
     case ToneCurve::reinhard: return x / (one + x);
     case ToneCurve::reinhard_extended: return x * (one + x / R(white * white)) / (one + x);
     case ToneCurve::exponential: {
-      // Where 1 − e^(−x) would cancel, its series; what is left out is below 2e-9 of the value.
+      // Uses the series where 1 − e^(−x) would cancel; the truncation error is below a relative 2e-9.
       const R series = x * (one - x * (R(1.0f / 2) - x * (R(1.0f / 6) - x * (R(1.0f / 24) - x * R(1.0f / 120)))));
       return select(x < R(0.0625f), series, one - exp(-x));
     }
@@ -73,7 +74,8 @@ HS_INLINE R tone_curve(ToneCurve curve, R x, float white) {
   return x;
 }
 
-/// Exposes, and bends each channel, or all three by what their luminance is bent by (hues stay; channels end at 1).
+/// Applies exposure and the tone curve, either to each channel or to the luminance. In the latter case all channels are scaled by
+/// the same factor, which preserves the hue except where a channel is clamped to 1.
 template <Number R>
 HS_INLINE DisplayLight<R> tone_map(const SceneLight<R>& light, const ToneMapping& tone) {
   vec3<R> c;
@@ -89,7 +91,7 @@ HS_INLINE DisplayLight<R> tone_map(const SceneLight<R>& light, const ToneMapping
   return {c};
 }
 
-/// The sRGB curve of each channel (core/srgb_curve.h).
+/// Applies the sRGB transfer function to each channel (core/srgb_curve.h).
 template <Number R>
 HS_INLINE Encoded<R> encode_srgb(const DisplayLight<R>& light) {
   vec3<R> e;
@@ -97,7 +99,7 @@ HS_INLINE Encoded<R> encode_srgb(const DisplayLight<R>& light) {
   return {e};
 }
 
-/// x^(1/gamma), gamma > 0.
+/// Encodes each channel as x^(1/gamma). gamma must be positive.
 template <Number R>
 HS_INLINE Encoded<R> encode_gamma(const DisplayLight<R>& light, float gamma) {
   vec3<R> e;
@@ -105,8 +107,8 @@ HS_INLINE Encoded<R> encode_gamma(const DisplayLight<R>& light, float gamma) {
   return {e};
 }
 
-/// The 8x8 matrix of ordered dithering (Bayer, "An optimum method for two-level rendition of continuous-tone pictures", 1973) at
-/// pixel (x, y): each of (0 … 63 + 1/2)/64 once in every aligned block of 8x8.
+/// Returns the threshold at pixel (x, y) of the 8x8 matrix of ordered dithering (Bayer, "An optimum method for two-level rendition of
+/// continuous-tone pictures", 1973). Each of (0 … 63 + 1/2)/64 occurs once in every aligned 8x8 block.
 template <Number R>
 HS_INLINE R dither_threshold(IntOf<R> x, IntOf<R> y) {
   const IntOf<R> a = x ^ y;
@@ -115,8 +117,8 @@ HS_INLINE R dither_threshold(IntOf<R> x, IntOf<R> y) {
   return (to_real<R>(rank) + R(0.5f)) * R(1.0f / 64.0f);
 }
 
-/// A whole code over 255 beside e, the upper one the more often the nearer it is: over an aligned block of 8x8 pixels of one
-/// value the mean is within 1/128 of a code of it. 0 and 1 stay.
+/// Rounds each channel down or up to a multiple of 1/255, depending on the threshold. Over an aligned 8x8 block of equal values the
+/// mean is within 1/128 of a code of that value. 0 and 1 are unchanged.
 template <Number R>
 HS_INLINE Encoded<R> dithered(const Encoded<R>& e, R threshold) {
   vec3<R> codes;

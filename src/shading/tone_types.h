@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tone curves and their settings, as both shaders and scene descriptions name them. shading/tone.h has the formulas.
+// Tone curves and their settings, used by both shaders and scene descriptions. The formulas are in shading/tone.h.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ enum class ToneCurve : uint8_t { none, reinhard, reinhard_extended, exponential,
 enum class ToneOn : uint8_t { luminance, channel };
 
 struct ToneMapping {
-  float exposure = 1.0f;  ///< factor of the light, 0 to 1e9
+  float exposure = 1.0f;  ///< factor applied to light, 0 to 1e9
   ToneCurve curve = ToneCurve::none;
   ToneOn on = ToneOn::channel;
-  float white = 4.0f;  ///< of reinhard_extended: the exposed light that becomes 1; 1e-3 to 1e6
+  float white = 4.0f;  ///< for reinhard_extended: the exposed light that maps to 1, 1e-3 to 1e6
 };
 
 }  // namespace halfspace

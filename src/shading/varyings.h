@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a shader's Attributes, Varyings and Primitive structs are to the pipeline: a row of components of type R, and
-// for varyings how each component is interpolated. Found from the member types alone; a shader registers nothing.
+// The pipeline's view of a shader's Attributes, Varyings and Primitive structs: an array of components of type R and, for
+// varyings, the interpolation mode of each. Both are derived from the member types, so shaders do not have to register anything.
 #pragma once
 
 #include <array>
@@ -14,27 +14,27 @@
 
 namespace halfspace {
 
-/// A varying that keeps the provoking vertex's value over the whole triangle (GLSL: flat).
+/// A varying with the value of the provoking vertex on the whole triangle (flat in GLSL).
 template <class T>
 struct Flat {
   T value;
 };
 
-/// A varying interpolated linearly in window space (GLSL: noperspective).
+/// A varying interpolated linearly in window space (noperspective in GLSL).
 template <class T>
 struct NoPerspective {
   T value;
 };
 
-/// A member that is not there: no components and, declared [[no_unique_address]], no room. Two in one struct need different tags.
+/// An absent member. It has no components and, if declared [[no_unique_address]], no size. Two in one struct need different tags.
 template <int tag>
 struct Absent {};
-/// T, or a member that is not there: for a shader whose variants carry different things.
+/// T, or an absent member. Used by shaders whose variants have different members.
 template <bool present, class T, int tag>
 using MemberIf = std::conditional_t<present, T, Absent<tag>>;
 
-/// A smooth varying that is looked up inside of the triangle where it covers a pixel in part and the pixel is shaded once for
-/// several samples: at the first covered sample instead of the centre (GLSL: centroid).
+/// A smooth varying that is evaluated inside the triangle (centroid in GLSL): if the pixel is partially covered and shaded once for
+/// several samples, at the first covered sample instead of the center.
 template <class T>
 struct Centroid {
   T value;
@@ -98,11 +98,11 @@ struct TupleTraits<std::tuple<F&...>> {
 
 }  // namespace detail
 
-/// How many components (values of R) the struct T holds.
+/// Number of components (values of type R) of the struct T.
 template <class T>
 inline constexpr std::size_t kComponents = detail::TupleTraits<detail::FieldsOf<T>>::components;
 
-/// How each component of the varyings V is interpolated.
+/// Interpolation mode of each component of the varyings V.
 template <class V>
 inline constexpr auto kInterpolations = detail::TupleTraits<detail::FieldsOf<V>>::interpolations();
 
@@ -115,8 +115,8 @@ inline constexpr bool kAny = [] {
   return false;
 }();
 
-// One by one where they are large: gcc makes a single copy of 896 bytes (seven components of two packets) a call of memcpy, with all that
-// is in registers put aside. Up to 640 bytes it does not, and a single copy is the faster one.
+// Large structs are copied component by component. gcc compiles a single copy of 896 bytes (seven components of two packets) to a
+// call of memcpy, around which it spills all registers. For up to 640 bytes it does not, and a single copy is faster.
 template <class R, std::size_t... I>
 HS_INLINE void copy_components(const R* from, R* to, std::index_sequence<I...>) {
   constexpr std::size_t bytes = sizeof...(I) * sizeof(R);
@@ -128,26 +128,27 @@ HS_INLINE void copy_components(const R* from, R* to, std::index_sequence<I...>) 
 }
 }  // namespace detail
 
-/// Is one of them looked up at the centroid?
+/// Whether any component is evaluated at the centroid.
 template <class V>
 inline constexpr bool kUsesCentroid = detail::kAny<V, Interpolation::centroid>;
-/// Is one of them linear in the window?
+/// Whether any component is linear in window space.
 template <class V>
 inline constexpr bool kUsesNoPerspective = detail::kAny<V, Interpolation::linear>;
 
-/// The components of t as an array of R, in order of declaration.
+/// Returns the components of t as an array of R, in declaration order.
 template <class R, class T>
 HS_INLINE std::array<R, kComponents<T>> to_components(const T& t) {
   std::array<R, kComponents<T>> a;
   if constexpr (kComponents<T> != 0) {
-    static_assert(sizeof(T) == sizeof(a),
-                  "the members of attributes and varyings are R, vec2<R>, vec3<R>, vec4<R>, Flat, Linear or Centroid of these");
+    static_assert(
+        sizeof(T) == sizeof(a),
+        "the members of attributes and varyings must be R, vec2<R>, vec3<R>, vec4<R>, or Flat, NoPerspective or Centroid of these");
     detail::copy_components(reinterpret_cast<const R*>(&t), a.data(), std::make_index_sequence<kComponents<T>>());
   }
   return a;
 }
 
-/// The struct whose components are a.
+/// Returns the struct with the components a. The inverse of to_components.
 template <class T, class R>
 HS_INLINE T from_components(const std::array<R, kComponents<T>>& a) {
   T t;
