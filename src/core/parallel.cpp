@@ -61,7 +61,7 @@ struct Workers::Impl {
 struct Workers::Impl {
   explicit Impl(int threads) : arena(threads) {}
 
-  /// Returns null if std::thread should do the work instead: TBB does not start more threads than the machine has cores.
+  /// Returns null if TBB is not used: for one thread, or for more threads than cores, which TBB does not start.
   static std::unique_ptr<Impl> make(int threads) {
     return threads > 1 && threads <= tbb::info::default_concurrency() ? std::make_unique<Impl>(threads) : nullptr;
   }

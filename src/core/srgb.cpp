@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The two tables of srgb.h, computed at compile time. Double arithmetic gives decode(v) to about 2^-50, and the tables need 24
-// bits. If an exact value were so close to a rounding boundary that this mattered, the test that uses long double would fail.
-// The closest one is at a relative distance of 2^-35.
+// The two tables of srgb.h, computed at compile time. The tables need decode(v) to 24 bits, and double arithmetic gives it to about
+// 2^-50. This is sufficient unless an exact value is very close to a rounding boundary. A test with long double checks that: the
+// closest one is at a relative distance of 2^-35.
 #include "halfspace/core/srgb.h"
 
 namespace halfspace {

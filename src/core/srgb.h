@@ -72,8 +72,8 @@ HS_INLINE IntOf<R> linear_to_srgb(R x) {
   }
 }
 
-/// Returns code/255 for a code in [0, 255], rounded to the nearest float if the code is an integer. Codes may be fractional,
-/// as between two texels; the function is monotonic, and 255 gives 1.
+/// Returns code/255 for a code in [0, 255], rounded to the nearest float if the code is an integer. Filtered codes, which are
+/// fractional, are allowed too. The function is monotonic, and 255 gives 1.
 template <Number R>
 HS_INLINE R unorm8_to_linear(R code) {
   if constexpr (std::is_same_v<R, double>)

@@ -143,7 +143,7 @@ Image<float> map_of(const Image<Texel>& a, const Image<Texel>& b) {
 
 glm::u8vec4 heat(float e) {
   constexpr std::array<glm::vec3, 5> kRamp = {glm::vec3(0, 0, 0), {0.1f, 0.1f, 0.9f}, {0.9f, 0.1f, 0.2f}, {1, 0.9f, 0.2f}, {1, 1, 1}};
-  // A difference of 1/255 is one step along the ramp, and a difference of 1 is all four.
+  // The first of the four segments of the ramp ends at 1/255. The other three cover 1/255 to 1 on a logarithmic scale.
   const float codes = e * 255.0f, x = codes <= 1.0f ? codes : std::min(1.0f + 3.0f * log2(codes) / log2(255.0f), 4.0f);
   const auto i = std::min(static_cast<std::size_t>(x), kRamp.size() - 2);
   const glm::vec3 c = glm::mix(kRamp[i], kRamp[i + 1], x - static_cast<float>(i));

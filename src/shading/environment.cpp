@@ -65,7 +65,7 @@ template <class R>
 EnvironmentMap::Coordinates<R> EnvironmentMap::place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
   const auto squared = [](const vec3<R>& v) { return dot(v, v); };
   const R turn2 = max(squared(cross(d, dx)), squared(cross(d, dy))) / (squared(d) * squared(d));
-  const R texels = R(std::max(0.5f * static_cast<float>(width()), static_cast<float>(height()))) * inverse_pi<R>();  // per radian
+  const R texels = R(std::max(0.5f * static_cast<float>(width()), static_cast<float>(height()))) * inverse_pi<R>();  // texels per radian
   const R u = fma(atan2(d.x, d.z), R(0.5f) * inverse_pi<R>(), R(0.5f));
   const R v = atan2(sqrt(fma(d.x, d.x, d.z * d.z)), d.y) * inverse_pi<R>();
   return {IntOf<R>(0), vec2<R>(u, v), R(0.5f) * log2(turn2 * (texels * texels))};

@@ -44,7 +44,7 @@ Texture2D one_level(const Image<glm::vec4>& image, TexelFormat format) { return 
 
 int wrapped(int x, int width) { return (x % width + width) % width; }
 
-// Averages each row over a fixed arc on the sphere, which is the height of a texel.
+// Averages along each row, over an arc of the sphere that is as long as a texel is high.
 template <class Texel>
 Image<Texel> low_passed(const Image<Texel>& level) {
   const int width = level.width(), height = level.height();

@@ -42,8 +42,9 @@ struct Weights {
   R inverse;      ///< 1 / D
 };
 
-/// n1 and n2 divided by the sum of n0, n1 and n2. The sum and the quotients are rounded, and the amount by which the three weights
-/// miss a sum of 1 is then distributed among them. 1 − max(p1, p2) is exact where it matters, i.e. if the maximum is at least 1/2.
+/// n1 and n2 divided by the sum of n0, n1 and n2. Because the sum and the quotients are rounded, the three weights do not add up to
+/// exactly 1. The difference is distributed in proportion to the weights. It is computed from 1 − max(p1, p2), which is exact where
+/// it matters: if the maximum is at least 1/2.
 template <class R>
 struct Normalized {
   R p1, p2, sum, inverse;

@@ -2,7 +2,7 @@
 //
 // Shadow bias, which prevents self-shadowing. A shadow map stores one depth per texel, but the depth of the surface changes
 // within the texel, by its width times the tangent of the light's angle. Each method either moves the point by about that much,
-// or evaluates the depth of the surface at the point that the texel was sampled at.
+// or evaluates the depth of the surface at the center of each texel.
 #pragma once
 
 #include "halfspace/shading/shadow_view.h"

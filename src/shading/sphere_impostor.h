@@ -93,8 +93,8 @@ struct SphereImpostor : SphereImpostors {
     return {vec4<R>(c.x / R(lens.half.x), c.y / R(lens.half.y), z, w), point_size(c, in.radius), {}};
   }
 
-  // For the classic sprite: a hemisphere over the circle of the point. Its depth is that of the center plus the distance to the middle
-  // of the circle in radii, taken as world units.
+  // For the classic sprite: a hemisphere over the circle of the point. The depth is that of the center plus the distance from the
+  // middle of the circle, where one radius counts as one world unit.
   template <class R>
   HS_INLINE SphereHit<R> hit(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec3<R>& c = in.center_cs.value;

@@ -7,8 +7,8 @@
 //
 // These are separate types, so that nothing can be encoded twice or displayed without a tone curve.
 //
-// The curves are functions of x >= 0, the light times the exposure. After clamping to 1 they are monotonic, map 0 to 0 and
-// end at 1:
+// The curves are functions of x >= 0, the light times the exposure. After clamping to 1 they are monotonic, map 0 to 0,
+// and reach or approach 1:
 //   none               x
 //   reinhard           x / (1 + x)                              Reinhard, Stark, Shirley and Ferwerda, "Photographic Tone
 //   reinhard_extended  x (1 + x/w²) / (1 + x), 1 at x = w         Reproduction for Digital Images", 2002, equations 3 and 4
