@@ -21,7 +21,7 @@ glm::dvec3 checked_unit(const glm::dvec3& v) {
   return u;
 }
 
-// A projection whose clip w is −z: x and y scaled so that the angle fovy fills [−w, w], depth row z·a + b.
+// A perspective projection with clip w = −z and clip depth a·z + b. x and y are scaled so that the angle fovy spans [−w, w].
 glm::dmat4 perspective(double fovy, double aspect, double a, double b) {
   HS_CHECK_OP(fovy, >, 0.0);
   HS_CHECK_OP(fovy, <, std::numbers::pi);
@@ -63,7 +63,7 @@ glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::d
   return m;
 }
 
-// Depth rows: with w = −z, a·z + b must be −w at z = −near and w at z = −far.
+// The depth row a·z + b must equal −w at z = −near and w at z = −far, where w = −z.
 glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far) {
   HS_CHECK_OP(near, >, 0.0);
   HS_CHECK_OP(near, <, far);
@@ -71,7 +71,7 @@ glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far) {
   return perspective(fovy, aspect, -(far + near) / (far - near), -2.0 * far * near / (far - near));
 }
 
-// w at z = −near, 0 at z = −far; in the limit of an infinite far plane a = 0 and b = near.
+// The depth row must equal w at z = −near and 0 at z = −far. The limit for an infinite far plane is a = 0, b = near.
 glm::dmat4 perspective_reversed(double fovy, double aspect, double near, double far) {
   HS_CHECK_OP(near, >, 0.0);
   HS_CHECK_OP(near, <, far);

@@ -20,7 +20,7 @@ struct Relief {
 
 double height_of(const HeightSample& s, const Relief& r) { return r.height_scale * (s.value - r.zero_level); }
 
-// (g_east, g_north, 1 + g/r)
+// Returns (g_east, g_north, 1 + g/r).
 glm::dvec3 slopes_of(const HeightSample& s, const Relief& r, double sin_pi_v) {
   const double east = r.height_scale * s.du / (2.0 * std::numbers::pi * r.radius * sin_pi_v);
   const double north = -r.height_scale * s.dv / (std::numbers::pi * r.radius);
@@ -37,7 +37,7 @@ void displace_row(Mesh& mesh, const SphereRow& row, const HeightField& field, co
     if (normals == ReliefNormals::undisplaced) continue;
     const glm::dvec3 slopes = slopes_of(sample, relief, pi_v.sin);
     mesh.normals[vertex] = rounded(unit(slopes.z * frame.normal - slopes.x * frame.east - slopes.y * frame.north));
-    // P'u over 2πrs.
+    // P'u / 2πrs, normalized.
     mesh.tangents[vertex] = glm::vec4(rounded(unit(slopes.z * frame.east + slopes.x * frame.normal)), 1.0f);
   }
 }

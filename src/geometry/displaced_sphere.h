@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// uv_sphere with a height field along its normals, and the slopes of that surface for normals by pixel. All is computed
-// in double without libm and rounded to float once.
+// A uv_sphere displaced along its normals by a height field, and slope maps of the displaced surface for per-pixel normals.
+// Everything is computed in double without libm and rounded to float once.
 //
-// With P = r·n of uv_sphere, e and m the units to the east and north, s = sin πv and the height g(u, v) = height_scale ·
-// (h(u, v) − zero_level), the surface is P' = (r + g)·n. As n's derivatives are 2πs·e by u and −π·m by v,
+// Notation: P = r·n is the point of uv_sphere, e and m are the unit vectors to the east and north, s = sin πv, and g(u, v) =
+// height_scale · (h(u, v) − zero_level) is the height. The displaced surface is P' = (r + g)·n. The derivatives of n are 2πs·e with
+// respect to u and −π·m with respect to v, so
 //
 //   P'u = (r + g)·2πs·e + gu·n        P'v = −(r + g)·π·m + gv·n
 //   P'v × P'u = 2π²·s·r·(r + g) · [ (1 + g/r)·n − gu/(2πrs)·e + gv/(πr)·m ]       (m × e = −n, m × n = e, n × e = m)
 //
-// so with the slopes to the east and north measured on the undisplaced sphere, g_east = gu/(2πrs), g_north = −gv/(πr),
+// The factor before the bracket is positive between the poles, so the vector points outward. With the slopes to the east and north
+// measured on the undisplaced sphere, g_east = gu/(2πrs) and g_north = −gv/(πr),
 //
-//   normal = normalize( (1 + g/r)·n − g_east·e − g_north·m ),
-//
-// and the factor before the bracket is positive between the poles: it points outward.
+//   normal = normalize( (1 + g/r)·n − g_east·e − g_north·m ).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -25,37 +25,37 @@
 
 namespace halfspace {
 
-/// Which normals a displaced sphere gets: its own, or those of the sphere below it (to show what they are worth).
+/// The vertex normals of a displaced sphere: those of the displaced surface, or those of the undisplaced sphere for comparison.
 enum class ReliefNormals { displaced, undisplaced };
 
-/// The mesh of uv_sphere (its vertices, texture coordinates and triangles in its order), displaced by g in the unit of
-/// `radius`; r + g must stay positive. The normals are those of the smooth surface, tangents run along P'u. A pole has one
-/// height, the mean of its vertices', and the sphere's frame. The seam has equal positions and normals on both sides, bit
-/// for bit. Give it a field filtered to `longitudes`.
+/// Returns the mesh of uv_sphere, with the same vertices, texture coordinates and triangles in the same order, displaced by g. g
+/// has the unit of `radius`, and r + g must stay positive. Normals are those of the smooth surface; tangents point along P'u. Each
+/// pole has a single height, the mean over its vertices, and keeps the tangent frame of the sphere. Positions and normals on both
+/// sides of the seam are bit-identical. Pass a field filtered to `longitudes`.
 Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const HeightField& field, double height_scale, double zero_level,
                          const Workers& workers, ReliefNormals normals = ReliefNormals::displaced);
 
-/// An equirectangular map of (g_east, g_north, 1 + g/r, 0) at the texels' centres, the numbers of the formula above:
-/// slopes are lengths per length, positive where the ground rises towards the east or north. Give it a field filtered to
-/// `width`. width, height ≥ 1, radius > 0. Row by row, by any number of threads at once; it keeps a reference to the field.
+/// Computes an equirectangular map of (g_east, g_north, 1 + g/r, 0) at the texel centers, with the terms of the formula above.
+/// Slopes are dimensionless, positive where the ground rises towards the east or north. Pass a field filtered to `width`; it must
+/// outlive this object. width, height ≥ 1, radius > 0. Rows can be computed concurrently from any number of threads.
 class SlopeRows {
  public:
   SlopeRows(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level);
-  /// slopes: `width` of them.
+  /// slopes: one value per column of the map.
   void operator()(int row, std::span<glm::vec4> slopes) const;
 
  private:
   const HeightField& field_;
   int height_;
   double radius_, height_scale_, zero_level_;
-  bool at_texels_;                ///< the map's texels are the field's
-  std::vector<HeightTaps> taps_;  ///< else
+  bool at_texels_;                ///< the texels of the map coincide with those of the field
+  std::vector<HeightTaps> taps_;  ///< one per column; empty if at_texels_
 };
-/// All rows.
+/// Returns all rows as an image.
 Image<glm::vec4> slope_map(const HeightField& field, int width, int height, double radius, double height_scale, double zero_level,
                            const Workers& workers);
 
-/// The first three of them at (u, v), 0 < v < 1, in double.
+/// Returns (g_east, g_north, 1 + g/r) at (u, v), 0 < v < 1.
 glm::dvec3 slopes_at(const HeightField& field, double u, double v, double radius, double height_scale, double zero_level);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plane and cube: square faces.
+// Plane and cube, which consist of square faces.
 #include <algorithm>
 
 #include "halfspace/core/check.h"
@@ -10,12 +10,12 @@ namespace halfspace {
 
 namespace {
 
-// Unit vectors of a face as seen from the front, where the map's first row is at the top.
+// Center and axes of a face seen from the front. `up` points towards the first row of the map.
 struct Face {
   glm::dvec3 center, right, up;
 };
 
-// The fade towards the nearer of the edges at 0 and 1.
+// Fades to zero towards x = 0 and x = 1.
 FadeStep fade_from_edges(double x) {
   const FadeStep f = fade_in(std::min(x, 1.0 - x));
   return {f.value, x < 0.5 ? f.slope : -f.slope};
@@ -26,8 +26,8 @@ Fade fade_of_face(double u, double v) {
   return {across.value * down.value, across.slope * down.value, across.value * down.slope};
 }
 
-// A face with half edge h round h·center. 2u − 1 as a ratio of whole numbers has the same bits, but for the sign, from either
-// side: neighbours meet exactly.
+// Adds a face with half edge length h, centered at h·center. Coordinates are computed as a ratio of integers, which is exactly
+// antisymmetric about the middle, so the vertices of adjacent faces match bit for bit.
 void add_face(SurfaceMesh& mesh, double h, const Face& face, int segments, bool fades) {
   int first = -1;
   const auto coordinate = [&](int i) { return static_cast<double>(2 * i - segments) / segments; };

@@ -16,7 +16,7 @@ namespace {
 
 // ---- filters ---------------------------------------------------------------------------------------------------
 
-// Weights for the offsets first, first + 1, …; their sum is 1.
+// Filter weights for the offsets first, first + 1, …; they add up to 1.
 struct Kernel {
   int first = 0;
   std::vector<double> weights;
@@ -28,7 +28,7 @@ void normalize(std::vector<double>& weights) {
   for (double& w : weights) w /= sum;
 }
 
-// A Gaussian up to 3.5 standard deviations (what is cut off weighs 5e-4); sigma in texels.
+// A Gaussian with a standard deviation of `sigma` texels, cut off at 3.5 sigma, where the tails weigh 5e-4.
 Kernel gaussian(double sigma) {
   if (sigma <= 0) return {0, {1.0}};
   const int reach = static_cast<int>(std::ceil(3.5 * sigma));
@@ -41,7 +41,7 @@ Kernel gaussian(double sigma) {
   return k;
 }
 
-// The same filter on a ring of `period` texels: what reaches further round is added where it lands.
+// Wraps a filter onto a ring of `period` texels: weights that fall on the same texel are added.
 Kernel on_ring(const Kernel& k, int period) {
   const int count = static_cast<int>(k.weights.size());
   if (count <= period) return k;
@@ -62,10 +62,10 @@ int column_at(int x, int width, MapEdges edges) { return edges == MapEdges::shee
 
 struct FoldedRow {
   int row;
-  int shift;  // to be added to the column
+  int shift;  // added to the column
 };
 
-// A row beyond a pole is one before it, seen half a turn further on.
+// A row beyond a pole is the mirrored row, half a turn away.
 FoldedRow fold(int row, int width, int height, MapEdges edges) {
   if (edges == MapEdges::torus) return {wrapped(row, height), 0};
   if (edges != MapEdges::sphere) return {std::clamp(row, 0, height - 1), 0};
@@ -81,7 +81,7 @@ void smooth_row(std::span<float> row, const Kernel& kernel, MapEdges edges) {
   std::vector<double> ring(static_cast<std::size_t>(width + count));
   for (int x = 0; x < width + count; ++x) {
     const int column = x + k.first;
-    const bool inside = column >= 0 && column < width;  // the most are: a remainder for each takes longer than all else here
+    const bool inside = column >= 0 && column < width;  // almost always true; a remainder for every column would cost more than the rest
     ring[static_cast<std::size_t>(x)] =
         static_cast<double>(row[static_cast<std::size_t>(inside ? column : column_at(column, width, edges))]);
   }
@@ -92,7 +92,7 @@ void smooth_row(std::span<float> row, const Kernel& kernel, MapEdges edges) {
   for (std::size_t x = 0; x < sum.size(); ++x) row[x] = static_cast<float>(sum[x]);
 }
 
-// Smooths along v, over the edges.
+// Smooths along v, across the edges of the map.
 Image<float> smooth_columns(const Image<float>& map, const Kernel& k, MapEdges edges, const Workers& workers) {
   const int width = map.width(), height = map.height();
   Image<float> out(width, height);
@@ -112,14 +112,14 @@ Image<float> smooth_columns(const Image<float>& map, const Kernel& k, MapEdges e
 
 double sin_of_row(int row, int height) { return sincos_turns(0.5 * (row + 0.5) / height).sin; }
 
-// Beyond a width the Gaussian on a ring is the mean: the slowest wave is left with exp(−2π²) of its height.
+// Caps sigma at the width of the ring, where the filter is already the mean: the lowest frequency is scaled by exp(−2π²).
 Kernel capped_gaussian(double sigma, int width) { return gaussian(std::min(sigma, static_cast<double>(width))); }
 
 // ---- resampling ------------------------------------------------------------------------------------------------
 
-// What part of each of `from` texels, in order from `first`, lies in texel `i` of `to` ≤ from; the sum is 1.
+// Returns the fractions of texel `i` of `to` that the texels of a row of `from` ≥ to cover, starting at texel `first`.
 Kernel overlap(int i, int from, int to) {
-  // In units of 1/(from·to) of the map all edges are whole numbers.
+  // In units of 1/(from·to) of the map, all texel edges are integers.
   const int64_t begin = static_cast<int64_t>(i) * from, end = begin + from;
   Kernel k{static_cast<int>(begin / to), {}};
   for (int64_t texel = begin / to; texel * to < end; ++texel) {
@@ -129,7 +129,7 @@ Kernel overlap(int i, int from, int to) {
   return k;
 }
 
-// The average by area over a coarser grid.
+// Box filters the map to a coarser grid.
 Image<float> averaged(const Image<float>& map, int width, int height, const Workers& workers) {
   Image<float> out(width, height);
   std::vector<Kernel> columns;
@@ -154,8 +154,8 @@ Image<float> averaged(const Image<float>& map, int width, int height, const Work
 
 // ---- the spline ------------------------------------------------------------------------------------------------
 
-// The uniform cubic B-spline's four weights at 0 ≤ t < 1 between the middle two control points, and their derivatives
-// by t (Farin, Curves and Surfaces for CAGD, chapter 8).
+// The four weights of the uniform cubic B-spline at 0 ≤ t < 1 between the middle two control points, and their derivatives with
+// respect to t (Farin, Curves and Surfaces for CAGD, chapter 8).
 struct SplineWeights {
   std::array<double, 4> value, slope;
 };
@@ -221,9 +221,9 @@ void HeightField::at(std::span<const HeightTaps> taps, double v, std::span<Heigh
 }
 
 void HeightField::at_texels(int row, std::span<HeightSample> samples) const {
-  const SplineWeights w = spline_weights(0.0);  // the fourth of them is 0
+  const SplineWeights w = spline_weights(0.0);  // the fourth weight is 0
   const auto n = static_cast<std::size_t>(width());
-  std::array<std::vector<double>, 3> lines;  // the row and its neighbours, with a texel more at either end
+  std::array<std::vector<double>, 3> lines;  // the row and its neighbors, padded by one texel at both ends
   for (std::size_t j = 0; j < 3; ++j) {
     const FoldedRow from = fold(row - 1 + static_cast<int>(j), width(), height(), edges_);
     const std::span<const float> texels = texels_.row(from.row);

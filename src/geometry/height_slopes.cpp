@@ -8,7 +8,7 @@ namespace halfspace {
 
 namespace {
 
-// The texels on both sides of i, and how many texels lie between them.
+// The neighbors of texel i on both sides, and their distance in texels.
 struct Neighbours {
   int before, after, distance;
 };
@@ -16,7 +16,7 @@ struct Neighbours {
 Neighbours neighbours(int i, int size, Wrap wrap) {
   if (wrap == Wrap::repeat) return {(i + size - 1) % size, (i + 1) % size, 2};
   const int before = std::max(i - 1, 0), after = std::min(i + 1, size - 1);
-  if (wrap == Wrap::mirrored) return {before, after, 2};  // beyond the edge lies the edge's texel again
+  if (wrap == Wrap::mirrored) return {before, after, 2};  // the edge texel repeats beyond the edge
   return {before, after, std::max(after - before, 1)};
 }
 

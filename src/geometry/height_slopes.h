@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Maps of heights made ready for bumps.
+// Slopes of height maps, for bump mapping.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace halfspace {
 
-/// (∂h/∂u, ∂h/∂v, 0, 0) at the texels' centres, u and v spanning the whole map from 0 to 1: the slope of the parabola
-/// through a texel and its neighbours on both sides, as the map wraps; at an edge that does not, that of the line to the
-/// one neighbour. Filtering and its levels are linear, so filtered slopes are the slopes of filtered heights.
+/// Returns (∂h/∂u, ∂h/∂v, 0, 0) at the texel centers; u and v span the map from 0 to 1. Slopes are central differences that follow
+/// the wrap mode. At edges that do not wrap they are one-sided differences. Filtering is linear, so filtered slopes are the slopes
+/// of the filtered heights, at every mip level.
 Image<glm::vec4> height_slopes(const Image<float>& heights, Wrap wrap_s, Wrap wrap_t);
 
-/// Heights as 16-bit codes, held to [0, 1].
+/// Converts heights to 16-bit unorm, clamped to [0, 1].
 Image<uint16_t> codes16(const Image<float>& heights);
 
 }  // namespace halfspace

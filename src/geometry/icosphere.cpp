@@ -17,14 +17,14 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-// Directions from the origin, not of unit length, and triangles between them; 0 is the north pole, 1 the south pole.
+// Directions from the origin, not normalized, and the triangles between them. Corner 0 is the north pole, corner 1 the south pole.
 struct Polyhedron {
   std::vector<glm::dvec3> corners;
   std::vector<Triangle> triangles;
 };
 
-// Besides the poles, five corners each at the latitudes ±atan(1/2): the northern ones at longitudes of whole fifths of a turn,
-// the southern ones between them.
+// In addition to the poles there are five corners at each of the latitudes ±atan(1/2). The northern ones are at multiples of a
+// fifth of a turn, the southern ones halfway between them.
 Polyhedron icosahedron() {
   Polyhedron p{{{0, 1, 0}, {0, -1, 0}}, {}};
   for (int k = 0; k < 10; ++k) {
@@ -41,7 +41,7 @@ Polyhedron icosahedron() {
   return p;
 }
 
-// Each triangle becomes four. A new corner is made once for both triangles of its edge.
+// Splits each triangle into four. Both triangles of an edge share its new corner.
 Polyhedron divided(const Polyhedron& from) {
   Polyhedron p{from.corners, {}};
   std::map<std::pair<int, int>, int> middles;
@@ -57,8 +57,8 @@ Polyhedron divided(const Polyhedron& from) {
   return p;
 }
 
-// The map's coordinates of a direction. Vertices are made from them, so that they fit each other exactly. u is a multiple of
-// 2^-32: u + 1 is exact.
+// Returns the texture coordinates of a direction. Vertex positions are computed from these coordinates, so both agree exactly. u is
+// a multiple of 2^-32, which makes u + 1 exact.
 glm::dvec2 map_coordinates(const glm::dvec3& p) {
   const float x = static_cast<float>(p.x), z = static_cast<float>(p.z), y = static_cast<float>(p.y);
   const double turns = static_cast<double>(halfspace::atan2(-z, x)) / (2.0 * std::numbers::pi);
@@ -102,7 +102,7 @@ class Icosphere {
   static bool is_pole(int corner) { return corner < 2; }
   double u_of(int corner) const { return uvs_[static_cast<std::size_t>(corner)].x; }
 
-  // A triangle's u, without a jump back over the seam; at a pole the mean of the two others.
+  // Returns u at the corners of a triangle, continued beyond 1 across the seam. At a pole, u is the mean of the other two corners.
   std::array<double, 3> us_of(const Triangle& t) const {
     std::array<double, 3> u{};
     double low = 1.0, high = 0.0;
@@ -148,7 +148,7 @@ class Icosphere {
     mesh_.add_triangle(vertices[0], vertices[1], vertices[2]);
   }
 
-  // One vertex for each corner and turn.
+  // Returns the vertex of a corner. A corner on the seam has two: one at u and one at u + 1.
   int vertex(int corner, double u) {
     const glm::dvec2& uv = uvs_[static_cast<std::size_t>(corner)];
     const auto [entry, is_new] = vertices_.try_emplace({corner, u != uv.x}, 0);
@@ -159,7 +159,7 @@ class Icosphere {
   double radius_;
   SurfaceMesh mesh_;
   Polyhedron shape_;
-  std::vector<glm::dvec2> uvs_;  // of the corners, u in the first turn
+  std::vector<glm::dvec2> uvs_;  // of the corners, with u in [0, 1)
   std::array<std::vector<double>, 2> pole_us_;
   std::map<std::pair<int, bool>, int> vertices_;
 };

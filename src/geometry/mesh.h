@@ -7,10 +7,9 @@
 
 namespace halfspace {
 
-/// A triangle list with shared vertices: three indices a triangle, counter-clockwise seen from the front. Every
-/// stream that is present has one entry per vertex; normals have unit length. `tangents` may be empty: xyz points
-/// along increasing u, and cross(normal, xyz)·w along decreasing v (the top row of a texture is v = 0), so that
-/// normal maps have green up.
+/// Indexed triangle list, counter-clockwise when seen from the front. Every non-empty stream has one entry per vertex; normals have
+/// unit length. `tangents` may be empty. Otherwise xyz points along increasing u, and cross(normal, xyz)·w along decreasing v,
+/// where v = 0 is the top row of a texture; green is up in normal maps.
 struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;

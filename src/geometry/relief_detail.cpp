@@ -23,11 +23,11 @@ Image<float> halved(const Image<float>& map, const Workers& workers) {
   return out;
 }
 
-// All but a thousandth of the differences between a map and its half, drawn through by straight lines, are smaller.
+// Returns the 99.9th percentile of the absolute difference between a map and its half, interpolated bilinearly.
 double lost(const Image<float>& map, const Image<float>& half, const Workers& workers) {
   std::vector<float> differences(static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
   workers.for_each(map.height(), [&](int y) {
-    // A texel lies a quarter of the half's texel from the nearest middle.
+    // The center of a texel is a quarter of a texel of `half` away from the nearest texel center of `half`.
     const int near_y = std::min(y / 2, half.height() - 1), far_y = std::clamp(near_y + (y % 2 == 0 ? -1 : 1), 0, half.height() - 1);
     for (int x = 0; x < map.width(); ++x) {
       const int near_x = std::min(x / 2, half.width() - 1), far_x = std::clamp(near_x + (x % 2 == 0 ? -1 : 1), 0, half.width() - 1);
@@ -45,9 +45,9 @@ double lost(const Image<float>& map, const Image<float>& half, const Workers& wo
 }  // namespace
 
 ReliefDetail::ReliefDetail(const Image<float>& map, double smoothing, const Workers& workers) {
-  levels_.push_back({static_cast<double>(map.width()), 0.0});  // known when the first half is
-  // A Gaussian of σ leaves exp(−2π²σ²/λ²) of a wave; the spline of the field is one of σ² = 1/3 besides. What a halving loses are waves
-  // of 2 to 4 texels; the longest are left most.
+  levels_.push_back({static_cast<double>(map.width()), 0.0});  // replaced below, once the error of the first halving is known
+  // A Gaussian with standard deviation σ scales a wave of length λ by exp(−2π²σ²/λ²). The B-spline of the height field acts like
+  // another Gaussian with σ² = 1/3. A halving removes waves of 2 to 4 texels; the longest of them are attenuated least.
   const double sigma_squared = smoothing * smoothing + 1.0 / 3.0;
   double wave = 4.0, error = 0.0;
   Image<float> kept;
@@ -59,7 +59,8 @@ ReliefDetail::ReliefDetail(const Image<float>& map, double smoothing, const Work
     kept = std::move(half);
     fine = &kept;
   }
-  // With a vertex a texel nothing is averaged away: what is left is the chords', which twice the columns quarter.
+  // With one vertex per texel nothing is averaged away. What remains is the chord error, which is divided by four when columns
+  // double.
   if (levels_.size() > 1) levels_.front().error = 0.25 * levels_[1].error;
 }
 

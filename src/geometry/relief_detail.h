@@ -8,22 +8,22 @@
 
 namespace halfspace {
 
-/// What a map of heights loses on coarser meshes: by how much heights averaged to fewer columns differ from the map, at all but a
-/// thousandth of its texels.
+/// Estimates the detail that a height map loses on coarser meshes. The error is the 99.9th percentile of the absolute difference
+/// between the map and the map averaged to fewer columns.
 class ReliefDetail {
  public:
-  /// `smoothing`: HeightField's, texels; detail that it takes away is none.
+  /// `smoothing` is that of HeightField, in texels. Detail removed by smoothing does not count as an error.
   ReliefDetail(const Image<float>& map, double smoothing, const Workers& workers);
 
-  /// In the map's unit, for `columns` ≥ 1 along u; on a straight line between the halvings of the map, which is too much rather than too
-  /// little.
+  /// Returns the error in the unit of the map, for `columns` ≥ 1 along u. The error is interpolated linearly between successive
+  /// halvings of the map, which overestimates rather than underestimates it.
   double error(double columns) const;
 
  private:
   struct Level {
     double columns, error;
   };
-  std::vector<Level> levels_;  // from the map's own width (error 0) downwards
+  std::vector<Level> levels_;  // from the width of the map downwards
 };
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cylinder, cone and torus: surfaces of revolution round the y axis, with caps where they are open.
+// Cylinder, cone and torus: surfaces of revolution around the y axis, with caps on the open ones.
 #include <cmath>
 #include <numbers>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-// At longitude 2πu: outward, its derivative by u, and that derivative's direction.
+// The outward direction at longitude 2πu, its derivative with respect to u, and the direction of that derivative.
 struct Meridian {
   glm::dvec3 out, out_du, east;
 };
@@ -26,13 +26,13 @@ Meridian meridian(double u) {
 
 constexpr glm::dvec3 kUp(0, 1, 0);
 
-// Towards v = 0 and v = 1.
+// Fades to zero towards v = 0 and v = 1.
 Fade fade_along_v(double v) {
   const FadeStep f = fade_in(v > 0.5 ? 1.0 - v : v);
   return {f.value, 0.0, v > 0.5 ? -f.slope : f.slope};
 }
 
-// A row of a side: sectors + 1 points from u = 0 to 1.
+// Adds a row of a side, sectors + 1 points from u = 0 to u = 1, and returns the index of the first.
 template <class F>
 int add_row(SurfaceMesh& mesh, int sectors, F point) {
   int first = -1;
@@ -43,8 +43,8 @@ int add_row(SurfaceMesh& mesh, int sectors, F point) {
   return first;
 }
 
-// The disc at height y, facing up (up = 1) or down (−1), its rim at `radius`: x = r·(2u − 1), z = up·r·(2v − 1). Heights fade
-// with the distance ρ from the middle, in parts of the radius; ∂ρ/∂u = 2(2u − 1)/ρ, and so by v.
+// The disc at height y, facing up (up = 1) or down (up = −1): x = r·(2u − 1), z = up·r·(2v − 1), where r is the radius of the rim.
+// Heights fade with the distance ρ from the center, as a fraction of the radius; ∂ρ/∂u = 2(2u − 1)/ρ, and likewise for v.
 class Cap {
  public:
   Cap(double radius, double y, double up) : radius_(radius), y_(y), up_(up) {}

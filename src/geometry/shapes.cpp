@@ -24,14 +24,14 @@ void add_triangle(Mesh& mesh, int a, int b, int c) {
 
 }  // namespace
 
-// One vertex per sector at a pole, one more than sectors elsewhere.
+// A pole has one vertex per sector, every other row one more.
 SphereRow uv_sphere_row(int i, int latitudes, int longitudes) {
   const bool is_pole = i == 0 || i == latitudes;
   const int first = i == 0 ? 0 : longitudes + (i - 1) * (longitudes + 1);
   return {first, is_pole ? longitudes : longitudes + 1, longitudes, static_cast<double>(i) / latitudes, is_pole};
 }
 
-// + 0.0: no negative zeros, so that equal points have equal bits.
+// Adding 0.0 turns negative zeros into positive ones, so that equal points have equal bits.
 SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v) {
   return {glm::dvec3(-two_pi_u.sin + 0.0, 0.0, -two_pi_u.cos + 0.0),
           glm::dvec3(-pi_v.cos * two_pi_u.cos + 0.0, pi_v.sin, pi_v.cos * two_pi_u.sin + 0.0),
@@ -48,8 +48,8 @@ Mesh uv_sphere(int latitudes, int longitudes, float radius) {
     const int north = uv_sphere_row(i, latitudes, longitudes).first;
     const int south = uv_sphere_row(i + 1, latitudes, longitudes).first;
     for (int j = 0; j < longitudes; ++j) {
-      // Seen from outside: north-west north+j, north-east north+j+1, and the same in the south. At a pole there is
-      // only vertex j.
+      // Seen from outside, the north-west corner is north + j, the north-east corner is north + j + 1, and likewise in the south.
+      // At a pole there is only vertex j.
       if (i == 0) {
         add_triangle(mesh, north + j, south + j, south + j + 1);
       } else if (i == latitudes - 1) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shapes from formulas, computed in double without libm and rounded to float once: the same bits on every machine.
-// All are y up, wound counter-clockwise seen from outside, with outward unit normals, texture coordinates and tangents. What is
-// closed has equal position bits where two faces, or the two ends of a map, meet. `displacement`, where it is given, lays heights
-// on the surface (geometry/surface_mesh.h); it stays closed, whatever the map holds.
+// Closed-form shapes, computed in double without libm and rounded to float once, so they have the same bits on every machine. All
+// shapes are y up and wound counter-clockwise seen from outside, with outward unit normals, texture coordinates and tangents. On
+// closed shapes, positions are bit-identical where two faces, or opposite edges of the map, meet. `displacement`, if given,
+// displaces the surface (geometry/surface_mesh.h). A closed shape stays closed for any height map.
 #pragma once
 
 #include "halfspace/core/trig_double.h"
@@ -11,18 +11,18 @@
 
 namespace halfspace {
 
-/// A sphere round the origin of `latitudes` ≥ 2 bands and `longitudes` ≥ 3 sectors:
+/// A sphere around the origin with `latitudes` ≥ 2 bands and `longitudes` ≥ 3 sectors:
 ///
 ///   P(u, v) = r · (sin πv · cos 2πu, cos πv, −sin πv · sin 2πu)
 ///
-/// v = 0 is the north pole (+y, top row of a map) and u grows eastwards, so a map whose left edge is 180° W reads the
-/// right way round from outside, with that meridian at +x. The seam is closed by vertices at u = 0 and u = 1 with
-/// equal positions. A pole has one vertex per sector, u at the sector's middle, so the map does not swirl there.
-/// Triangles: 2 · longitudes · (latitudes − 1), none degenerate.
+/// v = 0 is the north pole (+y, the top row of a map) and u grows eastwards. A map with its left edge at 180° W is not mirrored
+/// when seen from outside, and that meridian is at +x. The seam is closed by vertices at u = 0 and u = 1 with equal positions. A
+/// pole has one vertex per sector, with u at the middle of the sector, so the map does not swirl there. There are 2 · longitudes ·
+/// (latitudes − 1) triangles, none of them degenerate.
 Mesh uv_sphere(int latitudes, int longitudes, float radius);
 
-/// Row i of uv_sphere's vertices, from 0 at the north pole to `latitudes` at the south pole: its vertices are the mesh's
-/// from `first` on, at v and at u(0), u(1), …
+/// Row i of the vertices of uv_sphere, from 0 at the north pole to `latitudes` at the south pole. Vertex first + j of the mesh is
+/// at (u(j), v), for 0 ≤ j < count.
 struct SphereRow {
   int first, count, longitudes;
   double v;
@@ -32,56 +32,57 @@ struct SphereRow {
 };
 SphereRow uv_sphere_row(int i, int latitudes, int longitudes);
 
-/// Unit vectors at a place of uv_sphere, right-handed in this order; at a pole by the given longitude:
+/// Unit vectors at a point of uv_sphere, right-handed in this order. At a pole they depend on the longitude passed.
 ///
 ///   east = (−sin 2πu, 0, −cos 2πu), north = (−cos πv · cos 2πu, sin πv, cos πv · sin 2πu), normal = P / r
 ///
-/// P's derivatives are 2πr · sin πv · east by u and −πr · north by v.
+/// The derivatives of P are 2πr · sin πv · east with respect to u and −πr · north with respect to v.
 struct SphereFrame {
   glm::dvec3 east, north, normal;
 };
 SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v);
 
-/// A sphere round the origin from the icosahedron with corners at the poles, each triangle divided into 4^level ones and its
-/// corners moved to the sphere: 20 · 4^level triangles of nearly one size; level ≥ 0. Formula and map are uv_sphere's. A
-/// triangle over the seam has u above 1, never a jump back; one at a pole has its own vertex there, u between the two others.
-/// Field edges: sphere; a pole has one height, the mean of its vertices'.
+/// A sphere around the origin, subdivided from an icosahedron with corners at the poles: 20 · 4^level triangles of nearly equal
+/// size; level ≥ 0. Formula and texture coordinates are those of uv_sphere. u exceeds 1 in triangles that cross the seam, so it
+/// never jumps back. Each triangle at a pole has a separate vertex there, with u between those of its other two vertices. Field
+/// edges: sphere. A pole has a single height, the mean over its vertices.
 Mesh icosphere(int level, float radius, const Displacement* displacement = nullptr);
 
-/// A closed cylinder round the y axis, y from −length/2 to length/2. Side of `bands` ≥ 1 rows and `sectors` ≥ 3 columns:
+/// A closed cylinder around the y axis, with y from −length/2 to length/2. The side has `bands` ≥ 1 rows and `sectors` ≥ 3 columns:
 ///
 ///   P(u, v) = (r cos 2πu, length · (1/2 − v), −r sin 2πu)
 ///
-/// The caps show the disc within the map: from above u grows along +x and v along +z; from below v along −z. They have
-/// `bands` rings. Field edges: cylinder; heights fade to zero towards the rims, within kFadeWidth of v and of the radius.
+/// The caps show the disc inscribed in the map and have `bands` rings. u grows along +x; v grows along +z on the upper cap and
+/// along −z on the lower cap. Field edges: cylinder. Heights fade to zero at the rims, within kFadeWidth of v and of the radius.
 Mesh cylinder(float radius, float length, int bands, int sectors, const Displacement* displacement = nullptr);
 
-/// A closed cone round the y axis with its apex at y = length/2 and its base, a cap as the cylinder's lower one, at −length/2:
+/// A closed cone around the y axis with its apex at y = length/2 and its base at −length/2, capped like the bottom of the cylinder:
 ///
 ///   P(u, v) = (v r cos 2πu, length · (1/2 − v), −v r sin 2πu)
 ///
-/// The apex has one vertex a sector, at its middle. Field edges: cylinder; heights fade to zero towards apex and rim.
+/// The apex has one vertex per sector, with u at the middle of the sector. Field edges: cylinder. Heights fade to zero at apex and
+/// rim.
 Mesh cone(float radius, float length, int bands, int sectors, const Displacement* displacement = nullptr);
 
-/// A ring round the y axis, `bands` ≥ 3 rows round its tube and `sectors` ≥ 3 columns round the axis; the tube's middle is
-/// `radius` from the axis, tube < radius:
+/// A torus around the y axis with `bands` ≥ 3 rows around the tube and `sectors` ≥ 3 columns around the axis. The center line of
+/// the tube is at distance `radius` from the axis; tube < radius. With R = radius and t = tube:
 ///
 ///   P(u, v) = ((R − t cos 2πv) cos 2πu, t sin 2πv, −(R − t cos 2πv) sin 2πu)
 ///
-/// v = 0 is the inmost circle, 1/4 the uppermost, 1/2 the outmost. Field edges: torus.
+/// v = 0 is the innermost circle, 1/4 the uppermost, 1/2 the outermost. Field edges: torus.
 Mesh torus(float radius, float tube, int bands, int sectors, const Displacement* displacement = nullptr);
 
-/// A tube along a trefoil knot on a torus round the y axis: `bands` ≥ 3 rows round the tube, `sectors` ≥ 3 columns along the
-/// knot, which runs twice round the axis, at `radius` on the mean. tube below a quarter of the radius keeps clear of itself.
-/// Its formula stands in torus_knot.cpp. Field edges: torus.
+/// A tube along a trefoil knot on a torus around the y axis, with `bands` ≥ 3 rows around the tube and `sectors` ≥ 3 columns along
+/// the knot. The knot winds around the axis twice, at a mean distance of `radius`. It does not intersect itself if tube < radius /
+/// 4. The formula is in torus_knot.cpp. Field edges: torus.
 Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displacement* displacement = nullptr);
 
-/// A square in the plane y = 0 with corners at ±size/2, facing up, of segments² squares; u grows along +x, v along +z. Field
-/// edges: sheet.
+/// A square in the plane y = 0 with corners at ±size/2, facing up, divided into segments² squares. u grows along +x, v along +z.
+/// Field edges: sheet.
 Mesh plane(float size, int segments = 1, const Displacement* displacement = nullptr);
 
-/// An axis-aligned cube round the origin with edges of length `size`, every face of segments² squares with the whole of
-/// [0, 1]² as its texture coordinates. Field edges: sheet; heights fade to zero towards the edges, within kFadeWidth of a face.
+/// An axis-aligned cube around the origin with edges of length `size`. Each face is divided into segments² squares, and its texture
+/// coordinates cover [0, 1]². Field edges: sheet. Heights fade to zero at the edges, within kFadeWidth of the face.
 Mesh cube(float size, int segments = 1, const Displacement* displacement = nullptr);
 
 }  // namespace halfspace

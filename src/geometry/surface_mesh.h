@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a surface in closed form to a mesh, displaced along its normal or not: every generator but uv_sphere gives the points
-// of its surface with their derivatives, and this makes vertices of them, in double and rounded to float once.
+// Builds a mesh from a closed-form surface, optionally displaced along its normal. All generators except uv_sphere pass points of
+// their surface with derivatives to SurfaceMesh. Vertices are computed in double and rounded to float once.
 //
-// With the height g(u, v) the displaced surface is P' = P + n·g, so
+// With the height g(u, v), the displaced surface is P' = P + n·g, so
 //
 //   P'u = Pu + nu·g + n·gu      P'v = Pv + nv·g + n·gv      normal = normalize(P'v × P'u)
 //
-// (v grows downwards in a map, so that Pv × Pu points outward.) The tangent is P'u's direction, and cross(normal, tangent) is
-// what of −P'v is at right angles to it.
+// v grows downwards in a map, so Pv × Pu points outward. The tangent is the direction of P'u, and cross(normal, tangent) is the
+// direction of the component of −P'v perpendicular to it.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,22 +18,22 @@
 
 namespace halfspace {
 
-/// Heights to be laid on a shape: g = scale · (h(u, v) − zero), in the shape's unit, positive outwards. The field's edges
-/// must be those that the shape names; give it filtered to the tessellation.
+/// Heights that displace a shape: g = scale · (h(u, v) − zero), in the unit of the shape, positive outwards. The field must have
+/// the edge mode documented for the shape and be filtered to the tessellation.
 struct Displacement {
   const HeightField* field;
   double scale, zero;
 };
 
-/// A number that depends on (u, v), with its derivatives.
+/// A scalar function of (u, v) with its derivatives.
 struct Fade {
   double value = 1.0, du = 0.0, dv = 0.0;
 };
 
-/// How wide a fade is, in parts of the map.
+/// Width of a fade, as a fraction of the map.
 inline constexpr double kFadeWidth = 0.125;
 
-/// 0 at x = 0, 1 from kFadeWidth on, smooth (3s² − 2s³) between; and its derivative. x ≥ 0.
+/// Smooth step 3s² − 2s³ from 0 at x = 0 to 1 at x ≥ kFadeWidth, and its derivative. x ≥ 0.
 struct FadeStep {
   double value, slope;
 };
@@ -44,25 +44,26 @@ struct MeshPoint {
   glm::dvec2 uv;
   glm::dvec3 position, du, dv;              ///< P, ∂P/∂u, ∂P/∂v
   glm::dvec3 normal, normal_du, normal_dv;  ///< n and its derivatives
-  glm::dvec3 tangent{1, 0, 0};              ///< unit vector, where ∂P/∂u is zero: at a pole
-  Fade fade{};                              ///< factor of g: zero where faces meet at an edge, so that no crack opens there
+  glm::dvec3 tangent{1, 0, 0};              ///< unit tangent for points where ∂P/∂u is zero, such as poles
+  Fade fade{};                              ///< factor of g; zero at edges between faces, so that no crack opens there
 };
 
 /// Collects the vertices and triangles of a surface.
 class SurfaceMesh {
  public:
-  /// displacement: null for none.
+  /// `displacement` may be null.
   explicit SurfaceMesh(const Displacement* displacement) : displacement_(displacement) {}
 
   double height_at(const MeshPoint& p) const;
 
   /// Adds a vertex and returns its index.
   int add(const MeshPoint& p);
-  /// Adds a vertex where ∂P/∂u is zero, at the height g: it keeps the normal and the tangent of the undisplaced surface.
+  /// Adds a vertex displaced by g where ∂P/∂u is zero. It keeps the normal and the tangent of the undisplaced surface.
   int add_pole(const MeshPoint& p, double g);
   /// Adds a triangle, counter-clockwise seen from outside.
   void add_triangle(int a, int b, int c);
-  /// Adds the triangles of (columns + 1) x (rows + 1) vertices from `first` on, row by row, row 0 at the top of the map.
+  /// Adds the triangles of a grid of (columns + 1) x (rows + 1) vertices that starts at vertex `first`, row 0 at the top of the
+  /// map.
   void add_grid(int first, int columns, int rows);
 
   Mesh take() { return std::move(mesh_); }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A tube along a trefoil: the curve runs twice round the y axis and three times round the tube of a torus.
+// A tube along a trefoil knot. The curve winds twice around the y axis and three times around the tube of a torus:
 //
 //   C(u) = (R + r cos φ) e(θ) + r sin φ k,   θ = 4πu, φ = 6πu, e(θ) = (cos θ, 0, −sin θ), k = up
 //
-// It lies on the torus, whose normal n = cos φ e + sin φ k is therefore square to it and, with b = T × n, gives a frame that
-// closes. A tube's radial normal is square to both of its derivatives, whatever the frame's turn.
+// The curve is on the torus, so the normal of the torus, n = cos φ e + sin φ k, is perpendicular to the curve. Together with b = T
+// × n it forms a frame that closes after one turn. The radial normal of the tube is perpendicular to both derivatives of the tube's
+// surface regardless of how the frame twists.
 #include <numbers>
 
 #include "halfspace/core/check.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr double kThetaRate = 4.0 * std::numbers::pi, kPhiRate = 6.0 * std::numbers::pi;
 constexpr double kRingShare = 0.4;  // r / R
 
-// A place on the curve, and its frame with derivatives by u.
+// A point of the curve and its frame, with derivatives with respect to u.
 struct Along {
   glm::dvec3 point, tangent_length;  // C, C'
   glm::dvec3 n, b, n_du, b_du;
