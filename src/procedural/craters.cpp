@@ -15,8 +15,8 @@ namespace halfspace::procedural {
 namespace {
 
 constexpr float kMoonRadius = 1737.4f;  // km
-constexpr float kLargest = 0.085f;      // radius of the largest but for the basins: 148 km
-constexpr float kYoung = 0.93f;         // the age from which on craters lie upon the maria
+constexpr float kLargest = 0.085f;      // radius of the largest crater that is not a basin: 148 km
+constexpr float kYoung = 0.93f;         // craters of this age or above are younger than the maria
 
 // ---- the population --------------------------------------------------------------------------------------------
 
@@ -24,7 +24,7 @@ constexpr float kYoung = 0.93f;         // the age from which on craters lie upo
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
-  /// In [0, 1), a multiple of 2^-24.
+  /// Returns a multiple of 2^-24 in [0, 1).
   float next() {
     state_ += 0x9e3779b97f4a7c15u;
     uint64_t z = state_;
@@ -38,14 +38,15 @@ class Random {
   uint64_t state_;
 };
 
-// Depth and rim by diameter in km after Pike, "Size-dependence in the shape of fresh impact craters on the Moon" (1977):
-// simple bowls below about 15 km, wide floors and slumped walls above. Age from 0 (old) to 1 levels them.
+// Sets depth and rim from the diameter in km, after Pike, "Size-dependence in the shape of fresh impact craters on the Moon"
+// (1977). Craters below about 15 km are simple bowls; larger ones have wide floors and slumped walls. `age` goes from 0 (old) to 1
+// (young); older craters are flatter.
 void set_shape(Crater& c, float age) {
   const float diameter = 2.0f * kMoonRadius * c.radius;
   const bool simple = diameter < 15.0f;
   const float rim = simple ? 0.036f * pow(diameter, 1.014f) : 0.236f * pow(diameter, 0.399f);
   const float rim_to_floor = simple ? 0.196f * pow(diameter, 1.01f) : 1.044f * pow(diameter, 0.301f);
-  const float left = 0.15f + 0.85f * age * age;  // of the height of a fresh one
+  const float left = 0.15f + 0.85f * age * age;  // fraction of a fresh crater's height that is left
   c.rim = rim * left;
   c.depth = (rim_to_floor - rim) * (0.45f + 0.55f * left);
   const float size = clamp((diameter - 15.0f) / 120.0f, 0.0f, 1.0f);
@@ -57,7 +58,7 @@ void set_shape(Crater& c, float age) {
 }
 
 void set_place(Crater& c, double turns_east, double y) {
-  // sphere_frame takes the colatitude's cosine and sine: there is no need for the angle.
+  // sphere_frame needs only the sine and cosine of the colatitude, not the angle.
   const SphereFrame frame = sphere_frame(sincos_turns(turns_east), {std::sqrt(1.0 - y * y), y});
   c.center = glm::vec3(frame.normal);
   c.east = glm::vec3(frame.east);
@@ -75,27 +76,29 @@ struct Aged {
   float age;
 };
 
-// The craters of radii from lo to hi = 2·lo: as many larger than r as r^-2 (so that every class covers the same area).
+// Adds craters with radii from lo to hi = 2·lo. The number of craters larger than r is proportional to r^-2, so every size class
+// covers the same area.
 void add_class(std::vector<Aged>& out, float lo, float hi, Random random) {
-  const float covered = 0.24f;  // of the sphere, by this class, overlaps counted twice
-  // A crater covers r²/4 of the sphere; the mean of r² over the class is lo² · 2 ln(hi/lo) / (1 − (lo/hi)²).
+  const float covered = 0.24f;  // fraction of the sphere covered by this class, counting overlaps twice
+  // A crater covers r²/4 of the sphere. The mean of r² over the class is lo² · 2 ln(hi/lo) / (1 − (lo/hi)²).
   const int count = static_cast<int>(covered * 4.0f / (lo * lo * 1.848f));
   const float cut = 1.0f - (lo / hi) * (lo / hi);
   for (int i = 0; i < count; ++i) {
     Aged a{};
     a.crater.radius = lo / sqrt(1.0f - cut * random.next());
-    const double turns_east = static_cast<double>(random.next());  // in an order of its own: compilers differ in that of arguments
+    const double turns_east = static_cast<double>(random.next());  // not in the argument list, where the evaluation order is unspecified
     const double y = static_cast<double>(random.between(-1.0f, 1.0f));
     set_place(a.crater, turns_east, y);
     a.age = random.next();
-    if (a.crater.radius > 0.02f) a.age *= 0.95f;  // the large ones are older than the maria but for those with rays
+    if (a.crater.radius > 0.02f) a.age *= 0.95f;  // most large craters are older than the maria; those with rays are added below
     set_shape(a.crater, a.age);
     set_outline(a.crater, random);
     out.push_back(a);
   }
 }
 
-// Young craters with rays, where the Moon's great ones are: degrees east and north, km of radius, degrees the rays reach.
+// Young craters with rays, at the positions of the Moon's most prominent ones: degrees east and north, radius in km, reach of the
+// rays in degrees.
 struct RayCrater {
   double east, north;
   float radius, rays;
@@ -120,7 +123,8 @@ void add_ray_craters(std::vector<Aged>& out, Random random) {
 
 // ---- one row ---------------------------------------------------------------------------------------------------
 
-// The texels from begin on (less than the width) within `reach` radians of a crater, with some to spare; count of 0: none.
+// The texels of a row within `reach` radians of a crater, rounded up: `count` texels that start at `begin` < width and may wrap
+// around.
 struct Span {
   int begin, count;
 };
@@ -134,13 +138,13 @@ Span reached(const CraterRow& row, const Crater& crater, float reach) {
   const float texels = static_cast<float>(row.width) * static_cast<float>(0.5 / std::numbers::pi);
   const float half = acos(clamp(level / across, -1.0f, 1.0f)) * texels + 2.0f;
   if (2.0f * half >= static_cast<float>(row.width)) return {0, row.width};
-  // The place is (cos 2πu, −sin 2πu) · ring.
+  // The position of a texel is (cos 2πu, −sin 2πu) · ring.
   const float middle = atan2(-center.z, center.x) * texels;
   const int begin = truncate_to_int(middle - half + static_cast<float>(2 * row.width)) % row.width;
   return {begin, truncate_to_int(2.0f * half) + 1};
 }
 
-// Calls texels(x, mask) for packets of the span, which may go round the seam.
+// Calls texels(x, mask) for each packet of a span, which may wrap around the seam.
 template <class F>
 void for_packets(const CraterRow& row, Span span, const F& texels) {
   const int end = span.begin + span.count;
@@ -151,7 +155,8 @@ void for_packets(const CraterRow& row, Span span, const F& texels) {
   part(0, end - row.width);
 }
 
-// Where a packet of texels lies as seen from a crater: the distance (a chord), and the unit vector to the east and north.
+// Position of a packet of texels relative to a crater: the distance (a chord) and the unit direction in the crater's east-north
+// frame.
 struct Bearing {
   Real distance, east, north;
 };
@@ -164,7 +169,8 @@ Bearing bearing_of(const Crater& c, const CraterRow& row, std::size_t x) {
   return {sqrt(fma(dx, dx, fma(dy, dy, dz * dz))), east * across, north * across};
 }
 
-// 1 + the outline's deviation from a circle: cosines and sines of 2, 3 and 5 times the azimuth by the addition theorems.
+// Returns 1 + the outline's deviation from a circle. Cosines and sines of 2, 3 and 5 times the azimuth follow from the angle
+// addition formulas.
 Real outline(const Crater& c, const Bearing& b) {
   const Real c2 = b.east * b.east - b.north * b.north, s2 = Real(2.0f) * b.east * b.north;
   const Real c3 = c2 * b.east - s2 * b.north, s3 = s2 * b.east + c2 * b.north;
@@ -173,17 +179,18 @@ Real outline(const Crater& c, const Bearing& b) {
          c5 * Real(c.wobble[4]) + s5 * Real(c.wobble[5]);
 }
 
-// 1 at q = 0, 0 at q = 1, falling steeply, level at both ends.
+// Falls steeply from 1 at q = 0 to 0 at q = 1, with zero slope at both ends.
 HS_INLINE Real blanket(Real q) {
   const Real p = Real(1.0f) - q;
   const Real p3 = p * p * p;
   return p3 * p3 * fma(q, Real(6.0f), Real(1.0f));
 }
 
-// How far the blanket goes where the outline bulges most, in radians.
+// Returns the reach of the ejecta blanket in radians, where the outline bulges most.
 float blanket_reach(const Crater& c) { return 1.15f * kBlanketEnd * c.radius; }
 
-// The relief x radii from the middle. All parts join with equal heights and slopes.
+// Returns the height at x radii from the center, with continuous slope. q goes from 0 at the rim to 1 at the end of the ejecta
+// blanket.
 Real profile(const Crater& c, Real x, Real q) {
   const Real t = clamp((x - Real(c.floor)) * Real(1.0f / (1.0f - c.floor)), Real(0.0f), Real(1.0f));
   const Real wall = t * t * (Real(3.0f) - Real(2.0f) * t);
@@ -239,8 +246,8 @@ void add_rays(const Crater& c, CraterRow& row) {
     const Bearing b = bearing_of(c, row, i);
     mask &= b.distance < Real(c.rays) && b.distance > Real(c.radius);
     if (none(mask)) return;
-    // Rays are where a noise of the azimuth crosses zero, the narrower in angle the further out; another one says how far
-    // they reach, and a third, of the place, breaks them up.
+    // Rays are where a noise over the azimuth crosses zero; they narrow in angle with the distance. A second noise over the azimuth
+    // varies their reach, and a third over the position breaks them up.
     const Vec azimuth(b.east, b.north, Real(0.37f));
     const Real crossing = abs(noise(azimuth * Vec(Real(3.3f)), c.seed));
     const Real reach =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The invented Earth. Everything is noise in three dimensions (procedural/noise.h) looked up on the unit sphere. Lanes run
-// along a row; only correctly rounded operations are used, so the map has the same bits at every lane width.
+// The procedural Earth. All features are 3D noise (procedural/noise.h) evaluated on the unit sphere. SIMD lanes run along a row.
+// Only correctly rounded operations are used, so the map is bit-identical for every SIMD width.
 #include "halfspace/procedural/earth.h"
 
 #include <cmath>
@@ -20,17 +20,17 @@ using namespace procedural;
 
 // ---- the planet ------------------------------------------------------------------------------------------------
 
-constexpr float kSeaLevel = 0.12f;  // of the continents' noise
+constexpr float kSeaLevel = 0.12f;  // value of the continent noise at sea level
 
 struct Terrain {
-  Real height;       // above the sea, about −1 to 1
+  Real height;       // relative to the sea, about −1 to 1
   Real mountains;    // 0 to about 1.5
   Real temperature;  // 0 polar to 1 tropical
   Real moisture;     // 0 desert to 1 rain forest
   Real detail;       // fine noise
 };
 
-// Rain by latitude: dry belts at about 25° (sine 0.42), on both sides of the rainy equator, and dry inner continents.
+// Rainfall by latitude: dry belts at about 25° (sine 0.42) on both sides of the rainy equator, and dry interiors of continents.
 Real moisture_at(const Vec& p, Real height) {
   const Real from_belt = (abs(p.y) - Real(0.42f)) * Real(1.0f / 0.26f);
   const Real dry = max(Real(1.0f) - from_belt * from_belt, Real(0.0f));
@@ -38,9 +38,9 @@ Real moisture_at(const Vec& p, Real height) {
          Real(0.35f) * step(0.15f, 0.55f, height);
 }
 
-// What the sea does not need is left out where a whole packet is sea: its land colour is mixed in with weight 0.
+// If the whole packet is sea, terms that only affect land are skipped: the land color gets a weight of 0 there.
 Terrain terrain_at(const Vec& p, float coast) {
-  // Coasts are bent by a second noise, so that continents do not look like blots.
+  // A second noise distorts the coastlines; without it, continents look like blots.
   const Vec bend(cloud(scaled(p, 1.9f, 3.1f, 8.2f, 1.7f), 2, 101), cloud(scaled(p, 1.9f, 11.4f, 2.9f, 6.3f), 2, 202),
                  cloud(scaled(p, 1.9f, 5.6f, 13.8f, 9.1f), 2, 303));
   const Vec q = scaled(p, 1.25f, 4.7f, 2.3f, 7.9f) + bend * Vec(Real(0.30f));
@@ -62,7 +62,7 @@ Terrain terrain_at(const Vec& p, float coast) {
   return t;
 }
 
-// sRGB codes from 0 to 255, mixed as they are.
+// sRGB values from 0 to 255, blended without decoding.
 constexpr glm::vec3 kAbyss(9, 24, 58), kOcean(15, 47, 98), kShelf(42, 110, 148), kShallows(98, 168, 178);
 constexpr glm::vec3 kRainForest(30, 68, 30), kForest(52, 86, 42), kGrass(112, 126, 68), kSavanna(158, 144, 86);
 constexpr glm::vec3 kDesert(211, 182, 132), kSand(222, 200, 158), kTaiga(58, 78, 56), kTundra(128, 120, 98);
@@ -86,25 +86,26 @@ Vec land_color(const Terrain& t) {
   c = blend(c, kTundra, step(0.42f, 0.30f, warmth));
   c = blend(c, kSand, Real(0.5f) * step(0.018f, 0.0f, t.height) * step(0.4f, 0.6f, warmth));
   c = blend(c, kRock, Real(0.85f) * step(0.40f, 0.95f, t.mountains + Real(0.15f) * t.detail));
-  // Snow lies where it is cold, and on high crests earlier.
+  // Snow appears where it is cold. On high crests it appears at warmer temperatures.
   const Real cold = warmth - Real(0.22f) * step(0.7f, 1.4f, t.mountains);
   c = blend(c, kSnow, step(0.27f, 0.17f, cold));
-  // Light and shade of the fine relief.
+  // Shading of the fine relief.
   const Real shade = Real(1.0f) + Real(0.10f) * t.detail + Real(0.10f) * (t.mountains - Real(0.3f)) * step(0.1f, 0.5f, t.mountains);
   return c * shade;
 }
 
-// Half the height over which sea turns into land: about that of one pixel, so that coasts are not jagged.
+// Half the height range over which sea blends into land. It is about the height difference across a pixel and antialiases the
+// coasts.
 float coast_of(int width) { return 6.0f / static_cast<float>(width); }
 
-// Directions of W pixels of a row, from x on.
+// Returns the directions of kLanes pixels of a row, starting at x.
 HS_INLINE Vec directions(const Longitudes& longitudes, const SinCosDouble& latitude, int x) {
   const Real ring(static_cast<float>(latitude.sin));
   return Vec(ring * load<Real>(longitudes.cos.data() + x), Real(static_cast<float>(latitude.cos)),
              ring * load<Real>(longitudes.minus_sin.data() + x));
 }
 
-// f(first pixel, terrain of W pixels) for a row of `width`.
+// Calls f(x, terrain) for each packet of kLanes pixels of a row, where x is the first pixel.
 template <class F>
 HS_INLINE void for_each_terrain(int width, int row, int height, const Longitudes& longitudes, const F& f) {
   const SinCosDouble latitude = sincos_turns(0.5 * (row + 0.5) / height);
@@ -123,7 +124,7 @@ void put_colors(const Terrain& t, int x, std::span<glm::u8vec4> row) {
   }
 }
 
-// Plains that rise inland, and mountains on them. The sea lies flat.
+// Plains that rise inland with mountains on top. The sea is flat.
 void put_heights(const Terrain& t, int x, std::span<float> row) {
   const float coast = coast_of(static_cast<int>(row.size()));
   const Real plain = Real(0.012f) + Real(0.25f) * max(t.height, Real(0.0f)) + Real(0.02f) * t.detail;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The invented Moon, row by row: basins and highlands from noise, the old craters, lava in what lies low, the young craters
-// upon it, their rays, and colour from all of them. Lanes run along a row.
+// The procedural Moon, computed row by row: basins and highlands from noise, old craters, lava in the lowlands, young craters on
+// top of it, their rays, and the color derived from all of them. SIMD lanes run along a row.
 #include "halfspace/procedural/moon.h"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ using namespace procedural;
 
 // ---- basins ----------------------------------------------------------------------------------------------------
 
-// A great old impact: degrees east and north, degrees of radius, km of depth, of its mountain ring, and of the level that
-// lava has risen to within it (low enough: none).
+// A large old impact: position in degrees east and north, radius in degrees, and three heights in km: the depth, the mountain ring,
+// and the level to which lava has risen inside. kDry means no lava.
 struct Basin {
   double east, north;
   float radius, depth, ring, lava;
@@ -48,14 +48,14 @@ constexpr Basin kBasins[] = {
     {22, 56, 7.5f, 2.9f, 0.0f, -1.5f},     //
     {40, 52, 6.0f, 2.7f, 0.0f, -1.5f},     //
     {3, 13, 5.5f, 2.8f, 0.1f, -1.5f},      // Vaporum
-    {-93, -19, 13.0f, 2.0f, 1.5f, kDry},   // Orientale, and lava in it
+    {-93, -19, 13.0f, 2.0f, 1.5f, kDry},   // Orientale and its lava
     {-94, -20, 5.0f, 2.4f, 0.5f, -2.9f},   //
     {87, -2, 6.5f, 3.0f, 0.4f, -1.9f},     // Smythii
     {87, 13, 6.0f, 2.9f, 0.4f, -1.9f},     // Marginis
     {93, -40, 8.0f, 2.6f, 0.3f, -1.9f},    // Australe
     {148, 27, 5.0f, 3.8f, 0.9f, -1.9f},    // Moscoviense
     {163, -34, 4.0f, 3.2f, 0.4f, -2.8f},   // Ingenii
-    {-169, -54, 33.0f, 3.4f, 0.8f, kDry},  // the South Pole's, and lava in it
+    {-169, -54, 33.0f, 3.4f, 0.8f, kDry},  // South Pole-Aitken and its lava
     {-176, -48, 5.0f, 1.2f, 0.0f, -3.1f},  //
     {-129, 2, 15.0f, 2.2f, 1.0f, kDry},    // Hertzsprung
     {-158, 5, 10.0f, 1.8f, 0.8f, kDry},    // Korolev
@@ -65,7 +65,7 @@ constexpr Basin kBasins[] = {
 
 struct PlacedBasin {
   glm::vec3 center;
-  float per_radius;  // 1/radius, of chords
+  float per_radius;  // 1/radius, as a chord
   float depth, ring, lava;
 };
 
@@ -82,12 +82,12 @@ std::vector<PlacedBasin> placed_basins() {
 
 // ---- the ground ------------------------------------------------------------------------------------------------
 
-// All in km.
+// Heights in km.
 struct Ground {
-  Real height;  // before any crater
-  Real lava;    // the level that lava would rise to
-  Real floor;   // how deep the basins of lava are
-  Real basin;   // 1 within the basins of lava, 0 outside
+  Real height;  // without craters
+  Real lava;    // level to which lava would rise
+  Real floor;   // depth of basins with lava
+  Real basin;   // 1 within basins with lava, 0 outside
 };
 
 void add_basin(Ground& g, const PlacedBasin& b, const Vec& p, Real gaps) {
@@ -102,7 +102,7 @@ void add_basin(Ground& g, const PlacedBasin& b, const Vec& p, Real gaps) {
     g.height -= Real(b.depth) * inside;
     return;
   }
-  // Where basins of lava overlap, the deeper floor counts, not the sum.
+  // Overlapping basins with lava take the maximum of their depths, not the sum.
   g.floor = max(g.floor, Real(b.depth) * inside);
   g.lava = max(g.lava, Real(b.lava) - Real(9.0f) * step(0.90f, 1.4f, x));
   g.basin = max(g.basin, step(1.1f, 0.9f, x));
@@ -111,7 +111,7 @@ void add_basin(Ground& g, const PlacedBasin& b, const Vec& p, Real gaps) {
 Ground ground_at(const Vec& p, const std::vector<PlacedBasin>& basins) {
   Ground g{Real(0.9f) * cloud(scaled(p, 2.3f, 3.9f, 7.1f, 1.6f), 5, 501) + Real(0.55f) + Real(0.9f) * p.x, Real(kDry), Real(0.0f),
            Real(0.0f)};
-  // Shores are bent by noise.
+  // Noise distorts the shores.
   const Vec bend(cloud(scaled(p, 3.1f, 2.2f, 5.8f, 9.4f), 3, 511), cloud(scaled(p, 3.1f, 8.5f, 1.4f, 3.3f), 3, 521),
                  cloud(scaled(p, 3.1f, 4.1f, 6.6f, 7.2f), 3, 531));
   const Vec q = p + bend * Vec(Real(0.095f));
@@ -122,21 +122,21 @@ Ground ground_at(const Vec& p, const std::vector<PlacedBasin>& basins) {
 
 // ---- rows ------------------------------------------------------------------------------------------------------
 
-// What does not change from row to row.
+// Data shared by all rows.
 struct Moon {
   Longitudes longitudes;
   std::vector<PlacedBasin> basins;
   Craters craters;
-  std::vector<std::vector<std::size_t>> craters_of_row;  // from old to young
+  std::vector<std::vector<std::size_t>> craters_of_row;  // crater indices, from old to young
   int octaves;                                           // of the finest noise
 };
 
-// A row of the map in the making.
+// A row of the map under construction.
 struct MoonRow {
   CraterRow craters;
   std::vector<float> height, lava;  // km
-  std::vector<float> basin;         // 1 within the basins of lava
-  std::vector<float> sea;           // how much of the texel is sea
+  std::vector<float> basin;         // 1 within basins with lava
+  std::vector<float> sea;           // fraction of the texel that is mare
 };
 
 std::vector<std::vector<std::size_t>> craters_by_row(const Craters& craters, int height) {
@@ -179,16 +179,16 @@ void lay_ground(const Moon& moon, MoonRow& row) {
   });
 }
 
-// Fills what lies below the lava's level, nearly level itself, and leaves a trace of what it covers.
+// Fills terrain below the lava level with nearly flat lava. A trace of the covered relief remains visible.
 void flood(MoonRow& row) {
   for_row(row, [&](std::size_t x) {
     const Vec p = place(row.craters, x);
     const Real height = load<Real>(&row.height[x]), lava = load<Real>(&row.lava[x]);
-    // Most of what is older than the basin went with it.
+    // The impact that formed the basin destroyed most of the older relief.
     const Real relief = load<Real>(&row.craters.relief[x]) * (Real(1.0f) - Real(0.6f) * load<Real>(&row.basin[x]));
     const Real below = lava - (height + relief);
     const Real sea = step(-0.12f, 0.22f, below);
-    // Where lava thins out, the highlands show through.
+    // Highlands show through thin lava.
     store(&row.sea[x], Real(0.25f) * step(-0.6f, 0.2f, below) + Real(0.75f) * step(-0.15f, 0.6f, below));
     const Real wrinkles = Real(0.10f) * ridges(scaled(p, 9.0f, 1.1f, 4.9f, 7.3f), 3, 551);
     store(&row.height[x], lerp(height, lava + wrinkles, sea));
@@ -196,7 +196,7 @@ void flood(MoonRow& row) {
   });
 }
 
-// sRGB codes from 0 to 255, mixed as they are.
+// sRGB values from 0 to 255, blended without decoding.
 constexpr glm::vec3 kHighland(158, 154, 148), kSeaBlue(82, 83, 85), kSeaBrown(95, 92, 88), kFreshDust(232, 230, 226);
 
 Vec color_at(const Moon& moon, const Vec& p, Real sea, Real light) {
@@ -235,7 +235,7 @@ void fill_row(const Moon& moon, int y, MoonMaps& maps) {
   finish(moon, row, maps.color.row(y), maps.height.row(y));
 }
 
-// As many that the finest has about three texels from wave to wave.
+// Returns the number of octaves for which a lattice cell of the finest noise is about one texel wide.
 int octaves_of(int width) {
   int octaves = 1;
   while (octaves < 12 && (60 << octaves) < width) ++octaves;

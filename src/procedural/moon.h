@@ -9,16 +9,16 @@
 
 namespace halfspace {
 
-/// Equirectangular maps laid out as uv_sphere's: row 0 is the north, the middle of the map the middle of the near side.
+/// Equirectangular maps in the layout of uv_sphere: row 0 is the north; the center of the map is the center of the near side.
 struct MoonMaps {
-  Image<glm::u8vec4> color;  // sRGB codes, alpha 255, without light and shade
-  Image<uint16_t> height;    // 0 to 65535 is −10 km to 10 km above the mean sphere of 1737.4 km
+  Image<glm::u8vec4> color;  // 8-bit sRGB, alpha 255, without shading
+  Image<uint16_t> height;    // 0 to 65535 map to −10 km to 10 km relative to the mean radius of 1737.4 km
 };
 
-/// An invented Moon whose seas and great young craters lie as the Moon's: craters of all sizes down to a texel or two, bowls
-/// and walled plains, maria, bright rays. All is computed on the sphere, so there is no seam and no pinch at the poles. A wider
-/// map shows the same Moon with more small craters. `width` ≥ 2 and even, the height is half of it. The bits depend on the
-/// width alone.
+/// Returns a procedural Moon. Maria and large young craters are placed as on the real Moon. Craters range from walled plains to
+/// bowls of one or two texels; young ones have bright rays. Everything is computed on the sphere, so there is no seam and the poles
+/// are not pinched. A wider map shows the same Moon with additional small craters. `width` must be even and ≥ 2; the height is
+/// width / 2. The result depends only on the width, bit for bit.
 MoonMaps procedural_moon(int width, const Workers& workers);
 
 }  // namespace halfspace

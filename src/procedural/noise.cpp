@@ -11,7 +11,7 @@ namespace halfspace::procedural {
 
 namespace {
 
-// Lanes wrap round; for a plain int (lanes = 1) that must be said.
+// SIMD lanes wrap on overflow. A plain int (SIMD width 1) needs unsigned arithmetic for that.
 template <class I>
 HS_INLINE I wrapping_add(I a, int32_t b) {
   if constexpr (std::is_same_v<I, int32_t>) {
@@ -24,7 +24,7 @@ HS_INLINE I wrapping_add(I a, int32_t b) {
 // The top bits of the result depend on all bits of h.
 HS_INLINE Int scramble(Int h) { return wrapping_mul(h ^ (h >> 15), 0x2c1b3c6d); }
 
-// The dot product of (x, y, z) with one of the eight directions (±1, ±1, ±1), chosen by the top three bits.
+// Returns the dot product of (x, y, z) with one of the eight directions (±1, ±1, ±1), chosen by the top three bits of the hash.
 HS_INLINE Real gradient(Int hash, Real x, Real y, Real z) {
   const Int sign(INT32_MIN);
   return as_real(as_int(x) ^ (hash & sign)) + as_real(as_int(y) ^ ((hash << 1) & sign)) + as_real(as_int(z) ^ ((hash << 2) & sign));
@@ -32,7 +32,7 @@ HS_INLINE Real gradient(Int hash, Real x, Real y, Real z) {
 
 HS_INLINE Real fade(Real t) { return t * t * t * fma(t, fma(t, Real(6.0f), Real(-15.0f)), Real(10.0f)); }
 
-// The next octave's point: twice as fine (nearly, so that lattices do not line up), turned and moved.
+// Maps a point to the next octave: scaled by nearly two so that lattices do not line up, rotated and translated.
 HS_INLINE Vec next_octave(const Vec& p) {
   return Vec(fma(p.x, Real(1.624f), fma(p.y, Real(-0.974f), Real(17.3f))),
              fma(p.x, Real(0.771f), fma(p.y, Real(1.285f), fma(p.z, Real(-1.304f), Real(-9.7f)))),
@@ -76,7 +76,7 @@ Real ridges(Vec p, int octaves, int32_t seed) {
   float strength = 1.0f;
   for (int i = 0; i < octaves; ++i) {
     const Real r = max(Real(1.0f) - Real(1.6f) * abs(noise(p, seed + i)), Real(0.0f));
-    crest = r * r * min(Real(2.0f) * crest, Real(1.0f));  // fine crests only upon coarse ones
+    crest = r * r * min(Real(2.0f) * crest, Real(1.0f));  // fine crests only on top of coarse ones
     sum += Real(strength) * crest;
     strength *= 0.5f;
     p = next_octave(p);
@@ -86,10 +86,10 @@ Real ridges(Vec p, int octaves, int32_t seed) {
 
 namespace {
 
-// x of a lattice point, modulo the period. Exact: both are small whole numbers.
+// Returns the coordinate of a lattice point modulo the period. Exact, because both are small integers.
 HS_INLINE Real modulo(Real x, Real period) { return x - period * floor(x / period); }
 
-// Of eight directions 45° apart, all of length √2.
+// Returns the dot product of (x, y) with one of eight directions, 45° apart and of length √2.
 HS_INLINE Real plane_gradient(Int hash, Real x, Real y) {
   const Int sign(INT32_MIN);
   const Real a = as_real(as_int(x) ^ (hash & sign)), b = as_real(as_int(y) ^ ((hash << 1) & sign));
@@ -97,7 +97,7 @@ HS_INLINE Real plane_gradient(Int hash, Real x, Real y) {
   return select((hash & 0x08000000) == 0, a + b, straight);
 }
 
-// Calls octave(noise, strength) from coarse to fine. Each octave is moved, so that lattices do not line up.
+// Calls octave(noise, strength) from coarse to fine. Each octave is shifted so that lattices do not line up.
 template <class F>
 void for_each_octave(Real u, Real v, int period_u, int period_v, int octaves, int texels, int32_t seed, F octave) {
   float strength = 1.0f;
@@ -138,7 +138,7 @@ Real tiled_ridges(Real u, Real v, int period_u, int period_v, int octaves, int t
   Real sum(0.0f), crest(1.0f);
   for_each_octave(u, v, period_u, period_v, octaves, texels, seed, [&](Real noise, float strength) {
     const Real r = max(Real(1.0f) - Real(1.6f) * abs(noise), Real(0.0f));
-    crest = r * r * min(Real(2.0f) * crest, Real(1.0f));  // fine crests only upon coarse ones
+    crest = r * r * min(Real(2.0f) * crest, Real(1.0f));  // fine crests only on top of coarse ones
     sum = fma(Real(strength), crest, sum);
   });
   return sum;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Colours of the procedural maps: sRGB codes from 0 to 255, blended without decoding.
+// Color helpers for the procedural maps. Colors are sRGB values from 0 to 255, blended without decoding.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,10 +10,10 @@
 
 namespace halfspace::procedural {
 
-/// The same colour in all lanes.
+/// Broadcasts a color to all lanes.
 HS_INLINE Vec tint(const glm::vec3& c) { return Vec(Real(c.x), Real(c.y), Real(c.z)); }
 
-/// From a (t = 0) to b (t = 1).
+/// Interpolates from a (t = 0) to b (t = 1).
 HS_INLINE Vec blend(const Vec& a, const Vec& b, Real t) { return Vec(lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t)); }
 HS_INLINE Vec blend(const Vec& a, const glm::vec3& b, Real t) { return blend(a, tint(b), t); }
 

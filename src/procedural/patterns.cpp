@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lanes run along a row; only correctly rounded operations are used (procedural/noise.h), so the maps have the same bits at every
-// lane width.
+// SIMD lanes run along a row. Only correctly rounded operations are used (procedural/noise.h), so the maps are bit-identical for
+// every SIMD width.
 #include "halfspace/procedural/patterns.h"
 
 #include <algorithm>
@@ -17,15 +17,15 @@ namespace {
 
 using namespace procedural;
 
-// What one texel is made of.
+// Material of one texel.
 struct Matter {
-  Vec color = tint(glm::vec3(128.0f));  // codes
+  Vec color = tint(glm::vec3(128.0f));  // sRGB values, 0 to 255
   Real specular{0.0f};                  // 0 to 1
   Vec emissive = tint(glm::vec3(0.0f));
   Real height{0.5f};  // 0 to 1
 };
 
-// Where a texel is: (u, v) of its centre in [0, 1), and how many there are across the map.
+// Position of a texel: (u, v) of its center in [0, 1), and the number of texels across the map.
 struct Place {
   Real u, v;
   int texels;
@@ -50,7 +50,7 @@ Matter grass(const Place& p) {
 constexpr glm::vec3 kBarkDark(44, 33, 25), kBarkMiddle(104, 82, 62), kBarkLight(152, 132, 110), kMoss(96, 110, 58);
 
 Matter bark(const Place& p) {
-  // Ridges run along v and are bent a little.
+  // Ridges run along v and are slightly bent.
   const Real bend = Real(0.02f) * tiled_cloud(p.u, p.v, 3, 5, 3, p.texels, 1101);
   const Real ridge = tiled_ridges(p.u + bend, p.v, 10, 2, 5, p.texels, 1111);
   const Real fine = tiled_cloud(p.u, p.v, 48, 16, 3, p.texels, 1121);
@@ -85,7 +85,7 @@ Matter hills(const Place& p) {
 
 // ---- bricks, facade, checkerboard --------------------------------------------------------------------------------
 
-// A number in [0, 1) for a cell of a grid.
+// Returns a pseudorandom number in [0, 1) for a cell of a grid.
 HS_INLINE Real chance(Real column, Real row, int32_t seed) {
   const Int cell = wrapping_mul(truncate_to_int(column), 0x1b873593) ^ wrapping_mul(truncate_to_int(row), 0x19d699a5) ^ Int(seed);
   return unit_fraction<Real>(mix_bits(cell));
@@ -100,7 +100,8 @@ Matter bricks(const Place& p) {
   const Real y = p.v * Real(kRows), row = floor(y);
   const Real x = fma(p.u, Real(kColumns), Real(0.5f) * modulo_whole(row, 2.0f)), column = modulo_whole(floor(x), kColumns);
   const Real fine = tiled_cloud(p.u, p.v, 64, 64, 3, p.texels, 1401), wear = tiled_cloud(p.u, p.v, 16, 16, 4, p.texels, 1411);
-  // Joints are as wide along both axes: a brick is twice as long as high. Their edges are worn.
+  // A brick is twice as long as it is high, so the joint is doubled along y to be equally wide along both axes. Noise wears the
+  // edges.
   constexpr float kJoint = 0.03f;
   const Real worn = Real(0.012f) * wear;
   const auto along = [&](Real t, float joint) { return min(t, Real(1.0f) - t) - Real(joint) + worn * Real(joint / kJoint); };
@@ -121,7 +122,7 @@ constexpr glm::vec3 kPlaster(186, 174, 152), kFrame(226, 222, 212), kGlassDark(2
 Matter facade(const Place& p) {
   constexpr float kWindows = 4.0f;
   const Real x = p.u * Real(kWindows), y = p.v * Real(kWindows), column = floor(x), row = floor(y), fx = x - column, fy = y - row;
-  const float texel = kWindows / static_cast<float>(p.texels);  // edges are two texels soft
+  const float texel = kWindows / static_cast<float>(p.texels);  // edges are two texels wide
   const auto box = [&](float left, float right, float top, float bottom) {
     const auto band = [&](Real t, float low, float high) {
       return step(low - texel, low + texel, t) * step(high + texel, high - texel, t);
@@ -135,13 +136,13 @@ Matter facade(const Place& p) {
   const Real fine = tiled_cloud(p.u, p.v, 48, 48, 3, p.texels, 1501), stains = tiled_cloud(p.u, p.v, 6, 3, 5, p.texels, 1511);
   Matter m;
   m.color = tint(kPlaster) * (Real(1.0f) + Real(0.05f) * fine + Real(0.10f) * stains);
-  m.color = m.color * (Real(1.0f) - Real(0.35f) * box(0.0f, 1.0f, 0.96f, 1.0f));  // the joint between two storeys
+  m.color = m.color * (Real(1.0f) - Real(0.35f) * box(0.0f, 1.0f, 0.96f, 1.0f));  // joint between two storeys
   m.color = blend(m.color, kFrame, max(frame, sill));
   const Real reflection = step(0.2f, 0.8f, fx + Real(0.5f) * fy - Real(0.3f) + Real(0.2f) * chance(column, row, 1521));
   const Vec pane = blend(tint(kGlassDark), kGlassSky, Real(0.6f) * reflection);
   for (int c = 0; c < 3; ++c) m.color[c] = lerp(m.color[c], pane[c], glass);
   m.specular = Real(0.04f) + Real(0.12f) * frame + Real(0.80f) * glass;
-  // A third of the windows is lit, each by a lamp of its own, brighter towards the top.
+  // A third of the windows are lit with varying brightness, brighter towards the top.
   const Real lamp = step(0.64f, 0.66f, chance(column, row, 1531)) * (Real(0.55f) + Real(0.45f) * chance(column, row, 1541));
   m.emissive = tint(kLamp) * (glass * lamp * (Real(1.0f) - Real(0.35f) * fy));
   m.height = Real(0.5f) + Real(0.2f) * max(frame, sill) - Real(0.4f) * glass;
@@ -149,7 +150,7 @@ Matter facade(const Place& p) {
 }
 
 Matter checkerboard(int x, int y, int width) {
-  // The square of a texel's centre, in whole numbers; lanes do not pay here.
+  // The square that contains the texel center, in integer arithmetic. SIMD lanes would not pay off here.
   const auto square = [&](int i) { return (2 * i + 1) * 8 / (2 * width); };
   Matter m;
   m.color = tint(glm::vec3((square(x) + square(y)) % 2 == 0 ? 255.0f : 0.0f));

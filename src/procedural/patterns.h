@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Materials that tile: square maps whose left and right, upper and lower edges meet.
+// Procedural materials as square maps that tile in both directions.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,29 @@
 
 namespace halfspace {
 
-/// What is shown, v downwards:
-///   checkerboard  8 x 8 squares, the first white, black beside it
-///   grass         a meadow from above
+/// Content of a pattern, with v pointing down:
+///   checkerboard  8 x 8 squares, white in the first corner
+///   grass         a meadow seen from above
 ///   bark          ridges along v
 ///   bricks        4 x 8 bricks in running bond
-///   facade        4 x 4 windows, some with light behind them
+///   facade        4 x 4 windows, some of them lit
 ///   rock          weathered stone
-///   hills         heights of a landscape, as a grey map too
+///   hills         heights of a landscape, also as a gray color map
 enum class Pattern : uint8_t { checkerboard, grass, bark, bricks, facade, rock, hills };
 
-/// Row 0 is the top. All maps are square and of one size; those that a pattern does not have are one value everywhere.
+/// The maps of a pattern, all square and of the same size, with row 0 at the top. Maps that a pattern does not use are constant.
 struct PatternMaps {
-  Image<glm::u8vec4> color;     ///< sRGB codes, alpha 255
-  Image<glm::u8vec4> specular;  ///< grey factor of highlights, code/255: 1 for glass, 0 for what is dull
-  Image<glm::u8vec4> emissive;  ///< sRGB codes of the light at night: black but for lit windows
-  Image<uint16_t> height;       ///< 0 to 65535, low to high
+  Image<glm::u8vec4> color;     ///< sRGB values, alpha 255
+  Image<glm::u8vec4> specular;  ///< gray specular factor, value/255: 0 for diffuse surfaces; highest on glass
+  Image<glm::u8vec4> emissive;  ///< sRGB values of the light emitted at night: black except for lit windows
+  Image<uint16_t> height;       ///< 0 (low) to 65535 (high)
 };
 
-/// The widths that a scene gives patterns by itself.
+/// Range of the widths that scenes choose automatically.
 inline constexpr int kMinPattern = 64, kMaxPattern = 2048;
 
-/// Makes a pattern's maps of `width` x `width` texels, width ≥ 1; nothing in them is finer than two texels, but for sharp
-/// edges. The bits depend on pattern and width alone.
+/// Generates the maps of a pattern with `width` x `width` texels, width ≥ 1. Apart from sharp edges, they contain no detail finer
+/// than two texels. The result depends only on pattern and width, bit for bit.
 PatternMaps procedural_pattern(Pattern pattern, int width, const Workers& workers);
 
 }  // namespace halfspace

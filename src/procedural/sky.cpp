@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The invented skies: gradients by height, lobes about the sun, noise (procedural/noise.h). Lanes run along a row; only correctly
-// rounded operations are used, so the faces have the same bits at every lane width.
+// Procedural skies: vertical gradients, lobes around the sun, and noise (procedural/noise.h). SIMD lanes run along a row. Only
+// correctly rounded operations are used, so the faces are bit-identical for every SIMD width.
 #include "halfspace/procedural/sky.h"
 
 #include "halfspace/core/check.h"
@@ -16,13 +16,13 @@ namespace {
 
 using namespace procedural;
 
-// x^(2^n) for x in [0, 1].
+// Returns x^(2^n) for x in [0, 1].
 HS_INLINE Real squared(Real x, int n) {
   for (int i = 0; i < n; ++i) x = x * x;
   return x;
 }
 
-// How far up: 0 at the horizon and below, 1 at the zenith, most of it soon.
+// Rises from 0 at and below the horizon to about 1 at the zenith, steeply near the horizon.
 HS_INLINE Real height_of(const Vec& d) { return Real(1.0f) - exp(max(d.y, Real(0.0f)) * Real(-4.0f)); }
 // 0 above the horizon, 1 below the haze.
 HS_INLINE Real ground_of(const Vec& d) { return step(0.0f, 0.06f, -d.y); }
@@ -32,11 +32,11 @@ HS_INLINE Real ground_of(const Vec& d) { return step(0.0f, 0.06f, -d.y); }
 constexpr glm::vec3 kZenith(0.09f, 0.22f, 0.56f), kHorizon(0.52f, 0.68f, 0.88f), kDusk(0.95f, 0.42f, 0.14f);
 constexpr glm::vec3 kCloud(0.92f, 0.94f, 0.98f), kDuskCloud(0.95f, 0.55f, 0.38f), kGround(0.11f, 0.105f, 0.09f);
 
-// What the sun's height makes of all colours, the same for the whole sky.
+// Effects of the sun's elevation, constant over the sky.
 struct Daylight {
-  Real low;     // 1 where the sun is at the horizon
+  Real low;     // 1 with the sun near or below the horizon, 0 with a high sun
   Real bright;  // factor of all light
-  Real disc;    // of the sun's own light
+  Real disc;    // factor of the sun's disc
 };
 
 Daylight daylight_of(float sun_y) {
@@ -46,20 +46,20 @@ Daylight daylight_of(float sun_y) {
 }
 
 Vec clear_sky(const Vec& d, Real toward_sun, const Daylight& day) {
-  // Dusk reddens the side of the sun more, and what is low most.
+  // Dusk reddens the side towards the sun and the lower sky most.
   const Real side = (Real(0.5f) + Real(0.5f) * toward_sun) * (Real(0.5f) + Real(0.5f) * toward_sun);
   const Vec horizon = blend(tint(kHorizon), tint(kDusk), day.low * (Real(0.15f) + Real(0.85f) * side));
   return blend(horizon, tint(kZenith), height_of(d));
 }
 
-// Lobes about the sun: haze, aureole, disc (half its light within a degree).
+// Lobes around the sun: haze, aureole and disc. Half of the disc's light is within one degree of the center.
 Vec sun_light(Real toward_sun, const Daylight& day) {
   const Real s = max(toward_sun, Real(0.0f));
   const Vec color = blend(Vec(Real(1.0f), Real(0.96f), Real(0.88f)), Vec(Real(1.0f), Real(0.55f), Real(0.22f)), day.low);
   return color * (Real(0.25f) * squared(s, 3) + Real(0.8f) * squared(s, 7) + Real(25.0f) * squared(s, 12) * day.disc);
 }
 
-// A layer of clouds at one height, seen from below: the noise is looked up where the ray meets it.
+// A cloud layer at constant height, seen from below. The noise is evaluated where the view ray meets the layer.
 Vec with_clouds(const Vec& sky, const Vec& d, Real toward_sun, const Daylight& day, float cover) {
   const Real above = step(0.01f, 0.16f, d.y);
   if (cover <= 0.0f || none(above > Real(0.0f))) return sky;
@@ -88,7 +88,7 @@ constexpr glm::vec3 kNightZenith(0.0008f, 0.0011f, 0.0024f), kNightHorizon(0.002
 constexpr glm::vec3 kGalacticPole(0.62f, 0.35f, -0.7022f);  // unit vector
 constexpr glm::vec3 kGalacticCentre(0.5418f, 0.4564f, 0.7058f);
 
-// A band of unresolved stars, brighter towards its centre, with clouds of dust before it.
+// A band of unresolved stars, brighter towards the galactic center, behind dust clouds.
 Vec milky_way(const Vec& d) {
   const Real across = dot(d, kGalacticPole) + Real(0.05f) * cloud(scaled(d, 3.0f, 1.1f, 2.2f, 3.3f), 3, 601);
   const Real band = max(exp(across * across * Real(-22.0f)) - Real(1e-3f), Real(0.0f));
@@ -106,7 +106,7 @@ Vec night_light(const Vec& d, const NightSky& sky) {
 
 // ---- faces -------------------------------------------------------------------------------------------------------------
 
-// light(d) in every texel's direction.
+// Evaluates light(d) for the direction d of every texel.
 template <class Light>
 SkyFaces fill_faces(int size, const Light& light, const Workers& workers) {
   HS_CHECK_OP(size, >=, 1);

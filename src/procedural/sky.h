@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Skies made by the program, as the six faces of a cube in the order and directions of shading/environment.h (map space:
-// z ahead, which is −z of the world). Linear light; 1 is what a white surface in the noon sun sends back.
+// Procedural skies as the six faces of a cube map, in the face order and orientation of shading/environment.h. Map space has z
+// ahead, which is −z in world space. Values are linear; 1 is the radiance of a white surface in the noon sun.
 #pragma once
 
 #include <array>
@@ -15,18 +15,19 @@ namespace halfspace {
 using SkyFaces = std::array<Image<glm::vec4>, 6>;
 
 struct DaySky {
-  glm::vec3 sun_ms{0, 1, 0};  ///< unit vector; the lower it is, the redder and darker the sky
-  float clouds = 0.4f;        ///< 0 none to 1 overcast
+  glm::vec3 sun_ms{0, 1, 0};  ///< unit vector; a lower sun makes the sky redder and darker
+  float clouds = 0.4f;        ///< from 0 (none) to 1 (overcast)
 };
 struct NightSky {
-  float milky_way = 1.0f;  ///< factor of its light
+  float milky_way = 1.0f;  ///< brightness factor
 };
 
-/// Blue that pales towards the horizon, glow and disc of the sun, clouds, and hazy ground below. Its luminance is 0.2 to 2 away
-/// from the sun. The bits depend on the arguments alone. size >= 1: texels along a face.
+/// Returns a blue sky that pales towards the horizon, with glow and disc of the sun, clouds, and hazy ground below. Away from the
+/// sun its luminance is 0.2 to 2. The result depends only on the arguments, bit for bit. size ≥ 1 is the width of a face in texels.
 SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers);
 
-/// Dark blue, the Milky Way and ground; no stars, which StarSky has sharper. Luminance 1e-3 to 1e-2.
+/// Returns a dark blue sky with the Milky Way and ground. It has no stars; StarSky draws sharper ones. Its luminance is 1e-3 to
+/// 1e-2.
 SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& workers);
 
 }  // namespace halfspace
