@@ -62,22 +62,22 @@ Numbers rate_at(const AnimationDescription& a, const Json& start, double seconds
 }  // namespace
 
 void check_animation(SceneDescription& scene, const AnimationDescription& a, const std::string& path, const std::string& source) {
-  if (a.target.empty()) throw InputError(source + ": " + path + ".target: missing; expected the path of a number or a vector");
+  if (a.target.empty()) throw InputError(source + ": " + path + ".target: missing; expected the path of a number or vector");
   const FoundKey found = find_key(scene, a.target, source + ": " + path + ".target");
   const Key& key = *found.field.key;
   for (const char* fixed : {"materials", "animations", "animation", "time"}) {
     if (found.words[0] != fixed) continue;
     throw InputError(source + ": " + path + ".target: " + a.target +
-                     " cannot change in time; expected a key of an object, a light, a camera or the background");
+                     " cannot be animated; expected a key of an object, a light, a camera or the background");
   }
   if (key.type != KeyType::number && !is_vector(key)) {
-    throw InputError(source + ": " + path + ".target: " + a.target + " is no number and no vector; expected the path of one");
+    throw InputError(source + ": " + path + ".target: " + a.target + " is neither a number nor a vector; expected the path of one");
   }
   const std::size_t size = is_vector(key) ? 3 : 1;
   const auto check_size = [&](const char* name, std::size_t got) {
     if (got != size) {
-      throw InputError(source + ": " + path + "." + name + ": expected " + (size == 3 ? "[x, y, z]" : "one number") + ", as " + a.target +
-                       " has");
+      throw InputError(source + ": " + path + "." + name + ": expected " + (size == 3 ? "[x, y, z]" : "one number") + ", since " +
+                       a.target + " is one");
     }
   };
   if (a.type == AnimationType::rate) check_size("rate", a.rate.size());
@@ -86,10 +86,11 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
     check_size("swing", a.swing.size());
   }
   if (a.type == AnimationType::orbit && size != 3) {
-    throw InputError(source + ": " + path + ".target: " + a.target + " is a number, and an orbit moves a vector; expected the path of one");
+    throw InputError(source + ": " + path + ".target: " + a.target +
+                     " is a number, but an orbit animates a vector; expected the path of one");
   }
   if (a.type == AnimationType::keyframes && a.keys.empty())
-    throw InputError(source + ": " + path + ".keys: is empty; expected rows [seconds, value]");
+    throw InputError(source + ": " + path + ".keys: empty; expected rows [seconds, value]");
   if (a.type == AnimationType::keyframes) check_size("keys", a.keys.front().second.size());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tables of all keys. A scene file, --set, `halfspace list` and the JSON Schema know no others.
+// Tables of all scene keys, continued in description_environment.cpp. Scene files, --set, `halfspace list` and the JSON Schema are
+// all based on them.
 #include "halfspace/scene/description.h"
 
 namespace halfspace {
@@ -93,10 +94,10 @@ constexpr const char* kGenerated =
 
 Section section_of(SceneHead& s) {
   static const std::vector<Key> keys{
-      key<&SceneHead::title>("title", "What the scene shows, in one line"),
-      key<&SceneHead::camera>("camera", "Name of the camera to render by; empty: the first"),
-      key<&SceneHead::ambient>("ambient", "Light that comes from everywhere, linear", {.low = 0, .high = kMaxCount}),
-      key<&SceneHead::samples>("samples", "Samples of a pixel that find edges: 1, 2, 4 or 8", {.low = 1, .high = 8}),
+      key<&SceneHead::title>("title", "Title of the scene, one line"),
+      key<&SceneHead::camera>("camera", "Name of the camera to render from; empty: the first"),
+      key<&SceneHead::ambient>("ambient", "Ambient light, linear", {.low = 0, .high = kMaxCount}),
+      key<&SceneHead::samples>("samples", "Samples per pixel for antialiasing: 1, 2, 4 or 8", {.low = 1, .high = 8}),
   };
   return {{keys, &s}};
 }
@@ -105,14 +106,13 @@ Section section_of(CameraDescription& c) {
   using T = CameraDescription;
   static const std::vector<Key> keys{
       key<&T::type>("type", "Projection"),
-      key<&T::position>("position", "Where the eye is", {.unit = "units"}),
-      key<&T::target>("target", "The point in the picture's middle", {.unit = "units"}),
-      key<&T::up>("up", "Direction that points upwards in the picture"),
-      key<&T::fov>("fov", "Vertical angle of view", {.unit = "degrees", .low = 0.01, .high = 179, .only = "perspective"}),
-      key<&T::height>("height", "What the picture's height spans",
-                      {.unit = "units", .low = kTiny, .high = kMaxCount, .only = "orthographic"}),
-      key<&T::near>("near", "Nearest distance that is drawn", {.unit = "units", .low = kTiny, .high = kMaxCount}),
-      key<&T::far>("far", "Farthest distance that is drawn", {.unit = "units", .low = kTiny, .high = kMaxCount}),
+      key<&T::position>("position", "Position of the camera", {.unit = "units"}),
+      key<&T::target>("target", "Point at the center of the image", {.unit = "units"}),
+      key<&T::up>("up", "Direction that points up in the image"),
+      key<&T::fov>("fov", "Vertical field of view", {.unit = "degrees", .low = 0.01, .high = 179, .only = "perspective"}),
+      key<&T::height>("height", "Height of the view volume", {.unit = "units", .low = kTiny, .high = kMaxCount, .only = "orthographic"}),
+      key<&T::near>("near", "Distance of the near plane", {.unit = "units", .low = kTiny, .high = kMaxCount}),
+      key<&T::far>("far", "Distance of the far plane", {.unit = "units", .low = kTiny, .high = kMaxCount}),
   };
   return {{keys, &c}};
 }
@@ -120,21 +120,23 @@ Section section_of(CameraDescription& c) {
 Section section_of(LightDescription& l) {
   using T = LightDescription;
   static const std::vector<Key> keys{
-      key<&T::type>("type", "Kind of light"),
-      key<&T::direction>("direction", "Where the light comes from, any length; a spot shines the other way", {.only = "directional spot"}),
-      key<&T::position>("position", "Where the light is", {.unit = "units", .only = "point spot"}),
-      key<&T::color>("color", "Colour, linear", {.low = 0}),
-      key<&T::intensity>("intensity", "Factor of the colour", {.low = 0}),
-      key<&T::ambient>("ambient", "Factor of its ambient light, which is the same everywhere", {.low = 0}),
-      key<&T::diffuse>("diffuse", "Factor of its diffuse light", {.low = 0}),
-      key<&T::specular>("specular", "Factor of its highlights", {.low = 0}),
-      key<&T::falloff>("falloff", "How light fades: by attenuation, or physically as 1 / d^2", {.only = "point spot"}),
-      key<&T::attenuation>("attenuation", "Terms c, l, q of 1 / (c + l d + q d^2) at distance d", {.low = 0, .only = "point spot"}),
-      key<&T::inner>("inner", "Angle to the axis up to which it shines in full",
+      key<&T::type>("type", "Type of light"),
+      key<&T::direction>("direction", "Direction towards the light, any length; a spot light shines the opposite way",
+                         {.only = "directional spot"}),
+      key<&T::position>("position", "Position of the light", {.unit = "units", .only = "point spot"}),
+      key<&T::color>("color", "Color, linear", {.low = 0}),
+      key<&T::intensity>("intensity", "Factor of the color", {.low = 0}),
+      key<&T::ambient>("ambient", "Factor of the light's ambient contribution, which is the same everywhere", {.low = 0}),
+      key<&T::diffuse>("diffuse", "Factor of the light's diffuse contribution", {.low = 0}),
+      key<&T::specular>("specular", "Factor of the light's specular contribution", {.low = 0}),
+      key<&T::falloff>("falloff", "Falloff with distance: by attenuation, or physical (1 / d^2)", {.only = "point spot"}),
+      key<&T::attenuation>("attenuation", "Coefficients c, l, q of 1 / (c + l d + q d^2) at distance d", {.low = 0, .only = "point spot"}),
+      key<&T::inner>("inner", "Angle from the axis up to which the light has full intensity",
                      {.unit = "degrees", .low = 0, .high = 180, .only = "spot"}),
-      key<&T::outer>("outer", "Angle to the axis from which on it is dark", {.unit = "degrees", .low = 0.01, .high = 180, .only = "spot"}),
+      key<&T::outer>("outer", "Angle from the axis beyond which there is no light",
+                     {.unit = "degrees", .low = 0.01, .high = 180, .only = "spot"}),
       key<&T::shadow>("shadow", "Whether the light casts shadows"),
-      key<&T::size>("size", "Radius, or of a directional light half the angle it spans, in degrees", {.low = 0, .high = 1e6}),
+      key<&T::size>("size", "Radius; for a directional light, half the angle it subtends, in degrees", {.low = 0, .high = 1e6}),
   };
   return {{keys, &l}};
 }
@@ -142,14 +144,14 @@ Section section_of(LightDescription& l) {
 Section section_of(TextureDescription& t) {
   using T = TextureDescription;
   static const std::vector<Key> keys{
-      key<&T::source>("source", "A file, or the generator that makes the map"),
+      key<&T::source>("source", "Image file, or generator of the map"),
       key<&T::file>("file", "Image file", {.only = "file"}),
-      key<&T::width>("width", "Width of the generated map, an even number; 0: what the view needs",
+      key<&T::width>("width", "Width of the generated map, an even number; 0: chosen for the view",
                      {.unit = "texels", .low = 0, .high = 16384, .only = kGenerated}),
-      key<&T::filter>("filter", "How texels are mixed"),
-      key<&T::wrap_s>("wrap_s", "What lies beyond the left and right edge"),
-      key<&T::wrap_t>("wrap_t", "What lies beyond the upper and lower edge"),
-      key<&T::anisotropy>("anisotropy", "Most samples along a stretched footprint", {.low = 1, .high = 16}),
+      key<&T::filter>("filter", "Texture filter"),
+      key<&T::wrap_s>("wrap_s", "Wrap mode beyond the left and right edges"),
+      key<&T::wrap_t>("wrap_t", "Wrap mode beyond the top and bottom edges"),
+      key<&T::anisotropy>("anisotropy", "Maximum number of anisotropic samples", {.low = 1, .high = 16}),
   };
   return {{keys, &t}};
 }
@@ -157,31 +159,30 @@ Section section_of(TextureDescription& t) {
 Section section_of(SurfaceDescription& s) {
   using T = SurfaceDescription;
   static const std::vector<Key> keys{
-      key<&T::color>("color", "Colour of the surface, or its map", {.low = 0}),
-      key<&T::tint>("tint", "Factor of the colour", {.low = 0}),
+      key<&T::color>("color", "Color of the surface, or a color map", {.low = 0}),
+      key<&T::tint>("tint", "Factor of the color", {.low = 0}),
       key<&T::ambient>("ambient", "Factor of the ambient light", {.low = 0}),
-      key<&T::ambient_map>("ambient_map", "Map of that factor", {.low = 0}),
-      key<&T::diffuse>("diffuse", "Factor of the light that is sent back every way", {.low = 0}),
-      key<&T::diffuse_map>("diffuse_map", "Map of that factor", {.low = 0}),
-      key<&T::specular>("specular", "Factor of the highlight", {.low = 0}),
-      key<&T::specular_map>("specular_map", "Map of that factor", {.low = 0}),
-      key<&T::shininess>("shininess", "Exponent of the highlight: larger is smaller and sharper", {.low = 0, .high = 1e5}),
-      key<&T::shininess_map>("shininess_map", "Map of a factor of the exponent, not decoded from sRGB", {.low = 0, .high = 1}),
-      key<&T::emissive>("emissive", "Light of the surface's own", {.low = 0}),
-      key<&T::emissive_map>("emissive_map", "Map of its factor", {.low = 0}),
-      key<&T::reflection>("reflection", "Factor of the light of the surroundings that is mirrored; for shading phong",
-                          {.low = 0, .high = 1e3}),
-      key<&T::textured>("textured", "Whether maps of colour count"),
-      key<&T::model>("model", "Highlight: none, by the reflected ray, by the half vector"),
-      key<&T::shading>("shading", "How often light is computed: never, by triangle, by vertex, by pixel"),
-      key<&T::two_sided>("two_sided", "Whether both sides are seen; a plane's always are"),
-      key<&T::normal>("normal", "What gives pixels' normals their detail; auto: the map that there is"),
-      key<&T::normal_map>("normal_map", "Normal map in tangent space, green up; a colour: none", {.low = 0}),
-      key<&T::normal_strength>("normal_strength", "Factor of the normal map's tilt", {.low = 0, .high = 1000}),
-      key<&T::normal_flip_green>("normal_flip_green", "Whether the normal map has green down"),
-      key<&T::bump_map>("bump_map", "Map of heights for bumps; a colour: none", {.low = 0}),
-      key<&T::bump_scale>("bump_scale", "Height of bumps between the map's 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
-      key<&T::bump_method>("bump_method", "Slope of bumps: of the filtered heights, or by differences in 2x2 pixels"),
+      key<&T::ambient_map>("ambient_map", "Map that multiplies the ambient factor", {.low = 0}),
+      key<&T::diffuse>("diffuse", "Factor of diffuse reflection", {.low = 0}),
+      key<&T::diffuse_map>("diffuse_map", "Map that multiplies the diffuse factor", {.low = 0}),
+      key<&T::specular>("specular", "Factor of the specular highlight", {.low = 0}),
+      key<&T::specular_map>("specular_map", "Map that multiplies the specular factor", {.low = 0}),
+      key<&T::shininess>("shininess", "Specular exponent; larger values give smaller and sharper highlights", {.low = 0, .high = 1e5}),
+      key<&T::shininess_map>("shininess_map", "Map that multiplies the exponent, not decoded from sRGB", {.low = 0, .high = 1}),
+      key<&T::emissive>("emissive", "Light emitted by the surface", {.low = 0}),
+      key<&T::emissive_map>("emissive_map", "Map that multiplies the emitted light", {.low = 0}),
+      key<&T::reflection>("reflection", "Factor of mirror reflection of the environment; requires shading phong", {.low = 0, .high = 1e3}),
+      key<&T::textured>("textured", "Whether color maps are used"),
+      key<&T::model>("model", "Specular highlight: none, from the reflected ray, from the half vector"),
+      key<&T::shading>("shading", "How often lighting is computed: never, per triangle, per vertex, per pixel"),
+      key<&T::two_sided>("two_sided", "Whether both sides are visible; planes are always two-sided"),
+      key<&T::normal>("normal", "Source of normal detail; auto: normal_map if given, otherwise bump_map"),
+      key<&T::normal_map>("normal_map", "Tangent-space normal map, green up; a color: none", {.low = 0}),
+      key<&T::normal_strength>("normal_strength", "Scale of the slopes in the normal map", {.low = 0, .high = 1000}),
+      key<&T::normal_flip_green>("normal_flip_green", "Whether green points down in the normal map"),
+      key<&T::bump_map>("bump_map", "Height map for bump mapping; a color: none", {.low = 0}),
+      key<&T::bump_scale>("bump_scale", "Height difference between map values 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
+      key<&T::bump_method>("bump_method", "Slope of bumps: gradient of the filtered heights, or differences within 2x2 pixels"),
   };
   return {{keys, &s}};
 }
@@ -203,9 +204,9 @@ std::string_view first_map(const SurfaceDescription& s) {
 
 Section section_of(Placement& p) {
   static const std::vector<Key> keys{
-      key<&Placement::position>("position", "Where the object's origin is", {.unit = "units"}),
-      key<&Placement::rotation>("rotation", "Turns about x, y and z; z first, then x, then y", {.unit = "degrees"}),
-      key<&Placement::scale>("scale", "Factor along x, y and z; not 0"),
+      key<&Placement::position>("position", "Position of the object's origin", {.unit = "units"}),
+      key<&Placement::rotation>("rotation", "Rotation around x, y and z; applied in the order z, x, y", {.unit = "degrees"}),
+      key<&Placement::scale>("scale", "Scale along x, y and z; must not be 0"),
   };
   return {{keys, &p}};
 }
@@ -213,31 +214,32 @@ Section section_of(Placement& p) {
 Section section_of(ObjectDescription& o) {
   using T = ObjectDescription;
   static const std::vector<Key> keys{
-      key<&T::shape>("shape", "Generator of the mesh; sphere: exact, by a ray a pixel, without maps"),
-      key<&T::radius>("radius", "Radius; of a torus, to its tube's middle",
+      key<&T::shape>("shape", "Shape of the mesh; sphere: exact, ray traced per pixel, without maps"),
+      key<&T::radius>("radius", "Radius; for torus and torus_knot, up to the middle of the tube",
                       {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere sphere cylinder cone torus torus_knot"}),
       key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = "torus torus_knot"}),
-      key<&T::length>("length", "From the bottom to the top", {.unit = "units", .low = kTiny, .high = 1e6, .only = "cylinder cone"}),
-      key<&T::latitudes>("latitudes", "Bands from the top to the bottom, or round a tube",
+      key<&T::length>("length", "Length from bottom to top", {.unit = "units", .low = kTiny, .high = 1e6, .only = "cylinder cone"}),
+      key<&T::latitudes>("latitudes", "Number of bands from top to bottom, or around a tube",
                          {.low = 2, .high = 8192, .only = "uv_sphere cylinder cone torus torus_knot"}),
-      key<&T::longitudes>("longitudes", "Sectors round the axis",
+      key<&T::longitudes>("longitudes", "Number of sectors around the axis",
                           {.low = 3, .high = 16384, .only = "uv_sphere cylinder cone torus torus_knot"}),
-      key<&T::level>("level", "How often each triangle is divided into four", {.low = 0, .high = 8, .only = "icosphere"}),
-      key<&T::size>("size", "Length of an edge", {.unit = "units", .low = kTiny, .high = 1e6, .only = "plane cube"}),
-      key<&T::segments>("segments", "Parts that an edge is divided into", {.low = 1, .high = 1024, .only = "plane cube"}),
-      key<&T::tiles_u>("tiles_u", "How often a map of colours repeats along u",
+      key<&T::level>("level", "Number of times each triangle is divided into four", {.low = 0, .high = 8, .only = "icosphere"}),
+      key<&T::size>("size", "Edge length", {.unit = "units", .low = kTiny, .high = 1e6, .only = "plane cube"}),
+      key<&T::segments>("segments", "Number of segments per edge", {.low = 1, .high = 1024, .only = "plane cube"}),
+      key<&T::tiles_u>("tiles_u", "Number of repetitions of color maps along u",
                        {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus torus_knot"}),
-      key<&T::tiles_v>("tiles_v", "How often a map of colours repeats along v",
+      key<&T::tiles_v>("tiles_v", "Number of repetitions of color maps along v",
                        {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus torus_knot"}),
       key<&T::visible>("visible", "Whether the object is drawn"),
-      key<&T::casts_shadow>("casts_shadow", "Whether it shades others"),
-      key<&T::receives_shadow>("receives_shadow", "Whether others, or itself, shade it"),
-      key<&T::height>("height", "Map of heights that displaces the surface; a colour: none", {.low = 0}),
-      key<&T::height_scale>("height_scale", "Height between the map's 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
-      key<&T::height_zero>("height_zero", "The map's value that displaces nothing", {.low = 0, .high = 1}),
-      key<&T::height_smoothing>("height_smoothing", "Radius over which heights are averaged", {.unit = "texels", .low = 0, .high = 64}),
-      key<&T::normals>("normals", "Normals of a displaced surface: by pixel, by vertex, or as before", {.only = "uv_sphere"}),
-      key<&T::material>("material", "Name of a material; keys of the object's own override it"),
+      key<&T::casts_shadow>("casts_shadow", "Whether the object casts shadows"),
+      key<&T::receives_shadow>("receives_shadow", "Whether the object receives shadows, including its own"),
+      key<&T::height>("height", "Height map that displaces the surface; a color: none", {.low = 0}),
+      key<&T::height_scale>("height_scale", "Height difference between map values 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
+      key<&T::height_zero>("height_zero", "Map value that leaves the surface undisplaced", {.low = 0, .high = 1}),
+      key<&T::height_smoothing>("height_smoothing", "Standard deviation of the Gaussian that smooths the heights",
+                                {.unit = "texels", .low = 0, .high = 64}),
+      key<&T::normals>("normals", "Normals of a displaced surface: per pixel, per vertex, or undisplaced", {.only = "uv_sphere"}),
+      key<&T::material>("material", "Name of a material; keys of the object override it"),
   };
   Section section{{keys, &o}};
   for (const Section& part : {section_of(o.surface), section_of(o.placement)}) section.insert(section.end(), part.begin(), part.end());
@@ -247,20 +249,19 @@ Section section_of(ObjectDescription& o) {
 Section section_of(ShadowDescription& s) {
   using T = ShadowDescription;
   static const std::vector<Key> keys{
-      key<&T::method>("method", "How the map is filtered; none: no shadows, and no cost"),
-      key<&T::bias>("bias", "How a surface is kept out of its own shadow"),
-      key<&T::resolution>("resolution", "Width of a map, from 256 on; 0: as footprint asks",
+      key<&T::method>("method", "Shadow map filter; none: no shadows, at no cost"),
+      key<&T::bias>("bias", "Bias method against self-shadowing"),
+      key<&T::resolution>("resolution", "Width of a shadow map, at least 256; 0: chosen by footprint",
                           {.unit = "texels", .low = 0, .high = kMaxShadowTexels}),
-      key<&T::footprint>("footprint", "With resolution 0: what a texel spans at most on 95 % of the picture",
+      key<&T::footprint>("footprint", "With resolution 0: maximum size of a shadow texel on 95 % of the image",
                          {.unit = "px", .low = 0.1, .high = 100}),
       key<&T::constant>("constant", "Constant part of the bias", {.unit = "texels", .low = 0, .high = 1000}),
-      key<&T::slope>("slope", "Factor of the bias that grows with the light's angle", {.low = 0, .high = 1000}),
-      key<&T::max_slope>("max_slope", "Largest tangent of the light's angle that a bias other than auto follows", {.low = 0, .high = 1e6}),
-      key<&T::radius>("radius", "Of vogel's disk and of the moments' filter", {.unit = "texels", .low = 0, .high = 16}),
-      key<&T::faces>("faces", "Faces of meshes that cast, as the light sees them; of spheres it is the front"),
-      key<&T::cascades>("cascades", "Maps of a directional light, by distance", {.low = 1, .high = 4}),
-      key<&T::cascade_growth>("cascade_growth", "0: even distances, 1: each cascade a constant times the one before",
-                              {.low = 0, .high = 1}),
+      key<&T::slope>("slope", "Factor of the bias that grows with the angle of incidence", {.low = 0, .high = 1000}),
+      key<&T::max_slope>("max_slope", "Maximum tangent of the angle of incidence in the bias, except for auto", {.low = 0, .high = 1e6}),
+      key<&T::radius>("radius", "Filter radius of vogel, vsm and moments", {.unit = "texels", .low = 0, .high = 16}),
+      key<&T::faces>("faces", "Mesh faces that cast shadows, as seen from the light; spheres always use the front"),
+      key<&T::cascades>("cascades", "Number of cascades of a directional light", {.low = 1, .high = 4}),
+      key<&T::cascade_growth>("cascade_growth", "0: cascades of equal depth, 1: depths in geometric progression", {.low = 0, .high = 1}),
   };
   return {{keys, &s}};
 }
@@ -268,34 +269,34 @@ Section section_of(ShadowDescription& s) {
 Section section_of(AnimationDescription& a) {
   using T = AnimationDescription;
   static const std::vector<Key> keys{
-      key<&T::type>("type", "Kind of motion"),
-      key<&T::target>("target", "Dotted path of the number or vector that changes"),
+      key<&T::type>("type", "Type of animation"),
+      key<&T::target>("target", "Dotted path of the number or vector to animate"),
       key<&T::rate>("rate", "Change per second", {.only = "rate"}),
-      key<&T::center>("center", "Middle of the ellipse", {.unit = "units", .only = "orbit"}),
-      key<&T::a>("a", "Half axis of the ellipse, reached at phase 0", {.unit = "units", .only = "orbit"}),
-      key<&T::b>("b", "Half axis of the ellipse, reached a quarter later", {.unit = "units", .only = "orbit"}),
-      key<&T::mean>("mean", "Middle of the wave", {.only = "wave"}),
-      key<&T::swing>("swing", "What the wave adds to it at phase 0; the key's range holds it", {.only = "wave"}),
-      key<&T::period>("period", "Time of one turn", {.unit = "s", .low = kTiny, .only = "orbit wave"}),
-      key<&T::phase>("phase", "Where the turn begins", {.unit = "turns", .only = "orbit wave"}),
-      key<&T::keys>("keys", "Rows of seconds and value", {.only = "keyframes"}),
-      key<&T::easing>("easing", "How it goes from row to row", {.only = "keyframes"}),
-      key<&T::loop>("loop", "Begin again after the last row", {.only = "keyframes"}),
+      key<&T::center>("center", "Center of the ellipse", {.unit = "units", .only = "orbit"}),
+      key<&T::a>("a", "Semi-axis of the ellipse, reached at phase 0", {.unit = "units", .only = "orbit"}),
+      key<&T::b>("b", "Semi-axis of the ellipse, reached a quarter turn later", {.unit = "units", .only = "orbit"}),
+      key<&T::mean>("mean", "Mean of the wave", {.only = "wave"}),
+      key<&T::swing>("swing", "Amplitude of the wave, added at phase 0; the result is clamped to the key's range", {.only = "wave"}),
+      key<&T::period>("period", "Duration of one turn", {.unit = "s", .low = kTiny, .only = "orbit wave"}),
+      key<&T::phase>("phase", "Phase at time 0", {.unit = "turns", .only = "orbit wave"}),
+      key<&T::keys>("keys", "Keyframes as rows [seconds, value]", {.only = "keyframes"}),
+      key<&T::easing>("easing", "Interpolation between keyframes", {.only = "keyframes"}),
+      key<&T::loop>("loop", "Whether to start over after the last keyframe", {.only = "keyframes"}),
   };
   return {{keys, &a}};
 }
 
 Section section_of(Playback& p) {
   static const std::vector<Key> keys{
-      key<&Playback::speed>("speed", "Factor of the time; 0 stands still"),
+      key<&Playback::speed>("speed", "Playback speed; 0 freezes all animations"),
   };
   return {{keys, &p}};
 }
 
 Section section_of(TimeOfDay& t) {
   static const std::vector<Key> keys{
-      key<&TimeOfDay::hours>("hours", "The hour at which animations begin; 12: noon", {.unit = "h", .low = 0, .high = 24}),
-      key<&TimeOfDay::day>("day", "How long a day takes", {.unit = "s", .low = kTiny}),
+      key<&TimeOfDay::hours>("hours", "Hour at which animations start; 12: noon", {.unit = "h", .low = 0, .high = 24}),
+      key<&TimeOfDay::day>("day", "Length of a day", {.unit = "s", .low = kTiny}),
   };
   return {{keys, &t}};
 }

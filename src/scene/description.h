@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene as its file describes it: plain values with their defaults. The tables in description.cpp name each of them
-// as a key. What they mean for drawing is told in render/prepared_scene.h.
+// A scene as described by its file: plain values with their defaults. The tables in description.cpp and description_environment.cpp
+// bind each value to a key. render/prepared_scene.h documents how the values affect rendering.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace halfspace {
 
-/// Named things, in the order of the file.
+/// Named items, in file order.
 template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
 
@@ -24,11 +24,11 @@ enum class Projection : uint8_t { perspective, orthographic };
 
 struct CameraDescription {
   Projection type = Projection::perspective;
-  glm::dvec3 position{0, 0, 5};  ///< world
-  glm::dvec3 target{0, 0, 0};    ///< world
+  glm::dvec3 position{0, 0, 5};  ///< world space
+  glm::dvec3 target{0, 0, 0};    ///< world space
   glm::dvec3 up{0, 1, 0};
-  double fov = 45.0;    ///< degrees, vertical
-  double height = 2.0;  ///< units
+  double fov = 45.0;    ///< vertical, in degrees
+  double height = 2.0;  ///< in units of the scene
   double near = 0.1, far = 1000.0;
 };
 
@@ -40,13 +40,13 @@ struct LightDescription {
   glm::dvec3 position{0, 0, 5};
   Color color{glm::dvec3(1.0)};
   double intensity = 1.0;
-  double ambient = 0.0;  ///< factors of color and intensity; ambient light is not attenuated
+  double ambient = 0.0;  ///< these three are factors of color and intensity; ambient light is not attenuated
   double diffuse = 1.0, specular = 1.0;
   Falloff falloff = Falloff::attenuation;
   glm::dvec3 attenuation{1, 0, 0};
   double inner = 20.0, outer = 30.0;  ///< degrees from the axis
   bool shadow = true;
-  double size = 0.0;  ///< radius in units; directional: half the angle that it spans, degrees
+  double size = 0.0;  ///< radius in units; for directional lights, half the angle subtended, in degrees
 };
 
 enum class TextureSource : uint8_t {
@@ -70,25 +70,25 @@ enum class TextureSource : uint8_t {
   hills_height
 };
 
-/// Is it a map of procedural/patterns.h, which tiles?
+/// Returns true for the tiling maps of procedural/patterns.h.
 inline bool is_pattern(TextureSource source) { return source >= TextureSource::checkerboard; }
 
 struct TextureDescription {
   TextureSource source = TextureSource::file;
   FilePath file;
-  int width = 0;  ///< of a generated map, even; 0: as fine as the view needs
+  int width = 0;  ///< of a generated map, even; 0: chosen for the view
   Filter filter = Filter::trilinear;
   Wrap wrap_s = Wrap::repeat;
   Wrap wrap_t = Wrap::repeat;
   int anisotropy = 8;
 };
 
-/// Which normal map of a surface is used: the one that there is (the normal map before the bump map), or by name.
+/// Selects the normal detail of a surface. `automatic` uses the normal map if there is one, otherwise the bump map.
 enum class DetailChoice : uint8_t { automatic, none, map, bump };
-/// How the slope of a bump map is found: by the gradient of its filtered heights, or by differences within 2x2 pixels.
+/// How the slope of a bump map is computed: as the gradient of the filtered heights, or from differences within 2x2 pixels.
 enum class BumpMethod : uint8_t { gradient, difference };
 
-/// Each factor is a constant times a map; a map that is a colour is a constant too.
+/// Surface properties. Each factor is a constant multiplied by a map, and the map may also be a constant color.
 struct SurfaceDescription {
   MapValue color = Color{glm::dvec3(1.0)};
   Color tint{glm::dvec3(1.0)};
@@ -102,7 +102,7 @@ struct SurfaceDescription {
   MapValue shininess_map = Color{glm::dvec3(1.0)};
   Color emissive{glm::dvec3(0.0)};
   MapValue emissive_map = Color{glm::dvec3(1.0)};
-  bool textured = true;  ///< false: colour maps count as 1
+  bool textured = true;  ///< false: color maps are replaced by 1
   Color reflection{glm::dvec3(0.0)};
 
   LightModel model = LightModel::blinn_phong;
@@ -110,24 +110,24 @@ struct SurfaceDescription {
   bool two_sided = false;
 
   DetailChoice normal = DetailChoice::automatic;
-  MapValue normal_map = Color{glm::dvec3(1.0)};  ///< a constant means none
+  MapValue normal_map = Color{glm::dvec3(1.0)};  ///< a constant means no map
   double normal_strength = 1.0;
   bool normal_flip_green = false;
-  MapValue bump_map = Color{glm::dvec3(1.0)};  ///< a constant means none
-  double bump_scale = 0.02;                    ///< units of the world between the map's 0 and 1
+  MapValue bump_map = Color{glm::dvec3(1.0)};  ///< a constant means no map
+  double bump_scale = 0.02;                    ///< height difference between map values 0 and 1, in world units
   BumpMethod bump_method = BumpMethod::gradient;
 };
 
-/// The key of a surface's first map; empty where it has none.
+/// Returns the key of the first map of a surface, or an empty string if it has none.
 std::string_view first_map(const SurfaceDescription& s);
 
-/// sphere: no mesh but a ray by pixel (shading/sphere_impostor.h); of surfaces without maps.
+/// `sphere` has no mesh: it is ray traced per pixel (shading/sphere_impostor.h), and its surface cannot have maps.
 enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
 
 struct Placement {
   glm::dvec3 position{0.0};
-  glm::dvec3 rotation{0.0};  ///< degrees about x, y, z; applied in the order z, x, y
+  glm::dvec3 rotation{0.0};  ///< degrees around x, y, z; applied in the order z, x, y
   glm::dvec3 scale{1.0};
 };
 
@@ -144,33 +144,33 @@ struct ObjectDescription {
   bool visible = true;
   bool casts_shadow = true, receives_shadow = true;
 
-  MapValue height = Color{glm::dvec3(0.0)};  ///< a constant means none
-  double height_scale = 0.02;                ///< units between the map's 0 and 1
-  double height_zero = 0.5;                  ///< the map's value that leaves the surface where it is
-  double height_smoothing = 1.0;             ///< texels
+  MapValue height = Color{glm::dvec3(0.0)};  ///< a constant means no map
+  double height_scale = 0.02;                ///< height difference between map values 0 and 1, in units
+  double height_zero = 0.5;                  ///< map value that leaves the surface undisplaced
+  double height_smoothing = 1.0;             ///< standard deviation in texels
   NormalSource normals = NormalSource::pixel;
 
   std::string material;  ///< empty: none
   SurfaceDescription surface;
   Placement placement;
-  std::vector<Placement> instances;  ///< copies, relative to placement; empty: one, at placement
+  std::vector<Placement> instances;  ///< copies placed relative to `placement`; empty: a single object at `placement`
 };
 
 enum class EnvironmentType : uint8_t { equirect, globe, cube, day_sky, night_sky };
 
-/// Light from far away, by its direction (see shading/environment.h).
+/// Light from infinitely far away, as a function of direction (see shading/environment.h).
 struct EnvironmentDescription {
   EnvironmentType type = EnvironmentType::equirect;
-  MapValue map = Color{glm::dvec3(1.0)};  ///< of a texture its source alone counts
-  FilePath folder;                        ///< of files named right, left, top, bottom, front and back
+  MapValue map = Color{glm::dvec3(1.0)};  ///< of a texture, only the source is used
+  FilePath folder;                        ///< with files named right, left, top, bottom, front and back
   FilePath right, left, top, bottom, front, back;
-  int size = 0;                    ///< of a generated sky's faces; 0: as fine as the view needs
-  glm::dvec3 sun{0.5, 0.6, -0.6};  ///< towards it, any length
+  int size = 0;                    ///< face width of a generated sky; 0: chosen for the view
+  glm::dvec3 sun{0.5, 0.6, -0.6};  ///< direction towards the sun, any length
   double clouds = 0.4;
   double milky_way = 1.0;
-  double stars = 0.3;             ///< density, as the background's
+  double stars = 0.3;             ///< density, like that of the background
   double star_brightness = 0.05;  ///< linear
-  glm::dvec3 rotation{0.0};       ///< degrees, as Placement's
+  glm::dvec3 rotation{0.0};       ///< degrees, like Placement::rotation
   double brightness = 1.0;
 };
 
@@ -183,21 +183,21 @@ struct BackgroundDescription {
   double density = 0.3;
   std::string environment;  ///< empty: the first
   std::string second;       ///< empty: none
-  double weight = 0.0;      ///< of the second
+  double weight = 0.0;      ///< weight of `second`
 };
 
-/// What surfaces mirror.
+/// The environment that is reflected by surfaces.
 struct ReflectionsDescription {
   bool on = true;
-  std::string environment;  ///< empty: what the background shows, without its stars
+  std::string environment;  ///< empty: the background, without its stars
 };
 
 enum class LightFormat : uint8_t { rgba16f, rgba32f };
 enum class DisplayEncoding : uint8_t { srgb, gamma };
 
-/// How light becomes codes.
+/// Conversion of light to pixel values.
 struct PostDescription {
-  bool hdr = false;  ///< off: light is held to [0, 1] and encoded to sRGB, and no other key of these counts
+  bool hdr = false;  ///< false: light is clamped to [0, 1] and encoded as sRGB; all other members are ignored
   LightFormat format = LightFormat::rgba16f;
   double exposure = 1.0;
   bool auto_exposure = false;
@@ -210,30 +210,30 @@ struct PostDescription {
   bool dither = false;
 };
 
-/// ShadowFilter, and none before it.
+/// `none`, followed by the values of ShadowFilter.
 enum class ShadowMethod : uint8_t { none, hard, bilinear, pcf3, pcf5, pcf7, vogel, pcss, vsm, moments };
-/// Which faces of a closed surface are drawn into shadow maps, as the light sees them.
+/// The faces of a closed surface that are drawn into shadow maps, as seen from the light.
 enum class ShadowFaces : uint8_t { front, back, both };
 
-/// The narrowest and widest shadow map, texels. Narrower ones have no room for what the widest filter looks at on all sides.
+/// Minimum and maximum shadow map width in texels. The minimum leaves room on all sides for the footprint of the widest filter.
 inline constexpr int kMinShadowTexels = 256, kMaxShadowTexels = 8192;
 
 struct ShadowDescription {
   ShadowMethod method = ShadowMethod::none;
   ShadowBias bias = ShadowBias::automatic;
-  int resolution = 2048;   ///< texels a side; 0: as footprint asks
-  double footprint = 1.0;  ///< pixels that a texel spans at most on 95 % of the picture
+  int resolution = 2048;   ///< width in texels; 0: chosen by `footprint`
+  double footprint = 1.0;  ///< maximum size of a texel in pixels, on 95 % of the image
   double constant = 1.0;   ///< texels
   double slope = 1.0;
   double max_slope = 16.0;
   double radius = 2.0;  ///< texels
   ShadowFaces faces = ShadowFaces::front;
   int cascades = 1;
-  double cascade_growth = 0.75;  ///< 0: cascades of even depth, 1: each a constant times the one before
+  double cascade_growth = 0.75;  ///< 0: cascades of equal depth; 1: depths in geometric progression
 };
 
 enum class ParticleSprite : uint8_t { original, exact };
-/// The largest number of spheres that a particle system may have.
+/// Maximum number of spheres in a particle system.
 inline constexpr int kMaxParticles = 1000000;
 
 enum class ParticleArrangement : uint8_t { helix, grid, ball, galaxy };
@@ -241,34 +241,34 @@ enum class ParticleArrangement : uint8_t { helix, grid, ball, galaxy };
 /// Spheres drawn as points (render/particles.h, shading/sphere_impostor.h).
 struct ParticlesDescription {
   ParticleSprite sprite = ParticleSprite::original;
-  int count = 0;  ///< of generated ones; 0: none
+  int count = 0;  ///< number of generated spheres; 0: none
   ParticleArrangement arrangement = ParticleArrangement::helix;
-  FilePath file;        ///< instead of generated ones
-  double radius = 0.0;  ///< 0: by their number
+  FilePath file;        ///< read instead of generating spheres
+  double radius = 0.0;  ///< 0: chosen by the number of spheres
   double orbit_radius = 1.5;
   double height = 6.0;
   double angle = 0.0;        ///< radians
-  double point_scale = 0.0;  ///< px; 0: the picture's width
+  double point_scale = 0.0;  ///< px; 0: the image width
   Color color{glm::dvec3(1.0)};
   Color ambient{glm::dvec3(1.0)};
   Color diffuse{glm::dvec3(1.0)};
   Color specular{glm::dvec3(0.0)};
   double shininess = 32.0;
-  bool casts_shadow = true, receives_shadow = true;  ///< exact ones
+  bool casts_shadow = true, receives_shadow = true;  ///< these two apply to exact sprites
 };
 
 enum class AnimationType : uint8_t { rate, orbit, wave, keyframes };
 enum class Easing : uint8_t { linear, smooth, step };
 
-/// What changes one key in time; it begins with the scene's own value of the key at 0 s.
+/// The change of one key over time. `rate` is added to the key's value in the scene; the other types replace it.
 struct AnimationDescription {
   AnimationType type = AnimationType::rate;
-  std::string target;      ///< dotted path of a number or a vector
+  std::string target;      ///< dotted path of a number or vector
   Numbers rate{0.0};       ///< per second
   glm::dvec3 center{0.0};  ///< orbit: center + a·cos φ + b·sin φ, φ = 2π(t / period + phase)
   glm::dvec3 a{1, 0, 0};
   glm::dvec3 b{0, 0, -1};
-  Numbers mean{0.0};  ///< wave: mean + swing·cos φ, held to the key's range
+  Numbers mean{0.0};  ///< wave: mean + swing·cos φ, clamped to the key's range
   Numbers swing{1.0};
   double period = 10.0;  ///< seconds
   double phase = 0.0;    ///< turns
@@ -281,13 +281,13 @@ struct Playback {
   double speed = 1.0;
 };
 
-/// The time of day at which the animations begin: hours/24 of a day after their own 0 s.
+/// The time of day at which animations start: they are advanced by hours/24 of a day.
 struct TimeOfDay {
   double hours = 0.0;
   double day = 24.0;  ///< seconds
 };
 
-/// The keys at the top of a scene file.
+/// The top-level keys of a scene file.
 struct SceneHead {
   std::string title;
   std::string camera;  ///< empty: the first
@@ -332,27 +332,27 @@ Section section_of(AnimationDescription&);
 Section section_of(Playback&);
 Section section_of(TimeOfDay&);
 
-/// Calls visit(name, help, named) for each collection of named things.
+/// Calls visit(name, help, list) for each collection of named items.
 template <class Scene, class F>
 void for_each_collection(Scene& scene, F&& visit) {
-  visit("cameras", "A point of view", scene.cameras);
-  visit("lights", "A source of light", scene.lights);
-  visit("textures", "An image, or a generated one, and how it is read", scene.textures);
-  visit("environments", "Light from far away, by its direction", scene.environments);
-  visit("materials", "What a surface looks like, for objects that share it", scene.materials);
-  visit("objects", "A shape, its surface and its place", scene.objects);
-  visit("animations", "How a key changes in time", scene.animations);
+  visit("cameras", "A camera", scene.cameras);
+  visit("lights", "A light source", scene.lights);
+  visit("textures", "An image file or a generated map, and how it is sampled", scene.textures);
+  visit("environments", "Distant light as a function of direction", scene.environments);
+  visit("materials", "Surface properties that objects can share", scene.materials);
+  visit("objects", "A shape with its surface and placement", scene.objects);
+  visit("animations", "A change of a key over time", scene.animations);
 }
 
-/// Calls visit(name, help, struct) for each section that there is once.
+/// Calls visit(name, help, struct) for each section that occurs once.
 template <class Scene, class F>
 void for_each_single(Scene& scene, F&& visit) {
-  visit("background", "What is seen where nothing is", scene.background);
-  visit("reflections", "What surfaces with a reflection mirror", scene.reflections);
-  visit("post", "How light becomes codes; linear files (.exr, .hdr) are written before it", scene.post);
-  visit("shadow", "How lights' shadows are found", scene.shadow);
+  visit("background", "The background behind all objects", scene.background);
+  visit("reflections", "The environment that reflective surfaces mirror", scene.reflections);
+  visit("post", "Conversion of light to pixel values; linear files (.exr, .hdr) are written without it", scene.post);
+  visit("shadow", "How shadows are computed", scene.shadow);
   visit("particles", "Spheres drawn as points", scene.particles);
-  visit("animation", "All animations together", scene.animation);
+  visit("animation", "Settings for all animations", scene.animation);
   visit("time", "The time of day", scene.time);
 }
 

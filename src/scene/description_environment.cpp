@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tables of keys, continued from description.cpp: particles, what surrounds a scene, and how it is shown.
+// Key tables, continued from description.cpp: particles, environments, background, reflections and post-processing.
 #include "halfspace/scene/description.h"
 
 namespace halfspace {
@@ -42,25 +42,25 @@ struct ChoiceNames<ParticleArrangement> {
 Section section_of(ParticlesDescription& p) {
   using T = ParticlesDescription;
   static const std::vector<Key> keys{
-      key<&T::sprite>("sprite", "A circle sized by the centre alone, or the sphere as it projects"),
-      key<&T::count>("count", "How many spheres are generated; 0: none", {.low = 0, .high = kMaxParticles}),
-      key<&T::arrangement>("arrangement", "Where generated spheres are"),
-      key<&T::file>("file", "File of rows x,y,z[,radius[,r,g,b]] (.csv), instead of generated spheres"),
-      key<&T::radius>("radius", "Radius of the spheres; 0: a fifth of orbit_radius for 12, smaller for more",
+      key<&T::sprite>("sprite", "original: a disk sized by the distance of its center; exact: the projected sphere"),
+      key<&T::count>("count", "Number of generated spheres; 0: none", {.low = 0, .high = kMaxParticles}),
+      key<&T::arrangement>("arrangement", "Arrangement of generated spheres"),
+      key<&T::file>("file", "File with rows x,y,z[,radius[,r,g,b]] (.csv), used instead of generated spheres"),
+      key<&T::radius>("radius", "Radius of the spheres; 0: a fifth of orbit_radius for 12 spheres, smaller for more",
                       {.unit = "units", .low = 0, .high = 1e6}),
-      key<&T::orbit_radius>("orbit_radius", "Radius of the helix, the ball or the galaxy; half the edge of the grid",
+      key<&T::orbit_radius>("orbit_radius", "Radius of the helix, ball or galaxy; half the edge length of the grid",
                             {.unit = "units", .low = 1e-6, .high = 1e6}),
-      key<&T::height>("height", "From the helix's lowest sphere to its highest", {.unit = "units", .low = 0, .high = 1e6}),
-      key<&T::angle>("angle", "Turn of what is generated about the y axis, from x to z", {.unit = "radians"}),
-      key<&T::point_scale>("point_scale", "What radius / distance is multiplied by for a point's size; 0: the picture's width",
+      key<&T::height>("height", "Height of the helix from its lowest to its highest sphere", {.unit = "units", .low = 0, .high = 1e6}),
+      key<&T::angle>("angle", "Rotation of generated spheres around the y axis, from x to z", {.unit = "radians"}),
+      key<&T::point_scale>("point_scale", "Factor from radius / distance to point size; 0: the image width",
                            {.unit = "px", .low = 0, .high = 1e6, .only = "original"}),
-      key<&T::color>("color", "Factor of the spheres' own colours", {.low = 0}),
+      key<&T::color>("color", "Factor of the spheres' colors", {.low = 0}),
       key<&T::ambient>("ambient", "Factor of the ambient light", {.low = 0}),
-      key<&T::diffuse>("diffuse", "Factor of the light that is sent back every way", {.low = 0}),
-      key<&T::specular>("specular", "Factor of the highlight, by the reflected ray", {.low = 0}),
-      key<&T::shininess>("shininess", "Exponent of the highlight: larger is smaller and sharper", {.low = 0, .high = 1e5}),
-      key<&T::casts_shadow>("casts_shadow", "Whether exact spheres shade others"),
-      key<&T::receives_shadow>("receives_shadow", "Whether others, or each other, shade exact spheres"),
+      key<&T::diffuse>("diffuse", "Factor of diffuse reflection", {.low = 0}),
+      key<&T::specular>("specular", "Factor of the specular highlight, from the reflected ray", {.low = 0}),
+      key<&T::shininess>("shininess", "Specular exponent; larger values give smaller and sharper highlights", {.low = 0, .high = 1e5}),
+      key<&T::casts_shadow>("casts_shadow", "Whether exact spheres cast shadows"),
+      key<&T::receives_shadow>("receives_shadow", "Whether exact spheres receive shadows, including those of each other"),
   };
   return {{keys, &p}};
 }
@@ -68,24 +68,24 @@ Section section_of(ParticlesDescription& p) {
 Section section_of(EnvironmentDescription& e) {
   using T = EnvironmentDescription;
   static const std::vector<Key> keys{
-      key<&T::type>("type", "A panorama seen from within, the map of a globe round the eye, six faces, or a generated sky"),
-      key<&T::map>("map", "Panorama or map of a globe; a colour: the same light from everywhere", {.low = 0, .only = "equirect globe"}),
-      key<&T::folder>("folder", "Folder of files named right, left, top, bottom, front, back", {.only = "cube"}),
+      key<&T::type>("type", "Panorama, map of a globe seen from its center, six cube map faces, or a generated sky"),
+      key<&T::map>("map", "Panorama or map of a globe; a color: uniform light", {.low = 0, .only = "equirect globe"}),
+      key<&T::folder>("folder", "Folder with files named right, left, top, bottom, front and back", {.only = "cube"}),
       key<&T::right>("right", "Face at +x; empty: from the folder", {.only = "cube"}),
       key<&T::left>("left", "Face at -x; empty: from the folder", {.only = "cube"}),
       key<&T::top>("top", "Face at +y; empty: from the folder", {.only = "cube"}),
       key<&T::bottom>("bottom", "Face at -y; empty: from the folder", {.only = "cube"}),
       key<&T::front>("front", "Face at -z; empty: from the folder", {.only = "cube"}),
       key<&T::back>("back", "Face at +z; empty: from the folder", {.only = "cube"}),
-      key<&T::size>("size", "Edge of a generated face; 0: what the view needs",
+      key<&T::size>("size", "Width of a generated face; 0: chosen for the view",
                     {.unit = "texels", .low = 0, .high = 4096, .only = "day_sky night_sky"}),
-      key<&T::sun>("sun", "Where the sun is seen, any length; low: dusk", {.only = "day_sky"}),
-      key<&T::clouds>("clouds", "How much of the sky clouds cover", {.low = 0, .high = 1, .only = "day_sky"}),
-      key<&T::milky_way>("milky_way", "Factor of the Milky Way's light", {.low = 0, .high = 1e3, .only = "night_sky"}),
-      key<&T::stars>("stars", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "night_sky"}),
-      key<&T::star_brightness>("star_brightness", "Of the brightest star, linear", {.low = 0, .only = "night_sky"}),
-      key<&T::rotation>("rotation", "Turns about x, y and z; z first, then x, then y", {.unit = "degrees"}),
-      key<&T::brightness>("brightness", "Factor of its light", {.low = 0, .high = 1e6}),
+      key<&T::sun>("sun", "Direction towards the sun, any length; low: dusk", {.only = "day_sky"}),
+      key<&T::clouds>("clouds", "Fraction of the sky covered by clouds", {.low = 0, .high = 1, .only = "day_sky"}),
+      key<&T::milky_way>("milky_way", "Brightness factor of the Milky Way", {.low = 0, .high = 1e3, .only = "night_sky"}),
+      key<&T::stars>("stars", "Density of stars; 1: about 25,000 in the whole sky", {.low = 0, .high = 1, .only = "night_sky"}),
+      key<&T::star_brightness>("star_brightness", "Brightness of the brightest star, linear", {.low = 0, .only = "night_sky"}),
+      key<&T::rotation>("rotation", "Rotation around x, y and z; applied in the order z, x, y", {.unit = "degrees"}),
+      key<&T::brightness>("brightness", "Factor of the environment's light", {.low = 0, .high = 1e6}),
   };
   return {{keys, &e}};
 }
@@ -93,12 +93,12 @@ Section section_of(EnvironmentDescription& e) {
 Section section_of(BackgroundDescription& b) {
   using T = BackgroundDescription;
   static const std::vector<Key> keys{
-      key<&T::type>("type", "Kind of background"),
-      key<&T::color>("color", "Colour, or that between the stars", {.low = 0}),
-      key<&T::brightness>("brightness", "Of the brightest star, linear", {.low = 0, .only = "stars"}),
-      key<&T::density>("density", "How many stars; 1: some 25,000 in all the sky", {.low = 0, .high = 1, .only = "stars"}),
+      key<&T::type>("type", "Type of background"),
+      key<&T::color>("color", "Background color; with stars, the color between them", {.low = 0}),
+      key<&T::brightness>("brightness", "Brightness of the brightest star, linear", {.low = 0, .only = "stars"}),
+      key<&T::density>("density", "Density of stars; 1: about 25,000 in the whole sky", {.low = 0, .high = 1, .only = "stars"}),
       key<&T::environment>("environment", "Name of an environment; empty: the first", {.only = "environment"}),
-      key<&T::second>("second", "Name of the environment to fade into; empty: none", {.only = "environment"}),
+      key<&T::second>("second", "Name of the environment to blend with; empty: none", {.only = "environment"}),
       key<&T::weight>("weight", "Weight of the second environment", {.low = 0, .high = 1, .only = "environment"}),
   };
   return {{keys, &b}};
@@ -107,8 +107,8 @@ Section section_of(BackgroundDescription& b) {
 Section section_of(ReflectionsDescription& r) {
   using T = ReflectionsDescription;
   static const std::vector<Key> keys{
-      key<&T::on>("on", "Whether anything is mirrored"),
-      key<&T::environment>("environment", "Name of the environment that is mirrored; empty: what the background shows"),
+      key<&T::on>("on", "Whether reflections are rendered"),
+      key<&T::environment>("environment", "Name of the reflected environment; empty: the background"),
   };
   return {{keys, &r}};
 }
@@ -116,17 +116,17 @@ Section section_of(ReflectionsDescription& r) {
 Section section_of(PostDescription& p) {
   using T = PostDescription;
   static const std::vector<Key> keys{
-      key<&T::hdr>("hdr", "Keep light beyond 1 until it is exposed and bent by the tone curve; off: the keys below do not count"),
-      key<&T::format>("format", "Numbers that hold light; halfs end at 65504"),
+      key<&T::hdr>("hdr", "Keep light above 1 for exposure and tone mapping; off: the other keys of post are ignored"),
+      key<&T::format>("format", "Format in which light is stored; half floats end at 65504"),
       key<&T::exposure>("exposure", "Factor of the light", {.low = 0, .high = 1e9}),
-      key<&T::auto_exposure>("auto_exposure", "Multiply by key_value over the picture's log-average luminance too"),
-      key<&T::key_value>("key_value", "What auto_exposure makes of the average", {.low = 0, .high = 1e3}),
-      key<&T::tone>("tone", "Curve from light to [0, 1]; none: what is above 1 becomes 1"),
-      key<&T::tone_on>("tone_on", "What the curve bends: all channels by their luminance, or each"),
-      key<&T::white>("white", "Light that reinhard_extended makes 1", {.low = 1e-3, .high = 1e6}),
-      key<&T::encode>("encode", "From linear to codes: exactly sRGB, or a power"),
-      key<&T::gamma>("gamma", "The power is 1 over this; for encode gamma", {.low = 0.1, .high = 10}),
-      key<&T::dither>("dither", "Break up bands by an ordered pattern of 8x8 pixels"),
+      key<&T::auto_exposure>("auto_exposure", "Whether to also multiply by key_value / log-average luminance of the image"),
+      key<&T::key_value>("key_value", "Value to which auto_exposure maps the log-average luminance", {.low = 0, .high = 1e3}),
+      key<&T::tone>("tone", "Tone curve that maps light to [0, 1]; none: clamp to 1"),
+      key<&T::tone_on>("tone_on", "Whether the curve is applied to the luminance or to each channel"),
+      key<&T::white>("white", "Light that reinhard_extended maps to 1", {.low = 1e-3, .high = 1e6}),
+      key<&T::encode>("encode", "Encoding of linear values: exact sRGB, or a power"),
+      key<&T::gamma>("gamma", "The exponent of encode gamma is 1 / this", {.low = 0.1, .high = 10}),
+      key<&T::dither>("dither", "Whether to hide banding with 8x8 ordered dithering"),
   };
   return {{keys, &p}};
 }

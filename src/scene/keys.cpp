@@ -15,15 +15,15 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kMinPause = 1e-6;  // seconds from keyframe to keyframe
+constexpr double kMinPause = 1e-6;  // minimum time between keyframes, in seconds
 
 [[noreturn]] void fail(const ReadContext& c, const std::string& path, const std::string& what) {
   throw InputError(c.source + ": " + path + ": " + what);
 }
 
-// A value as a message shows it: short, on one line.
+// Formats a value for a message: short, on one line.
 std::string shown(const Json& json) {
-  if (json.is_number()) return number_text(json.get<double>());  // 1, where the command line's numbers say 1.0
+  if (json.is_number()) return number_text(json.get<double>());  // 1, not 1.0: numbers from the command line are doubles
   std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
   if (text.size() > 40) text = text.substr(0, 37) + "...";
   return text;
@@ -31,7 +31,7 @@ std::string shown(const Json& json) {
 
 [[noreturn]] void fail_expected(const Key& key, const Json& got, const ReadContext& c, const std::string& path) {
   if (key.type == KeyType::choice && got.is_string()) {
-    fail(c, path, shown(got) + " is no choice" + suggestion(got.get_ref<const std::string&>(), key.choices));
+    fail(c, path, shown(got) + " is not a valid choice" + suggestion(got.get_ref<const std::string&>(), key.choices));
   }
   const bool unbounded = key.limits.low <= -kMaxCount && key.limits.high >= kMaxCount;
   const bool is_number = got.is_number() && (key.type == KeyType::integer || key.type == KeyType::number);
@@ -77,7 +77,7 @@ std::optional<Color> color_from(const Key& key, const Json& json) {
   return std::nullopt;
 }
 
-// Can the text be shown, printed and read again? No control characters, and UTF-8.
+// Returns true for UTF-8 without control characters, which can be displayed, printed and read back.
 bool is_opaque(const std::string& text) {
   if (std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; })) return false;
   try {
@@ -89,27 +89,27 @@ bool is_opaque(const std::string& text) {
 }
 
 void check_plain(const std::string& text, const std::string& path, const ReadContext& c) {
-  if (!is_opaque(text)) fail(c, path, "has a control character or is no UTF-8; expected plain text");
+  if (!is_opaque(text)) fail(c, path, "contains a control character or invalid UTF-8; expected plain text");
 }
 
-// Empty names no file.
+// Empty text means no file.
 FilePath file_from(const std::string& text, const std::string& path, const ReadContext& c) {
   check_plain(text, path, c);
   if (text.empty()) return {};
   if (std::filesystem::path(text).is_relative() && c.directory.empty()) {
-    fail(c, path, "'" + text + "' is relative to a directory that does not exist; expected an absolute path");
+    fail(c, path, "'" + text + "' is relative, but its base directory does not exist; expected an absolute path");
   }
   const std::filesystem::path whole = (c.directory / text).lexically_normal();
   check_plain(whole.string(), path, c);
   return {whole};
 }
 
-// A word that is neither a texture's name nor looks like a file is a misspelt name.
+// Rejects a word that is not the name of a texture and does not look like a file: it is probably a misspelled texture name.
 void check_texture_name(const std::string& text, const FilePath& file, const std::string& path, const ReadContext& c) {
   std::error_code error;
   if (c.textures.empty() || text.find_first_of("/.") != std::string::npos || std::filesystem::exists(file.path, error)) return;
   const std::vector<std::string_view> names(c.textures.begin(), c.textures.end());
-  fail(c, path, "no texture and no file '" + text + "'" + suggestion(text, names));
+  fail(c, path, "no texture or file '" + text + "'" + suggestion(text, names));
 }
 
 std::optional<MapValue> map_from(const Key& key, const Json& json, const std::string& path, const ReadContext& c) {
@@ -152,7 +152,7 @@ T& as(void* value) {
   return *static_cast<T*>(value);
 }
 
-// Is the section's key for sections of this kind?
+// Returns true if this kind of section has the key.
 bool applies(const Key& key, const Section& section) {
   if (key.limits.only[0] == '\0') return true;
   const Key& first = section.front().keys.front();
@@ -165,7 +165,7 @@ bool applies(const Key& key, const Section& section) {
   return false;
 }
 
-// Numbers separated by commas, in brackets or not.
+// Parses numbers separated by commas, with or without brackets.
 std::optional<Json> parse_numbers(std::string_view text) {
   if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
   Json list = Json::array();
@@ -215,15 +215,15 @@ std::string expectation(const Key& key) {
   const std::string unit = l.unit[0] == '\0' ? "" : " (" + std::string(l.unit) + ")";
   switch (key.type) {
     case KeyType::boolean: return "true or false";
-    case KeyType::integer: return "a whole number" + range + unit;
+    case KeyType::integer: return "an integer" + range + unit;
     case KeyType::number: return "a number" + range + unit;
     case KeyType::vector: return "three numbers [x, y, z]" + range + unit;
-    case KeyType::color: return "a colour: \"#rrggbb\", [r, g, b] or one number" + range;
-    case KeyType::text: return "a text";
-    case KeyType::file: return "the name of a file";
-    case KeyType::map: return "a colour (#rrggbb, r,g,b or a number), the name of a texture or that of an image file";
+    case KeyType::color: return "a color: \"#rrggbb\", [r, g, b] or one number" + range;
+    case KeyType::text: return "a string";
+    case KeyType::file: return "a file name";
+    case KeyType::map: return "a color (#rrggbb, r,g,b or a number), the name of a texture or an image file";
     case KeyType::numbers: return "a number or [x, y, z]" + unit;
-    case KeyType::keyframes: return "rows [seconds, value], later and later, values all numbers or all [x, y, z]";
+    case KeyType::keyframes: return "rows [seconds, value] in order of time, with values all numbers or all [x, y, z]";
     case KeyType::choice: break;
   }
   std::string text = "one of ";
@@ -266,7 +266,7 @@ void read_section(const Section& section, const Json& json, const std::string& p
                   std::span<const std::string_view> skip) {
   if (!json.is_object()) fail(context, path, "expected an object { … }, got " + shown(json));
   const auto at = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
-  // The kind first: it decides which keys there are.
+  // Read the kind first, because it determines which keys exist.
   const Key& kind = section.front().keys.front();
   if (kind.type == KeyType::choice && json.contains(kind.name)) {
     read_value({&kind, kind.member(section.front().data)}, json[kind.name], at(kind.name), context);

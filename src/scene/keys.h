@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Keys: what can be said in a scene file, told once. A table of keys is bound to a struct; reading, printing, help, the
-// JSON Schema and --set all go by the same table, and the defaults are those of a default-constructed struct.
+// Keys of scene files. A table of keys is bound to the members of a struct. Reading, printing, help, the JSON Schema and --set all
+// use the same table; default values are those of a default-constructed struct.
 #pragma once
 
 #include <array>
@@ -20,47 +20,47 @@ using Json = nlohmann::ordered_json;
 
 // ---- values ----------------------------------------------------------------------------------------------------
 
-/// A linear colour. In JSON "#rrggbb" (sRGB codes), [r, g, b] (linear) or one number (grey).
+/// A linear color. In JSON: "#rrggbb" (sRGB), [r, g, b] (linear) or one number (gray).
 struct Color {
   glm::dvec3 linear{0.0};
 };
 
-/// A file; empty for none. Relative paths are made absolute when read.
+/// A file; empty means none. Relative paths are made absolute when they are read.
 struct FilePath {
   std::filesystem::path path;
 };
 
-/// The name of one of the scene's textures.
+/// Name of a texture of the scene.
 struct TextureName {
   std::string name;
 };
 
-/// What covers a surface: one colour, a texture of the scene by its name, or an image file.
+/// What covers a surface: a single color, a texture of the scene, or an image file.
 using MapValue = std::variant<Color, TextureName, FilePath>;
 inline bool is_map(const MapValue& value) { return !std::holds_alternative<Color>(value); }
 
-/// One number, or the three of a vector.
+/// A single number, or the three components of a vector.
 using Numbers = std::vector<double>;
 
-/// Rows of a time in seconds and the value at that time.
+/// Pairs of a time in seconds and the value at that time.
 using Keyframes = std::vector<std::pair<double, Numbers>>;
 
 enum class KeyType : uint8_t { boolean, integer, number, vector, color, choice, text, file, map, numbers, keyframes };
 
-/// The names of an enumeration's values, in order. Specialized for each enumeration that is a key's type.
+/// Names of the values of an enumeration, in order. Must be specialized for every enumeration that is the type of a key.
 template <class E>
 struct ChoiceNames;
 
 // ---- keys ------------------------------------------------------------------------------------------------------
 
-/// The largest number that any key takes.
+/// Largest number that a key accepts.
 inline constexpr double kMaxCount = 1e9;
 
-/// What a key allows besides its type.
+/// Constraints on the value of a key in addition to its type.
 struct Limits {
-  const char* unit = "";                      ///< for people: "units", "degrees", "s"
-  double low = -kMaxCount, high = kMaxCount;  ///< of a number, or of each component of a vector; inclusive
-  const char* only = "";  ///< kinds of section (choices of its first key, separated by spaces) that have this key; "": all
+  const char* unit = "";                      ///< for display: "units", "degrees", "s"
+  double low = -kMaxCount, high = kMaxCount;  ///< inclusive range of a number, or of each component of a vector
+  const char* only = "";  ///< kinds of section that have this key, as choices of the first key separated by spaces; "": all
 };
 
 struct Key {
@@ -69,7 +69,7 @@ struct Key {
   const char* help;  ///< one line
   Limits limits;
   std::span<const std::string_view> choices;
-  void* (*member)(void* section);  ///< the struct's member that the key is bound to
+  void* (*member)(void* section);  ///< returns the struct member that the key is bound to
 };
 
 namespace detail {
@@ -97,7 +97,7 @@ constexpr KeyType key_type() {
   else if constexpr (std::is_same_v<M, Keyframes>)
     return KeyType::keyframes;
   else {
-    static_assert(std::is_enum_v<M> && sizeof(M) == 1, "a key's member is a value type of keys.h or an enumeration of one byte");
+    static_assert(std::is_enum_v<M> && sizeof(M) == 1, "the member of a key must be a value type of keys.h or a one-byte enumeration");
     return KeyType::choice;
   }
 }
@@ -109,7 +109,7 @@ T section_type(M T::*);
 
 }  // namespace detail
 
-/// The key of a struct's member: key<&Camera::fov>("fov", "Full vertical angle of view", {.unit = "degrees"}).
+/// Returns the key of a struct member: key<&Camera::fov>("fov", "Full vertical angle of view", {.unit = "degrees"}).
 template <auto pointer>
 Key key(const char* name, const char* help, Limits limits = {}) {
   using M = decltype(detail::member_type(pointer));
@@ -119,7 +119,7 @@ Key key(const char* name, const char* help, Limits limits = {}) {
   return k;
 }
 
-/// A struct and the table bound to it. A section of a scene is one of these or several.
+/// A struct and the key table bound to it. A scene section consists of one or more of these.
 struct Fields {
   std::span<const Key> keys;
   void* data;
@@ -132,43 +132,43 @@ struct Field {
   void* value = nullptr;
 };
 
-/// The field of that name, or key = nullptr where there is none or it is not for this kind of section.
+/// Returns the field with that name. `key` is nullptr if there is none, or if this kind of section does not have it.
 Field find_field(const Section& section, std::string_view name);
 
-/// All fields that the section, being of its kind, has.
+/// Returns all fields of the section that exist for its kind.
 std::vector<Field> fields_of(const Section& section);
 
-/// Where a value was read, for messages and for what depends on it.
+/// Context for reading a value.
 struct ReadContext {
-  std::string source;                     ///< file or "--set …": what a message begins with
-  std::filesystem::path directory;        ///< what relative paths are relative to
+  std::string source;                     ///< file or "--set …", the start of error messages
+  std::filesystem::path directory;        ///< base directory of relative paths
   std::span<const std::string> textures;  ///< names that a map may refer to
 };
 
 /// Reads one value. `path` is the key's dotted path. Throws InputError.
 void read_value(const Field& field, const Json& json, const std::string& path, const ReadContext& context);
 
-/// Reads a section's object: every member must be a key, absent keys keep their value. Members in `skip` are left to the
-/// caller. Throws InputError.
+/// Reads a section from an object. Every member must be a key or be listed in `skip`, which is left to the caller. Absent keys keep
+/// their value. Throws InputError.
 void read_section(const Section& section, const Json& json, const std::string& path, const ReadContext& context,
                   std::span<const std::string_view> skip = {});
 
-/// What read_value reads back as the same value.
+/// Returns the value as JSON that read_value reads back unchanged.
 Json value_of(const Field& field);
 
-/// The object of all the section's keys.
+/// Returns an object with all keys of the section.
 Json json_of(const Section& section);
 
-/// The value that a text on the command line stands for. Throws InputError.
+/// Converts command line text to a JSON value for read_value. Throws InputError.
 Json parse_text(const Key& key, std::string_view text, const std::string& path, const ReadContext& context);
 
-/// The shortest decimal that reads back as x.
+/// Returns the shortest decimal that reads back as x.
 std::string number_text(double x);
 
-/// In words: "a number from 1 to 180 (degrees)".
+/// Describes the expected value in words: "a number from 1 to 180 (degrees)".
 std::string expectation(const Key& key);
 
-/// JSON Schema (draft 2020-12) of the key's value.
+/// Returns the JSON Schema (draft 2020-12) of the key's value.
 Json schema_of(const Key& key);
 
 }  // namespace halfspace

@@ -17,36 +17,36 @@ namespace halfspace {
 namespace {
 
 constexpr double kMinScale = 1e-6, kMinTerm = 1e-6;
-constexpr int64_t kMaxVertices = int64_t{1} << 23;  // of one mesh: 0.6 GB
-constexpr int kMaxPatternWidth = 4096;              // 14 bytes a texel, and square
+constexpr int64_t kMaxVertices = int64_t{1} << 23;  // per mesh: 0.6 GB
+constexpr int kMaxPatternWidth = 4096;              // 14 bytes per texel; patterns are square
 constexpr int64_t kMaxCopies = 65536;
-constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // of all copies that are drawn: 2 GB while a frame is rendered
+constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // total over all visible copies: 2 GB while a frame is rendered
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
 
 void check(const CameraDescription& c, const std::string& where) {
-  if (c.near >= c.far) refuse(where + ".far", "expected more than near");
+  if (c.near >= c.far) refuse(where + ".far", "expected a value greater than near");
   const glm::dvec3 side = glm::cross(unit_or_zero(c.target - c.position), unit_or_zero(c.up));
   if (glm::dot(side, side) <= 1e-24) {
-    refuse(where + ".up", "the camera's position, target and up lie on one line; expected them to differ");
+    refuse(where + ".up", "up is parallel to the line from position to target; expected another direction");
   }
 }
 
 void check(const LightDescription& l, const std::string& where) {
   if (l.direction == glm::dvec3(0.0)) refuse(where + ".direction", "is zero; expected a direction");
   if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kMinTerm) {
-    refuse(where + ".attenuation", "is zero; expected one term of at least " + number_text(kMinTerm));
+    refuse(where + ".attenuation", "is zero; expected a sum of at least " + number_text(kMinTerm));
   }
   if (l.type == LightType::spot && l.inner > l.outer)
-    refuse(where + ".inner", number_text(l.inner) + " is more than outer; expected at most " + number_text(l.outer));
+    refuse(where + ".inner", number_text(l.inner) + " is greater than outer; expected at most " + number_text(l.outer));
   if (l.type == LightType::directional && l.size > 45.0)
-    refuse(where + ".size", number_text(l.size) + " degrees are no directional light; expected at most 45");
+    refuse(where + ".size", number_text(l.size) + " degrees is too large for a directional light; expected at most 45");
 }
 
 void check(const ShadowDescription& s, const std::string& where) {
   if (s.resolution != 0 && s.resolution < kMinShadowTexels) {
     refuse(where + ".resolution",
-           "expected 0, or from " + std::to_string(kMinShadowTexels) + " on (filters look that far), got " + std::to_string(s.resolution));
+           "expected 0 or at least " + std::to_string(kMinShadowTexels) + " (room for the filters), got " + std::to_string(s.resolution));
   }
 }
 
@@ -54,7 +54,7 @@ void check(const TextureDescription& t, const std::string& where) {
   if (t.width % 2 != 0) refuse(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
   if (is_pattern(t.source) && t.width > kMaxPatternWidth)
     refuse(where + ".width",
-           "expected at most " + std::to_string(kMaxPatternWidth) + " of a map that tiles, got " + std::to_string(t.width));
+           "expected at most " + std::to_string(kMaxPatternWidth) + " for a map that tiles, got " + std::to_string(t.width));
 }
 
 void check(const EnvironmentDescription& e, const std::string& where) {
@@ -66,10 +66,10 @@ void check(const SurfaceDescription&, const std::string&) {}
 void check(const Placement& p, const std::string& where) {
   const glm::dvec3 s = glm::abs(p.scale);
   if (std::min({s.x, s.y, s.z}) < kMinScale)
-    refuse(where + ".scale", "has a zero; expected at least " + number_text(kMinScale) + " either way");
+    refuse(where + ".scale", "has a component near zero; expected at least " + number_text(kMinScale) + " in magnitude");
 }
 
-// Of the object's mesh; for an icosphere, without the few that its seam takes twice.
+// Returns the approximate number of vertices of the object's mesh, without the additional vertices at seams and poles.
 int64_t vertices_of(const ObjectDescription& o) {
   const int64_t bands = o.latitudes, sectors = o.longitudes, n = o.segments;
   switch (o.shape) {
@@ -85,7 +85,7 @@ int64_t vertices_of(const ObjectDescription& o) {
 
 bool is_ring(Shape shape) { return shape == Shape::torus || shape == Shape::torus_knot; }
 
-// How far a surface may go inwards before it meets itself.
+// Returns how far the surface can be displaced inwards before it intersects itself.
 double thickness_of(const ObjectDescription& o) {
   if (is_ring(o.shape)) return o.tube;
   return o.shape == Shape::cube ? 0.5 * o.size : o.radius;
@@ -97,12 +97,12 @@ void check(const ObjectDescription& o, const std::string& where) {
     check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));
   if (vertices_of(o) > kMaxVertices) refuse(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
   if (is_ring(o.shape) && o.tube >= o.radius)
-    refuse(where + ".tube", number_text(o.tube) + " fills the ring; expected less than radius, " + number_text(o.radius));
-  if (is_ring(o.shape) && o.latitudes < 3) refuse(where + ".latitudes", "2 make no tube; expected at least 3");
+    refuse(where + ".tube", number_text(o.tube) + " closes the hole of the ring; expected less than radius, " + number_text(o.radius));
+  if (is_ring(o.shape) && o.latitudes < 3) refuse(where + ".latitudes", "2 do not form a tube; expected at least 3");
   if (const std::string_view key = key_for_meshes(o); o.shape == Shape::sphere && !key.empty()) {
     refuse(where + "." + std::string(key),
-           std::string("is more than the shape sphere shows (constant factors, light by pixel from outside, one scale for ") +
-               "all axes); expected the shape uv_sphere or icosphere");
+           std::string("is not supported by the shape sphere (only constant factors, per-pixel lighting, the outside, and uniform ") +
+               "scale); expected the shape uv_sphere or icosphere");
   }
   const bool displaced = o.shape != Shape::plane && is_map(o.height);
   if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness_of(o)) {
@@ -148,10 +148,10 @@ void check_room(const Named<ObjectDescription>& objects, const std::string& sour
     vertices += vertices_of(o) * count;
   }
   if (copies > kMaxCopies)
-    refuse(source, "objects: are " + std::to_string(copies) + " with all their instances; expected at most " + std::to_string(kMaxCopies));
+    refuse(source, "objects: " + std::to_string(copies) + " objects including instances; expected at most " + std::to_string(kMaxCopies));
   if (vertices > kMaxDrawnVertices) {
-    refuse(source, "objects: have " + std::to_string(vertices) +
-                       " vertices with all their instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
+    refuse(source, "objects: " + std::to_string(vertices) +
+                       " vertices including instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
   }
 }
 

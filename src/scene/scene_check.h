@@ -8,15 +8,15 @@
 
 namespace halfspace {
 
-/// What no key can tell alone: names that must exist, values that must fit each other, sizes that must be bearable. Throws
-/// InputError that begins with `source`.
+/// Checks constraints that the types and ranges of keys do not express: names that must exist, values that must be consistent with
+/// each other, and limits on memory. Throws InputError with a message that begins with `source`.
 void check_scene(SceneDescription& scene, const std::string& source);
 
-/// The first of an object's keys that asks for a mesh, so that Shape::sphere cannot show it: maps, reflection, light by vertex or triangle,
-/// a back face, a scale that is not the same every way. Empty where none does.
+/// Returns the first of an object's keys that needs a mesh and so cannot be used with Shape::sphere: maps, reflection, per-vertex
+/// or per-triangle lighting, two-sided surfaces, non-uniform scale. Returns an empty string if there is none.
 std::string_view key_for_meshes(const ObjectDescription& o);
 
-/// That all objects together ask for no more memory than is bearable. Throws as above.
+/// Checks that all objects together stay within the limits on vertices and copies. Throws InputError like check_scene.
 void check_room(const Named<ObjectDescription>& objects, const std::string& source);
 
 }  // namespace halfspace

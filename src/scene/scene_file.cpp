@@ -19,14 +19,14 @@ namespace halfspace {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{4} << 20;
-constexpr std::size_t kMaxNames = 4096;  // in one object, or places in one list
+constexpr std::size_t kMaxNames = 4096;  // in one object, or elements in one list
 constexpr int kMaxLevels = 32;
 
 [[noreturn]] void fail(const std::string& source, const std::string& what) { throw InputError(source + ": " + what); }
 
 // ---- text → JSON -----------------------------------------------------------------------------------------------
 
-// "3:14" of a byte in the text.
+// Returns "LINE:COLUMN" of a 1-based byte position in the text.
 std::string place_of(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
   const auto line = std::ranges::count(before, '\n') + 1;
@@ -35,7 +35,7 @@ std::string place_of(std::string_view text, std::size_t byte) {
   return std::to_string(line) + ":" + std::to_string(column);
 }
 
-// The library's message without its own numbers and place, on one line.
+// Returns the JSON library's message without its error number and position, on one line.
 std::string reason_of(const std::exception& e) {
   std::string what = e.what();
   if (const std::size_t colon = what.find(": "); what.starts_with("[json") && colon != std::string::npos) what = what.substr(colon + 2);
@@ -46,8 +46,8 @@ std::string reason_of(const std::exception& e) {
   return what;
 }
 
-// Refuses a name that stands twice in one object, of which JSON libraries keep one in silence, and nesting that no scene has
-// and that could exhaust the stack.
+// Parser callback that rejects duplicate names in an object, of which JSON libraries silently keep one, and deep nesting, which
+// could exhaust the stack.
 class OnceOnly {
  public:
   explicit OnceOnly(const std::string& source) : source_(source) {}
@@ -56,7 +56,7 @@ class OnceOnly {
     if (event == Json::parse_event_t::object_start) names_.emplace_back();
     if (event == Json::parse_event_t::object_end) names_.pop_back();
     if (event == Json::parse_event_t::key && !names_.back().insert(parsed.get<std::string>()).second) {
-      fail(source_, "'" + parsed.get<std::string>() + "' stands twice in one object; expected each name once");
+      fail(source_, "'" + parsed.get<std::string>() + "' occurs twice in one object; expected each name once");
     }
     if (!names_.empty() && names_.back().size() > kMaxNames)
       fail(source_, "an object has more than " + std::to_string(kMaxNames) + " names");
@@ -72,7 +72,7 @@ Json parse_json(std::string_view text, const std::string& source) {
   try {
     return Json::parse(text.begin(), text.end(), OnceOnly(source), true, true);
   } catch (const Json::parse_error& e) {
-    fail(source + ":" + place_of(text, e.byte), "no JSON: " + reason_of(e));
+    fail(source + ":" + place_of(text, e.byte), "invalid JSON: " + reason_of(e));
   } catch (const Json::exception& e) {
     fail(source, reason_of(e));
   }
@@ -81,8 +81,8 @@ Json parse_json(std::string_view text, const std::string& source) {
 std::string read_text(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) fail(path.string(), "no such scene file");
-  if (!std::filesystem::is_regular_file(path, error)) fail(path.string(), "is no regular file; expected a scene file");
-  if (std::filesystem::file_size(path, error) > kMaxBytes) fail(path.string(), "has more than 4 MiB; expected a scene file");
+  if (!std::filesystem::is_regular_file(path, error)) fail(path.string(), "is not a regular file; expected a scene file");
+  if (std::filesystem::file_size(path, error) > kMaxBytes) fail(path.string(), "is larger than 4 MiB; expected a scene file");
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(path.string(), std::string("cannot be read (") + std::strerror(errno) + ")");
   return {std::istreambuf_iterator<char>(file), {}};
@@ -90,7 +90,7 @@ std::string read_text(const std::filesystem::path& path) {
 
 // ---- JSON → description ----------------------------------------------------------------------------------------
 
-// A name can stand in a dotted path and says nothing else there.
+// Names consist of characters that have no other meaning in a dotted path.
 bool is_name(std::string_view s) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
   return !s.empty() && s[0] >= 'a' && s[0] <= 'z' && std::ranges::all_of(s, letter);
@@ -127,7 +127,7 @@ class Reader {
   const Json& collection(const char* name) const {
     static const Json none = Json::object();
     if (!json_.contains(name)) return none;
-    if (!json_[name].is_object()) fail(context_.source, std::string(name) + ": expected an object of names, { \"name\": { … }, … }");
+    if (!json_[name].is_object()) fail(context_.source, std::string(name) + ": expected an object with names, { \"name\": { … }, … }");
     return json_[name];
   }
 
@@ -136,8 +136,8 @@ class Reader {
     for (const auto& [name, value] : collection(collection_name).items()) {
       const std::string path = std::string(collection_name) + "." + name;
       if (std::ranges::find(top_words_, name) != top_words_.end())
-        fail(context_.source, path + ": is a word of the file itself; expected another name");
-      if (!is_name(name)) fail(context_.source, path + ": a name begins with a letter a to z and goes on with letters, digits and _");
+        fail(context_.source, path + ": is a reserved word; expected another name");
+      if (!is_name(name)) fail(context_.source, path + ": invalid name; expected a letter a to z followed by letters, digits and _");
       T thing;
       if constexpr (std::is_same_v<T, ObjectDescription>) {
         read_object(thing, value, path);
@@ -148,7 +148,7 @@ class Reader {
     }
   }
 
-  // The material first, then what the object says of itself.
+  // Applies the material first, then the object's own keys, which override it.
   void read_object(ObjectDescription& object, const Json& json, const std::string& path) {
     if (json.is_object() && json.contains("material") && json["material"].is_string() && json["material"] != "") {
       const auto& name = json["material"].get_ref<const std::string&>();
@@ -181,7 +181,7 @@ SceneDescription read_scene(const Json& json, const std::string& source, const s
   return Reader(json, {source, directory, {}}).read();
 }
 
-// What an object's surface has of its material is left to the material: a key set there later reaches the object.
+// Removes keys of an object that equal those of its material, so that later changes of the material still apply to the object.
 void drop_keys_of_material(Json& json, SurfaceDescription& surface, SurfaceDescription& material) {
   const Section own = section_of(surface), shared = section_of(material);
   for (const Field& field : fields_of(own)) {
@@ -189,7 +189,7 @@ void drop_keys_of_material(Json& json, SurfaceDescription& surface, SurfaceDescr
   }
 }
 
-// The whole scene as JSON, every key told.
+// Returns the whole scene as JSON, with every key.
 Json json_of(SceneDescription scene) {
   Json json = {{"version", SceneFile::kVersion}};
   json.update(json_of(section_of(scene.head)));
@@ -209,7 +209,7 @@ Json json_of(SceneDescription scene) {
   return json;
 }
 
-// Empty where it is gone: then relative paths are refused.
+// Returns an empty path if the directory no longer exists; relative paths are then rejected.
 std::filesystem::path working_directory() {
   std::error_code error;
   return std::filesystem::current_path(error);
@@ -261,17 +261,18 @@ void SceneFile::set(std::span<const std::string> settings) {
   for (const std::string& setting : settings) {
     const std::string source = "--set";
     const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) fail(source, "'" + setting + "' is no KEY=VALUE; expected, for example, camera=main");
+    if (equals == std::string::npos || equals == 0)
+      fail(source, "'" + setting + "' is not of the form KEY=VALUE; expected, for example, camera=main");
     const std::string path = setting.substr(0, equals);
     const FoundKey found = find_key(next.description_, path, source);
     std::vector<std::string> textures;
     for (const auto& [name, texture] : next.description_.textures) textures.push_back(name);
     const ReadContext context{source, working_directory(), textures};
-    // Read to check it, and written to have absolute paths.
+    // Reading checks the value; writing it back makes paths absolute.
     read_value(found.field, parse_text(*found.field.key, std::string_view(setting).substr(equals + 1), path, context), path, context);
     Json& section = at_words(json, std::span(found.words).first(found.words.size() - 1));
     section[found.words.back()] = value_of(found.field);
-    // Another kind of thing has other keys: what the new one lacks goes.
+    // Another kind of section has other keys: remove those that the new kind lacks.
     const Section fields = section_at(next.description_, std::span(found.words).first(found.words.size() - 1));
     if (found.field.key == &fields.front().keys.front() && found.field.key->type == KeyType::choice) drop_foreign_keys(fields, section);
   }

@@ -30,7 +30,7 @@ std::string joined(std::span<const std::string> words) {
 
 bool contains(const std::vector<std::string_view>& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
-// Puts the collection before a path that leaves it out.
+// Prepends the collection to a path that omits it.
 void complete(std::vector<std::string>& words, SceneDescription& scene, const std::string& where) {
   std::vector<std::string_view> names = top_words(scene);
   if (contains(names, words[0])) return;
@@ -42,12 +42,13 @@ void complete(std::vector<std::string>& words, SceneDescription& scene, const st
   });
   if (homes.empty()) throw InputError(where + "no '" + words[0] + "' in this scene" + suggestion(words[0], names));
   if (homes.size() > 1) {
-    throw InputError(where + "'" + words[0] + "' is in " + homes[0] + " and in " + homes[1] + "; expected that word before it");
+    throw InputError(where + "'" + words[0] + "' is in " + homes[0] + " and in " + homes[1] +
+                     "; expected a path that begins with one of them");
   }
   words.insert(words.begin(), homes[0]);
 }
 
-// What may follow words[0] where words[1] does not.
+// Returns the names that may follow words[0], for suggestions if words[1] is unknown.
 std::vector<std::string_view> things_in(SceneDescription& scene, std::string_view collection) {
   std::vector<std::string_view> names;
   for_each_collection(scene, [&](const char* name, const char*, auto& list) {

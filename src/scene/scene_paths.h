@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Dotted paths: the way from "moon.radius" to the value it names.
+// Dotted paths, such as "moon.radius", and the values they name.
 #pragma once
 
 #include <map>
@@ -12,40 +12,40 @@
 
 namespace halfspace {
 
-/// The key of an object's list of places.
+/// Key of an object's list of placements.
 inline constexpr std::string_view kInstances = "instances";
 
-/// A value for people: as in JSON, but a text without quotation marks, and "none" for an empty one.
+/// Formats a value for display: as JSON, but strings have no quotation marks and empty strings are "none".
 std::string value_text(const Field& field);
 
-/// A section of a scene with its dotted path ("objects.moon", "" for the head) and its help.
+/// A section of a scene with its dotted path ("objects.moon", or "" for the top level) and its help text.
 struct NamedSection {
   std::string path;
   std::string help;
   Section section;
-  std::map<std::string, std::string> defaults;  ///< of all keys of its kinds, as value_text
+  std::map<std::string, std::string> defaults;  ///< default of every key of every kind, formatted by value_text
 };
 
-/// All sections, in the order of a scene file.
+/// Returns all sections, in the order of a scene file.
 std::vector<NamedSection> sections_of(SceneDescription& scene);
 
-/// A key, and the words from the top of the file to it.
+/// A key and the words of its full path.
 struct FoundKey {
   Field field;
   std::vector<std::string> words;
 };
 
-/// Finds a key by its dotted path, the collection included or, where one thing alone has the name, not. Throws InputError
-/// that begins with `source`.
+/// Finds a key by its dotted path. The collection can be omitted if the name of the item is unique. Throws InputError with a
+/// message that begins with `source`.
 FoundKey find_key(SceneDescription& scene, std::string_view path, const std::string& source);
 
-/// The section that the words name, or empty where there is none.
+/// Returns the section named by the words, or an empty section if there is none.
 Section section_at(SceneDescription& scene, std::span<const std::string> words);
 
-/// The words that stand at the top of a scene file.
+/// Returns the reserved words at the top level of a scene file.
 std::vector<std::string_view> top_words(SceneDescription& scene);
 
-/// The thing of that name, or null.
+/// Returns the item with that name, or null.
 template <class T>
 T* find_named(std::vector<std::pair<std::string, T>>& list, std::string_view name) {
   for (auto& [thing, value] : list) {

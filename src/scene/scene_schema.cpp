@@ -9,7 +9,7 @@ namespace halfspace {
 
 namespace {
 
-// All keys of all kinds: which of them a kind has, the program tells.
+// Lists the keys of all kinds. The schema does not express which kind has which key; the program checks that.
 Json schema_of(const Section& section) {
   Json properties = Json::object();
   for (const Fields& part : section) {

@@ -139,7 +139,7 @@ const Mistake kMistakes[] = {
     {"WrongType", {"render", "earth", "--set", "earth.radius=big"}, 3, "--set: earth.radius", {"number", "1e-06", "1e+06", "'big'"}},
     {"WrongRange", {"render", "earth", "--set", "earth.latitudes=1"}, 3, "--set: earth.latitudes", {"2 to 8192", "got 1"}},
     {"WrongChoice", {"render", "earth", "--set", "earth.shape=ball"}, 3, "--set: earth.shape", {"\"ball\"", "uv_sphere", "torus_knot"}},
-    {"EmptyValue", {"render", "earth", "--set", "earth.color="}, 3, "--set: earth.color", {"colour", "#rrggbb", "texture", "image file"}},
+    {"EmptyValue", {"render", "earth", "--set", "earth.color="}, 3, "--set: earth.color", {"color", "#rrggbb", "texture", "image file"}},
     {"NoShading", {"render", "earth", "--shading", "gourod"}, 2, "--shading", {"'gourod'", "'gouraud'"}},
     {"NoMapOfNormals",
      {"render", "earth", "--set", "earth.normal_map=1"},
@@ -241,7 +241,7 @@ TEST_F(Cli, MistakesInFullSentences) {
             "halfspace: --size is '640'; expected WxH with 1 to 16384 each, for example 1920x1080\n");
   EXPECT_EQ(error({"render", "eart"}), "halfspace: unknown scene 'eart'; did you mean 'earth'?\n");
   EXPECT_EQ(error({"render", "earth", "--set", "earth.latitudes=1"}),
-            "halfspace: --set: earth.latitudes: expected a whole number from 2 to 8192, got 1\n");
+            "halfspace: --set: earth.latitudes: expected an integer from 2 to 8192, got 1\n");
   EXPECT_EQ(error({"render", "earth", "--set", "earth.color=none.jpg"}),
             "halfspace: scene earth: objects.earth.color: " + (directory / "none.jpg").string() + ": no such file; expected an image\n");
   EXPECT_EQ(error({"render", "earth", "--size", "8x8", "-o", "/dev/full"}),

@@ -342,7 +342,7 @@ TEST_P(SceneFileError, IsOneClearLine) {
 TEST(SceneFile, ErrorsInFullSentences) {
   const auto error = [](const char* text) { return input_error([&] { scene_of(text); }); };
   EXPECT_EQ(error("{\n \"version\": 1,\n}"),
-            "test.json:3:1: no JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
+            "test.json:3:1: invalid JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
   EXPECT_EQ(error(R"({"version": 1, "objects": {"a": {"raduis": 1}}})"),
             "test.json: objects.a.raduis: unknown key; did you mean 'radius'?");
   EXPECT_EQ(error(R"({"version": 1, "objects": {"a": {"radius": "big"}}})"),
