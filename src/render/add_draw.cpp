@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the shaders of scenes are compiled: a file of its own, for it takes long.
+// Instantiates all scene shaders. This takes long to compile, so it has a separate file.
 #include "halfspace/render/prepared_scene.h"
 
 namespace halfspace {

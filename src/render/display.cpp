@@ -13,14 +13,14 @@ namespace halfspace {
 
 namespace {
 
-// Of the squares whose sums are added up: their own, so that the bits do not depend on a pass's tiles.
+// Size of the squares that are summed separately. It is independent of the tiles of a pass, so that they do not affect the result.
 constexpr int kMeterTile = 64;
 
 glm::vec3 rgb_of(const glm::vec4& c) { return glm::vec3(c); }
 glm::vec3 rgb_of(const U16Vec4& c) { return {half_to_float(c.x), half_to_float(c.y), half_to_float(c.z)}; }
 
-// The sum of log(kMinLuminance + luminance) over a square of the picture, from its first row on: logarithms by lanes, their sum in
-// the order of the pixels, so that lanes of any width give the same bits.
+// Returns the sum of log(kMinLuminance + luminance) over a square of the image. Logarithms are computed in SIMD lanes but added in
+// pixel order, so the result is bit-identical for every SIMD width.
 template <class Pixel>
 double log_sum(const Image<Pixel>& light, int x0, int y0) {
   const int width = std::min(kMeterTile, light.width() - x0), y1 = std::min(y0 + kMeterTile, light.height());
@@ -50,11 +50,11 @@ double log_average(const Image<Pixel>& light, const Workers& workers) {
 }
 
 ToneMapping tone_of(const PostDescription& post, double exposure) {
-  // Beyond 1e9 nothing is left to be told apart, and an infinity would make NaN of black.
+  // An exposure above 1e9 makes no visible difference. Infinity would turn black into NaN.
   return {static_cast<float>(std::min(exposure, 1e9)), post.tone, post.tone_on, static_cast<float>(post.white)};
 }
 
-// To light on the display, for a target that encodes it exactly.
+// Converts to display light, for targets that encode sRGB exactly.
 struct ToDisplayLight {
   ToneMapping tone;
 
@@ -64,7 +64,7 @@ struct ToDisplayLight {
   }
 };
 
-// To codes over 255, for a target that stores them as they are.
+// Converts to encoded values in [0, 1], for targets that store values unchanged.
 struct ToCodes {
   ToneMapping tone;
   DisplayEncoding encode;

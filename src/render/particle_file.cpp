@@ -48,7 +48,7 @@ class RowReader {
       fail("the radius is " + number_text(row.number[3]), "expected one from 1e-6 to 1e6");
     for (std::size_t k = 4; k < row.count; ++k) {
       if (!(row.number[k] >= 0.0 && row.number[k] <= kMaxCount))
-        fail("a colour is " + number_text(row.number[k]), "expected one from 0 to 1e9");
+        fail("a color is " + number_text(row.number[k]), "expected one from 0 to 1e9");
     }
     return row;
   }
@@ -63,7 +63,7 @@ class RowReader {
   double number(std::string_view text) const {
     double x = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size()) fail(quoted(text) + " is no number");
+    if (text.empty() || error != std::errc() || end != text.data() + text.size()) fail(quoted(text) + " is not a number");
     if (!(std::fabs(x) <= kMaxCount)) fail(quoted(text) + " is out of range", "expected numbers from -1e9 to 1e9");
     return x;
   }
@@ -85,7 +85,7 @@ Particles read_particles(const std::filesystem::path& path, const ParticlesDescr
   const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
   std::error_code none;
   if (!std::filesystem::exists(path, none)) fail("no such file; expected a .csv file of spheres");
-  if (!std::filesystem::is_regular_file(path, none)) fail("is no regular file; expected a .csv file of spheres");
+  if (!std::filesystem::is_regular_file(path, none)) fail("is not a regular file; expected a .csv file of spheres");
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(std::string("cannot be read (") + std::strerror(errno) + "); expected a .csv file of spheres");
   RowReader reader(path);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;  // radians
 
-// x > 0. Newton's method without libm; from above it comes down to the root and stops there.
+// Cube root of x > 0 by Newton's method, without libm. Iterates decrease to the root and the loop ends when they stop decreasing.
 double cube_root(double x) {
   double root = std::max(x, 1.0);
   for (double next = root;; root = next) {
@@ -23,7 +23,7 @@ double cube_root(double x) {
   }
 }
 
-// Numbers in [0, 1) of a sphere, one after the other.
+// A sequence of pseudorandom numbers in [0, 1) for one sphere.
 class Draws {
  public:
   explicit Draws(int index) : seed_(mix_bits(static_cast<int32_t>(index) + 1)) {}
@@ -38,13 +38,13 @@ struct PlacedParticle {
   glm::vec3 color;
 };
 
-// (x, z) at an angle in radians.
+// Returns a point at an angle around the y axis, in radians from x to z.
 glm::dvec3 on_circle(double angle, double radius, double y) {
   const SinCosDouble a = sincos_radians(angle);
   return {radius * a.cos, y, radius * a.sin};
 }
 
-// A point that is even in [−1, 1], the i-th of n; alone it is 0.
+// Returns the i-th of n evenly spaced points in [−1, 1]; 0 if n is 1.
 double step(int i, int n) { return n == 1 ? 0.0 : 2.0 * i / (n - 1) - 1.0; }
 
 PlacedParticle on_helix(const ParticlesDescription& p, int i) {
@@ -81,7 +81,7 @@ PlacedParticle in_ball(const ParticlesDescription& p, int i) {
 PlacedParticle in_galaxy(const ParticlesDescription& p, int i) {
   constexpr double kArms = 3.0, kWound = 0.9, kSpread = 0.1, kThickness = 0.06;
   Draws draws(i);
-  const auto middle = [&] { return draws.next() + draws.next() + draws.next() - 1.5; };  // a bell round 0
+  const auto middle = [&] { return draws.next() + draws.next() + draws.next() - 1.5; };  // bell-shaped around 0
   const double out = draws.next(), turns = (i % 3) / kArms + kWound * out * out + kSpread * middle();
   const double y = kThickness * p.orbit_radius * middle() * (1.5 - out);
   const auto warm = static_cast<float>(1.0 - out);

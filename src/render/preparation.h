@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The work of SceneAssets::prepare, one file a subject: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
-// prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp,
-// prepare_background.cpp, prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp.
-// Included by these alone.
+// Implementation of SceneAssets::prepare, one file per topic: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
+// prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp, prepare_background.cpp,
+// prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp. Private header of these files and prepared_scene.cpp.
 #pragma once
 
 #include <memory>
@@ -23,14 +22,14 @@
 
 namespace halfspace {
 
-// A mesh with its indices checked once.
+// A mesh and its indices, which are validated once.
 struct MeshAsset {
   explicit MeshAsset(Mesh m) : mesh(std::move(m)), indices(mesh.indices, mesh.positions.size()) {}
   Mesh mesh;
   Indices indices;
 };
 
-// What an asset is made from, in words: the key it is kept by.
+// Builds the cache key of an asset from the parameters it is made with.
 template <class... T>
 std::string recipe(const T&... parts) {
   std::string text;
@@ -45,7 +44,7 @@ std::string recipe(const T&... parts) {
   return text;
 }
 
-// Reads a file; what is wrong with it is told with the key that asks for it.
+// Calls `read` and prepends the scene key that refers to the file to its error messages.
 template <class F>
 auto read_for(const std::string& key, F read) {
   try {
@@ -55,31 +54,31 @@ auto read_for(const std::string& key, F read) {
   }
 }
 
-// A map as one object needs it.
+// A texture as used by one object.
 struct MapUse {
   TextureDescription texture;
-  int width;  // of a generated map, else 0
+  int width;  // of a generated map, otherwise 0
 };
 
-/// Is the source a pattern's map of heights?
+/// Returns true if the source is the height map of a pattern.
 bool is_pattern_height(TextureSource source);
 
-/// How the map goes on beyond its edges on that shape.
+/// Returns how a map continues beyond its edges on a shape.
 MapEdges edges_of(Shape shape);
 
-/// How the shader reads a texture.
+/// Returns the sampler for a texture.
 Sampler make_sampler(const TextureDescription& t);
 
-/// The radius of the ball round its origin that holds the shape, without heights; units of the object.
+/// Returns the radius of a ball around the origin that contains the undisplaced shape, in units of the object.
 double ball_radius(const ObjectDescription& o);
 
-/// How far at most its heights reach from the undisplaced shape; units of the object.
+/// Returns the maximum displacement of the shape by its heights, in units of the object.
 double relief_height(const ObjectDescription& o);
 
-/// Columns of the mesh along u.
+/// Returns the number of columns of the mesh along u.
 int columns_of(const ObjectDescription& o);
 
-/// World from object, for each copy.
+/// Returns the world-from-object transform of each copy.
 std::vector<glm::dmat4> places_of(const ObjectDescription& o);
 
 class ScenePreparation {
@@ -90,15 +89,15 @@ class ScenePreparation {
   FittedScene fit(const AllowedError& allowed);
 
  private:
-  // What displaces an object.
+  // The displacement of an object.
   struct Relief {
-    std::shared_ptr<const HeightField> field;  // null: nothing does
+    std::shared_ptr<const HeightField> field;  // null: not displaced
     std::string recipe;
   };
 
   const CameraDescription& camera() const;
 
-  // The asset made from `recipe`, made now if it is not there.
+  // Returns the asset with the key `recipe`, which is made by calling `make` if it does not exist yet.
   template <class T, class F>
   std::shared_ptr<const T> asset(const std::string& recipe, F make) {
     auto found = assets_.entries_.find(recipe);
@@ -114,9 +113,9 @@ class ScenePreparation {
   MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
   std::shared_ptr<const MoonMaps> moon_maps(int width);
   std::shared_ptr<const EarthMaps> earth_maps(int width);
-  // Does the scene have a texture from this source?
+  // Returns true if the scene has a texture with this source.
   bool has_texture(TextureSource source) const;
-  // where: the key's path, for messages.
+  // where: the path of the key, for error messages.
   std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& where);
   std::shared_ptr<const Texture2D> data_texture(const MapUse& use, const std::string& where);
   std::shared_ptr<const Image<float>> heights(const MapUse& use, const std::string& where);
@@ -138,14 +137,14 @@ class ScenePreparation {
   std::shared_ptr<const MeshAsset> sphere_of(const ObjectDescription& o, const Relief& relief);
 
   // prepare_objects.cpp
-  // object: its place among the scene's.
+  // object: index in the scene's objects.
   void add_object(int object);
   Relief relief_of(const ObjectDescription& o, const std::string& path);
   DetailMap slopes_of(const Relief& relief, const ObjectDescription& o);
   NormalDetail add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path);
   void place(LitSurface& s, glm::dmat4 world) const;
 
-  // prepare_shadows.cpp: fills the shadows' views, once all objects are placed
+  // prepare_shadows.cpp: renders the shadow maps, after all objects have been placed
   void add_shadows();
   std::vector<LightView> shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const;
   int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
@@ -183,11 +182,11 @@ class ScenePreparation {
   SceneAssets& assets_;
   const SceneDescription& scene_;
   View view_;
-  std::span<Shadow> shadows_;  // by light, as out_.lights
+  std::span<Shadow> shadows_;  // parallel to out_.lights
   std::span<const Light> lights_;
-  std::span<const Light> shadowless_lights_;  // for what receives no shadow
+  std::span<const Light> shadowless_lights_;  // for objects that receive no shadows
   glm::dvec3 ambient_;
-  std::shared_ptr<const EnvironmentBlend> environments_;  // null: not asked for yet
+  std::shared_ptr<const EnvironmentBlend> environments_;  // null: not needed so far
   PreparedScene out_;
 };
 

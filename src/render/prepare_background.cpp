@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is seen where no object is.
+// The background behind all objects.
 #include "halfspace/render/preparation.h"
 
 namespace halfspace {
 
 namespace {
 
-// Which way a background looks.
+// Sets the view direction of a background.
 template <class Sky>
 void set_view(Sky& sky, const View& view) {
   sky.forward_ws = glm::vec3(view.forward_ws);
@@ -40,18 +40,18 @@ EnvironmentSky ScenePreparation::environment_sky() {
   return sky;
 }
 
-// One triangle behind everything.
+// Draws one triangle behind everything.
 void ScenePreparation::add_background() {
   DrawState state;
   state.depth.clip = ClipDepth::zero_to_one;
-  state.depth.compare = CompareOp::greater_equal;  // where nothing is nearer than the farthest
+  state.depth.compare = CompareOp::greater_equal;  // passes where the depth buffer still has its clear value
   state.depth.write = false;
   static const std::vector<glm::vec2> corners(StarSky::kCorners.begin(), StarSky::kCorners.end());
   const auto add = [&](const auto& sky) {
     out_.draws.push_back({sky, make_vertex_view(stream(corners)), std::make_shared<const Indices>(Indices::sequential(3)), state});
   };
   switch (scene_.background.type) {
-    case BackgroundType::color: break;  // the clear colour
+    case BackgroundType::color: break;  // the clear color
     case BackgroundType::stars: {
       StarSky sky = star_sky(scene_.background.density, scene_.background.brightness);
       sky.color = glm::vec3(scene_.background.color.linear);

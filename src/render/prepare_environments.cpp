@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Environments: read from files, or generated as fine as the view needs.
+// Environments, read from files or generated at the resolution that the view needs.
 #include <algorithm>
 #include <numbers>
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 6> kFaceNames{"right", "left", "top", "bottom", "front", "back"};
 
-// A face or a panorama, as its file holds it.
+// A cube map face or a panorama in the format of its file.
 using Picture = std::variant<Image<glm::u8vec4>, Image<glm::vec4>>;
 
 Picture read_picture(const fs::path& path) {
@@ -29,13 +29,13 @@ Picture read_picture(const fs::path& path) {
 }
 
 TexelFormat format_for(const Image<glm::u8vec4>&) { return TexelFormat::srgb8a8; }
-// Halfs, where they reach.
+// Half floats if their range is sufficient.
 TexelFormat format_for(const Image<glm::vec4>& image) {
   const bool wide = std::ranges::any_of(image.texels(), [](const glm::vec4& t) { return std::max({t.x, t.y, t.z}) > kMaxHalf; });
   return wide ? TexelFormat::rgba32f : TexelFormat::rgba16f;
 }
 
-// The one file of the folder that is called NAME.anything.
+// Returns the only file in the folder that is named NAME, with any extension.
 fs::path face_in(const fs::path& folder, const std::string& name) {
   std::error_code error;
   fs::path found;
@@ -45,7 +45,8 @@ fs::path face_in(const fs::path& folder, const std::string& name) {
     found = entry.path();
   }
   if (error) throw InputError(folder.string() + ": cannot be read (" + error.message() + "); expected a folder of six faces");
-  if (found.empty()) throw InputError(folder.string() + ": has no file for the face " + name + "; expected " + name + ".png or the like");
+  if (found.empty())
+    throw InputError(folder.string() + ": has no file for the face " + name + "; expected " + name + ".png or another image");
   return found;
 }
 
@@ -66,12 +67,13 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture,
   TexelFormat format = std::is_same_v<Texel, glm::u8vec4> ? TexelFormat::srgb8a8 : TexelFormat::rgba16f;
   for (std::size_t f = 0; f < 6; ++f) {
     auto* face = std::get_if<Image<Texel>>(&pictures[f]);
-    if (face == nullptr) throw InputError(files[f].string() + ": one face holds linear numbers and another codes; expected six of a kind");
+    if (face == nullptr)
+      throw InputError(files[f].string() + ": its format differs from the first face (linear or 8-bit); expected six of one kind");
     faces[f] = std::move(*face);
     const int size = faces[0].width();
     if (faces[f].width() != size || faces[f].height() != size) {
       throw InputError(files[f].string() + ": is " + std::to_string(faces[f].width()) + "x" + std::to_string(faces[f].height()) +
-                       "; expected a square face, all six of one size");
+                       "; expected six square faces of one size");
     }
     format = std::max(format, format_for(faces[f]));
   }
@@ -98,7 +100,7 @@ EnvironmentMap uniform(const Color& color) {
 
 }  // namespace
 
-// How many texels round the whole sky are worth having: in the picture's middle one spans two pixels.
+// Returns the panorama width that the view needs: texels in the center of the image span at most two pixels, up to a width of 4096.
 int ScenePreparation::panorama_width() const {
   const double circumference_px = std::numbers::pi / view_.tan_y * view_.height_px;
   int width = std::max(256, assets_.panorama_width_);
@@ -106,7 +108,7 @@ int ScenePreparation::panorama_width() const {
   return width;
 }
 
-// The same of a cube's face, whose texels are largest in its middle.
+// The same for a face of a cube map, whose texels are largest in its center.
 int ScenePreparation::face_size() const {
   int size = std::max(64, assets_.face_size_);
   while (size < 1024 && size < view_.height_px / (2.0 * view_.tan_y)) size *= 2;
@@ -150,7 +152,7 @@ std::shared_ptr<const EnvironmentMap> ScenePreparation::panorama(const std::stri
     case TextureSource::moon_color:
       return asset<EnvironmentMap>(recipe("moon_color panorama", width),
                                    [&] { return EnvironmentMap(moon_maps(width)->color, TexelFormat::srgb8a8); });
-    default: throw InputError(path + ".map: is no map of colours; expected one");
+    default: throw InputError(path + ".map: is not a color map; expected one");
   }
 }
 
@@ -162,7 +164,7 @@ std::shared_ptr<const EnvironmentMap> ScenePreparation::generated_sky(const Envi
       return EnvironmentMap(procedural_night_sky(size, sky, assets_.workers_), TexelFormat::rgba16f);
     });
   }
-  // The sun is a place in the world: turning the sky turns clouds, not it.
+  // The sun direction is given in world space, so rotating the sky moves the clouds but not the sun.
   const glm::dvec3 sun = unit_or_zero(glm::transpose(glm::dmat3(world_from_object({.rotation = e.rotation}))) * e.sun);
   return asset<EnvironmentMap>(recipe("day_sky", size, sun.x, sun.y, sun.z, e.clouds), [&] {
     const DaySky sky{kMapFromWorld * glm::vec3(sun), static_cast<float>(e.clouds)};
@@ -179,13 +181,13 @@ Environment ScenePreparation::environment_of(const std::string& name, const Envi
   return out;
 }
 
-// The first where the name is empty.
+// Returns the first environment if the name is empty.
 const std::pair<std::string, EnvironmentDescription>& ScenePreparation::environment_named(const std::string& name) const {
   const auto found = std::ranges::find_if(scene_.environments, [&](const auto& e) { return e.first == name; });
   return found == scene_.environments.end() ? scene_.environments.front() : *found;
 }
 
-// Of two environments only those are made that are seen.
+// Prepares only those of the two environments that are visible.
 EnvironmentBlend ScenePreparation::background_light() {
   const BackgroundDescription& b = scene_.background;
   const auto make = [&](const std::string& name) {
@@ -199,7 +201,7 @@ EnvironmentBlend ScenePreparation::background_light() {
   return light;
 }
 
-// What surfaces mirror; null where reflections are off.
+// Returns the environment that surfaces reflect, or null if reflections are off.
 const EnvironmentBlend* ScenePreparation::surroundings() {
   if (!scene_.reflections.on) return nullptr;
   if (environments_ == nullptr) {

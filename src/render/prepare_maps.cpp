@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Maps of a scene's objects: read from files, or generated as fine as the view needs.
+// Maps of objects, read from files or generated at the resolution that the view needs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,7 +27,7 @@ Sampler make_sampler(const TextureDescription& t) {
 
 namespace {
 
-// What the map spans from left to right on the object, and the radius of the ball that holds the object; units.
+// Width of the map on the object, and radius of a ball that contains the object; in units of the object.
 struct MapExtent {
   double map_width, radius;
 };
@@ -64,12 +64,13 @@ double relief_height(const ObjectDescription& o) {
 
 namespace {
 
-// How far from the eye the object's ball is; units.
+// Returns the distance from the eye to the bounding sphere of the object, in units.
 double distance_of_ball(const ObjectDescription& o, const glm::dmat4& world_from_object, double scale, const View& view) {
   return glm::distance(glm::dvec3(world_from_object[3]), view.eye_ws) - ball_radius(o) * scale;
 }
 
-// How far along the view the nearest part of a plane lies that is in view; units; infinite where none is. (Its ball often holds the eye.)
+// Returns the depth of the nearest visible part of a plane, in units, or infinity if no part is visible. The bounding sphere of a
+// plane is of no use here, because it often contains the eye.
 double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_object, const View& view) {
   const glm::dvec3 corner(0.5 * o.size, relief_height(o), 0.5 * o.size);
   double nearest = std::numeric_limits<double>::infinity();
@@ -81,9 +82,10 @@ double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_o
 
 }  // namespace
 
-// How many texels along u are worth having: where the object is nearest one spans two pixels.
+// Returns the map width that the object needs along u: where it is nearest to the eye, a texel spans at most two pixels, up to a
+// width of 4096.
 int ScenePreparation::width_for(const ObjectDescription& o) const {
-  // Heights out of view shade what is in view.
+  // Displaced parts outside the view can cast shadows into it.
   const bool shades = is_map(o.height) && o.casts_shadow && scene_.shadow.method != ShadowMethod::none;
   double max_px = 0.0;
   for (const glm::dmat4& world : places_of(o)) {
@@ -111,7 +113,7 @@ MapUse ScenePreparation::use_of(const MapValue& map, const ObjectDescription& o)
   TextureDescription t;
   if (const auto* file = std::get_if<FilePath>(&map)) {
     t.file = *file;
-    if (edges_of(o.shape) == MapEdges::sphere) t.wrap_t = Wrap::clamp;  // nothing lies beyond the poles
+    if (edges_of(o.shape) == MapEdges::sphere) t.wrap_t = Wrap::clamp;  // nothing is beyond the poles
   } else {
     t = texture_named(std::get<TextureName>(map).name);
   }
@@ -136,7 +138,7 @@ namespace {
 
 [[noreturn]] void fail_not(const std::string& where, const TextureDescription& t, const char* expected) {
   const bool heights = t.source == TextureSource::earth_height || t.source == TextureSource::moon_height || is_pattern_height(t.source);
-  const char* is = t.source == TextureSource::earth_normal ? "a normal map" : heights ? "a map of heights" : "a map of colours";
+  const char* is = t.source == TextureSource::earth_normal ? "a normal map" : heights ? "a height map" : "a color map";
   throw InputError(where + ": is " + is + "; expected " + expected);
 }
 
@@ -158,11 +160,11 @@ std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& u
     case TextureSource::moon_color:
       return asset<Texture2D>(recipe("moon_color", use.width),
                               [&] { return Texture2D(moon_maps(use.width)->color, TexelFormat::srgb8a8, &assets_.workers_); });
-    default: fail_not(where, use.texture, "a map of colours");
+    default: fail_not(where, use.texture, "a color map");
   }
 }
 
-// Numbers as they stand in the file: normals, exponents.
+// Textures that are not decoded from sRGB: normals, exponents.
 std::shared_ptr<const Texture2D> ScenePreparation::data_texture(const MapUse& use, const std::string& where) {
   switch (use.texture.source) {
     case TextureSource::file:
@@ -175,7 +177,7 @@ std::shared_ptr<const Texture2D> ScenePreparation::data_texture(const MapUse& us
         relief.texture.source = TextureSource::earth_height;
         return Texture2D(procedural_earth_normals(*heights(relief, where), assets_.workers_), TexelFormat::rgba16f, &assets_.workers_);
       });
-    default: fail_not(where, use.texture, "a map of numbers");
+    default: fail_not(where, use.texture, "a data map");
   }
 }
 
@@ -195,14 +197,14 @@ std::shared_ptr<const Image<float>> ScenePreparation::heights(const MapUse& use,
       });
     case TextureSource::moon_height:
       return asset<Image<float>>(recipe("moon_height", use.width), [&] { return unit_numbers(moon_maps(use.width)->height); });
-    default: fail_not(where, use.texture, "a map of heights");
+    default: fail_not(where, use.texture, "a height map");
   }
 }
 
-// The map of heights, smoothed, as a function on the object's surface.
+// Returns the smoothed height map as a function on the object's surface.
 std::shared_ptr<const HeightField> ScenePreparation::height_field(const MapUse& use, const ObjectDescription& o, const std::string& where) {
   const std::shared_ptr<const Image<float>> map = heights(use, where);
-  if (map->width() < 2) throw InputError(where + ": " + use.texture.file.path.string() + ": is one texel wide; expected a map of heights");
+  if (map->width() < 2) throw InputError(where + ": " + use.texture.file.path.string() + ": is one texel wide; expected a height map");
   const MapEdges edges = edges_of(o.shape);
   return asset<HeightField>(recipe("field", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width,
                                    o.height_smoothing, static_cast<int>(edges)),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes of a scene's objects.
+// Meshes of the scene's objects.
 #include <algorithm>
 
 #include "halfspace/geometry/displaced_sphere.h"
@@ -30,7 +30,7 @@ Mesh generated(const ObjectDescription& o, const Displacement* displacement) {
 
 }  // namespace
 
-// Finer heights are averaged.
+// Height maps with more columns are box filtered to this width.
 int columns_of(const ObjectDescription& o) {
   switch (o.shape) {
     case Shape::plane:
@@ -52,7 +52,8 @@ MapEdges edges_of(Shape shape) {
   }
 }
 
-// With heights along its normals. Its own path: it displaces rows in parallel, and its slopes by pixel fit its vertices.
+// Returns a displaced uv_sphere. It does not use SurfaceMesh: rows are displaced in parallel, and per-pixel slopes match the
+// vertices.
 std::shared_ptr<const MeshAsset> ScenePreparation::sphere_of(const ObjectDescription& o, const Relief& relief) {
   const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
   return asset<MeshAsset>(recipe("displaced sphere", o.radius, o.latitudes, o.longitudes, relief.recipe, static_cast<int>(normals)), [&] {

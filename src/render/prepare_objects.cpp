@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Objects of a scene: surface, place, and the shader that draws them.
+// Objects of the scene: their surface, their transform, and the shader that draws them.
 #include <algorithm>
 
 #include "halfspace/core/check.h"
@@ -42,7 +42,7 @@ ScenePreparation::Relief ScenePreparation::relief_of(const ObjectDescription& o,
   return r;
 }
 
-// The slopes of a displaced sphere, for normals by pixel; a null map where they come with the mesh.
+// Returns the slopes of a displaced sphere for per-pixel normals. The map is null if the mesh has the final normals.
 DetailMap ScenePreparation::slopes_of(const Relief& relief, const ObjectDescription& o) {
   DetailMap d;
   if (relief.field == nullptr || o.shape != Shape::uv_sphere || o.normals != NormalSource::pixel) return d;
@@ -59,7 +59,7 @@ DetailMap ScenePreparation::slopes_of(const Relief& relief, const ObjectDescript
 
 namespace {
 
-// The mesh's streams in the order of the shader's attributes.
+// Returns the mesh's streams in the order of the shader's attributes.
 template <class S>
 VertexView view_of(const Mesh& m) {
   if constexpr (S::kTangents) return make_vertex_view(stream(m.positions), stream(m.normals), stream(m.tangents), stream(m.uvs));
@@ -76,7 +76,7 @@ PreparedDraw draw_of(const LitSurface& surface, const MeshAsset& mesh, const std
           opaque_state(surface.two_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f)};
 }
 
-// The variant of the shader that carries what the surface needs, and no more.
+// Selects the shader variant with the minimum features that the surface needs.
 PreparedDraw draw_of(const LitSurface& s, ShadingRate rate, NormalDetail detail, const MeshAsset& mesh,
                      const std::shared_ptr<const Indices>& indices) {
   const bool mapped = std::ranges::any_of(s.factors, [](const Factor& f) { return f.map != nullptr; });
@@ -101,20 +101,20 @@ PreparedDraw draw_of(const LitSurface& s, ShadingRate rate, NormalDetail detail,
 
 }  // namespace
 
-// The map that tells the normals of an object's pixels, if one does.
+// Sets the map that provides an object's per-pixel normals, if there is one.
 NormalDetail ScenePreparation::add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path) {
   const SurfaceDescription& d = o.surface;
   if (d.shading != ShadingRate::phong) return NormalDetail::none;
   const bool automatic = d.normal == DetailChoice::automatic;
   if (d.normal == DetailChoice::map || (automatic && is_map(d.normal_map))) {
     if (!is_map(d.normal_map))
-      throw InputError(path + ".normal: is map, and normal_map is none; expected a texture or an image file as normal_map");
+      throw InputError(path + ".normal: is map, but there is no normal_map; expected a texture or an image file as normal_map");
     s.detail = normal_map(o, path + ".normal_map");
     return NormalDetail::map;
   }
   if (d.normal == DetailChoice::bump || (automatic && is_map(d.bump_map))) {
     if (!is_map(d.bump_map))
-      throw InputError(path + ".normal: is bump, and bump_map is none; expected a texture or an image file as bump_map");
+      throw InputError(path + ".normal: is bump, but there is no bump_map; expected a texture or an image file as bump_map");
     s.detail = bump_map(o, path + ".bump_map");
     return NormalDetail::bump;
   }

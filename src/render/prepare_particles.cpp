@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The particles of a scene: one draw of points for all of them.
+// The particles of a scene, drawn with a single draw call of points.
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
 

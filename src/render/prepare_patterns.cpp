@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Maps that tile, made as fine as the view needs, as textures.
+// Textures of procedural patterns, generated at the resolution that the view needs.
 #include "halfspace/render/preparation.h"
 
 namespace halfspace {
 
 namespace {
 
-// The pattern that the source is a map of.
+// Returns the pattern that the source is a map of.
 Pattern pattern_of(TextureSource source) {
   switch (source) {
     case TextureSource::checkerboard: return Pattern::checkerboard;
@@ -38,7 +38,7 @@ std::shared_ptr<const PatternMaps> ScenePreparation::pattern_maps(const MapUse& 
                             [&] { return procedural_pattern(pattern, use.width, assets_.workers_); });
 }
 
-// Colours are decoded from sRGB, factors are not.
+// Color maps are decoded from sRGB; factors are not.
 std::shared_ptr<const Texture2D> ScenePreparation::pattern_texture(const MapUse& use) {
   const TextureSource source = use.texture.source;
   return asset<Texture2D>(recipe("pattern texture", static_cast<int>(source), use.width), [&] {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadow maps of a scene: for each light that casts, views that hold what the picture shows of the receivers, and the depth of
-// the casters in each. In: placed meshes and lights. Out: Light::shadow.
+// Shadow maps. For each light that casts shadows, finds views that cover the visible receivers, renders the depth of the casters
+// into each view, and stores the result in Light::shadow.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace halfspace {
 
 namespace {
 
-// A light's maps: what its shadow points to.
+// The maps of one light, which its Shadow points to.
 struct ShadowMaps {
   std::vector<Image<float>> depths;
   std::vector<Image<glm::vec4>> moments;
@@ -65,19 +65,20 @@ ShadowView to_shading(const LightView& v, int size, const glm::dvec3& eye_ws) {
   return s;
 }
 
-// What depth is drawn of.
+// What to draw into a depth map.
 struct Placed {
   const std::vector<PlacedMesh>& meshes;
   const std::vector<PlacedSpheres>& spheres;
 };
 
-// Draws the depth of meshes and spheres as it is seen from a light, or from the eye. Of spheres the front is drawn, whatever `faces` says.
+// Draws the depth of meshes and spheres as seen from a light or from the eye. Spheres always draw their front, regardless of
+// `faces`.
 PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double far, const Placed& placed, bool casters_only,
                           ShadowFaces faces, Image<float>& depth, const Workers& workers) {
   DepthTarget target = d32f_target(depth);
   target.clear_value = 0.0f;
   Pass pass(depth.width(), depth.height(), {}, target);
-  std::deque<std::vector<glm::vec3>> centers_cs;  // the pass points into them
+  std::deque<std::vector<glm::vec3>> centers_cs;  // must outlive the pass, which refers to them
   const SphereCamera camera(clip_from_world, near, far);
   for (const PlacedSpheres& spheres : placed.spheres) {
     if (casters_only && !spheres.casts_shadow) continue;
@@ -96,7 +97,7 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
   return pass.run(workers);
 }
 
-// Places of receivers that the picture shows, and the width of a pixel there: from a coarse picture of their depth.
+// A visible point and the width of a pixel there. The points come from a low-resolution depth map of the view.
 struct SeenPlace {
   glm::dvec3 position_rws;
   double pixel;
@@ -119,7 +120,7 @@ std::vector<SeenPlace> seen_places(const View& view, const Placed& placed, const
   return places;
 }
 
-// What a texel spans, in pixels, on all but a twentieth of the places; 0 where no view holds any.
+// Returns the 95th percentile of the texel size in pixels, over the places that are inside a view; 0 if there are none.
 double footprint_of(const std::vector<ShadowView>& views, const std::vector<SeenPlace>& places, float margin) {
   std::vector<double> footprints;
   for (const SeenPlace& place : places) {
@@ -139,7 +140,8 @@ double footprint_of(const std::vector<ShadowView>& views, const std::vector<Seen
 }  // namespace
 
 std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const {
-  // Half a texel more than the filter asks: rounding must not push a point on a face's edge out of both faces.
+  // Half a texel is added to the reach of the filter, so that rounding cannot push a point on the edge between two faces out of
+  // both.
   return fitted_views(view_, out_.meshes, out_.spheres, light, scene_.shadow, size, static_cast<double>(filter_reach(settings)) + 0.5);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Spheres that are drawn as points, a draw for many: a scene's particles, and objects of the shape sphere.
+// Spheres drawn as points, many per draw call: the scene's particles and objects of shape `sphere`.
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
 
@@ -8,7 +8,7 @@ namespace halfspace {
 
 namespace {
 
-// What the sprites' vertices are made from, one row a sphere.
+// Vertex streams of the sprites, one element per sphere.
 struct SphereRows {
   std::vector<glm::vec3> centers_cs;
   std::vector<float> radii;

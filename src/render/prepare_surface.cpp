@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an object's surface looks like: its factors, and the maps that tell its pixels' normals.
+// Surface appearance of an object: its factors, and the maps for per-pixel normals.
 #include "halfspace/geometry/height_slopes.h"
 #include "halfspace/render/preparation.h"
 
 namespace halfspace {
 
-// A factor of nothing has no map, nor has one that the shading rate does not read.
+// The map is omitted if the factor is zero or the shading rate does not read it.
 void ScenePreparation::add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map,
                                   const ObjectDescription& o, const std::string& where) {
   Factor& f = s.factors[factor];
@@ -39,7 +39,7 @@ LitSurface ScenePreparation::surface_of(const ObjectDescription& o, const std::s
   if (s.model == LightModel::lambert) return s;
   add_factor(s, kShininess, glm::dvec3(d.shininess), d.shininess_map, o, path + ".shininess_map");
   Factor& shininess = s.factors[kShininess];
-  if (d.shading != ShadingRate::phong && shininess.map != nullptr) {  // a vertex or triangle has the exponent of the map's mean
+  if (d.shading != ShadingRate::phong && shininess.map != nullptr) {  // per-vertex and per-triangle lighting use the mean of the map
     shininess.constant *= shininess.map->value(shininess.map->levels() - 1, 0, 0).x;
     shininess.map = nullptr;
   }

@@ -13,7 +13,7 @@ namespace halfspace {
 namespace {
 
 Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
-  constexpr double kMinCone = 1e-6;  // in cosines: a sharp edge
+  constexpr double kMinCone = 1e-6;  // difference of cosines; gives a hard edge
   const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
   const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
   Light light;
@@ -28,7 +28,7 @@ Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
   return light;
 }
 
-// The lights that give any light besides their ambient part.
+// Returns the lights that emit diffuse or specular light.
 std::vector<PreparedLight> shining_lights(const SceneDescription& scene, const glm::dvec3& eye_ws) {
   std::vector<PreparedLight> lights;
   for (const auto& [name, d] : scene.lights) {
@@ -38,7 +38,7 @@ std::vector<PreparedLight> shining_lights(const SceneDescription& scene, const g
   return lights;
 }
 
-// Ambient light reaches every point alike, whatever light it is told by.
+// Ambient light reaches every point, no matter which light it belongs to, so it is summed here.
 glm::dvec3 ambient_of(const SceneDescription& scene) {
   glm::dvec3 sum = scene.head.ambient.linear;
   for (const auto& [name, light] : scene.lights) sum += light.color.linear * light.intensity * light.ambient;
@@ -121,7 +121,7 @@ namespace {
 
 constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
 
-// A pass that holds the scene's draws.
+// Returns a pass with the scene's draws.
 Pass pass_of(const PreparedScene& scene, int width, int height, ColorTarget color) {
   color.clear_value = scene.clear_color;
   Pass pass(width, height, color, kDepth, {.samples = scene.samples});
@@ -129,7 +129,7 @@ Pass pass_of(const PreparedScene& scene, int width, int height, ColorTarget colo
   return pass;
 }
 
-// Light in the tiles alone.
+// Renders with a known exposure, so light only exists in tiles.
 PassStatistics render_exposed(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {
   const ColorFormat format = scene.post.format == LightFormat::rgba16f ? ColorFormat::rgba16f : ColorFormat::rgba32f;
   Pass pass = pass_of(scene, picture.width(), picture.height(), {.format = format, .store = StoreOp::dont_care});
@@ -137,7 +137,7 @@ PassStatistics render_exposed(const PreparedScene& scene, Image<glm::u8vec4>& pi
   return pass.run(workers);
 }
 
-// Light of the whole picture, measured, then shown by a pass that draws nothing.
+// Renders the light of the whole image, measures it, and displays it with a second pass without draws.
 template <class Pixel>
 PassStatistics render_metered(const PreparedScene& scene, ColorTarget (*target)(Image<Pixel>&), Image<glm::u8vec4>& picture,
                               const Workers& workers) {

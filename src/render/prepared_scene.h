@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From description to draws. In: a scene's description and the size of the picture. Out: shaders with their uniforms,
-// vertex views and draw states, in drawing order, for a pass or for the naive pipeline.
+// Converts a scene description and an image size to draws: shaders with their uniforms, vertex views and draw states, in drawing
+// order, for a Pass or for the naive pipeline of the tests.
 #pragma once
 
 #include <map>
@@ -26,7 +26,8 @@
 
 namespace halfspace {
 
-/// Every shader that a scene may draw by. What visits it compiles them all: add_draw.cpp, and one file of tests.
+/// All shaders that a scene can use. Every std::visit over this type instantiates all of them; only add_draw.cpp and one test file
+/// do so.
 using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, SurfaceShader<ShadingRate::none, true>,            //
                                  SurfaceShader<ShadingRate::flat, false>, SurfaceShader<ShadingRate::flat, true>,            //
                                  SurfaceShader<ShadingRate::provoking, false>, SurfaceShader<ShadingRate::provoking, true>,  //
@@ -38,78 +39,79 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
                                  SphereImpostor<false>, SphereImpostor<true>, StarSky, EnvironmentSky>;
 
-/// One draw. std::visit on the shader gives its type back.
+/// One draw call. std::visit recovers the type of the shader.
 struct PreparedDraw {
   SceneShader shader;
   VertexView vertices;
   std::shared_ptr<const Indices> indices;
-  DrawState state;  ///< reversed Z: clear depth to 0
+  DrawState state;  ///< uses reversed Z: clear depth to 0
 };
 
-/// What opaque surfaces of scenes are drawn with: reversed Z, the nearest wins. mirrored: the object's transform turns windings.
+/// Returns the draw state of opaque surfaces, with reversed Z. `mirrored` must be set if the object's transform inverts the
+/// winding.
 DrawState opaque_state(CullMode cull, bool mirrored);
 
-/// What spheres as points are drawn with.
+/// Returns the draw state of spheres drawn as points.
 DrawState sprite_state();
 
-/// Adds it to a pass.
+/// Adds a draw to a pass.
 void add_draw(Pass& pass, const PreparedDraw& draw);
 
-/// A mesh and its place: what shadow maps and rays are made from.
+/// A mesh and its transform, for shadow maps and ray tracing.
 struct PlacedMesh {
   const Mesh* mesh;
   std::shared_ptr<const Indices> indices;
   glm::dmat4 world_from_object;
   bool two_sided, casts_shadow, receives_shadow;
-  int object = 0;  ///< its place among the scene's objects
+  int object = 0;  ///< index in the scene's objects
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };
 
-/// Exact spheres of a scene: its particles, or an object's copies. Original sprites, which are no spheres, are not among them.
+/// Exact spheres of a scene: its particles, or the copies of an object. Original sprites are not spheres and are not included.
 struct PlacedSpheres {
   std::shared_ptr<const Particles> particles;
   bool casts_shadow, receives_shadow;
-  int object = -1;  ///< its place among the scene's objects; −1: the particles
+  int object = -1;  ///< index in the scene's objects; −1: the particles
 };
 
-/// A light as this picture has it.
+/// A light, prepared for one image.
 struct PreparedLight {
   std::string name;
-  Light light;  ///< its shadow is null where it casts none
+  Light light;  ///< its shadow is null if it casts none
   LightDescription description;
-  double map_ms = 0.0;  ///< that its maps took
+  double map_ms = 0.0;  ///< time to create its shadow maps
 };
 
-/// All that a picture needs. Movable; keeps alive what its draws point to.
+/// Everything needed to render an image. Movable; keeps the assets alive that its draws point to.
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
   PostDescription post;
-  int samples = 1;  ///< of a pixel
+  int samples = 1;  ///< per pixel
   View view;
-  std::vector<PlacedMesh> meshes;  ///< of every object that is drawn
+  std::vector<PlacedMesh> meshes;  ///< of all objects that are drawn
   std::vector<PlacedSpheres> spheres;
   std::vector<PreparedLight> lights;
-  PassStatistics shadow_statistics;  ///< of the passes that made shadow maps
+  PassStatistics shadow_statistics;  ///< of the passes that rendered shadow maps
   std::vector<std::shared_ptr<const void>> assets;
 };
 
-/// Makes textures, meshes and maps as descriptions ask for them, and keeps them for the next frame as long as it wants
-/// the same.
+/// Creates the textures, meshes and maps that scene descriptions require. An asset is kept as long as each following frame uses it.
 class SceneAssets {
  public:
   explicit SceneAssets(const Workers& workers) : workers_(workers) {}
 
-  /// Tells of a frame to come: from now on, generated maps without a width of their own are at least as fine as that frame
-  /// needs. Told of all frames of a range before the first, they do not change on the way. width, height: of the picture, px.
+  /// Announces a frame that will be rendered. Generated maps without an explicit width are from then on at least as fine as that
+  /// frame needs. If all frames of a range are announced before the first is rendered, maps do not change in between. width and
+  /// height are the image size in pixels.
   void expect(const SceneDescription& scene, int width, int height);
 
-  /// The same scene with the cheapest models whose picture of that size is as right as asked (docs/accuracy.md): chosen by a model of
-  /// errors and costs from the scene alone, so that it is the same on every machine. Throws as prepare does.
+  /// Returns the same scene with the cheapest models that keep the image within the allowed error (docs/accuracy.md). The choice is
+  /// made by an error and cost model from the scene alone, so it is the same on every machine. Throws like prepare.
   FittedScene fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed);
 
-  /// width, height: of the picture, px. Throws InputError that begins with the key, where a file cannot be used.
+  /// Prepares a frame of width x height pixels. Throws InputError with a message that begins with the key if a file cannot be used.
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
  private:
@@ -119,15 +121,15 @@ class SceneAssets {
     bool wanted;  // since the last frame was prepared
   };
   const Workers& workers_;
-  std::map<std::string, Entry> entries_;    ///< by what they are made from
-  std::map<std::string, int> widths_;       ///< of generated maps, at least, by the object's name
-  int panorama_width_ = 0, face_size_ = 0;  ///< of generated environments, at least
+  std::map<std::string, Entry> entries_;    ///< by recipe
+  std::map<std::string, int> widths_;       ///< minimum widths of generated maps, by object name
+  int panorama_width_ = 0, face_size_ = 0;  ///< minimum sizes of generated environments
 };
 
-/// Draws the scene into 8-bit codes, as its post section says. Light is kept for the whole picture only where
-/// auto_exposure must see all of it first; else it lives in the tiles.
+/// Renders the scene to 8-bit pixels as specified by its post section. Light is stored for the whole image only if auto_exposure
+/// has to measure it first; otherwise it only exists in tiles.
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
-/// Draws the scene as linear numbers, alpha 1: light before exposure and tone curve.
+/// Renders the scene as linear light before exposure and tone curve, with alpha 1.
 PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers);
 
 }  // namespace halfspace

@@ -9,7 +9,7 @@ glm::dvec3 row(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i]};
 
 }  // namespace
 
-// A row of the rotation has length 1, so clip x = x/half says what half is.
+// The rows of a rotation have unit length and clip x = x / half.x, so the length of the clip x row is 1 / half.x. Likewise for y.
 SphereCamera::SphereCamera(const glm::dmat4& clip_from_world, double near, double far)
     : clip_from_world_(clip_from_world),
       perspective_(row(clip_from_world, 3) != glm::dvec3(0.0)),

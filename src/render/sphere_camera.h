@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Spheres as an eye or a light sees them. In: the transform to clip space. Out: the lens, and the centres in its axes.
+// Projects spheres as seen from a camera or a light, given the transform to clip space.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,18 @@ namespace halfspace {
 
 class SphereCamera {
  public:
-  /// clip_from_world: reversed Z in [0, w], without skew; near, far: where its depth is 1 and 0, units along the axis.
+  /// clip_from_world must use reversed Z in [0, w] and have no skew. near and far are the distances along the axis with depth 1 and
+  /// 0.
   SphereCamera(const glm::dmat4& clip_from_world, double near, double far);
 
   SphereIntersection lens(const glm::ivec2& size_px) const { return {perspective_, half_, near_, far_, size_px}; }
-  /// In the camera's axes, as SphereIntersection has them.
+  /// Returns the centers in the camera's axes, as SphereIntersection expects them.
   std::vector<glm::vec3> centers_cs(const Particles& spheres) const;
 
  private:
   glm::dmat4 clip_from_world_;
   bool perspective_;
-  glm::dvec2 half_;  // tangents, or units
+  glm::dvec2 half_;  // tangents (perspective) or units (orthographic)
   double near_, far_;
 };
 

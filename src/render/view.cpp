@@ -47,7 +47,8 @@ glm::dvec4 row_of(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i
 double pixels_per_unit(const View& v, const glm::dvec3& center_ws, double radius) {
   if (is_orthographic(v)) return 1.0 / pixel_width(v, {});
   const double nearest = std::max(v.near, glm::dot(center_ws - v.eye_ws, v.forward_ws) - radius);
-  // A move along the ray of a corner shows √(1 + tan²) of itself over the depth at the most.
+  // At a given depth, the projection of a point moves by at most √(1 + tan²) / depth per unit, which is reached in a corner of the
+  // image.
   return focal_px(v) * std::sqrt(1.0 + corner_tangent_squared(v)) / nearest;
 }
 
@@ -56,8 +57,8 @@ double silhouette_pixels_per_unit(const View& v, const glm::dvec3& center_ws, do
   const glm::dvec3 from_eye = center_ws - v.eye_ws;
   const double distance_squared = glm::dot(from_eye, from_eye), depth = glm::dot(from_eye, v.forward_ws);
   if (distance_squared <= radius * radius) return pixels_per_unit(v, center_ws, radius);
-  // The silhouette is seen at the angle α from the centre, sin α = r/d; less radius by δ turns it by δ/√(d² − r²). The picture
-  // stretches angles by 1 + tan²θ, θ from its middle.
+  // The silhouette is at an angle α from the center with sin α = r/d. Reducing the radius by δ rotates it by δ/√(d² − r²).
+  // Projection stretches angles by 1 + tan²θ, where θ is the angle from the view axis.
   const double tangent_length = std::sqrt(distance_squared - radius * radius);
   const double corner = std::sqrt(corner_tangent_squared(v));
   double farthest = corner;

@@ -99,16 +99,16 @@ TEST_F(ParticleFiles, ErrorsTellFileLineAndWhatWouldBeRight) {
       {"1,2,3,4,5\n", ":1", {"has 5 numbers", "x,y,z"}},
       {"1,2,3,4,0,0\n", ":1", {"has 6 numbers", "x,y,z"}},
       {"\n\n1,2,3,4,0,0,0,8\n", ":3", {"more than 7 numbers", "x,y,z"}},
-      {"x,y,z\n", ":1", {"'x'", "no number"}},
-      {"1,2,3m\n", ":1", {"'3m'", "no number"}},
-      {"1,,3\n", ":1", {"''", "no number"}},
-      {"1,2,3,\n", ":1", {"''", "no number"}},
+      {"x,y,z\n", ":1", {"'x'", "not a number"}},
+      {"1,2,3m\n", ":1", {"'3m'", "not a number"}},
+      {"1,,3\n", ":1", {"''", "not a number"}},
+      {"1,2,3,\n", ":1", {"''", "not a number"}},
       {"1,2,nan\n", ":1", {"'nan'", "-1e9 to 1e9"}},
       {"1,2,inf\n", ":1", {"'inf'", "-1e9 to 1e9"}},
       {"1,2,1e10\n", ":1", {"'1e10'", "-1e9 to 1e9"}},
       {"1,2,3,0\n", ":1", {"radius", "0", "1e-6 to 1e6"}},
       {"1,2,3,-1\n", ":1", {"radius", "-1", "1e-6 to 1e6"}},
-      {"1,2,3,1,0,-0.5,0\n", ":1", {"colour", "-0.5", "0 to 1e9"}},
+      {"1,2,3,1,0,-0.5,0\n", ":1", {"color", "-0.5", "0 to 1e9"}},
   };
   for (const auto& c : cases) {
     const std::filesystem::path file = put("bad.csv", c.text);

@@ -12,19 +12,19 @@ namespace halfspace {
 
 namespace {
 
-// Between an arc of 2π/n and its chord.
+// Returns the distance between an arc of 2π/n and its chord.
 double chord_error_of_circle(double radius, int n) {
   const double s = sincos_turns(0.25 / n).sin;
   return 2.0 * radius * s * s;  // 1 − cos x = 2 sin²(x/2)
 }
 
-// Along a trefoil (torus_knot.cpp): an eighth of the curve's second derivative over n², where that is largest. There, at the
-// outmost place, the middle line turns by 36.8π²·R and the tube's radius by 52π²·t.
+// Chord error along the trefoil knot (torus_knot.cpp): an eighth of the maximum second derivative of the curve, divided by n². The
+// maximum is at the outermost point, where the center line contributes 36.8π²·R and the tube's radius 52π²·t.
 double chord_error_along_knot(double radius, double tube, int n) {
   return std::numbers::pi * std::numbers::pi * (4.6 * radius + 6.5 * tube) / (static_cast<double>(n) * n);
 }
 
-// Of an icosphere of radius 1 at level 0, and at level 1 times 4: further levels quarter it.
+// For an icosphere of radius 1: the chord error at level 0, and 4^level times the chord error at higher levels.
 constexpr double kIcosahedronError = 0.2054, kIcosphereError = 0.292;
 
 }  // namespace
@@ -32,8 +32,8 @@ constexpr double kIcosahedronError = 0.2054, kIcosphereError = 0.292;
 double chord_error(const ObjectDescription& o) {
   switch (o.shape) {
     case Shape::uv_sphere: {
-      // The triangle's circle goes through the ends of its diagonal.
-      const double along = 1.0 / (4.0 * o.latitudes), across = 1.0 / (2.0 * o.longitudes);  // turns to the diagonal's middle
+      // The circumcircle of a triangle passes through the ends of the quad's diagonal.
+      const double along = 1.0 / (4.0 * o.latitudes), across = 1.0 / (2.0 * o.longitudes);  // turns to the middle of the diagonal
       const double s = sincos_turns(0.5 * std::sqrt(along * along + across * across)).sin;
       return 2.0 * o.radius * s * s;
     }
@@ -60,10 +60,10 @@ namespace {
 
 int scaled(int parts, double factor) { return std::max(3, static_cast<int>(std::ceil(parts * factor))); }
 
-// Of cylinders and cones, which are straight from top to bottom.
+// Returns the number of bands of a cylinder or cone, which are straight from top to bottom.
 int rows_of_cone(const ObjectDescription& o, int sectors, bool places_maps) {
   if (is_map(o.height)) return scaled(sectors, static_cast<double>(o.latitudes) / o.longitudes);
-  // s/4n = 2πr/(4·sectors·sectors/3) is 4.7 r/sectors²; the chord error is 4.9.
+  // With sectors/3 bands, s/4n = 2πr/(4·sectors·sectors/3) = 4.7 r/sectors², which is below the chord error of 4.9 r/sectors².
   if (places_maps && o.shape == Shape::cone && !first_map(o.surface).empty()) return scaled(sectors, 1.0 / 3.0);
   return 2;
 }
@@ -90,7 +90,7 @@ ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps) {
       o.longitudes = scaled(parts, std::sqrt((o.radius + o.tube) / o.tube));
       break;
     case Shape::torus_knot:
-      // t·(π/n)²/2 round the tube
+      // The chord error around the tube is t·(π/n)²/2.
       o.latitudes = std::max(3, parts);
       o.longitudes = scaled(parts, std::sqrt(2.0 * (4.6 * o.radius + 6.5 * o.tube) / o.tube));
       break;

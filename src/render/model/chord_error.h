@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far a generated shape's triangles lie off the surface that they stand for, and how many it needs to lie nearer.
+// Distance between the triangles of a generated shape and its smooth surface, and the number of triangles needed for a given
+// distance.
 #pragma once
 
 #include "halfspace/scene/description.h"
 
 namespace halfspace {
 
-/// The largest distance between the shape's triangles and its smooth surface, without heights; units of the object.
+/// Returns the maximum distance between the shape's triangles and its smooth surface, without heights, in units of the object.
 ///
-/// Of an arc of 2π/n the chord lies r·(1 − cos(π/n)) below. On a surface curved both ways the diagonal of a quad lies below by the sum
-/// of both its sides' (exact for the sphere, where it is the triangle's circumcentre that lies lowest). 0 for what has plane faces.
+/// The chord of an arc of 2π/n is r·(1 − cos(π/n)) below the arc. On a surface curved in both directions, the diagonal of a quad is
+/// below the surface by the sum for both of its sides. (This is exact for the sphere, where the circumcenter of the triangle is the
+/// lowest point.) The result is 0 for shapes with flat faces.
 double chord_error(const ObjectDescription& o);
 
-/// Numbers of parts from which counts are chosen: 1, 2, 3, 4, 6, 8, 12, 16, …: few, so that a moving view rarely changes a mesh. The
-/// smallest that is not below `least`.
+/// Rounds up to a number of parts that is used for meshes: 1, 2, 3, 4, 6, 8, 12, 16, … There are few such numbers, so that a moving
+/// camera rarely changes a mesh.
 int part_step(int minimum);
 
-/// The same object with `parts` from top to bottom (or round a tube, or along an edge), and with as many along the other
-/// direction as make both directions' chords err alike. For an icosphere the level whose triangles are no larger.
+/// Returns the object with `parts` from top to bottom (or around a tube, or along an edge). The count in the other direction is
+/// chosen to give both directions the same chord error. An icosphere gets the lowest level whose triangles are small enough.
 ///
-/// places_maps: the surface's maps, too, lie nearer than the chord error to where they belong. That asks for more on a cone alone: its
-/// bands are narrower above, and a triangle of one bends what is straight. In sectors of width s, and n bands, by up to s/4n.
+/// places_maps: texture coordinates must also be accurate to within the chord error. This only affects cones. Their bands narrow
+/// towards the apex, so interpolation across a triangle bends straight lines of a map, by up to s/4n for sectors of width s and n
+/// bands.
 ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps);
 
-/// The most parts that its keys allow.
+/// Returns the maximum number of parts for the object's shape.
 int max_parts(const ObjectDescription& o);
 
 }  // namespace halfspace

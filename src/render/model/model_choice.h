@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cheapest model that is right enough (SceneAssets::fit, render/model/prepare_models.cpp).
+// Choice of the cheapest sufficiently accurate model (SceneAssets::fit, render/model/prepare_models.cpp).
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace halfspace {
 
-/// How far a picture may be from that of the same scene by the finest models.
+/// Maximum difference from the image of the same scene with the finest models.
 struct AllowedError {
-  std::optional<double> edge_px;  ///< largest distance of silhouettes, and of the edges of shadows, in pixels
-  std::optional<double> color;    ///< the 99.9th percentile over pixels of the largest difference of a channel, in 8-bit codes
+  std::optional<double> edge_px;  ///< maximum distance of silhouettes and shadow edges, in pixels
+  std::optional<double> color;    ///< 99.9th percentile over pixels of the maximum channel difference, in 8-bit codes
 };
 
 /// One key that was chosen.
 struct ModelChoice {
-  std::string key;    ///< dotted path, as --set takes it
-  std::string value;  ///< as --set takes it
+  std::string key;    ///< dotted path, as for --set
+  std::string value;  ///< as for --set
   std::string why;
 };
 
 struct FittedScene {
   SceneDescription scene;
-  std::vector<ModelChoice> choices;  ///< of the keys that are not the scene's own any more, and of those that could not be chosen
+  std::vector<ModelChoice> choices;  ///< keys that differ from the scene, and keys that could not be chosen
 };
 
 }  // namespace halfspace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cheapest model that is right enough. In: a scene, the picture's size, and how far the picture may be from that by the finest
-// models. Out: the scene with other counts, maps, filters and samples, and why. The constants are fitted to the figures of
-// docs/accuracy.md; nothing is timed.
+// Chooses the cheapest models that keep an image within the allowed difference from that with the finest models. The result is the
+// scene with other mesh resolutions, maps, filters and sample counts, and the reasons for them. Constants are fitted to the
+// measurements in docs/accuracy.md; nothing is timed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,25 +18,28 @@ namespace halfspace {
 
 namespace {
 
-// Fewer bands leave the normals of a sphere's vertices so far apart that even their mean is visibly wrong between them.
+// With fewer bands, the vertex normals of a sphere are so far apart that interpolated normals are visibly wrong.
 constexpr int kMinParts = 8;
 
-// Of a textured and shaded globe, against 1024 bands: 2, 8 and 33 codes (99.9th percentile) at 128, 64 and 32 bands. The angle
-// between the ends of a quad's diagonal counts squared.
+// Measured on a textured, lit globe and compared with 1024 bands: the 99.9th percentile of the difference is 2, 8 and 33 codes at
+// 128, 64 and 32 bands. It grows with the square of the angle between the normals at the ends of a quad's diagonal.
 constexpr double kCodesPerSquaredAngle = 1700.0;
 
-// How many pixels of a thousand may show another surface, so that the 99.9th percentile is not an edge's. (Of 208 random views with 8 codes
-// asked three were beyond by 0.5, by this two: bricks in relief, seen at a grazing angle, 11 codes.)
+// Number of pixels per thousand that may show a different surface, so that edges do not determine the 99.9th percentile. (Of 208
+// random views with 8 codes allowed, three exceeded the limit with 0.5, and two with this value. Those show bricks in relief at a
+// grazing angle, with 11 codes.)
 constexpr double kEdgePixels = 0.35;
 
-// By bilinear comparison a shadow's edge lies within this part of a texel's width, where light does more than graze the surface. (With a
-// half, 14 of 208 random views were off by more than asked, 2 of them by more than twice that; with this one, by an eighth of a pixel.)
+// With bilinear comparison, shadow edges are accurate to this many texels, except where light grazes the surface. (With 0.5, 14 of
+// 208 random views exceeded the allowed error, 2 of them by more than a factor of two. With this value, one did, by an eighth of a
+// pixel.)
 constexpr double kShadowEdgeTexels = 1.25;
 
-// What one vertex costs in pixels shaded (docs/performance.md: some 10 ns beside 2.5 that light by vertex saves a pixel).
+// Cost of one vertex in shaded pixels: about 10 ns, compared with the 2.5 ns per pixel that per-vertex lighting saves
+// (docs/performance.md).
 constexpr double kPixelsPerVertex = 4.0;
 
-// Study texture_filter, 99.9th percentile of linear light at full contrast.
+// From the study texture_filter: 99.9th percentile of the error in linear light at full contrast.
 struct FilterError {
   int anisotropy;
   double linear;
@@ -46,13 +49,14 @@ constexpr int kMaxAnisotropy = 16;
 
 std::string rounded_text(double x) { return number_text(std::round(x * 1000.0) / 1000.0); }
 
-// Codes by which light that differs by `linear` can differ: the curve is steepest at black.
+// Returns the maximum difference in 8-bit codes for a difference in linear light. The sRGB curve is steepest at black.
 double codes_of(double linear) {
   const glm::vec3 light(static_cast<float>(std::min(1.0, linear)));
   return 255.0 * static_cast<double>(encode_srgb(DisplayLight<float>{light}).rgb.x);
 }
 
-// What edges may differ by where only colours are asked for: all edges of a picture together are taken to be twice its frame.
+// Returns the allowed edge error if only a color error is given. It assumes that all edges together are twice as long as the image
+// border.
 double edge_for_color(const View& v) {
   const double pixels = static_cast<double>(v.width_px) * v.height_px;
   return kEdgePixels * 1e-3 * pixels / (4.0 * (v.width_px + v.height_px));
@@ -64,13 +68,13 @@ bool is_faceted(const ObjectDescription& o) {
 bool is_plane(Shape shape) { return shape == Shape::plane || shape == Shape::cube; }
 bool is_ball(const ObjectDescription& o) { return (o.shape == Shape::uv_sphere || o.shape == Shape::icosphere) && !is_map(o.height); }
 
-// Do vertices tell more than places? Then the mesh is part of how the object looks.
+// Returns true if shading uses more than the positions of vertices. The mesh is then part of the object's appearance.
 bool shades_by_vertex(const ObjectDescription& o) {
   if (o.surface.shading == ShadingRate::gouraud) return true;
   return is_map(o.height) && !(o.shape == Shape::uv_sphere && o.normals == NormalSource::pixel);
 }
 
-// Between a shape's normals at the ends of a quad's diagonal; 0 where it has plane faces.
+// Returns the angle between the normals at the ends of a quad's diagonal; 0 for shapes with flat faces.
 double diagonal_angle(const ObjectDescription& o) {
   constexpr double kPi = std::numbers::pi;
   switch (o.shape) {
@@ -87,14 +91,14 @@ double diagonal_angle(const ObjectDescription& o) {
   return glm::length(glm::dvec2(2.0 * kPi / o.latitudes, 2.0 * kPi / o.longitudes));
 }
 
-// The largest channel of the light that reaches a surface.
+// Returns the maximum channel of the light that reaches a surface.
 double max_light(const SceneDescription& scene) {
   glm::dvec3 sum(0.0);
   for (const auto& [name, l] : scene.lights) sum += l.color.linear * l.intensity * l.diffuse;
   return std::max({sum.x, sum.y, sum.z}) * (scene.post.hdr ? scene.post.exposure : 1.0);
 }
 
-// Is diffuse light from far away all that pixels differ by?
+// Returns true if pixels differ only by diffuse light from directional lights, which can be computed per vertex.
 bool may_shade_by_vertex(const ObjectDescription& o, const SceneDescription& scene) {
   const SurfaceDescription& s = o.surface;
   const bool is_smooth = !is_map(o.height) && !is_map(s.normal_map) && !is_map(s.bump_map) && s.specular.linear == glm::dvec3(0.0) &&
@@ -111,11 +115,11 @@ double vertices_of(const ObjectDescription& o) {
   return static_cast<double>(o.latitudes) * o.longitudes;
 }
 
-// How an object stands in the picture.
+// Size and visibility of an object in the image.
 struct Presence {
-  double px_per_unit = 0.0;  // of the object, the most
-  double pixels = 0.0;       // that its ball covers, at most the picture's
-  bool is_seen = false;      // or may throw a shadow
+  double px_per_unit = 0.0;  // maximum, for units of the object
+  double pixels = 0.0;       // covered by its bounding spheres, at most those of the image
+  bool is_seen = false;      // or may cast a visible shadow
 };
 
 Presence presence_of(const ObjectDescription& o, const View& view, bool casts) {
@@ -143,15 +147,15 @@ std::shared_ptr<const ReliefDetail> ScenePreparation::relief_detail(const Object
       [&] { return ReliefDetail(*heights(use, path + ".height"), o.height_smoothing, assets_.workers_); });
 }
 
-// authored: one of the scene's own, since what is asked of its maps depends on its place there.
+// `authored` must be an element of the scene's objects, because width_for finds it by its address.
 ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, const std::string& path, double edge_px,
                                            std::optional<double> color, std::vector<ModelChoice>& choices) {
   if (is_faceted(authored) || authored.shape == Shape::sphere) return authored;
   if (is_ball(authored) && key_for_meshes(authored).empty()) {
-    // Study sphere_model: 1.52 ms, a mesh of eight bands 1.41, one of 64 bands 6.5.
+    // Study sphere_model: 1.52 ms, compared with 1.41 ms for a mesh of 8 bands and 6.5 ms for 64 bands.
     ObjectDescription sphere = authored;
     sphere.shape = Shape::sphere;
-    choices.push_back({path + ".shape", "sphere", "a ray a pixel: exact, at about the cost of the coarsest mesh"});
+    choices.push_back({path + ".shape", "sphere", "ray traced per pixel: exact, at about the cost of the coarsest mesh"});
     return sphere;
   }
   const Presence presence = presence_of(authored, view_, scene_.shadow.method != ShadowMethod::none && authored.casts_shadow);
@@ -172,10 +176,10 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
     o = with_parts(authored, parts, color.has_value());
   }
   if (shades_by_vertex(authored) && columns_of(o) <= columns_of(authored)) return authored;
-  const std::string why = !presence.is_seen ? "not in the picture"
-                          : !has_curves     ? "its faces are plane"
+  const std::string why = !presence.is_seen ? "not in the image"
+                          : !has_curves     ? "its faces are flat"
                           : is_enough(o)    ? "at most " + rounded_text(off_px(o)) + " px off"
-                                            : "the most there are: up to " + rounded_text(off_px(o)) + " px off";
+                                            : "the maximum: up to " + rounded_text(off_px(o)) + " px off";
   const auto tell = [&](const char* key, int from, int to) {
     if (from != to) choices.push_back({path + "." + key, std::to_string(to), why});
   };
@@ -183,7 +187,7 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
   tell("longitudes", authored.longitudes, o.longitudes);
   tell("level", authored.level, o.level);
   tell("segments", authored.segments, o.segments);
-  // A cosine between two vertices lies off the straight line by an eighth of the angle's square at the most.
+  // Linear interpolation of a cosine between two vertices has an error of at most an eighth of the squared angle.
   const double angle = diagonal_angle(o), light_error = codes_of(max_light(scene_) * angle * angle / 8.0);
   if (color && may_shade_by_vertex(o, scene_) && light_error <= *color && kPixelsPerVertex * vertices_of(o) <= presence.pixels) {
     o.surface.shading = ShadingRate::gouraud;
@@ -194,7 +198,7 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
 
 namespace {
 
-// Edges lie where samples say, so they are known to half the distance of samples.
+// The position of an edge is known to half the distance between samples.
 void fit_samples(SceneHead& head, double edge_px, std::vector<ModelChoice>& choices) {
   int samples = 1;
   while (samples < 8 && 0.5 / std::sqrt(samples) > edge_px) samples *= 2;
@@ -202,7 +206,7 @@ void fit_samples(SceneHead& head, double edge_px, std::vector<ModelChoice>& choi
   head.samples = samples;
   const double half = 0.5 / std::sqrt(samples);
   choices.push_back({"samples", std::to_string(samples),
-                     "they place an edge to " + rounded_text(half) + " px" + (half > edge_px ? ", the least there is" : "")});
+                     "edges are accurate to " + rounded_text(half) + " px" + (half > edge_px ? ", the minimum" : "")});
 }
 
 bool compares(ShadowMethod m) { return m != ShadowMethod::none && m <= ShadowMethod::vogel; }
@@ -211,18 +215,19 @@ void fit_shadow(ShadowDescription& shadow, double edge_px, std::vector<ModelChoi
   if (shadow.method == ShadowMethod::none) return;
   if (compares(shadow.method) && shadow.method != ShadowMethod::bilinear) {
     shadow.method = ShadowMethod::bilinear;
-    choices.push_back({"shadow.method", "bilinear", "the narrowest filter: its edges lie nearest to the true ones"});
+    choices.push_back({"shadow.method", "bilinear", "the narrowest filter: its edges are closest to the true ones"});
   }
   shadow.resolution = 0;
   shadow.footprint = std::clamp(edge_px / kShadowEdgeTexels, 0.1, 100.0);
-  const std::string why = "as fine as edges within " + rounded_text(shadow.footprint * kShadowEdgeTexels) + " px ask, at most " +
+  const std::string why = "fine enough for edges within " + rounded_text(shadow.footprint * kShadowEdgeTexels) + " px, at most " +
                           std::to_string(kMaxShadowTexels) + " texels";
   choices.push_back({"shadow.resolution", "0", why});
   choices.push_back({"shadow.footprint", rounded_text(shadow.footprint), why});
 }
 
-// How far the circle of an original sprite lies from the sphere's ellipse, in pixels, at the most. On the line from the picture's
-// middle the ellipse reaches from tan(θ − α) to tan(θ + α), sin α = r/d, the circle r/z to both sides of tan θ.
+// Returns the maximum distance in pixels between the circle of an original sprite and the ellipse of its sphere. On the line
+// through the image center, the ellipse extends from tan(θ − α) to tan(θ + α) with sin α = r/d. The circle extends by r/z on both
+// sides of tan θ.
 double original_error_px(const View& v, const Particles& particles) {
   if (v.to_eye_ws != glm::dvec3(0.0)) return 0.0;
   const double focal_px = 0.5 * v.height_px / v.tan_y;
@@ -232,7 +237,7 @@ double original_error_px(const View& v, const Particles& particles) {
     const double z = glm::dot(from_eye, v.forward_ws), squared = glm::dot(from_eye, from_eye), r = static_cast<double>(particles.radii[i]);
     if (z + r <= v.near || is_outside(v, particles.centers_ws[i], r)) continue;
     const double tan_center = std::sqrt(std::max(0.0, squared - z * z)) / z, tan_radius = r / std::sqrt(squared - r * r);
-    if (z - r <= v.near || tan_center * tan_radius >= 1.0) return INFINITY;  // no ellipse
+    if (z - r <= v.near || tan_center * tan_radius >= 1.0) return INFINITY;  // the projection is not an ellipse
     const double outer = (tan_center + tan_radius) / (1.0 - tan_center * tan_radius);
     worst = std::max(worst, focal_px * std::fabs(outer - tan_center - r / z));
   }
@@ -242,8 +247,8 @@ double original_error_px(const View& v, const Particles& particles) {
 void fit_particles(ParticlesDescription& p, double error_px, double edge_px, std::vector<ModelChoice>& choices) {
   if (p.sprite == ParticleSprite::exact || error_px <= edge_px) return;
   p.sprite = ParticleSprite::exact;
-  const std::string how_far = std::isfinite(error_px) ? "up to " + rounded_text(error_px) + " px" : std::string("any distance");
-  choices.push_back({"particles.sprite", "exact", "circles lie " + how_far + " off the spheres' ellipses"});
+  const std::string how_far = std::isfinite(error_px) ? "up to " + rounded_text(error_px) + " px" : std::string("arbitrarily far");
+  choices.push_back({"particles.sprite", "exact", "circles are " + how_far + " off the ellipses of the spheres"});
 }
 
 void fit_textures(Named<TextureDescription>& textures, double color, std::vector<ModelChoice>& choices) {
@@ -252,18 +257,17 @@ void fit_textures(Named<TextureDescription>& textures, double color, std::vector
   for (auto& [name, t] : textures) {
     if (t.filter != Filter::trilinear || t.anisotropy == anisotropy) continue;
     t.anisotropy = anisotropy;
-    const std::string why =
-        anisotropy == kMaxAnisotropy ? "the most there are" : "up to " + rounded_text(codes_of(enough->linear)) + " codes";
+    const std::string why = anisotropy == kMaxAnisotropy ? "the maximum" : "up to " + rounded_text(codes_of(enough->linear)) + " codes";
     choices.push_back({"textures." + name + ".anisotropy", std::to_string(anisotropy), why});
   }
 }
 
-// Halves hold light to 2^-12 of itself, a 16th of a code at the most.
+// Half floats have a relative error of 2^-11, which is less than 1/16 of a code.
 void fit_post(PostDescription& post, double color, std::vector<ModelChoice>& choices) {
   const LightFormat format = color >= 1.0 / 16.0 ? LightFormat::rgba16f : LightFormat::rgba32f;
   if (!post.hdr || post.format == format) return;
   post.format = format;
-  choices.push_back({"post.format", format == LightFormat::rgba16f ? "rgba16f" : "rgba32f", "halves are a 16th of a code off"});
+  choices.push_back({"post.format", format == LightFormat::rgba16f ? "rgba16f" : "rgba32f", "half floats are accurate to 1/16 of a code"});
 }
 
 }  // namespace
@@ -283,7 +287,7 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
     fit_textures(scene.textures, *allowed.color, out.choices);
     fit_post(scene.post, *allowed.color, out.choices);
   }
-  check_room(scene.objects, "the cheapest model");  // thousands of copies of a fine mesh may want more room than there is
+  check_room(scene.objects, "the cheapest model");  // thousands of copies of a fine mesh may exceed the limit
   return out;
 }
 

@@ -10,11 +10,11 @@ namespace halfspace {
 
 namespace {
 
-// Four floats a texel, side by side; as many more at the end as fill the last lanes.
+// Four interleaved floats per texel, padded for the last SIMD packet.
 using MomentRow = std::vector<float>;
 MomentRow make_row(int texels) { return MomentRow(static_cast<std::size_t>(4 * texels + kLanes - 1)); }
 
-// out = share · Σ of count rows, which begin at `rows(k)`.
+// Computes the mean of `count` rows of `floats` values; row k starts at rows(k).
 template <class Rows>
 void mean_of(int count, int floats, const Rows& rows, float* out) {
   const Real share(1.0f / static_cast<float>(count));
@@ -25,7 +25,7 @@ void mean_of(int count, int floats, const Rows& rows, float* out) {
   }
 }
 
-// One row of depths → means along the row.
+// Filters one row of depths horizontally.
 class RowFilter {
  public:
   RowFilter(const ShadowView& view, int size, int radius)
@@ -55,13 +55,13 @@ class RowFilter {
 }  // namespace
 
 Image<glm::vec4> filtered_moments(const ShadowView& view, const Image<float>& depth, int radius, const Workers& workers) {
-  constexpr int kBand = 128;  // rows of a task; the 2·radius round them are filtered by two
+  constexpr int kBand = 128;  // rows per task; the 2·radius rows around each boundary are filtered by both tasks
   const int size = depth.width(), count = 2 * radius + 1;
   Image<glm::vec4> out(size, size);
   workers.for_each((size + kBand - 1) / kBand, [&](int band) {
     const int first = band * kBand, end = std::min(first + kBand, size);
     RowFilter filter(view, size, radius);
-    // The last `count` rows, filtered along themselves: row r in slot r modulo count.
+    // The last `count` rows, filtered horizontally. Row r is in slot r modulo count.
     std::vector<MomentRow> slots(static_cast<std::size_t>(count), make_row(size));
     const auto slot = [&](int row) { return slots[static_cast<std::size_t>((row + count) % count)].data(); };
     MomentRow mean = make_row(size);

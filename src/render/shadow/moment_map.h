@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Maps of filtered moments, for the filters `vsm` and `moments`. In: a view and its map of depths. Out: what shading/shadow_moments.h
-// reads.
+// Filtered moment maps for the filters `vsm` and `moments`, computed from a depth map and read by shading/shadow_moments.h.
 #pragma once
 
 #include "halfspace/core/image.h"
@@ -10,8 +9,8 @@
 
 namespace halfspace {
 
-/// Means of the powers 1 to 4 of the linear depth over squares of 2·radius + 1 texels; beyond the edge counts the edge. `depth` holds
-/// size² reversed window depths, top row first; radius ≥ 0.
+/// Returns the mean of the first four powers of linear depth over squares of 2·radius + 1 texels, with the map clamped at its
+/// edges. `depth` holds size² reversed window depths, top row first. radius ≥ 0.
 Image<glm::vec4> filtered_moments(const ShadowView& view, const Image<float>& depth, int radius, const Workers& workers);
 
 }  // namespace halfspace

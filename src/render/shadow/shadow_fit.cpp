@@ -11,17 +11,18 @@ namespace halfspace {
 
 namespace {
 
-// Degrees from the axis: beyond, one plane's texels grow too wide at its border (from 90 on it is no plane), and faces are better.
+// Maximum angle from the axis, in degrees, for a single view of a spot light. Above it, texels at the border become too large, and
+// from 90 degrees a single plane is impossible, so cube faces are used instead.
 constexpr double kWidestSpot = 60.0;
 
-// What a mesh, or spheres together, span.
+// The bounds of a mesh, or of a set of spheres.
 struct Extent {
-  const PlacedMesh* mesh;  // or null, and then
+  const PlacedMesh* mesh;  // if null, `particles` is set
   const Particles* particles;
   Box box_ws;
 };
 
-// Bounds of the mesh's vertices along the columns of a rotation.
+// Returns the bounds of the mesh's vertices along the columns of a rotation.
 Box bounds_along(const PlacedMesh& placed, const glm::dmat3& axes) {
   const glm::dmat3 turn = glm::transpose(axes) * glm::dmat3(placed.world_from_object);
   const glm::dvec3 shift = glm::transpose(axes) * glm::dvec3(placed.world_from_object[3]);
@@ -54,7 +55,7 @@ Box joined(Box a, const Box& b) {
   return a;
 }
 
-// Finds a light's views.
+// Computes the views of one light.
 class ViewFinder {
  public:
   ViewFinder(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres, int size, double margin)
@@ -108,7 +109,7 @@ class ViewFinder {
 
   std::vector<LightView> cube(const glm::dvec3& position) const {
     double near = 1e300, far = 0.0;
-    // Distances along the faces' axes: the largest component's.
+    // The distance along the axis of the nearest face is the largest component.
     for (const Extent& e : casters_) {
       const glm::dvec3 gap = glm::max(glm::max(e.box_ws.low - position, position - e.box_ws.high), glm::dvec3(0.0));
       near = std::min(near, std::max({gap.x, gap.y, gap.z}));
@@ -132,10 +133,10 @@ class ViewFinder {
     if (receives && !common_corners(frustum_, e.box_ws).empty()) receivers_.push_back(e);
   }
 
-  // A little before the nearest caster; a thousandth of the way where the light stands among them.
+  // Returns a distance slightly in front of the nearest caster, but at least far/1000, in case the light is among the casters.
   static double near_end(double nearest, double far) { return std::max(std::min(0.9 * nearest, 0.5 * far), 1e-3 * far); }
 
-  // Distances along the view's axis between which the picture shows receivers.
+  // Returns the range of distances along the view axis in which receivers are visible.
   std::pair<double, double> seen_distances() const {
     double near = 1e300, far = 0.0;
     for (const Extent& r : receivers_) {
@@ -147,7 +148,7 @@ class ViewFinder {
     return {std::max(near, 1e-3 * far), far};
   }
   double distance_to(const glm::dvec3& p_ws) const { return glm::dot(p_ws - eye_ws_, forward_ws_); }
-  // Where a distance lies between the frustum's ends.
+  // Returns the position of a distance between the near plane (0) and the far plane (1).
   double share_at(double distance) const {
     const double near = distance_to(frustum_[0]), far = distance_to(frustum_[4]);
     return std::clamp((distance - near) / (far - near), 0.0, 1.0);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which views a light needs for what a picture shows. In: a camera's view, placed meshes and spheres, a light. Out: its views, none where
-// nothing in the picture receives its shadow.
+// Finds the shadow map views of a light that are needed for an image. There are none if nothing visible receives its shadow.
 #pragma once
 
 #include <vector>
@@ -12,9 +11,9 @@
 
 namespace halfspace {
 
-/// size: texels of a view; margin: texels round it that a filter needs. Of a directional light as many as there are cascades
-/// that show anything, of a spot one, of a point light or a spot wider than 60 degrees from its axis those of six that show a receiver and
-/// a caster.
+/// Returns the views for a map size of `size` texels with `margin` texels around each view for filtering. A directional light has
+/// one view per cascade that shows a receiver, a spot light has one view. A point light, or a spot light with an outer angle above
+/// 60 degrees, has up to six: those cube faces that contain a receiver and a caster.
 std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres,
                                     const LightDescription& light, const ShadowDescription& shadow, int size, double margin);
 

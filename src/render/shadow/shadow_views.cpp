@@ -14,7 +14,8 @@ namespace halfspace {
 
 namespace {
 
-// The part of segment a b where inside(p) ≥ 0 for all given distances; false where none is.
+// Clips the segment from a to b to the part where all distances, given as pairs at a and b, are ≥ 0. Returns false if nothing is
+// left.
 template <class Distances>
 bool clip_segment(glm::dvec3& a, glm::dvec3& b, const Distances& distances) {
   double from = 0.0, to = 1.0;
@@ -30,7 +31,7 @@ bool clip_segment(glm::dvec3& a, glm::dvec3& b, const Distances& distances) {
   return true;
 }
 
-// Corner pairs that differ in one of three bits: the twelve edges of a body with eight corners.
+// Visits the twelve edges of a body with eight corners: pairs of corners whose indices differ in one of three bits.
 template <class F>
 void for_each_edge(F visit) {
   for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -41,12 +42,12 @@ void for_each_edge(F visit) {
 }
 
 struct Plane {
-  glm::dvec3 normal;  // inwards
+  glm::dvec3 normal;  // points inwards
   double offset;
   double distance(const glm::dvec3& p) const { return glm::dot(normal, p) + offset; }
 };
 
-// The six faces of a body with eight corners, each through three of them.
+// Returns the six faces of a body with eight corners. Each plane goes through three of them.
 std::array<Plane, 6> faces_of(const std::array<glm::dvec3, 8>& c) {
   glm::dvec3 middle(0.0);
   for (const glm::dvec3& p : c) middle += p / 8.0;
@@ -61,7 +62,7 @@ std::array<Plane, 6> faces_of(const std::array<glm::dvec3, 8>& c) {
   return planes;
 }
 
-// The least of 2^(k/4) that is not below x > 0.
+// Returns the smallest 2^(k/4) ≥ x, for integer k and x > 0.
 double next_step(double x) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);  // x = mantissa · 2^exponent, mantissa in [1/2, 1)
@@ -72,7 +73,7 @@ double next_step(double x) {
 LightView perspective_view(const glm::dvec3& position, const glm::dvec3& forward, const glm::dvec3& up, double tan_half, double near,
                            double far, int size, double margin) {
   const double widened = tan_half * size / (size - 2.0 * margin);
-  const double a = near * far / (far - near), b = -near / (far - near);  // window depth a/w + b
+  const double a = near * far / (far - near), b = -near / (far - near);  // window depth = a/w + b
   const glm::dmat4 clip_from_view(glm::dvec4(1.0 / widened, 0, 0, 0), glm::dvec4(0, 1.0 / widened, 0, 0), glm::dvec4(0, 0, -b, -1),
                                   glm::dvec4(0, 0, a, 0));
   return {clip_from_view * look_at(position, position + forward, up), 2.0 * widened / size, a, true, near, far};
@@ -139,7 +140,7 @@ std::vector<glm::dvec3> common_corners(const std::array<glm::dvec3, 8>& frustum,
 
 LightView directional_view(const glm::dmat3& axes, const Box& receivers, std::span<const Box> casters, int size, double margin) {
   const double wanted = std::max({receivers.high.x - receivers.low.x, receivers.high.y - receivers.low.y, 1e-6});
-  // One texel more than needed on each side, for the origin's step.
+  // One additional texel on each side leaves room for snapping the origin.
   const double texel = next_step(wanted / (size - 2.0 * margin - 2.0));
   const double width = texel * size;
   const auto start = [&](double low, double high) { return std::floor((0.5 * (low + high) - 0.5 * width) / texel) * texel; };
@@ -149,7 +150,7 @@ LightView directional_view(const glm::dmat3& axes, const Box& receivers, std::sp
     const bool over = c.low.x <= x0 + width && c.high.x >= x0 && c.low.y <= y0 + width && c.high.y >= y0;
     if (over) nearest = std::max(nearest, c.high.z);
   }
-  // A texel's depth of room at both ends, so that neither end is clipped away by rounding.
+  // A margin of one texel in depth at both ends, so that rounding does not clip them.
   const double near = nearest + texel, far = receivers.low.z - texel;
   const double depth = near - far;
   const glm::dmat4 along_axes(glm::transpose(axes));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From where a light's maps are taken, and what each spans: as little as is needed, since a map's texels are given.
+// Views from which a light's shadow maps are rendered. Each view is as small as possible, because its number of texels is given.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace halfspace {
 
-/// A picture to be taken from a light; world space, double. Depth is reversed, clip depth in [0, w].
+/// A view from a light, in world space and double precision. Depth is reversed, with clip depth in [0, w].
 struct LightView {
   glm::dmat4 clip_from_world{1.0};
-  double texel_per_w = 1.0;     ///< world width of a texel where clip w is 1
-  double depth_per_unit = 1.0;  ///< window depth per unit along the axis where w is 1
+  double texel_per_w = 1.0;     ///< world width of a texel where clip w = 1
+  double depth_per_unit = 1.0;  ///< window depth per unit along the axis where w = 1
   bool perspective = false;
-  double near = 0.0, far = 1.0;  ///< units along the axis, from the light (or, directional, from the view's own start)
+  double near = 0.0, far = 1.0;  ///< distance along the axis from the light; for directional lights, from the start of the view
 };
 
-/// Smallest and largest coordinates; empty where low > high.
+/// Axis-aligned bounds; empty if low > high.
 struct Box {
   glm::dvec3 low{1e300}, high{-1e300};
   bool empty() const { return low.x > high.x; }
@@ -30,36 +30,37 @@ struct Box {
   }
 };
 
-/// The corners of a box.
+/// Returns the corners of a box. Bits 0, 1 and 2 of the index select the high x, y and z.
 std::array<glm::dvec3, 8> corners_of(const Box& box);
 
-/// Unit vectors of a directional light's views: columns right, up, and towards the light. They depend on the direction alone.
+/// Returns the axes of a directional light's views as unit vectors: right, up, and towards the light. They depend only on the
+/// direction.
 glm::dmat3 light_axes(const glm::dvec3& to_light_ws);
 
-/// The eight corners of what a camera sees, near ones first; clip_from_world has reversed Z in [0, w].
+/// Returns the corners of the view frustum, near ones first. clip_from_world must have reversed Z in [0, w].
 std::array<glm::dvec3, 8> frustum_corners(const glm::dmat4& clip_from_world);
 
-/// The part of a frustum between two shares of the way from its near to its far end, 0 ≤ from < to ≤ 1.
+/// Returns the part of a frustum between two fractions of the way from the near plane to the far plane, 0 ≤ from < to ≤ 1.
 std::array<glm::dvec3, 8> frustum_slice(const std::array<glm::dvec3, 8>& frustum, double from, double to);
 
-/// The corners of what frustum and box have in common; none where they are apart. Each corner of such a body lies on an edge
-/// of the one within the other.
+/// Returns the corners of the intersection of frustum and box, or an empty list if they do not intersect. Each corner of the
+/// intersection is on an edge of one body inside the other.
 std::vector<glm::dvec3> common_corners(const std::array<glm::dvec3, 8>& frustum, const Box& box_ws);
 
-/// A directional light's view that holds `receivers` (coordinates along the axes) with `margin` texels round them, and of the
-/// `casters` all that may shade any point of its square, which is wider: depth reaches from the receivers' far end to the near end of the
-/// casters over the square. Width and place are held to steps of the grid, so that a moving camera does not make shadows crawl: edges
-/// 2^(1/4) apart, origin on whole texels.
+/// Returns a view of a directional light that contains `receivers` (in coordinates along the axes) with a margin of `margin`
+/// texels. The square of the view is larger than that. Its depth range starts at the nearest of the `casters` above the square and
+/// ends at the far end of the receivers. The width is rounded up to a power of 2^(1/4) and the origin is snapped to texels, so that
+/// shadows do not shimmer when the camera moves.
 LightView directional_view(const glm::dmat3& axes, const Box& receivers, std::span<const Box> casters, int size, double margin);
 
-/// A view from a point along `forward`, of `angle` radians with `margin` texels round that.
+/// Returns a view from a point along `forward`. It spans `angle` radians plus a margin of `margin` texels.
 LightView spot_view(const glm::dvec3& position, const glm::dvec3& forward, double angle, double near, double far, int size, double margin);
 
-/// The six views of a point light, in the order +x −x +y −y +z −z.
+/// Returns the six views of a point light, in the order +x −x +y −y +z −z.
 std::array<LightView, 6> cube_views(const glm::dvec3& position, double near, double far, int size, double margin);
 
-/// Where to part the distances near … far for `count` cascades: count + 1 numbers; between even and geometric steps
-/// (Zhang et al., "Parallel-split shadow maps", VRCIA 2006), weight 0 … 1 towards the geometric.
+/// Splits the range of distances from near to far into `count` cascades and returns the count + 1 boundaries. They are interpolated
+/// between uniform (weight 0) and geometric (weight 1) steps (Zhang et al., "Parallel-split shadow maps", VRCIA 2006).
 std::vector<double> cascade_splits(double near, double far, int count, double weight);
 
 }  // namespace halfspace
