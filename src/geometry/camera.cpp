@@ -63,7 +63,7 @@ glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::d
   return m;
 }
 
-// The depth row a·z + b must equal −w at z = −near and w at z = −far, where w = −z.
+// Clip depth a·z + b must equal −w at z = −near and w at z = −far, where w = −z.
 glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far) {
   HS_CHECK_OP(near, >, 0.0);
   HS_CHECK_OP(near, <, far);
@@ -71,7 +71,7 @@ glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far) {
   return perspective(fovy, aspect, -(far + near) / (far - near), -2.0 * far * near / (far - near));
 }
 
-// The depth row must equal w at z = −near and 0 at z = −far. The limit for an infinite far plane is a = 0, b = near.
+// Clip depth must equal w at z = −near and 0 at z = −far. The limit for an infinite far plane is a = 0, b = near.
 glm::dmat4 perspective_reversed(double fovy, double aspect, double near, double far) {
   HS_CHECK_OP(near, >, 0.0);
   HS_CHECK_OP(near, <, far);

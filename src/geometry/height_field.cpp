@@ -28,7 +28,7 @@ void normalize(std::vector<double>& weights) {
   for (double& w : weights) w /= sum;
 }
 
-// A Gaussian with a standard deviation of `sigma` texels, cut off at 3.5 sigma, where the tails weigh 5e-4.
+// A Gaussian with a standard deviation of `sigma` texels, truncated at 3.5 sigma. The truncated tails have a weight of 5e-4.
 Kernel gaussian(double sigma) {
   if (sigma <= 0) return {0, {1.0}};
   const int reach = static_cast<int>(std::ceil(3.5 * sigma));
@@ -112,12 +112,13 @@ Image<float> smooth_columns(const Image<float>& map, const Kernel& k, MapEdges e
 
 double sin_of_row(int row, int height) { return sincos_turns(0.5 * (row + 0.5) / height).sin; }
 
-// Caps sigma at the width of the ring, where the filter is already the mean: the lowest frequency is scaled by exp(−2π²).
+// Caps sigma at the width of the ring. At that width the filter is already the mean, since it scales the lowest frequency by
+// exp(−2π²).
 Kernel capped_gaussian(double sigma, int width) { return gaussian(std::min(sigma, static_cast<double>(width))); }
 
 // ---- resampling ------------------------------------------------------------------------------------------------
 
-// Returns the fractions of texel `i` of `to` that the texels of a row of `from` ≥ to cover, starting at texel `first`.
+// Returns the weights for averaging a row of `from` texels to texel `i` of a row of `to` ≤ from texels.
 Kernel overlap(int i, int from, int to) {
   // In units of 1/(from·to) of the map, all texel edges are integers.
   const int64_t begin = static_cast<int64_t>(i) * from, end = begin + from;

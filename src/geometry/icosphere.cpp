@@ -159,7 +159,7 @@ class Icosphere {
   double radius_;
   SurfaceMesh mesh_;
   Polyhedron shape_;
-  std::vector<glm::dvec2> uvs_;  // of the corners, with u in [0, 1)
+  std::vector<glm::dvec2> uvs_;  // texture coordinates of the corners, u in [0, 1)
   std::array<std::vector<double>, 2> pole_us_;
   std::map<std::pair<int, bool>, int> vertices_;
 };

@@ -7,9 +7,9 @@
 
 namespace halfspace {
 
-/// Indexed triangle list, counter-clockwise when seen from the front. Every non-empty stream has one entry per vertex; normals have
-/// unit length. `tangents` may be empty. Otherwise xyz points along increasing u, and cross(normal, xyz)·w along decreasing v,
-/// where v = 0 is the top row of a texture; green is up in normal maps.
+/// Indexed triangle list, counter-clockwise when seen from the front. Every non-empty stream has one entry per vertex. Normals have
+/// unit length. `tangents` may be empty. Otherwise xyz points along increasing u, and cross(normal, xyz)·w along decreasing v (v =
+/// 0 is the top row of a texture), so green is up in normal maps.
 struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;

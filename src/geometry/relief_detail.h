@@ -23,7 +23,7 @@ class ReliefDetail {
   struct Level {
     double columns, error;
   };
-  std::vector<Level> levels_;  // from the width of the map downwards
+  std::vector<Level> levels_;  // in order of decreasing columns, starting at the map's width
 };
 
 }  // namespace halfspace

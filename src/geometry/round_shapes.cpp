@@ -43,7 +43,7 @@ int add_row(SurfaceMesh& mesh, int sectors, F point) {
   return first;
 }
 
-// The disc at height y, facing up (up = 1) or down (up = −1): x = r·(2u − 1), z = up·r·(2v − 1), where r is the radius of the rim.
+// The disk at height y, facing up (up = 1) or down (up = −1): x = r·(2u − 1), z = up·r·(2v − 1), where r is the radius of the rim.
 // Heights fade with the distance ρ from the center, as a fraction of the radius; ∂ρ/∂u = 2(2u − 1)/ρ, and likewise for v.
 class Cap {
  public:

@@ -3,7 +3,8 @@
 // Closed-form shapes, computed in double without libm and rounded to float once, so they have the same bits on every machine. All
 // shapes are y up and wound counter-clockwise seen from outside, with outward unit normals, texture coordinates and tangents. On
 // closed shapes, positions are bit-identical where two faces, or opposite edges of the map, meet. `displacement`, if given,
-// displaces the surface (geometry/surface_mesh.h). A closed shape stays closed for any height map.
+// displaces the surface (geometry/surface_mesh.h); its field must have the MapEdges given below as "Field edges". A closed shape
+// stays closed for any height map.
 #pragma once
 
 #include "halfspace/core/trig_double.h"
@@ -52,7 +53,7 @@ Mesh icosphere(int level, float radius, const Displacement* displacement = nullp
 ///
 ///   P(u, v) = (r cos 2πu, length · (1/2 − v), −r sin 2πu)
 ///
-/// The caps show the disc inscribed in the map and have `bands` rings. u grows along +x; v grows along +z on the upper cap and
+/// The caps show the disk inscribed in the map and have `bands` rings. u grows along +x; v grows along +z on the upper cap and
 /// along −z on the lower cap. Field edges: cylinder. Heights fade to zero at the rims, within kFadeWidth of v and of the radius.
 Mesh cylinder(float radius, float length, int bands, int sectors, const Displacement* displacement = nullptr);
 

@@ -123,8 +123,8 @@ void add_ray_craters(std::vector<Aged>& out, Random random) {
 
 // ---- one row ---------------------------------------------------------------------------------------------------
 
-// The texels of a row within `reach` radians of a crater, rounded up: `count` texels that start at `begin` < width and may wrap
-// around.
+// The texels of a row within slightly more than `reach` radians of a crater: `count` texels that start at `begin` < width and may
+// wrap around.
 struct Span {
   int begin, count;
 };

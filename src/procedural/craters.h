@@ -16,7 +16,7 @@ namespace halfspace::procedural {
 struct Crater {
   glm::vec3 center, east, north;  // unit vectors, as in uv_sphere's frame
   float radius;
-  float depth;      // of the floor below the surroundings
+  float depth;      // depth of the floor below the surroundings
   float rim;        // height of the rim above the surroundings
   float floor;      // radius of the flat part, as a fraction of the crater's radius
   float peak;       // height of the central peak above the floor

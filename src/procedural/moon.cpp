@@ -65,7 +65,7 @@ constexpr Basin kBasins[] = {
 
 struct PlacedBasin {
   glm::vec3 center;
-  float per_radius;  // 1/radius, as a chord
+  float per_radius;  // reciprocal of the radius, measured as a chord
   float depth, ring, lava;
 };
 
@@ -128,7 +128,7 @@ struct Moon {
   std::vector<PlacedBasin> basins;
   Craters craters;
   std::vector<std::vector<std::size_t>> craters_of_row;  // crater indices, from old to young
-  int octaves;                                           // of the finest noise
+  int octaves;                                           // number of octaves of the finest noise
 };
 
 // A row of the map under construction.
@@ -136,7 +136,7 @@ struct MoonRow {
   CraterRow craters;
   std::vector<float> height, lava;  // km
   std::vector<float> basin;         // 1 within basins with lava
-  std::vector<float> sea;           // fraction of the texel that is mare
+  std::vector<float> sea;           // fraction of the texel that is covered by a mare
 };
 
 std::vector<std::vector<std::size_t>> craters_by_row(const Craters& craters, int height) {

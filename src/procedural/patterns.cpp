@@ -136,7 +136,7 @@ Matter facade(const Place& p) {
   const Real fine = tiled_cloud(p.u, p.v, 48, 48, 3, p.texels, 1501), stains = tiled_cloud(p.u, p.v, 6, 3, 5, p.texels, 1511);
   Matter m;
   m.color = tint(kPlaster) * (Real(1.0f) + Real(0.05f) * fine + Real(0.10f) * stains);
-  m.color = m.color * (Real(1.0f) - Real(0.35f) * box(0.0f, 1.0f, 0.96f, 1.0f));  // joint between two storeys
+  m.color = m.color * (Real(1.0f) - Real(0.35f) * box(0.0f, 1.0f, 0.96f, 1.0f));  // joint between two stories
   m.color = blend(m.color, kFrame, max(frame, sill));
   const Real reflection = step(0.2f, 0.8f, fx + Real(0.5f) * fy - Real(0.3f) + Real(0.2f) * chance(column, row, 1521));
   const Vec pane = blend(tint(kGlassDark), kGlassSky, Real(0.6f) * reflection);

@@ -36,7 +36,7 @@ constexpr glm::vec3 kCloud(0.92f, 0.94f, 0.98f), kDuskCloud(0.95f, 0.55f, 0.38f)
 struct Daylight {
   Real low;     // 1 with the sun near or below the horizon, 0 with a high sun
   Real bright;  // factor of all light
-  Real disc;    // factor of the sun's disc
+  Real disc;    // factor of the sun's disk
 };
 
 Daylight daylight_of(float sun_y) {
@@ -52,7 +52,7 @@ Vec clear_sky(const Vec& d, Real toward_sun, const Daylight& day) {
   return blend(horizon, tint(kZenith), height_of(d));
 }
 
-// Lobes around the sun: haze, aureole and disc. Half of the disc's light is within one degree of the center.
+// Lobes around the sun: haze, aureole and disk. Half of the disk's light is within one degree of the center.
 Vec sun_light(Real toward_sun, const Daylight& day) {
   const Real s = max(toward_sun, Real(0.0f));
   const Vec color = blend(Vec(Real(1.0f), Real(0.96f), Real(0.88f)), Vec(Real(1.0f), Real(0.55f), Real(0.22f)), day.low);

@@ -22,7 +22,7 @@ struct NightSky {
   float milky_way = 1.0f;  ///< brightness factor
 };
 
-/// Returns a blue sky that pales towards the horizon, with glow and disc of the sun, clouds, and hazy ground below. Away from the
+/// Returns a blue sky that pales towards the horizon, with glow and disk of the sun, clouds, and hazy ground below. Away from the
 /// sun its luminance is 0.2 to 2. The result depends only on the arguments, bit for bit. size ≥ 1 is the width of a face in texels.
 SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers);
 

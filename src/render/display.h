@@ -17,8 +17,8 @@ inline constexpr float kMinLuminance = 1e-6f;
 double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers);
 double log_average_luminance(const Image<glm::vec4>& light, const Workers& workers);
 
-/// Makes a pass whose color attachment holds light write pixel values to `picture`, as specified by `post`, with `exposure` instead
-/// of its exposure. The picture must have the size of the pass and outlive it.
+/// Makes a pass write displayable pixel values to `picture`, as specified by `post` but with the given `exposure`. The color
+/// attachment of the pass must hold light. `picture` must have the size of the pass and outlive it.
 void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture);
 
 }  // namespace halfspace

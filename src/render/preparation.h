@@ -57,7 +57,7 @@ auto read_for(const std::string& key, F read) {
 // A texture as used by one object.
 struct MapUse {
   TextureDescription texture;
-  int width;  // of a generated map, otherwise 0
+  int width;  // width of a generated map, otherwise 0
 };
 
 /// Returns true if the source is the height map of a pattern.
@@ -184,7 +184,7 @@ class ScenePreparation {
   View view_;
   std::span<Shadow> shadows_;  // parallel to out_.lights
   std::span<const Light> lights_;
-  std::span<const Light> shadowless_lights_;  // for objects that receive no shadows
+  std::span<const Light> shadowless_lights_;  // used by objects that do not receive shadows
   glm::dvec3 ambient_;
   std::shared_ptr<const EnvironmentBlend> environments_;  // null: not needed so far
   PreparedScene out_;

@@ -70,7 +70,7 @@ double distance_of_ball(const ObjectDescription& o, const glm::dmat4& world_from
 }
 
 // Returns the depth of the nearest visible part of a plane, in units, or infinity if no part is visible. The bounding sphere of a
-// plane is of no use here, because it often contains the eye.
+// plane cannot be used here, because it often contains the eye.
 double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_object, const View& view) {
   const glm::dvec3 corner(0.5 * o.size, relief_height(o), 0.5 * o.size);
   double nearest = std::numeric_limits<double>::infinity();

@@ -97,7 +97,7 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
   return pass.run(workers);
 }
 
-// A visible point and the width of a pixel there. The points come from a low-resolution depth map of the view.
+// A visible point and the width of a pixel there. The points are taken from a low-resolution depth map of the view.
 struct SeenPlace {
   glm::dvec3 position_rws;
   double pixel;

@@ -90,14 +90,15 @@ struct PreparedScene {
   PostDescription post;
   int samples = 1;  ///< per pixel
   View view;
-  std::vector<PlacedMesh> meshes;  ///< of all objects that are drawn
+  std::vector<PlacedMesh> meshes;  ///< meshes of all objects that are drawn
   std::vector<PlacedSpheres> spheres;
   std::vector<PreparedLight> lights;
-  PassStatistics shadow_statistics;  ///< of the passes that rendered shadow maps
+  PassStatistics shadow_statistics;  ///< sum over the passes that rendered shadow maps
   std::vector<std::shared_ptr<const void>> assets;
 };
 
-/// Creates the textures, meshes and maps that scene descriptions require. An asset is kept as long as each following frame uses it.
+/// Creates the textures, meshes and maps that scene descriptions require. Assets are cached until a frame is prepared that does not
+/// use them.
 class SceneAssets {
  public:
   explicit SceneAssets(const Workers& workers) : workers_(workers) {}
@@ -121,7 +122,7 @@ class SceneAssets {
     bool wanted;  // since the last frame was prepared
   };
   const Workers& workers_;
-  std::map<std::string, Entry> entries_;    ///< by recipe
+  std::map<std::string, Entry> entries_;    ///< keyed by recipe
   std::map<std::string, int> widths_;       ///< minimum widths of generated maps, by object name
   int panorama_width_ = 0, face_size_ = 0;  ///< minimum sizes of generated environments
 };

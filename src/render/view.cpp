@@ -47,7 +47,7 @@ glm::dvec4 row_of(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i
 double pixels_per_unit(const View& v, const glm::dvec3& center_ws, double radius) {
   if (is_orthographic(v)) return 1.0 / pixel_width(v, {});
   const double nearest = std::max(v.near, glm::dot(center_ws - v.eye_ws, v.forward_ws) - radius);
-  // At a given depth, the projection of a point moves by at most √(1 + tan²) / depth per unit, which is reached in a corner of the
+  // A unit move at a given depth moves the projected point by at most √(1 + tan²) / depth. This is reached in a corner of the
   // image.
   return focal_px(v) * std::sqrt(1.0 + corner_tangent_squared(v)) / nearest;
 }

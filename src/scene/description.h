@@ -28,7 +28,7 @@ struct CameraDescription {
   glm::dvec3 target{0, 0, 0};    ///< world space
   glm::dvec3 up{0, 1, 0};
   double fov = 45.0;    ///< vertical, in degrees
-  double height = 2.0;  ///< in units of the scene
+  double height = 2.0;  ///< height of the view volume, in units
   double near = 0.1, far = 1000.0;
 };
 
@@ -76,7 +76,7 @@ inline bool is_pattern(TextureSource source) { return source >= TextureSource::c
 struct TextureDescription {
   TextureSource source = TextureSource::file;
   FilePath file;
-  int width = 0;  ///< of a generated map, even; 0: chosen for the view
+  int width = 0;  ///< width of a generated map, even; 0: chosen for the view
   Filter filter = Filter::trilinear;
   Wrap wrap_s = Wrap::repeat;
   Wrap wrap_t = Wrap::repeat;
@@ -161,8 +161,8 @@ enum class EnvironmentType : uint8_t { equirect, globe, cube, day_sky, night_sky
 /// Light from infinitely far away, as a function of direction (see shading/environment.h).
 struct EnvironmentDescription {
   EnvironmentType type = EnvironmentType::equirect;
-  MapValue map = Color{glm::dvec3(1.0)};  ///< of a texture, only the source is used
-  FilePath folder;                        ///< with files named right, left, top, bottom, front and back
+  MapValue map = Color{glm::dvec3(1.0)};  ///< if it is a texture, only its source is used
+  FilePath folder;                        ///< contains files named right, left, top, bottom, front and back
   FilePath right, left, top, bottom, front, back;
   int size = 0;                    ///< face width of a generated sky; 0: chosen for the view
   glm::dvec3 sun{0.5, 0.6, -0.6};  ///< direction towards the sun, any length

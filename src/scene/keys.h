@@ -58,7 +58,7 @@ inline constexpr double kMaxCount = 1e9;
 
 /// Constraints on the value of a key in addition to its type.
 struct Limits {
-  const char* unit = "";                      ///< for display: "units", "degrees", "s"
+  const char* unit = "";                      ///< displayed unit: "units", "degrees", "s"
   double low = -kMaxCount, high = kMaxCount;  ///< inclusive range of a number, or of each component of a vector
   const char* only = "";  ///< kinds of section that have this key, as choices of the first key separated by spaces; "": all
 };

@@ -19,7 +19,7 @@ namespace halfspace {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{4} << 20;
-constexpr std::size_t kMaxNames = 4096;  // in one object, or elements in one list
+constexpr std::size_t kMaxNames = 4096;  // limit on names in one object and on elements in one list
 constexpr int kMaxLevels = 32;
 
 [[noreturn]] void fail(const std::string& source, const std::string& what) { throw InputError(source + ": " + what); }

@@ -54,7 +54,7 @@ class SceneFile {
  private:
   std::string source_;
   std::filesystem::path directory_;
-  std::shared_ptr<const Json> json_;  ///< as read, with later settings applied; never null
+  std::shared_ptr<const Json> json_;  ///< contents of the file with later settings applied; never null
   SceneDescription description_;
 };
 

@@ -24,7 +24,7 @@ double chord_error_along_knot(double radius, double tube, int n) {
   return std::numbers::pi * std::numbers::pi * (4.6 * radius + 6.5 * tube) / (static_cast<double>(n) * n);
 }
 
-// For an icosphere of radius 1: the chord error at level 0, and 4^level times the chord error at higher levels.
+// Chord error of an icosphere of radius 1 at level 0. At level 1 and above it is kIcosphereError / 4^level.
 constexpr double kIcosahedronError = 0.2054, kIcosphereError = 0.292;
 
 }  // namespace

@@ -19,8 +19,8 @@ struct AllowedError {
 
 /// One key that was chosen.
 struct ModelChoice {
-  std::string key;    ///< dotted path, as for --set
-  std::string value;  ///< as for --set
+  std::string key;    ///< dotted path, in the form that --set accepts
+  std::string value;  ///< in the form that --set accepts
   std::string why;
 };
 

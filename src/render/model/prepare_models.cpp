@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chooses the cheapest models that keep an image within the allowed difference from that with the finest models. The result is the
+// Chooses the cheapest models whose image differs from that of the finest models by at most the allowed error. The result is the
 // scene with other mesh resolutions, maps, filters and sample counts, and the reasons for them. Constants are fitted to the
 // measurements in docs/accuracy.md; nothing is timed.
 #include <algorithm>
@@ -35,7 +35,7 @@ constexpr double kEdgePixels = 0.35;
 // pixel.)
 constexpr double kShadowEdgeTexels = 1.25;
 
-// Cost of one vertex in shaded pixels: about 10 ns, compared with the 2.5 ns per pixel that per-vertex lighting saves
+// Cost of a vertex, relative to the time that per-vertex lighting saves per pixel: about 10 ns compared with 2.5 ns
 // (docs/performance.md).
 constexpr double kPixelsPerVertex = 4.0;
 
@@ -262,7 +262,7 @@ void fit_textures(Named<TextureDescription>& textures, double color, std::vector
   }
 }
 
-// Half floats have a relative error of 2^-11, which is less than 1/16 of a code.
+// Half floats have a relative error of at most 2^-11, which is less than 1/16 of an 8-bit code after sRGB encoding.
 void fit_post(PostDescription& post, double color, std::vector<ModelChoice>& choices) {
   const LightFormat format = color >= 1.0 / 16.0 ? LightFormat::rgba16f : LightFormat::rgba32f;
   if (!post.hdr || post.format == format) return;

@@ -47,10 +47,10 @@ std::array<glm::dvec3, 8> frustum_slice(const std::array<glm::dvec3, 8>& frustum
 /// intersection is on an edge of one body inside the other.
 std::vector<glm::dvec3> common_corners(const std::array<glm::dvec3, 8>& frustum, const Box& box_ws);
 
-/// Returns a view of a directional light that contains `receivers` (in coordinates along the axes) with a margin of `margin`
-/// texels. The square of the view is larger than that. Its depth range starts at the nearest of the `casters` above the square and
-/// ends at the far end of the receivers. The width is rounded up to a power of 2^(1/4) and the origin is snapped to texels, so that
-/// shadows do not shimmer when the camera moves.
+/// Returns a square view of a directional light that contains `receivers` (in coordinates along the axes) plus `margin` texels on
+/// each side. Its depth range extends from the nearest of the `casters` that overlap the square to the far end of the receivers.
+/// The texel size is rounded up to a power of 2^(1/4) and the origin is snapped to whole texels, so that shadows do not shimmer
+/// when the camera moves.
 LightView directional_view(const glm::dmat3& axes, const Box& receivers, std::span<const Box> casters, int size, double margin);
 
 /// Returns a view from a point along `forward`. It spans `angle` radians plus a margin of `margin` texels.
