@@ -13,7 +13,7 @@ std::vector<double> edge_distances(const std::vector<glm::ivec2>& from, const st
   std::vector<double> distances;
   for (const glm::ivec2& p : from) {
     double best = 1e18;
-    for (int r = 0; r * r <= best && r < std::max(width, height); ++r) {  // squares of growing size round p
+    for (int r = 0; r * r <= best && r < std::max(width, height); ++r) {  // search squares of growing size around p
       for (int y = std::max(0, p.y - r); y <= std::min(height - 1, p.y + r); ++y) {
         const bool whole_row = std::abs(y - p.y) == r;
         for (int x = p.x - r; x <= p.x + r; x += whole_row ? 1 : std::max(1, 2 * r)) {

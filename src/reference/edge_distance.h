@@ -8,19 +8,21 @@
 
 namespace halfspace {
 
-/// How far edges lie from others, in pixels. 0 where there are none.
+/// Statistics of the distance between two sets of edges, in pixels; 0 if there are none.
 struct EdgeDistance {
   double mean = 0.0, p95 = 0.0, max = 0.0;
 };
 
 EdgeDistance summary_of(std::vector<double> distances);
 
-/// From each pixel of `from` to the nearest of `to`, in a picture of width x height pixels; empty where there is none in `to`.
+/// Returns the distance from each pixel of `from` to the nearest pixel of `to`, in an image of width x height pixels.
+/// Returns an empty vector if `to` is empty.
 std::vector<double> edge_distances(const std::vector<glm::ivec2>& from, const std::vector<glm::ivec2>& to, int width, int height);
 
-/// How far edges have moved, told by the pixels that are wrong (not 0): an edge that has moved leaves a band of them as wide as its way,
-/// and so does a gap or a thin thing that has vanished. A band is twice as wide as its pixels lie from right ones (less the pixel between
-/// whose middles its borders lie); for a picture `finer` times as fine as the one whose pixels are told. 0 where none is wrong.
+/// Estimates how far edges have moved from the pixels that are wrong (nonzero). A moved edge leaves a band of wrong pixels as wide as its
+/// displacement, and so does a gap or a thin feature that has vanished. In the middle of a band of width w, the nearest correct pixel is
+/// (w + 1)/2 away, so a distance d counts as a width of 2d - 1. `finer` is the supersampling factor of `wrong`: the result is in pixels
+/// of the original image. Returns 0 if no pixel is wrong.
 EdgeDistance wrong_band_width(const Image<uint8_t>& wrong, int finer);
 
 }  // namespace halfspace

@@ -6,7 +6,7 @@
 
 namespace halfspace {
 
-/// A mesh in one colour: its number, in red.
+/// Writes the number of a mesh to the red channel.
 struct NumberedMesh : DepthOnly {
   float number = 0.0f;
 
@@ -16,7 +16,7 @@ struct NumberedMesh : DepthOnly {
   }
 };
 
-/// Spheres likewise.
+/// Does the same for spheres.
 struct NumberedSphere : SphereDepth {
   float number = 0.0f;
 

@@ -16,14 +16,14 @@ namespace {
 
 constexpr float kFar = 1e30f;
 
-// Two unit vectors square to a third and to each other.
+// Returns two unit vectors that are perpendicular to `axis` and to each other.
 std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& axis) {
   const glm::dvec3 side = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 a = unit_or_zero(glm::cross(axis, side));
   return {a, glm::cross(axis, a)};
 }
 
-// Points of the unit disk, one in each of strata² cells of equal area: radius² and angle run evenly.
+// Returns a random point in one of strata² cells of equal area of the unit disk. The cells are uniform in radius² and angle.
 glm::dvec2 disk_point(int cell, int strata, uint32_t seed) {
   const auto random = [&](uint32_t salt) {
     return static_cast<double>(
@@ -116,7 +116,7 @@ LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm
   const bool directional = light.light.type == LightType::directional;
   const glm::dvec3 place(light.light.place_rws);
   const glm::dvec3 axis = directional ? place : unit_or_zero(place - position_rws);
-  // Embree's hit and the float vertices lie within a few ulp of the exact triangle: 2^-24 of the largest coordinate each.
+  // Embree's hit and the float vertices are each within a few 2^-24 of the largest coordinate of the exact triangle.
   const double scale = std::max({std::abs(position_rws.x), std::abs(position_rws.y), std::abs(position_rws.z), 1e-3});
   const glm::dvec3 outwards = glm::dot(face_normal_ws, axis) >= 0.0 ? face_normal_ws : -face_normal_ws;
   const glm::dvec3 origin = position_rws + outwards * (scale * 0x1p-20);
@@ -130,7 +130,7 @@ LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm
     arrived += !casters.occluded(glm::vec3(origin), glm::vec3(direction), 0.0f, directional ? kFar : 1.0f);
   }
   const double n = strata * strata, share = arrived / n;
-  // Of independent rays; strata make it smaller.
+  // This is the standard error of independent rays; stratification makes the true one smaller.
   return {static_cast<float>(share), n > 1 ? static_cast<float>(std::sqrt(share * (1.0 - share) / n)) : 0.0f};
 }
 

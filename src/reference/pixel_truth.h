@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a picture's pixels see, by rasterizer and by rays, and how much of a light reaches them, by map and by rays.
+// Compares the rasterizer with ray casting: which surface each pixel shows, and how much of a light reaches it according to the
+// shadow map and according to rays.
 #pragma once
 
 #include <optional>
@@ -13,56 +14,57 @@
 
 namespace halfspace {
 
-/// A light as a prepared scene has it (PreparedScene::lights[index]).
+/// Selects PreparedScene::lights[index].
 struct LightChoice {
   const PreparedScene* scene;
   std::size_t index;
 };
 
-/// The picture of one light's shadow (reference/shadow_mask.h), top row first.
+/// One light's shadow as drawn by the rasterizer with reference/shadow_mask.h, top row first.
 struct ShadowPicture {
-  Image<glm::vec4> mask;  ///< (share that arrives, n·l, 1 + mesh or 0, triangle)
+  Image<glm::vec4> mask;  ///< (share of the light that arrives, n·l, 1 + mesh or 0 for background, triangle)
   Image<float> depth;     ///< reversed window depth
-  double draw_ms;         ///< of the picture
+  double draw_ms;         ///< time of the pass in milliseconds
 };
 
-/// Draws it; with `with_shadow` false as if the light had no map.
+/// Draws the shadow of a light. If `with_shadow` is false, the light is drawn as if it had no shadow map.
 ShadowPicture draw_shadow_picture(const LightChoice& light, const View& view, int width, int height, bool with_shadow,
                                   const Workers& workers);
 
-/// The ray of a point of the picture: x, y in pixels from the top left corner, pixel centres at + 0.5.
+/// The camera ray through a point (x, y) of the image, in pixels from the top-left corner. Pixel centers are at + 0.5.
 struct PictureRay {
-  glm::vec3 origin_rws, direction_ws;  ///< direction: not of unit length
+  glm::vec3 origin_rws, direction_ws;  ///< the direction is not normalized
 };
 PictureRay picture_ray(const View& view, int width, int height, double x, double y);
 
-/// What each pixel's centre sees by rays, top row first.
+/// Casts a ray through the center of each pixel. Returns the nearest hits, top row first.
 Image<std::optional<RayHit>> primary_hits(const RayScene& rays, const View& view, int width, int height, const Workers& workers);
 
-/// How the rasterizer's visible triangles compare with the rays'.
+/// Compares the triangles that the rasterizer shows with those that the rays hit.
 struct VisibilityScore {
-  int64_t pixels = 0;     ///< covered by either
-  int64_t same = 0;       ///< the same triangle, or none in both
-  int64_t near_edge = 0;  ///< another one, that a ray within 1/256 px sees
-  int64_t depth_tie = 0;  ///< another one, nearer or farther by less than the surface's depth changes over 1/256 px
+  int64_t pixels = 0;     ///< pixels covered by the rasterizer, by the rays, or by both
+  int64_t same = 0;       ///< both show the same triangle
+  int64_t near_edge = 0;  ///< they differ, but a ray within 1/256 px hits the rasterizer's triangle
+  int64_t depth_tie = 0;  ///< they differ, but by less depth than the surface's depth changes over 1/256 px
   int64_t unexplained = 0;
 };
 VisibilityScore compare_visibility(const ShadowPicture& picture, const Image<std::optional<RayHit>>& hits, const RayScene& rays,
                                    const View& view, const Workers& workers);
 
-/// The share of a light that arrives at a surface, by rays.
+/// The fraction of a light that reaches a surface point, according to rays.
 struct LightTruth {
   float share;           ///< 0 … 1
-  float standard_error;  ///< of share; 0 for a light without size
+  float standard_error;  ///< standard error of `share`; 0 for a light without size
 };
 
-/// A light for rays. Rays start on the geometric normal's side, off the surface by `offset` of the coordinates' size: floats
-/// round the origin and Embree the hit to a few 2^-24 of it.
+/// A light source for shadow rays.
 struct RayLight {
   Light light;
-  double size;  ///< radius in units; directional: tangent of half the angle
-  int rays;     ///< 1, or a square number of strata for a light with size
+  double size;  ///< radius in units; for a directional light, the tangent of half its angular diameter
+  int rays;     ///< rays per surface point of a light with size, a square number; otherwise one ray is cast
 };
+/// Casts shadow rays from a surface point to the light. The rays start on the lit side of the surface, at a distance of 2^-20 times the
+/// largest coordinate: the float origin and Embree's hit are accurate to a few 2^-24 of it. `seed` selects the random sample positions.
 LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_rws, const glm::dvec3& face_normal_ws,
                        uint32_t seed);
 

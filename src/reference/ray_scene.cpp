@@ -50,7 +50,7 @@ bool is_occluded(RTCScene scene, RTCRay& ray) {
   rtcInitIntersectContext(&context);
   rtcOccluded1(scene, &context, &ray);
 #endif
-  return ray.tfar < 0.0f;  // Embree sets −inf
+  return ray.tfar < 0.0f;  // Embree sets tfar to −inf if the ray is occluded
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ struct RayScene::Impl {
   };
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter> device;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter> scene;
-  std::vector<Placed> placed;  // by mesh
+  std::vector<Placed> placed;  // indexed by mesh
 
   void add_spheres(const Particles& spheres, const glm::dvec3& eye_ws, unsigned id);
 };
@@ -88,7 +88,7 @@ void RayScene::Impl::add_spheres(const Particles& spheres, const glm::dvec3& eye
 
 RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only, std::span<const PlacedSpheres> spheres)
     : impl_(std::make_unique<Impl>()) {
-  impl_->device.reset(rtcNewDevice("threads=1"));  // trees are built by this thread alone: the same tree every time
+  impl_->device.reset(rtcNewDevice("threads=1"));  // one thread builds the tree, so that it is the same every time
   if (impl_->device == nullptr) throw InputError("Embree cannot start on this machine");
   impl_->scene.reset(rtcNewScene(impl_->device.get()));
   rtcSetSceneFlags(impl_->scene.get(), RTC_SCENE_FLAG_ROBUST);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The triangles of a scene, to be asked by rays: the truth that pictures are held against. Embree does the work (the only
-// place that includes it; version 3.13 and 4), with its robust mode: rays do not slip between triangles.
+// Ray casting into the triangles of a scene: the reference that rendered images are compared with. This is a wrapper of Embree
+// (versions 3.13 and 4) in its robust mode, in which rays do not slip between adjacent triangles.
 #pragma once
 
 #include <array>
@@ -15,32 +15,31 @@
 
 namespace halfspace {
 
-/// Where a ray meets the scene. The suffix _rws: the world's axes, RaySceneOptions::eye_ws as origin.
+/// The point where a ray hits the scene. Suffix _rws: relative to the eye_ws passed to RayScene, with the axes of world space.
 struct RayHit {
-  int mesh;                       ///< index into the meshes given; −1, −2, …: a sphere of the first spheres given, of the second, …
-  uint32_t triangle;              ///< of that mesh: its indices are 3·triangle …; or the sphere's number among those
-  float distance;                 ///< along the ray, in lengths of its direction
-  std::array<double, 3> weights;  ///< barycentric, of the triangle's vertices; they add up to 1. Of a sphere 0
-  glm::dvec3 position_rws;        ///< by the weights, in double: nearer to the triangle than origin + distance·direction
-  glm::dvec3 face_normal_ws;      ///< unit; the triangle's, counter-clockwise in front
+  int mesh;                       ///< index of the mesh; −1, −2, … stand for the first, second, … set of spheres
+  uint32_t triangle;              ///< index of the triangle in the mesh, or of the sphere in its set
+  float distance;                 ///< ray parameter t, in multiples of the direction's length
+  std::array<double, 3> weights;  ///< barycentric coordinates, which add up to 1; all 0 for a sphere
+  glm::dvec3 position_rws;        ///< for triangles interpolated in double, which is more accurate than origin + distance·direction
+  glm::dvec3 face_normal_ws;      ///< geometric unit normal; for triangles on the side where the winding is counter-clockwise
 };
 
-/// Immutable; any number of threads may ask at once.
+/// Immutable after construction; can be queried from multiple threads at once.
 class RayScene {
  public:
-  /// Takes a copy of the meshes' triangles in world space round eye_ws, as floats. With casters_only, only of those that
-  /// cast shadows; indices stay those of `meshes`.
-  /// Spheres are Embree's own.
+  /// Copies the triangles, in world space relative to eye_ws and rounded to float. With casters_only, meshes and spheres that cast no
+  /// shadow are left out; this does not change the indices in RayHit. Spheres become sphere primitives of Embree.
   RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only = false,
            std::span<const PlacedSpheres> spheres = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
-  /// The nearest triangle, seen from either side, on origin + t·direction, near ≤ t ≤ far.
+  /// Returns the nearest hit on origin + t·direction with near ≤ t ≤ far. Triangles are two-sided.
   std::optional<RayHit> nearest(const glm::vec3& origin_rws, const glm::vec3& direction_ws, float near, float far) const;
 
-  /// Is there any triangle on origin + t·direction, near ≤ t ≤ far?
+  /// Returns true if anything is hit on origin + t·direction with near ≤ t ≤ far.
   bool occluded(const glm::vec3& origin_rws, const glm::vec3& direction_ws, float near, float far) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws, instead of colour, what validation asks of each pixel: which triangle is seen, how it stands to one light, and what
-// the light's shadow map says.
+// The shader of `halfspace validate`. Instead of a color it writes, per pixel, which triangle is visible, its orientation to one light,
+// and the result of that light's shadow map.
 #pragma once
 
 #include "halfspace/shading/contract.h"
@@ -9,12 +9,13 @@
 
 namespace halfspace {
 
-/// Colour: (share of the light that arrives by the map, 1 without one; shading normal · light, 1 + mesh, triangle).
+/// Output: (fraction of the light that arrives according to the shadow map, or 1 without a map; dot product of shading normal and light
+/// direction; 1 + mesh; triangle).
 struct ShadowMask {
   glm::mat4 clip_from_object;
-  glm::mat4 world_from_object;   ///< to the world's axes round the eye
-  glm::mat3 normal_from_object;  ///< inverse transpose
-  glm::vec3 to_eye_ws{0.0f};     ///< orthographic: unit vector towards the eye; else 0
+  glm::mat4 world_from_object;   ///< to world space relative to the eye
+  glm::mat3 normal_from_object;  ///< inverse transpose of the above
+  glm::vec3 to_eye_ws{0.0f};     ///< orthographic projection: unit vector towards the eye; otherwise 0
   Light light;
   float mesh = 0.0f;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rasterizer's side of a validation.
+// Draws the rasterized images that are validated against rays.
 #include <chrono>
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-// A mesh with three vertices of its own for each triangle, which all know its number.
+// A mesh without shared vertices: each triangle has three vertices, which carry its index.
 struct Loose {
   std::vector<glm::vec3> positions, normals;
   std::vector<float> triangles;
@@ -53,7 +53,7 @@ ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, i
   depth.clear_value = 0.0f;
   Pass pass(width, height, rgba32f_target(out.mask), depth);
   std::vector<Loose> meshes;
-  meshes.reserve(scene.meshes.size());  // the pass points into them
+  meshes.reserve(scene.meshes.size());  // the pass keeps pointers to the elements
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     const PlacedMesh& placed = scene.meshes[m];
     const Loose& loose = meshes.emplace_back(loosened(placed));

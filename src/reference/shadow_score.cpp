@@ -22,7 +22,7 @@ struct Pixels {
   Image<std::optional<RayHit>> hits;
 };
 
-// Width of a texel at a place, in the world: of the view that a look-up there would use.
+// Returns the world-space width of a shadow map texel at a position, in the view that a lookup at that position would use.
 double texel_at(const Shadow& shadow, const glm::dvec3& position_rws) {
   for (const ShadowView& view : shadow.views) {
     const ShadowCoordinates<float> p = place_on(view, vec3<float>(glm::vec3(position_rws)));
@@ -31,8 +31,9 @@ double texel_at(const Shadow& shadow, const glm::dvec3& position_rws) {
   return 0.0;
 }
 
-// Finds how far from a place, in the light's plane, the light's picture changes: where the surface ends as the light sees it,
-// or is lit where the place is not. In texels, to the next step; more than the last one counts as beyond.
+// Finds the distance, in the plane perpendicular to the light, from a point to the nearest change in what the light sees: the end of
+// the surface, or a transition between lit and shadowed. The result is in texels beyond the filter radius, rounded up to the next step,
+// or 1e9 if nothing changes within the last step.
 class EdgeFinder {
  public:
   EdgeFinder(const RayScene& rays, const RayScene& casters, const RayLight& light) : rays_(rays), casters_(casters), light_(light) {}
@@ -49,7 +50,7 @@ class EdgeFinder {
       for (int k = 0; k < 16; ++k) {
         const SinCosDouble a = sincos_turns(k / 16.0);
         const glm::dvec3 aside = (right * a.cos + up * a.sin) * r;
-        // The surface goes on along its plane, give or take the step's own length.
+        // Assume that the surface continues in its plane, and accept a deviation of twice the distance.
         const double along = std::abs(lean) > 1e-3 ? -glm::dot(face_normal_ws, aside) / lean : 0.0;
         const glm::dvec3 start = hit.position_rws + aside + axis * (along + 2.0 * r);
         const auto there = rays_.nearest(glm::vec3(start), glm::vec3(-axis), 0.0f, static_cast<float>(4.0 * r));
@@ -66,7 +67,7 @@ class EdgeFinder {
   RayLight light_;
 };
 
-// Do two neighbouring pixels show one surface without a step?
+// Returns true if two adjacent pixels show the same surface without a step between them.
 bool is_continuous(const RayHit& a, const RayHit& b) {
   if (a.mesh != b.mesh) return false;
   const glm::dvec3 way = b.position_rws - a.position_rws;
@@ -74,7 +75,7 @@ bool is_continuous(const RayHit& a, const RayHit& b) {
   return std::abs(glm::dot(way, a.face_normal_ws)) <= 0.3 * length && std::abs(glm::dot(way, b.face_normal_ws)) <= 0.3 * length;
 }
 
-// Pixels at whose right or lower side the picture passes 1/2 on one surface.
+// Returns the pixels whose light is on the other side of 1/2 than that of their right or lower neighbor on the same surface.
 std::vector<glm::ivec2> edge_pixels(const Image<float>& light, const Pixels& pixels) {
   std::vector<glm::ivec2> edges;
   const auto differ = [&](int x, int y, int x1, int y1) {
@@ -89,7 +90,7 @@ std::vector<glm::ivec2> edge_pixels(const Image<float>& light, const Pixels& pix
   return edges;
 }
 
-// What a texel that falls along the light on the surface at a hit spans in the picture, px: the longer of its sides.
+// Projects a texel along the light onto the surface at a hit. Returns the longer of its sides in the image, in pixels.
 double texel_on_surface_px(const RayHit& hit, const Light& light, double texel, const View& view) {
   const glm::dvec3 axis = light_at<double>(light, hit.position_rws).l_ws;
   const glm::dvec3 sight = view.to_eye_ws == glm::dvec3(0.0) ? unit_or_zero(hit.position_rws) : -view.to_eye_ws;
@@ -111,7 +112,7 @@ void divide(DistanceShares& s, int64_t count) {
   for (double* share : {&s.within_1, &s.from_1_to_3, &s.beyond_3}) *share /= static_cast<double>(std::max<int64_t>(count, 1));
 }
 
-// The shares of false pixels. Of very many only each n-th is looked at, and counts n times.
+// Computes the shares of wrong pixels. If there are more than kMaxCount, every n-th is examined and counts n times.
 void score_false_pixels(ShadowComparison& c, const Pixels& pixels, const Shadow& shadow, const EdgeFinder& edges, const Workers& workers) {
   constexpr std::size_t kMaxCount = 4000;
   std::vector<glm::ivec2> wrong;
@@ -122,7 +123,7 @@ void score_false_pixels(ShadowComparison& c, const Pixels& pixels, const Shadow&
   }
   const std::size_t stride = wrong.size() / kMaxCount + 1, count = (wrong.size() + stride - 1) / stride;
   std::vector<double> distances(count);
-  // A soft shadow is held against a soft truth: beyond 1/2 its filter's width excuses nothing.
+  // The reference of a PCSS shadow is soft too, so the filter width does not excuse errors above 1/2.
   const double radius = shadow.settings.filter == ShadowFilter::pcss ? 0.0 : static_cast<double>(filter_reach(shadow.settings)) - 0.5;
   workers.for_each(static_cast<int>(count), [&](int i) {
     const glm::ivec2 p = wrong[static_cast<std::size_t>(i) * stride];
@@ -187,7 +188,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
       out.map.at(x, y) = out.truth.at(x, y) = -1.0f;
       const glm::vec4& mask = picture.mask.at(x, y);
       const std::optional<RayHit>& hit = pixels.hits.at(x, y);
-      // Pixels at silhouettes may show different surfaces; compare_visibility tells how many.
+      // At silhouettes, rasterizer and rays may show different surfaces. compare_visibility counts these pixels.
       if (!hit || static_cast<float>(hit->mesh + 1) != mask.z || !choice.scene->meshes[static_cast<std::size_t>(hit->mesh)].receives_shadow)
         continue;
       const IncidentLight<double> arriving = light_at<double>(light.light, hit->position_rws);

@@ -12,11 +12,11 @@ namespace halfspace {
 
 namespace {
 
-// A scene, and where it is looked at.
+// A scene and one of its cameras.
 struct TableScene {
   const char* name;
   const char* camera;
-  double angle;  // of its light, degrees from the vertical
+  double angle;  // between the scene's light and the vertical, in degrees
 };
 constexpr TableScene kScenes[] = {
     {"shadow-plane", "main", 45.0}, {"moon", "terminator", 80.0}, {"shadow-contact", "main", 40.0}, {"shadow-knot", "main", 45.0}};
@@ -31,7 +31,7 @@ struct Variant {
   const char* bias = "auto";
   const char* filter = "pcf3";
   int resolution = 2048;
-  double angle;  // negative: the scene's own
+  double angle;  // negative: keep the angle of the scene's light
 };
 
 std::vector<Variant> variants(bool full) {
@@ -50,7 +50,7 @@ std::vector<Variant> variants(bool full) {
   return list;
 }
 
-// Leans the first light's direction so far from the vertical, with its azimuth kept; a lamp keeps its distance from the origin.
+// Tilts a light to an angle from the vertical and keeps its azimuth. A point light keeps its distance from the origin.
 void lean(LightDescription& light, double degrees) {
   glm::dvec3& towards = light.type == LightType::point ? light.position : light.direction;
   const double length = glm::length(towards), across = std::sqrt(towards.x * towards.x + towards.z * towards.z);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace validate --table`: what each way of biasing and filtering a shadow map is worth, on four scenes: error beside time.
+// `halfspace validate --table`: measures the error and time of every shadow map bias and filter on four scenes.
 #pragma once
 
 #include <functional>
@@ -11,31 +11,31 @@
 
 namespace halfspace {
 
-/// One way of making a scene's shadows.
+/// One combination of scene and shadow settings.
 struct ShadowCase {
-  std::string factor;  ///< what is varied: bias, filter, resolution, angle, or all of a full grid
+  std::string factor;  ///< the factor that is varied (bias, filter, resolution, angle), or "all" in a full grid
   std::string scene, bias, method;
   int resolution;
-  double angle;  ///< degrees between the light and the vertical
+  double angle;  ///< between the light and the vertical, in degrees
   SceneDescription description;
 };
 
-/// One factor at a time around the automatic settings (pcf3, auto, 2048), or with `full` every combination of bias, filter,
-/// resolution and angle, on four scenes. Lights' sizes are 0: the truth is hard.
+/// Calls `visit` for each case on four scenes. Varies one factor at a time around the default settings (pcf3, auto, 2048); with `full`,
+/// visits every combination of bias, filter, resolution and angle. Lights have size 0, so the reference shadows are hard.
 void for_each_shadow_case(bool full, const std::function<void(const ShadowCase&)>& visit);
 
-/// One row: what was varied, and how it did.
+/// One row of the table.
 struct TableRow {
-  std::string factor;  ///< bias, filter, resolution, angle, or all of a full grid
-  double angle;        ///< degrees between the light and the vertical
+  std::string factor;  ///< see ShadowCase::factor
+  double angle;        ///< between the light and the vertical, in degrees
   ShadowScore score;
 };
 
-/// Judges every case. Each row is handed to `done` when it is known.
+/// Scores every case. Calls `done` with each row as soon as it is complete.
 std::vector<TableRow> shadow_table(bool full, const ValidationOptions& options, const Workers& workers,
                                    const std::function<void(const TableRow&)>& done);
 
-/// The rows with a line of names, as CSV; errors as fractions.
+/// The header line and one line of the table as CSV. Errors are fractions, not percentages.
 std::string csv_header();
 std::string csv_line(const TableRow& row);
 

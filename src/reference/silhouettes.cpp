@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace {
 
-// The draw's number alone, as fine as the lens. numbers: of its points, red; the pass points into them.
+// Draws impostors in the resolution of `lens`, with the number of each point in the red channel. The pass keeps a pointer to `numbers`.
 void draw_numbers(Pass& pass, const PreparedDraw& draw, SphereImpostor<false> sprite, const SphereIntersection& lens, int finer,
                   const std::vector<glm::vec3>& numbers) {
   sprite.lens = lens;
@@ -38,7 +38,7 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
               opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
   }
   const SphereCamera camera(view.clip_from_world, view.near, view.far);
-  std::deque<std::vector<glm::vec3>> centers_cs;  // the pass points into them
+  std::deque<std::vector<glm::vec3>> centers_cs;  // the pass keeps pointers to the elements
   const SphereIntersection lens = camera.lens({width, height});
   for (const PlacedSpheres& s : scene.spheres) {
     const auto& centers = centers_cs.emplace_back(camera.centers_cs(*s.particles));

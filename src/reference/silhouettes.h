@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far the outlines of a scene's objects lie from those by another model of it.
+// Measures how far the outlines of objects are from those of another model of the same scene.
 #pragma once
 
 #include "halfspace/core/image.h"
@@ -10,15 +10,15 @@
 
 namespace halfspace {
 
-/// What seen_objects says of particles.
+/// The value of seen_objects for particles.
 inline constexpr int kParticlesSeen = -1;
 
-/// Which object each pixel's centre shows: 1 + its place among the scene's, kParticlesSeen, or 0. Top row first; several times as fine as
-/// the scene's own picture with `finer` > 1.
+/// Returns which object is visible at each pixel center: 1 + the index of the object in the scene, kParticlesSeen, or 0 for the
+/// background. Top row first. `finer` multiplies the resolution of the scene's view.
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers);
 
-/// How far the outlines of `picture` lie off those of `truth` (wrong_band_width). Both by seen_objects with the same `finer`; in pixels of
-/// the scenes' own picture.
+/// Returns how far the outlines in `picture` are from those in `truth`; see wrong_band_width. Both images come from seen_objects with the
+/// same `finer`; the result is in pixels of the scene's view.
 EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer);
 
 }  // namespace halfspace

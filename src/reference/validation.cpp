@@ -78,7 +78,7 @@ std::string json_report(const Validation& validation) {
 
 std::string text_report(const Validation& validation) {
   std::string text = fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:^29}  {:^29}  {:>18} {:>7} {:>7}\n", "scene", "light", "method",
-                                 "bias", "size", "false shadow, % of lit", "false light, % of shadowed", "edge, px", "map ms", "look-up");
+                                 "bias", "size", "false shadow, % of lit", "false light, % of shadowed", "edge, px", "map ms", "lookup");
   text += fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:>9}{:>10}{:>10}  {:>9}{:>10}{:>10}  {:>5} {:>5} {:>6}\n", "", "", "", "", "",
                       "<=1 texel", "1 to 3", "beyond", "<=1 texel", "1 to 3", "beyond", "mean", "p95", "max");
   for (const ShadowComparison& c : validation.lights) {
@@ -90,13 +90,14 @@ std::string text_report(const Validation& validation) {
         100 * s.false_shadow.beyond_3, 100 * s.false_light.within_1, 100 * s.false_light.from_1_to_3, 100 * s.false_light.beyond_3,
         s.edge_px.mean, s.edge_px.p95, s.edge_px.max, s.map_ms, s.lookup_ms);
     if (s.truth_error > 0.0)
-      text += fmt::format("    soft: mean error {:.4f} in penumbrae, {:.4f} in all; standard error of the rays at most {:.4f}\n",
+      text += fmt::format("    soft: mean error {:.4f} in penumbrae, {:.4f} overall; standard error of the rays at most {:.4f}\n",
                           s.penumbra_error, s.error, s.truth_error);
-    if (s.sides_differ > 0.0) text += fmt::format("    {:.3f} % of pixels: face and shading normal differ in side\n", 100 * s.sides_differ);
+    if (s.sides_differ > 0.0)
+      text += fmt::format("    {:.3f} % of pixels left out: face normal and shading normal are on different sides\n", 100 * s.sides_differ);
   }
   const VisibilityScore& v = validation.visibility;
   return text +
-         fmt::format("visible triangles: {} pixels, {} as by rays, {} within 1/256 px of an edge, {} of equal depth, {} unexplained\n",
+         fmt::format("visible triangles: {} pixels, {} match the rays, {} within 1/256 px of an edge, {} depth ties, {} unexplained\n",
                      v.pixels, v.same, v.near_edge, v.depth_tie, v.unexplained);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace validate`: a scene's shadows held against rays.
+// `halfspace validate`: compares the shadows of a scene with ray-cast shadows.
 #pragma once
 
 #include <string>
@@ -12,26 +12,26 @@ namespace halfspace {
 
 struct ValidationOptions {
   int width = 960, height = 540;
-  int rays = 1024;  ///< a pixel and light that has a size
+  int rays = 1024;  ///< per pixel and light, for lights that have a size
 };
 
-/// Every light of a scene that casts a shadow, or would if shadow.method were not none.
+/// Results for every light of a scene that is set to cast a shadow, even if shadow.method is none.
 struct Validation {
   std::vector<ShadowComparison> lights;
   VisibilityScore visibility;
 };
 
-/// The name is told in the scores.
+/// Validates all lights of a scene. `name` is stored in the scores.
 Validation validate(const std::string& name, const SceneDescription& scene, const ValidationOptions& options, SceneAssets& assets,
                     const Workers& workers);
 
-/// One object per light, as JSON: an array.
+/// Formats the results as a JSON array with one object per light.
 std::string json_report(const Validation& validation);
-/// The same as a table for reading.
+/// Formats the results as a text table.
 std::string text_report(const Validation& validation);
-/// Light as grey; dark blue where there is nothing to compare.
+/// Converts light to gray. Pixels that were not compared are dark blue.
 Image<glm::u8vec4> light_picture(const Image<float>& light);
-/// The truth as grey, and over it the map's errors: red falsely dark, blue falsely lit.
+/// Draws the reference in gray with the errors of the map on top: red is wrongly shadowed, blue wrongly lit.
 Image<glm::u8vec4> difference_picture(const ShadowComparison& comparison);
 
 }  // namespace halfspace
