@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Edges: samples a pixel, and whole pictures drawn larger and averaged, against exact area coverage.
+// Antialiasing: compares multisampling, and downsampling of larger images, with exact area coverage.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace halfspace {
 
 namespace {
 
-// A fan of wedges round the middle: edges of every angle, whose corners lie on the grid of 1/256 px, so that snapping moves nothing.
+// Makes a fan of wedges around the center of the image, which has edges at many angles. The corners are on the 1/256 px grid, so
+// snapping does not move them.
 std::vector<TrianglePx> wedges(int size, int count) {
   std::vector<TrianglePx> out;
   const auto corner = [&](double turns) {
@@ -47,7 +48,7 @@ struct White {
   }
 };
 
-// The means of blocks of factor².
+// Downsamples by averaging blocks of factor x factor pixels.
 void average(const Image<glm::vec4>& fine, int factor, Image<glm::vec4>& out, const Workers& workers) {
   const float share = 1.0f / static_cast<float>(factor * factor);
   workers.for_each(out.height(), [&](int y) {
@@ -82,23 +83,24 @@ class Edges {
 }  // namespace
 
 Study study_antialiasing(const StudyOptions& options, const Workers& workers) {
-  const int size = options.quick ? 128 : 1024;  // powers of two: positions in [−1, 1] keep 1/256 px exactly
+  const int size = options.quick ? 128 : 1024;  // powers of two, so that multiples of 1/256 px are exact in NDC
   const std::vector<TrianglePx> triangles = wedges(size, options.quick ? 24 : 90);
   const Image<double> exact = area_coverage<double>(triangles, size, size);
   const Image<long double> finer = area_coverage<long double>(triangles, size, size);
   Image<glm::vec4> truth(size, size);
-  double truth_error = 0x1p-25;  // of a share as a float
+  double truth_error = 0x1p-25;  // rounding error of a coverage in [0, 1] stored as float
   for (std::size_t i = 0; i < exact.texels().size(); ++i) {
     truth_error = std::max(truth_error, static_cast<double>(std::abs(finer.data()[i] - static_cast<long double>(exact.data()[i]))));
     truth.data()[i] = glm::vec4(glm::vec3(static_cast<float>(exact.data()[i])), 1.0f);
   }
   Study study{
       .name = "antialiasing",
-      .title = "Antialiasing: samples a pixel",
-      .setting = fmt::format("{} white wedges round the middle, {}x{}", triangles.size(), size, size),
-      .error_name = "RMS error of coverage over the picture",
-      .time_name = "frame, with resolving",
-      .truth = {"each pixel's covered area by clipping, in double", truth_error, "against long double, kept as floats", codes_of(truth)},
+      .title = "Antialiasing: samples per pixel",
+      .setting = fmt::format("{} white wedges around the center, {}x{}", triangles.size(), size, size),
+      .error_name = "RMS error of coverage over the image",
+      .time_name = "frame, including the resolve",
+      .truth = {"area coverage by polygon clipping, in double", truth_error, "difference from long double, and rounding to float",
+                codes_of(truth)},
   };
   const Edges edges(triangles, size);
   const auto add = [&](const std::string& name, const std::string& group, int samples, int shaded, const auto& draw) {
@@ -122,7 +124,7 @@ Study study_antialiasing(const StudyOptions& options, const Workers& workers) {
   }
   for (const int factor : options.quick ? std::vector{2} : std::vector{2, 4, 8}) {
     Image<glm::vec4> fine(size * factor, size * factor);
-    add(fmt::format("{0}x{0} larger", factor), "drawn larger and averaged", factor * factor, factor * factor,
+    add(fmt::format("{0}x{0} larger", factor), "larger image, downsampled", factor * factor, factor * factor,
         [&](Image<glm::vec4>& picture) {
           edges.draw(fine, {}, workers);
           average(fine, factor, picture, workers);

@@ -9,15 +9,15 @@ namespace halfspace {
 
 namespace {
 
-// Pixels of the picture and of the plot in it.
+// Size of the image and bounds of the plot area in it, in pixels.
 constexpr int kWidth = 1000, kHeight = 660;
 constexpr double kLeft = 90, kRight = 970, kBottom = 130, kTop = 580;
 constexpr double kCharacter = 6.8;  // mean width of the labels' font, 11 px
 
-// Of Okabe and Ito, "Color universal design", 2008: told apart by all eyes, on white and on black.
+// From Okabe and Ito, "Color universal design", 2008: distinguishable with all types of color vision, on white and on black.
 constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#7f7f7f"};
 
-// A logarithmic axis in powers of ten.
+// A logarithmic axis.
 struct Axis {
   double low, high;  // log10
   double at(double value) const { return (std::log10(value) - low) / (high - low); }
@@ -29,7 +29,8 @@ Axis axis_of(const std::vector<double>& values) {
   return {low - margin, high + margin};
 }
 
-// Where an axis of less than 2.5 powers of ten has its numbers: 1, 2 and 5 times each power. A longer one has the powers.
+// Sets the tick labels. An axis that spans less than 2.5 decades is labeled at 1, 2 and 5 times each power of ten, a longer one at the
+// powers of ten.
 std::string ticks_of(const char* name, const Axis& axis) {
   if (axis.high - axis.low >= 2.5) return fmt::format("set format {} '10^{{%L}}'\n", name);
   std::string list;
@@ -39,7 +40,7 @@ std::string ticks_of(const char* name, const Axis& axis) {
   return fmt::format("set {}tics ({})\n", name, list);
 }
 
-// For gnuplot's strings in single quotes.
+// Quotes text as a single-quoted gnuplot string.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? "''" : std::string(1, c);
@@ -48,7 +49,7 @@ std::string quoted(const std::string& text) {
 
 struct Plot {
   const Study& study;
-  std::vector<double> errors;  // as they are drawn: not below the truth's
+  std::vector<double> errors;  // clamped to at least the error of the truth
   std::vector<std::string> groups;
   Axis x, y;
 };
@@ -66,7 +67,7 @@ Plot make_plot(const Study& study) {
   return plot;
 }
 
-// The data block of each group, and that of the front.
+// Writes one gnuplot data block per group, and one for the Pareto front.
 std::string data_blocks(const Plot& plot, const std::vector<bool>& on_front) {
   std::string text;
   for (std::size_t g = 0; g < plot.groups.size(); ++g) {
@@ -121,7 +122,7 @@ std::string plot_command(const Plot& plot) {
   return text + "\n";
 }
 
-// What is the same for light and dark: frame, ranges, words.
+// Commands shared by the light and dark versions: margins, axes, titles.
 std::string frame_lines(const Plot& plot) {
   const Study& s = plot.study;
   const auto share = [](double pixels, int whole) { return fmt::format("{:.5f}", pixels / whole); };

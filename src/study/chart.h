@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A study's chart, in gnuplot's language: error across, time up, both logarithmic, the Pareto front as a line, a label at every
-// point. gnuplot draws; what is decided here is the ranges and where labels stand.
+// Writes the chart of a study as a gnuplot script: error on the x axis and time on the y axis, both logarithmic, with the Pareto front as
+// a line and a label at every point. The axis ranges and label positions are computed here rather than by gnuplot.
 #pragma once
 
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace halfspace {
 
-/// The script that writes NAME.svg, NAME-dark.svg and NAME.png into the working directory. on_front: as pareto_front says.
+/// Returns a script that writes NAME.svg, NAME-dark.svg and NAME.png to the working directory. on_front: result of pareto_front.
 std::string chart_script(const Study& study, const std::vector<bool>& on_front);
 
-/// A rectangle in pixels, y up.
+/// A rectangle in pixels with y up.
 struct ChartBox {
   double x0, y0, x1, y1;
 };
-/// A place for a label beside its point.
+/// Position of a label.
 struct LabelPlace {
-  double x, y;       ///< of the text's middle height at its anchor
-  int anchor;        ///< −1: the text ends there, 0: its middle is there, 1: it begins there
-  bool far = false;  ///< too far from its point to be read without a line
+  double x, y;       ///< anchor point, at half the height of the text
+  int anchor;        ///< which part of the text is at x: −1 the right end, 0 the center, 1 the left end
+  bool far = false;  ///< the label is so far from its point that it needs a leader line
 };
-/// Places for labels of `widths` pixels beside points, one after the other, each where it covers the least of points and of labels
-/// already placed. All stay within `room`.
+/// Places labels that are `widths` pixels wide next to their points. Greedy: labels are placed in order, each where it overlaps the points
+/// and the labels placed before it the least. Overlap with the outside of `room` costs three times as much.
 std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, const std::vector<double>& widths, const ChartBox& room);
 
 }  // namespace halfspace

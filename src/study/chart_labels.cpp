@@ -9,8 +9,8 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kLineHeight = 15.0;  // of a line of text
-constexpr double kPoint = 5.0;        // radius of a point
+constexpr double kLineHeight = 15.0;  // px
+constexpr double kPoint = 5.0;        // radius of a point, px
 
 double overlap(const ChartBox& a, const ChartBox& b) {
   return std::max(0.0, std::min(a.x1, b.x1) - std::max(a.x0, b.x0)) * std::max(0.0, std::min(a.y1, b.y1) - std::max(a.y0, b.y0));
@@ -21,7 +21,7 @@ ChartBox box_of(const LabelPlace& p, double width) {
   return {x0, p.y - 0.5 * kLineHeight, x0 + width, p.y + 0.5 * kLineHeight};
 }
 
-// Right, left, above, below, the corners; then the same farther out.
+// Lists the positions to try: right, left, above, below and the four corners, then the same at larger distances.
 std::vector<LabelPlace> candidates(const glm::dvec2& p) {
   std::vector<LabelPlace> list;
   for (const double r : {9.0, 20.0, 34.0, 50.0, 70.0}) {

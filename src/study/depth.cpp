@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which of two surfaces is nearer: depth formats and conventions, over far/near. Pairs of quads, one behind the other by a
-// 10,000th of the distance, at distances that are log-uniform from near to far, are drawn in either order; red is the farther one.
+// Depth precision: compares depth formats and reversed Z for several ratios of far to near plane. Draws pairs of quads, of which the
+// farther is 1/10,000 of the distance behind the nearer. Distances are log-uniform from near to far, and the drawing order is random.
+// The farther quad is red, so every pair that ends up red is an error.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,7 +17,7 @@ namespace halfspace {
 namespace {
 
 constexpr double kGap = 1e-4;
-constexpr int kCell = 4;  // px that a pair covers, squared
+constexpr int kCell = 4;  // side of the square covered by a pair, px
 
 struct Flatly {
   glm::mat4 clip_from_view;
@@ -39,7 +40,7 @@ struct Flatly {
   }
 };
 
-// splitmix64: the same numbers on every machine.
+// splitmix64, which yields the same numbers on every machine.
 struct Random {
   uint64_t state;
   double next() {
@@ -54,7 +55,7 @@ struct Pairs {
   std::vector<glm::vec3> positions, colors;
 };
 
-// Field of view 90 degrees: at distance z the picture is 2z wide.
+// The field of view is 90 degrees, so the view volume is 2z wide at distance z.
 Pairs make_pairs(int size, double ratio) {
   constexpr double kNear = 0.1;
   Pairs out;
@@ -76,7 +77,7 @@ Pairs make_pairs(int size, double ratio) {
   return out;
 }
 
-// A depth image of every format.
+// One depth image per format.
 struct Depths {
   Image<uint16_t> d16;
   Image<uint32_t> d24;
@@ -103,12 +104,12 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
   const double cells = static_cast<double>(size / kCell) * (size / kCell);
   Study study{
       .name = "depth",
-      .title = "Depth formats: pairs of surfaces ordered wrongly",
+      .title = "Depth formats: surfaces in the wrong order",
       .setting =
-          fmt::format("{:.0f} pairs of quads, one 1/10,000 behind the other, near 0.1, {}x{}; labels tell far/near", cells, size, size),
-      .error_name = fmt::format("share of pairs in wrong order (none: drawn at {:.0e})", 0.1 / cells),
+          fmt::format("{:.0f} pairs of quads, one 1/10,000 behind the other, near 0.1, {}x{}; labels: format, far/near", cells, size, size),
+      .error_name = fmt::format("fraction of pairs in the wrong order (zero is drawn at {:.0e})", 0.1 / cells),
       .time_name = "frame",
-      .truth = {"known by construction: the nearer quad is white", 0.1 / cells, "a tenth of what one pair counts"},
+      .truth = {"known by construction: the nearer quad is white", 0.1 / cells, "a tenth of one pair"},
   };
   Depths depths(size);
   Image<glm::vec4> white(size, size);
@@ -117,9 +118,9 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
     const Pairs pairs = make_pairs(size, ratio);
     for (const auto& [name, kind] :
          {std::pair("d16", DepthFormat::d16), std::pair("d24", DepthFormat::d24), std::pair("d32f", DepthFormat::d32f)}) {
-      const DepthFormat format = kind;  // a lambda cannot keep what is bound
+      const DepthFormat format = kind;  // a lambda cannot portably capture a structured binding
       for (const bool reversed : {false, true}) {
-        if (reversed && format != DepthFormat::d32f) continue;  // reversing whole numbers changes nothing
+        if (reversed && format != DepthFormat::d32f) continue;  // reversing does not change the precision of integer formats
         const double angle = std::numbers::pi / 2.0, far = 0.1 * ratio;
         const glm::dmat4 clip = reversed ? perspective_reversed(angle, 1.0, 0.1, far) : perspective_gl(angle, 1.0, 0.1, far);
         DrawState state;

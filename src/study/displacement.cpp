@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The Moon: how fine a mesh its relief needs, by where normals come from.
+// Displacement mapping: how fine a mesh the relief of the Moon needs, depending on where the normals come from.
 #include <fmt/format.h>
 
 #include "halfspace/scene/scene_file.h"
@@ -12,7 +12,7 @@ namespace {
 
 SceneDescription moon(int latitudes, const char* normals, bool quick) {
   SceneFile file = SceneFile::open("moon");
-  // The maps are the same for all variants; the relief is so coarse that the truth's mesh shows all of it, six times over.
+  // All variants use the same maps. The relief is so coarse that the reference mesh has six times its resolution.
   const int width = quick ? 512 : 2048, relief = quick ? 128 : 512;
   file.set(std::vector<std::string>{fmt::format("moon.latitudes={}", latitudes), fmt::format("moon.longitudes={}", 2 * latitudes),
                                     fmt::format("moon.normals={}", normals), "shadow.method=none", "background.type=color",
@@ -26,19 +26,19 @@ Study study_displacement(const StudyOptions& options, const Workers& workers) {
   const int width = options.quick ? 160 : 960, height = options.quick ? 90 : 540, finest = options.quick ? 256 : 1536;
   Study study{
       .name = "displacement",
-      .title = "Displacement: the Moon's levels",
+      .title = "Displacement: mesh resolution of the Moon",
       .setting = fmt::format("The Moon without shadows, {}x{}; labels are bands of latitude", width, height),
-      .error_name = "mean error of linear light over the picture",
+      .error_name = "mean error of linear light over the image",
       .time_name = "frame",
-      .truth = {fmt::format("the same at {} bands, normals by pixel", finest), 0.0, "a third of the step from half as many bands"},
+      .truth = {fmt::format("the same with {} bands, normals per pixel", finest), 0.0, "a third of the difference from half as many bands"},
   };
   SceneAssets assets(workers);
   Image<glm::vec4> truth(width, height), half(width, height);
   render(assets.prepare(moon(finest, "pixel", options.quick), width, height), truth, workers);
   render(assets.prepare(moon(finest / 2, "pixel", options.quick), width, height), half, workers);
   set_truth(study.truth, truth, half, PictureError::mean);
-  for (const auto& [normals, group] :
-       {std::pair("pixel", "normals by pixel"), std::pair("vertex", "by vertex"), std::pair("undisplaced", "the sphere's")}) {
+  for (const auto& [normals, group] : {std::pair("pixel", "normals per pixel"), std::pair("vertex", "normals per vertex"),
+                                       std::pair("undisplaced", "normals of the sphere")}) {
     for (const int latitudes : options.quick ? std::vector{16, 64} : std::vector{16, 32, 64, 128, 256}) {
       const PreparedScene prepared = assets.prepare(moon(latitudes, normals, options.quick), width, height);
       Image<glm::vec4> picture(width, height);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ways to interpolate a varying over a triangle in perspective, by the triangle's shape and size.
+// Compares methods of perspective-correct interpolation on triangles of different shapes and sizes.
 #include <fmt/format.h>
 
 #include <array>
@@ -14,13 +14,13 @@ namespace halfspace {
 
 namespace {
 
-// Corners in 1/256 px, 1/w and one value each.
+// A triangle corner: window position in 1/256 px, q = 1/w, and the value to interpolate.
 struct Corner {
   double x, y, q, value;
 };
 using Corners = std::array<Corner, 3>;
 
-// By long double from the snapped corners.
+// Interpolates in long double from the snapped corners.
 long double exact(const Corners& c, double x, double y) {
   const auto cross = [](long double ax, long double ay, long double bx, long double by) { return ax * by - ay * bx; };
   std::array<long double, 3> e{};
@@ -40,7 +40,8 @@ TriangleLanes<R> lanes_of(const Corners& c) {
   return {r(c[0].x), r(c[0].y), r(e1x), r(e1y), r(e2x), r(e2y), r(e1x * e2y - e1y * e2x), r(c[0].q), r(c[1].q), r(c[2].q), r(1.0)};
 }
 
-// value = (A x + B y + C)/(D x + E y + F) from the window's origin: what a plain rasterizer keeps of a triangle.
+// One of the two planes of value = (A x + B y + C)/(D x + E y + F), with (x, y) relative to (x0, y0). Rasterizers commonly store these
+// coefficients per triangle, relative to the window origin.
 struct Plane {
   float a, b, c;
 };
@@ -52,7 +53,7 @@ Plane plane_of(const Corners& corners, const std::array<float, 3>& v, float x0, 
   return {a, b, v[0] - a * (f(corners[0].x) - x0) - b * (f(corners[0].y) - y0)};
 }
 
-// Each method: set up for a triangle, then value(x, y) in 1/256 px, for all lanes at once.
+// The methods. The constructor does the triangle setup; value(x, y) interpolates at positions in 1/256 px, for all lanes at once.
 struct Affine {
   using R = Real;
   TriangleLanes<R> t;
@@ -100,7 +101,7 @@ struct Products {
   HS_INLINE R value(R x, R y) const { return interpolate<Interpolation::smooth>(weights_at(t, x - t.x0, y - t.y0), v0, d1, d2); }
 };
 
-// A triangle, and pixels' centres inside of it in 1/256 px: the same for every method.
+// A triangle and the positions inside it, in 1/256 px, at which all methods are evaluated.
 struct Case {
   std::string name;
   Corners corners;
@@ -112,10 +113,10 @@ Case make_case(const std::string& name, double length_px, double height_px) {
   const auto corner = [&](double along, double across, double q, double value) {
     return Corner{std::round(256.0 * (700.3 + along * c - across * s)), std::round(256.0 * (400.7 + along * s + across * c)), q, value};
   };
-  // q = 1/w over a factor of 5.
+  // q = 1/w varies by a factor of 5.
   Case out{name, {corner(0, 0, 0.4, 0.2), corner(length_px, 0, 2.0, 1.0), corner(0.4 * length_px, height_px, 0.9, -0.7)}, {}, {}};
   constexpr int kPoints = 4096;
-  for (int i = 0; i < kPoints; ++i) {  // evenly over the triangle (a sequence by the golden ratio), on the grid
+  for (int i = 0; i < kPoints; ++i) {  // uniform over the triangle (golden ratio sequence), snapped
     const double u = std::sqrt((i + 0.5) / kPoints), v = i * 0.6180339887498949 - std::floor(i * 0.6180339887498949);
     const std::array<double, 3> w{1.0 - u, u * (1.0 - v), u * v};
     double x = 0.0, y = 0.0;
@@ -129,7 +130,7 @@ Case make_case(const std::string& name, double length_px, double height_px) {
   return out;
 }
 
-constexpr int kRepeats = 244;  // about a million values
+constexpr int kRepeats = 244;  // about a million values in total
 
 template <class Method>
 Variant judged(const std::string& name, const std::string& group, const Case& c, const Method& method, const StudyOptions& options) {
@@ -173,10 +174,10 @@ Study study_interpolation(const StudyOptions& options, const Workers&) {
   Study study{
       .name = "interpolation",
       .title = "Interpolation over a triangle in perspective",
-      .setting = fmt::format("1/w over a factor of 5; {} lanes, double without lanes; labels: method, length x height in px", kLanes),
-      .error_name = "largest error over the triangle, of the largest value",
-      .time_name = "a million values on one thread, without set-up",
-      .truth = {"barycentric weights in long double", 0x1p-58, "some roundings of 2^-64, times what cancels"},
+      .setting = fmt::format("1/w varies by a factor of 5; {} lanes, double is scalar; labels: method, length x height in px", kLanes),
+      .error_name = "largest error over the triangle, relative to the largest value",
+      .time_name = "a million values on one thread, without setup",
+      .truth = {"barycentric weights in long double", 0x1p-58, "a few roundings of 2^-64, amplified by cancellation"},
   };
   std::vector<Case> cases{make_case("16x14", 16, 14)};
   if (!options.quick) {
@@ -185,8 +186,8 @@ Study study_interpolation(const StudyOptions& options, const Workers&) {
   }
   for (const Case& c : cases) {
     study.variants.push_back(judged("affine", "affine (no perspective)", c, Affine(c.corners), options));
-    study.variants.push_back(judged("planes", "planes from the window's origin", c, Planes(c.corners, false), options));
-    study.variants.push_back(judged("vertex planes", "planes from a vertex", c, Planes(c.corners, true), options));
+    study.variants.push_back(judged("planes", "plane equations from the window origin", c, Planes(c.corners, false), options));
+    study.variants.push_back(judged("vertex planes", "plane equations from a vertex", c, Planes(c.corners, true), options));
     study.variants.push_back(judged("products", "differences of products (used here)", c, Products<Real>(c.corners), options));
     study.variants.push_back(judged("double", "the same in double", c, Products<double>(c.corners), options));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `render --max-error` saves: Moon and Earth by the models that it picks, and by fixed ones.
+// `render --max-error`: compares the models that it picks for the Moon and the Earth with fixed models.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kDirections = 8192;
 
-// How far from the picture of its middle the object reaches, in pixels, in each direction: the farthest place of an edge of the mesh.
+// Computes the outline of a mesh in the image: in each direction from the projected object center, the distance in pixels to the
+// farthest intersection with an edge of the mesh.
 std::vector<double> outline(const PlacedMesh& placed, const View& view) {
   const glm::dmat4 clip_from_object = view.clip_from_world * placed.world_from_object;
   const auto window = [&](const glm::dvec4& p) {
@@ -38,17 +39,17 @@ std::vector<double> outline(const PlacedMesh& placed, const View& view) {
       std::swap(a, b);
       std::swap(from, to);
     }
-    if (to - from > 0.5) {  // over the direction where turns begin again
+    if (to - from > 0.5) {  // the edge crosses the direction where the angle wraps around
       std::swap(a, b);
       from = std::exchange(to, from + 1.0);
     }
-    if (to - from > 0.25) continue;  // near the middle
+    if (to - from > 0.25) continue;  // the edge passes near the center, so it is not part of the outline
     const glm::dvec2 along = b - a;
     for (int k = static_cast<int>(std::ceil(from * kDirections)); k <= static_cast<int>(to * kDirections); ++k) {
       const double angle = 2.0 * std::numbers::pi * (static_cast<double>(k) / kDirections - 0.5);
       const glm::dvec2 d(std::cos(angle), std::sin(angle));
       const double slope = d.x * along.y - d.y * along.x;
-      // An edge that runs away from the middle is met anywhere on it, after rounding even beyond.
+      // The intersection with a nearly radial edge is ill-conditioned: rounding can even move it beyond the end of the edge.
       const double end = std::max(glm::length(a), glm::length(b));
       const double met = slope == 0.0 ? end : std::min(end, (a.x * along.y - a.y * along.x) / slope);
       double& reached = farthest[static_cast<std::size_t>(k % kDirections)];
@@ -84,7 +85,7 @@ std::vector<Way> ways_of(const std::string& name, const SceneDescription& scene,
   }
   for (const double px : quick ? std::vector{1.0} : std::vector{2.0, 1.0, 0.5, 0.25, 0.1, 0.05})
     ways.push_back(
-        {fmt::format("{} asked {}", name, px), name + ", asked", assets.fit(scene, size.width_px, size.height_px, {px, {}}).scene});
+        {fmt::format("{} {} px", name, px), name + ", --max-error", assets.fit(scene, size.width_px, size.height_px, {px, {}}).scene});
   return ways;
 }
 
@@ -94,15 +95,16 @@ Study study_max_error(const StudyOptions& options, const Workers& workers) {
   const int width = options.quick ? 320 : 1920, height = options.quick ? 180 : 1080, finest = options.quick ? 256 : 1536;
   Study study{
       .name = "max_error",
-      .title = "The cheapest model: --max-error against fixed ones",
-      .setting = fmt::format("Moon and Earth, {}x{}; labels: what was asked, or bands of latitude and samples a pixel", width, height),
-      .error_name = "largest distance of the outline, in pixels",
-      .time_name = "frame with its shadow maps; maps and meshes are kept",
-      .truth = {fmt::format("the same at {} bands", finest), 0.0, "a third of the step from half as many bands"},
+      .title = "The cheapest model: --max-error and fixed models",
+      .setting =
+          fmt::format("Moon and Earth, {}x{}; labels: maximum error in px, or bands of latitude and samples per pixel", width, height),
+      .error_name = "largest error of the outline, in pixels",
+      .time_name = "frame with its shadow maps; textures and meshes are cached",
+      .truth = {fmt::format("the same with {} bands", finest), 0.0, "a third of the difference from half as many bands"},
   };
   for (const std::string name : {"moon", "earth"}) {
     SceneFile file = SceneFile::open(name);
-    // So coarse that the truth's mesh shows all of it.
+    // The relief is so coarse that the reference mesh resolves all of it.
     if (name == "moon") file.set(fmt::format("relief.width={}", options.quick ? 64 : 256));
     const SceneDescription scene = file.description();
     SceneAssets assets(workers);

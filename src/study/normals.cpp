@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The Earth's mountains by every kind of normal, and as a displaced surface.
+// Compares normal maps, bump maps and displacement on the mountains of the Earth.
 #include <fmt/format.h>
 
 #include "halfspace/scene/scene_file.h"
@@ -10,11 +10,11 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kScale = 0.02;  // units from the heights' 0 to 1: what the Earth's normal map is made for
+constexpr double kScale = 0.02;  // units per height of 1; the normal map of the Earth is made for this scale
 
 SceneDescription earth(bool quick, const std::vector<std::string>& settings) {
   SceneFile file = SceneFile::open("earth");
-  const int width = quick ? 128 : 512;  // so coarse that the truth's mesh shows all of the relief, four times over
+  const int width = quick ? 128 : 512;  // so coarse that the reference mesh has four times the resolution of the relief
   file.set(std::vector<std::string>{fmt::format("heights.width={}", width), fmt::format("normals.width={}", width), "earth.color=#808080",
                                     "sun.position=6,1,1", "background.color=0,0,0"});
   file.set(settings);
@@ -36,15 +36,15 @@ struct Kind {
 };
 
 std::vector<Kind> kinds(bool quick) {
-  std::vector<Kind> list{{"the sphere's", "one mesh, 256 bands", {"earth.normal=none"}},
+  std::vector<Kind> list{{"sphere normals", "one mesh, 256 bands", {"earth.normal=none"}},
                          {"normal map", "one mesh, 256 bands", {"earth.normal=map"}},
                          {"bump by difference", "one mesh, 256 bands", {"earth.normal=bump", "earth.bump_method=difference"}},
                          {"bump by gradient", "one mesh, 256 bands", {"earth.normal=bump", "earth.bump_method=gradient"}}};
   for (Kind& k : list) k.settings.insert(k.settings.end(), {"earth.latitudes=256", "earth.longitudes=512"});
   for (const int n : quick ? std::vector{64} : std::vector{64, 128, 256}) {
-    list.push_back({fmt::format("displaced {}, by vertex", n), "displaced", displaced(n)});
+    list.push_back({fmt::format("displaced {}, per vertex", n), "displaced", displaced(n)});
     list.back().settings.push_back("earth.normals=vertex");
-    list.push_back({fmt::format("displaced {}, by pixel", n), "displaced", displaced(n)});
+    list.push_back({fmt::format("displaced {}, per pixel", n), "displaced", displaced(n)});
   }
   return list;
 }
@@ -55,11 +55,12 @@ Study study_normals(const StudyOptions& options, const Workers& workers) {
   const int width = options.quick ? 160 : 960, height = options.quick ? 90 : 540, finest = options.quick ? 256 : 1024;
   Study study{
       .name = "normals",
-      .title = "Normals: by vertex, from maps, of a displaced surface",
-      .setting = fmt::format("The Earth's relief in grey under a low sun, {}x{}; displaced: bands of latitude", width, height),
-      .error_name = "mean error of linear light over the picture",
+      .title = "Normals: per vertex, from maps, by displacement",
+      .setting = fmt::format("The Earth's relief in gray under a low sun, {}x{}; numbers are bands of latitude", width, height),
+      .error_name = "mean error of linear light over the image",
       .time_name = "frame",
-      .truth = {fmt::format("displaced at {} bands, normals by pixel", finest), 0.0, "a third of the step from half as many bands"},
+      .truth = {fmt::format("displaced with {} bands, normals per pixel", finest), 0.0,
+                "a third of the difference from half as many bands"},
   };
   SceneAssets assets(workers);
   Image<glm::vec4> truth(width, height), half(width, height);

@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// The light of one ray through window coordinates (x, y), y down: shading/lighting.h's formulas with one light.
+// Returns the light along the ray through window coordinates (x, y), with y down. Uses the formulas of shading/lighting.h.
 template <class T>
 T light_along(const LitSphere& s, const View& view, T x, T y) {
   using V = glm::vec<3, T>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What studies of pictures share: a scene's light with its time, and a picture's error against the truth.
+// Helpers of the studies that render images: timed rendering, and comparison of an image with the truth.
 #pragma once
 
 #include "halfspace/render/prepared_scene.h"
@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// A scene's linear light, and the time of one frame without preparation.
+/// A rendered scene in linear light, and the time of one frame without the preparation of the scene.
 struct TimedPicture {
   Image<glm::vec4> light;
   Timing time;
@@ -17,20 +17,21 @@ struct TimedPicture {
 TimedPicture timed_picture(const SceneDescription& scene, int width, int height, const StudyOptions& options, const Workers& workers);
 
 enum class PictureError : uint8_t {
-  rms,  ///< root of the mean square
-  mean  ///< mean of the absolute: of pixels that change sides at an edge it counts the area
+  rms,  ///< root mean square error
+  mean  ///< mean absolute error; proportional to the area of the wrong pixels along an edge
 };
 
-/// Sets the variant's error by its light against the truth's, its measures (rms, mean, p999, max, ssim) and its pictures.
+/// Compares an image with the truth. Sets the error, measures (rms, mean, p999, max, ssim) and pictures of the variant.
 void judge_picture(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind);
 
-/// The truth of what converges with a number of bands: its picture, and a third of the step from half as many bands as its error.
+/// Sets the picture of a truth that converges with the number of bands. Its error is estimated as a third of the difference to `half`,
+/// the image with half as many bands.
 void set_truth(Truth& truth, const Image<glm::vec4>& light, const Image<glm::vec4>& half, PictureError kind);
 
-/// Light as sRGB codes.
+/// Encodes linear light as 8-bit sRGB.
 Image<glm::u8vec4> codes_of(const Image<glm::vec4>& light);
 
-/// A sphere round the origin as one directional light shows it.
+/// A sphere lit by one directional light.
 struct LitSphere {
   double radius = 1.0;
   glm::dvec3 center_ws{0.0};
@@ -39,18 +40,18 @@ struct LitSphere {
   glm::dvec3 towards_light_ws{1.0, 1.0, 1.5};
 };
 
-/// Its exact light at the pixels' centres, black around it, by a ray each.
+/// The image of a sphere on black, from one ray through each pixel center.
 struct SphereTruth {
-  Image<glm::vec4> light;  ///< to be seen
-  Image<double> exact;     ///< to be measured from
-  double error;            ///< the largest difference of a pixel to long double
+  Image<glm::vec4> light;  ///< rounded to float, for display and image comparison
+  Image<double> exact;     ///< unrounded, as reference for rms_error
+  double error;            ///< largest difference of a pixel from the same in long double
 };
 SphereTruth sphere_truth(const LitSphere& sphere, const View& view);
 
-/// The root of the mean square of what red differs by from the truth.
+/// Returns the RMS error of the red channel.
 double rms_error(const Image<glm::vec4>& light, const Image<double>& truth);
 
-/// How far the planes of a sphere's triangles lie below the sphere at the most, in units.
+/// Returns the largest distance between the sphere and the plane of a triangle of its mesh, in units.
 double deepest_chord(const Mesh& mesh, double radius);
 
 }  // namespace halfspace

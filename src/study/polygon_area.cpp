@@ -11,7 +11,7 @@ namespace {
 template <class T>
 using Polygon = std::vector<glm::vec<2, T>>;
 
-// What of it lies where side·(p[axis] − at) >= 0.
+// Clips a polygon to the half-plane side·(p[axis] − at) >= 0.
 template <class T>
 Polygon<T> clipped(const Polygon<T>& polygon, int axis, T at, T side) {
   Polygon<T> out;
@@ -24,7 +24,7 @@ Polygon<T> clipped(const Polygon<T>& polygon, int axis, T at, T side) {
   return out;
 }
 
-// Coordinates count from the polygon's first corner, so that little is lost far from the origin.
+// Coordinates are taken relative to the first corner, which avoids cancellation far from the origin.
 template <class T>
 T area(const Polygon<T>& polygon) {
   T twice = 0;

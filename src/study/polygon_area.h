@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact area coverage: how much of each pixel convex polygons cover, by clipping them to the pixel.
+// Exact area coverage: clips triangles to each pixel and sums the areas.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace halfspace {
 
 using TrianglePx = std::array<glm::dvec2, 3>;  ///< window coordinates, y up
 
-/// The share of each pixel that triangles without common points cover, top row first (Sutherland and Hodgman, "Reentrant polygon
-/// clipping", 1974, then the trapezoid rule). T: double, or long double to tell double's error.
+/// Returns the fraction of each pixel that is covered by triangles, top row first. The triangles must not overlap. Clips as in Sutherland
+/// and Hodgman, "Reentrant polygon clipping", 1974. T: double, or long double to estimate the error of double.
 template <class T>
 Image<T> area_coverage(const std::vector<TrianglePx>& triangles, int width, int height);
 

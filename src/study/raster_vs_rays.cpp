@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangle does each pixel show: by the rasterizer and by Embree's rays, over the number of triangles.
+// Compares which triangle the rasterizer and Embree's rays find at each pixel, for meshes with different numbers of triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,10 +22,11 @@ constexpr const char* kMeshScene = R"({{
   "objects": {{ "ball": {{ "shape": "uv_sphere", "latitudes": {}, "longitudes": {}, "shading": "none" }} }}
 }})";
 
-// The nearest triangle of each pixel, −1: none: by the ray's side of each edge's plane, in double, with nothing snapped.
+// The nearest triangle at each pixel center, or −1. Computed in double from unsnapped vertices: a ray hits a triangle if it is on the
+// inner side of the planes through the eye and each edge.
 struct ExactTriangles {
   Image<int> triangle;
-  double doubtful = 0.0;  // share of pixels where a side is within double's rounding
+  double doubtful = 0.0;  // share of tests, per pixel, that rounding in double may have decided
 };
 
 ExactTriangles exact_triangles(const PreparedScene& scene, int width, int height) {
@@ -35,7 +36,7 @@ ExactTriangles exact_triangles(const PreparedScene& scene, int width, int height
   Image<double> nearest(width, height);
   std::fill_n(out.triangle.data(), out.triangle.texels().size(), -1);
   std::fill_n(nearest.data(), nearest.texels().size(), std::numeric_limits<double>::infinity());
-  // Eye space with the picture's plane at distance 1: a ray is (x, y, 1).
+  // Eye space scaled so that the image plane at distance 1 spans [−1, 1]: the ray through NDC (x, y) has the direction (x, y, 1).
   const auto in_eye_space = [&](const glm::vec3& p_os) {
     const glm::dvec3 p = glm::dvec3(scene.meshes.front().world_from_object * glm::dvec4(glm::dvec3(p_os), 1.0)) - view.eye_ws;
     return glm::dvec3(glm::dot(p, view.right_ws) / view.tan_x, glm::dot(p, view.up_ws) / view.tan_y, glm::dot(p, view.forward_ws));
@@ -77,11 +78,11 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers) 
   const double pixels = static_cast<double>(width) * height;
   Study study{
       .name = "raster_vs_rays",
-      .title = "Triangles seen: rasterizer against rays",
-      .setting = fmt::format("A sphere by bands of latitude, {}x{}; nothing is shaded", width, height),
-      .error_name = fmt::format("share of pixels that show another triangle (none: drawn at {:.0e})", 0.1 / pixels),
+      .title = "Visible triangles: rasterizer and rays",
+      .setting = fmt::format("A sphere without shading, {}x{}; labels are bands of latitude", width, height),
+      .error_name = fmt::format("fraction of pixels that show another triangle (zero is drawn at {:.0e})", 0.1 / pixels),
       .time_name = "frame",
-      .truth = {"the side of every triangle's edges, in double, nothing snapped", 0.1 / pixels, "a tenth of what one pixel counts"},
+      .truth = {"edge tests of every triangle in double, without snapping", 0.1 / pixels, "a tenth of one pixel"},
   };
   for (const int latitudes : options.quick ? std::vector{8, 64} : std::vector{8, 32, 128, 512, 1024}) {
     const SceneDescription description = SceneFile::parse(fmt::format(kMeshScene, latitudes, 2 * latitudes), "study", ".").description();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light by triangle, by vertex or by pixel, on a sphere of few or many triangles.
+// Compares lighting per triangle, per vertex and per pixel on a sphere with few or many triangles.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -23,7 +23,8 @@ constexpr const char* kLitScene = R"({{
                          "diffuse": 0.7, "specular": 0.5, "shininess": 40 }} }}
 }})";
 
-// Where only one of both shows the sphere, the picture becomes the truth; returns how many pixels that are, of the sphere's.
+// Excludes the silhouette from the comparison: where only one of the two images shows the sphere, replaces the pixel by the truth.
+// Returns the number of these pixels as a fraction of the sphere's pixels.
 double leave_silhouette_out(Image<glm::vec4>& light, const Image<double>& truth) {
   int moved = 0, sphere = 0;
   for (std::size_t i = 0; i < truth.texels().size(); ++i) {
@@ -42,11 +43,11 @@ Study study_shading_rate(const StudyOptions& options, const Workers& workers) {
   const int size = options.quick ? 160 : 720;
   Study study{
       .name = "shading_rate",
-      .title = "Shading rate: flat, Gouraud or Phong, by triangles",
-      .setting = fmt::format("A shiny sphere (Blinn and Phong, exponent 40), {}x{}; labels are bands of latitude", size, size),
-      .error_name = "RMS error of linear light over the picture, the silhouette left out",
+      .title = "Shading rate: flat, Gouraud or Phong",
+      .setting = fmt::format("A shiny sphere (Blinn-Phong, exponent 40), {}x{}; labels are bands of latitude", size, size),
+      .error_name = "RMS error of linear light over the image, without the silhouette",
       .time_name = "frame",
-      .truth = {"the sphere by a ray a pixel, in double", 0.0, "largest difference to long double"},
+      .truth = {"the sphere by one ray per pixel, in double", 0.0, "largest difference from long double"},
   };
   SphereTruth truth{};
   for (const auto& [rate, group] : {std::pair("flat", "flat"), std::pair("gouraud", "Gouraud"), std::pair("phong", "Phong")}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table of `halfspace validate --table` as a study, so that it is charted as all are.
+// Converts the table of `halfspace validate --table` to a study, so that it can be charted.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,10 @@
 
 namespace halfspace {
 
-/// Means over the table's scenes, named shadow_table: each bias, filter and resolution once, by the lights' own angles; of a full table
-/// every filter with every bias at 2048 texels a side, over its angles. A time is one frame's. rows: at least one; width, height: of the
-/// pictures, px.
+/// Returns a study named shadow_table, whose variants are means over the scenes of the table. A normal table gives one variant for each
+/// bias, filter and resolution; rows that vary the angle are ignored. A full table gives one variant for each pair of filter and bias at
+/// a resolution of 2048, averaged over the angles. Times are per frame. `rows` must not be empty; width and height are the size of the
+/// validated images in pixels.
 Study shadow_table_study(const std::vector<TableRow>& rows, int width, int height);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadow maps by bias, filter and resolution on the four scenes of `halfspace validate --table`, held against rays.
+// Compares shadow map biases, filters and resolutions with ray-cast shadows, on the four scenes of `halfspace validate --table`.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,7 +12,8 @@ namespace halfspace {
 
 namespace {
 
-// The point moved by the rounding of floats; rays that then tell otherwise are in doubt.
+// Estimates the error of the ray-cast reference: the share of pixels whose result changes when the surface point is moved by about a
+// float rounding error.
 double share_in_doubt(const PreparedScene& scene, int width, int height, const Workers& workers) {
   const RayScene rays(scene.meshes, scene.view.eye_ws), casters(scene.meshes, scene.view.eye_ws, true);
   const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, width, height, workers);
@@ -31,7 +32,7 @@ double share_in_doubt(const PreparedScene& scene, int width, int height, const W
   return static_cast<double>(doubtful) / static_cast<double>(std::max<int64_t>(all, 1));
 }
 
-// Sums over the scenes, and what they are of.
+// Sums over the scenes for one variant.
 struct Sum {
   std::string factor;
   int resolution = 0, rows = 0;
@@ -55,7 +56,7 @@ class Sums {
     sum.time = {sum.time.median_ms + time.median_ms, sum.time.low_ms + time.low_ms, sum.time.high_ms + time.high_ms, time.runs};
   }
 
-  // Means, in the order in which they were begun.
+  // Returns the means, in the order in which the variants were first added.
   std::vector<Variant> variants() const {
     std::vector<Variant> list;
     for (const std::string& name : order_) list.push_back(mean_of(name, sums_.at(name)));
@@ -64,10 +65,10 @@ class Sums {
 
  private:
   static std::string group_of(const std::string& factor) {
-    if (factor == "bias") return "biases of pcf3, 2048";
+    if (factor == "bias") return "biases, pcf3, 2048";
     if (factor == "filter") return "filters, bias auto, 2048";
-    if (factor == "resolution") return "pcf3, bias auto, by texels a side";
-    return "filter and bias, 2048, over angles";
+    if (factor == "resolution") return "resolutions, pcf3, bias auto";
+    return "filter and bias, 2048, mean over angles";
   }
   static Variant mean_of(const std::string& name, const Sum& s) {
     const double n = s.rows;
@@ -85,8 +86,8 @@ class Sums {
   std::map<std::string, Sum> sums_;
 };
 
-// What differs from the rest; empty where nothing does: the same stands among the resolutions, as 2048. Angles are no variants: one may not
-// choose them.
+// Returns the setting that differs from the defaults as the name of the variant, or an empty string for rows to leave out. The default
+// settings appear only once, as resolution 2048. Rows that vary the angle are left out: it belongs to the scene and is not a choice.
 template <class Choice>  // a ShadowCase or a ShadowScore
 std::string name_of(const std::string& factor, const Choice& choice) {
   if (factor == "resolution") return std::to_string(choice.resolution);
@@ -96,19 +97,19 @@ std::string name_of(const std::string& factor, const Choice& choice) {
   return varied == "auto" || varied == "pcf3" ? "" : varied;
 }
 
-// All but its variants.
+// Returns a study without variants.
 Study study_on(const std::string& name, int width, int height) {
   return {
       .name = name,
       .title = "Shadow maps: biases, filters, resolutions",
       .setting = fmt::format("Means over shadow-plane, moon (terminator), shadow-contact and shadow-knot, {}x{}", width, height),
-      .error_name = "mean error of the light's share over pixels that can see it",
-      .time_name = "maps and look-ups, mean of a scene's frame without colours",
-      .truth = {"a ray a pixel from the surface to the light", 0.0, "rays that tell otherwise 2^-22 of the distance aside"},
+      .error_name = "mean error of the fraction of light that arrives",
+      .time_name = "shadow maps and lookups of a frame, mean over the scenes",
+      .truth = {"one ray per pixel from the surface to the light", 0.0, "share of rays that change when moved by 2^-22 of the distance"},
   };
 }
 
-// Not below a tenth of a pixel.
+// The error of the truth is at least a tenth of a pixel.
 void set_truth_error(Study& study, double doubt, int width, int height) { study.truth.error = std::max(doubt, 0.1 / (width * height)); }
 
 }  // namespace
@@ -128,7 +129,7 @@ Study study_shadows(const StudyOptions& options, const Workers& workers) {
     if (!doubts.contains(c.scene)) doubts[c.scene] = share_in_doubt(scene, width, height, workers);
     const Timing time = time_of(
         [&] {
-          scene = assets.prepare(c.description, width, height);  // meshes are kept, shadow maps are made
+          scene = assets.prepare(c.description, width, height);  // reuses the meshes and draws the shadow maps
           draw_shadow_picture({&scene, 0}, scene.view, width, height, true, workers);
         },
         options);

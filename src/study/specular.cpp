@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The power of a highlight: exact, by its parts, by tables and by rational stand-ins.
+// Compares ways to compute the power function of a specular highlight: pow, exp2 and log2, squaring, a table and two approximations.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTable = 256;
 
-// c^n at 257 places, read with linear interpolation.
+// A table of c^n at 257 points with linear interpolation.
 struct PowerTable {
   std::array<float, kTable + 2> values{};
   explicit PowerTable(double n) {
@@ -32,7 +32,7 @@ struct PowerTable {
 };
 
 template <class R>
-HS_INLINE R by_squaring(R c, int n) {  // n: a power of two
+HS_INLINE R by_squaring(R c, int n) {  // n must be a power of two
   for (; n > 1; n /= 2) c = c * c;
   return c;
 }
@@ -68,11 +68,11 @@ Variant judged(const std::string& name, int exponent, const F& f, const StudyOpt
 Study study_specular(const StudyOptions& options, const Workers&) {
   Study study{
       .name = "specular",
-      .title = "The power of a highlight",
+      .title = "Power function of a specular highlight",
       .setting = fmt::format("c^n over 65,536 cosines in (0, 1); labels are exponents; {} lanes", kLanes),
       .error_name = "largest error over all cosines",
       .time_name = "a million powers on one thread",
-      .truth = {"long double", 0x1p-60, "some roundings of 2^-64"},
+      .truth = {"long double", 0x1p-60, "a few roundings of 2^-64"},
   };
   for (const int n : options.quick ? std::vector{32} : std::vector{8, 32, 128}) {
     const auto y = static_cast<float>(n);
@@ -88,7 +88,7 @@ Study study_specular(const StudyOptions& options, const Workers&) {
     // C. Schlick, "A fast alternative to Phong's specular model", Graphics Gems IV, 1994.
     study.variants.push_back(judged(
         "Schlick", n, [&](Real c) { return c / (Real(y) - Real(y) * c + c); }, options));
-    // A spherical Gaussian: its first terms at c = 1 are those of the power.
+    // A spherical Gaussian. Value and derivative at c = 1 are those of c^n.
     study.variants.push_back(judged(
         "Gaussian", n, [&](Real c) { return exp(Real(y) * (c - Real(1.0f))); }, options));
   }

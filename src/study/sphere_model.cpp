@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One sphere off the picture's middle: as meshes of two kinds, as the classic sprite and as the exact one.
+// Compares models of a sphere away from the image center: two kinds of mesh, the classic point sprite and the exact one.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-// The sphere is seen 22 degrees off the axis, where it is no circle.
+// The sphere is 22 degrees off the view axis, where its projection is not a circle.
 constexpr const char* kModelScene = R"({{
   "version": 1,
   "cameras": {{ "main": {{ "position": [0, 0, 5], "target": [2, 0, 0], "fov": 50, "near": 0.1, "far": 100 }} }},
@@ -23,7 +23,7 @@ constexpr const char* kModelScene = R"({{
   {}
 }})";
 constexpr const char* kMesh = R"("objects": {{ "ball": {{ {}, "model": "phong", "diffuse": 0.7, "specular": 0.5, "shininess": 40 }} }})";
-// A grid of one has it at the origin, and grey by 0.55 there.
+// A grid with one particle has it at the origin, where the grid's color factor is 0.55: 0.55 · 1.8181818 = 1.
 constexpr const char* kPointSprite =
     R"("particles": {{ "sprite": "{}", "count": 1, "arrangement": "grid", "radius": 1, "color": 1.8181818,
                     "diffuse": 0.7, "specular": 0.5, "shininess": 40 }})";
@@ -57,10 +57,10 @@ Study study_sphere_model(const StudyOptions& options, const Workers& workers) {
   Study study{
       .name = "sphere_model",
       .title = "Models of a sphere: meshes and sprites",
-      .setting = fmt::format("A shiny sphere 22 degrees off the axis, {}x{}; UV by bands of latitude, ico by level", size, size),
-      .error_name = "RMS error of linear light over the picture",
+      .setting = fmt::format("A shiny sphere 22 degrees off the axis, {}x{}; labels: bands of latitude (UV) or level (ico)", size, size),
+      .error_name = "RMS error of linear light over the image",
       .time_name = "frame",
-      .truth = {"the sphere by a ray a pixel, in double", 0.0, "largest difference to long double"},
+      .truth = {"the sphere by one ray per pixel, in double", 0.0, "largest difference from long double"},
   };
   SphereTruth truth{};
   for (const Model& model : models(options.quick)) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A study: variants of one thing, each with its error against a truth and its time. One file a study; study_list.cpp names them,
-// study_files.h writes what they found.
+// A study measures several variants of the same rendering task: the error of each, compared with a truth, and its time. Each study has
+// its own file, studies() lists them, and study_files.h writes the results.
 //
-// Error and time of a variant come from the same run. Every variant of a study tells the same parameters (what it was made of) and
-// the same measures (what came out besides its error), so that models of cost and error can be fitted to the data.
+// Error and time of a variant come from the same run. All variants of a study have the same parameters (inputs, such as the number of
+// triangles) and the same measures (results other than the error), so that models of cost and error can be fitted to the data.
 #pragma once
 
 #include <functional>
@@ -19,17 +19,18 @@
 namespace halfspace {
 
 struct StudyOptions {
-  bool quick = false;  ///< small and few: to see that all works; the figures mean little
+  bool quick = false;  ///< small images and few variants, as a functional check; the figures are not meaningful
 };
 
-/// Wall time of one piece of work, done several times.
+/// Wall-clock time over several runs.
 struct Timing {
   double median_ms = 0.0;
   double low_ms = 0.0, high_ms = 0.0;  ///< lower and upper quartile
   int runs = 0;
 };
 
-/// Times `work`, after once to warm up: at least 9 times and until 0.3 s have passed, at most 101 times; with quick 3 times.
+/// Runs `work` once to warm up, then measures it at least 9 times, and until 0.3 s have passed or 101 runs are done. Runs it 3 times with
+/// options.quick.
 Timing time_of(const std::function<void()>& work, const StudyOptions& options);
 
 struct Quantity {
@@ -38,33 +39,33 @@ struct Quantity {
 };
 
 struct Variant {
-  std::string name;                    ///< stands at its point on the chart
-  std::string group;                   ///< points of one group have one colour
-  std::vector<Quantity> parameters{};  ///< what the variant was made of
-  double error = 0.0;                  ///< of Study::error_name; below the truth's own it means nothing but "at most that"
-  std::vector<Quantity> measures{};    ///< what else was found
+  std::string name;                    ///< label of its point in the chart
+  std::string group;                   ///< variants of a group have the same color in the chart
+  std::vector<Quantity> parameters{};  ///< inputs, such as triangles or samples
+  double error = 0.0;                  ///< see Study::error_name; a value below the truth's own error is not significant
+  std::vector<Quantity> measures{};    ///< other results
   Timing time{};
   Image<glm::u8vec4> picture{}, difference{};  ///< may be empty
 };
 
-/// What errors are measured from.
+/// The reference for the errors of a study.
 struct Truth {
-  std::string method;            ///< how it was computed
-  double error = 0.0;            ///< its own, in the study's unit
-  std::string error_method;      ///< how that is known
+  std::string method;            ///< how the reference was computed
+  double error = 0.0;            ///< error of the reference itself, in the unit of the study
+  std::string error_method;      ///< how that error was estimated
   Image<glm::u8vec4> picture{};  ///< may be empty
 };
 
 struct Study {
   std::string name, title;
-  std::string setting;     ///< what was drawn, at which size
-  std::string error_name;  ///< with its unit; the chart's axis
-  std::string time_name;   ///< of what one time is; the chart's axis
+  std::string setting;     ///< what was drawn, and the image size
+  std::string error_name;  ///< title of the error axis, with the unit
+  std::string time_name;   ///< what was timed; part of the title of the time axis
   Truth truth;
   std::vector<Variant> variants{};
 };
 
-/// Which variants no other one beats in error and time. Errors below `floor` count as it.
+/// Marks the variants on the Pareto front of error and median time. Errors below `floor` are treated as equal to it.
 std::vector<bool> pareto_front(const std::vector<Variant>& variants, double floor);
 
 struct StudyEntry {
@@ -72,10 +73,10 @@ struct StudyEntry {
   Study (*run)(const StudyOptions&, const Workers&);
 };
 
-/// All studies, in the order in which they are shown.
+/// Returns all studies in display order.
 std::vector<StudyEntry> studies();
 
-// Each in the file of its name.
+// Each study is defined in the file of the same name.
 Study study_shading_rate(const StudyOptions& options, const Workers& workers);
 Study study_sphere_model(const StudyOptions& options, const Workers& workers);
 Study study_displacement(const StudyOptions& options, const Workers& workers);

@@ -65,7 +65,7 @@ Json to_json(const std::vector<Quantity>& numbers) {
   return json;
 }
 
-// Writes a picture and returns its file's name; of an empty one nothing.
+// Writes a picture and returns its file name. Returns null for an empty picture.
 Json write_picture(const Image<glm::u8vec4>& picture, const std::string& name, const std::filesystem::path& folder) {
   if (picture.empty()) return nullptr;
   write_png(folder / (name + ".png"), picture);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a study found, as files: data, pictures, chart, and the page that shows all studies of a folder.
+// Writes the results of a study: data, pictures, the chart, and an HTML page that shows all studies in a folder.
 #pragma once
 
 #include <filesystem>
@@ -10,25 +10,26 @@
 
 namespace halfspace {
 
-/// How a run was made, for the data.
+/// Information about a run, stored with the data.
 struct RunFacts {
-  std::string command;  ///< as it was called
-  std::string version;  ///< of the program, with its build
+  std::string command;  ///< command line
+  std::string version;  ///< version and build of the program
   int threads = 1;
   bool quick = false;
 };
 
-/// Writes NAME.csv, NAME.json, the pictures NAME-truth.png, NAME-VARIANT.png and NAME-VARIANT-difference.png, and the chart's
-/// instructions for gnuplot, NAME.gnuplot, into the folder, which exists. Throws OutputError.
+/// Writes NAME.csv, NAME.json, the pictures NAME-truth.png, NAME-VARIANT.png and NAME-VARIANT-difference.png, and the gnuplot script
+/// NAME.gnuplot to a folder, which must exist. Throws OutputError.
 void write_study(const Study& study, const RunFacts& facts, const std::filesystem::path& folder);
 
-/// Draws NAME.svg, NAME-dark.svg and NAME.png by NAME.gnuplot. False where there is no gnuplot; throws OutputError where it fails.
+/// Runs gnuplot on NAME.gnuplot, which draws NAME.svg, NAME-dark.svg and NAME.png. Returns false if gnuplot is not installed; throws
+/// OutputError if it fails.
 bool draw_chart(const std::string& name, const std::filesystem::path& folder);
 
-/// Writes index.html, which shows every study that has a NAME.json in the folder. Throws InputError where one is damaged.
+/// Writes index.html, which shows every study that has a NAME.json in the folder. Throws InputError if one of them is invalid.
 void write_index(const std::filesystem::path& folder);
 
-/// A variant's name as part of a file's: small letters, digits and '-'.
+/// Converts the name of a variant to a part of a file name: lowercase letters, digits and '-'.
 std::string file_word(std::string_view name);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page that shows all studies of a folder, and the run of the plotting tool.
+// Writes the HTML page that shows all studies in a folder, and runs gnuplot.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,8 +31,8 @@ tr.front { background: var(--front); } .pictures { display: flex; flex-wrap: wra
 figcaption { font-size: 12px; } figure img { width: 200px; image-rendering: pixelated; } nav a { margin-right: 1em; }
 </style></head><body>
 <h1>Speed against accuracy</h1>
-<p>Each point is one way to draw the same thing: its error against a truth across, its time up, both logarithmic. Bars reach from the
-lower to the upper quartile of the times. What no other way beats in both lies on the dashed line; in the tables it is shaded.</p>
+<p>Each point is one way to draw the same thing. The x axis shows its error compared with a reference, the y axis its time; both are
+logarithmic. Error bars span the quartiles of the times. The dashed line is the Pareto front, whose rows are shaded in the tables.</p>
 )html";
 
 std::string escaped(const std::string& text) {
@@ -82,7 +82,7 @@ std::string section(const Json& study, bool has_chart) {
           ". Truth: " + text_at(truth, "method") + "; its own error " + number_of(truth.at("error")) + " (" +
           text_at(truth, "error_method") + "). <code>" + text_at(run, "command") + "</code>, " + text_at(run, "date") + ", " +
           text_at(run, "processor") + ", " + std::to_string(run.at("threads").get<int>()) + " threads, " + text_at(run, "version") +
-          (run.at("quick").get<bool>() ? ", <b>quick run: figures mean little</b>" : "") + ". Data: <a href=\"" + name +
+          (run.at("quick").get<bool>() ? ", <b>quick run: the figures are not meaningful</b>" : "") + ". Data: <a href=\"" + name +
           ".csv\">CSV</a>, <a href=\"" + name + ".json\">JSON</a>.</p>\n<details><summary>Table</summary>\n" + table(study) +
           "</details>\n";
   std::string pictures = figure(truth.at("picture"), "truth");
@@ -95,7 +95,7 @@ std::string section(const Json& study, bool has_chart) {
 Json read_json(const std::filesystem::path& path) {
   std::ifstream file(path);
   Json json = Json::parse(file, nullptr, false);
-  if (json.is_discarded()) throw InputError(path.string() + ": is no JSON; expected a study's data");
+  if (json.is_discarded()) throw InputError(path.string() + ": not valid JSON; expected the data of a study");
   return json;
 }
 
@@ -110,7 +110,7 @@ void write_index(const std::filesystem::path& folder) {
     try {
       sections += section(read_json(path), std::filesystem::exists(folder / (name + ".svg")));
     } catch (const nlohmann::json::exception&) {
-      throw InputError(path.string() + ": is no study's data; expected what this program wrote");
+      throw InputError(path.string() + ": not the data of a study; expected a file written by this program");
     }
     links += "<a href=\"#" + name + "\">" + name + "</a>\n";
   }
@@ -126,9 +126,9 @@ bool draw_chart(const std::string& name, const std::filesystem::path& folder) {
     ::_exit(127);
   }
   int status = 0;
-  if (child < 0 || ::waitpid(child, &status, 0) != child) throw OutputError("gnuplot: cannot be started");
+  if (child < 0 || ::waitpid(child, &status, 0) != child) throw OutputError("gnuplot: cannot start the program");
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return false;
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw OutputError((folder / script).string() + ": gnuplot cannot draw it");
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw OutputError((folder / script).string() + ": gnuplot failed");
   return true;
 }
 

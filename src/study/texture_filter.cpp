@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A chequered plane to the horizon by every filter, against the mean of the texture over each pixel.
+// Compares texture filters on a checkered plane that reaches the horizon. The truth is the mean of the texture over each pixel.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,10 +15,10 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kHalf = 40.0;   // of the plane's side, units
-constexpr double kEye = 1.0;     // above the plane, looking along −z
-constexpr double kTan = 0.5;     // of half the vertical angle of view
-constexpr double kTiles = 20.0;  // textures across the plane
+constexpr double kHalf = 40.0;   // a length of 2·kHalf units on the plane is covered by kTiles repeats of the texture
+constexpr double kEye = 1.0;     // height of the eye above the plane; it looks along −z
+constexpr double kTan = 0.5;     // tangent of half the vertical field of view
+constexpr double kTiles = 20.0;  // see kHalf
 
 struct Textured {
   glm::mat4 clip_from_world;
@@ -44,17 +44,19 @@ struct Textured {
   }
 };
 
-// The plane lies `kEye` below the eye and fills all below the horizon, which is the picture's upper edge.
+// Returns the texture coordinates seen at (x, y), in pixels with y down. The plane is kEye below the eye. The horizon is 0.02 of the
+// image height above the upper edge of the image, so the plane fills the image.
 glm::dvec2 uv_seen(double x, double y, int width, int height) {
   const double right = kTan * width / height * (2.0 * x / width - 1.0), down = 2.0 * kTan * (y + 0.02 * height) / height;
-  const double z = kEye / down;  // ahead of the eye
+  const double z = kEye / down;  // distance along the view axis
   return glm::dvec2(right * z, z) * (kTiles / (2.0 * kHalf));
 }
 
-// Two estimates of each pixel's mean, each of half its 1,024 places: 32 x 32, every other one as on a chessboard.
+// The mean of the texture over each pixel, from 32 x 32 samples. The samples are split into two halves like the squares of a chessboard,
+// and the difference between the halves gives an estimate of the error.
 struct Integrated {
   Image<glm::vec4> mean;
-  double error;  // RMS of half the halves' difference
+  double error;  // RMS of half the difference between the two halves
 };
 Integrated integrate(const Texture2D& texture, int width, int height, const Workers& workers) {
   constexpr int kSide = 32;
@@ -87,13 +89,13 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
   Study study{
       .name = "texture_filter",
       .title = "Texture filters on a plane to the horizon",
-      .setting = fmt::format("A chequered plane from 1 unit above, {}x{}; 512x512 texels a tile, sRGB", width, height),
-      .error_name = "RMS error of linear light over the picture",
+      .setting = fmt::format("A checkered plane seen from 1 unit above, {}x{}; 512x512 texels per tile, sRGB", width, height),
+      .error_name = "RMS error of linear light over the image",
       .time_name = "frame",
-      .truth = {"the mean of 1,024 bilinear look-ups a pixel, in double", truth.error, "RMS of half its halves' difference",
+      .truth = {"mean of 1,024 bilinear lookups per pixel, in double", truth.error, "RMS of half the difference between its halves",
                 codes_of(truth.mean)},
   };
-  // A quad in eye space (y up, −z ahead) from the picture's lower edge to the horizon, u = x, v = −z in tiles.
+  // A quad in eye space (y up, −z forward) from below the lower edge of the image almost to the horizon; u = x and v = −z in tiles.
   const double scale = kTiles / (2.0 * kHalf), near = 0.3, far = 2000.0, wide = 2.0 * far;
   const auto corner = [&](double x, double z) {
     return glm::vec3(static_cast<float>(x), static_cast<float>(-kEye), static_cast<float>(-z));
@@ -103,7 +105,7 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
   const std::vector<glm::vec2> uvs{uv(-wide, near), uv(wide, near), uv(wide, far), uv(-wide, far)};
   const std::vector<uint32_t> list{0, 1, 2, 0, 2, 3};
   const Indices indices(list, positions.size());
-  // The upper edge is 0.02 of the height below the horizon: the view is moved up accordingly.
+  // The horizon is 0.02 of the image height above the upper edge: move the image up accordingly.
   const double aspect = static_cast<double>(width) / height;
   glm::dmat4 moved(1.0);
   moved[3][1] = 1.0 + 2.0 * 0.02;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From light to 8-bit sRGB codes through a tone curve: exactly, by a polynomial, by tables, by a plain gamma.
+// Compares ways to convert light to 8-bit sRGB with a tone curve: exact, with a polynomial, with tables, and with a plain gamma curve.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,16 +13,16 @@ namespace halfspace {
 
 namespace {
 
-// Narkowicz's curve and the sRGB encoding; see shading/tone.h.
+// Narkowicz's ACES curve followed by the sRGB encoding; see shading/tone.h. Returns a code that is not rounded yet.
 template <class T>
 T exact_code(T x) {
   const T y = std::min(x * (T(2.51L) * x + T(0.03L)) / (x * (T(2.43L) * x + T(0.59L)) + T(0.14L)), T(1));
   return 255 * (y <= T(0.0031308L) ? T(12.92L) * y : T(1.055L) * std::pow(y, 1 / T(2.4L)) - T(0.055L));
 }
 
-constexpr float kMaxCount = 8.0f;  // light beyond it is white
+constexpr float kMaxCount = 8.0f;  // largest amount of light in the study
 
-// The whole way from light to a code between codes, at even steps of light.
+// A table of the whole conversion from light to code, sampled uniformly in light and interpolated linearly.
 struct CurveTable {
   std::vector<float> codes;
   explicit CurveTable(int size) {
@@ -41,11 +41,11 @@ HS_INLINE Real curve(Real x) { return min(tone_curve(ToneCurve::aces, x, 4.0f), 
 
 struct Lights {
   std::vector<float> light;
-  std::vector<int> codes;  // the right ones
+  std::vector<int> codes;  // the correct results
 };
 Lights make_lights(int count) {
   Lights out;
-  for (int i = 0; i < count; ++i) {  // even in the square root: many are dark, as to the eye
+  for (int i = 0; i < count; ++i) {  // uniform in the square root of light, which is closer to perception
     const double s = (i + 0.5) / count;
     out.light.push_back(static_cast<float>(s * s * static_cast<double>(kMaxCount)));
     out.codes.push_back(static_cast<int>(std::lround(exact_code(static_cast<long double>(out.light.back())))));
@@ -87,12 +87,12 @@ Study study_tone(const StudyOptions& options, const Workers&) {
       .name = "tone",
       .title = "Tone curve and sRGB encoding",
       .setting = fmt::format("{} channels of light from 0 to 8, ACES curve, 8-bit sRGB codes, {} lanes", count, kLanes),
-      .error_name = fmt::format("mean error in codes (none: drawn at {:.0e})", 0.1 / count),
+      .error_name = fmt::format("mean error in codes (zero is drawn at {:.0e})", 0.1 / count),
       .time_name = fmt::format("{} channels on one thread", count),
-      .truth = {"curve and power in long double, rounded", 0.1 / count, "a tenth of what one wrong code counts"},
+      .truth = {"curve and power in long double, rounded", 0.1 / count, "a tenth of one wrong code"},
   };
   study.variants.push_back(judged(
-      "double pow", "no lanes", lights,
+      "double pow", "scalar", lights,
       [](Real x) {
         Int codes(0);
         for (int k = 0; k < kLanes; ++k) set_lane(codes, k, static_cast<int32_t>(std::lround(exact_code(static_cast<double>(lane(x, k))))));
@@ -112,7 +112,7 @@ Study study_tone(const StudyOptions& options, const Workers&) {
   for (const int size : {256, 1024, 4096, 65536}) {
     const CurveTable table(size);
     study.variants.push_back(judged(
-        fmt::format("table of {}", size), "one table for all", lights, [&](Real x) { return table.at(x); }, options));
+        fmt::format("table of {}", size), "one table for everything", lights, [&](Real x) { return table.at(x); }, options));
   }
   return study;
 }
