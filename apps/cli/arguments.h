@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values of options, checked: what is wrong with one is told in the option's words.
+// Parsing and validation of option values. Error messages name the option.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,19 @@ struct PictureSize {
   int width, height;
 };
 
-/// A whole decimal number; something negative where it is none.
+/// Parses a decimal integer. Returns a negative number if the text is not an integer.
 int parse_number(std::string_view text);
 
-/// "1920x1080", each 1 … 16384. Throws UsageError.
+/// Parses a size such as "1920x1080", with each edge in 1 … 16384. Throws UsageError.
 PictureSize parse_size(std::string_view text);
 
-/// 1 … 1024; empty: one a core. Throws UsageError.
+/// Parses a thread count in 1 … 1024. An empty text means one thread per core. Throws UsageError.
 int parse_threads(std::string_view text);
 
-/// A finite number in [low, high]. `option` and `example` are for the message. Throws UsageError.
+/// Parses a finite number in [low, high]. `option` and `example` are used in the error message. Throws UsageError.
 double parse_real(std::string_view option, std::string_view text, double low, double high, std::string_view example);
 
-/// Is there something of that name that is written to as a stream: standard output, a pipe, a device?
+/// Returns true if the path is standard output or an existing file that is not a regular file, such as a pipe or a device.
 bool is_stream(const std::filesystem::path& path);
 
 }  // namespace halfspace

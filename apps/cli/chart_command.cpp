@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace chart STUDY|all`: what each way of drawing costs and how right it is, as data, charts and a page.
+// `halfspace chart STUDY|all`: measures error and time of rendering methods; writes data files, charts and an HTML page.
 #include <filesystem>
 #include <iostream>
 #include <vector>

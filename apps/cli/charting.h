@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the commands that draw charts have in common.
+// Shared code of the commands that draw charts.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 
 namespace halfspace {
 
-/// Writes the study's data and chart into the folder, which exists; command: as it was called. False where the chart is missing, for want
-/// of gnuplot. Throws OutputError.
+/// Writes the data and the chart of a study to a folder, which must exist. `command` is the command line, which is stored with the data.
+/// Returns false if there is no chart because gnuplot is missing. Throws OutputError.
 bool write_charted(const Study& study, const std::string& command, bool quick, const Workers& workers, const std::filesystem::path& folder);
 
-/// The line for that.
+/// The message to print if write_charted returns false.
 inline constexpr const char* kNoGnuplot =
-    "no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data are written\n";
+    "no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data files were written\n";
 
 }  // namespace halfspace

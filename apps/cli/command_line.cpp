@@ -19,8 +19,8 @@ namespace halfspace {
 
 namespace {
 
-// An interrupted program leaves no partial file, and dies of the signal as its parent expects. The handler is used
-// once (SA_RESETHAND), so the second raise, delivered when it returns, ends the program.
+// Removes partial output files and then lets the signal end the program, as the parent process expects. The handler is installed with
+// SA_RESETHAND, so raise() sends the signal to the default handler once this one returns.
 extern "C" void on_signal(int signal) {
   remove_unfinished_output();
   clear_progress();
@@ -30,7 +30,7 @@ extern "C" void on_signal(int signal) {
 void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction old = {};
-    if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;  // nohup, background jobs
+    if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;  // keep signals ignored by nohup or the shell
     struct sigaction action = {};
     action.sa_handler = on_signal;
     action.sa_flags = static_cast<int>(SA_RESETHAND);
@@ -38,7 +38,7 @@ void handle_signals() {
   }
 }
 
-// The names that begin with "--" in a parser's options, or the names of its subcommands.
+// Returns the long option names of a parser, or the names of its subcommands.
 std::vector<std::string> names_of(const CLI::App& app, bool options) {
   std::vector<std::string> names;
   if (options) {
@@ -61,7 +61,7 @@ std::string see_help(const CLI::App& program) {
   return "; see '" + program.get_name() + " " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help'";
 }
 
-// What remained unparsed, as an error that names the nearest right word.
+// Makes an error for the first argument that was not parsed, with a suggestion if a valid name is similar.
 UsageError unknown_argument(const CLI::App& program) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
   const CLI::App& app = chosen.empty() ? program : *chosen.front();
@@ -75,7 +75,7 @@ UsageError unknown_argument(const CLI::App& program) {
   return UsageError((chosen.empty() ? "" : app.get_name() + ": ") + "unexpected argument '" + word + "'" + see_help(program));
 }
 
-// CLI11's messages may have several lines.
+// Joins the lines of a message from CLI11, which can have several.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (c == '\n') c = ' ';
@@ -84,7 +84,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// One line, whatever stood in a file or an argument.
+// Prints an error as a single line. Control characters, which can come from files or arguments, are escaped.
 int report(const CLI::App& program, ExitCode code, std::string_view what) {
   std::string line = program.get_name() + ": ";
   for (const char c : what) {
@@ -99,9 +99,9 @@ int report(const CLI::App& program, ExitCode code, std::string_view what) {
   return code;
 }
 
-// CLI11 shows a flag's default value in braces; here it stands for "no value given".
+// Omits the default value of a flag, which CLI11 prints in braces: here it is only the value used if none is given.
 class HelpFormatter : public CLI::Formatter {
-  // Below the usage that names them, without a headline.
+  // Omits the headline: positional arguments are listed directly below the usage line.
   std::string make_positionals(const CLI::App* app) const override {
     const std::string text = CLI::Formatter::make_positionals(app);
     return text.empty() ? text : text.substr(text.find(":\n") + 2);
@@ -149,9 +149,9 @@ int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {
   } catch (const OutputError& e) {
     return report(program, kCannotWrite, e.what());
   } catch (const std::bad_alloc&) {
-    return report(program, kBadInput, "not enough memory; expected a smaller --size or map");
+    return report(program, kBadInput, "not enough memory; expected a smaller --size or smaller maps");
   } catch (const std::exception& e) {
-    return report(program, kBadInput, std::string("the system refused: ") + e.what());
+    return report(program, kBadInput, std::string("system error: ") + e.what());
   }
   std::cout.flush();
   if (!std::cout) return report(program, kCannotWrite, "standard output: cannot write");

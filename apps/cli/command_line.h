@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What every program of the project does alike: help, signals, and one line on standard error with an exit code for what went
-// wrong.
+// Behavior shared by all programs of the project: help, signal handling, and errors reported as one line on standard error and an exit
+// code.
 #pragma once
 
 #include <functional>
@@ -15,16 +15,16 @@ class App;
 
 namespace halfspace {
 
-/// --help and --version, and how help is laid out. The program has its name.
+/// Adds --help and --version and sets the layout of the help text. The name of the program must be set before.
 void set_common_options(CLI::App& program);
 
-/// "; did you mean 'COMMAND'?" or the list of the program's subcommands: the tail of an error line.
+/// Returns the end of an error message: "; did you mean 'COMMAND'?" if a subcommand is similar, else a list of the subcommands.
 std::string suggested_command(std::string_view wrong, const CLI::App& program);
 
-/// The options of the subcommand of that name ("--NAME"), or the names of all subcommands for "".
+/// Returns the options of a subcommand as "--NAME", or the names of all subcommands if `command` is empty.
 std::vector<std::string> words_after(const CLI::App& program, const std::string& command);
 
-/// Runs parse_and_run, which names the program, parses and may throw what parsers and commands do. Returns the exit code.
+/// Calls parse_and_run, reports any exception that it throws, and returns the exit code. parse_and_run must set the program's name.
 int run_program(CLI::App& program, const std::function<void()>& parse_and_run);
 
 }  // namespace halfspace

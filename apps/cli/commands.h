@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The subcommands of `halfspace` as functions of their arguments. They throw UsageError, DifferenceError, InputError or
-// OutputError. main.cpp declares their options, so that they need not include the command line parser, which is slow to
-// compile.
+// The subcommands of `halfspace`. They throw UsageError, DifferenceError, InputError or OutputError. Only main.cpp, which declares
+// their options, includes the command-line parser, because it is slow to compile.
 #pragma once
 
 #include <functional>
@@ -16,14 +15,14 @@ struct RenderArguments {
   std::string out;  ///< empty: SCENE.png
   std::string size = "1920x1080";
   std::vector<std::string> set;
-  std::string camera;   ///< empty: the scene's
-  std::string shading;  ///< empty: the objects'
+  std::string camera;   ///< empty: the camera set in the scene
+  std::string shading;  ///< empty: the shading rate of each object
   std::string time;     ///< empty: 0
-  std::string frames;   ///< empty: one picture
+  std::string frames;   ///< empty: one image, without a frame number
   std::string fps;      ///< empty: 30
   std::string threads;  ///< empty: one per core
   std::string statistics;
-  std::string max_error, max_error_color;  ///< empty: the scene as it is
+  std::string max_error, max_error_color;  ///< both empty: render the scene as it is
   bool resume = false;
   bool print = false;
 };
@@ -38,19 +37,19 @@ void convert_normal_command(const ConvertNormalArguments& args);
 
 struct ValidateArguments {
   std::string scene;
-  std::string out;  ///< empty: no pictures
+  std::string out;  ///< empty: write no images
   std::string size = "960x540";
   std::vector<std::string> set;
   std::string camera, time, threads, rays;
   bool json = false, table = false, full = false;
 };
-/// Only where the program has rays.
+/// Only defined in builds with ray casting (HALFSPACE_HAS_RAYS).
 void validate_command(const ValidateArguments& args);
 
 struct CompareArguments {
   std::string a, b;
-  std::string out;        ///< empty: no picture
-  std::string tolerance;  ///< empty: none, differences are no error
+  std::string out;        ///< empty: write no difference image
+  std::string tolerance;  ///< empty: accept any difference
   bool json = false;
 };
 void compare_command(const CompareArguments& args);
@@ -59,13 +58,13 @@ struct ChartArguments {
   std::string study, out = "charts", threads;
   bool quick = false;
 };
-/// Only where the program has rays.
+/// Only defined in builds with ray casting (HALFSPACE_HAS_RAYS).
 void chart_command(const ChartArguments& args);
-/// The names of all studies, in lines of less than 80 characters. Only where the program has rays.
+/// Returns the names of all studies in lines of less than 80 characters. Only defined in builds with ray casting.
 std::string study_lines();
 
 struct ListArguments {
-  std::string scene;  ///< empty: the scenes that ship
+  std::string scene;  ///< empty: list the built-in scenes
   bool names = false, schema = false;
 };
 void list_command(const ListArguments& args);
@@ -78,7 +77,7 @@ void info_command(const InfoArguments& args);
 struct CompletionArguments {
   std::string shell, command;
 };
-/// words: returns the options of a command, or the names of all commands for "".
+/// `words` must return the options of a command, or the names of all commands if the name is empty.
 void completion_command(const CompletionArguments& args, const std::function<std::vector<std::string>(const std::string& command)>& words);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace compare A B`: how far two pictures are from each other.
+// `halfspace compare A B`: measures the difference between two images.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,7 +20,7 @@ namespace halfspace {
 
 namespace {
 
-// What was compared: linear light where both files hold it, else 8-bit codes.
+// The result of a comparison, in linear light if both files are linear and in 8-bit codes otherwise.
 struct Comparison {
   ImageDifference difference;
   int width, height;
@@ -35,14 +35,14 @@ std::string number(const char* format, double x) {
 
 std::string text_report(const CompareArguments& args, const Comparison& c) {
   const ImageDifference& d = c.difference;
-  return args.a + " against " + args.b + ", " + std::to_string(c.width) + "x" + std::to_string(c.height) +
-         (c.linear ? ", linear light" : ", 8-bit codes over 255") + (d.channels == 4 ? ", with alpha" : "") +  //
-         "\nrmse         " + number("%.6g", d.rmse) +                                                          //
-         "\nmean         " + number("%.6g", d.mean) +                                                          //
-         "\npsnr         " + (std::isinf(d.psnr_db) ? "infinite" : number("%.2f dB", d.psnr_db)) +             //
-         "\nmax          " + number("%.6g", d.max) +                                                           //
-         "\np99.9        " + number("%.6g", d.p999) +                                                          //
-         "\nabove 1/255  " + number("%.4f %%", 100.0 * d.share_above) +                                        //
+  return args.a + " vs. " + args.b + ", " + std::to_string(c.width) + "x" + std::to_string(c.height) +
+         (c.linear ? ", linear light" : ", 8-bit codes / 255") + (d.channels == 4 ? ", with alpha" : "") +  //
+         "\nrmse         " + number("%.6g", d.rmse) +                                                       //
+         "\nmean         " + number("%.6g", d.mean) +                                                       //
+         "\npsnr         " + (std::isinf(d.psnr_db) ? "infinite" : number("%.2f dB", d.psnr_db)) +          //
+         "\nmax          " + number("%.6g", d.max) +                                                        //
+         "\np99.9        " + number("%.6g", d.p999) +                                                       //
+         "\nabove 1/255  " + number("%.4f %%", 100.0 * d.share_above) +                                     //
          "\nssim         " + number("%.6f", d.ssim) + "\n";
 }
 
@@ -69,13 +69,13 @@ template <class Texel>
 Comparison compare_files(const CompareArguments& args, const Image<Texel>& a, const Image<Texel>& b) {
   if (a.width() != b.width() || a.height() != b.height()) {
     const auto size = [](const Image<Texel>& i) { return std::to_string(i.width()) + "x" + std::to_string(i.height()); };
-    throw InputError(args.b + ": is " + size(b) + "; expected " + size(a) + ", the size of " + args.a);
+    throw InputError(args.b + ": size is " + size(b) + "; expected " + size(a) + ", the size of " + args.a);
   }
   if (!args.out.empty()) write_png(args.out, difference_colors(difference_map(a, b)));
   return {compare_images(a, b), a.width(), a.height(), std::is_same_v<Texel, glm::vec4>};
 }
 
-// A picture as codes, whatever the file holds: linear light is encoded to sRGB.
+// Reads an image as 8-bit codes. Linear light is encoded as sRGB.
 Image<glm::u8vec4> read_codes(const std::string& path, bool linear) {
   if (!linear) return read_image(path);
   const Image<glm::vec4> light = read_linear(path);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace completion SHELL`: a script that completes commands, options, scenes, cameras and keys.
+// `halfspace completion SHELL`: prints a script that completes commands, options, scenes, keys and studies.
 #include <iostream>
 
 #include "cli/commands.h"
@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// Words come from the program itself, so that the script never lags behind it.
+// The scripts get their words from the program itself, so that they never become out of date.
 constexpr const char* kBash = R"script(# halfspace: completion for bash. Use: source <(halfspace completion bash)
 _halfspace() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]} scene=${COMP_WORDS[2]}
@@ -68,7 +68,7 @@ void completion_command(const CompletionArguments& args, const std::function<std
   } else if (args.shell == "studies") {
     print_studies();
   } else {
-    throw UsageError("completion: no shell '" + args.shell + "'; expected bash, zsh or fish");
+    throw UsageError("completion: unknown shell '" + args.shell + "'; expected bash, zsh or fish");
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace convert-normal HEIGHT -o NORMAL`: a normal map of a map of heights.
+// `halfspace convert-normal HEIGHT -o NORMAL`: converts a height map to a normal map.
 #include <string>
 
 #include "cli/arguments.h"
@@ -27,14 +27,15 @@ MapEdges parse_edges(const std::string& text) {
 
 void convert_normal_command(const ConvertNormalArguments& args) {
   const double strength =
-      args.strength.empty() ? 8.0 : parse_real("--strength", args.strength, -1e6, 1e6, "texels from black to white, for example 8");
+      args.strength.empty() ? 8.0
+                            : parse_real("--strength", args.strength, -1e6, 1e6, "the height from black to white in texels, for example 8");
   const MapEdges edges = parse_edges(args.edges);
   if (image_file_of(args.out) != ImageFile::png && !(is_stream(args.out) && !std::filesystem::path(args.out).has_extension())) {
-    throw UsageError("-o is '" + args.out + "'; expected a name that ends in .png");
+    throw UsageError("-o is '" + args.out + "'; expected a file name ending in .png");
   }
   check_writable(args.out);
   const Image<float> heights = read_gray(args.height);
-  if (heights.width() < 2) throw InputError(args.height + ": is one texel wide; expected a map of heights");
+  if (heights.width() < 2) throw InputError(args.height + ": only one texel wide; expected a height map");
   write_data_png(args.out, normal_map(heights, strength, edges, Workers(Workers::cores())));
 }
 

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a program of the project ends with, and the errors of the command line.
+// Exit codes of the programs, and command-line errors.
 #pragma once
 
 #include <stdexcept>
 
 namespace halfspace {
 
-/// What a program ends with.
+/// Exit code of a program.
 enum ExitCode : int {
   kOk = 0,
-  kDiffers = 1,     ///< compare: by more than is tolerated
-  kUsage = 2,       ///< the command line cannot be understood
-  kBadInput = 3,    ///< an unknown scene, a wrong key or value, a file that cannot be read
+  kDiffers = 1,     ///< compare: the images differ by more than the tolerance
+  kUsage = 2,       ///< invalid command line
+  kBadInput = 3,    ///< unknown scene, invalid key or value, unreadable file, or out of memory
   kCannotWrite = 4  ///< the result cannot be written
 };
 
-/// A command line that cannot be understood. what() is one line.
+/// The command line is invalid. what() is one line.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Two pictures that differ by more than is tolerated. what() is one line.
+/// Two images differ by more than the tolerance. what() is one line.
 class DifferenceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -37,17 +37,17 @@ std::filesystem::path frame_path(const std::filesystem::path& out, int frame, co
 
 namespace {
 
-// Is there a line to be cleared? For the signal handler.
+// True while a progress line is shown. Read by the signal handler, so it must be lock-free.
 std::atomic<bool> line_shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-// Columns of the terminal; 80 where it does not tell.
+// Returns the width of the terminal, or 80 if it is unknown.
 int terminal_columns() {
   winsize size = {};
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-// "1:05", "2:00:07".
+// Formats a duration as "1:05" or "2:00:07".
 std::string time_text(int seconds) {
   char text[32];
   if (seconds < 3600) {
@@ -86,7 +86,7 @@ void Progress::show() const {
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     text += "  " + time_text(static_cast<int>(std::min(spent / rendered_ * (total_ - done_) + 0.5, 1e9))) + " left";
   }
-  // A line that wraps could not be written over: the bar gives way.
+  // A wrapped line could not be overwritten, so shorten the bar if necessary.
   constexpr int kWidest = 30;
   const int width = std::min(kWidest, terminal_columns() - 3 - static_cast<int>(text.size()));
   std::string line = "\r\033[K";

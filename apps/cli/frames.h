@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Several frames: which, at what times, into which files; and how far the work is.
+// Rendering of multiple frames: the range, the output files, and the progress display.
 #pragma once
 
 #include <chrono>
@@ -9,20 +9,20 @@
 
 namespace halfspace {
 
-/// Frames first … last, both included.
+/// Frames first … last, inclusive.
 struct FrameRange {
   int first = 0, last = 0;
   int count() const { return last - first + 1; }
 };
 
-/// "3..17". Throws UsageError.
+/// Parses a range such as "3..17". Throws UsageError.
 FrameRange parse_frames(std::string_view text);
 
-/// The file of one frame: "moon.png" and frame 7 make "moon_0007.png"; more than four digits where the range needs them.
+/// Returns the file name of a frame: "moon_0007.png" for "moon.png" and frame 7. Uses more than four digits if the range needs them.
 std::filesystem::path frame_path(const std::filesystem::path& out, int frame, const FrameRange& range);
 
-/// A line on standard error that tells how many frames are done and how long the rest will take; nothing where standard
-/// error is no terminal.
+/// Shows the number of finished frames and the estimated remaining time on standard error. Prints nothing if standard error is not a
+/// terminal, or if there is only one frame.
 class Progress {
  public:
   explicit Progress(int total);
@@ -30,7 +30,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more is done; `skipped` ones took no time and say nothing of the rest.
+  /// Call after each frame. Skipped frames are left out of the estimate of the remaining time.
   void advance(bool skipped);
 
  private:
@@ -41,7 +41,7 @@ class Progress {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// Clears the line of the Progress that is shown, if one is. For signal handlers: async-signal-safe.
+/// Clears the progress line if one is shown. Async-signal-safe.
 void clear_progress() noexcept;
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace info`: what this program is and what it found on this machine.
+// `halfspace info`: prints the version and build of the program and what it found on this machine.
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -26,7 +26,7 @@ void print_text() {
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
             << "build         " << build_description() << ", " << kCompiler << '\n'
             << "cores         " << Workers::cores() << '\n'
-            << "image tool    " << (tool.empty() ? "absent: pictures can be read and written as PNG only" : tool.string()) << '\n';
+            << "image tool    " << (tool.empty() ? "not found: only PNG images can be read and written" : tool.string()) << '\n';
 }
 
 void print_json() {

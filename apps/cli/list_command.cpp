@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace list [SCENE]`: the scenes that ship, or every key of one scene.
+// `halfspace list [SCENE]`: lists the built-in scenes, or every key of one scene.
 #include <algorithm>
 #include <iostream>
 
@@ -28,7 +28,7 @@ void list_scenes(bool names) {
 void list_keys(const std::string& name) {
   SceneDescription scene = SceneFile::open(name).description();
   std::cout << name << ": " << scene.head.title
-            << "\nSet a key by --set PATH.KEY=VALUE; a collection (cameras, lights, ...) may be left out of the path.\n";
+            << "\nUse --set PATH.KEY=VALUE to set a key. The collection (cameras, lights, ...) can be omitted from the path.\n";
   for (const NamedSection& s : sections_of(scene)) {
     std::cout << '\n' << (s.path.empty() ? "(top)" : s.path) << "  -- " << s.help << '\n';
     for (const Field& field : fields_of(s.section)) {
@@ -40,19 +40,19 @@ void list_keys(const std::string& name) {
   }
 }
 
-// Dotted paths as --set takes them, without the collection where there is one.
+// Prints the paths that --set accepts, without the collection unless the short path is ambiguous.
 void list_paths(const std::string& name) {
   SceneDescription scene = SceneFile::open(name).description();
   for (const NamedSection& s : sections_of(scene)) {
     const std::string start = s.path.empty() ? "" : s.path + ".";
-    const std::string short_start = start.substr(s.path.find('.') + 1);  // all of it where there is no dot
+    const std::string short_start = start.substr(s.path.find('.') + 1);  // all of it if there is no dot
     for (const Field& field : fields_of(s.section)) {
       const std::string key = field.key->name;
       bool is_short = true;
       try {
         find_key(scene, short_start + key, "");
       } catch (const InputError&) {
-        is_short = false;  // the name is in two collections
+        is_short = false;  // the name exists in two collections
       }
       std::cout << (is_short ? short_start : start) << key << '\n';
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command line program: its subcommands and their options.
+// The command-line program: declares the subcommands and their options.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -14,32 +14,32 @@ namespace halfspace {
 
 namespace {
 
-// --set KEY=VALUE, which may be given several times.
+// Adds --set KEY=VALUE, which can be given several times.
 void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
-  command->add_option("--set", settings, "Set a key ('halfspace list SCENE' tells all)")
+  command->add_option("--set", settings, "Set a key (see 'halfspace list SCENE')")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_render_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("render", "Render a scene to a picture, or to numbered frames");
+  CLI::App* command = program.add_subcommand("render", "Render a scene to an image or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
-  command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->required()->type_name("");
-  command->add_option("-o,--output", args->out, ".png .jpg .tif, or linear .exr .hdr")->type_name("OUT");
-  command->add_option("--size", args->size, "Pixels (default 1920x1080)")->type_name("WxH");
+  command->add_option("SCENE", args->scene, "Name of a scene, or a scene file")->required()->type_name("");
+  command->add_option("-o,--output", args->out, ".png, .jpg, .tif; linear light: .exr, .hdr")->type_name("OUT");
+  command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
-  command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
-  command->add_option("--shading", args->shading, "Light all by: none flat provoking gouraud phong")->type_name("RATE");
+  command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
+  command->add_option("--shading", args->shading, "none, flat, provoking, gouraud or phong")->type_name("RATE");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
-  command->add_option("--frames", args->frames, "Frames A to B into OUT_0000.png, ...")->type_name("A..B");
+  command->add_option("--frames", args->frames, "Render frames A to B to OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
-  command->add_option("--max-error", args->max_error, "Cheapest model with edges this right")->type_name("PX");
-  command->add_option("--max-error-color", args->max_error_color, "... with colours this right, in codes")->type_name("E");
-  command->add_flag("--resume", args->resume, "Leave out frames that are there, whole");
-  command->add_option("--threads", args->threads, "Threads (default: one a core)")->type_name("N");
-  command->add_flag("--stats{text}", args->statistics, "Print times and counts, as text or JSON")->option_text("[=json]");
-  command->add_flag("--print", args->print, "Print the scene with all settings instead");
+  command->add_option("--max-error", args->max_error, "Cheapest model with edges within PX pixels")->type_name("PX");
+  command->add_option("--max-error-color", args->max_error_color, "... with colors within E 8-bit codes")->type_name("E");
+  command->add_flag("--resume", args->resume, "Skip frames whose file is already complete");
+  command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
+  command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
+  command->add_flag("--print", args->print, "Print the scene with all settings and exit");
   command->footer(
       "Examples:\n"
       "  halfspace render earth -o earth.png --size 1280x720\n"
@@ -48,11 +48,11 @@ void add_render_command(CLI::App& program) {
 }
 
 void add_convert_normal_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("convert-normal", "Make a normal map of a map of heights");
+  CLI::App* command = program.add_subcommand("convert-normal", "Convert a height map to a normal map");
   const auto args = std::make_shared<ConvertNormalArguments>();
-  command->add_option("HEIGHT", args->height, "Image of heights, 8 or 16 bits or floats")->required()->type_name("");
-  command->add_option("-o,--output", args->out, "PNG in tangent space, green up")->required()->type_name("NORMAL");
-  command->add_option("--strength", args->strength, "Texels from black up to white (default 8)")->type_name("S");
+  command->add_option("HEIGHT", args->height, "Height map with 8-bit, 16-bit or float texels")->required()->type_name("");
+  command->add_option("-o,--output", args->out, "Normal map as PNG, in tangent space, green up")->required()->type_name("NORMAL");
+  command->add_option("--strength", args->strength, "Height of white in texels (default 8)")->type_name("S");
   command->add_option("--edges", args->edges, "repeat (default), clamp, or sphere")->type_name("E");
   command->footer(
       "Examples:\n"
@@ -63,19 +63,19 @@ void add_convert_normal_command(CLI::App& program) {
 
 #if HALFSPACE_HAS_RAYS
 void add_validate_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("validate", "Hold a scene's shadows against rays");
+  CLI::App* command = program.add_subcommand("validate", "Compare the shadows of a scene with ray casting");
   const auto args = std::make_shared<ValidateArguments>();
-  command->add_option("SCENE", args->scene, "A scene's name, or a scene file")->type_name("");
-  command->add_flag("--json", args->json, "Report as JSON: one object per light");
-  command->add_option("-o,--output", args->out, "Write pictures: map, truth, difference; or a chart")->type_name("DIR");
-  command->add_flag("--table", args->table, "Every bias and filter on four scenes, as CSV");
-  command->add_flag("--full", args->full, "With --table: every combination (hours)");
+  command->add_option("SCENE", args->scene, "Name of a scene, or a scene file")->type_name("");
+  command->add_flag("--json", args->json, "Report as JSON, one object per light");
+  command->add_option("-o,--output", args->out, "Folder for images, or for the chart of --table")->type_name("DIR");
+  command->add_flag("--table", args->table, "Score all biases and filters on four scenes (CSV)");
+  command->add_flag("--full", args->full, "With --table: all combinations (takes hours)");
   add_set_option(command, args->set);
-  command->add_option("--size", args->size, "Pixels (default 960x540)")->type_name("WxH");
-  command->add_option("--camera", args->camera, "One of the scene's cameras")->type_name("NAME");
+  command->add_option("--size", args->size, "Size in pixels (default 960x540)")->type_name("WxH");
+  command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
-  command->add_option("--rays", args->rays, "Per pixel, for lights with a size (default 1024)")->type_name("N");
-  command->add_option("--threads", args->threads, "Threads (default: one a core)")->type_name("N");
+  command->add_option("--rays", args->rays, "Rays per pixel for area lights (default 1024)")->type_name("N");
+  command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->footer(
       "Examples:\n"
       "  halfspace validate moon --json\n"
@@ -84,12 +84,12 @@ void add_validate_command(CLI::App& program) {
 }
 
 void add_chart_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("chart", "Measure error against time, as charts");
+  CLI::App* command = program.add_subcommand("chart", "Chart the error and time of rendering methods");
   const auto args = std::make_shared<ChartArguments>();
-  command->add_option("STUDY", args->study, "all, or one of those below")->required()->type_name("");
-  command->add_option("-o,--output", args->out, "Folder (default charts)")->type_name("DIR");
-  command->add_flag("--quick", args->quick, "Small pictures: to see that it works");
-  command->add_option("--threads", args->threads, "Default: one per core")->type_name("N");
+  command->add_option("STUDY", args->study, "all, or one of the studies below")->required()->type_name("");
+  command->add_option("-o,--output", args->out, "Output folder (default charts)")->type_name("DIR");
+  command->add_flag("--quick", args->quick, "Small images, to check that it works");
+  command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->footer("Studies:" + study_lines() +
                   "\nExamples:\n"
                   "  halfspace chart all -o charts\n"
@@ -102,13 +102,13 @@ void add_chart_command(CLI::App&) {}
 #endif
 
 void add_compare_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("compare", "Tell how far two pictures are from each other");
+  CLI::App* command = program.add_subcommand("compare", "Measure the difference between two images");
   const auto args = std::make_shared<CompareArguments>();
-  command->add_option("A", args->a, "A picture")->required()->type_name("");
-  command->add_option("B", args->b, "Another one of the same size")->required()->type_name("");
+  command->add_option("A", args->a, "First image")->required()->type_name("");
+  command->add_option("B", args->b, "Second image, of the same size")->required()->type_name("");
   command->add_flag("--json", args->json, "Report as JSON");
-  command->add_option("-o,--output", args->out, "Write the differences as colours (PNG)")->type_name("DIFF");
-  command->add_option("--tolerance", args->tolerance, "Exit 1 where a channel differs by more")->type_name("T");
+  command->add_option("-o,--output", args->out, "Write a color-coded difference image (PNG)")->type_name("DIFF");
+  command->add_option("--tolerance", args->tolerance, "Exit with 1 if any channel differs by more")->type_name("T");
   command->footer(
       "Examples:\n"
       "  halfspace compare before.png after.png -o difference.png\n"
@@ -119,26 +119,26 @@ void add_compare_command(CLI::App& program) {
 void add_list_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("list", "List the scenes, or the keys of a scene");
   const auto args = std::make_shared<ListArguments>();
-  command->add_option("SCENE", args->scene, "A scene's name or file: list its keys")->type_name("");
-  command->add_flag("--names", args->names, "Names alone, one a line");
-  command->add_flag("--schema", args->schema, "The JSON Schema of scene files instead");
+  command->add_option("SCENE", args->scene, "Scene or scene file whose keys to list")->type_name("");
+  command->add_flag("--names", args->names, "Print only names, one per line");
+  command->add_flag("--schema", args->schema, "Print the JSON Schema of scene files");
   command->footer("Examples:\n  halfspace list\n  halfspace list moon");
   command->callback([args] { list_command(*args); });
 }
 
 void add_info_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("info", "Tell version, instruction set, compiler, cores and modules");
+  CLI::App* command = program.add_subcommand("info", "Print version, build, cores and image tool");
   const auto args = std::make_shared<InfoArguments>();
-  command->add_flag("--json", args->json, "As JSON");
+  command->add_flag("--json", args->json, "Print as JSON");
   command->footer("Examples:\n  halfspace info\n  halfspace info --json");
   command->callback([args] { info_command(*args); });
 }
 
 void add_completion_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("completion", "Print a script that completes words in a shell");
+  CLI::App* command = program.add_subcommand("completion", "Print a shell completion script");
   const auto args = std::make_shared<CompletionArguments>();
-  command->add_option("SHELL", args->shell, "bash, zsh or fish; words or studies for a list")->required()->type_name("");
-  command->add_option("COMMAND", args->command, "With words: the command whose options to print")->type_name("");
+  command->add_option("SHELL", args->shell, "bash, zsh or fish; or a list: words, studies")->required()->type_name("");
+  command->add_option("COMMAND", args->command, "With words: command whose options to list")->type_name("");
   command->footer(
       "Examples:\n  halfspace completion bash >> ~/.bashrc\n  halfspace completion fish | "
       "source");
@@ -158,7 +158,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   add_list_command(program);
   add_info_command(program);
   add_completion_command(program);
-  program.footer("halfspace COMMAND --help tells more of a command.");
+  program.footer("Run 'halfspace COMMAND --help' for the options of a command.");
   if (argc < 2) throw UsageError("no command" + suggested_command("", program) + " (see 'halfspace --help')");
   program.parse(argc, argv);
 }
@@ -168,6 +168,6 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
 }  // namespace halfspace
 
 int main(int argc, char** argv) {
-  CLI::App program("Halfspace: a renderer that runs on the CPU alone");
+  CLI::App program("Halfspace: a renderer that runs on the CPU");
   return halfspace::run_program(program, [&] { halfspace::parse_and_run(program, argc, argv); });
 }

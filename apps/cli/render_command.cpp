@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace render SCENE`: checks all arguments, renders a picture or a range of frames, writes them.
+// `halfspace render SCENE`: validates all arguments, then renders one image or a range of frames.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -27,7 +27,7 @@ namespace halfspace {
 
 namespace {
 
-// Arguments understood.
+// The parsed and validated arguments.
 struct RenderJob {
   SceneFile scene;
   std::filesystem::path out;
@@ -48,10 +48,10 @@ std::filesystem::path output_path(const RenderArguments& args) {
 ImageFile output_format(const std::filesystem::path& path) {
   if (const std::optional<ImageFile> format = image_file_of(path)) return *format;
   if (is_stream(path) && !path.has_extension()) return ImageFile::png;
-  throw UsageError("-o is '" + path.string() + "'; expected a name that ends in .png, .jpg, .tif, .exr or .hdr");
+  throw UsageError("-o is '" + path.string() + "'; expected a file name ending in .png, .jpg, .tif, .exr or .hdr");
 }
 
-// One shading rate for every object.
+// Sets the shading rate of every object.
 void set_shading(SceneFile& scene, const std::string& rate) {
   if (rate.empty()) return;
   ObjectDescription any;
@@ -84,11 +84,12 @@ RenderJob understand(const RenderArguments& args) {
   std::optional<FrameRange> frames;
   if (!args.frames.empty()) frames = parse_frames(args.frames);
   if (!frames && (args.resume || !args.fps.empty())) {
-    throw UsageError(std::string(args.resume ? "--resume" : "--fps") + " is for several frames; expected --frames FIRST..LAST too");
+    throw UsageError(std::string(args.resume ? "--resume" : "--fps") +
+                     " applies only to multiple frames; expected --frames FIRST..LAST as well");
   }
   const std::filesystem::path out = output_path(args);
   if (frames && !out.has_extension())
-    throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a name that ends in .png, .jpg, .tif, .exr or .hdr");
+    throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a file name ending in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
   SceneFile scene = open_scene(args.scene, args.set, args.camera);
   set_shading(scene, args.shading);
@@ -101,10 +102,10 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 void write_picture(const std::filesystem::path& path, const Image<glm::vec4>& picture) { write_image(path, picture); }
 void write_picture(const std::filesystem::path& path, const Image<glm::u8vec4>& picture) {
-  path.has_extension() ? write_image(path, picture) : write_png(path, picture);  // /dev/stdout
+  path.has_extension() ? write_image(path, picture) : write_png(path, picture);  // for example /dev/stdout
 }
 
-// What the scene asks for and cannot have is told with its name.
+// Prepares the scene at a point in time. Adds the name of the scene to the messages of errors.
 PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets, RenderReport& report) {
   SceneDescription scene = job.scene.at(seconds);
   try {
@@ -119,7 +120,7 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
   }
 }
 
-// Renders one picture into a file and adds to the report.
+// Renders one image to a file and adds its times and counts to the report.
 template <class Pixel>
 void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
                     RenderReport& report) {
@@ -143,7 +144,7 @@ void render_picture(const RenderJob& job, double seconds, const std::filesystem:
   }
 }
 
-// A file of an earlier run counts where it holds a whole picture of the right size.
+// Returns true if the file of an earlier run holds a complete image of the requested size.
 bool is_whole(const std::filesystem::path& path, const RenderJob& job) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return false;
@@ -155,7 +156,7 @@ bool is_whole(const std::filesystem::path& path, const RenderJob& job) {
   }
 }
 
-// The scene with what is chosen for it.
+// Returns the scene, including the settings that --max-error chooses.
 SceneFile chosen(const RenderJob& job) {
   SceneFile scene = job.scene;
   if (!job.allowed) return scene;
@@ -170,8 +171,8 @@ SceneFile chosen(const RenderJob& job) {
 
 double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
 
-// Generated maps are as fine as the nearest of all views needs, so that none changes its width on the way. A thousand looks
-// along a longer range are enough to find it.
+// Generated maps get the resolution that the closest view of the animation needs, so that they do not change between frames. Longer
+// animations are sampled at a thousand frames.
 void expect_frames(const RenderJob& job, SceneAssets& assets) {
   constexpr int kMaxLooks = 1000;
   const bool stands = job.scene.description().animations.empty();
@@ -218,7 +219,7 @@ void render_command(const RenderArguments& args) {
   report.width = job.size.width;
   report.height = job.size.height;
   report.threads = job.threads;
-  // Not into the picture.
+  // If the image goes to standard output, print the report to standard error.
   std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;
   out << (args.statistics == "json" ? json_report(report) : text_report(report));
 }

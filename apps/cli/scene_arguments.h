@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which scene a command is about: SCENE, --set and --camera.
+// The arguments that select a scene: SCENE, --set and --camera.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace halfspace {
 
 class SceneFile;
 
-/// The scene of that name or file with its settings made, seen by the camera of that name (empty: the scene's own). Throws
-/// UsageError and InputError.
+/// Opens a scene by name or file name, applies the settings, and selects a camera unless `camera` is empty. Throws UsageError and
+/// InputError.
 SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera);
 
 }  // namespace halfspace

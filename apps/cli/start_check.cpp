@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Refuses to run on a processor that lacks what this build uses, in one line rather than by an illegal instruction.
+// Exits with an error message, instead of crashing with an illegal instruction, on a CPU that lacks features used by this build.
 //
-// A check in main would come too late: the static objects of the program (those of CLI11 among them) are initialized
-// before it, by code compiled for HALFSPACE_ARCH. A constructor function of priority 101, the first that is not
-// reserved, runs before all of them; the shared libraries that are initialized earlier are the distribution's, for
-// the baseline. This file and core/cpu.cpp are compiled for the baseline and use neither templates nor inline
-// functions: the linker keeps one copy of those, perhaps one compiled for more.
+// A check in main would be too late: static objects of the program, such as those of CLI11, are initialized earlier, by code compiled
+// for HALFSPACE_ARCH. A constructor function of priority 101, the first that is not reserved, runs before all of them. Only shared
+// libraries are initialized earlier, and those come from the distribution and are compiled for the baseline.
+//
+// This file and core/cpu.cpp are compiled for the baseline, too. They must not use templates or inline functions: the linker keeps
+// only one copy of such a function, possibly one that was compiled for HALFSPACE_ARCH.
 #include <string.h>
 #include <unistd.h>
 

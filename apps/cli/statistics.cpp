@@ -31,7 +31,7 @@ constexpr Count kCounts[] = {{"vertices_in", &PassStatistics::vertices_in},
                              {"tiles_touched", &PassStatistics::tiles_touched},
                              {"flushes", &PassStatistics::flushes}};
 static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts) + sizeof(PassStatistics::queries),
-              "a count is missing in this table");
+              "kCounts does not list every count of PassStatistics");
 
 }  // namespace
 

@@ -9,20 +9,20 @@
 
 namespace halfspace {
 
-/// What --stats tells of a rendered picture.
+/// The data that --stats prints.
 struct RenderReport {
   std::string scene, output;
   int width = 0, height = 0, threads = 0;
-  double render_ms = 0;  ///< maps read or made, and the passes
-  double write_ms = 0;   ///< encoding and writing
+  double render_ms = 0;  ///< loading or generating maps, and rendering
+  double write_ms = 0;   ///< encoding and writing the images
   PassStatistics counts;
-  std::vector<ModelChoice> choices;  ///< of the last picture
+  std::vector<ModelChoice> choices;  ///< settings chosen by --max-error for the last image
 };
 
-/// One "name value" a line.
+/// Formats the report as lines of name and value.
 std::string text_report(const RenderReport& report);
 
-/// One JSON object.
+/// Formats the report as a JSON object.
 std::string json_report(const RenderReport& report);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace validate SCENE`: how right the scene's shadows are, held against rays.
+// `halfspace validate SCENE`: compares the shadows of a scene with ray-cast shadows.
 #include <filesystem>
 #include <iostream>
 
@@ -27,7 +27,7 @@ void write_pictures(const std::filesystem::path& folder, const ShadowComparison&
   write_png(folder / (name + "-difference.png"), difference_picture(c));
 }
 
-// Rows as they come; the chart when all are known.
+// Prints each row as soon as it is complete, and writes the chart at the end.
 void print_table(const ValidateArguments& args, const PictureSize& size, const Workers& workers) {
   const std::filesystem::path folder = args.out;
   if (!args.out.empty()) {
@@ -47,14 +47,14 @@ void print_table(const ValidateArguments& args, const PictureSize& size, const W
 void validate_command(const ValidateArguments& args) {
   const PictureSize size = parse_size(args.size);
   const Workers workers(parse_threads(args.threads));
-  if (args.full && !args.table) throw UsageError("--full is for the table; expected --table too");
+  if (args.full && !args.table) throw UsageError("--full applies only to --table; expected --table as well");
   if (args.table != args.scene.empty()) {
-    throw UsageError(args.table ? "--table has scenes of its own; expected no SCENE"
-                                : "SCENE is required, or --table; see 'halfspace validate --help'");
+    throw UsageError(args.table ? "--table uses its own scenes; expected no SCENE"
+                                : "SCENE or --table is required; see 'halfspace validate --help'");
   }
   if (args.table) return print_table(args, size, workers);
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
-  const double rays = args.rays.empty() ? 1024.0 : parse_real("--rays", args.rays, 1, 1e6, "rays a pixel, for example 1024");
+  const double rays = args.rays.empty() ? 1024.0 : parse_real("--rays", args.rays, 1, 1e6, "rays per pixel, for example 1024");
   const SceneFile scene = open_scene(args.scene, args.set, args.camera);
   const std::filesystem::path folder = args.out;
   if (!args.out.empty()) make_directory(folder);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Antialiasing: the same star with 1 sample per pixel (left) and 4 (right).
+// Multisample antialiasing: draws the same star with 1 sample per pixel (left) and with 4 (right).
 #include <cmath>
 #include <numbers>
 
@@ -28,7 +28,7 @@ struct WhiteShader {
 
 int main(int argc, char** argv) {
   const Workers workers(Workers::cores());
-  std::vector<glm::vec2> star;  // seven thin triangles round the centre
+  std::vector<glm::vec2> star;  // seven thin triangles around the center
   for (int i = 0; i < 7; ++i) {
     const float a = 0.1f + 2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / 7.0f;
     const glm::vec2 tip(0.9f * std::cos(a), 0.9f * std::sin(a)), side(-0.1f * std::sin(a), 0.1f * std::cos(a));
@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   Image<glm::u8vec4> image(512, 256);
   for (const int samples : {1, 4}) {
     ColorTarget color = srgb8a8_target(image);
-    color.load = samples == 1 ? LoadOp::clear : LoadOp::load;  // the second pass keeps what the first has drawn
+    color.load = samples == 1 ? LoadOp::clear : LoadOp::load;  // the second pass keeps the result of the first
     color.clear_value = {0, 0, 0, 1};
     Pass pass(512, 256, color, {}, {.samples = samples});
     pass.draw(WhiteShader{}, make_vertex_view(stream(star)), {.viewport = Rect{samples == 1 ? 0 : 256, 0, 256, 256}});

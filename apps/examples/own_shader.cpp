@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A shader of your own in your own namespace: uniforms, three kinds of varyings, and discard.
+// Defines a shader in a user namespace, with uniforms, three kinds of varyings, and discard.
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
 
 namespace my {
 
-using halfspace::abs, halfspace::floor, halfspace::select;  // for one number as for lanes of them
+using halfspace::abs, halfspace::floor, halfspace::select;  // these work for scalars and for SIMD lanes
 using halfspace::vec2, halfspace::vec3, halfspace::vec4;
 
 struct RingShader {
-  // Data members are uniforms: one value for the whole draw.
+  // Data members are uniforms: they have one value for the whole draw call.
   float rings;
   glm::vec3 tint;
 
@@ -20,12 +20,12 @@ struct RingShader {
   };
   template <class R>
   struct Varyings {
-    vec2<R> smooth;                            // interpolated with perspective
-    halfspace::NoPerspective<vec2<R>> window;  // interpolated linearly in the window
-    halfspace::Flat<R> triangle;               // the provoking vertex's value over the whole triangle
+    vec2<R> smooth;                            // interpolated with perspective correction
+    halfspace::NoPerspective<vec2<R>> window;  // interpolated linearly in window space
+    halfspace::Flat<R> triangle;               // not interpolated; has the value of the provoking vertex
   };
 
-  // A vertex function may ask which vertex it makes.
+  // The VertexId parameter is optional. It holds the index of the vertex being shaded.
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, const halfspace::VertexId<R>& id, Varyings<R>& out) const {
     out.smooth = in.position;
@@ -34,7 +34,7 @@ struct RingShader {
     return vec4<R>(in.position.x, in.position.y, R(0), R(1));
   }
 
-  // Branches per pixel are select(); a fragment whose `keep` is false is discarded.
+  // Use select() to branch per pixel. The second member of the result tells which fragments to keep; the others are discarded.
   template <class R>
   halfspace::DiscardingFragment<R> fragment(const Varyings<R>& in, const halfspace::Pixel<R>&) const {
     const R distance = length(in.smooth) * R(rings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads the depth buffer back and turns it into distances along the view axis.
+// Reads back the depth buffer and converts depth to distance along the view axis.
 #include <algorithm>
 #include <cstdio>
 
@@ -32,13 +32,13 @@ int main(int argc, char** argv) {
   const glm::dmat4 camera = perspective_reversed(0.8, 1.0, near, far) * look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0});
 
   Image<float> depth(256, 256);
-  Pass pass(256, 256, {}, d32f_target(depth, 0.0f));  // cleared to 0, the far plane of reversed Z
+  Pass pass(256, 256, {}, d32f_target(depth, 0.0f));  // cleared to 0, which is the far plane with reversed Z
   pass.draw_depth(PositionShader{glm::mat4(camera)}, make_vertex_view(stream(ball.positions)), ball.indices, kReversedZState);
   pass.run(Workers(Workers::cores()));
 
-  // depth = near·(far − z) / (z·(far − near)), solved for the distance z along the view axis
+  // The inverse of depth = near·(far − z) / (z·(far − near)), where z is the distance along the view axis.
   const auto distance = [&](float d) { return near * far / (static_cast<double>(d) * (far - near) + near); };
-  std::printf("distance at the centre: %.4f\n", distance(depth.at(128, 128)));
+  std::printf("distance at the center: %.4f\n", distance(depth.at(128, 128)));
   Image<glm::u8vec4> image(256, 256);
   std::ranges::transform(depth.texels(), image.data(), [&](float d) {
     const auto gray = static_cast<uint8_t>(std::clamp(255.0 * (4.0 - distance(d)) + 0.5, 0.0, 255.0));

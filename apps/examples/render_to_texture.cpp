@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws into a half-float image, uses it as a texture of a second pass, and tone-maps the result on its way out.
+// Renders to a float image, samples it as a half-float texture in a second pass, and tone-maps the result.
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/shading/texture.h"
@@ -11,7 +11,7 @@ using namespace halfspace;
 const std::vector<glm::vec2> kFullScreen{{-1, -1}, {3, -1}, {-1, 3}};  // one triangle that covers the window
 
 struct GlowShader {
-  const Texture2D* texture;  // null: draws the light itself
+  const Texture2D* texture;  // null in the first pass, which draws a bright disk
 
   template <class R>
   struct Attributes {
@@ -30,7 +30,7 @@ struct GlowShader {
   Fragment<R> fragment(const Varyings<R>& in) const {
     const R disk = select(length(in.uv - vec2<R>(R(0.5f))) < R(0.2f), R(1), R(0));
     if (texture == nullptr) return {vec4<R>(R(4) * disk, R(2) * disk, disk, R(1))};
-    vec4<R> glow(R(0));  // the mean of four mip levels is a cheap blur
+    vec4<R> glow(R(0));  // average four mip levels, a cheap blur
     for (int level = 1; level <= 4; ++level) glow += texture->sample_level<R>(Sampler{}, in.uv, R(static_cast<float>(level)));
     return {glow * R(0.25f)};
   }
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
   Image<glm::u8vec4> image(256, 256);
   Pass second(256, 256, {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care}, {});
   second.draw(GlowShader{&texture}, make_vertex_view(stream(kFullScreen)));
-  second.post(ToneMap{}, srgb8a8_target(image));  // runs on every finished pixel, while its tile is in cache
+  second.post(ToneMap{}, srgb8a8_target(image));  // runs for each finished pixel while its tile is in cache
   second.run(workers);
   write_image(argc > 1 ? argv[1] : "render_to_texture.png", image);
 }

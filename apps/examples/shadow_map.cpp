@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A shadow map by hand: depth seen from the light, then a comparison per pixel.
+// A hand-written shadow map: renders depth from the light, then compares it with the distance to the light at every pixel.
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -30,10 +30,10 @@ struct Shadowed {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec3<R> normal = normalize(cross(px.ddx(&Varyings<R>::position), px.ddy(&Varyings<R>::position)));
-    const vec4<R> p = light_from_world * vec4<R>(in.position, R(1));  // an orthographic light: w is 1
+    const vec4<R> p = light_from_world * vec4<R>(in.position, R(1));  // w is 1: the projection is orthographic
     const R last(static_cast<float>(kMapSize - 1));
     const IntOf<R> x = truncate_to_int(clamp((p.x + R(1)) * R(0.5f * kMapSize), R(0), last));
-    const IntOf<R> row = truncate_to_int(clamp((R(1) - p.y) * R(0.5f * kMapSize), R(0), last));  // the top row comes first
+    const IntOf<R> row = truncate_to_int(clamp((R(1) - p.y) * R(0.5f * kMapSize), R(0), last));  // images store the top row first
     const R nearest = gather(shadow_map->data(), row * kMapSize + x);
     const R lit = select(p.z + R(0.005f) >= nearest, max(dot(normal, vec3<R>(to_light)), R(0)), R(0));
     return {vec4<R>(vec3<R>(glm::vec3(0.7f, 0.65f, 0.6f)) * (lit * R(0.8f) + R(0.2f)), R(1))};
@@ -41,8 +41,8 @@ struct Shadowed {
 };
 
 int main(int argc, char** argv) {
-  const glm::vec3 sun = glm::normalize(glm::vec3(3, 4, 2));  // the direction to the light
-  const std::vector<Mesh> meshes{cube(1.0f), plane(6.0f)};   // the ground cuts the box in half
+  const glm::vec3 sun = glm::normalize(glm::vec3(3, 4, 2));  // direction towards the light
+  const std::vector<Mesh> meshes{cube(1.0f), plane(6.0f)};   // the ground plane cuts the cube in half
   const glm::dmat4 light = orthographic_reversed(6.0, 1.0, 0.1, 12.0) * look_at({3, 4, 2}, {0, 0, 0}, {0, 1, 0});
   const glm::dmat4 camera = perspective_reversed(0.8, 640.0 / 480.0, 0.1, 100.0) * look_at({-2.5, 2.2, 3.5}, {0, 0, 0}, {0, 1, 0});
   Image<float> map(kMapSize, kMapSize);

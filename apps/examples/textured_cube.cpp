@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A cube with a texture, seen by a perspective camera.
+// Draws a textured cube with a perspective camera.
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -11,7 +11,7 @@ using namespace halfspace;
 
 struct TexturedShader {
   glm::mat4 clip_from_object;
-  const Texture2D* texture;  // must exist until the pass has run
+  const Texture2D* texture;  // must stay alive until Pass::run returns
 
   template <class R>
   struct Attributes {
@@ -30,7 +30,7 @@ struct TexturedShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    // The derivatives of uv to the right and up choose the mip level.
+    // The screen-space derivatives of uv select the mip level.
     return {texture->sample<R>(Sampler{}, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv))};
   }
 };
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
       checkers.at(x, y) = (x / 8 + y / 8) % 2 == 0 ? glm::u8vec4(230, 180, 60, 255) : glm::u8vec4(40, 60, 120, 255);
   const Texture2D texture(checkers, TexelFormat::srgb8a8);
   const Mesh mesh = cube(1.0f);
-  // Matrices are multiplied in double and rounded to float once. Reversed Z maps near to depth 1 and far to 0.
+  // Multiply matrices in double and round the product to float once. Reversed Z maps the near plane to depth 1 and the far plane to 0.
   const glm::dmat4 clip_from_view = perspective_reversed(0.7, 640.0 / 480.0, 0.1, 100.0);
   const glm::dmat4 view_from_world = look_at({1.4, 1.2, 1.9}, {0, 0, 0}, {0, 1, 0});
 

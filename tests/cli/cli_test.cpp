@@ -537,7 +537,7 @@ TEST_F(Cli, CompareTellsNumbersAndJudges) {
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "--shading", "flat", "-o", "flat.png"}).exit_code, 0);
   const Outcome same = run({"compare", "64x36.png", "64x36.png", "--tolerance", "0"});
   EXPECT_EQ(same.exit_code, 0) << same.err;
-  EXPECT_TRUE(same.out.starts_with("64x36.png against 64x36.png, 64x36, 8-bit codes over 255\nrmse         0\n")) << same.out;
+  EXPECT_TRUE(same.out.starts_with("64x36.png vs. 64x36.png, 64x36, 8-bit codes / 255\nrmse         0\n")) << same.out;
   EXPECT_NE(same.out.find("\npsnr         infinite\n"), std::string::npos) << same.out;
   const Outcome json = run({"compare", "64x36.png", "flat.png", "--json", "-o", "d.png"});
   EXPECT_EQ(json.exit_code, 0) << "without a tolerance nothing is judged";
@@ -601,9 +601,9 @@ TEST_F(Cli, WithoutGnuplotTheDataAreWritten) {
   const std::string command = "cd " + directory.string() + " && PATH=/nowhere " HALFSPACE_PROGRAM " chart tone --quick -o out > " +
                               (root / "out").string() + " 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
-  EXPECT_NE(
-      read_bytes(root / "out").find("no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data are written\n"),
-      std::string::npos);
+  EXPECT_NE(read_bytes(root / "out")
+                .find("no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data files were written\n"),
+            std::string::npos);
   EXPECT_TRUE(fs::exists(directory / "out" / "tone.csv"));
   EXPECT_FALSE(fs::exists(directory / "out" / "tone.svg"));
 }
