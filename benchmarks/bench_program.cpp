@@ -29,18 +29,18 @@ namespace halfspace {
 namespace {
 
 struct BenchArguments {
-  std::vector<std::string> only;  // empty: all
-  std::string sweep;              // empty: the workloads
+  std::vector<std::string> only;  // empty: all workloads
+  std::string sweep;              // empty: the table of workloads instead of a series
   std::string size = "1920x1080";
-  std::string threads;  // empty: one a core
+  std::string threads;  // empty: one per core
   std::string seconds = "1";
-  std::string out;    // empty: no pictures
-  std::string check;  // empty: pictures are not held against the truth
+  std::string out;    // empty: write no images
+  std::string check;  // empty: do not compare images with the truth
   bool list = false;
   bool json = false;
 };
 
-// Window depths lie near 1, where a float's step is 6e-8.
+// Window depths are close to 1, where the spacing of floats is 6e-8.
 constexpr double kDepthTolerance = 1e-5;
 
 const WorkloadKind& workload_of(std::span<const WorkloadKind> kinds, const std::string& name) {
@@ -52,7 +52,7 @@ const WorkloadKind& workload_of(std::span<const WorkloadKind> kinds, const std::
   throw UsageError("--only: unknown workload '" + name + "'" + suggestion(name, names));
 }
 
-// In the table's order, each once.
+// Returns the selected workloads in the order of the table, without duplicates.
 std::vector<const WorkloadKind*> chosen_workloads(std::span<const WorkloadKind> kinds, const std::vector<std::string>& only) {
   std::vector<const WorkloadKind*> chosen;
   for (const std::string& name : only) chosen.push_back(&workload_of(kinds, name));
@@ -81,7 +81,7 @@ void write_pictures(const std::filesystem::path& directory, std::string_view nam
   if (picture.depth != nullptr) write_depth_exr(directory / (std::string(name) + ".depth.exr"), *picture.depth);
 }
 
-// Three decimals: microseconds.
+// Formats a time in milliseconds with microsecond resolution.
 std::string milliseconds(double ms) {
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%10.3f", ms);
@@ -117,7 +117,7 @@ std::string text_of(const PictureErrors& e) {
   return text.data();
 }
 
-// For people: ", " and the values of the identity.
+// Formats the identity of the renderer for the text output. Each value is preceded by ", ".
 std::string identity_text(const BenchProgram& program) {
   std::string text;
   const nlohmann::ordered_json identity = program.identity();
@@ -126,7 +126,7 @@ std::string identity_text(const BenchProgram& program) {
   return text;
 }
 
-// Memory of the process that is in use, in MiB; 0 where the system does not say.
+// Returns the resident memory of the process in MiB, or 0 if it is unknown.
 double resident_mb() {
   std::ifstream statm("/proc/self/statm");
   std::size_t all = 0, resident = 0;
@@ -134,7 +134,8 @@ double resident_mb() {
   return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-// What comes of one workload that has been measured. frames_mb: by how much the process grew while it drew, if that is known of it alone.
+// Prints the results of one workload, and writes its images if requested. frames_mb: by how much the memory of the process grew while
+// drawing; only known if a single workload was measured.
 void report(const BenchProgram& program, const BenchArguments& args, const WorkloadKind& kind, const Workload& workload, PictureSize size,
             int threads, const FrameTimes& times, std::optional<double> frames_mb) {
   std::optional<PictureErrors> errors;
@@ -196,21 +197,18 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   app.name(program.name);
   set_common_options(app);
   BenchArguments args;
-  app.add_option("--only", args.only, "These workloads alone (--list names them all)")
-      ->type_name("NAME,")
-      ->allow_extra_args(false)
-      ->delimiter(',');
-  app.add_option("--sweep", args.sweep, "A series instead: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
-  app.add_option("--size", args.size, "Size of the pictures (default: 1920x1080)")->type_name("WxH");
-  app.add_option("--threads", args.threads, "Threads, the main one counted (default: one a core)")->type_name("N");
-  app.add_option("--seconds", args.seconds, "Time for each workload; 0: one frame of each (default: 1)")->type_name("S");
-  app.add_option("--out", args.out, "Write NAME.png and NAME.depth.exr of each workload into DIR")->type_name("DIR");
-  app.add_option("--check", args.check, "Hold pictures against double precision (slow; kept in DIR)")->type_name("DIR");
-  app.add_flag("--json", args.json, "Print a JSON object a line, one for each workload");
+  app.add_option("--only", args.only, "Run only these workloads (see --list)")->type_name("NAME,")->allow_extra_args(false)->delimiter(',');
+  app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
+  app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
+  app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");
+  app.add_option("--seconds", args.seconds, "Time per workload; 0: one frame each (default: 1)")->type_name("S");
+  app.add_option("--out", args.out, "Write NAME.png and NAME.depth.exr of each workload to DIR")->type_name("DIR");
+  app.add_option("--check", args.check, "Compare with double precision (slow; cached in DIR)")->type_name("DIR");
+  app.add_flag("--json", args.json, "Print one JSON object per line for each workload");
   app.add_flag("--list", args.list, "Print the workloads and exit");
   for (const BenchOption& option : program.options) app.add_option(option.name, *option.value, option.help)->type_name(option.value_name);
   app.footer(
-      "Times are milliseconds a frame; cpu is that of all threads together.\n"
+      "Times are in milliseconds per frame; cpu is the CPU time of all threads.\n"
       "Examples:\n  " +
       program.name + " --only fill,tiny_1m --size 512x512 --threads 1\n  " + program.name + " --seconds 0 --out pictures");
   app.parse(argc, argv);

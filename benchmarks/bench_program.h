@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command line that all programs of the benchmark share: halfspace-bench and its peers take the same options and print the
-// same lines.
+// The command line shared by the benchmark programs: halfspace-bench and its peers accept the same options and print the same output.
 #pragma once
 
 #include <functional>
@@ -15,26 +14,26 @@
 
 namespace halfspace {
 
-/// An option with a value that one program has of its own.
+/// An additional option of one program.
 struct BenchOption {
   std::string name, value_name, help;
   std::string* value;
 };
 
-/// What one program has of its own.
+/// The parts that differ between the programs.
 struct BenchProgram {
   std::string name;
-  std::string what;  ///< one line
+  std::string what;  ///< description, one line
   std::vector<BenchOption> options;
-  std::function<void(int threads)> start;  ///< called once, before anything is prepared; may be empty
-  /// Which workloads it draws, and which series of them.
+  std::function<void(int threads)> start;  ///< called once, before any workload is prepared; can be empty
+  /// The workloads that the program draws, and its series of workloads.
   std::function<std::span<const WorkloadKind>()> kinds;
   std::function<std::span<const Sweep>()> sweeps;
-  /// What the lines of --json begin with: who drew.
+  /// The first fields of each line of --json output, which identify the renderer.
   std::function<nlohmann::ordered_json()> identity;
 };
 
-/// Parses the arguments and runs; returns the exit code.
+/// Parses the arguments and runs the benchmark. Returns the exit code.
 int run_bench_program(const BenchProgram& program, int argc, char** argv);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// draws_10k: ten thousand draws of two triangles, each with its own vertices and colour; what a draw costs.
+// draws_10k: ten thousand draw calls of two triangles, each with its own vertices and color. Measures the cost of a draw call.
 #include "families.h"
 #include "workload_canvas.h"
 #include "workload_constant.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each file of workloads gives to the table in workloads.cpp.
+// The functions that prepare the workloads, for the table in workloads.cpp.
 #pragma once
 
 #include "sphere_camera.h"

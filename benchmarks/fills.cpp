@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// clear, fill: how fast pixels leave a tile.
+// clear, fill: measure how fast pixels are written from tiles to the image.
 #include <algorithm>
 
 #include "families.h"
@@ -23,7 +23,7 @@ class Clear final : public Workload {
   Canvas canvas_;
 };
 
-// One quad over the whole picture, of which nothing was wanted before: neither cleared nor loaded. No depth.
+// One quad over the whole image, which is neither cleared nor loaded before. No depth buffer.
 class Fill final : public Workload {
  public:
   explicit Fill(WorkloadSize size) : color_(size.width, size.height) {}
@@ -36,7 +36,7 @@ class Fill final : public Workload {
   }
   WorkloadPicture picture() const override { return {&color_, nullptr}; }
   WorkloadTruth truth() const override {
-    return {color_.width(), color_.height(), vec4<double>(glm::dvec4(shader_.color)), 1.0};  // the closed form
+    return {color_.width(), color_.height(), vec4<double>(glm::dvec4(shader_.color)), 1.0};  // analytic result
   }
 
  private:

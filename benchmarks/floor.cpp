@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// aniso_floor: a textured plane to just below the horizon, filtered along the footprint of each pixel.
+// aniso_floor: a textured plane that reaches almost to the horizon, with anisotropic filtering.
 #include "families.h"
 #include "workload_canvas.h"
 #include "workload_floor.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// hdr_200k, tonemap: light in half floats, and what it takes to show it. The tone curve is the pass's post step: it runs while a
-// tile is in cache. In hdr_200k the half floats are stored too, as the workload's first pass leaves them.
+// hdr_200k, tonemap: HDR rendering to half floats, and tone mapping. The tone curve is a post step of the pass, which runs while a tile
+// is in cache. hdr_200k stores the half floats too, because the workload is defined to leave the HDR image in memory.
 #include "families.h"
 #include "workload_tone.h"
 
@@ -9,7 +9,7 @@ namespace halfspace {
 
 namespace {
 
-// The picture in half floats, and the codes made of it.
+// Renders an image in half floats and tone-maps it to 8 bits.
 class Hdr : public Workload {
  public:
   Hdr(WorkloadSize size, WorkloadAssets& assets)
@@ -49,7 +49,7 @@ class Hdr : public Workload {
   SphereHdr shader_;
 };
 
-// The post step alone, of the picture that is there.
+// Only runs the post step, on an image rendered during preparation.
 class ToneMap final : public Hdr {
  public:
   ToneMap(WorkloadSize size, WorkloadAssets& assets) : Hdr(size, assets) { Hdr::frame(Workers(1)); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ten quads behind each other that all fill the picture, for all workloads that draw them.
+// The mesh of the layer workloads: by default ten quads behind each other, each of which covers the whole image.
 #pragma once
 
 #include <memory>
@@ -16,10 +16,11 @@ inline constexpr std::size_t kLayerVertices = 6;
 
 using LayerMesh = std::vector<LayerShader::Attributes<float>>;
 
-/// Two triangles a quad, the nearest quad first or last; 1 … 64 of them between 2 and less than 9 units from the eye.
+/// Returns `layers` quads of two triangles each, with the nearest quad first or last. The quads are evenly spaced between 2 and 7 units
+/// from the eye. layers: 1 … 64.
 LayerMesh layer_mesh(WorkloadSize size, bool front_to_back, int layers = kLayers);
 
-/// The camera in the origin that looks along −z.
+/// Returns a shader with the camera at the origin, looking along −z.
 LayerShader layer_shader(WorkloadSize size);
 
 }  // namespace halfspace

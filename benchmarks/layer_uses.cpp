@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// blend_10, alpha_test: the ten quads transparent, and with holes.
+// blend_10, alpha_test: ten quads that are transparent or have holes.
 #include "families.h"
 #include "layer_mesh.h"
 #include "workload_assets.h"
@@ -9,7 +9,7 @@ namespace halfspace {
 
 namespace {
 
-// All ten reach the picture: over each other, back to front.
+// All ten quads contribute to the image, because they are blended back to front.
 class Blend final : public Workload {
  public:
   explicit Blend(WorkloadSize size)
@@ -22,7 +22,8 @@ class Blend final : public Workload {
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
 
-  // The naive pipeline, which does not blend, a layer at a time; then c = a·source + (1 − a)·c, the source held to [0, 1].
+  // The naive pipeline does not blend, so draw one layer at a time. Then blend with c = a·source + (1 − a)·c, where the source is clamped
+  // to [0, 1].
   WorkloadTruth truth() const override {
     WorkloadTruth target = canvas_.truth();
     for (std::size_t first = 0; first < mesh_.size(); first += kLayerVertices) {

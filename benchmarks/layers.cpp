@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// layers_b2f, layers_f2b, depth_prepass: ten quads behind each other; what overdraw costs, in the worst and the best order, and what a
-// first pass over depth alone makes of the worst.
+// layers_b2f, layers_f2b, depth_prepass: ten quads behind each other. Measures the cost of overdraw in the worst and the best order, and
+// how much a depth prepass improves the worst order.
 #include <array>
 
 #include "families.h"
@@ -12,7 +12,7 @@ namespace halfspace {
 
 namespace {
 
-// k counts from the eye, in tenths of all.
+// k is the layer's distance from the eye on a scale from 0 to 10.
 void add_layer(double k, double aspect, LayerMesh& to) {
   const double z = -(2.0 + 0.5 * k), h = 1.05 * -z * kTanHalfAngle, w = h * aspect;
   const glm::vec3 base(glm::dvec3(0.1 * (k + 1), 0.5, 1.0 - 0.1 * k));
@@ -42,7 +42,7 @@ class DepthPrepass final : public Workload {
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
-  WorkloadTruth truth() const override {  // a prepass changes no pixel
+  WorkloadTruth truth() const override {  // a depth prepass does not change the image
     WorkloadTruth target = canvas_.truth();
     draw_naive(target, shader_, make_vertex_view(stream(mesh_)), indices_, workload_state());
     return target;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-least-earth: the least that a picture of the Earth needs, to hold `halfspace render earth` against (scripts/start_to_file.py).
-// It makes the scene's maps, waits as long as a frame takes, and writes the pixels of a picture that is there already.
+// halfspace-least-earth: measures the minimum time for an image of the Earth, as a reference for `halfspace render earth`
+// (scripts/start_to_file.py). It generates the maps of the scene, waits as long as a frame takes, and writes an existing image.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +22,7 @@ double milliseconds_since(Clock::time_point start) { return std::chrono::duratio
 void run(bool with_normals, int width, double frame_ms, const char* from, const char* to) {
   const Clock::time_point start = Clock::now();
   const Image<glm::u8vec4> picture = read_image(from);
-  std::printf("%.3f\n", milliseconds_since(start));  // what is not part of the least
+  std::printf("%.3f\n", milliseconds_since(start));  // to be subtracted from the total time
 
   const Workers workers(Workers::cores());
   const EarthMaps maps = procedural_earth_maps(width, width / 2, workers);
@@ -39,7 +39,7 @@ void run(bool with_normals, int width, double frame_ms, const char* from, const 
 int main(int argc, char** argv) {
   const std::string_view maps = argc == 6 ? argv[1] : "";
   if (maps != "heights" && maps != "normals") {
-    std::fputs("usage: halfspace-least-earth heights|normals MAP_WIDTH FRAME_MS FROM.png TO.png; prints the ms that reading FROM took\n",
+    std::fputs("usage: halfspace-least-earth heights|normals MAP_WIDTH FRAME_MS FROM.png TO.png; prints the time to read FROM in ms\n",
                stderr);
     return 2;
   }

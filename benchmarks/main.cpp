@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-bench: draws the workloads, measures their frames, prints a table or JSON, writes their pictures.
+// halfspace-bench: draws the workloads, measures their frame times, prints a table or JSON, and writes the images.
 #include "bench_program.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
@@ -8,7 +8,7 @@
 int main(int argc, char** argv) {
   using namespace halfspace;
   return run_bench_program({.name = "halfspace-bench",
-                            .what = "Draws the workloads of the benchmark and measures their frames",
+                            .what = "Draws the benchmark workloads and measures their frame times",
                             .options = {},
                             .start = {},
                             .kinds = [] { return workloads(); },

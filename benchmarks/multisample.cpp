@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// msaa4_200k: the sphere with four samples a pixel, shaded once a pixel and triangle.
+// msaa4_200k: the sphere with four samples per pixel, shaded once per pixel and triangle.
 #include "families.h"
 #include "halfspace/raster/pipeline/sample_pattern.h"
 #include "sphere_camera.h"
@@ -11,10 +11,10 @@ namespace {
 
 constexpr int kSamples = 4;
 
-// The sphere for the naive pipeline, which has one sample a pixel, in its middle: the picture is moved so that the sample comes to
-// lie there, and the fragment function is asked for the pixel's own middle.
+// Draws one of the samples with the naive pipeline, whose only sample is at the pixel center. The image is shifted so that the sample is
+// at the pixel center; the fragment function is evaluated at the original pixel center.
 struct OneSample : SpherePhong {
-  double to_x, to_y;  // from the sample to the pixel's middle, 1/256 px
+  double to_x, to_y;  // from the sample to the pixel center, in 1/256 px
   double width, height;
 
   template <class R>
@@ -54,7 +54,7 @@ class Multisampled final : public Workload {
   }
   WorkloadPicture picture() const override { return {&color_, nullptr}; }
 
-  // The mean of the samples' colours, each held to [0, 1]; the depth of the nearest sample.
+  // Averages the colors of the samples, each clamped to [0, 1], and keeps the depth of the nearest sample.
   WorkloadTruth truth() const override {
     WorkloadTruth mean(size_.width, size_.height, vec4<double>(0.0), 1.0);
     for (int s = 0; s < kSamples; ++s) {

@@ -48,7 +48,7 @@ void write_truth(const std::filesystem::path& path, const WorkloadTruth& truth) 
     const std::array<float, 5> pixel{c.x, c.y, c.z, c.w, static_cast<float>(truth.depth.data()[i])};
     out.write(reinterpret_cast<const char*>(pixel.data()), kPixelBytes);
   }
-  if (!out.flush()) throw OutputError(path.string() + ": cannot be written");
+  if (!out.flush()) throw OutputError(path.string() + ": cannot write the file");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far a workload's picture lies from the same picture in double precision.
+// Compares the image of a workload with the same image rendered in double precision.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,21 @@
 
 namespace halfspace {
 
-/// Over the pixels that either picture draws; over all where no depth tells which those are.
+/// Errors over the covered pixels, which are those that either image draws according to its depth. If neither depth image shows any
+/// drawn pixel, all pixels count as covered.
 struct PictureErrors {
-  int covered = 0;
-  int colors_off = 0;      ///< with a channel further than 1/255 from the truth
-  int depths_off = 0;      ///< further than the tolerance given; 0 where the picture has no depth
-  int background_off = 0;  ///< of the other pixels, those that do not hold the nearest code of what was cleared to
-  double worst_color = 0;  ///< of all channels, in 1/255
-  double rms_color = 0;    ///< the same, root of the mean square
-  double worst_depth = 0;
+  int covered = 0;         ///< number of covered pixels
+  int colors_off = 0;      ///< pixels with a channel that is wrong by more than 1/255
+  int depths_off = 0;      ///< pixels whose depth error exceeds the tolerance; 0 if the image has no depth
+  int background_off = 0;  ///< pixels outside the covered ones that do not have the 8-bit code nearest to the clear color
+  double worst_color = 0;  ///< largest error of a channel, in 1/255
+  double rms_color = 0;    ///< RMS error over all channels, in 1/255
+  double worst_depth = 0;  ///< largest depth error
 };
 
 PictureErrors picture_errors(const WorkloadPicture& picture, const WorkloadTruth& truth, double depth_tolerance);
 
-/// A workload's truth from directory/NAME.WxH.truth, which is made where it does not exist: a truth takes long. It holds floats.
+/// Returns the truth of a workload. It is slow to compute, so it is cached in directory/NAME.WxH.truth, rounded to float.
 WorkloadTruth kept_truth(const std::filesystem::path& directory, std::string_view name, const Workload& workload, WorkloadSize size);
 
 }  // namespace halfspace

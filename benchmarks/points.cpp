@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// points_100k: point sprites that look like spheres and write their depth.
+// points_100k: point sprites that are shaded as spheres and write depth.
 #include <cmath>
 
 #include "families.h"
@@ -28,7 +28,7 @@ class Points final : public Workload {
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
 
-  // The closed form at every pixel that a point's disk holds. Places are not snapped to a grid.
+  // Evaluates the formulas in double at every pixel in the disk of a point. The centers are not snapped.
   WorkloadTruth truth() const override {
     WorkloadTruth target = canvas_.truth();
     for (const glm::vec3& p : cloud_) draw_exact(target, glm::dvec3(p));

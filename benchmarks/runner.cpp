@@ -14,7 +14,7 @@ constexpr int kRounds = 5;
 
 double wall_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// Of all threads of the process.
+// Returns the CPU time used by all threads of the process.
 double cpu_ms() {
   timespec t{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs workloads side by side and measures their frames.
+// Measures the frame times of workloads.
 #pragma once
 
 #include <functional>
@@ -12,21 +12,21 @@
 
 namespace halfspace {
 
-/// Times of one workload's frames, in milliseconds.
+/// Frame times of one workload, in milliseconds.
 struct FrameTimes {
   int frames;
-  double median, min, max;  ///< from start to end
-  double cpu;               ///< of all threads together, the mean of a frame
+  double median, min, max;  ///< wall-clock time
+  double cpu;               ///< CPU time of all threads, mean per frame
 };
 
-/// Draws frames of workloads that are prepared, and takes their times.
+/// Draws frames of prepared workloads and measures their times.
 class Runner {
  public:
   explicit Runner(const Workers& workers) : workers_(workers) {}
 
-  /// Draws each workload for `seconds`, in rounds: every workload a part of its time in each, so that a machine that changes its
-  /// speed changes it for all. The first frame of a round warms the caches and is not counted. 0 seconds: one frame of
-  /// each, counted. The times are in the order of the workloads. step_done is called steps() times.
+  /// Draws each workload for `seconds` in total. The time is split into rounds that visit all workloads, so that changes in the speed of
+  /// the machine affect all of them alike. The first frame of a workload in each round warms the caches and is not counted. With 0
+  /// seconds, draws and counts one frame of each workload. Returns the times in the order of the workloads. Calls step_done steps() times.
   std::vector<FrameTimes> run(const std::vector<std::unique_ptr<Workload>>& workloads, double seconds,
                               const std::function<void()>& step_done) const;
   static int steps(std::size_t workloads, double seconds);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// shadow_200k: a depth map drawn from the light, and a picture that asks it nine times a pixel.
+// shadow_200k: renders a depth map from the light, then an image that reads nine texels of it per pixel.
 #include "families.h"
 #include "halfspace/shading/depth_only.h"
 #include "workload_geometry.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMapSize = ShadowedShader::kMapSize;
 
-// The depth pass as the naive pipeline takes it, which knows of no shader without colour.
+// The depth shader for the naive pipeline, which requires a fragment function.
 struct DepthTwin : DepthOnly {
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
@@ -48,7 +48,7 @@ class Shadowed final : public Workload {
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
 
-  // The map too is drawn in double, then rounded to floats as it is stored.
+  // The depth map is also rendered in double and then rounded to float, as it would be when stored.
   WorkloadTruth truth() const override {
     Image<float> map(kMapSize, kMapSize);
     {

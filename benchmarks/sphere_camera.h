@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sphere workloads' meshes and camera, for all that draw them.
+// Meshes and camera of the sphere workloads, shared by all renderers.
 #pragma once
 
 #include "workload_assets.h"
@@ -15,13 +15,13 @@ struct SphereDetail {
 };
 inline constexpr SphereDetail k20k{51, 200}, k200k{201, 500}, k2m{501, 2000};  // 20,000, 200,000, 2,000,000 triangles
 
-/// The uniforms of the camera at (0, 0.8, 2.7) that looks at the middle.
+/// Uniforms for a camera at (0, 0.8, 2.7) that looks at the center of the sphere.
 inline SphereUniforms sphere_uniforms(WorkloadSize size, const Texture2D& texture) {
   const glm::dmat4 view = look_at({0.0, 0.8, 2.7}, {0, 0, 0}, {0, 1, 0});
   return {.clip_from_world = glm::mat4(workload_projection(size, 0.5, 10.0) * view), .texture = &texture};
 }
 
-/// Mesh and texture of a sphere workload, kept alive together.
+/// Owns the mesh and texture of a sphere workload.
 struct SphereAssets {
   std::shared_ptr<const SphereMesh> mesh;
   std::shared_ptr<const Texture2D> texture;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// sphere_phong, sphere_gouraud, sphere_flat at 20,000, 200,000 and 2,000,000 triangles; near_clip: from just inside of the sphere.
+// sphere_phong, sphere_gouraud, sphere_flat: a sphere with 20,000, 200,000 or 2,000,000 triangles. near_clip: the sphere seen from inside,
+// close to its surface.
 #include "families.h"
 #include "sphere_camera.h"
 #include "workload_geometry.h"

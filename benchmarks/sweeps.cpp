@@ -30,7 +30,7 @@ WorkloadKind triangle_count(SphereDetail detail) {
 }
 
 WorkloadKind overdraw(int layers) {
-  return {sweep_point("overdraw", layers), "quads over the whole picture, back to front", [=](WorkloadSize size, WorkloadAssets&) {
+  return {sweep_point("overdraw", layers), "quads that cover the whole image, back to front", [=](WorkloadSize size, WorkloadAssets&) {
             auto mesh = std::make_shared<const LayerMesh>(layer_mesh(size, false, layers));
             return std::make_unique<SingleDraw<LayerShader>>(size, layer_shader(size), make_vertex_view(stream(*mesh)),
                                                              Indices::sequential(mesh->size()), workload_state(), mesh);
@@ -39,7 +39,7 @@ WorkloadKind overdraw(int layers) {
 
 template <int N>
 WorkloadKind varyings() {
-  return {sweep_point("varyings", N), "floats from vertex to fragment", [](WorkloadSize size, WorkloadAssets& assets) {
+  return {sweep_point("varyings", N), "float varyings", [](WorkloadSize size, WorkloadAssets& assets) {
             const std::shared_ptr<const SphereMesh> mesh = assets.sphere(k20k.rows, k20k.columns);
             const VaryingsShader<N> shader{sphere_uniforms(size, *assets.checker()).clip_from_world};
             return std::make_unique<SingleDraw<VaryingsShader<N>>>(size, shader,

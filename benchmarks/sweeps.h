@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Series of workloads that differ in one number, from which charts are drawn: what does it cost when that number grows?
+// Series of workloads that differ in one number, such as the triangle count. The charts show how the cost grows with that number.
 #pragma once
 
 #include <span>
@@ -12,19 +12,19 @@
 
 namespace halfspace {
 
-/// A series. Its workloads are named SERIES=NUMBER.
+/// A series of workloads, which are named SERIES=NUMBER.
 struct Sweep {
   std::string name;
   std::vector<WorkloadKind> kinds;
 };
 
-/// triangle_size   area in px² of right triangles of one colour side by side, some 4 million px² in all, at most a million triangles
-/// triangle_count  triangles of sphere_phong
-/// overdraw        quads over the whole picture, Phong by pixel, back to front
-/// varyings        floats from vertex to fragment, on the sphere of 20,000 triangles
+/// triangle_size   area in px² of adjacent right triangles of one color; about 4 million px² in total, at most a million triangles
+/// triangle_count  number of triangles in sphere_phong
+/// overdraw        number of quads that cover the whole image, with Phong shading per pixel, drawn back to front
+/// varyings        number of float varyings, on the sphere with 20,000 triangles
 std::span<const Sweep> sweeps();
 
-// The numbers of each series, for all who draw it.
+// The numbers of each series, shared by all renderers.
 inline constexpr std::array<double, 12> kTriangleSizes{0.25, 1, 4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1e6};
 int triangles_of_size(double area);
 inline constexpr std::array<SphereDetail, 9> kTriangleCounts{
@@ -32,7 +32,7 @@ inline constexpr std::array<SphereDetail, 9> kTriangleCounts{
 inline constexpr std::array<int, 7> kOverdraws{1, 2, 4, 8, 16, 32, 64};
 inline constexpr std::array<int, 5> kVaryings{0, 4, 8, 16, 32};
 
-/// SERIES=NUMBER, with no more digits than the number needs.
+/// Returns SERIES=NUMBER, with as few digits as possible.
 std::string sweep_point(std::string_view series, double number);
 
 }  // namespace halfspace

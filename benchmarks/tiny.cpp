@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// tiny_1m: a million triangles of one square pixel each; what a triangle costs.
+// tiny_1m: a million triangles with an area of one pixel each. Measures the cost of a triangle.
 #include "families.h"
 #include "workload_canvas.h"
 #include "workload_constant.h"

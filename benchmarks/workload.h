@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A workload: one fixed picture that is drawn again and again. Every renderer that is compared draws it by the same formulas
-// (docs/performance.md).
+// A workload draws one fixed image repeatedly. All renderers that are compared use the same formulas (docs/performance.md).
 #pragma once
 
 #include <functional>
@@ -19,37 +18,37 @@ struct WorkloadSize {
   int width, height;
 };
 
-/// What a frame leaves in memory; top row first. Owned by the workload.
+/// The result of a frame, top row first. Owned by the workload.
 struct WorkloadPicture {
-  const Image<glm::u8vec4>* color;  ///< linear values, not encoded
-  const Image<float>* depth;        ///< window depth; null where the workload has none
+  const Image<glm::u8vec4>* color;  ///< linear values, without sRGB encoding
+  const Image<float>* depth;        ///< window depth; null if the workload has no depth buffer
 };
 
-/// The same picture in double precision: colour before it is held to [0, 1] and coded, and window depth (1: nothing was drawn).
+/// The same image in double precision: the color before clamping and quantization, and the window depth, which is 1 for the background.
 using WorkloadTruth = NaiveTarget<double>;
 
-/// A workload that is ready to be drawn at one size. All that a frame reads is there; a frame allocates only what its passes do.
+/// A workload that has been prepared for one image size. All inputs exist already; a frame allocates only what its passes need.
 class Workload {
  public:
   virtual ~Workload() = default;
-  /// Draws the picture. Every frame does the same work.
+  /// Draws the image. Every frame does the same work.
   virtual void frame(const Workers& workers) = 0;
-  /// What the last frame drew.
+  /// Returns the image drawn by the last frame.
   virtual WorkloadPicture picture() const = 0;
-  /// By the naive pipeline, or by the closed form where there is one. Slow.
+  /// Computes the truth with the naive pipeline, or analytically where possible. Slow.
   virtual WorkloadTruth truth() const = 0;
 };
 
 class WorkloadAssets;
 
-/// A workload by name.
+/// An entry of the workload table.
 struct WorkloadKind {
   std::string name;
-  std::string what;  ///< one line
+  std::string what;  ///< description, one line
   std::function<std::unique_ptr<Workload>(WorkloadSize size, WorkloadAssets& assets)> prepare;
 };
 
-/// All workloads, in the order in which tables show them.
+/// Returns all workloads in display order.
 std::span<const WorkloadKind> workloads();
 
 }  // namespace halfspace

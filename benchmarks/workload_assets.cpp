@@ -10,7 +10,7 @@ namespace halfspace {
 namespace {
 
 Image<glm::u8vec4> half_size(const Image<glm::u8vec4>& from) {
-  const int up = from.height() > 1 ? 1 : 0;  // a level of one row is averaged by pairs: each texel counts twice below
+  const int up = from.height() > 1 ? 1 : 0;  // in a level with a single row, the sum below counts each texel twice
   Image<glm::u8vec4> to(std::max(from.width() / 2, 1), std::max(from.height() / 2, 1));
   for (int row = 0; row < to.height(); ++row) {
     for (int x = 0; x < to.width(); ++x) {

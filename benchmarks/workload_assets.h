@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes and the texture that several workloads share: made once, however many workloads ask.
+// Meshes and a texture that are created once and shared by several workloads.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@ struct SphereMesh {
   std::vector<uint32_t> indices;
 };
 
-/// The unit sphere of `rows` bands from pole to pole and `columns` sectors: 2·columns·(rows − 1) triangles, front faces
-/// outside. Both at least 2.
+/// Returns a unit sphere with `rows` bands from pole to pole and `columns` sectors, which has 2·columns·(rows − 1) triangles. The front
+/// faces are on the outside. rows and columns must be at least 2.
 SphereMesh sphere_mesh(int rows, int columns);
 
-/// Squares of 64 texels in two colours, 2048 x 1024 with all levels: each the mean of 2 x 2 texels of the one before, in
-/// 8-bit codes, halves rounded up.
+/// Returns a 2048 x 1024 checkerboard texture with squares of 64 x 64 texels and all mip levels. Each level averages 2 x 2 texels of the
+/// previous one in 8-bit codes and rounds halves up.
 Texture2D checker_texture();
 
 class WorkloadAssets {

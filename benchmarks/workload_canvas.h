@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the frames of most workloads share: a colour and a depth picture that are cleared, drawn into and kept.
+// Shared by most workloads: color and depth images that are cleared, drawn to and stored.
 #pragma once
 
 #include <utility>
@@ -11,23 +11,23 @@
 
 namespace halfspace {
 
-/// Tangent of 22.5°, half the vertical angle of every camera.
+/// Tangent of 22.5°, half the vertical field of view of every camera.
 inline constexpr double kTanHalfAngle = 0.41421356237309503;  // sqrt(2) − 1
 
 inline constexpr glm::vec4 kBackground{0.10f, 0.20f, 0.30f, 1.0f};
 
-/// The projection of 45° and the given distances of near and far plane, for a picture of that size.
+/// Returns a projection with a vertical field of view of 45° for an image of the given size.
 glm::dmat4 workload_projection(WorkloadSize size, double near, double far);
 
-/// The state of a draw unless the workload says otherwise: back faces culled, depth test less.
+/// The default draw state of the workloads: back-face culling and depth test `less`.
 DrawState workload_state();
 
-/// A picture of 8-bit colour and float depth.
+/// An 8-bit color image and a float depth image.
 class Canvas {
  public:
   explicit Canvas(WorkloadSize size) : color_(size.width, size.height), depth_(size.width, size.height) {}
 
-  /// A pass that clears both, and keeps both.
+  /// Returns a pass that clears both images and stores both.
   Pass pass();
   WorkloadPicture picture() const { return {&color_, &depth_}; }
   WorkloadTruth truth() const { return {color_.width(), color_.height(), vec4<double>(glm::dvec4(kBackground)), 1.0}; }
@@ -37,11 +37,11 @@ class Canvas {
   Image<float> depth_;
 };
 
-/// A workload of one draw into a cleared picture.
+/// A workload that clears the image and issues one draw call.
 template <class S>
 class SingleDraw final : public Workload {
  public:
-  /// owner holds the memory of vertices and indices, and what the shader points to.
+  /// `owner` keeps alive the vertices, the indices, and everything the shader points to.
   SingleDraw(WorkloadSize size, const S& shader, const VertexView& vertices, Indices indices, const DrawState& state,
              std::shared_ptr<const void> owner)
       : canvas_(size), shader_(shader), vertices_(vertices), indices_(std::move(indices)), state_(state), owner_(std::move(owner)) {}

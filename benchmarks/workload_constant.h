@@ -5,7 +5,7 @@
 
 namespace halfspace {
 
-/// One colour; positions are given in normalized device coordinates.
+/// Draws in one color. Vertex positions are in normalized device coordinates.
 struct ConstantShader {
   glm::vec4 color;
 

@@ -6,7 +6,7 @@
 
 namespace halfspace {
 
-/// A texture on the plane y = constant, along x and z, by up to 16 probes a pixel.
+/// Maps a texture to a horizontal plane by x and z, with up to 16x anisotropic filtering.
 struct FloorShader {
   glm::mat4 clip_from_world;
   const Texture2D* texture;

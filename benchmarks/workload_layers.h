@@ -7,7 +7,7 @@
 
 namespace halfspace {
 
-/// Phong by pixel, a colour a vertex; the eye is the origin.
+/// Phong shading per pixel with a color per vertex. The eye is at the origin.
 struct LayerShader {
   glm::mat4 clip_from_eye;
   glm::vec3 light_es{0.5f, 0.5f, 0.0f};
@@ -28,14 +28,14 @@ struct LayerShader {
     out.base = in.base;
     return clip_from_eye * vec4<R>(in.position_es, R(1));
   }
-  /// Inlined by name: g++ 12 leaves a call to a base class's function of this size in a kernel.
+  /// HS_INLINE because g++ 12 does not inline a base class function of this size into the kernels.
   template <class R>
   HS_INLINE Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {lit(in.base, phong(unit(in.normal_es), unit(light_es - in.position_es), unit(-in.position_es)))};
   }
 };
 
-/// The same, half transparent.
+/// LayerShader with an alpha of 0.5.
 struct BlendedLayerShader : LayerShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
@@ -43,7 +43,7 @@ struct BlendedLayerShader : LayerShader {
   }
 };
 
-/// The same with holes: where a texture's red is below one half.
+/// LayerShader that discards fragments where the red channel of a texture is below 0.5.
 struct PerforatedLayerShader : LayerShader {
   const Texture2D* texture;
 

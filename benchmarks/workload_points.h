@@ -6,13 +6,14 @@
 
 namespace halfspace {
 
-/// Points that look like spheres: the fragment finds the sphere's normal and depth. Eye space is the world moved.
+/// Point sprites shaded as spheres. The fragment function computes the normal and depth of the sphere. Eye space is world space relative
+/// to the eye.
 struct PointShader {
   glm::mat4 clip_from_world;
   glm::vec3 eye_ws;
-  glm::vec2 half_size;     ///< of the picture, px
-  float size_at_w1;        ///< px; of a sphere where clip w is 1
-  float depth_a, depth_b;  ///< clip z = a·z + b of eye-space z
+  glm::vec2 half_size;     ///< half the image size in pixels
+  float size_at_w1;        ///< diameter of a sphere in pixels where clip-space w is 1
+  float depth_a, depth_b;  ///< clip-space z is depth_a·z + depth_b for an eye-space z
   float radius;
   glm::vec3 light_es{2.0f, 3.0f, 4.0f};
 
@@ -23,7 +24,7 @@ struct PointShader {
   template <class R>
   struct Varyings {
     Flat<vec3<R>> center_es, base;
-    Flat<vec3<R>> disk;  ///< its centre in the window, and 1 over its radius; px
+    Flat<vec3<R>> disk;  ///< center of the disk in window coordinates and 1/radius, in pixels
   };
 
   template <class R>
@@ -49,7 +50,7 @@ struct PointShader {
   }
 
  private:
-  // Where the sphere is met, for a point seen from straight ahead.
+  // The point of the sphere that is visible at a pixel, under the approximation that all view rays are parallel.
   template <class R>
   struct Bump {
     vec3<R> n, position_es;
@@ -57,8 +58,8 @@ struct PointShader {
   };
   template <class R>
   HS_INLINE Bump<R> bump_at(const Varyings<R>& in, const Pixel<R>& px) const {
-    // 2·coord − 1, y up, by the definition of the point coordinate (OpenGL 4.6, section 14.4.1): px.point_coord() counts from the
-    // centre's place on the grid of 1/256 px, which is coarse for points as small as these.
+    // Computes 2·coord − 1 with y up, from the definition of the point coordinate (OpenGL 4.6, section 14.4.1). px.point_coord() is
+    // relative to the center snapped to 1/256 px, which is too coarse for points as small as these.
     const vec3<R>& disk = in.disk.value;
     const R dx = (px.x - disk.x) * disk.z, dy = (px.y - disk.y) * disk.z, squared = dx * dx + dy * dy;
     const vec3<R> n(dx, dy, sqrt(max(R(1) - squared, R(0))));

@@ -7,8 +7,8 @@
 
 namespace halfspace {
 
-/// Light from one direction by Blinn, shadowed by the plain mean of 3 x 3 comparisons with a depth map. The formula fixes filter
-/// and bias, so the map is read here and not by shading/shadow.h, whose filters do more.
+/// Blinn-Phong lighting from one direction, shadowed by the mean of 3 x 3 comparisons with a depth map. The workload prescribes this
+/// filter and bias, so the map is read here and not with shading/shadow.h, whose filters do more.
 struct ShadowedShader {
   glm::mat4 clip_from_world, light_from_world;
   const float* map;  ///< kMapSize² window depths, top row first
@@ -40,7 +40,7 @@ struct ShadowedShader {
     return {lit(vec3<R>(base), WorkloadLight<R>{ambient + seen * (light.diffuse - ambient), seen * light.specular})};
   }
 
-  /// The share of nine texels round the point that lie no nearer to the light than it.
+  /// Returns the fraction of the nine texels around the point that do not occlude it.
   template <class R>
   HS_INLINE R visible(const vec3<R>& position_ws) const {
     const vec4<R> q = light_from_world * vec4<R>(position_ws, R(1));

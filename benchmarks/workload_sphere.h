@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The textured sphere, lit by pixel, by vertex, or by triangle (from its provoking vertex).
+// Shaders of the textured sphere, lit per pixel, per vertex, or per triangle (at its provoking vertex).
 #pragma once
 
 #include "halfspace/shading/contract.h"
@@ -9,7 +9,7 @@
 
 namespace halfspace {
 
-/// What the three have in common.
+/// Base class of the sphere shaders.
 struct SphereUniforms {
   glm::mat4 clip_from_world;
   const Texture2D* texture;
@@ -53,7 +53,7 @@ struct SpherePhong : SphereUniforms {
   }
 };
 
-/// Eight times as bright.
+/// SpherePhong, eight times as bright.
 struct SphereHdr : SpherePhong {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {

@@ -6,7 +6,7 @@
 
 namespace halfspace {
 
-/// Light to a linear code: c/(1 + c) of 0.8 times the light, to the power 1/2.2. Opaque.
+/// Tone mapping: (c/(1 + c))^(1/2.2), where c is 0.8 times the light. Sets alpha to 1.
 struct WorkloadTone {
   FixedPower encode{1.0f / 2.2f};
 

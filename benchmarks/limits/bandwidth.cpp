@@ -10,12 +10,12 @@ namespace halfspace {
 
 namespace {
 
-// The widest vectors of this build; narrower builds have one lane but still a 128-bit store.
+// The width of the build's vectors, but at least 128 bits: scalar builds use 128-bit stores too.
 constexpr int kWidth = kLanes >= 4 ? kLanes : 4;
 using Vector = IntN<kWidth>;
-constexpr std::size_t kStep = 8;  // vectors a turn of a loop
+constexpr std::size_t kStep = 8;  // vectors per loop iteration
 
-// What is computed must be kept, or the compiler leaves it out.
+// These keep the compiler from optimizing away unused results.
 HS_INLINE void keep(const Vector& v) { asm volatile("" : : "x"(v.v)); }
 HS_INLINE void keep_memory() { asm volatile("" : : : "memory"); }
 
@@ -66,9 +66,9 @@ void copy(Buffer& to, const Buffer& from, int repeats) {
 
 struct Place {
   const char* name;
-  std::size_t bytes;  // a thread
+  std::size_t bytes;  // per thread
 };
-// Half of a small first level; within 1 MiB of second level; far beyond what caches hold for one core.
+// Sizes: half of a 32 KiB L1 cache, half of a 1 MiB L2 cache, and far more than one core's share of the last-level cache.
 constexpr std::array<Place, 3> kPlaces{{{"L1", 16 << 10}, {"L2", 512 << 10}, {"memory", 256 << 20}}};
 
 void add_place(const Place& place, const LimitTimer& timer, std::vector<Limit>& limits) {
@@ -84,7 +84,7 @@ void add_place(const Place& place, const LimitTimer& timer, std::vector<Limit>& 
   };
   add("store", gb, [](Buffer& x, Buffer&, int repeats) { store_to(x, repeats); });
   add("read", gb, [](Buffer& x, Buffer&, int repeats) { read_from(x, repeats); });
-  // Source and target share the level: half of each.
+  // Source and destination share the cache, so each gets half of it.
   if (place.bytes < (1 << 20)) {
     for (std::size_t t = 0; t < threads; ++t) {
       a[t].resize(a[t].size() / 2);

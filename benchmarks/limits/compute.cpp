@@ -13,7 +13,7 @@ using R = RealN<kLanes >= 4 ? kLanes : 4>;
 using I = IntN<kLanes >= 4 ? kLanes : 4>;
 constexpr int kWidth = kLanes >= 4 ? kLanes : 4;
 
-// A chain of additions, each of which waits for the one before: one a cycle.
+// A chain of dependent additions, which executes one addition per cycle.
 void add_chain(int repeats) {
   uint64_t x = 1;
   for (int r = 0; r < repeats; ++r) {
@@ -21,7 +21,7 @@ void add_chain(int repeats) {
   }
 }
 
-// Twelve chains at once fill two units of four to five cycles' latency.
+// Twelve independent chains saturate two FMA units with a latency of four to five cycles.
 constexpr int kChains = 12;
 void multiply_add(int repeats) {
   std::array<R, kChains> x;
@@ -34,7 +34,8 @@ void multiply_add(int repeats) {
   for (const R& c : x) asm volatile("" : : "x"(c.v));
 }
 
-// Places without order: each lane its own sequence, whose low bits are dropped. One gather's places do not wait for its values.
+// Gathers from pseudorandom indices. Each lane has its own sequence, of which the low bits are dropped. The indices do not depend on
+// gathered values, so gathers can overlap.
 void gather_from(const std::vector<float>& table, int repeats) {
   I place(1);
   for (int i = 0; i < kWidth; ++i) set_lane(place, i, 7919 * i + 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What this machine can do at best, in the terms that bound a renderer. Each figure is the best of several trials: a limit is what
-// nothing else took part of.
+// Measures the peak rates of this machine that limit a renderer. Each figure is the best of several trials, because other processes can
+// only make a trial slower.
 #pragma once
 
 #include <functional>
@@ -19,16 +19,16 @@ struct Limit {
   double value;
 };
 
-/// Times a piece of work that threads do side by side.
+/// Measures work that all threads do in parallel.
 class LimitTimer {
  public:
-  /// Every trial of every limit lasts about `seconds`.
+  /// Each trial takes about `seconds`.
   LimitTimer(int threads, double seconds) : workers_(threads), seconds_(seconds) {}
 
   int threads() const { return workers_.threads(); }
 
-  /// The largest number of units a second that any trial reached. work(thread, repeats) is called by each thread at once and does
-  /// `units` units a repeat.
+  /// Returns the highest rate of all trials, in units per second over all threads. work(thread, repeats) is called by all threads at the
+  /// same time and must process `units` units per repeat.
   double best_rate(double units, const std::function<void(int thread, int repeats)>& work) const;
 
  private:
@@ -37,13 +37,13 @@ class LimitTimer {
   double seconds_;
 };
 
-/// Store, read and copy in the first and second level of cache and in memory, GB/s (10^9 bytes); copied bytes count once. Stores to
-/// memory also past the caches.
+/// Store, read and copy bandwidth of the L1 cache, the L2 cache and memory, in GB/s (10^9 bytes). Copied bytes count once. Also measures
+/// non-temporal stores to memory.
 std::vector<Limit> bandwidth_limits(const LimitTimer& timer);
-/// memset of the bytes of a picture of 1920x1080 and of 512x512 pixels, 4 bytes each; each thread its share of the rows.
+/// Bandwidth of memset on images of 1920x1080 and 512x512 pixels with 4 bytes per pixel. Each thread sets an equal share of the bytes.
 std::vector<Limit> frame_limits(const LimitTimer& timer);
-/// Clock (GHz, of one thread), fused multiply-adds (GFLOP/s), gathered lanes (10^9/s) from tables in the first and second level of
-/// cache and beyond.
+/// Clock frequency (GHz, per thread), fused multiply-adds (GFLOP/s), and gathered lanes (10^9/s) from tables that fit into the L1 cache,
+/// into the L2 cache, or into neither.
 std::vector<Limit> compute_limits(const LimitTimer& timer);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-limits: what this machine can do at best.
+// halfspace-limits: measures the peak rates of this machine.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
@@ -34,11 +34,11 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   set_common_options(program);
   std::string threads_text, seconds_text = "0.03";
   bool json = false;
-  program.add_option("--threads", threads_text, "Threads, the main one counted (default: one a core)")->type_name("N");
-  program.add_option("--seconds", seconds_text, "Time of one trial of one limit (default: 0.03)")->type_name("S");
-  program.add_flag("--json", json, "Print a JSON object a line, one for each limit");
+  program.add_option("--threads", threads_text, "Threads, including the main one (default: one per core)")->type_name("N");
+  program.add_option("--seconds", seconds_text, "Duration of a trial (default: 0.03)")->type_name("S");
+  program.add_flag("--json", json, "Print one JSON object per line for each limit");
   program.footer(
-      "Each figure is the best of 15 trials, for all threads together.\n"
+      "Each figure is the best of 15 trials and the total of all threads.\n"
       "Examples:\n"
       "  halfspace-limits --threads 1\n"
       "  halfspace-limits --seconds 1 --json");
@@ -56,6 +56,6 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
 }  // namespace halfspace
 
 int main(int argc, char** argv) {
-  CLI::App program("Measures bandwidth, arithmetic, gather and clock of this machine");
+  CLI::App program("Measures the memory bandwidth, arithmetic and gather rates, and clock of this machine");
   return halfspace::run_program(program, [&] { halfspace::parse_and_run(program, argc, argv); });
 }

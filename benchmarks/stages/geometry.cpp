@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vertex, clip, set-up, bin and visibility stage. Items are vertices or triangles.
+// Vertex shading, clipping, setup, binning and visibility. Items are vertices or triangles.
 #include "halfspace/raster/primitives/clip.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/shading/depth_only.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr DrawState kNothingSurvives{.cull = CullMode::front_and_back};
 const DepthOnly kIdentity{glm::mat4(1.0f)};
 
-// All vertices of a sphere, whose triangles are then all culled.
+// Shades all vertices of a sphere. Its triangles are then all culled.
 void vertex_position(benchmark::State& state) {
   WorkloadAssets assets;
   const SphereAssets sphere(k200k, assets);
@@ -36,7 +36,7 @@ void vertex(benchmark::State& state) {
 BENCHMARK_TEMPLATE(vertex, SpherePhong);
 BENCHMARK_TEMPLATE(vertex, SphereGouraud);
 
-// The triangle by itself, cut by the near plane or by one side of the guard band.
+// Clips a single triangle against the near plane or one side of the guard band.
 void clip(benchmark::State& state) {
   const DepthState depth;
   const Viewport viewport = make_viewport({0, 0, kStageSize.width, kStageSize.height}, depth);
@@ -48,7 +48,8 @@ void clip(benchmark::State& state) {
 }
 BENCHMARK(clip)->Arg(0)->Arg(1);
 
-// Triangles of 12,288 vertices, each drawn 32 times: corner `corner` px beside a pixel's lower left corner, legs of `leg` px.
+// 4,096 right triangles, each drawn 32 times. The corner with the right angle is at an offset of (corner, corner) px from the lower-left
+// corner of a pixel, and the legs are `leg` px long.
 struct RepeatedTriangles {
   std::vector<glm::vec3> corners;
   std::vector<uint32_t> list;
@@ -78,18 +79,18 @@ void set_up_culled_face(benchmark::State& state) {
 }
 BENCHMARK(set_up_culled_face);
 
-// Between samples: set up as far as its bounds.
+// The triangles cover no sample, so setup ends after computing their bounds.
 void set_up_no_sample(benchmark::State& state) {
   const RepeatedTriangles triangles(0.6, 0.3, 0.5);
   measure_draw(state, triangles.count(), kIdentity, triangles.view(), triangles.indices());
 }
 BENCHMARK(set_up_no_sample);
 
-// Triangles behind a quad: set up, binned into one tile or four, and there rejected by the least depth.
+// Triangles behind a quad. They are set up and binned into one tile or four, where their minimum depth rejects them.
 void bin(benchmark::State& state) {
   const bool across = state.range(0) == 4;
   RepeatedTriangles triangles(2.0, 4.0, 0.5);
-  if (across) {  // around the corner of four tiles of any size up to 64
+  if (across) {  // move them to the corner of four tiles, for any tile size up to 64
     for (glm::vec3& c : triangles.corners) {
       const glm::vec2 px = (glm::vec2(c) + 1.0f) * 0.5f * glm::vec2(kStageSize.width, kStageSize.height);
       const glm::vec2 moved = glm::mod(px, 16.0f) - glm::vec2(4.0f) + glm::floor(px / 64.0f) * 64.0f;
@@ -104,11 +105,12 @@ void bin(benchmark::State& state) {
     pass.draw_depth(kIdentity, triangles.view(), list);        // at depth 0.75
     pass.run(workers);
   });
-  state.SetLabel(across ? "triangles that lie in 4 tiles" : "in 1 tile");
+  state.SetLabel(across ? "triangles in 4 tiles" : "triangles in 1 tile");
 }
 BENCHMARK(bin)->Arg(1)->Arg(4);
 
-// Depth alone, some million pixels of triangles of that many px² side by side. The smaller, the more of vertices and set-up is in it.
+// Draws only depth: adjacent triangles of the given area in px² that cover about a million pixels or more. The smaller the triangles, the
+// more of the time is spent in vertex shading and setup.
 void visibility(benchmark::State& state) {
   const int64_t area = state.range(0);
   const int count = static_cast<int>(std::max<int64_t>(1 << 20, 2 * area) / area);

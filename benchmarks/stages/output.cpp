@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blend, resolve, tone map and store. Items are pixels.
+// Blending, resolve, tone mapping and store. Items are pixels.
 #include "halfspace/shading/tone.h"
 #include "stages/stage_pass.h"
 #include "workload_constant.h"
@@ -12,7 +12,7 @@ namespace {
 
 const ConstantShader kHalfTransparent{{0.25f, 0.5f, 0.75f, 0.5f}};
 
-// A quad of one colour over what was cleared.
+// Draws a quad of one color over the cleared image.
 void blend(benchmark::State& state, const std::optional<BlendState>& how) {
   DrawState draw_state;
   draw_state.blend = how;
@@ -24,14 +24,14 @@ BENCHMARK_CAPTURE(blend, add, (BlendState{.source_color = BlendFactor::one, .des
 BENCHMARK_CAPTURE(blend, multiply, (BlendState{.source_color = BlendFactor::dst_color, .destination_color = BlendFactor::zero}));
 BENCHMARK_CAPTURE(blend, max, BlendState{.color_equation = BlendEquation::max});
 
-// The same quad with that many samples a pixel, and their mean.
+// Draws the same quad with 1 to 8 samples per pixel and resolves the samples.
 void resolve(benchmark::State& state) {
   measure_draw(state, kStagePixels, kHalfTransparent, stage_quad_positions(), stage_quad_indices(), {},
                {.samples = static_cast<int>(state.range(0))});
 }
 BENCHMARK(resolve)->Arg(1)->Arg(2)->Arg(4)->Arg(8);
 
-// A post step of a picture of half floats that is only cleared.
+// Applies a post step to a half-float image that is only cleared.
 template <class Step>
 void measure_post(benchmark::State& state, const Step& step, const ColorTarget& to) {
   Image<U16Vec4> light(kStageSize.width, kStageSize.height);
@@ -53,7 +53,7 @@ struct CurveStep {
   }
 };
 
-// The curve, then the exact sRGB code in the target's store.
+// Applies a tone curve, followed by the exact sRGB encoding in the store.
 void tone(benchmark::State& state, ToneCurve curve) {
   Image<glm::u8vec4> shown(kStageSize.width, kStageSize.height);
   measure_post(state, CurveStep{{.curve = curve}}, srgb8a8_target(shown));
@@ -64,14 +64,14 @@ BENCHMARK_CAPTURE(tone, reinhard_extended, ToneCurve::reinhard_extended);
 BENCHMARK_CAPTURE(tone, exponential, ToneCurve::exponential);
 BENCHMARK_CAPTURE(tone, aces, ToneCurve::aces);
 
-// The workloads' curve, with its power.
+// Applies the tone curve of the workloads, which contains a power.
 void tone_power(benchmark::State& state) {
   Image<glm::u8vec4> shown(kStageSize.width, kStageSize.height);
   measure_post(state, WorkloadTone{}, rgba8_target(shown));
 }
 BENCHMARK(tone_power);
 
-// A pass that clears and draws nothing: what leaves the tile, alone.
+// Measures the store alone: the pass clears its attachments and draws nothing.
 void measure_clear(benchmark::State& state, const ColorTarget& color, const DepthTarget& depth) {
   measure_passes(state, kStagePixels, [&](const Workers& workers) {
     Pass pass(kStageSize.width, kStageSize.height, color, depth);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Interpolation, shaders and texture look-ups. Items are pixels.
+// Interpolation, fragment shaders and texture lookups. Items are pixels.
 #include "halfspace/shading/star_sky.h"
 #include "halfspace/shading/surface_shader.h"
 #include "sphere_camera.h"
@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace {
 
-// A quad over the picture: N floats by pixel, added up. What N = 0 costs is visibility, colour and store.
+// Draws a quad over the whole image that interpolates and adds N floats per pixel. N = 0 measures the rest: visibility, color and store.
 template <int N>
 void interpolation(benchmark::State& state) {
   measure_draw(state, kStagePixels, VaryingsShader<N>{glm::mat4(1.0f)}, stage_quad_positions(), stage_quad_indices());
@@ -70,7 +70,7 @@ void shader_star_sky(benchmark::State& state) {
 }
 BENCHMARK(shader_star_sky);
 
-// The scenes' surface by pixel under that many point lights, with a colour map.
+// The surface shader of the scenes, with Phong shading, a color map and 1 or 3 point lights.
 void shader_surface(benchmark::State& state) {
   WorkloadAssets assets;
   const std::shared_ptr<const Texture2D> map = assets.checker();
@@ -78,7 +78,7 @@ void shader_surface(benchmark::State& state) {
   SurfaceShader<ShadingRate::phong, true> shader{};
   shader.clip_from_object = glm::mat4(1.0f);
   shader.world_from_object = glm::mat4(1.0f);
-  shader.world_from_object[3] = {0, 0, -2, 1};  // before the eye
+  shader.world_from_object[3] = {0, 0, -2, 1};  // in front of the eye
   shader.normal_from_object = glm::mat3(1.0f);
   shader.lights = lights;
   shader.factors[kColor].map = map.get();
@@ -87,7 +87,7 @@ void shader_surface(benchmark::State& state) {
 }
 BENCHMARK(shader_surface)->Arg(1)->Arg(3);
 
-// Look-ups alone, along rows of a map of 1024² texels; `step` texels a pixel to the right, one upward.
+// Only texture lookups, along the rows of a 1024 x 1024 texture. The pixel footprint is `step` texels wide and one texel high.
 void look_up(benchmark::State& state, TexelFormat format, Sampler sampler, float step) {
   constexpr int kSize = 1024;
   const auto texture = [&] {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the benchmarks of single stages share. Stages are reached through passes, as all callers reach them: each benchmark draws
-// something of which the stage that it is named after does nearly all the work, and says what else is in it. One thread.
+// Shared by the benchmarks of single stages. The stages are measured through passes, as users run them: each benchmark draws something for
+// which one stage does nearly all the work. All benchmarks use one thread.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -15,7 +15,7 @@ namespace halfspace {
 inline constexpr WorkloadSize kStageSize{1024, 1024};
 inline constexpr int64_t kStagePixels = int64_t{kStageSize.width} * kStageSize.height;
 
-/// Draws until the time is measured; `items` a pass become a rate.
+/// Calls `draw` repeatedly and reports the rate of items per second, where `items` is the number of items per pass.
 template <class Draw>
 void measure_passes(benchmark::State& state, int64_t items, Draw draw) {
   const Workers one(1);
@@ -23,7 +23,7 @@ void measure_passes(benchmark::State& state, int64_t items, Draw draw) {
   state.SetItemsProcessed(state.iterations() * items);
 }
 
-/// Draws one mesh into a cleared picture of colour and depth, again and again.
+/// Measures passes that clear color and depth and draw one mesh.
 template <class S>
 void measure_draw(benchmark::State& state, int64_t items, const S& shader, const VertexView& vertices, const Indices& indices,
                   const DrawState& draw_state = {}, const PassOptions& options = {}) {
@@ -40,8 +40,8 @@ void measure_draw(benchmark::State& state, int64_t items, const S& shader, const
   });
 }
 
-/// A quad over the picture with all that shaders ask of a vertex: position, normal (or base colour) towards the eye, texture
-/// coordinates 0 to 1.
+/// A quad over the whole image with all vertex attributes that the shaders need: position, normal towards the eye, and texture coordinates
+/// from 0 to 1.
 inline constexpr std::array<SphereVertex, 4> kStageQuad{
     {{{-1, -1, 0}, {0, 0, 1}, {0, 1}}, {{1, -1, 0}, {0, 0, 1}, {1, 1}}, {{-1, 1, 0}, {0, 0, 1}, {0, 0}}, {{1, 1, 0}, {0, 0, 1}, {1, 0}}}};
 inline VertexView stage_quad() { return make_vertex_view(stream(std::span<const SphereVertex>(kStageQuad))); }

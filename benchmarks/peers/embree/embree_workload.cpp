@@ -16,11 +16,11 @@ using I = RayInt;
 
 enum class Light { pixel, vertex, flat };
 
-// A task draws a tile; a packet is a block of its pixels.
+// A task draws a tile. A ray packet covers a block of pixels in the tile.
 constexpr int kTile = 32, kBlockWidth = kRays == 4 ? 2 : 4, kBlockHeight = kRays / kBlockWidth;
 constexpr int kVerticesATask = 4096;
 
-// The triangle of each lane: one corner, two edges, the numbers of its vertices.
+// One triangle per lane: its vertex indices, one corner and two edges.
 struct Triangles {
   I a, b, c;
   vec3<R> corner, edge1, edge2;
@@ -39,7 +39,7 @@ class RaySphere final : public Workload {
         color_(size.width, size.height),
         depth_(size.width, size.height) {
     if (light != Light::pixel) vertex_light_.resize(2 * sphere_.mesh->vertices.size() + 2 * kRays);
-    // The ray of a pixel: clip space's x and y at depth w, taken back to the world.
+    // Ray directions are ahead_ + right_·dx + up_·dy, where (dx, dy) is the offset from the image center in pixels.
     const glm::dvec3 eye(uniforms_.eye_ws), ahead = glm::normalize(-eye), right = glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
     const double step = 2.0 * kTanHalfAngle / size.height;
     right_ = glm::vec3(step * right);
@@ -69,7 +69,7 @@ class RaySphere final : public Workload {
   }
   vec3<R> gather3(const I& at) const { return {gather(floats(), at), gather(floats(), at + I(1)), gather(floats(), at + I(2))}; }
 
-  // Diffuse and specular of the vertices from `first` on.
+  // Computes the diffuse and specular light of up to kVerticesATask vertices, starting at `first`.
   void light_vertices(int first) {
     const int vertices = static_cast<int>(sphere_.mesh->vertices.size()), end = std::min(first + kVerticesATask, vertices);
     for (int v = first; v < end; v += kRays) {
@@ -91,7 +91,7 @@ class RaySphere final : public Workload {
   }
 
   void draw_block(int left, int top) {
-    R dx(0.0f), dy(0.0f);  // from the picture's middle, px
+    R dx(0.0f), dy(0.0f);  // offset from the image center, px
     for (int k = 0; k < kRays; ++k) {
       set_lane(dx, k, static_cast<float>(left + k % kBlockWidth) + 0.5f - 0.5f * static_cast<float>(size_.width));
       set_lane(dy, k, 0.5f * static_cast<float>(size_.height) - static_cast<float>(top + k / kBlockWidth) - 0.5f);
@@ -118,8 +118,8 @@ class RaySphere final : public Workload {
     return t;
   }
 
-  // With s = eye − corner, n = e1 × e2 and ray d, the point has weights d·(s × e2)/d·n and d·(e1 × s)/d·n of the second and third vertex
-  // (Möller and Trumbore, 1997). A step of d by r changes a weight w = d·m/d·n by (r·m − w·(r·n))/d·n.
+  // With s = eye − corner, n = e1 × e2 and ray direction d, the barycentric weights of the second and third vertex are d·(s × e2)/d·n and
+  // d·(e1 × s)/d·n (Möller and Trumbore, 1997). If d changes by r, a weight w = d·m/d·n changes by (r·m − w·(r·n))/d·n, to first order.
   void shade(const MaskOf<R>& hit, const Triangles& t, const vec3<R>& direction, vec4<R>& color, R& depth) const {
     const vec3<R> s = vec3<R>(uniforms_.eye_ws) - t.corner, n = cross(t.edge1, t.edge2);
     const vec3<R> m1 = cross(s, t.edge2), m2 = cross(t.edge1, s);
@@ -171,7 +171,7 @@ class RaySphere final : public Workload {
   SphereAssets sphere_;
   SphereUniforms uniforms_;
   RayMesh rays_;
-  glm::vec3 right_, up_, ahead_;  // of a pixel's step, and of the middle
+  glm::vec3 right_, up_, ahead_;  // see the constructor
   std::vector<float> vertex_light_;
   Image<glm::u8vec4> color_;
   Image<float> depth_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sphere workloads by rays.
+// The sphere workloads, drawn by ray casting.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@
 
 namespace halfspace {
 
-/// The nine sphere workloads by a ray a pixel: same names, same order as in workloads(). Embree's tree is built when a workload
-/// is prepared, and so is in no frame; the light of vertices (gouraud, flat) is computed anew in each.
+/// The nine sphere workloads, drawn with one ray per pixel. Names and order are the same as in workloads(). Embree's acceleration structure
+/// is built when a workload is prepared and is not part of the frame time. Vertex lighting (gouraud, flat) is computed in every frame.
 std::span<const WorkloadKind> embree_workloads();
-/// The series triangle_count.
+/// Returns only the series triangle_count.
 std::span<const Sweep> embree_sweeps();
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-bench-embree: the sphere workloads by rays.
+// halfspace-bench-embree: draws the sphere workloads with Embree's rays.
 #include "bench_program.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   using namespace halfspace;
   return run_bench_program({.name = "halfspace-bench-embree",
-                            .what = "Draws the sphere workloads of the benchmark by Embree's rays and measures their frames",
+                            .what = "Draws the sphere workloads of the benchmark with Embree's rays and measures their frame times",
                             .options = {},
                             .start = {},
                             .kinds = [] { return embree_workloads(); },

@@ -17,7 +17,7 @@
 namespace halfspace {
 
 struct RayMesh::Impl {
-  std::shared_ptr<const SphereMesh> mesh;  // Embree reads its memory
+  std::shared_ptr<const SphereMesh> mesh;  // shared with Embree, so it must stay alive
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -33,7 +33,7 @@ using Packet = std::conditional_t<kRays == 16, RTCRayHit16, std::conditional_t<k
 
 constexpr auto kIntersect = std::get<kRays / 8>(std::tuple{&rtcIntersect4, &rtcIntersect8, &rtcIntersect16});
 
-// The two versions of Embree differ in the name of what says that rays are close together, and in the order of arguments.
+// Embree 3 and 4 use different names for the coherent-rays flag and a different argument order.
 #if RTC_VERSION_MAJOR >= 4
 using How = RTCIntersectArguments;
 How close_together() {
@@ -59,7 +59,7 @@ void intersect(const int* valid, RTCScene scene, How& how, Packet& packet) { kIn
 RayMesh::RayMesh(std::shared_ptr<const SphereMesh> mesh) : impl_(std::make_unique<Impl>()) {
   impl_->mesh = std::move(mesh);
   impl_->device = rtcNewDevice(nullptr);
-  if (impl_->device == nullptr) throw InputError("Embree does not start on this machine");
+  if (impl_->device == nullptr) throw InputError("Embree cannot start on this machine");
   impl_->scene = rtcNewScene(impl_->device);
   const SphereMesh& from = *impl_->mesh;
   RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -81,7 +81,7 @@ RayInt RayMesh::first_triangles(const glm::vec3& origin, const vec3<RayReal>& di
   Packet packet;
   RTCHitN* const hit = reinterpret_cast<RTCHitN*>(&packet.hit);
   RTCRayN* const ray = reinterpret_cast<RTCRayN*>(&packet.ray);
-  alignas(64) std::array<int, kRays> valid;  // Embree loads it as one vector
+  alignas(64) std::array<int, kRays> valid;  // Embree loads this array as one vector
   for (unsigned i = 0; i < kRays; ++i) {
     const int k = static_cast<int>(i);
     valid[i] = -1;

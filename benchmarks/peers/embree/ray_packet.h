@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A mesh that packets of rays are shot at, by Embree (3.13 or 4). The only place of the benchmark that includes it.
+// Intersects ray packets with a mesh, using Embree (version 3.13 or 4).
 #pragma once
 
 #include <memory>
@@ -11,12 +11,12 @@
 
 namespace halfspace {
 
-/// As many rays at once as the build has lanes, at least four.
+/// Rays per packet: the number of lanes of the build, but at least four.
 inline constexpr int kRays = kLanes >= 4 ? kLanes : 4;
 using RayReal = RealN<kRays>;
 using RayInt = IntN<kRays>;
 
-/// An Embree scene of one mesh, built for fast tracing.
+/// An Embree scene with one mesh, built for fast traversal.
 class RayMesh {
  public:
   explicit RayMesh(std::shared_ptr<const SphereMesh> mesh);
@@ -24,8 +24,8 @@ class RayMesh {
   RayMesh(const RayMesh&) = delete;
   RayMesh& operator=(const RayMesh&) = delete;
 
-  /// For each ray from origin along its direction the number of the first triangle it meets, or −1. The rays are close together.
-  /// Any number of threads may ask at once.
+  /// Returns, for each ray, the index of the first triangle that it hits, or −1. The rays should be coherent. Can be called from multiple
+  /// threads at once.
   RayInt first_triangles(const glm::vec3& origin, const vec3<RayReal>& direction) const;
 
  private:

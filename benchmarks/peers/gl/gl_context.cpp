@@ -17,7 +17,7 @@ namespace halfspace {
 
 namespace {
 
-// Where Debian's chromium keeps it.
+// The path in Debian's chromium package.
 constexpr std::string_view kSwiftShaderIcd = "/usr/lib/chromium/vk_swiftshader_icd.json";
 
 void set(const char* name, const std::string& value) { setenv(name, value.c_str(), 1); }
@@ -25,13 +25,13 @@ void set(const char* name, const std::string& value) { setenv(name, value.c_str(
 void choose_swiftshader() {
   set("GALLIUM_DRIVER", "zink");
   set("MESA_LOADER_DRIVER_OVERRIDE", "zink");
-  // zink finds fewer features in SwiftShader than an OpenGL 3.3 asks for, none of which the workloads use.
+  // SwiftShader lacks features that zink requires for OpenGL 3.3. The workloads do not use any of them, so override the version.
   set("MESA_GL_VERSION_OVERRIDE", "3.3");
   set("MESA_GLSL_VERSION_OVERRIDE", "330");
   if (std::getenv("VK_ICD_FILENAMES") != nullptr) return;
   if (!std::filesystem::exists(kSwiftShaderIcd))
-    throw InputError("SwiftShader is absent: no " + std::string(kSwiftShaderIcd) +
-                     "; install Debian's chromium and libvulkan1, or name its ICD in VK_ICD_FILENAMES");
+    throw InputError("SwiftShader not found: no " + std::string(kSwiftShaderIcd) +
+                     "; install Debian's chromium and libvulkan1, or set VK_ICD_FILENAMES to its ICD");
   set("VK_ICD_FILENAMES", std::string(kSwiftShaderIcd));
 }
 
@@ -76,18 +76,19 @@ GlContext::GlContext(GlDriver driver, int threads) {
   const auto text = [](GLenum name) { return std::string(reinterpret_cast<const char*>(glGetString(name))); };
   description_ = text(GL_RENDERER) + ", " + text(GL_VERSION);
   if (description_.find(name_of(driver)) == std::string::npos)
-    absent("asked for " + std::string(name_of(driver)) + ", got " + description_ + "; install libgl1-mesa-dri, for SwiftShader libvulkan1");
+    absent("requested " + std::string(name_of(driver)) + ", got " + description_ +
+           "; install libgl1-mesa-dri, and libvulkan1 for SwiftShader");
 }
 
 void GlContext::open() {
-  // libepoxy ends the process where it cannot load what a call needs, so first ask.
+  // libepoxy aborts the process if it cannot load a library, so check first.
   if (dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL) == nullptr) absent("libEGL.so.1 is missing; install libegl1");
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (extensions == nullptr || std::string_view(extensions).find("EGL_MESA_platform_surfaceless") == std::string_view::npos)
     absent("EGL has no surfaceless platform; install libegl-mesa0");
   display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (!eglInitialize(display_, nullptr, nullptr))
-    absent("Mesa's surfaceless display does not open; install libgl1-mesa-dri, for SwiftShader libvulkan1");
+    absent("cannot open Mesa's surfaceless display; install libgl1-mesa-dri, and libvulkan1 for SwiftShader");
   eglBindAPI(EGL_OPENGL_API);
   const std::array<EGLint, 5> want_config{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
@@ -98,7 +99,7 @@ void GlContext::open() {
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, want_context.data());
   if (context_ == EGL_NO_CONTEXT || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-    absent("Mesa makes no OpenGL 3.3 core context");
+    absent("Mesa cannot create an OpenGL 3.3 core context");
 }
 
 GlContext::~GlContext() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each file of OpenGL workloads gives to the tables in gl_workload.cpp.
+// The functions that prepare the OpenGL workloads, for the tables in gl_workload.cpp.
 #pragma once
 
 #include <memory>

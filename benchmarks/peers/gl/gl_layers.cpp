@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// layers_b2f, layers_f2b, blend_10, alpha_test, depth_prepass: ten quads over the whole picture.
+// layers_b2f, layers_f2b, blend_10, alpha_test, depth_prepass: ten quads over the whole image.
 #include <optional>
 
 #include "layer_mesh.h"

@@ -25,10 +25,10 @@ void compile(GLuint program, GLenum stage, std::string_view shared, std::string_
     throw InputError("GLSL: " + std::string(log.data()) + text);
   }
   glAttachShader(program, shader);
-  glDeleteShader(shader);  // when the program goes
+  glDeleteShader(shader);  // takes effect when the program is deleted
 }
 
-// Rows from the bottom up, as OpenGL has them, to rows from the top down.
+// Flips an image from OpenGL, which stores the bottom row first.
 template <class T>
 Image<T> upright(const Image<T>& image) {
   Image<T> out(image.width(), image.height());
@@ -44,14 +44,14 @@ GlProgram::GlProgram(std::string_view shared, std::string_view vertex, std::stri
   glLinkProgram(id_);
   GLint good = 0;
   glGetProgramiv(id_, GL_LINK_STATUS, &good);
-  if (good == 0) throw InputError("a GLSL program does not link: " + std::string(vertex) + std::string(fragment));
+  if (good == 0) throw InputError("GLSL: cannot link the program: " + std::string(vertex) + std::string(fragment));
   use();
 }
 
 GLint GlProgram::location(const char* name) const {
   use();
   const GLint at = glGetUniformLocation(id_, name);
-  if (at < 0) throw InputError("GLSL has no uniform " + std::string(name));
+  if (at < 0) throw InputError("GLSL: no uniform named " + std::string(name));
   return at;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OpenGL objects that delete themselves: programs, meshes, textures, targets.
+// RAII wrappers of OpenGL objects: programs, meshes, textures, render targets.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -18,10 +18,11 @@
 
 namespace halfspace {
 
-/// A linked program whose uniforms are set by name; a wrong name is a bug and ends the program.
+/// A linked program. Uniforms are set by name; an unknown name throws InputError.
 class GlProgram {
  public:
-  /// GLSL 3.30, without its first line; `shared` comes before both.
+  /// The sources are GLSL 3.30 without the #version line. `shared` is inserted at the start of both stages. Throws InputError if
+  /// compiling or linking fails.
   GlProgram(std::string_view shared, std::string_view vertex, std::string_view fragment);
   ~GlProgram() { glDeleteProgram(id_); }
   GlProgram(const GlProgram&) = delete;
@@ -39,10 +40,10 @@ class GlProgram {
   GLuint id_;
 };
 
-/// Vertices in a buffer, and perhaps indices.
+/// A vertex buffer with an optional index buffer.
 class GlMesh {
  public:
-  /// Attribute i has components[i] floats, one behind the other in a vertex.
+  /// Attribute i has components[i] floats. Attributes are interleaved without padding.
   GlMesh(std::span<const float> vertices, std::initializer_list<int> components, std::span<const uint32_t> indices = {});
   ~GlMesh();
   GlMesh(const GlMesh&) = delete;
@@ -58,14 +59,14 @@ class GlMesh {
   bool indexed_;
 };
 
-/// The floats of a span of structs that hold nothing else.
+/// Views an array of structs that contain only floats as an array of floats.
 template <class T>
 std::span<const float> floats_of(std::span<const T> structs) {
   static_assert(sizeof(T) % sizeof(float) == 0 && std::is_trivially_copyable_v<T>);
   return {reinterpret_cast<const float*>(structs.data()), structs.size() * (sizeof(T) / sizeof(float))};
 }
 
-/// An rgba8 texture with all its levels; wrap_t: GL_REPEAT or GL_CLAMP_TO_EDGE. Trilinear.
+/// An rgba8 texture with all mip levels and trilinear filtering. wrap_t: GL_REPEAT or GL_CLAMP_TO_EDGE.
 class GlTexture {
  public:
   GlTexture(const Texture2D& texels, GLint wrap_t, float anisotropy = 1.0f);
@@ -78,7 +79,7 @@ class GlTexture {
   GLuint id_ = 0;
 };
 
-/// What is drawn into: a colour texture (or none: 0) of that format, and a float depth texture (or none).
+/// A framebuffer with a color texture, unless color_format is 0, and an optional float depth texture.
 class GlTarget {
  public:
   GlTarget(WorkloadSize size, GLenum color_format, bool has_depth, int samples = 1);
@@ -86,12 +87,13 @@ class GlTarget {
   GlTarget(const GlTarget&) = delete;
   GlTarget& operator=(const GlTarget&) = delete;
 
-  /// Draws go here, with depth test "less" and back faces culled (where depth is absent: neither).
+  /// Makes this the render target and resets the draw state. With a depth texture, enables the depth test GL_LESS and back-face culling;
+  /// without one, disables both.
   void bind() const;
   void clear(const glm::vec4& color) const;
   void bind_color() const { glBindTexture(GL_TEXTURE_2D, color_); }
   void bind_depth() const { glBindTexture(GL_TEXTURE_2D, depth_); }
-  /// Averages the colours of this one's samples into that one's pixels.
+  /// Resolves the color samples of this target into the pixels of `to`.
   void resolve_into(const GlTarget& to) const;
   Image<glm::u8vec4> read_color() const;
   Image<float> read_depth() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// points_100k: point sprites that look like spheres and write their depth.
+// points_100k: point sprites that are shaded as spheres and write depth.
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"

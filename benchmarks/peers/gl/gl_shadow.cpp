@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// shadow_200k: a depth map drawn from the light, and a picture that asks it nine times a pixel.
+// shadow_200k: renders a depth map from the light, then an image that reads nine texels of it per pixel.
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"
@@ -29,7 +29,7 @@ void main() {
   gl_Position = clip_from_world * vec4(position, 1.0);
 }
 )";
-// The map wraps to its edge and is read at its nearest texel.
+// The map is sampled with GL_NEAREST and GL_CLAMP_TO_EDGE (see GlTarget).
 constexpr std::string_view kFragment = R"(
 in vec3 position_ws, normal_ws;
 uniform mat4 light_from_world;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// clear, fill, tiny_1m, draws_10k, the series triangle_size: one colour a draw, positions in normalized device coordinates.
+// clear, fill, tiny_1m, draws_10k and the series triangle_size: one color per draw call, positions in normalized device coordinates.
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "workload_geometry.h"
@@ -59,7 +59,7 @@ class Triangles final : public GlWorkload {
   GlMesh mesh_;
 };
 
-// All corners lie in one buffer, of which each draw takes four; the colour is a uniform, set before each draw.
+// All corners are in one buffer; each draw call uses four of them. The color is a uniform that is set before each draw call.
 class Draws final : public GlWorkload {
  public:
   explicit Draws(const GlInput& in)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// sphere_phong, sphere_gouraud, sphere_flat, near_clip, msaa4_200k; hdr_200k and tonemap, which draw the sphere into half floats.
+// sphere_phong, sphere_gouraud, sphere_flat, near_clip, msaa4_200k; also hdr_200k and tonemap, which draw the sphere to half floats.
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"
@@ -58,7 +58,7 @@ std::string shared_by(Light light, bool bright) {
   return text + (bright ? "#define BRIGHTNESS 8.0\n" : "#define BRIGHTNESS 1.0\n");
 }
 
-// Mesh, map and program, for a target that is bound.
+// The mesh, texture and program of a sphere. Draws to the bound target.
 class SphereDrawing {
  public:
   SphereDrawing(const SphereUniforms& uniforms, const SphereMesh& mesh, Light light, bool bright = false)
@@ -96,7 +96,7 @@ class Sphere final : public GlWorkload {
   bool culled_;
 };
 
-// Four samples a pixel, which are averaged into the picture.
+// Draws with four samples per pixel and resolves them to the image.
 class MultisampledSphere final : public GlWorkload {
  public:
   explicit MultisampledSphere(const GlInput& in)
@@ -157,7 +157,7 @@ class Hdr final : public GlWorkload {
   GlTarget light_;
   SphereDrawing drawing_;
   GlProgram tone_{"", kFullVertex, kToneFragment};
-  GlMesh empty_;  // three vertices, whose numbers alone are read
+  GlMesh empty_;  // three vertices; the shader only reads gl_VertexID
   bool tone_alone_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The series varyings: floats handed from vertex to fragment (workload_varyings.h).
+// The series varyings: interpolates float varyings (see workload_varyings.h).
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 

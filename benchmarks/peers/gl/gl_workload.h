@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the OpenGL programs of all workloads share.
+// Shared by all OpenGL workloads.
 #pragma once
 
 #include "peers/gl/gl_objects.h"
@@ -11,19 +11,19 @@
 
 namespace halfspace {
 
-/// What an OpenGL workload is made from.
+/// The inputs of an OpenGL workload.
 struct GlInput {
-  const WorkloadKind& twin;  ///< Halfspace's workload of the same picture; outlives the OpenGL one
+  const WorkloadKind& twin;  ///< Halfspace's workload that draws the same image; must outlive the OpenGL workload
   WorkloadSize size;
-  WorkloadAssets& assets;  ///< outlive the workload
+  WorkloadAssets& assets;  ///< must outlive the workload
 };
 
-/// A workload drawn by OpenGL. The truth is that of its twin.
+/// A workload drawn by OpenGL. It has the same truth as Halfspace's workload.
 class GlWorkload : public Workload {
  public:
   explicit GlWorkload(const GlInput& in, bool has_depth = true) : in_(in), target_(in.size, GL_RGBA8, has_depth) {}
 
-  /// Draws, and waits until all pixels are in memory: glFinish.
+  /// Draws a frame and waits with glFinish until it is complete.
   void frame(const Workers& workers) final;
   WorkloadPicture picture() const final;
   WorkloadTruth truth() const final { return in_.twin.prepare(in_.size, in_.assets)->truth(); }
@@ -31,7 +31,7 @@ class GlWorkload : public Workload {
  protected:
   virtual void draw() = 0;
 
-  /// Draws go into the picture, which is cleared.
+  /// Binds and clears the target.
   void begin() const {
     target_.bind();
     target_.clear(kBackground);
@@ -41,11 +41,11 @@ class GlWorkload : public Workload {
  private:
   GlInput in_;
   GlTarget target_;
-  mutable Image<glm::u8vec4> color_;  // as last read
+  mutable Image<glm::u8vec4> color_;  // the images last read by picture()
   mutable Image<float> depth_;
 };
 
-/// The workloads of workloads() and the series of sweeps(), drawn by the current context. Same names, same order.
+/// The workloads of workloads() and the series of sweeps(), with the same names and order, drawn by the current OpenGL context.
 std::span<const WorkloadKind> gl_workloads();
 std::span<const Sweep> gl_sweeps();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The formulas of workload_shading.h in GLSL.
+// GLSL versions of the formulas in workload_shading.h.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 namespace halfspace {
 
 inline constexpr std::string_view kGlslLight = R"(
-// What a surface's colour is multiplied by, and what is added.
+// Both return the factor of the surface color and the term that is added.
 vec2 blinn_phong(vec3 normal, vec3 l, vec3 v) {
   vec3 n = normalize(normal), h = normalize(l + v);
   return vec2(0.08 + 0.8 * max(dot(n, l), 0.0), 0.4 * pow(max(dot(n, h), 0.0), 48.0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-bench-gl: the workloads drawn by a software OpenGL.
+// halfspace-bench-gl: draws the workloads with a software OpenGL implementation.
 #include <map>
 #include <optional>
 
@@ -19,7 +19,7 @@ int run(int argc, char** argv) {
   const std::map<std::string, GlDriver> drivers{
       {"llvmpipe", GlDriver::llvmpipe}, {"swiftshader", GlDriver::swiftshader}, {"softpipe", GlDriver::softpipe}};
   return run_bench_program({.name = "halfspace-bench-gl",
-                            .what = "Draws the workloads of the benchmark with a software OpenGL and measures their frames",
+                            .what = "Draws the benchmark workloads with a software OpenGL and measures their frame times",
                             .options = {{"--driver", "NAME", "llvmpipe (default), swiftshader or softpipe", &driver}},
                             .start =
                                 [&](int threads) {
