@@ -10,19 +10,21 @@
 
 namespace halfspace {
 
+// The structs hold option values as given on the command line. An empty string means that the option was not given.
+
 struct RenderArguments {
   std::string scene;
-  std::string out;  ///< empty: SCENE.png
+  std::string out;  ///< default: SCENE.png
   std::string size = "1920x1080";
   std::vector<std::string> set;
-  std::string camera;   ///< empty: the camera set in the scene
-  std::string shading;  ///< empty: the shading rate of each object
-  std::string time;     ///< empty: 0
-  std::string frames;   ///< empty: one image, without a frame number
-  std::string fps;      ///< empty: 30
-  std::string threads;  ///< empty: one per core
+  std::string camera;   ///< default: the camera set in the scene
+  std::string shading;  ///< default: the shading rate of each object
+  std::string time;     ///< default: 0
+  std::string frames;   ///< default: one image, without a frame number
+  std::string fps;      ///< default: 30
+  std::string threads;  ///< default: one per core
   std::string statistics;
-  std::string max_error, max_error_color;  ///< both empty: render the scene as it is
+  std::string max_error, max_error_color;  ///< if both are empty, the scene is rendered as it is
   bool resume = false;
   bool print = false;
 };
@@ -30,14 +32,14 @@ void render_command(const RenderArguments& args);
 
 struct ConvertNormalArguments {
   std::string height, out;
-  std::string strength;  ///< empty: 8
+  std::string strength;  ///< default: 8
   std::string edges = "repeat";
 };
 void convert_normal_command(const ConvertNormalArguments& args);
 
 struct ValidateArguments {
   std::string scene;
-  std::string out;  ///< empty: write no images
+  std::string out;  ///< default: write no images
   std::string size = "960x540";
   std::vector<std::string> set;
   std::string camera, time, threads, rays;
@@ -48,8 +50,8 @@ void validate_command(const ValidateArguments& args);
 
 struct CompareArguments {
   std::string a, b;
-  std::string out;        ///< empty: write no difference image
-  std::string tolerance;  ///< empty: accept any difference
+  std::string out;        ///< default: write no difference image
+  std::string tolerance;  ///< default: accept any difference
   bool json = false;
 };
 void compare_command(const CompareArguments& args);
@@ -64,7 +66,7 @@ void chart_command(const ChartArguments& args);
 std::string study_lines();
 
 struct ListArguments {
-  std::string scene;  ///< empty: list the built-in scenes
+  std::string scene;  ///< default: list the built-in scenes
   bool names = false, schema = false;
 };
 void list_command(const ListArguments& args);

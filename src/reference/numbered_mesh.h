@@ -16,7 +16,7 @@ struct NumberedMesh : DepthOnly {
   }
 };
 
-/// Does the same for spheres.
+/// Writes the number of a set of spheres to the red channel.
 struct NumberedSphere : SphereDepth {
   float number = 0.0f;
 

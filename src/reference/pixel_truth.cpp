@@ -116,7 +116,7 @@ LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm
   const bool directional = light.light.type == LightType::directional;
   const glm::dvec3 place(light.light.place_rws);
   const glm::dvec3 axis = directional ? place : unit_or_zero(place - position_rws);
-  // Embree's hit and the float vertices are each within a few 2^-24 of the largest coordinate of the exact triangle.
+  // Offset the origin by more than the errors of Embree's hit and of the float vertices, which are a few 2^-24 of the largest coordinate.
   const double scale = std::max({std::abs(position_rws.x), std::abs(position_rws.y), std::abs(position_rws.z), 1e-3});
   const glm::dvec3 outwards = glm::dot(face_normal_ws, axis) >= 0.0 ? face_normal_ws : -face_normal_ws;
   const glm::dvec3 origin = position_rws + outwards * (scale * 0x1p-20);

@@ -45,7 +45,7 @@ struct VisibilityScore {
   int64_t pixels = 0;     ///< pixels covered by the rasterizer, by the rays, or by both
   int64_t same = 0;       ///< both show the same triangle
   int64_t near_edge = 0;  ///< they differ, but a ray within 1/256 px hits the rasterizer's triangle
-  int64_t depth_tie = 0;  ///< they differ, but by less depth than the surface's depth changes over 1/256 px
+  int64_t depth_tie = 0;  ///< they differ, but their depths differ by less than the depth changes over 1/256 px
   int64_t unexplained = 0;
 };
 VisibilityScore compare_visibility(const ShadowPicture& picture, const Image<std::optional<RayHit>>& hits, const RayScene& rays,

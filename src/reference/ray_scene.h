@@ -21,8 +21,8 @@ struct RayHit {
   uint32_t triangle;              ///< index of the triangle in the mesh, or of the sphere in its set
   float distance;                 ///< ray parameter t, in multiples of the direction's length
   std::array<double, 3> weights;  ///< barycentric coordinates, which add up to 1; all 0 for a sphere
-  glm::dvec3 position_rws;        ///< for triangles interpolated in double, which is more accurate than origin + distance·direction
-  glm::dvec3 face_normal_ws;      ///< geometric unit normal; for triangles on the side where the winding is counter-clockwise
+  glm::dvec3 position_rws;        ///< for triangles, interpolated in double, so more accurate than origin + distance·direction
+  glm::dvec3 face_normal_ws;      ///< geometric unit normal; points to the side from which a triangle is counter-clockwise
 };
 
 /// Immutable after construction; can be queried from multiple threads at once.

@@ -22,7 +22,7 @@ struct ShadowScore {
   std::string scene, light, method, bias;
   int resolution = 0;
   int64_t lit = 0, shadowed = 0;  ///< pixel counts according to the rays; a pixel is lit if more than half of the light arrives
-  double sides_differ = 0.0;      ///< share of pixels left out because geometric and shading normal disagree on which side the light is
+  double sides_differ = 0.0;      ///< fraction of pixels excluded because face normal and shading normal disagree about facing the light
   DistanceShares false_shadow;    ///< pixels with |map − rays| > 0.5, as fractions of the lit pixels
   DistanceShares false_light;     ///< pixels with |map − rays| > 0.5, as fractions of the shadowed pixels
   EdgeDistance edge_px;           ///< distance from the edges of the map to the true edges

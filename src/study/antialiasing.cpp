@@ -88,7 +88,7 @@ Study study_antialiasing(const StudyOptions& options, const Workers& workers) {
   const Image<double> exact = area_coverage<double>(triangles, size, size);
   const Image<long double> finer = area_coverage<long double>(triangles, size, size);
   Image<glm::vec4> truth(size, size);
-  double truth_error = 0x1p-25;  // rounding error of a coverage in [0, 1] stored as float
+  double truth_error = 0x1p-25;  // rounding error of the float image
   for (std::size_t i = 0; i < exact.texels().size(); ++i) {
     truth_error = std::max(truth_error, static_cast<double>(std::abs(finer.data()[i] - static_cast<long double>(exact.data()[i]))));
     truth.data()[i] = glm::vec4(glm::vec3(static_cast<float>(exact.data()[i])), 1.0f);

@@ -12,7 +12,7 @@ namespace {
 // Size of the image and bounds of the plot area in it, in pixels.
 constexpr int kWidth = 1000, kHeight = 660;
 constexpr double kLeft = 90, kRight = 970, kBottom = 130, kTop = 580;
-constexpr double kCharacter = 6.8;  // mean width of the labels' font, 11 px
+constexpr double kCharacter = 6.8;  // mean character width of the 11 px label font
 
 // From Okabe and Ito, "Color universal design", 2008: distinguishable with all types of color vision, on white and on black.
 constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#7f7f7f"};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth precision: compares depth formats and reversed Z for several ratios of far to near plane. Draws pairs of quads, of which the
-// farther is 1/10,000 of the distance behind the nearer. Distances are log-uniform from near to far, and the drawing order is random.
-// The farther quad is red, so every pair that ends up red is an error.
+// Depth precision: compares depth formats and reversed Z for several ratios of far to near plane. Draws pairs of overlapping quads whose
+// distances from the eye differ by 1/10,000. The pairs are log-uniformly distributed between the near and far planes, and the quads of a
+// pair are drawn in random order. The farther quad is red, so every pair that ends up red is an error.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares methods of perspective-correct interpolation on triangles of different shapes and sizes.
+// Compares methods of interpolating a varying in perspective, on triangles of different shapes and sizes.
 #include <fmt/format.h>
 
 #include <array>

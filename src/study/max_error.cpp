@@ -49,7 +49,7 @@ std::vector<double> outline(const PlacedMesh& placed, const View& view) {
       const double angle = 2.0 * std::numbers::pi * (static_cast<double>(k) / kDirections - 0.5);
       const glm::dvec2 d(std::cos(angle), std::sin(angle));
       const double slope = d.x * along.y - d.y * along.x;
-      // The intersection with a nearly radial edge is ill-conditioned: rounding can even move it beyond the end of the edge.
+      // The intersection with a nearly radial edge is ill-conditioned. Rounding can move it beyond the end of the edge, so clamp it.
       const double end = std::max(glm::length(a), glm::length(b));
       const double met = slope == 0.0 ? end : std::min(end, (a.x * along.y - a.y * along.x) / slope);
       double& reached = farthest[static_cast<std::size_t>(k % kDirections)];

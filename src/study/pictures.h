@@ -24,7 +24,7 @@ enum class PictureError : uint8_t {
 /// Compares an image with the truth. Sets the error, measures (rms, mean, p999, max, ssim) and pictures of the variant.
 void judge_picture(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind);
 
-/// Sets the picture of a truth that converges with the number of bands. Its error is estimated as a third of the difference to `half`,
+/// Sets the picture of a truth that converges with the number of bands. Its error is estimated as a third of its difference from `half`,
 /// the image with half as many bands.
 void set_truth(Truth& truth, const Image<glm::vec4>& light, const Image<glm::vec4>& half, PictureError kind);
 
@@ -44,7 +44,7 @@ struct LitSphere {
 struct SphereTruth {
   Image<glm::vec4> light;  ///< rounded to float, for display and image comparison
   Image<double> exact;     ///< unrounded, as reference for rms_error
-  double error;            ///< largest difference of a pixel from the same in long double
+  double error;            ///< largest difference of a pixel from the result in long double
 };
 SphereTruth sphere_truth(const LitSphere& sphere, const View& view);
 

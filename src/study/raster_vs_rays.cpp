@@ -26,7 +26,7 @@ constexpr const char* kMeshScene = R"({{
 // inner side of the planes through the eye and each edge.
 struct ExactTriangles {
   Image<int> triangle;
-  double doubtful = 0.0;  // share of tests, per pixel, that rounding in double may have decided
+  double doubtful = 0.0;  // number of edge tests that rounding in double may have decided, divided by the number of pixels
 };
 
 ExactTriangles exact_triangles(const PreparedScene& scene, int width, int height) {

@@ -29,8 +29,8 @@ struct Timing {
   int runs = 0;
 };
 
-/// Runs `work` once to warm up, then measures it at least 9 times, and until 0.3 s have passed or 101 runs are done. Runs it 3 times with
-/// options.quick.
+/// Runs `work` once to warm up, then measures at least 9 and at most 101 runs, stopping once 0.3 s have passed. With options.quick,
+/// measures 3 runs.
 Timing time_of(const std::function<void()>& work, const StudyOptions& options);
 
 struct Quantity {
