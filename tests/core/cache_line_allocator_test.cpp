@@ -15,7 +15,7 @@
 namespace halfspace {
 namespace {
 
-// Has the kernel been asked for large pages at the address? (The flag "hg" of its mapping in /proc/self/smaps.)
+// Returns whether the mapping that contains address is advised to use huge pages (flag "hg" in /proc/self/smaps).
 bool asked_for_large_pages(const void* address) {
   std::ifstream maps("/proc/self/smaps");
   bool inside = false;
@@ -32,7 +32,7 @@ bool asked_for_large_pages(const void* address) {
   return false;
 }
 
-TEST(CacheLineAllocator, StartsAtACacheLine) {
+TEST(CacheLineAllocator, AlignsToCacheLines) {
   for (const std::size_t bytes :
        {std::size_t{1}, std::size_t{1000}, (std::size_t{4} << 20) - 1, std::size_t{4} << 20, std::size_t{9} << 20}) {
     void* memory = allocate_lines(bytes);
@@ -42,9 +42,9 @@ TEST(CacheLineAllocator, StartsAtACacheLine) {
   }
 }
 
-TEST(CacheLineAllocator, GivesZeros) {
+TEST(CacheLineAllocator, ReturnsZeroedMemory) {
   for (const std::size_t bytes : {std::size_t{1}, std::size_t{1000}, (std::size_t{4} << 20) - 1, std::size_t{9} << 20}) {
-    for (int round = 0; round < 3; ++round) {  // what was given back may be had again
+    for (int round = 0; round < 3; ++round) {  // freed memory may be reused
       auto* memory = static_cast<unsigned char*>(allocate_lines(bytes));
       EXPECT_EQ(std::count(memory, memory + bytes, 0), static_cast<std::ptrdiff_t>(bytes)) << bytes;
       std::fill(memory, memory + bytes, static_cast<unsigned char>(255));
@@ -53,12 +53,12 @@ TEST(CacheLineAllocator, GivesZeros) {
   }
 }
 
-TEST(CacheLineAllocator, SaysWhatCannotBeHad) {
+TEST(CacheLineAllocator, ThrowsBadAllocForExcessiveSizes) {
   EXPECT_THROW(allocate_lines(SIZE_MAX / 2), std::bad_alloc);
   EXPECT_THROW(allocate_lines(SIZE_MAX - 1), std::bad_alloc);
 }
 
-TEST(CacheLineAllocator, HoldsValuesThatAreGiven) {
+TEST(CacheLineAllocator, KeepsExplicitlyGivenValues) {
   std::vector<int, CacheLineAllocator<int>> numbers(1000);
   EXPECT_EQ(std::count(numbers.begin(), numbers.end(), 0), 1000);
   numbers.push_back(7);
@@ -69,8 +69,8 @@ TEST(CacheLineAllocator, HoldsValuesThatAreGiven) {
   EXPECT_EQ(std::count(numbers.begin() + 3000, numbers.end(), 0), 3000);
 }
 
-TEST(CacheLineAllocator, AsksForLargePages) {
-  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) GTEST_SKIP() << "this kernel has no large pages";
+TEST(CacheLineAllocator, RequestsHugePagesForLargeBlocks) {
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) GTEST_SKIP() << "transparent huge pages are not available";
   constexpr std::size_t kBytes = std::size_t{64} << 20;
   void* memory = allocate_lines(kBytes);
   EXPECT_EQ(reinterpret_cast<uintptr_t>(memory) % (std::size_t{2} << 20), 0u);

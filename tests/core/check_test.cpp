@@ -21,7 +21,7 @@ struct CheckFailed : std::logic_error {
       : std::logic_error(f.message), file(f.file), line(f.line), thread(std::this_thread::get_id()) {}
   std::string file;
   int line;
-  std::thread::id thread;  ///< on which the handler ran
+  std::thread::id thread;  ///< thread that ran the handler
 };
 
 int handler_calls = 0;
@@ -42,7 +42,7 @@ class CheckHandlerTest : public testing::Test {
   ~CheckHandlerTest() override { set_check_handler(nullptr); }
 };
 
-/// The failure that function ends with.
+/// Calls function, which must fail a check, and returns that failure.
 template <class F>
 CheckFailed failure_of(const F& function) {
   try {
@@ -59,7 +59,7 @@ std::string message_of(A left, B right) {
   return failure_of([&] { HS_CHECK_OP(left, ==, right); }).what();
 }
 
-TEST_F(CheckHandlerTest, GetsPlaceAndMessage) {
+TEST_F(CheckHandlerTest, HandlerReceivesLocationAndMessage) {
   const int width = 3;
   const CheckFailed f = failure_of([&] { HS_CHECK_OP(width % 2, ==, 0); });
   EXPECT_EQ(f.line, __LINE__ - 1);
@@ -90,7 +90,7 @@ TEST_F(CheckHandlerTest, SetReturnsThePreviousHandler) {
   EXPECT_EQ(set_check_handler(throw_failure), nullptr);
 }
 
-/// What a host's thread sees of a check that fails in a task.
+/// Tests how a check that fails inside a task is reported to the calling thread.
 class TaskCheckTest : public CheckHandlerTest, public testing::WithParamInterface<int> {
  protected:
   const Workers workers_{GetParam()};
@@ -102,7 +102,7 @@ TEST_P(TaskCheckTest, FailureReachesTheCallingThread) {
   std::atomic<int> running = 0;
   std::atomic<bool> has_failed = false;
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  // With several threads the check fails on another thread than the caller's, which waits for that.
+  // With several threads, only a thread other than the caller's fails the check; the caller's tasks wait for that.
   const auto task = [&](int i) {
     struct Running {
       explicit Running(std::atomic<int>& n) : count(n) { ++count; }
@@ -121,14 +121,14 @@ TEST_P(TaskCheckTest, FailureReachesTheCallingThread) {
   EXPECT_EQ(handler_calls, 1);
   EXPECT_EQ(std::string(f.what()).find("i < 0 ("), 0u) << f.what();
 
-  // Workers go on working, and checks outside of tasks go to the handler at once.
+  // The pool stays usable, and checks outside of tasks call the handler immediately.
   std::atomic<int> done = 0;
   workers_.for_each(100, [&](int) { ++done; });
   EXPECT_EQ(done, 100);
   EXPECT_STREQ(failure_of([] { HS_CHECK(1 + 1 == 3); }).what(), "1 + 1 == 3");
 }
 
-TEST_P(TaskCheckTest, FailureLeavesNestedTasks) {
+TEST_P(TaskCheckTest, FailurePropagatesThroughNestedTasks) {
   std::atomic<int> handled_inside = 0;
   const CheckFailed f = failure_of([&] {
     workers_.for_each(4, [&](int i) {
@@ -144,7 +144,7 @@ TEST_P(TaskCheckTest, FailureLeavesNestedTasks) {
   EXPECT_EQ(handler_calls, 1);
 }
 
-TEST_P(TaskCheckTest, OtherExceptionsPassUnchanged) {
+TEST_P(TaskCheckTest, OtherExceptionsPropagateUnchanged) {
   const auto task = [](int i) {
     if (i == 50) throw InputError("line 50");
   };
@@ -152,16 +152,16 @@ TEST_P(TaskCheckTest, OtherExceptionsPassUnchanged) {
   EXPECT_EQ(handler_calls, 0);
 }
 
-// ---- what ends the program -------------------------------------------------------------------------------------
+// ---- failures that abort ---------------------------------------------------------------------------------------
 
 class CheckDeathTest : public CheckHandlerTest {
  protected:
-  // Children of a fork have no worker threads, so they start anew.
+  // A forked child has no worker threads, so death tests re-execute the program instead.
   CheckDeathTest() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
   ~CheckDeathTest() override { GTEST_FLAG_SET(death_test_style, "fast"); }
 };
 
-TEST_F(CheckDeathTest, WithoutHandlerChecksPrintAndAbort) {
+TEST_F(CheckDeathTest, PrintsAndAbortsWithoutAHandler) {
   set_check_handler(nullptr);
   const int width = 3;
   EXPECT_DEATH(HS_CHECK_OP(width, <, 2), "check_test.cpp:[0-9]+: check failed: width < 2 \\(3 against 2\\)\n");
@@ -171,14 +171,14 @@ TEST_F(CheckDeathTest, WithoutHandlerChecksPrintAndAbort) {
       try {
         HS_CHECK_OP(i, <, 0);
       } catch (...) {
-        std::_Exit(1);  // expected is an abort on the spot
+        std::_Exit(1);  // the test expects an abort at the point of failure
       }
     };
     EXPECT_DEATH(Workers(threads).for_each(100, task), "check_test.cpp:[0-9]+: check failed: i < 0 ");
   }
 }
 
-TEST_F(CheckDeathTest, WhenTheHandlerReturnsTheProgramAborts) {
+TEST_F(CheckDeathTest, AbortsWhenTheHandlerReturns) {
   set_check_handler(return_from_failure);
   EXPECT_DEATH(HS_CHECK(1 + 1 == 3), "check failed: 1 \\+ 1 == 3");
   EXPECT_DEATH(Workers(2).for_each(100, [](int i) { HS_CHECK_OP(i, <, 0); }), "check failed: i < 0 ");

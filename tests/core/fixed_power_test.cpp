@@ -12,9 +12,9 @@ namespace halfspace {
 namespace {
 
 constexpr float kExponents[] = {1.0f / 2.2f, 1.0f / 2.4f, 1.0f, 0.5f, 0.9f, 0.01f};
-constexpr uint32_t kStride = 509;  // some four million floats of every exponent
+constexpr uint32_t kStride = 509;  // about four million floats per exponent
 
-TEST(FixedPower, IsWithinItsError) {
+TEST(FixedPower, IsWithinErrorBound) {
   for (const float y : kExponents) {
     const FixedPower power(y);
     double worst = 0;
@@ -23,13 +23,14 @@ TEST(FixedPower, IsWithinItsError) {
       const double want = std::pow(static_cast<double>(x), static_cast<double>(y));
       worst = std::max(worst, std::fabs(static_cast<double>(power(x)) - want) / want);
     }
-    // Two products, two table entries and the polynomial's last step, each rounded to 2^-24, and the rest of the polynomial.
+    // The error is that of two products, two table entries and the last step of the polynomial, each rounded to 2^-24, plus the remaining
+    // error of the polynomial.
     EXPECT_LE(worst, 3e-7) << y;
   }
 }
 
-TEST(FixedPower, HoldsWhatIsNoPositiveNumber) {
-  constexpr FixedPower power(0.4f);  // a constant expression
+TEST(FixedPower, HandlesZerosSubnormalsNegativesAndNaN) {
+  constexpr FixedPower power(0.4f);  // must be usable in a constant expression
   EXPECT_EQ(power(0.0f), 0.0f);
   EXPECT_EQ(power(-0.0f), 0.0f);
   EXPECT_EQ(power(0x1p-127f), 0.0f);
@@ -53,15 +54,15 @@ void expect_bits_of_float(const FixedPower& power) {
   }
 }
 
-TEST(FixedPower, LanesHoldTheBitsOfFloat) {
+TEST(FixedPower, LanesMatchScalarBits) {
   const FixedPower power(1.0f / 2.2f);
   expect_bits_of_float<4>(power);
   expect_bits_of_float<8>(power);
   expect_bits_of_float<16>(power);
 }
 
-/// Another compiler or processor, which would build other tables, cannot differ unseen.
-TEST(FixedPower, BitsAreTheCommittedOnes) {
+/// A compiler or processor that builds different tables changes this hash.
+TEST(FixedPower, MatchesTheCommittedHash) {
   Hash hash;
   for (const float y : kExponents) {
     const FixedPower power(y);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What GLM's functions give where the header is included. Static functions: each translation unit keeps its own.
+// Results of GLM functions as compiled in the including translation unit. The function is static so that every translation unit has its own
+// copy.
 #pragma once
 
 #include <array>
@@ -13,5 +14,5 @@ static std::array<float, kGlmResults> glm_results(const glm::vec3& a, const glm:
   return {glm::dot(a, b), glm::length(a), glm::distance(a, b), n.x, n.y, n.z, r.x, r.y, r.z};
 }
 
-/// The results of a translation unit that includes GLM alone.
+/// Results of a translation unit that includes only GLM.
 std::array<float, kGlmResults> results_of_glm_alone(const glm::vec3& a, const glm::vec3& b);

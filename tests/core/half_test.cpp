@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Half precision against its definition (IEEE 754-2008, section 3.6), computed in double, and the bit operations
-// against the instructions.
+// Compares the half-precision conversions with the definition of the format (IEEE 754-2008, section 3.6), evaluated in double, and the
+// bit-manipulation code with the hardware instructions.
 #include "halfspace/core/half.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace halfspace {
 namespace {
 
-/// What the code means, from the format's definition; NaN codes excepted.
+/// Value of a half, computed from the definition of the format. h must not be a NaN.
 double meaning(int h) {
   const double sign = h & 0x8000 ? -1.0 : 1.0;
   const int exponent = (h >> 10) & 31, mantissa = h & 0x3ff;
@@ -21,11 +21,11 @@ double meaning(int h) {
 
 bool is_nan(int h) { return (h & 0x7fff) > 0x7c00; }
 
-/// The nearest half, ties to even, by search: codes of one sign are in the order of their meanings.
+/// Returns the nearest half, ties to even. Uses a binary search, since codes of one sign are ordered by value.
 int nearest_half(float x) {
   if (std::isnan(x)) return ((as_int(x) >> 16) & 0x8000) | 0x7e00 | ((as_int(x) >> 13) & 0x3ff);
   const double a = std::fabs(static_cast<double>(x));
-  int low = 0, high = 0x7c00;  // meaning(low) <= a; infinity stands where 65536 would
+  int low = 0, high = 0x7c00;  // meaning(low) <= a; infinity counts as 65536, the next value in sequence
   const auto at = [](int h) { return h == 0x7c00 ? 65536.0 : meaning(h); };
   if (a >= 65536.0) low = high;
   while (high - low > 1) (at((low + high) / 2) <= a ? low : high) = (low + high) / 2;
@@ -34,7 +34,7 @@ int nearest_half(float x) {
   return h | (std::signbit(x) ? 0x8000 : 0);
 }
 
-TEST(Half, EveryCodeMeansWhatTheFormatSays) {
+TEST(Half, EveryCodeDecodesToItsDefinedValue) {
   for (int h = 0; h < 65536; ++h) {
     const float x = half_to_float(static_cast<uint16_t>(h));
     if (is_nan(h)) {
@@ -47,30 +47,30 @@ TEST(Half, EveryCodeMeansWhatTheFormatSays) {
   }
 }
 
-TEST(Half, EveryCodeSurvivesTheRoundTrip) {
+TEST(Half, EveryCodeRoundTrips) {
   for (int h = 0; h < 65536; ++h) {
     const int quiet = is_nan(h) ? 0x200 : 0;
     EXPECT_EQ(float_to_half(half_to_float(static_cast<uint16_t>(h))), h | quiet);
   }
 }
 
-TEST(Half, RoundsToTheNearestTiesToEven) {
-  // Around every half and half-way point: the point itself and the floats beside it.
+TEST(Half, RoundsToNearestEven) {
+  // Test every half, every midpoint between two halves, and the floats next to the midpoint.
   for (int h = 0; h < 0x7c00; ++h) {
     const double next = h == 0x7bff ? 65536.0 : meaning(h + 1);
-    const float middle = static_cast<float>((meaning(h) + next) / 2);  // exact: one bit more than a half has
+    const float middle = static_cast<float>((meaning(h) + next) / 2);  // exact: needs one bit more than a half has
     for (const float x : {static_cast<float>(meaning(h)), middle, std::nextafter(middle, 0.0f), std::nextafter(middle, 1e9f)}) {
       ASSERT_EQ(float_to_half(x), nearest_half(x)) << x;
       ASSERT_EQ(float_to_half(-x), nearest_half(-x)) << -x;
     }
   }
-  for (uint64_t i = 0; i < 1ull << 32; i += 4099) {  // prime: a million floats of all kinds, NaN among them
+  for (uint64_t i = 0; i < 1ull << 32; i += 4099) {  // prime stride: a million floats of all kinds, including NaN
     const float x = as_real(static_cast<int32_t>(i));
     ASSERT_EQ(float_to_half(x), nearest_half(x)) << x;
   }
 }
 
-TEST(Half, FiniteStoreKeepsInfinityOut) {
+TEST(Half, FiniteConversionNeverReturnsInfinity) {
   const float inf = std::numeric_limits<float>::infinity();
   for (const float x : {65504.0f, 65519.9f, 65520.0f, 1e9f, 3e38f, inf}) {
     EXPECT_EQ(float_to_finite_half(x), 0x7bff) << x;
@@ -80,7 +80,7 @@ TEST(Half, FiniteStoreKeepsInfinityOut) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(float_to_finite_half(nan), 0x7e00);
   EXPECT_EQ(lane(float_to_finite_half(RealN<8>(nan)), 7), 0x7e00);
-  EXPECT_EQ(float_to_finite_half(as_real(0x7f800001)), 0x7e00);  // signalling
+  EXPECT_EQ(float_to_finite_half(as_real(0x7f800001)), 0x7e00);  // signaling NaN
   for (int h = 0; h < 65536; ++h) {
     if ((h & 0x7c00) == 0x7c00) continue;
     EXPECT_EQ(float_to_finite_half(half_to_float(static_cast<uint16_t>(h))), h);
@@ -91,7 +91,7 @@ template <int W>
 void expect_conversion_of_lanes_agrees() {
   for (int h = 0; h < 65536; h += W) {
     const IntN<W> codes = iota<IntN<W>>() + h;
-    const RealN<W> x = half_to_float(codes | 0x5a5a0000);  // the high half is ignored
+    const RealN<W> x = half_to_float(codes | 0x5a5a0000);  // the upper 16 bits are ignored
     const RealN<W> by_bits = detail::half_to_float_by_bits<RealN<W>>(codes);
     for (int i = 0; i < W; ++i) {
       const int32_t want = as_int(half_to_float(static_cast<uint16_t>(h + i)));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Accuracy (against std's functions of double, whose own error of 1e-16 does not count here), same bits at
-// every width, exact special values, and monotony.
+// Tests the accuracy of the math functions against std's double functions (whose own error of about 1e-16 is negligible here), that all
+// lane widths return the same bits, the exact special values, and monotonicity.
 //
-// The bounds of functions of one argument are the largest errors over every float of the domain (measured once, 3e9
-// values), rounded up: the sweeps here, of some 2^22 floats each, cannot exceed them, for the bits are the same on every
-// machine. Those of pow and atan2, which only random pairs can try, have 0.1 ulp of room over the largest error found.
-// Correct rounding would have 0.5.
+// For functions of one argument, each bound is the largest error over every float of the domain (measured once over 3e9 values), rounded
+// up. The sweeps here visit about 2^22 floats each; they cannot exceed the bound because results are bit-identical on every machine. pow
+// and atan2 can only be sampled, so their bounds leave 0.1 ulp above the largest error found. A correctly rounded function would have a
+// bound of 0.5.
 #include "halfspace/core/lane_math.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@
 namespace halfspace {
 namespace {
 
-/// |got − want| in units of the last place that a float of want's size has.
+/// got − want| in ulps of a float of the magnitude of want.
 double ulps(float got, double want) {
   if (std::isnan(want)) return std::isnan(got) ? 0.0 : 1e30;
   if (std::fabs(want) >= 0x1.ffffffp127) return std::fabs(got) == kInf && (got > 0) == (want > 0) ? 0.0 : 1e30;
@@ -43,7 +43,7 @@ struct Worst {
 };
 std::ostream& operator<<(std::ostream& out, const Worst& w) { return out << w.ulp << " ulp at " << w.x << ", " << w.y; }
 
-/// The largest error over about 2^22 floats of every exponent in [lo, hi] (both of one sign).
+/// Returns the largest error over about 2^22 floats that cover every exponent in [lo, hi]. Both bounds must have the same sign.
 template <class F, class G>
 Worst sweep(F f, G reference, float lo, float hi) {
   Worst worst;
@@ -56,7 +56,7 @@ Worst sweep(F f, G reference, float lo, float hi) {
   return worst;
 }
 
-/// The largest error over 2^22 floats spread evenly over [lo, hi].
+/// Returns the largest error over 2^22 floats evenly spaced in [lo, hi].
 template <class F, class G>
 Worst sweep_evenly(F f, G reference, float lo, float hi) {
   Worst worst;
@@ -73,10 +73,10 @@ void expect_at_most(double bound, const char* what, const Worst& worst) {
   EXPECT_LE(worst.ulp, bound) << what << ": " << worst;
 }
 
-TEST(LaneMath, InverseSqrtIsWithin132Ulp) {
+TEST(LaneMath, InverseSqrtIsWithinErrorBound) {
   const auto f = [](float x) { return inverse_sqrt(x); };
   const auto g = [](double x) { return 1.0 / std::sqrt(x); };
-  // Every float of two binades, which is every mantissa with an even and an odd exponent; then all exponents.
+  // Test every float of two binades, which covers every mantissa with an even and an odd exponent, and then sample all exponents.
   Worst worst;
   for (int32_t i = as_int(1.0f); i < as_int(4.0f); ++i) worst.add(ulps(f(as_real(i)), g(static_cast<double>(as_real(i)))), as_real(i));
   expect_at_most(1.32, "inverse_sqrt 1 to 4", worst);
@@ -84,19 +84,19 @@ TEST(LaneMath, InverseSqrtIsWithin132Ulp) {
   for (float x = 0x1p-127f; x > 0.0f; x *= 0.5f) EXPECT_TRUE(f(x) > 0.0f && f(x) <= g(static_cast<double>(x))) << x;
 }
 
-TEST(LaneMath, UnitPowIsWithin6e7OfPow) {
+TEST(LaneMath, UnitPowIsWithinErrorBound) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f), exponent(-7.0f, 17.0f);
   double worst = 0.0;
   for (int i = 0; i < 1 << 20; ++i) {
     const float y = std::exp2(exponent(random));
-    // Half of them near 1, where a large exponent leaves something.
+    // Half of the bases are close to 1, where the result is not yet 0 for a large exponent.
     const float x = (i & 1) != 0 ? unit(random) : 1.0f - unit(random) * std::min(1.0f, 8.0f / y);
     worst = std::max(worst, std::fabs(static_cast<double>(unit_pow(x, y)) - std::pow(static_cast<double>(x), static_cast<double>(y))));
   }
   if (std::getenv("HALFSPACE_PRINT_ULPS") != nullptr) std::cout << "unit_pow: " << worst << '\n';
-  EXPECT_LE(worst, 6e-7);  // see unit_pow; 5.1e-7 is the largest found, by random pairs
-  EXPECT_GT(worst, 1e-8);  // the pairs are not all at the ends
+  EXPECT_LE(worst, 6e-7);  // bound documented at unit_pow; the largest error found with random pairs is 5.1e-7
+  EXPECT_GT(worst, 1e-8);  // makes sure that the pairs do not all have trivial results
   EXPECT_EQ(unit_pow(0.0f, 0.0f), 1.0f);
   EXPECT_EQ(unit_pow(0.5f, 0.0f), 1.0f);
   EXPECT_EQ(unit_pow(0.0f, 3.0f), 0.0f);
@@ -105,7 +105,7 @@ TEST(LaneMath, UnitPowIsWithin6e7OfPow) {
   EXPECT_TRUE(std::isnan(unit_pow(kNaN, 2.0f)));
 }
 
-TEST(LaneMath, Exp2IsWithinOneUlp) {
+TEST(LaneMath, Exp2IsWithinErrorBound) {
   const auto f = [](float x) { return exp2(x); };
   const auto g = [](double x) { return std::exp2(x); };
   expect_at_most(0.96, "exp2 positive", sweep(f, g, 0.0f, 200.0f));
@@ -114,7 +114,7 @@ TEST(LaneMath, Exp2IsWithinOneUlp) {
   for (int n = -149; n < 128; ++n) EXPECT_EQ(exp2(static_cast<float>(n)), std::ldexp(1.0f, n));
 }
 
-TEST(LaneMath, ExpIsWithinOneUlp) {
+TEST(LaneMath, ExpIsWithinErrorBound) {
   const auto f = [](float x) { return exp(x); };
   const auto g = [](double x) { return std::exp(x); };
   expect_at_most(1.02, "exp positive", sweep(f, g, 0.0f, 100.0f));
@@ -122,7 +122,7 @@ TEST(LaneMath, ExpIsWithinOneUlp) {
   expect_at_most(1.02, "exp even", sweep_evenly(f, g, -105.0f, 89.5f));
 }
 
-TEST(LaneMath, LogarithmsAreWithinOneUlp) {
+TEST(LaneMath, LogarithmsAreWithinErrorBound) {
   const auto f2 = [](float x) { return log2(x); };
   const auto g2 = [](double x) { return std::log2(x); };
   const auto fe = [](float x) { return log(x); };
@@ -134,7 +134,7 @@ TEST(LaneMath, LogarithmsAreWithinOneUlp) {
   for (int n = -149; n < 128; ++n) EXPECT_EQ(log2(std::ldexp(1.0f, n)), static_cast<float>(n));
 }
 
-/// Bases of every exponent and near 1, each with exponents that put the result anywhere in the floats' range.
+/// Samples bases of every exponent and bases near 1, with exponents that spread the result over the whole float range.
 Worst sweep_pow(float y_limit, int count) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -151,18 +151,18 @@ Worst sweep_pow(float y_limit, int count) {
   return worst;
 }
 
-TEST(LaneMath, PowIsWithinOneUlpAndAFifth) {
+TEST(LaneMath, PowIsWithinErrorBound) {
   expect_at_most(1.2, "pow |y| <= 8", sweep_pow(8.0f, 1 << 21));
   expect_at_most(1.2, "pow |y| <= 1e5", sweep_pow(1e5f, 1 << 21));
   expect_at_most(1.2, "pow any y", sweep_pow(1e9f, 1 << 21));
-  // The exponents of light: a highlight's sharpness, gamma.
+  // Exponents that are common in shading: gamma and specular exponents.
   for (const float y : {2.4f, 1.0f / 2.4f, 2.2f, 5.0f, 32.0f, 1000.0f}) {
     const auto g = [y](double x) { return std::pow(x, static_cast<double>(y)); };
     expect_at_most(1.2, "pow of cosines", sweep([y](float x) { return pow(x, y); }, g, 0x1p-20f, 1.0f));
   }
 }
 
-TEST(LaneMath, SineAndCosineAreWithinOneAndAHalfUlp) {
+TEST(LaneMath, SinAndCosAreWithinErrorBound) {
   const auto f = [](float x) { return sin(x); };
   const auto g = [](double x) { return std::sin(x); };
   const auto fc = [](float x) { return cos(x); };
@@ -175,9 +175,9 @@ TEST(LaneMath, SineAndCosineAreWithinOneAndAHalfUlp) {
   expect_at_most(1.54, "cos near 0", sweep_evenly(fc, gc, -7.0f, 7.0f));
 }
 
-TEST(LaneMath, SineAndCosineKeepTheirRelativeAccuracyAtZeros) {
+TEST(LaneMath, SinAndCosKeepRelativeAccuracyNearTheirZeros) {
   Worst worst;
-  for (int n = 1; n <= 6366; ++n) {  // every multiple of π/2 up to 1e4, and the floats beside it
+  for (int n = 1; n <= 6366; ++n) {  // multiples of π/2 up to 1e4, and the floats next to each
     float x = static_cast<float>(n * 1.57079632679489661923);
     for (int k = 0; k < 8; ++k) x = std::nextafter(x, 0.0f);
     for (int k = 0; k < 16; ++k, x = std::nextafter(x, 1e9f)) {
@@ -188,13 +188,13 @@ TEST(LaneMath, SineAndCosineKeepTheirRelativeAccuracyAtZeros) {
   expect_at_most(1.54, "sin, cos at their zeros", worst);
 }
 
-TEST(LaneMath, SineOfLargeArgumentsStaysInBoundsAndFadesSlowly) {
+TEST(LaneMath, SinAndCosOfLargeArgumentsStayBoundedAndLoseAccuracyGradually) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> large(1e4f, 1e6f);
   for (int i = 0; i < 1 << 18; ++i) {
     const float x = large(random);
-    // n is found to 636620·2^-23 = 0.08, so that the polynomials are used up to 0.12 beyond their interval ±0.785, where
-    // their error grows to 3e-7; the reduced angle itself stays good to a few ulp.
+    // The quadrant n is computed with an error of up to 636620·2^-23 = 0.08, so the polynomials are evaluated up to 0.12 outside their
+    // interval of ±0.785, where their error grows to 3e-7. The reduced angle itself stays accurate to a few ulp.
     EXPECT_NEAR(static_cast<double>(sin(x)), std::sin(static_cast<double>(x)), 1e-6) << x;
     EXPECT_NEAR(static_cast<double>(cos(x)), std::cos(static_cast<double>(x)), 1e-6) << x;
   }
@@ -204,7 +204,7 @@ TEST(LaneMath, SineOfLargeArgumentsStaysInBoundsAndFadesSlowly) {
   }
 }
 
-TEST(LaneMath, ArcTangentIsWithinOneAndAHalfUlp) {
+TEST(LaneMath, AtanAndAtan2AreWithinErrorBound) {
   const auto g = [](double x) { return std::atan(x); };
   expect_at_most(1.4, "atan", sweep([](float x) { return atan(x); }, g, 0x1p-149f, 0x1.fffffep127f));
   expect_at_most(1.4, "atan of -1 ... 1", sweep_evenly([](float x) { return atan(x); }, g, -1.0f, 1.0f));
@@ -218,7 +218,7 @@ TEST(LaneMath, ArcTangentIsWithinOneAndAHalfUlp) {
   expect_at_most(1.5, "atan2", worst);
 }
 
-TEST(LaneMath, ArcSineAndCosineAreWithinTwoAndAHalfUlp) {
+TEST(LaneMath, AsinAndAcosAreWithinErrorBound) {
   const auto s = [](float x) { return asin(x); };
   const auto c = [](float x) { return acos(x); };
   const auto gs = [](double x) { return std::asin(x); };
@@ -237,7 +237,7 @@ void expect_value(const char* what, float got, float want) {
 }
 #define EXPECT_VALUE(expression, want) expect_value(#expression, expression, want)
 
-TEST(LaneMath, SpecialValuesOfExponentialAndLogarithm) {
+TEST(LaneMath, ExpAndLogHandleSpecialValues) {
   for (const float x : {0.0f, -0.0f}) {
     EXPECT_VALUE(exp2(x), 1.0f);
     EXPECT_VALUE(exp(x), 1.0f);
@@ -262,13 +262,13 @@ TEST(LaneMath, SpecialValuesOfExponentialAndLogarithm) {
   EXPECT_VALUE(log(1.0f), 0.0f);
 }
 
-TEST(LaneMath, SpecialValuesOfPowFollowIeeeForBasesFromZero) {
+TEST(LaneMath, PowFollowsIeeeForSpecialValuesOfNonNegativeBases) {
   const float values[] = {0.0f, -0.0f, 0x1p-149f, 0.5f, 1.0f, 2.0f, 3.0f, 0x1.fffffep127f, kInf, kNaN, -1.0f, -0.5f, -kInf};
   for (const float x : values) {
     for (const float y : values) {
       const bool negative = x < 0.0f && y != 0.0f;
       const double want = negative ? static_cast<double>(kNaN) : std::pow(x == 0.0f ? 0.0 : static_cast<double>(x), static_cast<double>(y));
-      // 0, 1, inf and NaN exactly; a number as near as pow is.
+      // 0, 1, infinity and NaN must be exact; other values have the error bound of pow.
       const bool exact = !std::isfinite(want) || want == 0.0 || want == 1.0;
       EXPECT_LE(ulps(pow(x, y), want), exact ? 0.0 : 1.2) << x << " to the " << y;
       const float from_double = static_cast<float>(pow(static_cast<double>(x), static_cast<double>(y)));
@@ -277,7 +277,7 @@ TEST(LaneMath, SpecialValuesOfPowFollowIeeeForBasesFromZero) {
   }
 }
 
-TEST(LaneMath, SpecialValuesOfAnglesFollowIeee) {
+TEST(LaneMath, TrigonometricFunctionsFollowIeeeForSpecialValues) {
   const float values[] = {0.0f, -0.0f, 1.0f, -1.0f, kInf, -kInf, kNaN, 0x1p-149f, -0x1p-149f, 0x1.fffffep127f};
   for (const float y : values) {
     for (const float x : values) {
@@ -301,7 +301,7 @@ TEST(LaneMath, SpecialValuesOfAnglesFollowIeee) {
   EXPECT_VALUE(acos(1.0000001f), kNaN);
 }
 
-/// Does f never step down from one tested float to the next?
+/// Checks that f never decreases from one float to the next in [lo, hi].
 template <class F>
 void expect_monotone(const char* what, F f, float lo, float hi) {
   float last = f(lo);
@@ -312,8 +312,8 @@ void expect_monotone(const char* what, F f, float lo, float hi) {
   }
 }
 
-TEST(LaneMath, NeverStepsDownWhereItShouldRise) {
-  // Every float of one octave or more; the reduction repeats itself in the others.
+TEST(LaneMath, ExponentialsAndLogarithmsAreMonotonic) {
+  // Tests every float of at least one octave. Argument reduction maps all other octaves to the same computation.
   expect_monotone(
       "exp2", [](float x) { return exp2(x); }, 1.0f, 2.0f);
   expect_monotone(
@@ -328,16 +328,16 @@ TEST(LaneMath, NeverStepsDownWhereItShouldRise) {
       "gamma by pow", [](float x) { return pow(x, 2.4f); }, 0.25f, 1.0f);
 }
 
-/// f at width W against f at width 1, over floats of all bit patterns (NaN may differ in its bits).
+/// Compares f at width W with scalar f over floats of all bit patterns. NaNs may differ in their bits.
 template <int W, class F>
 void expect_width_agrees(const char* what, F f) {
-  constexpr uint32_t kStride = 9973;  // prime: meets all low bits, signs and exponents; 430,000 inputs
+  constexpr uint32_t kStride = 9973;  // prime: covers all low bits, signs and exponents in 430,000 inputs
   uint32_t pattern = 0;
   for (int packet = 0; packet < (1 << 22) / (W * 10); ++packet) {
     RealN<W> x, y;
     for (int i = 0; i < W; ++i, pattern += kStride) {
       set_lane(x, i, as_real(static_cast<int32_t>(pattern)));
-      // Exponents for pow and abscissae for atan2: half of them ordinary, half of them anything.
+      // y is the exponent of pow and the second argument of atan2: half of the values are ordinary, half are arbitrary bit patterns.
       const uint32_t other = pattern * 2654435761u;
       set_lane(y, i, other & 1 ? as_real(static_cast<int32_t>(other)) : static_cast<float>(static_cast<int32_t>(other)) * 0x1p-24f);
     }
@@ -356,7 +356,7 @@ void expect_all_widths_agree(const char* what, F f) {
   expect_width_agrees<16>(what, f);
 }
 
-TEST(LaneMath, LanesHoldTheBitsOfFloat) {
+TEST(LaneMath, LanesMatchScalarBits) {
   expect_all_widths_agree("exp2", [](auto x, auto) { return exp2(x); });
   expect_all_widths_agree("exp", [](auto x, auto) { return exp(x); });
   expect_all_widths_agree("log2", [](auto x, auto) { return log2(x); });
@@ -375,9 +375,9 @@ TEST(LaneMath, LanesHoldTheBitsOfFloat) {
   expect_all_widths_agree("acos", [](auto x, auto) { return acos(x); });
 }
 
-/// The bits themselves, so that another compiler, optimisation level or CPU cannot differ unseen. They change only
-/// when a function's arithmetic is changed on purpose.
-TEST(LaneMath, BitsAreTheCommittedOnes) {
+/// Detects differences between compilers, optimization levels and CPUs. The hash changes only when the arithmetic of a function is changed
+/// on purpose.
+TEST(LaneMath, MatchesTheCommittedHash) {
   Hash hash;
   const auto add = [&hash](float value) { hash.add(std::isnan(value) ? 0x7fc00000u : static_cast<uint32_t>(as_int(value))); };
   for (uint32_t pattern = 0, n = 0; n < 1u << 17; ++n, pattern += 32749) {

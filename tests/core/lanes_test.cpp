@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every operation of lanes.h at widths 4, 8 and 16, and of lane_pairs.h in pairs of these and of plain numbers, against the same
-// operation on plain numbers, bit by bit: over special values in all pairs (zeros, infinities, NaN, subnormals, ties, the ends of the int32
-// range) and over random bits. A NaN result need only be a NaN: the sign and payload of one that an operation makes are not ours to choose.
+// Compares every operation of lanes.h at widths 4, 8 and 16, and of lane_pairs.h for pairs of these and of scalars, bit by bit with the
+// same operation on scalars. The inputs are all pairs of special values (zeros, infinities, NaN, subnormals, ties, the limits of int32) and
+// random bit patterns. A NaN result only has to be a NaN, because the sign and payload of a NaN produced by an operation are not specified.
 #include "halfspace/core/lanes.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ bool same(float a, float b) { return (std::isnan(a) && std::isnan(b)) || as_int(
 bool same(int32_t a, int32_t b) { return a == b; }
 bool same(bool a, bool b) { return a == b; }
 
-/// A lane's value for each lane of T: every step-th value from one on.
+/// Fills the lanes of T with every step-th element of v, beginning at from and wrapping around.
 template <class T, class V>
 T pack(const std::vector<V>& v, std::size_t from, std::size_t step) {
   T r(0);
@@ -56,7 +56,7 @@ T pack(const std::vector<V>& v, std::size_t from, std::size_t step) {
   return r;
 }
 
-/// f(a, b, c) on lanes T against f on each lane alone, for all pairs (a, b) of the values and some c.
+/// Compares f(a, b, c) on lanes of type T with f applied to each lane separately, for all pairs (a, b) of the values and some c.
 template <class T, class V, class F>
 void expect_lanes_agree(const char* what, const std::vector<V>& v, F f) {
   constexpr std::size_t kWidth = sizeof(T) / sizeof(V);
@@ -66,14 +66,14 @@ void expect_lanes_agree(const char* what, const std::vector<V>& v, F f) {
       const auto got = f(a, b, c);
       for (int k = 0; k < static_cast<int>(kWidth); ++k) {
         const auto want = f(lane(a, k), lane(b, k), lane(c, k));
-        ASSERT_TRUE(same(lane(got, k), want)) << what << " of " << kWidth << " lanes: " << lane(a, k) << ", " << lane(b, k) << ", "
-                                              << lane(c, k) << " gives " << lane(got, k) << ", not " << want;
+        ASSERT_TRUE(same(lane(got, k), want)) << what << " with " << kWidth << " lanes: " << lane(a, k) << ", " << lane(b, k) << ", "
+                                              << lane(c, k) << " returned " << lane(got, k) << ", expected " << want;
       }
     }
   }
 }
 
-/// f.template operator()<R>() for all lanes R.
+/// Calls f.template operator()<R>() for every lane type R.
 template <class F>
 void for_all_lanes(F f) {
   f.template operator()<RealN<4>>();
@@ -93,7 +93,7 @@ void check_int(const char* what, F f) {
   for_all_lanes([&]<class R>() { expect_lanes_agree<IntOf<R>>(what, ints(), f); });
 }
 
-TEST(Lanes, ArithmeticIsThatOfFloat) {
+TEST(Lanes, ArithmeticMatchesFloat) {
   check_real("+", [](auto a, auto b, auto) { return a + b; });
   check_real("-", [](auto a, auto b, auto) { return a - b; });
   check_real("*", [](auto a, auto b, auto) { return a * b; });
@@ -115,7 +115,7 @@ TEST(Lanes, ArithmeticIsThatOfFloat) {
 }
 
 TEST(Lanes, IntegerArithmeticWraps) {
-  // The scalar side goes through unsigned, where wrapping is defined.
+  // The scalar reference computes in unsigned, where wrapping is defined.
   const auto scalar = [](auto op) {
     return [op](auto a, auto b, auto) {
       if constexpr (std::is_same_v<decltype(a), int32_t>)
@@ -141,7 +141,7 @@ TEST(Lanes, IntegerArithmeticWraps) {
   EXPECT_EQ(lane(-IntN<8>(kIntMin), 3), kIntMin);
 }
 
-TEST(Lanes, ComparisonsAndSelectAgree) {
+TEST(Lanes, ComparisonsAndSelectMatchScalars) {
   check_real("<", [](auto a, auto b, auto) { return a < b; });
   check_real("<=", [](auto a, auto b, auto) { return a <= b; });
   check_real(">", [](auto a, auto b, auto) { return a > b; });
@@ -162,7 +162,7 @@ TEST(Lanes, ComparisonsAndSelectAgree) {
   check_int("select mask", [](auto a, auto b, auto c) { return select(a < b, b < c, c < a); });
 }
 
-TEST(Lanes, ConversionsAgreeOnTiesNaNAndWhatDoesNotFit) {
+TEST(Lanes, ConversionsMatchScalarsForTiesNaNAndOverflow) {
   check_real("truncate_to_int", [](auto, auto b, auto) { return truncate_to_int(b); });
   check_real("round_to_int", [](auto, auto b, auto) { return round_to_int(b); });
   check_int("as_real", [](auto, auto b, auto) { return as_real(b); });
@@ -184,7 +184,7 @@ TEST(Lanes, ConversionsAgreeOnTiesNaNAndWhatDoesNotFit) {
   }
 }
 
-TEST(Lanes, MinAndMaxReturnTheSecondOfNaN) {
+TEST(Lanes, MinAndMaxReturnTheSecondOperandForNaN) {
   for (const auto& [a, b] : {std::pair(kNaN, 1.0f), std::pair(1.0f, kNaN), std::pair(0.0f, -0.0f), std::pair(-0.0f, 0.0f)}) {
     EXPECT_TRUE(same(min(a, b), b));
     EXPECT_TRUE(same(max(a, b), b));
@@ -194,17 +194,17 @@ TEST(Lanes, MinAndMaxReturnTheSecondOfNaN) {
   EXPECT_EQ(clamp(kNaN, 2.0f, 3.0f), 2.0f);
 }
 
-TEST(Lanes, BroadcastKeepsEveryBit) {
+TEST(Lanes, BroadcastPreservesEveryBit) {
   for_all_lanes([]<class R>() {
     for (int k = 0; k < kWidthOf<R>; ++k) {
       for (const float x : reals()) EXPECT_TRUE(same(lane(R(x), k), x)) << x;
       for (const int32_t x : ints()) EXPECT_EQ(lane(IntOf<R>(x), k), x);
     }
-    EXPECT_EQ(as_int(lane(R(-0.0f), kWidthOf<R> - 1)), kIntMin);  // the sign of a zero too
+    EXPECT_EQ(as_int(lane(R(-0.0f), kWidthOf<R> - 1)), kIntMin);  // including the sign of zero
   });
 }
 
-TEST(Lanes, ReadAndWriteMemory) {
+TEST(Lanes, GathersLoadsAndStoresAccessTheRightElements) {
   std::vector<float> table(1000);
   std::vector<int32_t> int_table(1000);
   for (std::size_t i = 0; i < 1000; ++i) {
@@ -219,7 +219,7 @@ TEST(Lanes, ReadAndWriteMemory) {
     for (int trial = 0; trial < 100; ++trial) {
       I index(0);
       for (int k = 0; k < kWidthOf<R>; ++k) set_lane(index, k, static_cast<int32_t>(random() % 500) - 250);
-      const R r = gather(table.data() + 250, index);  // negative indices too
+      const R r = gather(table.data() + 250, index);  // includes negative indices
       const I n = gather(int_table.data() + 250, index);
       for (int k = 0; k < kWidthOf<R>; ++k) {
         EXPECT_EQ(lane(r, k), gather(table.data() + 250, lane(index, k)));
@@ -240,7 +240,7 @@ TEST(Lanes, ReadAndWriteMemory) {
   });
 }
 
-/// The mask whose bits are those of pattern.
+/// Returns the mask whose bits equal those of pattern.
 template <class R>
 MaskOf<R> mask_of(uint64_t pattern) {
   IntOf<R> number(0);
@@ -248,7 +248,7 @@ MaskOf<R> mask_of(uint64_t pattern) {
   return number == IntOf<R>(1);
 }
 
-TEST(Lanes, MasksAreTheirBits) {
+TEST(Lanes, MaskOperationsMatchBitOperations) {
   for_all_lanes([]<class R>() {
     using M = MaskOf<R>;
     constexpr uint64_t kPatterns = uint64_t{1} << kWidthOf<R>;
@@ -272,7 +272,7 @@ TEST(Lanes, MasksAreTheirBits) {
   });
 }
 
-TEST(Lanes, NegativeOnesAreTheirBits) {
+TEST(Lanes, NegativeBitsAreTheSignBits) {
   const auto check = []<class I>(I values) {
     constexpr int width = static_cast<int>(sizeof(I) / sizeof(int32_t));
     for (std::size_t first = 0; first < ints().size(); ++first) {
@@ -300,13 +300,13 @@ void expect_masks_of_lanes() {
   }
   for (int n = -1; n <= W + 1; ++n) EXPECT_EQ(bits(first_lanes<MaskN<W>>(n)), n <= 0 ? 0u : n >= W ? kAllBits<MaskN<W>> : (1u << n) - 1u);
 }
-TEST(Lanes, AreNumberedFromTheLowest) {
+TEST(Lanes, AreNumberedFromTheLowestBit) {
   expect_masks_of_lanes<4>();
   expect_masks_of_lanes<8>();
   expect_masks_of_lanes<16>();
 }
 
-TEST(Lanes, WidthOneIsPlainNumbers) {
+TEST(Lanes, WidthOneIsScalar) {
   EXPECT_EQ(bits(true), 1u);
   EXPECT_TRUE(all(true) && any(true) && none(false));
   EXPECT_TRUE(first_lanes<bool>(1));
@@ -316,7 +316,7 @@ TEST(Lanes, WidthOneIsPlainNumbers) {
   static_assert(Number<float> && Number<double> && Number<RealN<4>> && Number<RealPair<float>> && !Number<int>);
 }
 
-TEST(Lanes, DifferenceOfProductsErrsByAtMostOneAndAHalfUlp) {
+TEST(Lanes, DifferenceOfProductsIsWithinErrorBound) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
   double worst = 0.0;
@@ -327,7 +327,7 @@ TEST(Lanes, DifferenceOfProductsErrsByAtMostOneAndAHalfUlp) {
       d = b * (1.0f + static_cast<float>(static_cast<int>(random() % 9) - 4) * 0x1p-23f);
     }
     const float got = difference_of_products(a, b, c, d);
-    // Products of floats are exact in double; their difference is then rounded once, to 2^-53 of itself.
+    // Products of floats are exact in double, and their difference is rounded once, to a relative error of 2^-53.
     const double want = static_cast<double>(a) * static_cast<double>(b) - static_cast<double>(c) * static_cast<double>(d);
     if (want == 0.0) {
       ASSERT_EQ(got, 0.0f);
@@ -336,8 +336,8 @@ TEST(Lanes, DifferenceOfProductsErrsByAtMostOneAndAHalfUlp) {
     const double ulp = std::ldexp(1.0, std::max(std::ilogb(want), -126) - 23);
     worst = std::max(worst, std::fabs(static_cast<double>(got) - want) / ulp);
   }
-  EXPECT_LE(worst, 1.5);  // the theorem of Jeannerod, Louvet and Muller
-  EXPECT_GE(worst, 1.0);  // and the inputs do come near it: a plain a·b − c·d would err by millions
+  EXPECT_LE(worst, 1.5);  // proven by Jeannerod, Louvet and Muller
+  EXPECT_GE(worst, 1.0);  // the inputs come close to the bound; a plain a·b − c·d would be off by millions of ulp
 }
 
 TEST(Vec, UniformsMixWithLanesAsWithFloat) {

@@ -32,7 +32,7 @@ TEST(Workers, RunEveryTaskOnce) {
   }
 }
 
-/// The threads that run n tasks, each of which waits until all n have begun.
+/// Runs n tasks, each of which waits until all n have started, and returns the threads that ran them.
 std::set<std::thread::id> threads_at_barrier(const Workers& workers, int n) {
   std::mutex mutex;
   std::condition_variable all_are_here;
@@ -46,7 +46,7 @@ std::set<std::thread::id> threads_at_barrier(const Workers& workers, int n) {
   return threads;
 }
 
-TEST(Workers, TeamsLargerThanTheMachineHaveThatManyThreads) {
+TEST(Workers, CanHaveMoreThreadsThanCores) {
   for (const int threads : {Workers::cores() + 1, 2 * Workers::cores() + 3}) {
     const std::set<std::thread::id> ids = threads_at_barrier(Workers(threads), threads);
     EXPECT_EQ(ids.size(), static_cast<std::size_t>(threads));
@@ -54,7 +54,7 @@ TEST(Workers, TeamsLargerThanTheMachineHaveThatManyThreads) {
   }
 }
 
-TEST(Workers, NoMoreThreadsThanAskedFor) {
+TEST(Workers, NeverRunMoreTasksAtOnceThanThreads) {
   for (const int threads : {1, 2, Workers::cores() + 1}) {
     const Workers workers(threads);
     std::atomic<int> running = 0, most = 0;
@@ -73,7 +73,7 @@ TEST(Workers, NoMoreThreadsThanAskedFor) {
 
 std::size_t tbb_limit() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
 
-// The limit of the process stays as it is while a team lives and works.
+// Checks that the process-wide TBB limit does not change while a pool exists and runs tasks.
 void expect_limit_kept(std::size_t limit) {
   EXPECT_EQ(tbb_limit(), limit);
   for (const int threads : {1, 2, Workers::cores(), Workers::cores() + 5}) {
@@ -89,7 +89,7 @@ void expect_limit_kept(std::size_t limit) {
   EXPECT_EQ(tbb_limit(), limit);
 }
 
-TEST(Workers, LeaveTheHostsTbbLimitAlone) {
+TEST(Workers, DoNotChangeTheTbbLimitOfTheHost) {
   expect_limit_kept(tbb_limit());
   for (const std::size_t limit : {std::size_t{1}, std::size_t{64}}) {
     const tbb::global_control host(tbb::global_control::max_allowed_parallelism, limit);

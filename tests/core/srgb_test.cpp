@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sRGB tables against the curve in long double (64 bits; powl errs by less than 2^-62), whose distance to every
-// rounding boundary is checked to be far larger than that: the tables are then proven correctly rounded. Encoding is
-// tried on every float that has a code above 0.
+// Compares the sRGB tables with the transfer function in long double (64 bits of mantissa; powl errs by less than 2^-62). The tests also
+// check that every value is much farther than this error from the nearest rounding boundary, which proves that the tables are correctly
+// rounded. Encoding is tested with every float that has a code above 0.
 #include "halfspace/core/srgb.h"
 
 #include <gtest/gtest.h>
@@ -19,19 +19,19 @@ static_assert(std::numeric_limits<long double>::digits >= 64);
 long double decode(long double v) { return v <= 0.04045L ? v / 12.92L : std::pow((v + 0.055L) / 1.055L, 2.4L); }
 long double encode(long double x) { return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L; }
 
-/// Where code c begins, as a real number: halfway between c − 1 and c.
+/// Lower bound of the interval that encodes to code c: the linear value halfway between codes c − 1 and c.
 long double threshold(int c) { return decode((2 * c - 1) / 510.0L); }
 
 constexpr int32_t kOne = 0x3f800000;
 
-TEST(Srgb, DecodedValuesAreTheNearestFloats) {
+TEST(Srgb, DecodesToTheNearestFloat) {
   for (int c = 1; c < 256; ++c) {
     const float got = srgb_to_linear<float>(c);
     const long double want = decode(c / 255.0L);
     const long double below = (static_cast<long double>(got) + std::nextafter(got, 0.0f)) / 2;
     const long double above = (static_cast<long double>(got) + std::nextafter(got, 2.0f)) / 2;
-    // The exact value lies between the two rounding boundaries with a margin that neither long double here (2^-62) nor
-    // the compiler's double in srgb.cpp (2^-50) can cross.
+    // The exact value is between the two rounding boundaries with a margin that is larger than the error of both long double here (2^-62)
+    // and the compiler's double in srgb.cpp (2^-50).
     EXPECT_GT(want, below + want * 0x1p-40L) << c;
     EXPECT_LT(want, above - want * 0x1p-40L) << c;
   }
@@ -39,7 +39,7 @@ TEST(Srgb, DecodedValuesAreTheNearestFloats) {
   EXPECT_EQ(srgb_to_linear<float>(255), 1.0f);
 }
 
-TEST(Srgb, EveryCodeSurvivesTheRoundTrip) {
+TEST(Srgb, EveryCodeRoundTrips) {
   for (int c = 0; c < 256; ++c) {
     EXPECT_EQ(linear_to_srgb(srgb_to_linear<float>(c)), c);
     EXPECT_EQ(linear_to_srgb(srgb_to_linear<double>(c)), c);
@@ -65,7 +65,7 @@ TEST(Srgb, EveryFloatEncodesToTheNearestCode) {
   };
   next = first_at_or_above(1);
   int64_t wrong = 0;
-  for (int32_t i = 0x38000000; i <= kOne; i += 16) {  // 2^-15 … 1, every float
+  for (int32_t i = 0x38000000; i <= kOne; i += 16) {  // every float from 2^-15 to 1
     const RealN<16> x = as_real(iota<IntN<16>>() + i);
     const IntN<16> got = linear_to_srgb(x);
     for (int k = 0; k < 16 && i + k <= kOne; ++k) {
@@ -75,42 +75,42 @@ TEST(Srgb, EveryFloatEncodesToTheNearestCode) {
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(code, 255);
-  for (int32_t i = 0; i < 0x38000000; i += 1009) ASSERT_EQ(linear_to_srgb(as_real(i)), 0);  // and below
+  for (int32_t i = 0; i < 0x38000000; i += 1009) ASSERT_EQ(linear_to_srgb(as_real(i)), 0);  // a sample of the floats below
 }
 
 TEST(Srgb, EveryHalfEncodesToTheRoundedCurve) {
   for (int h = 0; h < 65536; ++h) {
     const float x = half_to_float(static_cast<uint16_t>(h));
-    const long double held = x > 0 ? std::min(static_cast<long double>(x), 1.0L) : 0.0L;  // NaN: 0
+    const long double held = x > 0 ? std::min(static_cast<long double>(x), 1.0L) : 0.0L;  // NaN encodes to 0
     EXPECT_EQ(linear_to_srgb(x), static_cast<int>(std::floor(encode(held) * 255 + 0.5L))) << x;
   }
 }
 
-TEST(Srgb, UnormIsTheNearestCodeForEveryFloat) {
+TEST(Srgb, EveryFloatConvertsToTheNearestUnorm8) {
   int64_t wrong = 0;
-  for (int32_t i = 0x3a000000; i <= kOne; i += 16) {  // 2^-11 … 1; 0.5/255 is 2^-9
+  for (int32_t i = 0x3a000000; i <= kOne; i += 16) {  // every float from 2^-11 to 1; 0.5/255 is about 2^-9
     const RealN<16> x = as_real(iota<IntN<16>>() + i);
     const IntN<16> got = linear_to_unorm8(x);
     for (int k = 0; k < 16 && i + k <= kOne; ++k) {
-      const double exact = static_cast<double>(lane(x, k)) * 255.0;  // 24 + 8 bits: exact
-      wrong += lane(got, k) != static_cast<int>(exact + 0.5);        // exact too, and never a tie
+      const double exact = static_cast<double>(lane(x, k)) * 255.0;  // exact: needs 24 + 8 bits
+      wrong += lane(got, k) != static_cast<int>(exact + 0.5);        // also exact, and never a tie
     }
   }
   EXPECT_EQ(wrong, 0);
   for (int c = 0; c < 256; ++c) EXPECT_EQ(unorm8_to_linear(static_cast<float>(c)), static_cast<float>(c) / 255.0f);
 }
 
-TEST(Srgb, SixteenBitsDecodeToTheNearestFloats) {
+TEST(Srgb, Unorm16DecodesToTheNearestFloat) {
   for (int c = 0; c < 65536; ++c) ASSERT_EQ(unorm16_to_linear(static_cast<float>(c)), static_cast<float>(c) / 65535.0f);
   float last = 0.0f;
-  for (float x = 0.0f; x <= 65535.0f; x += 0x1p-5f) {  // between codes too
+  for (float x = 0.0f; x <= 65535.0f; x += 0x1p-5f) {  // includes values between codes
     ASSERT_GE(unorm16_to_linear(x), last);
     last = unorm16_to_linear(x);
   }
   EXPECT_EQ(last, 1.0f);
 }
 
-TEST(Srgb, WhatIsOutsideGoesToTheEnds) {
+TEST(Srgb, ClampsOutOfRangeValues) {
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   for (const float x : {-1.0f, -inf, nan, -nan, 0.0f, -0.0f, 0x1p-149f}) {
     EXPECT_EQ(linear_to_srgb(x), 0) << x;
@@ -141,7 +141,7 @@ void expect_encoding_of_lanes_agrees() {
   }
 }
 
-TEST(Srgb, LanesHoldTheBitsOfFloat) {
+TEST(Srgb, LanesMatchScalarBits) {
   expect_encoding_of_lanes_agrees<4>();
   expect_encoding_of_lanes_agrees<8>();
   expect_encoding_of_lanes_agrees<16>();

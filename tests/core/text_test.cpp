@@ -8,17 +8,17 @@
 namespace halfspace {
 namespace {
 
-TEST(NearestName, EditDistanceCountsEachKindOfSlip) {
+TEST(NearestName, EditDistanceCountsEveryKindOfTypo) {
   EXPECT_EQ(edit_distance("earth", "earth"), 0);
-  EXPECT_EQ(edit_distance("erth", "earth"), 1) << "a letter left out";
-  EXPECT_EQ(edit_distance("eearth", "earth"), 1) << "a letter too many";
-  EXPECT_EQ(edit_distance("earty", "earth"), 1) << "a wrong letter";
-  EXPECT_EQ(edit_distance("erath", "earth"), 1) << "two letters swapped";
+  EXPECT_EQ(edit_distance("erth", "earth"), 1) << "missing letter";
+  EXPECT_EQ(edit_distance("eearth", "earth"), 1) << "extra letter";
+  EXPECT_EQ(edit_distance("earty", "earth"), 1) << "wrong letter";
+  EXPECT_EQ(edit_distance("erath", "earth"), 1) << "swapped letters";
   EXPECT_EQ(edit_distance("", "earth"), 5);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
 }
 
-TEST(NearestName, FindsTheNearestOrNone) {
+TEST(NearestName, FindsTheNearestNameOrNone) {
   constexpr std::array<std::string_view, 3> names = {"earth", "moon", "earth.color"};
   EXPECT_EQ(nearest_name("Earth", names), "earth");
   EXPECT_EQ(nearest_name("mon", names), "moon");
@@ -28,7 +28,7 @@ TEST(NearestName, FindsTheNearestOrNone) {
   EXPECT_EQ(nearest_name(std::string(100000, 'x'), names), "");
 }
 
-TEST(NearestName, SuggestionIsATailOfALine) {
+TEST(NearestName, SuggestionCompletesAnErrorMessage) {
   constexpr std::array<std::string_view, 2> names = {"earth", "moon"};
   EXPECT_EQ(suggestion("erth", names), "; did you mean 'earth'?");
   EXPECT_EQ(suggestion("teapot", names), "; expected one of earth, moon");

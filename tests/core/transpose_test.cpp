@@ -17,7 +17,7 @@ constexpr std::size_t kWords = 1000;
 template <class I>
 constexpr int kWidth = static_cast<int>(sizeof(I) / sizeof(int32_t));
 
-// Places anywhere, also where records overlap or are the same, and the last that there is room for.
+// Returns random offsets. Records may overlap or coincide, and the last one ends at the end of the memory.
 template <class I>
 std::vector<std::size_t> places(std::mt19937& random) {
   std::vector<std::size_t> at(static_cast<std::size_t>(kWidth<I>));
@@ -49,7 +49,7 @@ TYPED_TEST(Fours, AreReadFromAnywhere) {
 TYPED_TEST(Fours, AreWrittenWhereTheyBelongAndNowhereElse) {
   std::mt19937 random(2);
   for (int round = 0; round < 100; ++round) {
-    std::vector<std::size_t> at(kWords / 8);  // five words apart or more
+    std::vector<std::size_t> at(kWords / 8);  // at least five words apart
     for (std::size_t i = 0; i < at.size(); ++i) at[i] = 8 * i + random() % 4;
     std::shuffle(at.begin(), at.end(), random);
     std::array<TypeParam, 4> words{};
@@ -69,7 +69,7 @@ TYPED_TEST(Fours, AreWrittenWhereTheyBelongAndNowhereElse) {
 TYPED_TEST(Fours, ThreesAreReadInOrder) {
   std::vector<int32_t> memory(1 + 3 * kWidth<TypeParam>);
   for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = static_cast<int32_t>(100 + i);
-  for (const int start : {0, 1}) {  // aligned, perhaps, and not
+  for (const int start : {0, 1}) {  // aligned where possible, and unaligned
     const auto words = load_aos3<TypeParam>(memory.data() + start);
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < kWidth<TypeParam>; ++k)
@@ -78,7 +78,8 @@ TYPED_TEST(Fours, ThreesAreReadInOrder) {
   }
 }
 
-// N neighbouring words by gather_row and by gathers, from random places and from the last that four words can be read from.
+// Compares gather_row of N adjacent words with individual reads, at random offsets and at the last offset from which four words can be
+// read.
 template <int N, class I, class Word>
 void expect_rows(const std::vector<Word>& memory, const std::vector<std::size_t>& at) {
   I i{};

@@ -16,14 +16,14 @@
 namespace halfspace {
 namespace {
 
-// |got − want| in units of the last place of want as a double (of the least normal number near zero).
+// got − want| in double ulps of want. Near zero, the ulp of the smallest normal number is used.
 double ulps(double got, long double want) {
   const double size = std::max(std::fabs(static_cast<double>(want)), std::numeric_limits<double>::min());
   const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
   return std::fabs(static_cast<double>((static_cast<long double>(got) - want) / ulp));
 }
 
-// The true values of a fraction of a turn in [0, 1/4], in long double (64 bits of mantissa here).
+// The references are computed in long double, which has a 64-bit mantissa here.
 constexpr long double kTwoPi = 2.0L * std::numbers::pi_v<long double>;
 
 TEST(TrigDouble, QuarterTurnsAreExact) {
@@ -32,18 +32,18 @@ TEST(TrigDouble, QuarterTurnsAreExact) {
     const SinCosDouble a = sincos_turns(0.25 * q);
     EXPECT_EQ(a.sin, sines[(q + 12) % 4]) << q;
     EXPECT_EQ(a.cos, sines[(q + 13) % 4]) << q;
-    EXPECT_FALSE(std::signbit(a.sin) && a.sin == 0.0) << "no negative zeros: " << q;
+    EXPECT_FALSE(std::signbit(a.sin) && a.sin == 0.0) << "negative zero at quarter turn " << q;
     EXPECT_FALSE(std::signbit(a.cos) && a.cos == 0.0) << q;
   }
 }
 
-TEST(TrigDouble, WithinOneUlpOfLongDouble) {
+TEST(TrigDouble, IsWithinOneUlpOfLongDouble) {
   double worst = 0;
   for (int i = 0; i <= 200000; ++i) {
-    const double t = i / 800000.0;  // a quarter turn
+    const double t = i / 800000.0;  // a quarter turn at most
     const SinCosDouble a = sincos_turns(t);
-    // Near the quarter the long double cosine would lose digits to the rounding of its argument: ask for the sine of
-    // the rest of the quarter, which is exact.
+    // Near a quarter turn, rounding of its argument would make the long double cosine inaccurate. The sine of the remaining angle, which is
+    // exact, gives the same value.
     const long double rest = 0.25L - static_cast<long double>(t);
     worst = std::max({worst, ulps(a.sin, std::sin(kTwoPi * static_cast<long double>(t))), ulps(a.cos, std::sin(kTwoPi * rest))});
   }
@@ -60,7 +60,7 @@ TEST(TrigDouble, TinyAnglesKeepRelativeAccuracy) {
         << t;
 }
 
-TEST(TrigDouble, WholeTurnsChangeNothing) {
+TEST(TrigDouble, IsPeriodicInWholeTurns) {
   for (int i = -64; i <= 64; ++i) {
     const double t = i / 128.0;
     for (const double turns : {1.0, -3.0, 1048576.0}) {
@@ -70,7 +70,7 @@ TEST(TrigDouble, WholeTurnsChangeNothing) {
   }
 }
 
-TEST(TrigDouble, OddAndEven) {
+TEST(TrigDouble, SineIsOddAndCosineIsEven) {
   for (int i = 1; i < 1000; ++i) {
     const double t = i * 0.001234567;
     EXPECT_EQ(sincos_turns(-t).sin, -sincos_turns(t).sin);
@@ -78,8 +78,8 @@ TEST(TrigDouble, OddAndEven) {
   }
 }
 
-// The bits themselves, so that every compiler and processor is held to the same.
-TEST(TrigDouble, SameBitsEverywhere) {
+// Every compiler and processor must compute the same bits.
+TEST(TrigDouble, MatchesTheCommittedHash) {
   Hash hash;
   for (int i = 0; i < 10000; ++i) {
     const SinCosDouble a = sincos_turns(i * 0.000123456789);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vectors of float, double and lanes against GLM's functions and the order of operations that vec.h promises.
+// Compares vectors of float, double and lanes with the GLM functions and with the order of operations that vec.h specifies.
 #include "halfspace/core/vec.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace halfspace {
 namespace {
 
-// Numbers of many sizes, so that every order of operations rounds differently.
+// Returns numbers of widely varying magnitude, so that every order of operations rounds differently.
 template <class T>
 T random_number(std::mt19937& random) {
   return std::ldexp(std::uniform_real_distribution<T>(-1, 1)(random), std::uniform_int_distribution<int>(-6, 6)(random));
@@ -26,11 +26,11 @@ glm::vec<L, T> random_vector(std::mt19937& random) {
   return v;
 }
 
-TEST(Vec, LeavesGlmItsOwnFunctions) {
+TEST(Vec, DoesNotChangeGlmFunctions) {
   std::mt19937 random(1);
   for (int i = 0; i < 1000; ++i) {
     const glm::vec3 a = random_vector<3, float>(random), b = random_vector<3, float>(random);
-    ASSERT_EQ(glm_results(a, b), results_of_glm_alone(a, b)) << "with the library's headers included, and without";
+    ASSERT_EQ(glm_results(a, b), results_of_glm_alone(a, b)) << "GLM results differ when the library's headers are included";
   }
 }
 
@@ -53,7 +53,7 @@ static_assert(kWhenAsked<vec4<float>, vec3<float>> && kWhenAsked<vec3<float>, ve
 
 // ---- order of operations ---------------------------------------------------------------------------------------
 
-// float's dot product of three components is Halfspace's own; all else is GLM's.
+// The three-component float dot product is Halfspace's own; all other functions use GLM's order of operations.
 template <int L, class T>
 void check_against_glm(std::mt19937& random) {
   for (int i = 0; i < 1000; ++i) {
@@ -109,7 +109,7 @@ void check_matrices(std::mt19937& random) {
   }
 }
 
-TEST(Vec, IsTransformedInTheOrderOfGlm) {
+TEST(Vec, TransformsInTheOrderOfGlm) {
   std::mt19937 random(3);
   check_matrices<float>(random);
   check_matrices<double>(random);
@@ -122,7 +122,7 @@ class VecOfLanes : public testing::Test {};
 using Lanes = testing::Types<RealN<4>, RealN<8>, RealN<16>, RealPair<float>, RealPair<RealN<8>>>;
 TYPED_TEST_SUITE(VecOfLanes, Lanes);
 
-// Uniforms and varyings in every mix, summed up so that each result counts.
+// Combines uniforms and varyings in every mix and adds up the results, so that each one affects the sum.
 template <class R>
 R mixed_results(const glm::mat3& m3, const glm::mat4& m4, const glm::vec3& uniform, const vec3<R>& a, const vec3<R>& b, R t) {
   const vec3<R> scaled = uniform * t, scaled_too = t * uniform, between = mix(uniform, uniform * 2.0f, t);
