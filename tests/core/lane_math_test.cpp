@@ -25,7 +25,7 @@
 namespace halfspace {
 namespace {
 
-/// got − want| in ulps of a float of the magnitude of want.
+/// Absolute error of got in float ulps of want.
 double ulps(float got, double want) {
   if (std::isnan(want)) return std::isnan(got) ? 0.0 : 1e30;
   if (std::fabs(want) >= 0x1.ffffffp127) return std::fabs(got) == kInf && (got > 0) == (want > 0) ? 0.0 : 1e30;

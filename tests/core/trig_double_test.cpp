@@ -16,7 +16,7 @@
 namespace halfspace {
 namespace {
 
-// got − want| in double ulps of want. Near zero, the ulp of the smallest normal number is used.
+// Absolute error of got in double ulps of want. Near zero, the ulp of the smallest normal number is used.
 double ulps(double got, long double want) {
   const double size = std::max(std::fabs(static_cast<double>(want)), std::numeric_limits<double>::min());
   const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;

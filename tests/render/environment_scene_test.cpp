@@ -70,7 +70,7 @@ TEST(EnvironmentScene, ShowsTheMapWhereItBelongs) {
     }
   }
   RecordProperty("worst", std::to_string(worst));
-  EXPECT_LT(worst, 1e-4) << "float against double, as EnvironmentMap.FloatIsNearDouble has it";
+  EXPECT_LT(worst, 1e-4) << "float against double, as EnvironmentMap.FloatMatchesDouble has it";
 }
 
 TEST(EnvironmentScene, MeanOfAUniformSkyIsItsValue) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Anisotropic look-ups: the footprint against its axes in double, the level that is read, and the result against the average
-// of the texture over the pixel's parallelogram.
+// Tests anisotropic lookups: the footprint is compared with its ellipse axes in double, the mip level with the expected one, and the result
+// with the average of the texture over the parallelogram of the pixel.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -12,7 +12,7 @@
 namespace halfspace {
 namespace {
 
-/// A footprint made from its axes, in texels, and turned: J = turn(angle)·diag(longer, shorter)·turn(inner).
+/// A footprint defined by its axes in texels: J = rotation(angle)·diag(longer, shorter)·rotation(inner).
 struct Ellipse {
   double longer, shorter, angle, inner;
 
@@ -33,7 +33,7 @@ Ellipse random_ellipse(std::mt19937& random, double most_ratio, double least_sho
 
 // ---- the footprint ------------------------------------------------------------------------------------------------------
 
-TEST(Footprint, IsThatOfTheAxes) {
+TEST(Footprint, MatchesTheAxes) {
   std::mt19937 random(1);
   const glm::dvec2 size(640, 480);
   for (int i = 0; i < 200000; ++i) {
@@ -41,7 +41,7 @@ TEST(Footprint, IsThatOfTheAxes) {
     const int most = 1 + static_cast<int>(random() % 16);
     const Footprint<float> got = footprint(640, 480, vec2<float>(e.dx() / size), vec2<float>(e.dy() / size), most);
     const double shorter = std::max(e.shorter, 1.0), ratio = e.longer / shorter;
-    // The ratio counts as a whole number from 1/1024 above it; and its own rounding is some 1e-6.
+    // The implementation rounds the ratio up once it exceeds an integer by 1/1024; the ratio itself has a rounding error of about 1e-6.
     const double low = std::clamp(std::ceil(ratio * (1 - 0x1p-9)), 1.0, static_cast<double>(most));
     const double high = std::clamp(std::ceil(ratio), 1.0, static_cast<double>(most));
     ASSERT_GE(got.probes, low) << ratio;
@@ -50,13 +50,14 @@ TEST(Footprint, IsThatOfTheAxes) {
     ASSERT_NEAR(static_cast<double>(got.lod), std::log2(std::max(probe, 1.0)), 1.0 / 256) << e.longer << ' ' << e.shorter;
     const double exact = std::max(shorter, e.longer / got.probes);
     ASSERT_NEAR(static_cast<double>(got.lod), std::log2(std::max(exact, 1.0)), 2e-5) << e.longer << ' ' << e.shorter;
-    // The span: along the longer axis, as long as what one probe leaves. Near a circle the direction is open, the span short.
+    // The span is parallel to the longer axis and has the length that one probe does not cover. For a near-circle, the direction is
+    // arbitrary and the span is short.
     const glm::dvec2 span = glm::dvec2(got.span) * size, want = e.direction() * (got.probes > 1 ? e.longer - exact : 0.0);
     ASSERT_LE(std::min(glm::length(span - want), glm::length(span + want)), 1e-4 * e.longer) << e.longer << ' ' << e.shorter;
   }
 }
 
-TEST(Footprint, OfACircleIsOneProbeAtTheIsotropicLevel) {
+TEST(Footprint, CirclesUseOneProbeAtTheIsotropicLevel) {
   std::mt19937 random(2);
   for (int i = 0; i < 10000; ++i) {
     const Ellipse e = random_ellipse(random, 1.0, 0.1, 1000.0);
@@ -68,7 +69,7 @@ TEST(Footprint, OfACircleIsOneProbeAtTheIsotropicLevel) {
   }
 }
 
-TEST(Footprint, WildDerivativesGiveOneProbe) {
+TEST(Footprint, ExtremeDerivativesUseOneProbe) {
   for (const float wild : {kNaN, kInf, -kInf, 3e38f, 1e12f}) {
     const Footprint<float> got = footprint(64, 64, vec2<float>(wild, 0.1f), vec2<float>(0.0f, 0.01f), 16);
     EXPECT_EQ(got.probes, 1) << wild;
@@ -77,13 +78,13 @@ TEST(Footprint, WildDerivativesGiveOneProbe) {
   }
   EXPECT_EQ(footprint(64, 64, vec2<float>(0.0f), vec2<float>(0.0f), 16).probes, 1);
   EXPECT_EQ(footprint(64, 64, vec2<float>(0.0f), vec2<float>(0.0f), 16).lod, 0.0f);
-  EXPECT_EQ(footprint(64, 64, vec2<float>(0.5f, 0.0f), vec2<float>(0.5f, 0.0f), 16).probes, 16);  // no area at all
+  EXPECT_EQ(footprint(64, 64, vec2<float>(0.5f, 0.0f), vec2<float>(0.5f, 0.0f), 16).probes, 16);  // zero area
 }
 
 // ---- levels -------------------------------------------------------------------------------------------------------------
 
-TEST(Anisotropy, ReadsTheLevelOfItsProbes) {
-  std::vector<Image<glm::u8vec4>> levels;  // level l is the constant 16·l
+TEST(Anisotropy, ReadsTheLevelThatMatchesTheProbeSize) {
+  std::vector<Image<glm::u8vec4>> levels;  // level l has the constant value 16·l
   for (int size = 256, l = 0; size >= 1; size /= 2, ++l) {
     levels.emplace_back(size, size);
     std::fill_n(levels.back().data(), size * size, glm::u8vec4(static_cast<uint8_t>(16 * l)));
@@ -94,7 +95,7 @@ TEST(Anisotropy, ReadsTheLevelOfItsProbes) {
     const Ellipse e = random_ellipse(random, 40.0, 0.3, 100.0);
     const Sampler sampler{.anisotropy = 1 + static_cast<int>(random() % 16)};
     const vec2<float> dx(e.dx() / 256.0), dy(e.dy() / 256.0);
-    double longest = e.longer, level = std::log2(std::max(glm::length(e.dx()), glm::length(e.dy())));  // of anisotropy 1
+    double longest = e.longer, level = std::log2(std::max(glm::length(e.dx()), glm::length(e.dy())));  // for anisotropy 1
     if (sampler.anisotropy > 1) {
       const double shorter = std::max(e.shorter, 1.0);
       level = std::log2(std::max(shorter, longest / std::min(std::ceil(longest / shorter), static_cast<double>(sampler.anisotropy))));
@@ -106,7 +107,7 @@ TEST(Anisotropy, ReadsTheLevelOfItsProbes) {
 
 // ---- the average over the pixel -------------------------------------------------------------------------------------------
 
-/// The texture's average over the pixel's parallelogram: 64 x 64 bilinear samples of level 0 in double.
+/// Returns the average of the texture over the parallelogram of the pixel, from 64 x 64 bilinear samples of level 0 in double.
 glm::dvec4 average(const Texture2D& texture, const Sampler& sampler, const glm::dvec2& uv, const glm::dvec2& dx, const glm::dvec2& dy) {
   constexpr int kSide = 64;
   glm::dvec4 sum(0.0);
@@ -117,20 +118,20 @@ glm::dvec4 average(const Texture2D& texture, const Sampler& sampler, const glm::
   return sum / static_cast<double>(kSide * kSide);
 }
 
-TEST(Anisotropy, OfAWaveIsItsAverage) {
-  // A wave cos(k·x + φ) seen through an even kernel of mass 1 and covariance V is multiplied by 1 − kᵀVk/2 + O(k⁴). So two kernels
-  // differ by |kᵀ(V1 − V2)k|/2 to the leading order. Covariances, in texels, w the size of a probe:
-  //   the parallelogram over bilinear texels (a tent: 1/6)            J·Jᵀ/12 + 1/6
-  //   N probes spaced (longer − w)/(N − 1) along the longer axis:     at most (longer² − w²)/12 + w²/6, at least
-  //     that with longer = N·w; a probe is a box and a tent of 2^λ:   w²/12 + w²/6, between levels up to 9/8 of it.
-  // Along each axis V1 − V2 lies between −1/6 and w²·(0.28 + 1/6); so the error is at most |k|²·w²·0.45/2. The terms of
-  // fourth order are below a tenth of that for |k|·longer <= 1, float's own rounding below 1e-4.
+TEST(Anisotropy, FilteredWaveMatchesItsAverage) {
+  // Filtering a wave cos(k·x + φ) with an even kernel of mass 1 and covariance V multiplies it by 1 − kᵀVk/2 + O(k⁴). To leading order, two
+  // kernels therefore differ by |kᵀ(V1 − V2)k|/2. The covariances, in texels, with w the size of a probe:
+  // - parallelogram of bilinear texels (a tent, 1/6): J·Jᵀ/12 + 1/6
+  // - N probes spaced (longer − w)/(N − 1) along the longer axis: at most (longer² − w²)/12 + w²/6, and at least the same with longer = N·w
+  // - one probe, which is a box and a tent of 2^λ: w²/12 + w²/6; between two levels up to 9/8 of that
+  // Along each axis, V1 − V2 is between −1/6 and w²·(0.28 + 1/6), so the error is at most |k|²·w²·0.45/2. For |k|·longer <= 1, the
+  // fourth-order terms are below a tenth of that, and float rounding is below 1e-4.
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   constexpr int kSide = 512;
   double worst = 0.0, worst_isotropic = 0.0;
   for (int trial = 0; trial < 12; ++trial) {
-    const glm::dvec2 cycles{static_cast<int>(random() % 7) - 3, static_cast<int>(random() % 7) - 3};  // braces: in this order
+    const glm::dvec2 cycles{static_cast<int>(random() % 7) - 3, static_cast<int>(random() % 7) - 3};  // braces: in order
     const glm::dvec2 k = cycles * (2 * std::numbers::pi / kSide);
     Image<glm::vec4> image(kSide, kSide);
     for (int y = 0; y < kSide; ++y) {
@@ -152,11 +153,11 @@ TEST(Anisotropy, OfAWaveIsItsAverage) {
       worst_isotropic = std::max(worst_isotropic, error(1));
     }
   }
-  EXPECT_LT(worst, 0.012);  // found: 0.0108
+  EXPECT_LT(worst, 0.012);  // measured: 0.0108
   EXPECT_GT(worst_isotropic, 0.1);
 }
 
-TEST(Anisotropy, OfNoiseIsFarNearerToItsAverage) {
+TEST(Anisotropy, MoreProbesApproachTheAverageOfNoise) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const Texture2D texture = test::make_noise(128, 128, TexelFormat::r8, 6);
@@ -173,30 +174,31 @@ TEST(Anisotropy, OfNoiseIsFarNearerToItsAverage) {
       squares[anisotropy] += (got - want) * (got - want);
     }
   }
-  // Root of the mean square: 0.049 isotropic, 0.043 with 2 probes, then 0.032, 0.021 and with 16 0.017. What is left is the trilinear
-  // probe, which is wider than its box; a single footprint of noise has no tighter bound than the contrast.
+  // The measured RMS errors are 0.049 for isotropic filtering, 0.043 for 2 probes, then 0.032, 0.021 and, for 16 probes, 0.017. The
+  // remaining error comes from the trilinear probe, which is wider than its box. For a single footprint of noise, the contrast is the only
+  // bound.
   for (int anisotropy = 2; anisotropy <= 16; anisotropy *= 2) EXPECT_LT(squares[anisotropy], squares[anisotropy / 2]);
   EXPECT_LT(std::sqrt(squares[16] / kCount), 0.018);
   EXPECT_GT(std::sqrt(squares[1] / kCount), 0.045);
 }
 
-TEST(Anisotropy, KeepsALineThatIsotropyBlurs) {
-  // Rows alternate black and white in pairs; the footprint runs along a white pair, 16 texels long and one high.
+TEST(Anisotropy, PreservesALineThatIsotropicFilteringBlurs) {
+  // Pairs of black and white rows alternate. The footprint follows a white pair and is 16 texels long and one texel high.
   const Texture2D texture = test::make_texture(64, 64, TexelFormat::r8, [](int, int y) { return y / 2 % 2 == 0 ? 0u : 255u; });
   const vec2<float> uv(0.4f, 7.0f / 64.0f), along(16.0f / 64.0f, 0.0f), across(0.0f, 1.0f / 64.0f);
   EXPECT_NEAR(texture.sample(Sampler{.anisotropy = 1}, uv, along, across).x, 0.5f, 0.6f / 255.0f);  // level 4
   EXPECT_EQ(texture.sample(Sampler{.anisotropy = 16}, uv, along, across).x, 1.0f);                  // level 0
 }
 
-TEST(Anisotropy, NothingJumpsBesideACircle) {
+TEST(Anisotropy, IsContinuousNearACircularFootprint) {
   const Texture2D texture = test::make_noise(64, 64, TexelFormat::rgba8, 7);
   const Sampler sampler{.anisotropy = 16};
   const vec2<float> uv(0.37f, 0.21f), across(0.0f, 4.0f / 64.0f);
   const vec4<float> circle = texture.sample(sampler, uv, vec2<float>(4.0f / 64.0f, 0.0f), across);
   for (float ratio = 1.0f; ratio < 1.01f; ratio += 1e-4f) {
     const vec4<float> c = texture.sample(sampler, uv, vec2<float>(ratio * 4.0f / 64.0f, 0.0f), across);
-    // Up to 1/1024 the one probe's level rises by 0.0014; then two probes part by (ratio − 1) of their size. At most, the
-    // contrast of level 2 and its neighbour, here below 1/2, changes by so much.
+    // Up to a ratio of 1 + 1/1024, the level of the single probe rises by 0.0014. Beyond that, two probes separate by (ratio − 1) of their
+    // size. The result can change by at most this fraction of the contrast between level 2 and the adjacent level, which is below 1/2 here.
     for (int k = 0; k < 4; ++k) ASSERT_NEAR(c[k], circle[k], 0.0015f * 0.5f + (ratio - 1.0f) * 0.5f);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Environments: where texels lie, that nothing jumps, and which level is taken.
+// Tests the mapping from directions to texels, continuity, and the choice of the mip level.
 #include "halfspace/shading/environment.h"
 
 #include <gtest/gtest.h>
@@ -37,38 +37,38 @@ Faces random_faces(int size, uint32_t seed) {
 EnvironmentMap random_panorama(int width, int height) { return {random_image(width, height, 1), TexelFormat::rgba32f}; }
 EnvironmentMap random_cube(int size) { return {random_faces(size, 5), TexelFormat::rgba32f}; }
 
-// The direction of a panorama's (u, v), in map space, by the formula of its convention.
+// Returns the direction in map space for panorama coordinates (u, v), from the formula that defines the convention.
 glm::dvec3 panorama_direction(double u, double v) {
   const double phi = (u - 0.5) * 2 * kPi, theta = v * kPi;
   return {std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)};
 }
 
-// Without derivatives: level 0.
+// Samples level 0, since the derivatives are zero.
 glm::dvec3 at(const EnvironmentMap& map, const glm::dvec3& d) { return map.sample<double>(d, glm::dvec3(0.0), glm::dvec3(0.0)); }
 
 double distance(const glm::dvec3& a, const glm::dvec3& b) {
   return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
 }
 
-// ---- where texels lie --------------------------------------------------------------------------------------------------
+// ---- mapping from directions to texels ---------------------------------------------------------------------------------
 
-TEST(EnvironmentMap, PanoramaAxes) {
+TEST(EnvironmentMap, PanoramaAxesPointAtTheDocumentedTexels) {
   Image<glm::vec4> image(8, 4);
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 8; ++x) image.at(x, y) = glm::vec4(static_cast<float>(x), static_cast<float>(y), 0, 1);
   }
   const EnvironmentMap map(image, TexelFormat::rgba32f);
-  // Half-way between two texels: u = 1/2 lies between columns 3 and 4, v = 1/2 between rows 1 and 2.
-  EXPECT_LT(distance(at(map, {0, 0, 1}), {3.5, 1.5, 0}), 1e-9) << "ahead: the middle";
+  // The directions fall halfway between texels: u = 1/2 is between columns 3 and 4, v = 1/2 between rows 1 and 2.
+  EXPECT_LT(distance(at(map, {0, 0, 1}), {3.5, 1.5, 0}), 1e-9) << "forward is the center";
   EXPECT_LT(distance(at(map, {1, 0, 0}), {5.5, 1.5, 0}), 1e-9) << "right";
   EXPECT_LT(distance(at(map, {-1, 0, 0}), {1.5, 1.5, 0}), 1e-9) << "left";
-  EXPECT_LT(distance(at(map, {0, 0, -1}), {3.5, 1.5, 0}), 1e-9) << "behind: columns 7 and 0";
-  EXPECT_LT(distance(at(map, {0, 1, 0}), {3.5, 0, 0}), 4) << "up: row 0";
+  EXPECT_LT(distance(at(map, {0, 0, -1}), {3.5, 1.5, 0}), 1e-9) << "backward is between columns 7 and 0";
+  EXPECT_LT(distance(at(map, {0, 1, 0}), {3.5, 0, 0}), 4) << "up is row 0";
   EXPECT_NEAR(at(map, {0, 1, 0}).y, 0, 1e-9);
   EXPECT_NEAR(at(map, {0, -1, 0}).y, 3, 1e-9);
 }
 
-TEST(EnvironmentMap, PanoramaTexelsLieAtTheirDirections) {
+TEST(EnvironmentMap, PanoramaTexelsMatchTheirDirections) {
   const Image<glm::vec4> image = random_image(32, 16, 3);
   const EnvironmentMap map(image, TexelFormat::rgba32f);
   for (int y = 0; y < 16; ++y) {
@@ -79,7 +79,7 @@ TEST(EnvironmentMap, PanoramaTexelsLieAtTheirDirections) {
   }
 }
 
-// OpenGL 4.6, table 8.19: s and t as sc/|ma| and tc/|ma|.
+// OpenGL 4.6, table 8.19, with s = sc/|ma| and t = tc/|ma|.
 glm::dvec3 table_direction(int face, double sc, double tc) {
   switch (face) {
     case 0: return {1, -tc, -sc};    // sc = -rz, tc = -ry, ma = rx
@@ -91,7 +91,7 @@ glm::dvec3 table_direction(int face, double sc, double tc) {
   }
 }
 
-TEST(EnvironmentMap, CubeTexelsLieWhereOpenGlHasThem) {
+TEST(EnvironmentMap, CubeTexelsMatchOpenGl) {
   const Faces faces = random_faces(8, 9);
   const EnvironmentMap map(faces, TexelFormat::rgba32f);
   for (int f = 0; f < 6; ++f) {
@@ -104,8 +104,8 @@ TEST(EnvironmentMap, CubeTexelsLieWhereOpenGlHasThem) {
   }
 }
 
-TEST(EnvironmentMap, WorldIsSeenUnmirrored) {
-  // Right, left, top, bottom, front, back of someone who looks along -z with y up.
+TEST(EnvironmentMap, WorldIsNotMirrored) {
+  // Right, left, top, bottom, front and back, as seen by an observer who looks along -z with y up.
   Faces faces;
   for (std::size_t f = 0; f < 6; ++f) {
     faces[f] = Image<glm::vec4>(1, 1);
@@ -119,7 +119,7 @@ TEST(EnvironmentMap, WorldIsSeenUnmirrored) {
   }
 }
 
-TEST(EnvironmentMap, GlobeIsThatOfUvSphere) {
+TEST(EnvironmentMap, GlobeMatchesTheUvSphere) {
   const Image<glm::vec4> image = random_image(16, 8, 4);
   const EnvironmentMap map(image, TexelFormat::rgba32f);
   const Environment globe{.map = &map, .map_from_world = kMapFromGlobe};
@@ -150,7 +150,7 @@ void expect_constant(const Texel& texel, TexelFormat format, const glm::vec3& wa
   }
 }
 
-TEST(EnvironmentMap, AConstantStaysExactlyConstantOnEveryLevel) {
+TEST(EnvironmentMap, ConstantsAreExactOnEveryLevel) {
   expect_constant(glm::u8vec4(137, 1, 254, 255), TexelFormat::srgb8a8, {kSrgbToLinear[137], kSrgbToLinear[1], kSrgbToLinear[254]});
   expect_constant(glm::vec4(0.1f, 3e-5f, 70000.0f, 1), TexelFormat::rgba32f, {0.1f, 3e-5f, 70000.0f});
   expect_constant(glm::vec4(0.125f, 1000.0f, 0.5f, 1), TexelFormat::rgba16f, {0.125f, 1000.0f, 0.5f});
@@ -158,8 +158,8 @@ TEST(EnvironmentMap, AConstantStaysExactlyConstantOnEveryLevel) {
 
 // ---- seams -------------------------------------------------------------------------------------------------------------
 
-// Steps over an edge are bounded by what the texels' contrast (1) and density (n/2 a unit of the face, each way) allow.
-TEST(EnvironmentMap, CubeHasNoStepAtEdgesAndCorners) {
+// Bounds the change across an edge by the contrast of the texels (1) and their density (n/2 per unit of the face, in each direction).
+TEST(EnvironmentMap, CubeIsContinuousAcrossEdgesAndCorners) {
   const int n = 16;
   const EnvironmentMap map = random_cube(n);
   std::mt19937 random(7);
@@ -168,17 +168,17 @@ TEST(EnvironmentMap, CubeHasNoStepAtEdgesAndCorners) {
   for (int i = 0; i < 20000; ++i) {
     glm::dvec3 d = random_vector(random);
     const int a = i % 3, b = (i + 1 + i / 3 % 2) % 3, c = 3 - a - b;
-    d[b] = std::copysign(std::abs(d[a]), d[b]);                   // on the edge, or its continuation
+    d[b] = std::copysign(std::abs(d[a]), d[b]);                   // on an edge or its extension
     if (i % 10 == 0) d[c] = std::copysign(std::abs(d[a]), d[c]);  // at a corner
     d /= std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
     const glm::dvec3 off = random_vector(random) * tiny;
     worst = std::max(worst, distance(at(map, d + off), at(map, d - off)));
   }
   RecordProperty("worst", std::to_string(worst));
-  EXPECT_LT(worst, 10 * tiny * n * 2);  // |off| reaches 4.5 tiny
+  EXPECT_LT(worst, 10 * tiny * n * 2);  // |off| reaches 4.5·tiny
 }
 
-TEST(EnvironmentMap, CubeHasNoStepBetweenFacesOnAnyLevel) {
+TEST(EnvironmentMap, CubeIsContinuousBetweenFacesOnEveryLevel) {
   const EnvironmentMap map = random_cube(16);
   std::mt19937 random(8);
   for (const float lod : {1.0f, 2.0f, 3.0f, 4.0f}) {
@@ -187,14 +187,14 @@ TEST(EnvironmentMap, CubeHasNoStepBetweenFacesOnAnyLevel) {
       d.z = d.x > 0 ? d.x : -d.x;
       d /= std::max(std::abs(d.x), std::abs(d.y));
       if (std::abs(d.y) > 0.99) continue;
-      // Along y both faces have the same density: lod = log2(n/2 · step).
+      // Both faces have the same texel density along y: lod = log2(n/2 · step).
       const glm::dvec3 step(0, std::exp2(static_cast<double>(lod)) / 8.0, 0), tiny(1e-9, 0, 0);
       EXPECT_LT(distance(map.sample<double>(d + tiny, step, {}), map.sample<double>(d - tiny, step, {})), 1e-6);
     }
   }
 }
 
-TEST(EnvironmentMap, PanoramaHasNoStepWhereLongitudeWraps) {
+TEST(EnvironmentMap, PanoramaIsContinuousWhereLongitudeWraps) {
   const EnvironmentMap map = random_panorama(64, 32);
   for (int i = 1; i < 300; ++i) {
     const double v = i / 300.0;
@@ -205,8 +205,8 @@ TEST(EnvironmentMap, PanoramaHasNoStepWhereLongitudeWraps) {
   }
 }
 
-// A sky that is linear in the direction, which bilinear filtering over the pole must follow.
-TEST(EnvironmentMap, PolesAreNotPinched) {
+// Uses a sky that is linear in the direction, which bilinear filtering must reproduce across the pole.
+TEST(EnvironmentMap, PanoramaIsContinuousAcrossThePoles) {
   const glm::dvec3 a(0.3, 0.2, -0.35);
   Image<glm::vec4> image(64, 32);
   for (int y = 0; y < 32; ++y) {
@@ -228,43 +228,44 @@ TEST(EnvironmentMap, PolesAreNotPinched) {
   }
   RecordProperty("worst", std::to_string(worst));
   RecordProperty("at_pole", std::to_string(at_pole));
-  // Bilinear on a function of second derivative |a| = 0.5: h²/8 each way, h = π/32: 2 · 0.5 · 0.0096/8 = 1.2e-3. Clamped at
-  // the pole instead it would be half a texel's slope: 0.46 · π/64 = 0.02.
+  // The bilinear error of a function with second derivative |a| = 0.5 is h²/8 per axis. With h = π/32, that is 2 · 0.5 · 0.0096/8 = 1.2e-3.
+  // Clamping at the pole would err by the slope over half a texel, 0.46 · π/64 = 0.02.
   EXPECT_LT(worst, 1.3e-3);
   EXPECT_LT(at_pole, 1.3e-3);
 }
 
 // ---- levels ------------------------------------------------------------------------------------------------------------
 
-TEST(EnvironmentMap, LevelOfAPanoramaIsThatOfTheAngleEverywhere) {
+TEST(EnvironmentMap, PanoramaLevelFollowsTheAngle) {
   const EnvironmentMap map = random_panorama(256, 128);
   std::mt19937 random(11);
   for (int i = 0; i < 4000; ++i) {
-    // Pixels of a camera that looks anywhere; every third at the seam, every third at a pole.
+    // Pixels of a camera with a random orientation. Every third one is at the seam, every third one at a pole.
     glm::dvec3 d = random_vector(random);
     if (i % 3 == 1) d.x = 1e-7 * d.x;
     if (i % 3 == 2) d.x *= 1e-4, d.z *= 1e-4;
     const glm::dvec3 dx = random_vector(random) * 0.01, dy = random_vector(random) * 0.01;
-    const auto angle = [&](const glm::dvec3& step) {  // of a small share of the step, for a step is no arc
+    const auto angle = [&](const glm::dvec3& step) {  // uses a small fraction of the step, since a step is a chord and not an arc
       const double h = 1e-5;
       const glm::dvec3 p = glm::normalize(d - step * h), q = glm::normalize(d + step * h);
       return std::asin(glm::length(glm::cross(p, q))) / (2 * h);
     };
     const double want = std::log2(std::max(angle(dx), angle(dy)) * 128 / kPi);
     const float got = map.level_of_detail<float>(glm::vec3(d), glm::vec3(dx), glm::vec3(dy));
-    // cross() cancels where d and the step are nearly parallel; the longer of two random steps hardly ever is.
+    // cross() suffers from cancellation where d and the step are almost parallel, which is very unlikely for the longer of two random
+    // steps.
     EXPECT_NEAR(static_cast<double>(got), want, 1e-3) << i;
   }
 }
 
-TEST(EnvironmentMap, LevelOfACubeIsThatOfItsFace) {
+TEST(EnvironmentMap, CubeLevelFollowsTheFaceDensity) {
   const EnvironmentMap map = random_cube(64);
   std::mt19937 random(12);
   for (int i = 0; i < 4000; ++i) {
     const glm::dvec3 d = random_vector(random), dx = random_vector(random) * 0.01, dy = random_vector(random) * 0.01;
     int axis = 0;
     for (int k = 1; k < 3; ++k) axis = std::abs(d[k]) > std::abs(d[axis]) ? k : axis;
-    const auto density = [&](const glm::dvec3& step) {  // difference on the face, 64 texels for 2
+    const auto density = [&](const glm::dvec3& step) {  // distance on the face, where 64 texels span 2 units
       const double h = 1e-6;
       const glm::dvec3 p = (d - step * h) / std::abs((d - step * h)[axis]), q = (d + step * h) / std::abs((d + step * h)[axis]);
       return glm::length(q - p) / (2 * h) * 32;
@@ -274,9 +275,9 @@ TEST(EnvironmentMap, LevelOfACubeIsThatOfItsFace) {
   }
 }
 
-// Stripes along the meridians, 4 texels wide: round the pole they are finer than a texel beside the equator is, so that the
-// levels must have averaged them; there level 1 shows stripes of 2 texels.
-TEST(EnvironmentMap, LevelsAreAveragedTowardsThePoles) {
+// Uses stripes along the meridians that are 4 texels wide at the equator. Near the poles they are narrower than a texel at the equator, so
+// the levels must average them. At the equator, level 1 still shows stripes of 2 texels.
+TEST(EnvironmentMap, LevelsAreLowPassFilteredTowardThePoles) {
   const int width = 512, height = 256;
   Image<glm::vec4> image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -295,12 +296,12 @@ TEST(EnvironmentMap, LevelsAreAveragedTowardsThePoles) {
     return high - low;
   };
   EXPECT_GT(spread(0.5), 0.9);
-  EXPECT_LT(spread(0.02), 0.15) << "3.6 degrees from the pole a row is averaged over 16 texels of level 1, 4 periods";
+  EXPECT_LT(spread(0.02), 0.15) << "3.6 degrees from the pole, each row averages 16 texels of level 1, which is 4 periods";
 }
 
-// ---- any bits, any lanes -----------------------------------------------------------------------------------------------
+// ---- arbitrary bit patterns and lanes ----------------------------------------------------------------------------------
 
-TEST(EnvironmentMap, AnyDirectionGivesALightOfTheMap) {
+TEST(EnvironmentMap, ExtremeDirectionsReturnValuesInRange) {
   const EnvironmentMap maps[]{random_panorama(8, 4), random_cube(4)};
   const float wild[]{0.0f, -0.0f, 1.0f, -1.0f, 1e-38f, 3e38f, detail::kInfinity, -detail::kInfinity, detail::kNaN};
   for (const EnvironmentMap& map : maps) {
@@ -345,7 +346,7 @@ void expect_lanes_are_float(const EnvironmentMap& map) {
   }
 }
 
-TEST(EnvironmentMap, LanesSeeWhatFloatSees) {
+TEST(EnvironmentMap, LanesMatchScalarBits) {
   for (const EnvironmentMap& map : {random_panorama(64, 32), random_cube(32)}) {
     expect_lanes_are_float<4>(map);
     expect_lanes_are_float<8>(map);
@@ -353,7 +354,7 @@ TEST(EnvironmentMap, LanesSeeWhatFloatSees) {
   }
 }
 
-TEST(EnvironmentMap, FloatIsNearDouble) {
+TEST(EnvironmentMap, FloatMatchesDouble) {
   std::mt19937 random(22);
   double worst = 0;
   for (const EnvironmentMap& map : {random_panorama(256, 128), random_cube(128)}) {
@@ -365,19 +366,20 @@ TEST(EnvironmentMap, FloatIsNearDouble) {
     }
   }
   RecordProperty("worst", std::to_string(worst));
-  // u to 2 ulp of a number near 1 (2^-23), times 256 texels, and the coordinate's fraction to 2^-16: some 5e-5 a texel of
-  // contrast 1; twice, for two axes. Near a pole u itself has that error, not more: atan2 is relative.
+  // u is accurate to 2 ulp near 1 (2^-23), times 256 texels, and the fraction of the coordinate is rounded to 2^-16. With a contrast of 1
+  // per texel, the error is about 5e-5 per axis and occurs on two axes. u is not less accurate near a pole, because the error of atan2 is
+  // relative.
   EXPECT_LT(worst, 2e-4);
 }
 
 // ---- blending ----------------------------------------------------------------------------------------------------------
 
-TEST(EnvironmentBlend, FadesFromOneToTheOtherAndReadsWhatIsSeen) {
+TEST(EnvironmentBlend, InterpolatesAndReadsOnlyVisibleMaps) {
   const EnvironmentMap a = random_panorama(8, 4), b = random_cube(4);
   const Environment first{.map = &a, .brightness = 2.0f}, second{.map = &b, .brightness = 0.5f}, none{};
   const glm::vec3 d(0.3f, -0.2f, 0.7f), still(0.0f);
   const glm::vec3 x = a.sample<float>(kMapFromWorld * d, still, still) * 2.0f, y = b.sample<float>(kMapFromWorld * d, still, still) * 0.5f;
-  // A map that is null would crash if it were read.
+  // Reading the null map would crash.
   EXPECT_EQ((EnvironmentBlend{first, none, 0.0f}.light<float>(d, still, still)), x);
   EXPECT_EQ((EnvironmentBlend{none, second, 1.0f}.light<float>(d, still, still)), y);
   const glm::vec3 between = EnvironmentBlend{first, second, 0.25f}.light<float>(d, still, still);

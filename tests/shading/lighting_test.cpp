@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light at a point: closed forms, in double where nothing but the formula counts, and the guards in float.
+// Compares lighting at a point with closed-form results. Formulas are tested in double, robustness also in float.
 #include "halfspace/shading/lighting.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ glm::dvec3 direction(double degrees) { return {std::sin(degrees * kPi / 180), 0,
 
 const glm::dvec3 kUp(0, 0, 1);
 
-TEST(Lighting, LambertsCosine) {
+TEST(Lighting, DiffuseFollowsLambertsCosine) {
   for (const double degrees : {0.0, 30.0, 60.0, 89.0, 90.0, 120.0, 180.0}) {
     Light light;
     light.diffuse = {1, 2, 3};
@@ -36,18 +36,19 @@ TEST(Lighting, LambertsCosine) {
   }
 }
 
-TEST(Lighting, AttenuationOfAPointLight) {
+TEST(Lighting, PointLightsAttenuateWithDistance) {
   Light light{.type = LightType::point, .place_rws = {0, 0, 4}};
   light.attenuation = {0.2f, 0.1f, 0.1f};
-  // Straight above, 4 units away: 1 / (0.2 + 0.4 + 1.6). The terms are floats: 1e-7 of each.
+  // The light is 4 units above the point, so the expected value is 1 / (0.2 + 0.4 + 1.6). The coefficients are floats, with an error of
+  // 1e-7 each.
   const Illumination<double> i = at<double>(light, LightModel::phong, 1, kUp, kUp);
   EXPECT_NEAR(i.diffuse.x, 1 / 2.2, 1e-7);
-  EXPECT_NEAR(i.specular.x, 1 / 2.2, 1e-7) << "the highlight fades alike";
+  EXPECT_NEAR(i.specular.x, 1 / 2.2, 1e-7) << "the specular term has the same attenuation";
   light.attenuation = {0, 0, 1};
-  EXPECT_EQ(at<double>(light, LightModel::lambert, 1, kUp, kUp).diffuse.x, 1.0 / 16) << "physical";
+  EXPECT_EQ(at<double>(light, LightModel::lambert, 1, kUp, kUp).diffuse.x, 1.0 / 16) << "inverse square";
 }
 
-TEST(Lighting, SpotIsFullWithinDarkWithoutAndSmoothBetween) {
+TEST(Lighting, SpotIsFullInsideDarkOutsideAndSmoothBetween) {
   Light spot{.type = LightType::spot, .place_rws = {0, 0, 2}};
   const double inner = std::cos(20 * kPi / 180), outer = std::cos(30 * kPi / 180);
   spot.cos_outer = static_cast<float>(outer);
@@ -58,19 +59,19 @@ TEST(Lighting, SpotIsFullWithinDarkWithoutAndSmoothBetween) {
   };
   for (const double degrees : {0.0, 10.0, 19.9}) EXPECT_EQ(strength(degrees), 1.0) << degrees;
   for (const double degrees : {30.1, 60.0, 89.0}) EXPECT_EQ(strength(degrees), 0.0) << degrees;
-  EXPECT_EQ(light_at<double>(spot, {1, 0, 5}).strength, 0.0) << "behind it";
+  EXPECT_EQ(light_at<double>(spot, {1, 0, 5}).strength, 0.0) << "behind the spot light";
   for (double degrees = 20.5; degrees < 30; degrees += 0.5) {
     const double t = (std::cos(degrees * kPi / 180) - outer) / (inner - outer);
-    EXPECT_NEAR(strength(degrees), t * t * (3 - 2 * t), 3e-6) << degrees;  // cos_outer is a float: 6e-8 of 0.07 = 1e-6 of t, slope 1.5
+    EXPECT_NEAR(strength(degrees), t * t * (3 - 2 * t), 3e-6) << degrees;  // float cos_outer: 6e-8 of 0.07 is 1e-6 of t, times slope 1.5
   }
-  // No step at either edge: a tenth of a degree on is t = 0.012 or less, and a smoothstep's end rises by 3 t^2 = 4.3e-4.
+  // There is no step at either edge: 0.1 degrees past an edge, t is at most 0.012, and smoothstep has risen by 3 t^2 = 4.3e-4.
   EXPECT_LT(1 - strength(20.1), 5e-4);
   EXPECT_LT(strength(29.9), 5e-4);
 }
 
-TEST(Lighting, HighlightsPeakWhereTheyShould) {
-  // The eye turns round a surface lit at 40°: Phong's highlight peaks in the mirror direction with the value 1, Blinn's at
-  // the same place, for there h = n; off it by t, they are cos^s of t and of t/2.
+TEST(Lighting, HighlightsPeakInTheMirrorDirection) {
+  // The eye moves around a surface lit from 40°. Phong's highlight peaks in the mirror direction with the value 1, and so does Blinn's,
+  // because h = n there. At an angle t from the peak, the values are cos^s(t) and cos^s(t/2).
   const glm::dvec3 l = direction(40);
   Light light;
   light.place_rws = glm::vec3(l);
@@ -80,14 +81,14 @@ TEST(Lighting, HighlightsPeakWhereTheyShould) {
     const double off = std::abs(degrees + 40) * kPi / 180;
     const double phong = at<double>(light, LightModel::phong, s, kUp, v).specular.x;
     const double blinn = at<double>(light, LightModel::blinn_phong, s, kUp, v).specular.x;
-    // l is rounded to float: its length by 6e-8, 50 times that after the power; its angle by as much, times the slope of
-    // cos^50, at most 4.3.
+    // l is rounded to float. The error of its length, 6e-8, is multiplied by 50 by the power. Its angle has the same error, multiplied by
+    // the slope of cos^50, which is at most 4.3.
     EXPECT_NEAR(phong, std::pow(std::max(std::cos(off), 0.0), s), 3.3e-6) << degrees;
     EXPECT_NEAR(blinn, std::pow(std::cos(off / 2), s), 3.3e-6) << degrees;
   }
 }
 
-TEST(Lighting, NoHighlightFromBehindNorWithoutAModel) {
+TEST(Lighting, NoHighlightFromBehindOrWithoutASpecularModel) {
   for (const LightModel model : {LightModel::phong, LightModel::blinn_phong}) {
     for (const double shininess : {0.0, 1.0, 50.0}) {
       for (double degrees = 91; degrees < 270; degrees += 7) {
@@ -104,7 +105,7 @@ TEST(Lighting, NoHighlightFromBehindNorWithoutAModel) {
   EXPECT_EQ(at<double>(Light{}, LightModel::lambert, 10, kUp, kUp).specular.x, 0.0);
 }
 
-// All that may come in, each with each: no result is a NaN, none is negative, no highlight beyond what arrives.
+// Tests all combinations of unusual inputs: no result is NaN or negative, and no highlight exceeds the incident light.
 template <class R>
 void check_guards() {
   const R nan = std::numeric_limits<R>::quiet_NaN(), tiny = R(1e-30), zero(0), one(1);
@@ -141,10 +142,10 @@ void check_guards() {
   EXPECT_GT(checked, 90000);
 }
 
-TEST(Lighting, NeverNaNInFloat) { check_guards<float>(); }
-TEST(Lighting, NeverNaNInDouble) { check_guards<double>(); }
+TEST(Lighting, IsNeverNaNInFloat) { check_guards<float>(); }
+TEST(Lighting, IsNeverNaNInDouble) { check_guards<double>(); }
 
-TEST(Lighting, ZeroNormalsAreDark) {
+TEST(Lighting, ZeroNormalsAreUnlit) {
   for (const LightModel model : {LightModel::phong, LightModel::blinn_phong}) {
     const Illumination<float> i = at<float>(Light{}, model, 0, glm::vec3(0.0f), glm::vec3(0, 0, 1));
     EXPECT_EQ(i.diffuse, glm::vec3(0.0f));
@@ -152,14 +153,14 @@ TEST(Lighting, ZeroNormalsAreDark) {
   }
 }
 
-TEST(Lighting, NormalizeOrZero) {
+TEST(Lighting, NormalizeOrZeroKeepsZeroVectors) {
   EXPECT_EQ(normalize_or_zero(vec3<float>(0.0f)), vec3<float>(0.0f));
   const glm::vec3 up = glm::vec3(normalize_or_zero(vec3<float>(0, 3, 0)));
   EXPECT_EQ(glm::vec3(up.x, 0.0f, up.z), glm::vec3(0.0f));
-  EXPECT_NEAR(up.y, 1.0f, 0x1p-22f);  // 1/3 within 1.32 ulp of 2^-25, three times, and rounded
+  EXPECT_NEAR(up.y, 1.0f, 0x1p-22f);  // three times 1/3, each with an error of 1.32 ulp of 2^-25, and a final rounding
 }
 
-TEST(Lighting, LightsAddUpAndNoneIsDark) {
+TEST(Lighting, LightsAddUpAndNoLightsIsBlack) {
   Light a, b;
   a.diffuse = a.specular = {1, 0, 0};
   b.diffuse = b.specular = {0, 0.5f, 0};

@@ -9,8 +9,9 @@
 namespace halfspace {
 namespace {
 
-// Every start from far left to far right of a row, in lanes that are all inside, all outside and mixed, on maps narrower than four
-// columns too, against columns clamped one by one. The map ends with the row's last texel: what reads past it is seen by the sanitizer.
+// Compares every start position from far left to far right of a row with columns that are clamped one by one. Lanes are all inside, all
+// outside or mixed, and some maps are narrower than four columns. The buffer ends with the last texel of the row, so a sanitizer detects
+// reads past it.
 template <int N, class R>
 void expect_clamped_rows() {
   for (const int width : {1, 2, 3, 4, 5, 40}) {
@@ -35,7 +36,7 @@ void expect_clamped_rows() {
   }
 }
 
-TEST(MapRow, HoldsColumnsBeyondTheEnds) {
+TEST(MapRow, ClampsColumnsOutsideTheMap) {
   expect_clamped_rows<1, float>();
   expect_clamped_rows<3, double>();
   expect_clamped_rows<2, RealN<4>>();

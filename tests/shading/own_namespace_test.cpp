@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A shader outside of namespace halfspace, without a using-directive: functions of vectors are found by their arguments, and float and
-// lanes give the same bits.
+// Tests a shader outside of namespace halfspace without a using-directive: argument-dependent lookup finds the vector functions, and float
+// and lanes return the same bits.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -75,7 +75,7 @@ void check_lanes() {
   }
 }
 
-TEST(OwnNamespace, FloatAndLanesGiveTheSameBits) {
+TEST(OwnNamespace, FloatAndLanesReturnTheSameBits) {
   check_lanes<halfspace::RealN<4>>();
   check_lanes<halfspace::RealN<8>>();
   check_lanes<halfspace::RealN<16>>();

@@ -11,16 +11,16 @@
 namespace halfspace {
 namespace {
 
-TEST(Reflection, OfABallIsTheLawOfReflection) {
+TEST(Reflection, FollowsTheLawOfReflection) {
   const Differential<double> d{{1, -1, 0}, {}, {}}, n{{0, 1, 0}, {}, {}};
   EXPECT_EQ(reflected(d, n).at, glm::dvec3(1, 1, 0));
   const Differential<double> back{{0, -1, 0}, {}, {}};
   EXPECT_EQ(reflected(back, n).at, glm::dvec3(0, 1, 0));
-  EXPECT_EQ(reflected(back, {{0, -1, 0}, {}, {}}).at, glm::dvec3(0, 1, 0)) << "from either side";
+  EXPECT_EQ(reflected(back, {{0, -1, 0}, {}, {}}).at, glm::dvec3(0, 1, 0)) << "the sign of the normal does not matter";
 }
 
-// The analytic derivatives against differences: a normal and a ray that turn.
-TEST(Reflection, DerivativesAreThoseOfTheReflectedRay) {
+// Compares the analytic derivatives with finite differences, for a normal and a ray that both rotate.
+TEST(Reflection, DerivativesMatchFiniteDifferences) {
   std::mt19937 random(1);
   for (int i = 0; i < 1000; ++i) {
     const Differential<double> eye{random_vector(random), random_vector(random), random_vector(random)};
@@ -32,7 +32,7 @@ TEST(Reflection, DerivativesAreThoseOfTheReflectedRay) {
     };
     const Differential<double> got = reflected(eye, normalized(normal));
     const double scale = (1 + length(normal.dx) + length(normal.dy)) / length(normal.at);
-    // A central difference errs by h²·f''', and f''' goes with the cube of the normal's turning.
+    // The error of a central difference is h²·f''', and f''' grows with the cube of the rotation rate of the normal.
     const double tolerance = 1e-7 + 1e-9 * scale * scale * scale;
     EXPECT_LT(length(got.at - ray(0, 0)), 1e-12);
     EXPECT_LT(length(got.dx - (ray(h, 0) - ray(-h, 0)) / (2 * h)), tolerance * length(eye.at) + tolerance * length(eye.dx));
@@ -40,9 +40,9 @@ TEST(Reflection, DerivativesAreThoseOfTheReflectedRay) {
   }
 }
 
-// A flat mirror shows the sky as a camera behind it would: the same level; a ball of radius r at distance a shrinks it by
-// 1 + 2a/r in its middle.
-TEST(Reflection, LevelIsThatOfWhatTheMirrorShows) {
+// A flat mirror shows the sky at the same level as a camera behind it would. A ball of radius r at distance a minifies it by 1 + 2a/r at
+// its center.
+TEST(Reflection, LevelMatchesTheReflectedImage) {
   Image<glm::vec4> image(256, 128);
   const EnvironmentMap map(image, TexelFormat::rgba16f);
   const double pixel = 1e-3, distance = 5.0, radius = 0.5;
@@ -54,12 +54,12 @@ TEST(Reflection, LevelIsThatOfWhatTheMirrorShows) {
   EXPECT_NEAR(map.level_of_detail<double>(ball.at, ball.dx, ball.dy), direct + std::log2(1 + 2 * distance / radius), 1e-9);
 }
 
-TEST(Reflection, MirroredLightIsThatOfItsDirection) {
+TEST(Reflection, ReturnsTheLightFromTheReflectedDirection) {
   Image<glm::vec4> image(4, 2);
   for (int x = 0; x < 4; ++x) image.at(x, 0) = image.at(x, 1) = glm::vec4(static_cast<float>(x));
   const EnvironmentMap map(image, TexelFormat::rgba32f);
   const EnvironmentBlend sky{.first = {.map = &map}, .second = {}, .weight = 0};
-  // From +z to -x, by a mirror that stands across: what is seen lies to the left, between columns 0 and 1.
+  // A diagonal mirror reflects the view ray, which looks along -z, to -x. That direction is between columns 0 and 1.
   const Differential<float> d{{0, 0, -1}, {}, {}}, n{{-std::sqrt(0.5f), 0, std::sqrt(0.5f)}, {}, {}};
   EXPECT_NEAR(environment_reflection(sky, d, n).x, 0.5f, 1e-5f);
 }

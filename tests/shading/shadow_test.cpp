@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadow look-ups against brute force and closed forms, on maps made by hand.
+// Compares shadow lookups with brute force and closed forms, using small synthetic shadow maps.
 #include "halfspace/shading/shadow.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace halfspace {
 namespace {
 
-// A map over [-1, 1]², looking down −z from z = 1 to z = −1: window depth is (z + 1)/2.
+// A map over [-1, 1]² that looks down −z from z = 1 to z = −1, so window depth is (z + 1)/2.
 struct Map {
   explicit Map(int size) : depth(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)) {
     view.size = size;
@@ -28,7 +28,7 @@ struct Map {
     view.clip_plane_from_rws = glm::transpose(glm::inverse(view.clip_from_rws));
     view.depth = depth.data();
   }
-  float& at(int i, int j) {  // from the lower left
+  float& at(int i, int j) {  // origin at the lower left
     return depth[static_cast<std::size_t>(view.size - 1 - j) * static_cast<std::size_t>(view.size) + static_cast<std::size_t>(i)];
   }
   double center(int i) const { return (i + 0.5) * 2.0 / view.size - 1.0; }
@@ -36,7 +36,7 @@ struct Map {
     for (int j = 0; j < view.size; ++j)
       for (int i = 0; i < view.size; ++i) at(i, j) = static_cast<float>((z(center(i), center(j)) + 1.0) / 2.0);
   }
-  // Unfiltered powers of the linear depth.
+  // Stores unfiltered powers of the linear depth.
   void make_moments() {
     moments.clear();
     for (const float z : depth) {
@@ -70,10 +70,10 @@ Shadow shadow_of(const ShadowView& view, ShadowFilter filter, ShadowBias bias) {
   return s;
 }
 
-// Overlap of texel [i, i+1] with [a, b].
+// Returns the length of the overlap of texel [i, i+1] with [a, b].
 double overlap(int i, double a, double b) { return std::max(0.0, std::min(i + 1.0, b) - std::max<double>(i, a)); }
 
-TEST(ShadowFilter, BoxIsTheAreaOfTheLitTexelsInTheSquare) {
+TEST(ShadowFilter, PcfIsTheLitAreaOfTheBoxFilter) {
   Map map = random_map(32, 1);
   std::mt19937 random(2);
   std::uniform_real_distribution<float> place(-0.6f, 0.6f);
@@ -88,13 +88,13 @@ TEST(ShadowFilter, BoxIsTheAreaOfTheLitTexelsInTheSquare) {
         for (int i = 0; i < 32; ++i)
           if ((p.z + 1.0f) / 2.0f >= map.at(i, j)) expected += overlap(i, x - r, x + r) * overlap(j, y - r, y + r);
       expected /= width * width;
-      // Texel coordinates up to 32 in float: fractions are off by 2e-6, each of up to 64 terms by as much.
+      // Texel coordinates up to 32 in float have fractions with an error of 2e-6, as does each of up to 64 terms.
       EXPECT_NEAR(shadow_factor(shadow_of(map.view, filter, ShadowBias::none), receiver(p)), expected, 2e-5);
     }
   }
 }
 
-TEST(ShadowFilter, HardAsksTheTexelAndNineTexelsAskNine) {
+TEST(ShadowFilter, HardReadsOneTexelAndOriginalPcfReadsNine) {
   Map map = random_map(16, 3);
   std::mt19937 random(4);
   std::uniform_real_distribution<float> place(-0.7f, 0.7f);
@@ -111,8 +111,8 @@ TEST(ShadowFilter, HardAsksTheTexelAndNineTexelsAskNine) {
   }
 }
 
-TEST(ShadowFilter, DiskIsEvenAndTurnsByPixel) {
-  // A half plane in shadow: the disk's mean is the share of its points on the lit side, whatever the turn.
+TEST(ShadowFilter, DiskIsUnbiasedForAnyRotation) {
+  // Half of the plane is in shadow. The mean is the fraction of the disk's points on the lit side, for any rotation.
   Map map(64);
   map.fill([](double x, double) { return x < 0 ? 0.9 : -0.9; });
   Shadow s = shadow_of(map.view, ShadowFilter::vogel, ShadowBias::none);
@@ -122,7 +122,7 @@ TEST(ShadowFilter, DiskIsEvenAndTurnsByPixel) {
   for (int k = 0; k < 64; ++k) {
     at.x_px = static_cast<float>(k) + 0.5f;
     const float light = shadow_factor(s, at);
-    EXPECT_GE(light, 5.0f / 16.0f);  // 16 points on a spiral: half, give or take three
+    EXPECT_GE(light, 5.0f / 16.0f);  // 16 points on a spiral: half of them, plus or minus three
     EXPECT_LE(light, 11.0f / 16.0f);
     mean += light / 64.0;
   }
@@ -133,8 +133,9 @@ TEST(ShadowFilter, DiskIsEvenAndTurnsByPixel) {
   EXPECT_EQ(shadow_factor(s, at), 0.0f);
 }
 
-TEST(ShadowFilter, PenumbraIsAsWideAsTheLightMakesIt) {
-  // An edge h over the floor, a light of tangent t: light goes from 0 to 1 over 2·h·t, as the area of a disk cut by a line.
+TEST(ShadowFilter, PenumbraWidthMatchesTheLightSize) {
+  // An occluder edge is h above the floor and the light has the tangent t. Light rises from 0 to 1 over a width of 2·h·t, like the area of
+  // a disk cut by a line.
   Map map(512);
   constexpr double kFloor = -0.8, kEdge = 0.2, kTangent = 0.1;
   map.fill([](double x, double) { return x < 0 ? kEdge : kFloor; });
@@ -150,12 +151,12 @@ TEST(ShadowFilter, PenumbraIsAsWideAsTheLightMakesIt) {
     }
     const double c = std::clamp(x, -1.0, 1.0);
     const double expected = 0.5 + (c * std::sqrt(1.0 - c * c) + std::asin(c)) / std::numbers::pi;
-    EXPECT_NEAR(mean, expected, 0.03) << x;  // 32 points see an area to about 1/32
+    EXPECT_NEAR(mean, expected, 0.03) << x;  // 32 points resolve an area to about 1/32
   }
 }
 
-TEST(ShadowFilter, MomentsRebuildTwoDepthsAndTwoMomentsLeak) {
-  // Half of the texels at depth 0.2, half at 0.6; the receiver at 0.9 lies behind both, at 0.4 behind the nearer half.
+TEST(ShadowFilter, FourMomentsSeparateTwoDepthsAndTwoMomentsLeak) {
+  // Half of the texels have depth 0.2, half 0.6. A receiver at 0.9 is behind both, a receiver at 0.4 only behind the nearer half.
   Map map(8);
   map.make_moments();
   const auto power = [](double d, int n) { return std::pow(d, n); };
@@ -165,14 +166,15 @@ TEST(ShadowFilter, MomentsRebuildTwoDepthsAndTwoMomentsLeak) {
     return shadow_factor(shadow_of(map.view, filter, ShadowBias::none), receiver({0, 0, static_cast<float>(1.0 - 2.0 * depth)}));
   };
   EXPECT_NEAR(light(ShadowFilter::moments, 0.1), 1.0f, 1e-3f);
-  EXPECT_NEAR(light(ShadowFilter::moments, 0.4), 0.5f, 0.01f);  // the spread that guards against rounding
+  EXPECT_NEAR(light(ShadowFilter::moments, 0.4), 0.5f, 0.01f);  // tolerance for the bias that guards against rounding
   EXPECT_NEAR(light(ShadowFilter::moments, 0.9), 0.0f, 0.01f);
-  // Two moments: mean 0.4, variance 0.04: Chebyshev allows 0.04/(0.04 + 0.25) = 0.138 where no light arrives.
+  // With two moments, the mean is 0.4 and the variance 0.04, so Chebyshev's bound is 0.04/(0.04 + 0.25) = 0.138 although the receiver is
+  // fully occluded.
   EXPECT_NEAR(light(ShadowFilter::vsm, 0.9), 0.04f / 0.29f, 1e-4f);
   EXPECT_EQ(light(ShadowFilter::vsm, 0.1), 1.0f);
 }
 
-TEST(ShadowFilter, OneDepthIsAStepForBothKindsOfMoments) {
+TEST(ShadowFilter, MomentsOfASingleDepthGiveAStep) {
   Map map(8);
   map.fill([](double, double) { return 0.0; });
   map.make_moments();
@@ -182,19 +184,19 @@ TEST(ShadowFilter, OneDepthIsAStepForBothKindsOfMoments) {
   }
 }
 
-TEST(Shadow, OutsideOfTheMapIsLit) {
+TEST(Shadow, PointsOutsideOfTheMapAreLit) {
   Map map(16);
   map.fill([](double, double) { return 0.9; });
   const Shadow s = shadow_of(map.view, ShadowFilter::hard, ShadowBias::none);
   EXPECT_EQ(shadow_factor(s, receiver({0, 0, 0})), 0.0f);
   EXPECT_EQ(shadow_factor(s, receiver({1.01f, 0, 0})), 1.0f);
   EXPECT_EQ(shadow_factor(s, receiver({0, -1.01f, 0})), 1.0f);
-  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 1.01f})), 1.0f);     // nearer than the view begins
-  EXPECT_EQ(shadow_factor(s, receiver({0, 0, -1.01f})), 1.0f);    // beyond its end: another cascade's
-  EXPECT_EQ(shadow_factor(Shadow{}, receiver({0, 0, 0})), 1.0f);  // a light without shadow
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 1.01f})), 1.0f);     // closer than the near plane of the view
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, -1.01f})), 1.0f);    // beyond the far plane, where another cascade takes over
+  EXPECT_EQ(shadow_factor(Shadow{}, receiver({0, 0, 0})), 1.0f);  // light without a shadow map
 }
 
-TEST(Shadow, BehindASpotNothingIsSampled) {
+TEST(Shadow, PointsBehindASpotAreLit) {
   Map map(16);
   map.fill([](double, double) { return 1.0; });
   map.view.perspective = true;
@@ -202,14 +204,14 @@ TEST(Shadow, BehindASpotNothingIsSampled) {
   const Shadow s = shadow_of(map.view, ShadowFilter::hard, ShadowBias::none);
   EXPECT_EQ(shadow_factor(s, receiver({0, 0, -5})), 0.0f);
   EXPECT_EQ(shadow_factor(s, receiver({0, 0, 5})), 1.0f);
-  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 0})), 1.0f);  // at the light itself: w is 0
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 0})), 1.0f);  // at the light position, where w is 0
 }
 
-TEST(Shadow, TheFirstViewThatHoldsThePointCounts) {
+TEST(Shadow, UsesTheFirstViewThatContainsThePoint) {
   Map dark(16), bright(16);
   dark.fill([](double, double) { return 0.9; });
   bright.fill([](double, double) { return -0.9; });
-  dark.view.clip_from_rws[0][0] = dark.view.clip_from_rws[1][1] = 2.0f;  // the finer one spans [-1/2, 1/2]²
+  dark.view.clip_from_rws[0][0] = dark.view.clip_from_rws[1][1] = 2.0f;  // the finer view spans [-1/2, 1/2]²
   const ShadowView views[] = {dark.view, bright.view};
   Shadow s{views, {}};
   s.settings.filter = ShadowFilter::hard;
@@ -218,23 +220,23 @@ TEST(Shadow, TheFirstViewThatHoldsThePointCounts) {
   EXPECT_EQ(shadow_factor(s, receiver({0.6f, 0, 0})), 1.0f);
 }
 
-TEST(ShadowBias, EachLiftsThePlaceByItsFormula) {
+TEST(ShadowBias, EachTypeOffsetsTheDepthByItsFormula) {
   Map map(64);
   const glm::vec3 p(0.1f, 0.2f, -0.3f), l = glm::normalize(glm::vec3(0, 0, 1)), n = glm::normalize(glm::vec3(0.8f, 0, 0.6f));
   ShadowSettings s;
   s.filter = ShadowFilter::hard;
   s.constant = 1.5f;
   s.slope = 2.0f;
-  const double texel = 2.0 / 64 * 0.5;  // of window depth
+  const double texel = 2.0 / 64 * 0.5;  // in window depth
   const double cosine = 0.6, tangent = 0.8 / 0.6;
   const auto lift = [&](ShadowBias bias) {
     s.bias = bias;
     return static_cast<double>(biased_place(map.view, s, receiver(p, n, l)).depth) - 0.35;
   };
-  constexpr double kRounding = 2e-7;  // depth near 0.35, and the lift's own product
+  constexpr double kRounding = 2e-7;  // rounding of a depth near 0.35 and of the product in the bias
   EXPECT_NEAR(lift(ShadowBias::none), 0.0, kRounding);
   EXPECT_NEAR(lift(ShadowBias::constant), 1.5 * texel, kRounding);
-  EXPECT_NEAR(lift(ShadowBias::slope), texel * (1.5 + 2.0 * 0.5 * tangent), kRounding);  // half a texel is the hard filter's reach
+  EXPECT_NEAR(lift(ShadowBias::slope), texel * (1.5 + 2.0 * 0.5 * tangent), kRounding);  // the hard filter reaches half a texel
   EXPECT_NEAR(lift(ShadowBias::angle), texel * std::max(2.0 * (1.0 - cosine), 1.5), kRounding);
   EXPECT_NEAR(lift(ShadowBias::original), 0.0005, kRounding);
   EXPECT_NEAR(lift(ShadowBias::receiver_plane), 1.5 * texel, kRounding);
@@ -243,11 +245,11 @@ TEST(ShadowBias, EachLiftsThePlaceByItsFormula) {
   EXPECT_NEAR(lift(ShadowBias::adaptive), 2.0 * 1e-4 * 0.5, kRounding);
 }
 
-// A floor that is lit at a slant, drawn into the map at texel centres: what share of it shades itself?
+// Returns the fraction of a tilted floor that shadows itself. The floor is drawn into the map at texel centers.
 double false_shadow(ShadowFilter filter, ShadowBias bias, double degrees) {
   const double slope = std::tan(degrees * std::numbers::pi / 180.0);
   Map map(256);
-  const double stretch = std::min(1.0, 0.9 / slope);  // keep the floor within the map's depth
+  const double stretch = std::min(1.0, 0.9 / slope);  // keeps the floor within the depth range of the map
   map.fill([&](double x, double) { return std::clamp(slope * x, -1.0, 1.0); });
   Shadow s = shadow_of(map.view, filter, bias);
   s.settings.max_slope = 1e3f;
@@ -264,9 +266,9 @@ double false_shadow(ShadowFilter filter, ShadowBias bias, double degrees) {
   return shaded / kPoints;
 }
 
-TEST(ShadowBias, WithoutOneAFloorShadesItselfAndThePlanesDoNot) {
+TEST(ShadowBias, AcneOccursWithoutABiasAndNotWithPlaneBiases) {
   for (const double degrees : {10.0, 45.0, 70.0, 80.0}) {
-    EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::none, degrees), 0.4) << degrees;  // half of each texel lies below its middle
+    EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::none, degrees), 0.4) << degrees;  // half of each texel is below its center
     for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::bilinear, ShadowFilter::pcf5}) {
       EXPECT_EQ(false_shadow(filter, ShadowBias::receiver_plane, degrees), 0.0) << degrees;
       EXPECT_EQ(false_shadow(filter, ShadowBias::automatic, degrees), 0.0) << degrees;
@@ -274,10 +276,10 @@ TEST(ShadowBias, WithoutOneAFloorShadesItselfAndThePlanesDoNot) {
     }
     EXPECT_EQ(false_shadow(ShadowFilter::hard, ShadowBias::adaptive, degrees), 0.0) << degrees;
   }
-  EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::constant, 80.0), 0.3);  // a texel of lift is too little at 5.7 a texel
+  EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::constant, 80.0), 0.3);  // too small for a slope of 5.7 per texel
 }
 
-TEST(ShadowBias, WhereNothingWasDrawnAPlaneBeyondTheFarEndIsLit) {
+TEST(ShadowBias, SteepPlanesAreLitWhereTheMapIsEmpty) {
   const Map map(64);  // empty
   const glm::vec3 steep = glm::normalize(glm::vec3(-5, 0, 1)), at_far_end(0.1f, 0.1f, -0.999f);
   for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::bilinear, ShadowFilter::pcf7})
@@ -285,8 +287,9 @@ TEST(ShadowBias, WhereNothingWasDrawnAPlaneBeyondTheFarEndIsLit) {
       EXPECT_EQ(shadow_factor(shadow_of(map.view, filter, bias), receiver(at_far_end, steep)), 1.0f);
 }
 
-TEST(ShadowBias, PlanesOfASpotAreFlatInItsWindowToo) {
-  // A wall at a slant before a spot: depth from the plane at a texel's middle is that of the ray through it.
+TEST(ShadowBias, ReceiverPlanesAreLinearInSpotLightWindows) {
+  // A tilted wall in front of a spot light: the depth that the plane predicts at a texel center must equal that of the ray through the
+  // center.
   const float near = 0.5f, far = 20.0f, a = near * far / (far - near), b = -near / (far - near);
   ShadowView view;
   view.size = 128;
@@ -305,16 +308,16 @@ TEST(ShadowBias, PlanesOfASpotAreFlatInItsWindowToo) {
     const double x = 0.1 + step / 64.0, y = -0.2 - step / 128.0;
     const double by_plane =
         static_cast<double>(place.depth) + step * static_cast<double>(place.depth_dx) - 0.5 * step * static_cast<double>(place.depth_dy);
-    EXPECT_NEAR(by_plane, depth_of(on_wall(x, y)), 3e-7);  // float depths below 0.1, sums of three
+    EXPECT_NEAR(by_plane, depth_of(on_wall(x, y)), 3e-7);  // float depths below 0.1, sums of three terms
   }
 }
 
-TEST(Shadow, LanesGiveTheBitsOfFloat) {
+TEST(Shadow, LanesMatchScalarBits) {
   Map map = random_map(64, 6);
   map.make_moments();
   std::mt19937 random(7);
   std::uniform_real_distribution<float> any(-1.1f, 1.1f);
-  using L = RealN<8>;  // instantiated here
+  using L = RealN<8>;  // not instantiated by the library
   for (int f = 0; f <= static_cast<int>(ShadowFilter::moments); ++f) {
     for (int b = 0; b <= static_cast<int>(ShadowBias::original); ++b) {
       Shadow s = shadow_of(map.view, static_cast<ShadowFilter>(f), static_cast<ShadowBias>(b));

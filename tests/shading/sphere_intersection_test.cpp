@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays against spheres in float: inside, depth and normal as the textbook's quadratic has them in long double, which knows nothing
-// of the way they are found here; and bounds that hold every pixel.
+// Tests ray-sphere intersection in float. Visibility, depth and normal are compared with the textbook quadratic in long double, which is
+// independent of the algorithm under test. Screen-space bounds must contain every pixel of the sphere.
 #include "halfspace/shading/sphere_intersection.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ const glm::dvec2 kHalf(1.1, 1.1 * kHeight / kWidth);
 
 SphereIntersection lens_for(bool perspective) { return {perspective, perspective ? kHalf : kHalf * 10.0, kNear, kFar, {kWidth, kHeight}}; }
 
-// A row of numbers that every machine draws alike.
+// A random number sequence that is identical on every machine.
 class Numbers {
  public:
   explicit Numbers(uint64_t seed) : state_(seed) {}
@@ -34,7 +34,7 @@ class Numbers {
 };
 
 struct Truth {
-  Wide root;  ///< squared half chord over squared radius, < 0 where the ray misses
+  Wide root;  ///< squared half chord divided by the squared radius; negative if the ray misses
   Wide t, depth, n_v;
   Wide n[3];
 };
@@ -64,12 +64,12 @@ Truth truth_of(const glm::vec3& c, float r, double x, double y, bool perspective
 }
 
 struct Worst {
-  double depth = 0.0, normal = 0.0;          ///< where n·v ≥ 0.1: in units of float32's last place, and absolute
-  double rim_depth = 0.0, rim_normal = 0.0;  ///< elsewhere: in changes of the depth over 2^-12 px, and times n·v
+  double depth = 0.0, normal = 0.0;          ///< for n·v ≥ 0.1: float ulps, and absolute error
+  double rim_depth = 0.0, rim_normal = 0.0;  ///< elsewhere: multiples of the depth change over 2^-12 px, and error times n·v
   int wrong_inside = 0, seen = 0, missed = 0, rim = 0;
 };
 
-// By how much the depth changes over 2^-12 px in any direction; infinite where the ray then misses.
+// Returns the largest depth change over 2^-12 px in any direction; infinite if the shifted ray misses.
 double change_of_depth(const glm::vec3& c, float r, double x, double y, bool perspective) {
   const Truth here = truth_of(c, r, x, y, perspective);
   Wide most = 0;
@@ -84,13 +84,13 @@ double change_of_depth(const glm::vec3& c, float r, double x, double y, bool per
 void compare_rim(const SphereIntersection& lens, const SphereHit<float>& h, const Truth& t, double change, Worst& worst) {
   ++worst.rim;
   const double depth = static_cast<double>(std::fabs(Wide(lens.window_depth(h.t, h.t_low)) - t.depth));
-  // The depth itself is a float: what may be lost elsewhere comes on top.
+  // The depth itself is a float, so the tolerance of other pixels is added.
   worst.rim_depth = std::max(worst.rim_depth, std::max(depth - 4 * 0x1p-24 * static_cast<double>(t.depth), 0.0) / change);
   for (int k = 0; k < 3; ++k)
     worst.rim_normal = std::max(worst.rim_normal, static_cast<double>(std::fabs(Wide(h.n_cs[k]) - t.n[k]) * t.n_v));
 }
 
-// A sphere round a random point, and pixels in and near it.
+// Compares random pixels in and near the bounds of a sphere.
 void compare(const SphereIntersection& lens, const glm::vec3& c, float r, Numbers& random, Worst& worst) {
   const SphereSpan<float> sx = lens.span(vec3<float>(c), r, 0), sy = lens.span(vec3<float>(c), r, 1);
   const auto pixel = [&](float low, float high, int size) {
@@ -116,7 +116,8 @@ void compare(const SphereIntersection& lens, const glm::vec3& c, float r, Number
   }
 }
 
-// Radius at most a fifth of the distance, to 60 degrees off the axis, of 1/2 px to half the picture.
+// Tests spheres whose radius is at most a fifth of their distance, up to 60 degrees off-axis, with sizes from 1/2 px to half of the
+// picture.
 Worst of_distant_spheres(bool perspective) {
   const SphereIntersection lens = lens_for(perspective);
   Numbers random(1);
@@ -131,8 +132,8 @@ Worst of_distant_spheres(bool perspective) {
   return worst;
 }
 
-// What is asked of exact sprites: where n·v ≥ 0.1 depth within 4 ulp of float32 and normal within 1e-6,
-// elsewhere normal within 1e-6/(n·v) and depth within its change over 2^-12 px.
+// Requirements for exact spheres: where n·v ≥ 0.1, depth within 4 float ulps and normal within 1e-6. Elsewhere, normal within 1e-6/(n·v)
+// and depth within its change over 2^-12 px.
 void expect_exact(const Worst& w) {
   EXPECT_EQ(w.wrong_inside, 0);
   EXPECT_LE(w.depth, 4.0);
@@ -141,7 +142,7 @@ void expect_exact(const Worst& w) {
   EXPECT_LE(w.rim_normal, 1e-6);
 }
 
-TEST(SphereIntersection, DistantSpheresAsInLongDouble) {
+TEST(SphereIntersection, DistantSpheresMatchLongDouble) {
   for (const bool perspective : {true, false}) {
     const Worst w = of_distant_spheres(perspective);
     EXPECT_GT(w.seen, 100000);
@@ -154,8 +155,8 @@ TEST(SphereIntersection, DistantSpheresAsInLongDouble) {
   }
 }
 
-// Spheres that the near plane cuts, whose centre may be behind the eye, and spheres that hold the eye's surroundings.
-TEST(SphereIntersection, SpheresAtAndThroughTheNearPlane) {
+// Tests spheres that are cut by the near plane, some with their center behind the eye, and spheres that contain the eye.
+TEST(SphereIntersection, SpheresCutByTheNearPlaneMatchLongDouble) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(2);
   Worst worst;
@@ -172,8 +173,8 @@ TEST(SphereIntersection, SpheresAtAndThroughTheNearPlane) {
   RecordProperty("worst_normal_1e-6", std::to_string(worst.normal * 1e6));
 }
 
-// Spheres made to pass by the very ray: ten million rays that meet or miss by 2^-8 of the radius to less than its last bit.
-TEST(SphereIntersection, InsideIsDoublesAtTheRim) {
+// Constructs spheres that almost touch the ray: ten million rays that hit or miss by between 2^-8 of the radius and less than its last bit.
+TEST(SphereIntersection, VisibilityAtTheRimMatchesLongDouble) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(5);
   int wrong = 0, in = 0, close = 0;
@@ -195,11 +196,11 @@ TEST(SphereIntersection, InsideIsDoublesAtTheRim) {
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(in, kRays / 3);
-  EXPECT_GT(close, kRays / 4);  // plain floats do not know of these
+  EXPECT_GT(close, kRays / 4);  // float arithmetic alone cannot decide these
 }
 
-// Every pixel that sees the sphere lies in its bounds, and they are no wider than a pixel and a half beyond those pixels.
-TEST(SphereIntersection, BoundsHoldTheSphereAndLittleMore) {
+// Every pixel that shows the sphere must be inside the bounds, and the bounds must extend at most 1.5 px beyond these pixels.
+TEST(SphereIntersection, BoundsAreConservativeAndTight) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(3);
   int cut = 0, whole = 0;
@@ -229,14 +230,14 @@ TEST(SphereIntersection, BoundsHoldTheSphereAndLittleMore) {
     ASSERT_LE(low[1], y0 + 0.5) << i;
     ASSERT_GE(high[1], y1 + 0.5) << i;
     const bool inside = x0 > 0 && y0 > 0 && x1 < kWidth - 1 && y1 < kHeight - 1;
-    // Where the plane cuts a sphere, its bounds are those of both sides; the far side is not seen.
+    // The bounds of a sphere that the near plane cuts include the far side of the cut, which is not visible.
     if (!inside || c.z - r < lens.near) {
       ++cut;
       continue;
     }
     ++whole;
-    // At an end of an ellipse's axis of a (px) a pixel centre is found within 1/2 px along it and 1/(8a) in: 1.5 px hold from
-    // the smallest sphere here (10 px) on.
+    // Near the end of an ellipse axis of length a (in px), there is a pixel center within 1/2 px along the axis and 1/(8a) across it. 1.5
+    // px is therefore sufficient for the smallest sphere here (10 px).
     EXPECT_GT(low[0], x0 + 0.5 - 1.5) << i;
     EXPECT_LT(high[0], x1 + 0.5 + 1.5) << i;
     EXPECT_GT(low[1], y0 + 0.5 - 1.5) << i;
@@ -246,8 +247,8 @@ TEST(SphereIntersection, BoundsHoldTheSphereAndLittleMore) {
   EXPECT_GT(whole, 30);
 }
 
-// Of a sphere that the near plane cuts: the largest and the least x/z of what lies beyond the plane, by trying round its circle.
-TEST(SphereIntersection, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
+// For spheres that are cut by the near plane, computes the range of x/z of the part beyond the plane by sampling the circle.
+TEST(SphereIntersection, BoundsOfCutSpheresExcludeThePartBeforeTheNearPlane) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(4);
   int at_the_plane = 0;
@@ -266,7 +267,8 @@ TEST(SphereIntersection, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
     }
     at_the_plane += (low == plane_low ? 1 : 0) + (high == plane_high ? 1 : 0);
     const SphereSpan<float> s = lens.span(vec3<float>(c), r, 0);
-    // Held, and by little: an eighth of a pixel, and where the eye is all but on the surface what the tangent's length is uncertain by.
+    // The bounds must be conservative and tight to an eighth of a pixel. If the eye is almost on the surface, the uncertainty of the
+    // tangent length is added.
     const double eye = std::fabs(static_cast<double>(glm::dot(c, c)) / (rd * rd) - 1.0);
     const auto most = [&](double end) { return 0.26 / kWidth + std::fabs(end) * (1e-4 + 1e-6 / eye); };
     EXPECT_LE(static_cast<double>(s.low), low / kHalf.x) << i;
@@ -278,7 +280,7 @@ TEST(SphereIntersection, BoundsOfCutSpheresAreThoseOfWhatIsLeft) {
   EXPECT_LT(at_the_plane, 900);
 }
 
-TEST(SphereIntersection, NothingToDrawOutsideOfDepth) {
+TEST(SphereIntersection, SpheresOutsideOfTheDepthRangeAreRejected) {
   const SphereIntersection lens = lens_for(true);
   EXPECT_TRUE(lens.in_depth(vec3<float>(0, 0, 5), 1.0f));
   EXPECT_TRUE(lens.in_depth(vec3<float>(0, 0, -0.5f), 0.75f));

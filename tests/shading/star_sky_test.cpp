@@ -9,13 +9,13 @@
 namespace halfspace {
 namespace {
 
-// Directions spread evenly over the sphere (a golden spiral).
+// Returns the i-th of n directions that are evenly distributed over the sphere (golden spiral).
 glm::vec3 direction(int i, int n) {
   const double z = 1.0 - (2.0 * i + 1.0) / n, r = std::sqrt(1.0 - z * z), turn = 2.399963229728653 * i;
   return {static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)), static_cast<float>(z)};
 }
 
-TEST(StarSky, LanesSeeWhatFloatSees) {
+TEST(StarSky, LanesMatchScalarBits) {
   const StarSky sky{.pixel = 4e-3f};
   constexpr int kCount = 4096 * kLanes;
   int lit = 0;
@@ -35,8 +35,9 @@ TEST(StarSky, LanesSeeWhatFloatSees) {
   EXPECT_GT(lit, 0);
 }
 
-TEST(StarSky, DensityIsTheShareOfCells) {
-  // A cell's disc spans π·(1.3·pixel)² on the face, less towards its corners: the mean over a face of 1/√(1 + a² + b²).
+TEST(StarSky, DensityIsTheFractionOfCellsWithAStar) {
+  // The disk of a cell covers π·(1.3·pixel)² on the face, and less toward the corners: scaled by the mean of 1/√(1 + a² + b²) over the
+  // face.
   double mean = 0.0;
   for (int i = 0; i < 100; ++i) {
     for (int j = 0; j < 100; ++j) mean += 1e-4 / std::sqrt(1.0 + std::pow((i + 0.5) / 100, 2) + std::pow((j + 0.5) / 100, 2));
@@ -48,12 +49,13 @@ TEST(StarSky, DensityIsTheShareOfCells) {
     int lit = 0;
     for (int i = 0; i < kCount; ++i) lit += sky.star_light<float>(direction(i, kCount)).x > 0 ? 1 : 0;
     const double want = mean * static_cast<double>(density) * 24576.0 * std::pow(1.3 * static_cast<double>(pixel), 2) / 4.0 * kCount;
-    // Of 24576 cells a quarter, give or take √(24576·3/16) = 68, or 1.1%; and 9000 hits by chance: another 1.1%. Four of both.
+    // A quarter of 24576 cells has a standard deviation of √(24576·3/16) = 68, or 1.1%. 9000 random hits add another 1.1%. The tolerance is
+    // four standard deviations of both.
     EXPECT_NEAR(lit, want, 0.06 * want);
   }
 }
 
-TEST(StarSky, NoStarIsBrighterThanAsked) {
+TEST(StarSky, NoStarExceedsTheBrightness) {
   const StarSky sky{.brightness = 2.0f, .density = 1.0f, .pixel = 1e-2f};
   float brightest = 0;
   for (int i = 0; i < 1 << 18; ++i) {
@@ -67,7 +69,7 @@ TEST(StarSky, NoStarIsBrighterThanAsked) {
   EXPECT_GT(brightest, 1.0f);
 }
 
-TEST(StarSky, DirectionsOnTheEdgesOfFacesAreSafe) {
+TEST(StarSky, DirectionsOnFaceEdgesGiveFiniteValues) {
   const StarSky sky{.density = 1.0f, .pixel = 1e-2f};
   for (const float x : {-1.0f, 0.0f, 1.0f}) {
     for (const float y : {-1.0f, 0.0f, 1.0f}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Normals from maps, against what they must be.
+// Compares normals from normal maps and height maps with their expected values.
 #include "halfspace/shading/surface_detail.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace halfspace {
 namespace {
 
-// A map of one texel, as floats: exact.
+// A float map with a single texel, which is represented exactly.
 Texture2D texel(const glm::vec3& c) {
   Image<glm::vec4> image(1, 1);
   image.at(0, 0) = glm::vec4(c, 1);
@@ -29,10 +29,10 @@ glm::vec3 mapped(const glm::vec3& code, DetailMap detail = {}, const glm::vec3& 
   return normal_from_map<float>(detail, kPlace, n, t, side);
 }
 
-TEST(NormalMap, AxesAreTangentAndUp) {
-  EXPECT_EQ(mapped({0.5f, 0.5f, 1}), glm::vec3(0, 0, 1)) << "nothing tilted";
-  EXPECT_EQ(mapped({1, 0.5f, 0.5f}), glm::vec3(1, 0, 0)) << "red: along the tangent";
-  EXPECT_EQ(mapped({0.5f, 1, 0.5f}), glm::vec3(0, 1, 0)) << "green: cross(normal, tangent)";
+TEST(NormalMap, AxesAreTangentAndBitangent) {
+  EXPECT_EQ(mapped({0.5f, 0.5f, 1}), glm::vec3(0, 0, 1)) << "flat";
+  EXPECT_EQ(mapped({1, 0.5f, 0.5f}), glm::vec3(1, 0, 0)) << "red tilts along the tangent";
+  EXPECT_EQ(mapped({0.5f, 1, 0.5f}), glm::vec3(0, 1, 0)) << "green tilts along cross(normal, tangent)";
   EXPECT_EQ(mapped({0.5f, 1, 0.5f}, {}, kNormal, kTangent, -1), glm::vec3(0, -1, 0)) << "mirrored";
   EXPECT_EQ(mapped({0.5f, 1, 0.5f}, {.flip_green = true}), glm::vec3(0, -1, 0));
   EXPECT_EQ(mapped({1, 0.5f, 0.5f}, {.flip_green = true}), glm::vec3(1, 0, 0));
@@ -45,44 +45,44 @@ TEST(NormalMap, StrengthScalesTheTilt) {
 }
 
 TEST(NormalMap, FrameIsUsedAsInterpolated) {
-  // Not made unit vectors: a frame of half the length gives half the vector (MikkTSpace).
+  // The frame is not normalized: a frame of half the length gives a vector of half the length (MikkTSpace).
   EXPECT_EQ(mapped({0.75f, 0.5f, 1}, {}, {0, 0, 0.5f}, {0.5f, 0, 0}), glm::vec3(0.25f, 0, 0.5f));
 }
 
-TEST(NormalMap, WhatSaysNothingKeepsTheNormal) {
+TEST(NormalMap, DegenerateInputKeepsTheNormal) {
   for (const glm::vec3& code : {glm::vec3(0.5f), glm::vec3(0.9f, 0.1f, 0.7f), glm::vec3(0.0f), glm::vec3(1.0f)}) {
     const glm::vec3 n = mapped(code, {}, kNormal, glm::vec3(0.0f));
-    EXPECT_EQ(glm::normalize(n), kNormal) << "a zero tangent";
-    EXPECT_TRUE(std::isfinite(mapped(code, {}, glm::vec3(0.0f), glm::vec3(0.0f)).x)) << "a zero frame";
+    EXPECT_EQ(glm::normalize(n), kNormal) << "zero tangent";
+    EXPECT_TRUE(std::isfinite(mapped(code, {}, glm::vec3(0.0f), glm::vec3(0.0f)).x)) << "zero frame";
   }
-  EXPECT_EQ(mapped({0.5f, 0.5f, 0}), kNormal) << "a code that points inward";
+  EXPECT_EQ(mapped({0.5f, 0.5f, 0}), kNormal) << "code that points inward";
 }
 
 TEST(Heights, TiltAPlaneByItsSlope) {
-  // A plane seen so that steps to the right and up are skew and not equally long; its height rises along x by 0.3 and falls
-  // along y by 0.2 a unit: the normal is (-0.3, 0.2, 1).
+  // The steps to the right and up are skewed and have different lengths. The height rises along x by 0.3 and falls along y by 0.2 per unit,
+  // so the normal is (-0.3, 0.2, 1).
   const glm::dvec3 dp_dx(0.03, 0.01, 0), dp_dy(-0.02, 0.05, 0);
   const auto rise = [](const glm::dvec3& step) { return 0.3 * step.x - 0.2 * step.y; };
   const vec3<double> n = normal_from_heights<double>({0, 0, 1}, {rise(dp_dx), rise(dp_dy)}, dp_dx, dp_dy);
   EXPECT_NEAR(n.x, -0.3, 1e-14);
   EXPECT_NEAR(n.y, 0.2, 1e-14);
   EXPECT_EQ(n.z, 1.0);
-  // Seen from below, as in a mirror, steps turn the other way round; the surface is the same.
+  // Seen from below, as in a mirror, the steps have the opposite orientation, but the surface is the same.
   const vec3<double> m = normal_from_heights<double>({0, 0, 1}, {rise(dp_dy), rise(dp_dx)}, dp_dy, dp_dx);
   EXPECT_NEAR(length(m - n), 0, 1e-14);
 }
 
-TEST(Heights, AnySizeOfStepAndEdgeOnSurfaces) {
+TEST(Heights, AnyStepSizeAndEdgeOnSurfacesAreHandled) {
   for (const float size : {1e-12f, 1e-6f, 1.0f, 1e6f}) {
     const glm::vec3 n = normal_from_heights<float>({0, 0, 1}, {0.5f * size, 0}, {size, 0, 0}, {0, size, 0});
     EXPECT_FLOAT_EQ(n.x, -0.5f) << size;
     EXPECT_EQ(n.z, 1.0f);
   }
-  EXPECT_EQ(normal_from_heights<float>({0, 0, 1}, {0.5f, 0.5f}, glm::vec3(0.0f), glm::vec3(0.0f)), kNormal) << "no step at all";
+  EXPECT_EQ(normal_from_heights<float>({0, 0, 1}, {0.5f, 0.5f}, glm::vec3(0.0f), glm::vec3(0.0f)), kNormal) << "zero steps";
   EXPECT_EQ(normal_from_heights<float>({0, 0, 1}, {0.0f, 0.0f}, {1, 0, 0}, {2, 0, 0}), kNormal) << "edge-on";
 }
 
-TEST(Heights, StepsAreTheSlopeAlongThePixel) {
+TEST(Heights, StepsAreTheSlopeAlongThePixelAxes) {
   Image<glm::vec4> slopes(1, 1);
   slopes.at(0, 0) = {8, -4, 0, 0};
   const Texture2D map(slopes, TexelFormat::rgba32f);
@@ -93,7 +93,7 @@ TEST(Heights, StepsAreTheSlopeAlongThePixel) {
 }
 
 TEST(SurfaceDetail, SlopesTiltTheSphereNormal) {
-  // Against the frame written out at (u, v), in double; the shader has the same from n alone.
+  // The reference evaluates the frame at (u, v) in double; the shader derives the same frame from n only.
   for (int i = 1; i < 20; ++i) {
     for (int j = 0; j < 20; ++j) {
       const double v = i / 20.0, u = j / 20.0 + 0.013;
@@ -104,10 +104,10 @@ TEST(SurfaceDetail, SlopesTiltTheSphereNormal) {
       const vec3<double> got = normal_from_slopes<double>(n, slope);
       EXPECT_LT(length(got - want), 1e-14);
       const vec3<float> single = normal_from_slopes<float>(glm::vec3(n), glm::vec3(slope));
-      EXPECT_LT(glm::length(glm::dvec3(single) - want), 1e-6);  // n rounded to float, over a ring of at least 0.15
+      EXPECT_LT(glm::length(glm::dvec3(single) - want), 1e-6);  // n rounded to float, divided by a ring radius of at least 0.15
     }
   }
-  EXPECT_EQ(normal_from_slopes<float>({0, 1, 0}, {0.5f, 0.5f, 1}), glm::vec3(0, 1, 0)) << "a pole has no east";
+  EXPECT_EQ(normal_from_slopes<float>({0, 1, 0}, {0.5f, 0.5f, 1}), glm::vec3(0, 1, 0)) << "the east direction is undefined at a pole";
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every texel format, wrap and filter: exact where the header says so, against an independent reference elsewhere, and the same
-// bits at every width. tests/shading/texture_test.cpp looks closer at 8-bit RGBA, anisotropy_test.cpp at anisotropy.
+// Tests every texel format, wrap mode and filter: exact results where the header promises them, comparison with an independent reference
+// elsewhere, and the same bits at every width. texture_test.cpp tests 8-bit RGBA in more detail, anisotropy_test.cpp tests anisotropic
+// filtering.
 #include <gtest/gtest.h>
 
 #include "halfspace/core/half.h"
@@ -28,7 +29,7 @@ void for_each_sampler(const Function& function) {
   }
 }
 
-/// The largest absolute value among the texture's texels and border, by channel.
+/// Returns the largest absolute value of the texels and the border, per channel.
 glm::dvec4 magnitude(const Texture2D& texture, const Sampler& sampler) {
   glm::dvec4 m = glm::abs(test::border_of(texture, sampler));
   for (int y = 0; y < texture.height(); ++y) {
@@ -39,7 +40,7 @@ glm::dvec4 magnitude(const Texture2D& texture, const Sampler& sampler) {
 
 // ---- texels -----------------------------------------------------------------------------------------------------------
 
-TEST(TextureFormats, CodesOfOneChannelAreReadExactly) {
+TEST(TextureFormats, SingleChannelCodesAreReadExactly) {
   Image<uint8_t> r8(256, 1);
   Image<uint16_t> r16(256, 256);
   for (int c = 0; c < 256; ++c) r8.at(c, 0) = static_cast<uint8_t>(c);
@@ -49,7 +50,7 @@ TEST(TextureFormats, CodesOfOneChannelAreReadExactly) {
   for (int c = 0; c < 65536; ++c) ASSERT_EQ(sixteen.value(0, c % 256, c / 256), glm::vec4(static_cast<float>(c / 65535.0), 0, 0, 1));
 }
 
-TEST(TextureFormats, CodesSurviveTheRoundTrip) {
+TEST(TextureFormats, CodesRoundTrip) {
   Image<glm::u8vec4> image(256, 1);
   for (int c = 0; c < 256; ++c) image.at(c, 0) = glm::u8vec4(static_cast<uint8_t>(c));
   const Texture2D plain(image, TexelFormat::rgba8), srgb(image, TexelFormat::srgb8a8);
@@ -60,7 +61,7 @@ TEST(TextureFormats, CodesSurviveTheRoundTrip) {
   }
 }
 
-TEST(TextureFormats, EveryHalfIsKeptAndWildOnesAreHeld) {
+TEST(TextureFormats, HalfFloatsAreKeptAndNonFiniteValuesAreClamped) {
   Image<glm::vec4> image(256, 256);
   for (int h = 0; h < 65536; ++h) image.at(h % 256, h / 256) = glm::vec4(half_to_float(static_cast<uint16_t>(h)));
   const Texture2D texture(image, TexelFormat::rgba16f);
@@ -71,7 +72,7 @@ TEST(TextureFormats, EveryHalfIsKeptAndWildOnesAreHeld) {
   }
 }
 
-TEST(TextureFormats, FloatsAreKeptAndWildOnesAreHeld) {
+TEST(TextureFormats, FloatsAreKeptAndNonFiniteValuesAreClamped) {
   Image<glm::vec4> image(5, 1);
   image.at(0, 0) = {0x1p-149f, -1.5f, 1e30f, 0x1.fffffep-3f};
   image.at(1, 0) = {kInf, -kInf, kNaN, -kNaN};
@@ -82,7 +83,7 @@ TEST(TextureFormats, FloatsAreKeptAndWildOnesAreHeld) {
   EXPECT_EQ(texture.value(0, 2, 0), glm::vec4(kMaxTexel, -kMaxTexel, kMaxTexel, -kMaxTexel));
 }
 
-TEST(TextureFormatsDeathTest, RefusesTheOtherFormats) {
+TEST(TextureFormatsDeathTest, RejectsMismatchedImageFormats) {
   EXPECT_DEATH(Texture2D(Image<glm::u8vec4>(2, 2), TexelFormat::r8), "rgba8");
   EXPECT_DEATH(Texture2D(Image<glm::vec4>(2, 2), TexelFormat::srgb8a8), "rgba16f");
   EXPECT_DEATH(Texture2D(Image<uint8_t>(2, 2)).texel(0, 0, 0), "rgba8");
@@ -90,7 +91,7 @@ TEST(TextureFormatsDeathTest, RefusesTheOtherFormats) {
 
 // ---- levels -----------------------------------------------------------------------------------------------------------
 
-TEST(TextureFormats, LevelsOfR8AreTheRedOfRgba8) {
+TEST(TextureFormats, R8LevelsMatchTheRedChannelOfRgba8) {
   const Texture2D r8 = test::make_noise(37, 22, TexelFormat::r8, 1), rgba8 = test::make_noise(37, 22, TexelFormat::rgba8, 1);
   ASSERT_EQ(r8.levels(), 6);
   for (int l = 0; l < r8.levels(); ++l) {
@@ -101,7 +102,8 @@ TEST(TextureFormats, LevelsOfR8AreTheRedOfRgba8) {
 }
 
 TEST(TextureFormats, LevelsAreAreaAverages) {
-  // Level 1 of 5 x 4 against the average weighted by area, in double; deeper levels are bound to the level above likewise.
+  // Compares level 1 of 5 x 4 texels with the area-weighted average in double. Every level is computed from the previous one in the same
+  // way.
   for (const TexelFormat format : {TexelFormat::r16, TexelFormat::rgba16f, TexelFormat::rgba32f}) {
     const Texture2D texture = test::make_noise(5, 4, format, 2);
     const double columns[2][5] = {{0.4, 0.4, 0.2, 0, 0}, {0, 0, 0.2, 0.4, 0.4}};
@@ -120,7 +122,7 @@ TEST(TextureFormats, LevelsAreAreaAverages) {
 
 // ---- filtering ----------------------------------------------------------------------------------------------------------
 
-TEST(TextureFormats, ConstantStaysExactlyConstant) {
+TEST(TextureFormats, ConstantsStayExact) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> any(-3.0f, 3.0f), exponent(-9.0f, 1.0f);
   for (const TexelFormat format : kFormats) {
@@ -143,7 +145,7 @@ TEST(TextureFormats, ConstantStaysExactlyConstant) {
   }
 }
 
-TEST(TextureFormats, ConstantFloatsOfAnySizeStayConstant) {
+TEST(TextureFormats, ConstantFloatsOfAnyMagnitudeStayExact) {
   for (const float x : {0x1p-149f, 0x1.8p-140f, 0x1.fffffep-127f, 0.1f, 1.0f / 3.0f, 16777215.0f, kMaxTexel, -kMaxTexel}) {
     Image<glm::vec4> image(31, 9);
     std::fill_n(image.data(), 31 * 9, glm::vec4(x, -x, x * 0.5f, 1.0f));
@@ -157,7 +159,7 @@ TEST(TextureFormats, ConstantFloatsOfAnySizeStayConstant) {
   }
 }
 
-TEST(TextureFormats, TexelCentreGivesTheTexel) {
+TEST(TextureFormats, TexelCentersReturnTheTexel) {
   for (const TexelFormat format : kFormats) {
     for (const glm::ivec2 size : {glm::ivec2(8, 4), glm::ivec2(7, 5), glm::ivec2(200, 3), glm::ivec2(1, 1), glm::ivec2(64, 1)}) {
       const Texture2D texture = test::make_noise(size.x, size.y, format, 4);
@@ -174,8 +176,9 @@ TEST(TextureFormats, TexelCentreGivesTheTexel) {
   }
 }
 
-TEST(TextureFormats, EveryWrapIsGls) {
-  // Coordinates are multiples of 2^-10: times any of the sides they are exact, and nearest too, on edges between texels as well.
+TEST(TextureFormats, EveryWrapModeMatchesOpenGl) {
+  // The coordinates are multiples of 2^-10, so their products with the sizes are exact. This also makes nearest filtering exact at the
+  // edges between texels.
   std::mt19937 random(5);
   for (const TexelFormat format : kFormats) {
     for (const glm::ivec2 size : kSizes) {
@@ -195,8 +198,8 @@ TEST(TextureFormats, EveryWrapIsGls) {
             if (sampler.min == Filter::nearest) {
               ASSERT_EQ(got[c], static_cast<float>(want.value[c])) << uv.x << ' ' << uv.y;
             } else {
-              // As in texture_test.cpp: the fraction's rounding on two axes and two levels, the level's snap; and half a
-              // code's rounding does not enter, for the reference reads the same levels.
+              // The tolerance is derived as in texture_test.cpp: the rounding of the fraction on two axes and two levels, and the snapping
+              // of the level. The rounding of codes to the nearest does not matter, because the reference reads the same levels.
               ASSERT_NEAR(static_cast<double>(got[c]), want.value[c], 2 * scale[c] * (2 * 0x1p-16 + 0x1p-14)) << uv.x << ' ' << uv.y;
               ASSERT_NEAR(in_double[c], want.value[c], scale[c] * 1e-7) << uv.x << ' ' << uv.y;
             }
@@ -207,7 +210,7 @@ TEST(TextureFormats, EveryWrapIsGls) {
   }
 }
 
-TEST(TextureFormats, ResultsStayBetweenTheirTexels) {
+TEST(TextureFormats, ResultsStayWithinTheRangeOfTheirTexels) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> any(-1.6f, 1.6f), lods(-1.0f, 4.0f);
   for (const TexelFormat format : kFormats) {
@@ -218,7 +221,7 @@ TEST(TextureFormats, ResultsStayBetweenTheirTexels) {
       for (int i = 0; i < 500; ++i) {
         const vec2<float> uv(any(random), any(random));
         const float lod = lods(random);
-        // Beside a line through texel centres the reference may choose the next cell: such points are left out.
+        // Near a line through texel centers, the reference may choose the adjacent cell, so such points are skipped.
         bool unsure = false;
         for (int l = 0; l < texture.levels(); ++l) {
           const auto near = [](float x) { return std::fabs(x - std::round(x)) < 1e-4f; };
@@ -237,7 +240,7 @@ TEST(TextureFormats, ResultsStayBetweenTheirTexels) {
   }
 }
 
-TEST(TextureFormats, R8IsTheRedOfRgba8) {
+TEST(TextureFormats, R8MatchesTheRedChannelOfRgba8) {
   std::mt19937 random(9);
   std::uniform_real_distribution<float> any(-2.0f, 2.0f), lods(-1.0f, 6.0f);
   const Texture2D r8 = test::make_noise(37, 22, TexelFormat::r8, 1), rgba8 = test::make_noise(37, 22, TexelFormat::rgba8, 1);
@@ -250,7 +253,7 @@ TEST(TextureFormats, R8IsTheRedOfRgba8) {
   });
 }
 
-TEST(TextureFormats, MirroredRunsThereAndBack) {
+TEST(TextureFormats, MirroredRepeatsBackAndForth) {
   for (const TexelFormat format : kFormats) {
     const Texture2D texture = test::make_noise(13, 8, format, 10);
     const Sampler mirrored{.wrap_s = Wrap::mirrored, .wrap_t = Wrap::mirrored}, clamped{.wrap_s = Wrap::clamp, .wrap_t = Wrap::clamp};
@@ -263,7 +266,7 @@ TEST(TextureFormats, MirroredRunsThereAndBack) {
   }
 }
 
-TEST(TextureFormats, BorderIsItsColour) {
+TEST(TextureFormats, BorderReturnsTheBorderColor) {
   const glm::vec4 color(0.3f, 2.0f, -1.0f, kNaN);
   for (const TexelFormat format : kFormats) {
     const Texture2D texture = test::make_noise(4, 4, format, 11);
@@ -275,15 +278,15 @@ TEST(TextureFormats, BorderIsItsColour) {
                                     : glm::vec4(0.3f, 1.0f, 0.0f, 0.0f);
     for (const float s : {-0.125f, 1.125f, -7.0f, 1e30f, -kInf, kInf, kNaN})
       EXPECT_EQ(texture.sample_level(sampler, vec2<float>(s, 0.3f), 0.0f), want) << s;
-    // On the edge itself texel and border weigh the same.
+    // On the edge, the texel and the border have the same weight.
     const glm::vec4 edge = texture.sample_level(sampler, vec2<float>(0.0f, 0.125f), 0.0f);
     EXPECT_NEAR(edge.x, 0.5f * (texture.value(0, 0, 0).x + 0.3f), std::fabs(edge.x) * 1e-6f);
   }
 }
 
-// ---- any bits are allowed ---------------------------------------------------------------------------------------------
+// ---- arbitrary bit patterns -------------------------------------------------------------------------------------------
 
-TEST(TextureFormats, WildCoordinatesAndDerivativesAreDefined) {
+TEST(TextureFormats, ExtremeCoordinatesAndDerivativesReturnValuesInRange) {
   const float wild[] = {0.0f, -0.0f, 0.5f, 1.0f, -1.0f, 0x1p-149f, -0x1p-30f, 8388609.0f, -8388609.5f, 1e20f, -3e38f, kInf, -kInf, kNaN};
   for (const TexelFormat format : kFormats) {
     const Texture2D texture = test::make_noise(7, 9, format, 12);
@@ -309,7 +312,7 @@ TEST(TextureFormats, WildCoordinatesAndDerivativesAreDefined) {
   }
 }
 
-TEST(TextureFormats, RandomBitsAreDefined) {
+TEST(TextureFormats, RandomBitPatternsReturnValuesInRange) {
   std::mt19937 random(13);
   const auto bits = [&] { return as_real(static_cast<int32_t>(random())); };
   for (const TexelFormat format : kFormats) {
@@ -325,7 +328,7 @@ TEST(TextureFormats, RandomBitsAreDefined) {
   }
 }
 
-// ---- same bits ----------------------------------------------------------------------------------------------------------
+// ---- bit-exactness ------------------------------------------------------------------------------------------------------
 
 struct Point {
   float s, t, dsdx, dtdx, dsdy, dtdy;
@@ -370,7 +373,7 @@ void expect_lanes_agree(const Texture2D& texture, const Sampler& sampler, const 
   }
 }
 
-TEST(TextureFormats, LanesHoldTheBitsOfFloat) {
+TEST(TextureFormats, LanesMatchScalarBits) {
   const std::vector<Point> all = points(160, 15);
   for (const TexelFormat format : kFormats) {
     const Texture2D texture = test::make_noise(37, 64, format, 16);
@@ -386,7 +389,7 @@ TEST(TextureFormats, LanesHoldTheBitsOfFloat) {
   }
 }
 
-TEST(TextureFormats, BitsAreTheCommittedOnes) {
+TEST(TextureFormats, MatchesTheCommittedHash) {
   const std::vector<Point> all = points(512, 17);
   Hash hash;
   for (const TexelFormat format : kFormats) {

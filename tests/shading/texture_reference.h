@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Textures of every format for the tests, and GL 4.6, section 8.14.2, written plainly in double over whole texel indices.
+// Creates textures of every format for the tests, and implements OpenGL 4.6, section 8.14.2, in double on integer texel indices.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@ inline constexpr TexelFormat kFormats[] = {TexelFormat::rgba8, TexelFormat::srgb
                                            TexelFormat::r16,   TexelFormat::rgba16f, TexelFormat::rgba32f};
 inline constexpr Wrap kWraps[] = {Wrap::repeat, Wrap::mirrored, Wrap::clamp, Wrap::border};
 
-/// A texture of the format whose texels are texel(x, row) -> u32: codes are its low bits, floats are made of its bytes.
+/// Returns a texture whose texels are derived from the 32-bit value bits(x, row): codes are its low bits, floats are computed from its
+/// bytes.
 template <class Bits>
 Texture2D make_texture(int width, int height, TexelFormat format, const Bits& bits) {
   Image<glm::u8vec4> codes(width, height);
@@ -46,7 +47,7 @@ inline Texture2D make_noise(int width, int height, TexelFormat format, unsigned 
   return make_texture(width, height, format, [&](int, int) { return static_cast<uint32_t>(random()); });
 }
 
-/// The texel that GL's rule reads for index i of an axis; −1: the border.
+/// Returns the texel that OpenGL reads for index i along an axis; −1 stands for the border.
 inline int wrapped_index(int64_t i, int size, Wrap wrap) {
   const auto modulo = [](int64_t a, int64_t n) { return ((a % n) + n) % n; };
   switch (wrap) {
@@ -61,7 +62,7 @@ inline int wrapped_index(int64_t i, int size, Wrap wrap) {
   return -1;
 }
 
-/// A filtered value, and the range of the texels that it mixes.
+/// A filtered value and the range of the texels that contribute to it.
 struct Mixed {
   glm::dvec4 value{0.0}, low{INFINITY}, high{-INFINITY};
   void add(double weight, const glm::dvec4& v) {
@@ -71,7 +72,7 @@ struct Mixed {
   }
 };
 
-/// The sampler's border colour as a texture of one of the formats shows it.
+/// Returns the border color of the sampler as the format of the texture represents it.
 inline glm::dvec4 border_of(const Texture2D& texture, const Sampler& sampler) {
   const TexelFormat f = texture.format();
   glm::dvec4 b(sampler.border_color);
@@ -91,7 +92,7 @@ inline void mix_level(const Texture2D& texture, const Sampler& sampler, double s
   for (int k = 0; k < 4; ++k) to.add(weight * (k % 2 ? a : 1 - a) * (k / 2 ? b : 1 - b), texel(x + k % 2, y + k / 2));
 }
 
-/// The isotropic look-up at a level of detail.
+/// Isotropic lookup at a given level of detail.
 inline Mixed reference(const Texture2D& texture, const Sampler& sampler, double s, double t, double lod) {
   Mixed mixed;
   const bool magnified = !(lod > 0), nearest = (magnified ? sampler.mag : sampler.min) == Filter::nearest;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Texture2D: hand values, the invariants that its header promises, an independent reference in double, and the same
-// bits at every width.
+// Tests Texture2D against hand-computed values, the invariants that its header documents, and an independent reference in double. Results
+// must have the same bits at every width.
 #include "halfspace/shading/texture.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ vec4<R> at(const Texture2D& texture, const Sampler& sampler, R s, R t, R lod = R
   return texture.sample_level(sampler, vec2<R>(s, t), lod);
 }
 
-/// The linear value that a texel stands for.
+/// Returns the linear value of a texel.
 glm::dvec4 value(const Texture2D& texture, int level, int x, int row) {
   const glm::u8vec4 t = texture.texel(level, x, row);
   const auto channel = [&](uint8_t code) {
@@ -50,7 +50,7 @@ glm::dvec4 value(const Texture2D& texture, int level, int x, int row) {
   return {channel(t.x), channel(t.y), channel(t.z), t.w / 255.0};
 }
 
-// ---- an independent reference: GL 4.6, section 8.14.2, written plainly in double ------------------------------------
+// ---- independent reference in double, following OpenGL 4.6, section 8.14.2 -------------------------------------------
 
 int wrapped_index(int64_t i, int size, Wrap wrap) {
   if (wrap == Wrap::clamp) return static_cast<int>(std::clamp<int64_t>(i, 0, size - 1));
@@ -94,21 +94,21 @@ TEST(Texture, KeepsItsTexelsAndHasAllLevels) {
   EXPECT_EQ(Texture2D(constant(1, 1, {1, 2, 3, 4}), TexelFormat::rgba8).levels(), 1);
 }
 
-TEST(TextureDeathTest, RefusesLevelsThatAreNotHalves) {
+TEST(TextureDeathTest, RejectsLevelsThatAreNotHalved) {
   const Image<glm::u8vec4> levels[] = {noise(8, 8, 1), noise(4, 3, 1)};
   EXPECT_DEATH(Texture2D(levels, TexelFormat::rgba8), "image.height");
   EXPECT_DEATH(Texture2D(Image<glm::u8vec4>(), TexelFormat::rgba8), "width");
 }
 
-TEST(Texture, TakesGivenLevels) {
+TEST(Texture, UsesExplicitlyGivenLevels) {
   const Image<glm::u8vec4> levels[] = {constant(4, 4, {0, 0, 0, 0}), constant(2, 2, {255, 255, 255, 255})};
   const Texture2D texture(levels, TexelFormat::rgba8);
   ASSERT_EQ(texture.levels(), 2);
   EXPECT_EQ(at(texture, Sampler(), 0.3f, 0.3f, 0.25f).x, 0.25f);  // a quarter of the way from level 0 to level 1
-  EXPECT_EQ(at(texture, Sampler(), 0.3f, 0.3f, 9.0f).x, 1.0f);    // the chain's end holds the choice
+  EXPECT_EQ(at(texture, Sampler(), 0.3f, 0.3f, 9.0f).x, 1.0f);    // clamped to the last level
 }
 
-TEST(Texture, MipsOfAConstantAreTheConstant) {
+TEST(Texture, MipsOfAConstantAreConstant) {
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
     for (int code = 0; code < 256; ++code) {
       const glm::u8vec4 c(code, 255 - code, code ^ 85, code);
@@ -119,25 +119,25 @@ TEST(Texture, MipsOfAConstantAreTheConstant) {
   }
 }
 
-TEST(Texture, MipOfEvenSizeIsTheMeanOfFour) {
+TEST(Texture, MipOfEvenSizeIsTheMeanOfFourTexels) {
   Image<glm::u8vec4> image(2, 2);
   image.at(0, 0) = {0, 0, 10, 0};
   image.at(1, 0) = {255, 1, 20, 0};
   image.at(0, 1) = {0, 2, 30, 1};
   image.at(1, 1) = {255, 4, 41, 0};
-  EXPECT_EQ(mip_chain(image, TexelFormat::rgba8)[0].at(0, 0), glm::u8vec4(128, 2, 25, 0));  // 127.5 to even, 1.75, 25.25, 0.25
-  // sRGB: half of the light of white is code 188; alpha is linear all the same.
+  EXPECT_EQ(mip_chain(image, TexelFormat::rgba8)[0].at(0, 0), glm::u8vec4(128, 2, 25, 0));  // 127.5 rounds to even; then 1.75, 25.25, 0.25
+  // In sRGB, half of the light of white is code 188. Alpha is always linear.
   EXPECT_EQ(mip_chain(image, TexelFormat::srgb8a8)[0].at(0, 0).x, 188);
   EXPECT_EQ(mip_chain(image, TexelFormat::srgb8a8)[0].at(0, 0).w, 0);
 }
 
-TEST(Texture, MipOfOddSizeWeighsByArea) {
+TEST(Texture, MipOfOddSizeWeightsByArea) {
   Image<glm::u8vec4> image(5, 1);
   for (int x = 0; x < 5; ++x) image.at(x, 0) = glm::u8vec4(x == 0 ? 250 : 0, x == 1 ? 250 : 0, x == 2 ? 250 : 0, 0);
   const Image<glm::u8vec4> level = mip_chain(image, TexelFormat::rgba8)[0];
   ASSERT_EQ(level.width(), 2);
   EXPECT_EQ(level.at(0, 0), glm::u8vec4(100, 100, 50, 0));  // weights 2/5, 2/5, 1/5
-  EXPECT_EQ(level.at(1, 0), glm::u8vec4(0, 0, 50, 0));      // then 1/5, 2/5, 2/5: the middle texel is shared
+  EXPECT_EQ(level.at(1, 0), glm::u8vec4(0, 0, 50, 0));      // weights 1/5, 2/5, 2/5; both texels share the middle one
 }
 
 TEST(Texture, MipsPreserveTheMean) {
@@ -150,8 +150,8 @@ TEST(Texture, MipsPreserveTheMean) {
     };
     for (const Image<glm::u8vec4>& level : mip_chain(image, TexelFormat::rgba8)) {
       const glm::dvec4 difference = glm::abs(mean(level) - mean(image));
-      // The filter preserves it; each code then rounds by up to 1/2, which 1/sqrt(n) of independent texels averages out.
-      // 0.5 bounds a single texel; 5 standard deviations (0.29) bound the many.
+      // The filter preserves the mean, but every code is rounded by up to 1/2. For n independent texels, the mean of these errors has a
+      // standard deviation of 0.29/sqrt(n). The bound is 5 standard deviations, or 0.5 for few texels.
       const double bound = std::min(0.5, 5 * 0.29 / std::sqrt(static_cast<double>(level.texels().size()))) + 1e-4;
       for (int c = 0; c < 4; ++c) EXPECT_LE(difference[c], bound) << level.width() << " x " << level.height();
     }
@@ -160,7 +160,7 @@ TEST(Texture, MipsPreserveTheMean) {
 
 // ---- filtering ------------------------------------------------------------------------------------------------------
 
-TEST(Texture, ConstantStaysExactlyConstant) {
+TEST(Texture, ConstantsStayExact) {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> any(-3.0f, 3.0f);
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
@@ -173,9 +173,9 @@ TEST(Texture, ConstantStaysExactlyConstant) {
   }
 }
 
-TEST(Texture, TexelCentreGivesTheTexel) {
-  // For sides that are not powers of two (i + 1/2)/size is off by up to 2^-25, and times the size by 200·2^-25 < 2^-16:
-  // the rounding of the fraction to 2^-15 takes it away.
+TEST(Texture, TexelCentersReturnTheTexel) {
+  // For sizes that are not powers of two, (i + 1/2)/size has an error of up to 2^-25, and times the size of up to 200·2^-25 < 2^-16.
+  // Rounding the fraction to 2^-15 removes this error.
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
     for (const glm::ivec2 size : {glm::ivec2(8, 4), glm::ivec2(7, 5), glm::ivec2(200, 3), glm::ivec2(1, 1), glm::ivec2(64, 1)}) {
       const Texture2D texture(noise(size.x, size.y, 5), format);
@@ -192,17 +192,17 @@ TEST(Texture, TexelCentreGivesTheTexel) {
   }
 }
 
-TEST(Texture, HalfWayIsTheMean) {
+TEST(Texture, HalfwayBetweenTexelsIsTheirMean) {
   Image<glm::u8vec4> image(2, 1);
   image.at(0, 0) = {10, 0, 0, 255};
   image.at(1, 0) = {20, 255, 1, 255};
   const Texture2D texture(image, TexelFormat::rgba8);
   EXPECT_EQ(at(texture, kBilinear, 0.5f, 0.5f), glm::vec4(15.0f / 255.0f, 0.5f, 0.5f / 255.0f, 1.0f));
   EXPECT_EQ(at(texture, kBilinear, 0.0f, 0.5f).x, 15.0f / 255.0f);       // across the seam
-  EXPECT_EQ(at(texture, kBilinearClamp, 0.0f, 0.5f).x, 10.0f / 255.0f);  // no seam
+  EXPECT_EQ(at(texture, kBilinearClamp, 0.0f, 0.5f).x, 10.0f / 255.0f);  // no seam when clamping
 }
 
-TEST(Texture, RowZeroIsTZero) {
+TEST(Texture, RowZeroIsAtTZero) {
   Image<glm::u8vec4> image(1, 4);
   for (int y = 0; y < 4; ++y) image.at(0, y) = glm::u8vec4(50 * y, 0, 0, 0);
   const Texture2D texture(image, TexelFormat::rgba8);
@@ -210,7 +210,7 @@ TEST(Texture, RowZeroIsTZero) {
   EXPECT_EQ(at(texture, kNearestClamp, 0.5f, 0.9f).x, 150.0f / 255.0f);
 }
 
-TEST(Texture, ResultsStayBetweenTheirTexels) {
+TEST(Texture, ResultsStayWithinTheRangeOfTheirTexels) {
   std::mt19937 random(6);
   std::uniform_real_distribution<float> any(-0.2f, 1.2f);
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
@@ -220,7 +220,7 @@ TEST(Texture, ResultsStayBetweenTheirTexels) {
       const int x = static_cast<int>(std::floor(s * 5.0f - 0.5f)), y = static_cast<int>(std::floor(t * 5.0f - 0.5f));
       const float near_edge = std::max(std::fabs(s * 5.0f - 0.5f - std::round(s * 5.0f - 0.5f)), 0.0f);
       const float near_row = std::fabs(t * 5.0f - 0.5f - std::round(t * 5.0f - 0.5f));
-      if (std::min(near_edge, near_row) < 1e-4f) continue;  // this test's own choice of cell is then uncertain
+      if (std::min(near_edge, near_row) < 1e-4f) continue;  // the test cannot tell which cell applies
       glm::vec4 low(1.0f), high(0.0f);
       for (int k = 0; k < 4; ++k) {
         const glm::vec4 v(value(texture, 0, wrapped_index(x + k % 2, 5, Wrap::clamp), wrapped_index(y + k / 2, 5, Wrap::clamp)));
@@ -236,8 +236,8 @@ TEST(Texture, ResultsStayBetweenTheirTexels) {
   }
 }
 
-TEST(Texture, BilinearIsMonotone) {
-  // Two columns, the right one brighter in both rows: every step to the right must not darken.
+TEST(Texture, BilinearIsMonotonic) {
+  // The right column is brighter than the left one in both rows, so the result must never decrease from left to right.
   std::mt19937 random(8);
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
     for (int trial = 0; trial < 40; ++trial) {
@@ -252,8 +252,8 @@ TEST(Texture, BilinearIsMonotone) {
       glm::vec4 last = at(texture, kBilinearClamp, 0.0f, t);
       for (float s = 0.0f; s <= 1.0f; s += 0x1p-17f) {
         const glm::vec4 c = at(texture, kBilinearClamp, s, t);
-        // rgba8 and alpha: the exact value, rounded once, so exactly monotone. sRGB colour: the difference of the two rows
-        // is itself rounded, by half an ulp.
+        // For rgba8 and for alpha, the exact value is rounded once, so the result is exactly monotonic. For sRGB color, the difference of
+        // the two rows is also rounded, by half an ulp.
         const float slack = format == TexelFormat::srgb8a8 ? c.x * 0x1p-23f : 0.0f;
         ASSERT_GE(c.x, last.x - slack) << s;
         ASSERT_GE(c.w, last.w) << s;
@@ -263,7 +263,7 @@ TEST(Texture, BilinearIsMonotone) {
   }
 }
 
-TEST(Texture, FloatStaysNearTheDoubleReference) {
+TEST(Texture, FloatMatchesTheDoubleReference) {
   std::mt19937 random(9);
   std::uniform_real_distribution<float> any(-2.0f, 2.0f), lod(-1.0f, 7.0f);
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
@@ -277,8 +277,8 @@ TEST(Texture, FloatStaysNearTheDoubleReference) {
         const glm::vec4 in_float = at(texture, sampler, s, t, l);
         for (int c = 0; c < 4; ++c) {
           EXPECT_NEAR(in_double[c], want[c], 1e-13);
-          // A texel fraction errs by 2^-16 (its rounding) and 64·2^-25 (the coordinate's) on each axis, the level's by
-          // 2^-14 next to a whole level; the contrast is at most 1.
+          // The texel fraction has an error of 2^-16 from its rounding and of 64·2^-25 from the coordinate, on each axis. The level has an
+          // error of 2^-14 next to an integer level. The contrast is at most 1.
           ASSERT_NEAR(static_cast<double>(in_float[c]), want[c], 2 * (0x1p-16 + 64 * 0x1p-25) + 0x1p-14) << s << ' ' << t << ' ' << l;
         }
       }
@@ -286,7 +286,7 @@ TEST(Texture, FloatStaysNearTheDoubleReference) {
   }
 }
 
-TEST(Texture, NearestPicksGlsTexel) {
+TEST(Texture, NearestMatchesOpenGl) {
   const Texture2D texture(noise(16, 8, 11), TexelFormat::rgba8);
   for (int i = -4000; i < 4000; ++i) {
     const double s = i / 1024.0, t = -i / 512.0 + 0.001;
@@ -304,10 +304,10 @@ TEST(Texture, MagnificationAndMinificationMeetAtLevelZero) {
   const Texture2D texture(image, TexelFormat::rgba8);
   const Sampler sampler{Filter::nearest, Filter::bilinear, Wrap::clamp, Wrap::clamp};
   EXPECT_EQ(at(texture, sampler, 0.4f, 0.5f, 0.0f).x, 0.0f);    // λ <= 0 magnifies: nearest
-  EXPECT_GT(at(texture, sampler, 0.4f, 0.5f, 0.001f).x, 0.2f);  // bilinear, of level 0
+  EXPECT_GT(at(texture, sampler, 0.4f, 0.5f, 0.001f).x, 0.2f);  // bilinear at level 0
   EXPECT_EQ(at(texture, sampler, 0.4f, 0.5f, 5.0f).x, at(texture, sampler, 0.4f, 0.5f, 0.001f).x);
   EXPECT_EQ(at(texture, sampler, 0.4f, 0.5f, kNaN).x, 0.0f);
-  // Lanes that magnify beside lanes that minify.
+  // A packet with lanes that magnify and lanes that minify.
   const RealN<4> lods = select(iota<IntN<4>>() < IntN<4>(2), RealN<4>(0.0f), RealN<4>(1.0f));
   const vec4<RealN<4>> mixed = at(texture, sampler, RealN<4>(0.4f), RealN<4>(0.5f), lods);
   EXPECT_EQ(lane(mixed.x, 1), 0.0f);
@@ -316,7 +316,7 @@ TEST(Texture, MagnificationAndMinificationMeetAtLevelZero) {
 
 // ---- level of detail ------------------------------------------------------------------------------------------------
 
-TEST(Texture, LevelOfDetailIsGlsLambda) {
+TEST(Texture, LevelOfDetailMatchesOpenGl) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> exponent(-12.0, 2.0), unit(-1.0, 1.0);
   for (int i = 0; i < 100000; ++i) {
@@ -324,8 +324,8 @@ TEST(Texture, LevelOfDetailIsGlsLambda) {
     const vec2<float> dx(derivative()), dy(derivative());
     const glm::dvec2 size(640, 480);
     const double rho = std::max(glm::length(glm::dvec2(dx) * size), glm::length(glm::dvec2(dy) * size));
-    // log2 errs by 1.04 ulp (at most 2^-20 here), its argument by 4 roundings (4·2^-24/ln 2): far below the 1/256 of a
-    // level that hardware keeps.
+    // log2 has an error of 1.04 ulp (at most 2^-20 here) and its argument has 4 roundings (4·2^-24/ln 2). Both are far below the 1/256 of a
+    // level that hardware resolves.
     EXPECT_NEAR(static_cast<double>(level_of_detail(640, 480, dx, dy)), std::log2(rho), 0x1p-19);
   }
   EXPECT_EQ(level_of_detail(256, 256, vec2<float>(1.0f / 256.0f, 0.0f), vec2<float>(0.0f, 1.0f / 256.0f)), 0.0f);
@@ -333,27 +333,27 @@ TEST(Texture, LevelOfDetailIsGlsLambda) {
   EXPECT_EQ(level_of_detail(256, 256, vec2<float>(0.0f), vec2<float>(0.0f)), -kInf);
 }
 
-/// A texture whose level l is the constant 16·l: what a look-up returns tells its level of detail.
+/// Returns a texture whose level l has the constant value 16·l, so that a lookup reveals its level of detail.
 Texture2D level_ruler() {
   std::vector<Image<glm::u8vec4>> levels;
   for (int size = 256, l = 0; size >= 1; size /= 2, ++l) levels.push_back(constant(size, size, glm::u8vec4(static_cast<uint8_t>(16 * l))));
   return Texture2D(levels, TexelFormat::rgba8);
 }
 
-TEST(Texture, SampleChoosesTheLevelOfItsDerivatives) {
+TEST(Texture, SampleSelectsTheLevelFromTheDerivatives) {
   const Texture2D ruler = level_ruler();
   for (double lod = -3.0; lod < 10.0; lod += 0.0137) {
     const auto step = static_cast<float>(std::exp2(lod) / 256.0);
     const vec4<float> c = ruler.sample(Sampler(), vec2<float>(0.3f, 0.7f), vec2<float>(step, 0.0f), vec2<float>(0.0f, step * 0.5f));
     const double got = static_cast<double>(c.x) * 255.0 / 16.0;
     EXPECT_NEAR(got, std::clamp(lod, 0.0, 8.0), 1.0 / 256.0);
-    EXPECT_NEAR(got, std::clamp(lod, 0.0, 8.0), 0x1p-14 + 1e-6);  // and much nearer: only the snap to a whole level errs
+    EXPECT_NEAR(got, std::clamp(lod, 0.0, 8.0), 0x1p-14 + 1e-6);  // in fact much closer: only snapping to integer levels adds an error
   }
 }
 
-// ---- any bits are allowed ---------------------------------------------------------------------------------------------
+// ---- arbitrary bit patterns -------------------------------------------------------------------------------------------
 
-TEST(Texture, WildCoordinatesAndDerivativesAreDefined) {
+TEST(Texture, ExtremeCoordinatesAndDerivativesReturnValuesInRange) {
   const Texture2D texture(noise(7, 9, 13), TexelFormat::rgba8);
   const float wild[] = {0.0f, -0.0f, 0.5f,  1.0f,  -1.0f,  0x1p-149f, -0x1p-149f, -0x1p-30f, 8388609.0f, -8388609.5f,
                         3e9f, -3e9f, 1e20f, 3e38f, -3e38f, kInf,      -kInf,      kNaN,      -kNaN};
@@ -373,17 +373,17 @@ TEST(Texture, WildCoordinatesAndDerivativesAreDefined) {
       }
     }
   }
-  // Clamp: infinities are the edges, NaN is 0. Repeat: what has no fraction is 0.
+  // With clamp, infinities map to the edges and NaN to 0. With repeat, coordinates without a fraction map to 0.
   EXPECT_EQ(at(texture, kBilinearClamp, kInf, 0.5f), at(texture, kBilinearClamp, 1.0f, 0.5f));
   EXPECT_EQ(at(texture, kBilinearClamp, -kInf, 0.5f), at(texture, kBilinearClamp, 0.0f, 0.5f));
   EXPECT_EQ(at(texture, kBilinearClamp, kNaN, 0.5f), at(texture, kBilinearClamp, 0.0f, 0.5f));
   for (const float s : {kInf, -kInf, kNaN, 3e38f}) EXPECT_EQ(at(texture, kBilinear, s, 0.5f), at(texture, kBilinear, 0.0f, 0.5f)) << s;
 }
 
-TEST(Texture, RepeatHasPeriodOneAndClampAnEnd) {
+TEST(Texture, RepeatHasPeriodOneAndClampExtendsTheEdge) {
   const Texture2D texture(noise(8, 8, 14), TexelFormat::srgb8a8);
   for (int i = 0; i < 4096; ++i) {
-    const float s = static_cast<float>(i) / 4096.0f;  // exact, as is every sum below
+    const float s = static_cast<float>(i) / 4096.0f;  // exact, as are all sums below
     for (const float whole : {-5.0f, -1.0f, 1.0f, 100.0f})
       EXPECT_EQ(at(texture, kBilinear, s + whole, 0.3f), at(texture, kBilinear, s, 0.3f));
     EXPECT_EQ(at(texture, kBilinearClamp, 1.0f + s, 0.3f), at(texture, kBilinearClamp, 1.0f, 0.3f));
@@ -391,7 +391,7 @@ TEST(Texture, RepeatHasPeriodOneAndClampAnEnd) {
   }
 }
 
-// ---- same bits ------------------------------------------------------------------------------------------------------
+// ---- bit-exactness --------------------------------------------------------------------------------------------------
 
 template <int W>
 void expect_lanes_agree(const Texture2D& texture, const Sampler& sampler, bool same_level) {
@@ -418,7 +418,7 @@ void expect_lanes_agree(const Texture2D& texture, const Sampler& sampler, bool s
   }
 }
 
-TEST(Texture, LanesHoldTheBitsOfFloat) {
+TEST(Texture, LanesMatchScalarBits) {
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
     const Texture2D texture(noise(37, 64, 16), format);
     for (const Sampler& sampler :
