@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # How far varyings are from long double at ratios of w beyond 10^4: docs/w_ratio_error.csv and its chart docs/w_ratio_error.svg.
-# The data are what the test Interpolation.LargeRatiosOfW prints. Needs gnuplot.
+# The data are what the test Interpolation.LargeRatiosOfWStayWithinTolerance prints. Needs gnuplot.
 #
 #   scripts/chart_w_ratio.sh [TEST_PROGRAM]     default: build/release/bin/test-raster
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${1:-build/release/bin/test-raster}
 command -v gnuplot > /dev/null || { echo "chart_w_ratio.sh: gnuplot is missing; install gnuplot-nox" >&2; exit 1; }
-rows=$("$program" --gtest_filter=Interpolation.LargeRatiosOfW | awk '/^w ratio/ { print $3 "," $5 "," $7 "," $9 }')
+rows=$("$program" --gtest_filter=Interpolation.LargeRatiosOfWStayWithinTolerance | awk '/^w ratio/ { print $3 "," $5 "," $7 "," $9 }')
 { echo "w_ratio,largest_error,mean_error,values"; echo "$rows"; } > docs/w_ratio_error.csv
 gnuplot << 'END'
 set terminal svg size 640,400 font "sans,12" background "white"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A host program survives its mistakes: the check handler throws, and the pass can be destroyed.
+// A host program can recover from incorrect use: the check handler throws, and the pass can be destroyed afterwards.
 #include <stdexcept>
 
 #include "halfspace/core/check.h"
@@ -20,7 +20,7 @@ class PassCheckTest : public testing::Test {
   const std::vector<glm::vec4> positions_{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
 };
 
-/// What a throwing handler was told, or "".
+/// Returns the message that the throwing handler received, or "" if no check failed.
 template <class F>
 std::string failure_of(const F& function) {
   try {
@@ -31,7 +31,7 @@ std::string failure_of(const F& function) {
   return "";
 }
 
-/// Fails a check in the task that shades it.
+/// Fails a check in the task that shades its fragments.
 struct FailingShader : ConstantShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& pixel) const {
@@ -40,7 +40,7 @@ struct FailingShader : ConstantShader {
   }
 };
 
-TEST_F(PassCheckTest, DrawRefusesAnIndexBeyondTheVertices) {
+TEST_F(PassCheckTest, DrawRejectsOutOfRangeIndices) {
   const std::vector<uint32_t> list{0, 1, 5};
   const Indices of_six(list, 6);
   {
@@ -55,7 +55,7 @@ TEST_F(PassCheckTest, DrawRefusesAnIndexBeyondTheVertices) {
   EXPECT_EQ(image_.at(8, 8), glm::vec4(1));
 }
 
-TEST_F(PassCheckTest, RunPassesOnACheckThatFailsInAShader) {
+TEST_F(PassCheckTest, RunPropagatesAFailedCheckOfAShader) {
   for (const int threads : {1, 3}) {
     Pass pass(16, 16, rgba32f_target(image_), {}, {.tile_size = 8});
     pass.draw(FailingShader{}, make_vertex_view(stream(positions_)));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The clip stage: by hand, by its invariants, and through whole passes against an exact homogeneous rasterizer (after
-// Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997): no divide, no clipping, no
-// snapping, every sign decided in 128-bit whole numbers.
+// Tests the clip stage with hand-computed cases, by its invariants, and in whole passes against an exact homogeneous rasterizer (after
+// Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997). The reference does not divide, clip or snap, and
+// computes every sign in 128-bit integers.
 #include "halfspace/raster/primitives/clip.h"
 
 #include <algorithm>
@@ -28,21 +28,21 @@ DrawState with(const DepthState& depth) {
   return s;
 }
 
-Viewport viewport_64() { return make_viewport({0, 0, 64, 64}, kGl); }  // guard planes at ±511·w and a little less
+Viewport viewport_64() { return make_viewport({0, 0, 64, 64}, kGl); }  // guard planes slightly inside ±511·w
 
 bool same_bits(const glm::dvec4& a, const glm::dvec4& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-// ---- by hand ---------------------------------------------------------------------------------------------------
+// ---- hand-computed cases ---------------------------------------------------------------------------------------
 
-TEST(Clip, InsideIsLeftAlone) {
+TEST(Clip, LeavesInsideTrianglesUnchanged) {
   const ClipTriangle t{{{-1, -1, 0, 1}, {2, 0, 0.5f, 2}, {0, 3, -0.5f, 4}}};
   const ClipPolygon p = clip_triangle(viewport_64(), kGl, t);
   ASSERT_EQ(p.count, 3);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(same_bits(p.corners[i].pos_clip, glm::dvec4(t[i])));
 }
 
-TEST(Clip, NearPlaneCutGivesQuad) {
-  // One vertex at z = −1, beyond near (0 ≤ z) by as much as the others are inside of it: both cuts at the middle.
+TEST(Clip, NearPlaneCutOfOneVertexGivesAQuad) {
+  // One vertex has z = −1 and the others z = 1, so the near plane (z = 0) cuts both edges in the middle.
   const ClipPolygon p = clip_triangle(viewport_64(), kZeroToOne, {{{0, 0, -1, 2}, {2, 0, 1, 2}, {0, 2, 1, 4}}});
   ASSERT_EQ(p.count, 4);
   EXPECT_EQ(p.corners[0].pos_clip, glm::dvec4(1, 0, 0, 2));
@@ -53,8 +53,8 @@ TEST(Clip, NearPlaneCutGivesQuad) {
   EXPECT_EQ(p.corners[3].weights, glm::dvec3(0.5, 0, 0.5));
 }
 
-TEST(Clip, NearPlaneCutOfTwoVerticesGivesTriangle) {
-  // OpenGL's near plane: z ≥ −w. Vertex 0 is 2 inside, the others are 2 outside.
+TEST(Clip, NearPlaneCutOfTwoVerticesGivesATriangle) {
+  // For OpenGL's near plane, z ≥ −w, vertex 0 is inside by 2 and the others are outside by 2.
   const ClipPolygon p = clip_triangle(viewport_64(), kGl, {{{0, 0, 1, 1}, {1, 0, -3, 1}, {0, 1, -3, 1}}});
   ASSERT_EQ(p.count, 3);
   EXPECT_EQ(p.corners[0].pos_clip, glm::dvec4(0, 0, 1, 1));
@@ -62,7 +62,7 @@ TEST(Clip, NearPlaneCutOfTwoVerticesGivesTriangle) {
   EXPECT_EQ(p.corners[2].pos_clip, glm::dvec4(0, 0.5, -1, 1));
 }
 
-TEST(Clip, FarPlaneCutGivesQuad) {
+TEST(Clip, FarPlaneCutGivesAQuad) {
   for (const DepthState& depth : {kGl, kZeroToOne}) {
     const ClipPolygon p = clip_triangle(viewport_64(), depth, {{{0, 0, 0.5f, 1}, {1, 0, 1.5f, 1}, {0, 1, 0.5f, 1}}});
     ASSERT_EQ(p.count, 4);
@@ -71,14 +71,14 @@ TEST(Clip, FarPlaneCutGivesQuad) {
   }
 }
 
-TEST(Clip, DepthClampLeavesNearAndFar) {
+TEST(Clip, DepthClampDisablesNearAndFarClipping) {
   const ClipTriangle t{{{0, 0, -5, 1}, {1, 0, 7, 1}, {0, 1, 0.5f, 1}}};
   const ClipPolygon p = clip_triangle(viewport_64(), kClamped, t);
   ASSERT_EQ(p.count, 3);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(same_bits(p.corners[i].pos_clip, glm::dvec4(t[i])));
 }
 
-TEST(Clip, BehindTheEyeIsNothing) {
+TEST(Clip, TrianglesBehindTheEyeAreRemoved) {
   for (const DepthState& depth : {kGl, kZeroToOne, kClamped}) {
     EXPECT_EQ(clip_triangle(viewport_64(), depth, {{{0, 0, 0, -1}, {1, 0, 0, -1}, {0, 1, 0, -2}}}).count, 0);
     EXPECT_EQ(clip_triangle(viewport_64(), depth, {{{0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}}}).count, 0);
@@ -86,14 +86,14 @@ TEST(Clip, BehindTheEyeIsNothing) {
   }
 }
 
-TEST(Clip, BeyondNearOrFarIsNothing) {
+TEST(Clip, TrianglesBeyondNearOrFarAreRemoved) {
   EXPECT_EQ(clip_triangle(viewport_64(), kZeroToOne, {{{0, 0, -1, 1}, {1, 0, -1, 1}, {0, 1, -0.5f, 1}}}).count, 0);
   EXPECT_EQ(clip_triangle(viewport_64(), kZeroToOne, {{{0, 0, 2, 1}, {1, 0, 2, 1}, {0, 1, 1.5f, 1}}}).count, 0);
   EXPECT_EQ(clip_triangle(viewport_64(), kGl, {{{0, 0, -2, 1}, {1, 0, -2, 1}, {0, 1, -1.5f, 1}}}).count, 0);
 }
 
-TEST(Clip, GuardBandCutsFarCorners) {
-  // Viewport of 64 px: the guard band's right side is 16384 px, x/w = (16384 − 32) / 32 = 511.
+TEST(Clip, GuardBandCutsDistantVertices) {
+  // With a viewport of 64 px, the right guard plane is at 16384 px, which is x/w = (16384 − 32) / 32 = 511.
   const ClipPolygon p = clip_triangle(viewport_64(), kGl, {{{0, 0, 0, 1}, {1022, 0, 0, 1}, {0, 1, 0, 1}}});
   ASSERT_EQ(p.count, 4);
   EXPECT_EQ(p.corners[1].pos_clip, glm::dvec4(511, 0, 0, 1));
@@ -105,9 +105,8 @@ TEST(Clip, GuardBandCutsFarCorners) {
   EXPECT_EQ(s.inv_w, 1.0f);
 }
 
-TEST(Clip, WLessThanZeroIsCutAway) {
-  // Without near plane: from (0, 0, w = 1) towards w = −1, straight through the eye: what is left ends at a guard
-  // plane.
+TEST(Clip, NegativeWIsCutAway) {
+  // Without a near plane, edges from w = 1 to w = −1 pass through the eye. The remaining part ends at a guard plane.
   const ClipPolygon p = clip_triangle(viewport_64(), kClamped, {{{0, 0, 0, 1}, {1, 1, 0, -1}, {-1, 1, 0, -1}}});
   ASSERT_GE(p.count, 3);
   for (int i = 0; i < p.count; ++i) {
@@ -119,9 +118,9 @@ TEST(Clip, WLessThanZeroIsCutAway) {
   }
 }
 
-TEST(Clip, VaryingsOfACorner) {
-  // At the middle (in clip space) of an edge with w 1 and 3: smooth values meet at the half, linear ones at 1/4 : 3/4
-  // of the way, since w there is 2 and a vertex weighs t·w_i / w in the window.
+TEST(Clip, InterpolatesVaryingsOfNewVertices) {
+  // The new vertex is in the middle (in clip space) of an edge with w = 1 and w = 3. Smooth varyings are interpolated at 1/2. For linear
+  // varyings, a vertex has the weight t·w_i / w in the window and w = 2 at the new vertex, so the weights are 1/4 and 3/4.
   const std::array<Interpolation, 3> modes{Interpolation::smooth, Interpolation::linear, Interpolation::flat};
   ShaderKernels kernels;
   kernels.varying_count = 3;
@@ -147,7 +146,7 @@ double determinant(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c
   return glm::dot(glm::dvec3(a.x, a.y, a.w), glm::cross(glm::dvec3(b.x, b.y, b.w), glm::dvec3(c.x, c.y, c.w)));
 }
 
-TEST(Clip, WeightsSumToOneAndGiveThePosition) {
+TEST(Clip, WeightsSumToOneAndReproduceThePosition) {
   Random r(1);
   int pieces = 0;
   for (int i = 0; i < effort(50000); ++i) {
@@ -157,7 +156,7 @@ TEST(Clip, WeightsSumToOneAndGiveThePosition) {
     for (int k = 0; k < p.count; ++k) {
       ++pieces;
       const ClipCorner& c = p.corners[static_cast<std::size_t>(k)];
-      // Each cut rounds by some 2^-53 and a corner comes from at most two cuts.
+      // Each cut has a rounding error of about 2^-53, and a corner is the result of at most two cuts.
       EXPECT_NEAR(c.weights.x + c.weights.y + c.weights.z, 1.0, 1e-14);
       const glm::dvec4 want = c.weights.x * glm::dvec4(t[0]) + c.weights.y * glm::dvec4(t[1]) + c.weights.z * glm::dvec4(t[2]);
       const glm::dvec4 size = glm::abs(glm::dvec4(t[0])) + glm::abs(glm::dvec4(t[1])) + glm::abs(glm::dvec4(t[2]));
@@ -167,19 +166,19 @@ TEST(Clip, WeightsSumToOneAndGiveThePosition) {
   EXPECT_GT(pieces, effort(50000) / 4);
 }
 
-TEST(Clip, OrientationIsKept) {
+TEST(Clip, PreservesOrientation) {
   Random r(2);
   int polygons = 0;
   for (int i = 0; i < effort(50000); ++i) {
     const ClipTriangle t{random_position(r), random_position(r), random_position(r)};
     const ClipPolygon p = clip_triangle(viewport_64(), kZeroToOne, t);
     if (p.count == 0) continue;
-    // The sign of det(x, y, w) is the orientation in the window wherever all w > 0.
+    // If all w > 0, the sign of det(x, y, w) is the orientation in the window.
     const double whole = determinant(glm::dvec4(t[0]), glm::dvec4(t[1]), glm::dvec4(t[2]));
     for (std::size_t k = 2; k < static_cast<std::size_t>(p.count); ++k) {
       const glm::dvec4 &a = p.corners[0].pos_clip, &b = p.corners[k - 1].pos_clip, &c = p.corners[k].pos_clip;
       const double part = determinant(a, b, c);
-      if (std::fabs(part) < 1e-12 * glm::length(a) * glm::length(b) * glm::length(c)) continue;  // not told from 0 in double
+      if (std::fabs(part) < 1e-12 * glm::length(a) * glm::length(b) * glm::length(c)) continue;  // too close to 0 for double
       EXPECT_GT(part * whole, 0.0) << i;
     }
     ++polygons;
@@ -187,7 +186,7 @@ TEST(Clip, OrientationIsKept) {
   EXPECT_GT(polygons, effort(50000) / 8);
 }
 
-// All corners of a polygon that lie on the edge between vertices i and j of the triangle.
+// Returns all corners of a polygon on the edge that is opposite to the given vertex of the triangle.
 std::vector<glm::dvec4> corners_on_edge(const ClipPolygon& p, glm::length_t opposite) {
   std::vector<glm::dvec4> found;
   for (int k = 0; k < p.count; ++k) {
@@ -199,7 +198,7 @@ std::vector<glm::dvec4> corners_on_edge(const ClipPolygon& p, glm::length_t oppo
   return found;
 }
 
-TEST(Clip, NeighboursGetTheSameBits) {
+TEST(Clip, AdjacentTrianglesGetIdenticalVertices) {
   Random r(3);
   int edges = 0;
   for (int i = 0; i < effort(100000); ++i) {
@@ -208,7 +207,7 @@ TEST(Clip, NeighboursGetTheSameBits) {
     const ClipPolygon left = clip_triangle(viewport_64(), depth, {a, b, c});
     const ClipPolygon right = clip_triangle(viewport_64(), depth, {{d, b, a}});
     const std::vector<glm::dvec4> of_left = corners_on_edge(left, 2), of_right = corners_on_edge(right, 0);
-    // Fewer than two: the edge is cut away, and what touches a plane in a point may be kept by one alone.
+    // With fewer than two corners, the edge has been cut away. One of the triangles may still keep a corner that only touches a plane.
     if (of_left.size() < 2 && of_right.size() < 2) continue;
     ++edges;
     ASSERT_EQ(of_left.size(), of_right.size()) << i;
@@ -217,9 +216,9 @@ TEST(Clip, NeighboursGetTheSameBits) {
   EXPECT_GT(edges, effort(100000) / 8);
 }
 
-// A vertex that the vertex stage calls drawable must not be cut off by the clipper: its neighbour may be drawn
-// unclipped, and their shared edge would get other bits.
-TEST(Clip, AgreesWithTheVertexStageOnWhatIsInside) {
+// The clipper must not cut a vertex that the vertex stage classifies as drawable: an adjacent triangle may be drawn unclipped, and the two
+// would then disagree about their shared edge.
+TEST(Clip, AgreesWithTheVertexStageAboutInsideVertices) {
   Random r(4);
   for (const Rect& rect : {Rect{0, 0, 64, 64}, Rect{0, 0, 1920, 1080}, Rect{5, 7, 333, 77}}) {
     const Viewport v = make_viewport(rect, kZeroToOne);
@@ -229,7 +228,7 @@ TEST(Clip, AgreesWithTheVertexStageOnWhatIsInside) {
       glm::vec4 p(0, 0, 0.5f * w, w);
       const int side = r.integer(0, 3);
       const std::array<float, 4> guards{v.guard_left, v.guard_right, v.guard_bottom, v.guard_top};
-      float x = guards[static_cast<std::size_t>(side)] * w;  // on the plane, up to the product's rounding
+      float x = guards[static_cast<std::size_t>(side)] * w;  // on the plane, except for the rounding of the product
       for (int n = r.integer(-2, 2); n > 0; --n) x = std::nextafter(x, 1e30f);
       p[side / 2] = x;
       positions.push_back(p);
@@ -248,19 +247,19 @@ TEST(Clip, AgreesWithTheVertexStageOnWhatIsInside) {
   }
 }
 
-// ---- whole passes against the exact reference ------------------------------------------------------------------
+// ---- whole passes compared with the exact reference ------------------------------------------------------------
 
 struct LineFunction {
-  Wide a, b, c;  // f(x, y) = a·x + b·y + c at pixel (x, y)'s centre; the visible part of the triangle has f ≥ 0
+  Wide a, b, c;  // f(x, y) = a·x + b·y + c at the center of pixel (x, y); the visible part of the triangle has f ≥ 0
   Wide at(int x, int y) const { return a * x + b * y + c; }
 };
 
-/// The visible part of one triangle, as five linear functions of the pixel: three edges, near and far. Coordinates of
-/// the vertices are whole numbers up to 2^24, of the viewport up to 2^9, so no product exceeds 2^98.
+/// The visible part of one triangle as five linear functions of the pixel position: three edges, near and far. Vertex coordinates are
+/// integers up to 2^24 and viewport coordinates up to 2^9, so no product exceeds 2^98.
 ///
-/// Sample s = (nx·H, ny·W, W·H) is the point's (x, y, w) up to a positive factor, nx = 2(x − vx) + 1 − W and so on.
-/// Solving λ0·v0 + λ1·v1 + λ2·v2 = s by Cramer's rule gives λi = s·(vj × vk) / D; it is inside where all λi ≥ 0 (then w
-/// of the point is positive by the choice of s), and its z is λ0·z0 + λ1·z1 + λ2·z2.
+/// Sample s = (nx·H, ny·W, W·H) is (x, y, w) of the point up to a positive factor, with nx = 2(x − vx) + 1 − W and ny likewise. Solving
+/// λ0·v0 + λ1·v1 + λ2·v2 = s by Cramer's rule gives λi = s·(vj × vk) / D. The point is inside if all λi ≥ 0 (its w is then positive by the
+/// choice of s), and its z is λ0·z0 + λ1·z1 + λ2·z2.
 class ExactTriangle {
  public:
   ExactTriangle(const ClipTriangle& t, const Rect& viewport, const DepthState& depth) {
@@ -295,7 +294,7 @@ class ExactTriangle {
     return !empty_;
   }
 
-  /// Pixels from the centre of pixel (x, y) to the boundary of the visible part. Infinite if there is none.
+  /// Returns the distance in pixels from the center of pixel (x, y) to the boundary of the visible part; infinite if there is none.
   long double distance_to_boundary(int x, int y) const {
     std::vector<Corner> polygon{{-4e4L, -4e4L}, {4e4L, -4e4L}, {4e4L, 4e4L}, {-4e4L, 4e4L}};
     for (int i = 0; i < count_ && !polygon.empty(); ++i) polygon = intersect(polygon, lines_[static_cast<std::size_t>(i)], x, y);
@@ -318,7 +317,7 @@ class ExactTriangle {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
 
-  // Corners are relative to the centre of pixel (px, py), where f is exact; long double adds no error that matters.
+  // Corners are relative to the center of pixel (px, py), where f is exact. The rounding error of long double is negligible.
   static std::vector<Corner> intersect(const std::vector<Corner>& polygon, const LineFunction& f, int px, int py) {
     const auto a = static_cast<long double>(f.a), b = static_cast<long double>(f.b), c = static_cast<long double>(f.at(px, py));
     std::vector<Corner> kept;
@@ -345,7 +344,7 @@ class ExactTriangle {
   bool empty_ = false;
 };
 
-// Random triangles through a pass each, and the distances of the samples that differ from the exact reference.
+// Draws random triangles in one pass each and records the distances of all samples that differ from the exact reference.
 class ClipComparison {
  public:
   void compare(const ClipTriangle& t, int size, const Rect& viewport, const DrawState& state) {
@@ -361,7 +360,7 @@ class ClipComparison {
         covered_ += want;
         ++samples_;
         if (count == (want ? 1.0f : 0.0f)) continue;
-        // The pieces of a clipped triangle meet without holes and overlaps: no sample is drawn twice.
+        // The triangles of a clipped polygon meet without gaps or overlaps, so no sample is drawn twice.
         EXPECT_LE(count, 1.0f) << describe(t, x, y);
         EXPECT_TRUE(in_viewport) << describe(t, x, y);
         add(exact.distance_to_boundary(x, y), t, x, y);
@@ -386,8 +385,8 @@ class ClipComparison {
   const PassStatistics& statistics() const { return statistics_; }
 
  private:
-  // Corners are snapped to 1/256 px, each by at most 1/512 px in x and y: the drawn outline lies within √2/512 px of
-  // the exact one, which is 0.71/256 px. 1/256 px leaves room for the rounding of clipped corners.
+  // Vertices are snapped to 1/256 px, which moves them by at most 1/512 px in x and in y. The drawn outline is therefore within √2/512 px =
+  // 0.71/256 px of the exact one. 1/256 px also leaves room for the rounding of clipped corners.
   static constexpr long double kTolerance = 1.0L / 256;
 
   void add(long double d, const ClipTriangle& t, int x, int y) {
@@ -411,21 +410,21 @@ class ClipComparison {
   PassStatistics statistics_;
 };
 
-// A whole number of random size up to 2^bits, and sign.
+// Returns a random integer with a random magnitude of up to 2^bits.
 float whole(Random& r, int bits) {
   const int limit = 1 << r.integer(0, bits);
   return static_cast<float>(r.integer(-limit, limit));
 }
 
-// Every plane crossed at random: coordinates of all sizes, w of both signs.
+// Random triangles that cross every plane, with coordinates of all magnitudes and w of both signs.
 ClipTriangle any_triangle(Random& r) {
   ClipTriangle t;
   for (glm::vec4& v : t) v = {whole(r, 24), whole(r, 24), whole(r, 24), whole(r, 24)};
   return t;
 }
 
-// At least one vertex in the picture, so that more of the triangle is seen; the others anywhere, up to 1e5 px away and
-// behind the eye.
+// Random triangles with at least one vertex in the picture, so that more of each triangle is visible. Other vertices can be up to 1e5 px
+// away or behind the eye.
 ClipTriangle seen_triangle(Random& r) {
   ClipTriangle t;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -445,7 +444,7 @@ ClipTriangle seen_triangle(Random& r) {
 
 DrawState state_of(int i) { return with(i % 3 == 0 ? kGl : i % 3 == 1 ? kZeroToOne : kClamped); }
 
-TEST(ClippedCoverage, AnyTriangles) {
+TEST(ClippedCoverage, RandomTrianglesMatchTheExactReference) {
   Random r(11);
   ClipComparison c;
   for (int i = 0; i < effort(20000); ++i) c.compare(any_triangle(r), 32, {0, 0, 32, 32}, state_of(i));
@@ -453,7 +452,7 @@ TEST(ClippedCoverage, AnyTriangles) {
   EXPECT_GT(c.statistics().clipped, static_cast<uint64_t>(effort(20000) / 5));
 }
 
-TEST(ClippedCoverage, SeenTriangles) {
+TEST(ClippedCoverage, VisibleTrianglesMatchTheExactReference) {
   Random r(12);
   ClipComparison c;
   for (int i = 0; i < effort(20000); ++i) c.compare(seen_triangle(r), 64, {0, 0, 64, 64}, state_of(i));
@@ -462,7 +461,7 @@ TEST(ClippedCoverage, SeenTriangles) {
   EXPECT_GT(c.covered(), effort(20000) * 64 * 64 / 20);
 }
 
-TEST(ClippedCoverage, ViewportPartlyOutsideOfTheTarget) {
+TEST(ClippedCoverage, ViewportPartlyOutsideOfTheTargetMatchesTheExactReference) {
   Random r(13);
   ClipComparison c;
   for (int i = 0; i < effort(2000); ++i) {
@@ -474,15 +473,15 @@ TEST(ClippedCoverage, ViewportPartlyOutsideOfTheTarget) {
   c.report();
 }
 
-TEST(ClippedCoverage, LargePictures) {
+TEST(ClippedCoverage, LargePicturesMatchTheExactReference) {
   Random r(14);
   ClipComparison c;
   for (int i = 0; i < effort(400); ++i) c.compare(seen_triangle(r), 256, {0, 0, 256, 256}, state_of(i));
   c.report();
 }
 
-// Vertices where w = 0, the eye itself among them, and on planes exactly.
-TEST(ClippedCoverage, SpecialVertices) {
+// Some vertices have w = 0 or are the eye itself, and some are exactly on a plane.
+TEST(ClippedCoverage, SpecialVerticesMatchTheExactReference) {
   Random r(15);
   ClipComparison c;
   for (int i = 0; i < effort(10000); ++i) {
@@ -500,7 +499,7 @@ TEST(ClippedCoverage, SpecialVertices) {
     }
     const ExactTriangle exact(t, {0, 0, 64, 64}, state_of(i).depth);
     if (exact.empty()) {
-      // No area: at most a line is left, which can be drawn one sub-pixel wide.
+      // The triangle has no area. At most a line remains, which can be drawn one sub-pixel wide.
       Image<glm::vec4> image(64, 64);
       count_coverage(image, {t[0], t[1], t[2]}, {0, 1, 2}, state_of(i));
       float drawn = 0;
@@ -513,9 +512,9 @@ TEST(ClippedCoverage, SpecialVertices) {
   c.report();
 }
 
-// Slivers, found by search, whose clipped and snapped outlines are bent inwards or cross themselves: a fan from their
-// first corner draws some samples twice.
-TEST(ClippedCoverage, BentOutlinesDrawNoSampleTwice) {
+// Slivers found by search whose clipped and snapped outlines are concave or self-intersecting, so that a fan from their first corner would
+// draw some samples twice.
+TEST(ClippedCoverage, ConcaveOutlinesDrawNoSampleTwice) {
   const std::vector<ClipTriangle> slivers{{{{2987, 7032, -3121, 10836}, {-12146, -2062, 7311, 7699}, {-24706, -9610, 15966, 5094}}},
                                           {{{-5948, -3375, -208, 6271}, {232, -2883, 713, 452}, {6371, -2394, 1628, -5329}}},
                                           {{{102, 5, -2, 286}, {-265176, -93781, 5456, 3854}, {-274604, -97114, 5649, 3983}}},
@@ -540,9 +539,9 @@ TEST(ClippedCoverage, BentOutlinesDrawNoSampleTwice) {
   }
 }
 
-// ---- what is not a number --------------------------------------------------------------------------------------
+// ---- non-finite input ------------------------------------------------------------------------------------------
 
-TEST(ClippedCoverage, NonFiniteVerticesDropTheTriangle) {
+TEST(ClippedCoverage, NonFiniteVerticesDiscardTheTriangle) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   for (const float bad : {nan, -nan, inf, -inf}) {
     for (int vertex = 0; vertex < 3; ++vertex) {
@@ -553,15 +552,15 @@ TEST(ClippedCoverage, NonFiniteVerticesDropTheTriangle) {
         const PassStatistics s = count_coverage(image, positions, {0, 1, 2, 3, 4, 5});
         EXPECT_EQ(s.culled_non_finite, 1u);
         EXPECT_EQ(s.triangles_binned,
-                  1u);  // the second triangle is drawn all the same
+                  1u);  // the second triangle is still drawn
         EXPECT_EQ(pixel(image, 16, 10).x, 1.0f);
       }
     }
   }
 }
 
-// Anything at all, bit patterns included: nothing crashes, and every triangle is accounted for.
-TEST(ClippedCoverage, RandomBitPatterns) {
+// Arbitrary values, including random bit patterns, must not crash, and the statistics must account for every triangle.
+TEST(ClippedCoverage, RandomBitPatternsAreHandled) {
   Random r(16);
   constexpr std::array<float, 12> special{0.0f,     -0.0f, 1e-45f, -1e-40f, 0x1p-126f, 0x1p-97f,
                                           0x1p-96f, 1e30f, -1e30f, 3.4e38f, -3.4e38f,  1e5f};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A shader that is constant by its type fills tiles without their memory where it can: the pictures are those of the same shader
-// that is not.
+// Shaders that are constant by their type can fill tiles without using tile memory. The result must equal that of an equivalent shader that
+// is not constant by its type.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace halfspace::raster_test {
 namespace {
 
-// ConstantShader asks for the pixel; this one asks for nothing.
+// ConstantShader accepts a Pixel; this shader has no parameters, which makes it constant.
 struct PaintShader {
   glm::vec4 color;
   template <class R>
@@ -40,7 +40,7 @@ struct ConstantPicture {
 template <class Shader>
 ConstantPicture drawn(const Shader& shader, std::span<const glm::vec4> positions, const DrawState& state) {
   ConstantPicture out;
-  Pass pass(kPictureSize, kPictureSize, rgba8_target(out.color), {});  // with a depth to find, no tile is filled
+  Pass pass(kPictureSize, kPictureSize, rgba8_target(out.color), {});  // tiles are filled directly only without depth
   pass.draw(shader, make_vertex_view(stream(positions)), state);
   out.statistics = pass.run(one_worker());
   return out;
@@ -50,14 +50,14 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
   Random random(11);
   const glm::vec4 color(0.2f, 0.6f, 1.0f, 1.0f);
   for (int i = 0; i < effort(400); ++i) {
-    // Up to twice the picture's size, so that some tiles are inside, some outside, most neither; alone in their bins.
+    // The triangle is up to twice the size of the picture, so some tiles are inside, some outside, and most neither.
     std::vector<glm::vec4> positions;
     for (int k = 0; k < 3; ++k) {
       const Point p{random.integer(-kPictureSize * 256, 2 * kPictureSize * 256),
                     random.integer(-kPictureSize * 256, 2 * kPictureSize * 256)};
       positions.push_back(clip_position(p, kPictureSize, kPictureSize, random.real(-0.9f, 0.9f)));
     }
-    // Half of the time with a second triangle, over an edge of the first or (rarely) anywhere.
+    // Every second picture has a second triangle, which usually shares an edge with the first one.
     if (i % 2 == 1) {
       const auto edge = static_cast<std::size_t>(random.integer(0, 2));
       const glm::vec4 a = positions[edge], b = positions[(edge + 1) % 3], c = positions[(edge + 2) % 3];
@@ -73,7 +73,7 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
   }
 }
 
-TEST(CoveredArea, PairsCoverWhatTheirHalvesDo) {
+TEST(CoveredArea, TrianglePairsCoverAnAreaOnlyIfTheyShareAnEdge) {
   Random random(5);
   const auto rotated = [](Triangle t) {
     if ((t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) < (t.y[1] - t.y[0]) * (t.x[2] - t.x[0])) {
@@ -93,7 +93,7 @@ TEST(CoveredArea, PairsCoverWhatTheirHalvesDo) {
     };
     const Triangle t = triangle({at(), at(), at()}, {at(), at(), at()});
     const std::size_t k = static_cast<std::size_t>(random.integer(0, 2)), n = (k + 1) % 3;
-    // The edge that they share, or (two times in three) one beside it, moved, or turned about one end.
+    // The shared edge or, in two of three cases, the same edge moved or with one end moved.
     std::array<int32_t, 3> ux{t.x[n], t.x[k], at()}, uy{t.y[n], t.y[k], at()};
     std::array<int32_t, 3>& moved = i % 6 < 3 ? ux : uy;
     const int by = random.integer(-300, 300);
@@ -118,17 +118,17 @@ TEST(CoveredArea, PairsCoverWhatTheirHalvesDo) {
       }
     }
     ASSERT_EQ(covers(t, area), first) << i;
-    // What is told is true; what covers together by other ways than one shared edge need not be told.
+    // A positive answer must be correct. Pairs that cover the area without sharing one edge do not have to be recognized.
     ASSERT_TRUE(!cover_together(t, u, area) || each_once) << i;
     together += cover_together(t, u, area) ? 1 : 0;
   }
   EXPECT_GT(together, effort(200000) / 2000);
 }
 
-// Tiles of one colour go into the image several in a row: each keeps its own, for any number of threads.
-TEST(ConstantShaders, TilesInARowKeepTheirColors) {
+// Tiles of a single color are written to the image in runs. Each tile must keep its own color for any thread count.
+TEST(ConstantShaders, RunsOfTilesKeepTheirColors) {
   constexpr int kTile = 64, kWidth = 12 * kTile + 20, kHeight = 2 * kTile + 9;
-  constexpr std::array<int, 13> kColumns{-1, -1, 0, 0, 0, 1, 1, -1, 0, 1, 2, 2, -1};  // the draw that covers a column of tiles, or none
+  constexpr std::array<int, 13> kColumns{-1, -1, 0, 0, 0, 1, 1, -1, 0, 1, 2, 2, -1};  // the draw that covers each column of tiles; −1: none
   const glm::vec4 cleared(0.25f, 0.5f, 0.75f, 1.0f);
   const auto color_of = [&](int draw) { return draw < 0 ? cleared : glm::vec4(0.1f * static_cast<float>(draw + 1)); };
   const std::vector<glm::vec4> corners = full_screen();
@@ -158,8 +158,9 @@ TEST(ConstantShaders, TilesInARowKeepTheirColors) {
   }
 }
 
-// Rows of tiles of one colour go into the image in one go, where it is large by the processor's own loop: what is above and below
-// stays. Widths: whole cache lines, and not; heights: the last row of tiles is cut.
+// Rows of tiles with the same color are written to the image in one operation, which uses a string instruction if the area is large. The
+// rows above and below must not change. Some widths are multiples of a cache line and some are not, and some heights cut off the last row
+// of tiles.
 template <class Texel>
 class RowsOfOneColor : public testing::Test {};
 using Texels = testing::Types<glm::u8vec4, U16Vec4, glm::vec4>;
@@ -172,12 +173,12 @@ ColorTarget target_of(Image<glm::vec4>& image) { return rgba32f_target(image); }
 TYPED_TEST(RowsOfOneColor, StayAmongThemselves) {
   constexpr int kTile = 64;
   constexpr std::array<int, 17> kRows{-1, 0, 0, 1, -1, 2, -1, -1, 0,
-                                      1,  2, 0, 1, -1, 2, 0,  -1};  // from below: the draw that covers it, or none
+                                      1,  2, 0, 1, -1, 2, 0,  -1};  // from the bottom: the draw that covers each row of tiles; −1: none
   const glm::vec4 cleared(0.25f, 0.5f, 0.75f, 1.0f);
   const std::vector<glm::vec4> corners = full_screen();
   for (const auto& [width, height] : {std::pair(1024, 16 * kTile + 40), std::pair(1027, 17 * kTile), std::pair(130, 17 * kTile)}) {
     for (const LoadOp load : {LoadOp::clear, LoadOp::load}) {
-      Image<TypeParam> image(width, height), one(1, 4);  // one: the colours as the format holds them
+      Image<TypeParam> image(width, height), one(1, 4);  // one: the colors as represented in the format
       for (int draw = -1; draw < 3; ++draw) {
         Image<TypeParam> pixel(1, 1);
         ColorTarget target = target_of(pixel);
@@ -210,7 +211,7 @@ TYPED_TEST(RowsOfOneColor, StayAmongThemselves) {
   }
 }
 
-TEST(ConstantShaders, DepthOfClearedRowsIsSet) {
+TEST(ConstantShaders, ClearedDepthIsStored) {
   constexpr int kWidth = 1152, kHeight = 960;  // 4.4 MB
   Image<float> depth(kWidth, kHeight);
   DepthTarget target = d32f_target(depth);

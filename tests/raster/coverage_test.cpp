@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage is exact: what a pass covers equals, sample for sample, edge functions evaluated in 128-bit whole numbers
-// for every pixel. No tolerance: positions are multiples of 1/256 px that the vertex stage hands on unrounded.
+// Coverage is exact: the samples that a pass covers must equal those of edge functions evaluated in 128-bit integers at every pixel. There
+// is no tolerance, because all positions are multiples of 1/256 px that the vertex stage does not round.
 //
-// Each triangle has a random weight of its own in each channel. In the blended (immediate) draw a pixel must hold the
-// sum of the weights of the triangles that cover it, so that no two errors cancel; in the replacing (deferred) draw
-// that of the last one. All sums stay below 2^24, where floats add whole numbers exactly.
+// Each triangle has a random weight in each channel. In the blended (immediate) draw, a pixel must contain the sum of the weights of all
+// triangles that cover it, so that errors cannot cancel. In the replacing (deferred) draw, it must contain the weight of the last one. All
+// sums stay below 2^24, where float addition of integers is exact.
 #include "raster/raster_test.h"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// Calls covered(x, y) for every pixel of [x0, x1) × [y0, y1) whose centre triangle t owns; returns the pixels looked
-/// at. Orientation does not matter.
+/// Calls covered(x, y) for every pixel of [x0, x1) × [y0, y1) whose center is owned by triangle t, and returns the number of pixels
+/// examined. The orientation of the triangle does not matter.
 ///
-/// A centre on an edge is decided as if all centres lay a little further right and, by far less, further up: then none
-/// is on an edge, and of two triangles that share an edge exactly one gets it. (That is the rule of raster/pipeline/edge.h, told
-/// in another way.)
+/// A center on an edge is treated as if all centers were slightly further right and, by a far smaller amount, further up. No center is then
+/// on an edge, and exactly one of two triangles that share an edge owns it. This is an independent formulation of the rule in
+/// raster/pipeline/edge.h.
 template <class F>
 int64_t brute_force(const PointTriangle& t, int x0, int y0, int x1, int y1, F covered) {
   PointTriangle v = t;
@@ -36,7 +36,7 @@ int64_t brute_force(const PointTriangle& t, int x0, int y0, int x1, int y1, F co
       const Point &a = v[i], &b = v[(i + 1) % 3];
       e[i] = cross(a, b, Wide{x0} * 256 + 128, Wide{y} * 256 + 128);
       step[i] = (Wide{a.y} - b.y) * 256;
-      // The change of the edge function for the little step right; if that is 0, for the step up.
+      // The change of the edge function for the small step to the right; if it is 0, for the step up.
       owns[i] = step[i] != 0 ? step[i] > 0 : b.x > a.x;
     }
     for (int x = x0; x < x1; ++x) {
@@ -51,7 +51,7 @@ int64_t brute_force(const PointTriangle& t, int x0, int y0, int x1, int y1, F co
   return int64_t{x1 - x0} * (y1 - y0);
 }
 
-// A batch of triangles drawn into one image, and compared with brute force.
+// Draws batches of triangles into one image and compares them with brute force.
 class Comparison {
  public:
   Comparison(int width, int height, uint64_t seed) : width_(width), height_(height), random_(seed) {}
@@ -61,8 +61,8 @@ class Comparison {
   int64_t covered() const { return covered_; }
   int64_t differences() const { return differences_; }
 
-  // in_box: look only at the pixels round each triangle (for tiny ones; nothing outside of its box can be inside of
-  // it).
+  // in_box: examines only the pixels of each triangle's bounding box, which is faster for tiny triangles. No pixel outside of the box can
+  // be covered.
   void compare(const std::vector<PointTriangle>& triangles, bool in_box = false) {
     ASSERT_LE(triangles.size() * kMaxWeight, std::size_t{1} << 24);
     std::vector<glm::vec4> weights;
@@ -81,7 +81,7 @@ class Comparison {
     }
     covered_ += covered_here;
 
-    // Tiles of every size, one after the other: the edge functions start anew in each tile.
+    // The batches cycle through the tile sizes, since edge functions are set up again in each tile.
     const PassOptions options{.tile_size = 8 << (batch_ % 4)};
     ++batch_;
     Image<glm::vec4> drawn(width_, height_);
@@ -134,10 +134,10 @@ Point random_point(Random& r, int width, int height, int margin) {
   return {r.integer(-margin * 256, (width + margin) * 256), r.integer(-margin * 256, (height + margin) * 256)};
 }
 
-// Whole numbers or halves, so that vertices and many edges pass through pixel centres exactly.
+// Moves a point to a pixel center, so that vertices and many edges pass exactly through pixel centers.
 Point on_centers(const Point& p) { return {(p.x & ~255) + 128, (p.y & ~255) + 128}; }
 
-TEST(Coverage, RandomTriangles) {
+TEST(Coverage, RandomTrianglesAreExact) {
   Comparison c(256, 256, 1);
   for (int batch = 0; batch < effort(100); ++batch) {
     std::vector<PointTriangle> triangles(16);
@@ -149,13 +149,13 @@ TEST(Coverage, RandomTriangles) {
   c.report();
 }
 
-TEST(Coverage, VerticesOnPixelCenters) {
+TEST(Coverage, VerticesOnPixelCentersAreExact) {
   Comparison c(256, 256, 2);
   for (int batch = 0; batch < effort(100); ++batch) {
     std::vector<PointTriangle> triangles(16);
     for (PointTriangle& t : triangles) {
       for (Point& p : t) p = on_centers(random_point(c.random(), 256, 256, 16));
-      // Horizontal, vertical and 45° edges through centres.
+      // Horizontal, vertical and 45° edges through pixel centers.
       const int kind = c.random().integer(0, 3);
       if (kind == 1) t[1].y = t[0].y;
       if (kind == 2) t[1].x = t[0].x;
@@ -166,19 +166,19 @@ TEST(Coverage, VerticesOnPixelCenters) {
   c.report();
 }
 
-TEST(Coverage, Slivers) {
+TEST(Coverage, SliversAreExact) {
   Comparison c(256, 256, 3);
   for (int batch = 0; batch < effort(100); ++batch) {
     std::vector<PointTriangle> triangles(16);
     for (PointTriangle& t : triangles) {
       t[0] = random_point(c.random(), 256, 256, 64);
       t[1] = random_point(c.random(), 256, 256, 64);
-      // Near a point of the line through the two, at most one pixel off it, mostly a few sub-pixels.
+      // The third vertex is at most one pixel, and usually only a few sub-pixels, away from the line through the other two.
       const double s = c.random().real(-0.5, 1.5);
       const int reach = 1 << c.random().integer(0, 8);
       t[2] = {static_cast<int32_t>(t[0].x + s * (t[1].x - t[0].x)) + c.random().integer(-reach, reach),
               static_cast<int32_t>(t[0].y + s * (t[1].y - t[0].y)) + c.random().integer(-reach, reach)};
-      if (c.random().integer(0, 3) == 0) {  // the third vertex next to the first: a needle
+      if (c.random().integer(0, 3) == 0) {  // the third vertex is next to the first one, which gives a needle
         t[2] = {t[0].x + c.random().integer(-2, 2), t[0].y + c.random().integer(-2, 2)};
       }
     }
@@ -188,14 +188,14 @@ TEST(Coverage, Slivers) {
   c.report();
 }
 
-TEST(Coverage, TinyTriangles) {
+TEST(Coverage, TinyTrianglesAreExact) {
   Comparison c(128, 128, 4);
   for (int batch = 0; batch < effort(64); ++batch) {
     std::vector<PointTriangle> triangles(8192);
     for (PointTriangle& t : triangles) {
       const int size = 1 << c.random().integer(0, 10);  // from 1/256 px to 4 px
       Point at = random_point(c.random(), 128, 128, 1);
-      if (c.random().coin()) at = on_centers(at);  // such that even the smallest often touch a centre
+      if (c.random().coin()) at = on_centers(at);  // lets even the smallest triangles touch a center
       t[0] = at;
       for (std::size_t i = 1; i < 3; ++i) t[i] = {at.x + c.random().integer(-size, size), at.y + c.random().integer(-size, size)};
       if (c.random().coin()) {
@@ -209,8 +209,8 @@ TEST(Coverage, TinyTriangles) {
   c.report();
 }
 
-// Sizes round the limit where setup turns from whole 32-bit edge functions to shifted ones (63 px), and tiles' sizes.
-TEST(Coverage, TrianglesOfAboutATile) {
+// The sizes are near the limit at which setup switches from full 32-bit edge functions to shifted ones (63 px), and near the tile size.
+TEST(Coverage, TrianglesOfAboutATileAreExact) {
   Comparison c(256, 256, 5);
   for (int batch = 0; batch < effort(40); ++batch) {
     std::vector<PointTriangle> triangles(16);
@@ -227,7 +227,7 @@ TEST(Coverage, TrianglesOfAboutATile) {
   c.report();
 }
 
-TEST(Coverage, HugeTriangles) {
+TEST(Coverage, HugeTrianglesAreExact) {
   constexpr int kLimit = 16384 * 256;
   Comparison c(256, 256, 6);
   for (int batch = 0; batch < effort(100); ++batch) {
@@ -237,14 +237,14 @@ TEST(Coverage, HugeTriangles) {
       const int kind = c.random().integer(0, 3);
       if (kind == 1) t[0] = random_point(c.random(), 256, 256, 0);  // one vertex in the picture
       if (kind == 2) t[0] = on_centers(random_point(c.random(), 256, 256, 0));
-      if (kind == 3) {  // an edge that passes through many centres, both ends far away
+      if (kind == 3) {  // an edge through many centers with both ends far away
         const Point center = on_centers(random_point(c.random(), 256, 256, 0));
         const Point step{c.random().integer(-5, 5) * 256, c.random().integer(-5, 5) * 256};
         t[0] = {center.x + step.x * 3000, center.y + step.y * 3000};
         t[1] = {center.x - step.x * 3000, center.y - step.y * 3000};
       }
     }
-    // The corners of the guard band themselves: the largest edge functions there are.
+    // The corners of the guard band give the largest possible edge functions.
     triangles[0] = {{{-kLimit, -kLimit}, {kLimit, -kLimit}, {kLimit, kLimit}}};
     triangles[1] = {{{-kLimit, kLimit}, {kLimit, -kLimit}, {-kLimit + batch, -kLimit}}};
     c.compare(triangles);
@@ -252,8 +252,8 @@ TEST(Coverage, HugeTriangles) {
   c.report();
 }
 
-// The far end of the largest target: sample positions of 22 bits.
-TEST(Coverage, WideTarget) {
+// The far end of the largest render target has sample positions of 22 bits.
+TEST(Coverage, WideTargetsAreExact) {
   constexpr int kWidth = 16384, kHeight = 32;
   Comparison c(kWidth, kHeight, 7);
   for (int batch = 0; batch < effort(8); ++batch) {
@@ -278,7 +278,7 @@ TEST(Coverage, DegenerateTrianglesDrawNothing) {
     triangles.push_back({a, b, b});
     triangles.push_back({b, a, b});
     triangles.push_back({a, a, a});
-    const int k1 = r.integer(-50, 50), k2 = r.integer(-50, 50);  // three points of one line through a pixel centre
+    const int k1 = r.integer(-50, 50), k2 = r.integer(-50, 50);  // three points on a line through a pixel center
     triangles.push_back({a, {a.x + k1 * step.x, a.y + k1 * step.y}, {a.x + k2 * step.x, a.y + k2 * step.y}});
   }
   const std::vector<glm::vec4> colors(triangles.size(), glm::vec4(1.0f));
@@ -291,7 +291,7 @@ TEST(Coverage, DegenerateTrianglesDrawNothing) {
   }
 }
 
-// A fill rule shown by hand: the square from centre to centre owns its left and bottom samples (y up), not the others.
+// The fill rule in a minimal case: a square from center to center owns the samples on its left and bottom edges (y up) and not the others.
 TEST(Coverage, SquareOwnsLeftAndBottomEdges) {
   const Point a{128, 128}, b{128 + 2 * 256, 128}, c{128 + 2 * 256, 128 + 2 * 256}, d{128, 128 + 2 * 256};
   const std::vector<PointTriangle> triangles{{a, b, c}, {a, c, d}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth: accuracy of reversed Z down to the smallest values, order, tests and writes, ranges, clamp, offset, formats,
-// and invariance (the same positions give the same depth bits whatever the shader).
+// Tests depth: accuracy of reversed Z down to the smallest values, ordering, tests and writes, ranges, clamping, offset, formats, and
+// invariance (equal positions give equal depth bits in any shader).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,7 +27,7 @@ DrawState always() {
   return s;
 }
 
-// A triangle list into a depth image of its own.
+// Draws a triangle list into a new depth image.
 Image<float> draw_depth(int width, int height, const std::vector<glm::vec4>& positions, const DrawState& state, float clear) {
   Image<float> depth(width, height);
   DepthTarget target = d32f_target(depth);
@@ -40,8 +40,8 @@ Image<float> draw_depth(int width, int height, const std::vector<glm::vec4>& pos
 
 // ---- accuracy --------------------------------------------------------------------------------------------------
 
-// Depth of one triangle against the plane through its vertices' float depths at the snapped positions. Relative to the
-// value itself, which for reversed Z spans many powers of two over one triangle.
+// Compares the depth of single triangles with the plane through the float depths of their vertices at the snapped positions. The error is
+// relative to the depth itself, which spans many powers of two in one triangle with reversed Z.
 Exact worst_relative_error(Random& r, double size, double z_low, double z_high, int triangles, int64_t& samples) {
   constexpr int kSize = 64;
   Exact worst = 0;
@@ -89,8 +89,8 @@ Exact worst_relative_error(Random& r, double size, double z_low, double z_high, 
 }
 
 TEST(Depth, ReversedZKeepsItsRelativeAccuracy) {
-  // Depth is a sum of three non-negative terms, each of three roundings or so; 1e-6 is 16 of 2^-24. (Coefficients are
-  // depth over area, up to 2^47, and become denormal where depths of huge triangles fall below 1e-24.)
+  // Depth is a sum of three non-negative terms with about three roundings each; 1e-6 is 16 times 2^-24. (The coefficients are depth divided
+  // by area, which is up to 2^47, so they become denormal if depths of huge triangles are below 1e-24.)
   Random r(1);
   for (const double size : {4.0, 20.0, 60.0, 64.0, 200.0, 2000.0, 15000.0}) {
     for (const double low : {1e-2, 1e-6, 1e-12, 1e-20}) {
@@ -108,8 +108,8 @@ TEST(Depth, ReversedZKeepsItsRelativeAccuracy) {
   }
 }
 
-// Pairs of parallel quads a small relative distance apart, drawn through a perspective (vertex transform, divide,
-// interpolation included): which is nearer? Share of pixels where the depth values are ordered wrongly or tie.
+// Draws pairs of parallel quads at a small relative distance with a perspective projection, including vertex transform, divide and
+// interpolation. Returns the fraction of pixels whose depth values are in the wrong order or equal.
 double wrong_orders(Random& r, bool reversed, double far_over_near, double gap, int pairs) {
   constexpr int kSize = 16;
   int64_t wrong = 0, all = 0;
@@ -119,7 +119,7 @@ double wrong_orders(Random& r, bool reversed, double far_over_near, double gap, 
     std::array<Image<float>, 2> depth;
     for (const int which : {0, 1}) {
       const auto z_eye = static_cast<float>(-distance * (which == 1 ? 1 + gap : 1.0));
-      // Float matrices and positions, as a scene has them.
+      // Uses float matrices and positions, like a real scene.
       const auto n = static_cast<float>(near), f = static_cast<float>(far);
       const float a = reversed ? n / (f - n) : -f / (f - n), b = reversed ? n * f / (f - n) : -n * f / (f - n);
       std::vector<glm::vec4> p;
@@ -137,9 +137,9 @@ double wrong_orders(Random& r, bool reversed, double far_over_near, double gap, 
   return static_cast<double>(wrong) / static_cast<double>(all);
 }
 
-// Corners that the clipper makes are snapped like vertices, and like them keep the depth of the place they had before: each
-// stands at most half a grid step, 1/512 px, from the true plane's point, in x and in y. Depth is affine in the window, so
-// at a sample inside the error is at most that of the corners: (|dz/dx| + |dz/dy|) / 512; and float roundings.
+// Vertices that the clipper creates are snapped but keep the depth of their exact position, like original vertices. Each is moved by at
+// most half a grid step, 1/512 px, in x and in y. Depth is affine in the window, so the error at an inside sample is at most that of the
+// vertices, (|dz/dx| + |dz/dy|) / 512, plus float rounding.
 TEST(Depth, ClippedTrianglesStayWithinHalfAGridStepOfTheirPlane) {
   constexpr int kSize = 64;
   Random r(11);
@@ -180,10 +180,10 @@ TEST(Depth, ClippedTrianglesStayWithinHalfAGridStepOfTheirPlane) {
   }
   EXPECT_GT(clipped, effort(2000) / 2);
   EXPECT_GT(samples, effort(2000) * 20);
-  EXPECT_GT(worst, 0.3L);  // the bound is no wider than it must be
+  EXPECT_GT(worst, 0.3L);  // the bound is not too loose
 }
 
-TEST(Depth, ReversedZOrdersWhatStandardZConfuses) {
+TEST(Depth, ReversedZResolvesGapsThatStandardZCannot) {
   Random r(2);
   for (const double ratio : {1e2, 1e4, 1e6}) {
     for (const double gap : {1e-3, 1e-4, 1e-5}) {
@@ -192,9 +192,9 @@ TEST(Depth, ReversedZOrdersWhatStandardZConfuses) {
           "far/near %.0e, gap %.0e: wrong orders standard %.2f%%, "
           "reversed %.2f%%\n",
           ratio, gap, 100 * standard, 100 * reversed);
-      // 1e-5 is 84 times the 2^-23 of a float's step: transform, divide and interpolation together take less than that.
+      // 1e-5 is 84 times the float step of 2^-23. The errors of transform, divide and interpolation are smaller than that in total.
       EXPECT_EQ(reversed, 0.0) << ratio << ' ' << gap;
-      const bool telling = ratio == 1e6 && gap == 1e-4;  // a survey measured 39% here for standard Z: the test can tell
+      const bool telling = ratio == 1e6 && gap == 1e-4;  // measured: 39% for standard Z, so the test can detect errors
       EXPECT_GT(standard, telling ? 0.2 : -1.0);
     }
   }
@@ -206,7 +206,7 @@ bool is_everywhere(const Image<float>& depth, float z) {
   return std::all_of(depth.texels().begin(), depth.texels().end(), [z](float got) { return got == z; });
 }
 
-TEST(Depth, CompareOps) {
+TEST(Depth, CompareOpsPassTheRightSamples) {
   const std::array<CompareOp, 8> ops{CompareOp::never,   CompareOp::less,      CompareOp::equal,         CompareOp::less_equal,
                                      CompareOp::greater, CompareOp::not_equal, CompareOp::greater_equal, CompareOp::always};
   //                                 new < stored, new == stored, new > stored
@@ -238,8 +238,9 @@ TEST(Depth, CompareOps) {
   }
 }
 
-// Random layers against a loop that tests each pixel by the definition: the blocks' bounds must never drop what passes.
-TEST(Depth, RandomLayersEqualThePlainLoop) {
+// Compares random layers with a plain loop that tests each pixel by the definition. The depth bounds of blocks must never reject a passing
+// sample.
+TEST(Depth, RandomLayersMatchThePlainLoop) {
   Random r(3);
   for (int round = 0; round < effort(200); ++round) {
     constexpr int kSize = 96;
@@ -251,7 +252,7 @@ TEST(Depth, RandomLayersEqualThePlainLoop) {
     std::fill_n(want_depth.data(), kSize * kSize, clear);
     DepthTarget depth_target = d32f_target(depth);
     depth_target.clear_value = clear;
-    std::vector<std::vector<glm::vec4>> keep;  // of the draws, until the pass has run
+    std::vector<std::vector<glm::vec4>> keep;  // keeps vertex data alive until the pass has run
     std::vector<DrawState> states;
     for (int layer = 0; layer < 40; ++layer) {
       const int x0 = r.integer(-10, kSize), y0 = r.integer(-10, kSize), w = r.integer(1, kSize), h = r.integer(1, kSize);
@@ -300,7 +301,7 @@ TEST(Depth, RandomLayersEqualThePlainLoop) {
   }
 }
 
-TEST(Depth, WriteOffLeavesDepthAlone) {
+TEST(Depth, DisabledWritesLeaveDepthUnchanged) {
   const auto positions = full_screen(0.25f);
   for (const bool blended : {false, true}) {
     DrawState state = always();
@@ -309,7 +310,7 @@ TEST(Depth, WriteOffLeavesDepthAlone) {
     EXPECT_TRUE(is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.75f));
     state.depth.write = true;
     EXPECT_TRUE(is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.25f));
-    state.depth.test = false;  // as in GL, without the test nothing is written either
+    state.depth.test = false;  // as in OpenGL, disabling the test also disables writes
     EXPECT_TRUE(is_everywhere(draw_depth(8, 8, positions, state, 0.75f), 0.75f));
   }
 }
@@ -330,7 +331,7 @@ TEST(Depth, RangeMapsNearAndFar) {
                         {ClipDepth::negative_one_to_one, 1, 0.25f, 0.75f, 0.75f},
                         {ClipDepth::zero_to_one, 0.5f, 0.25f, 0.75f, 0.5f},
                         {ClipDepth::zero_to_one, 0, 0.25f, 0.75f, 0.25f},
-                        // reversed: near to 1
+                        // reversed: near maps to 1
                         {ClipDepth::negative_one_to_one, -1, 1, 0, 1},
                         {ClipDepth::negative_one_to_one, 0.5f, 1, 0, 0.25f},
                         {ClipDepth::zero_to_one, 0.25f, 1, 0, 0.75f},
@@ -345,8 +346,8 @@ TEST(Depth, RangeMapsNearAndFar) {
   }
 }
 
-TEST(Depth, ClampHoldsToTheRange) {
-  // A ramp from z = −1 to z = 2 across 32 px: cut off at near and far, or held to the range.
+TEST(Depth, ClampLimitsDepthToTheRange) {
+  // A ramp from z = −1 to z = 2 across 32 px is either clipped at near and far or clamped to the range.
   constexpr int kSize = 32;
   const std::vector<glm::vec4> positions{{-1, -1, -1, 1}, {1, -1, 2, 1}, {-1, 1, -1, 1}, {1, -1, 2, 1}, {1, 1, 2, 1}, {-1, 1, -1, 1}};
   for (const bool reversed_range : {false, true}) {
@@ -363,10 +364,10 @@ TEST(Depth, ClampHoldsToTheRange) {
       const float stored = std::clamp(z, 0.0f, 1.0f);
       const float want = reversed_range ? 0.75f - 0.5f * stored : 0.25f + 0.5f * stored;
       EXPECT_NEAR(pixel(clamped, x, 13), want, 1e-6f);
-      // The cut triangles' corners are snapped: half a sub-pixel of the slope, 3/32 · 0.5 a pixel.
+      // The vertices of the clipped triangles are snapped by half a sub-pixel, times a slope of 0.5 · 3/32 per pixel.
       EXPECT_NEAR(pixel(cut, x, 13), inside ? want : 0.0f, 0.5f * 3 / 32 / 512 + 1e-6f);
       if (inside) continue;
-      EXPECT_EQ(pixel(clamped, x, 13), want);  // exactly the end of the range
+      EXPECT_EQ(pixel(clamped, x, 13), want);  // exactly the limit of the range
     }
   }
 }
@@ -394,40 +395,40 @@ float offset_depth(DepthFormat format, const std::vector<glm::vec4>& positions, 
   return pixel(draw_depth(kSize, kSize, positions, state, 1.0f), x, y);
 }
 
-TEST(DepthOffset, ConstantCountsSmallestSteps) {
-  // At z = 0.25 the smallest step of a float is 2^-25 (0.25 = 2^-2; 2^(−2−23)); positive moves z up.
+TEST(DepthOffset, ConstantIsInUnitsOfTheSmallestStep) {
+  // At z = 0.25 = 2^-2, the smallest step of a float is 2^(−2−23) = 2^-25. A positive offset increases z.
   const auto p = full_screen(0.25f);
   for (const float n : {1.0f, 4.0f, 100.0f, -3.0f}) {
     EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = n}, 10, 10), 0.25f + n * 0x1p-25f);
     EXPECT_EQ(offset_depth(DepthFormat::d16, p, {.constant = n}, 10, 10), std::nearbyint(65535 * 0.25) + static_cast<double>(n));
-    // 0.25·(2^24 − 1) = 4194303.75, to the nearest.
+    // 0.25·(2^24 − 1) = 4194303.75 rounds to 4194304.
     EXPECT_EQ(offset_depth(DepthFormat::d24, p, {.constant = n}, 10, 10), 4194304 + static_cast<double>(n));
   }
 }
 
 TEST(DepthOffset, FloatStepFollowsTheLargestDepthOfTheTriangle) {
-  // Largest |z| is 0.75: exponent −1, step 2^-24, for all of the triangle. At the vertex with z = 0.25 a float resolves
-  // it.
+  // The largest |z| is 0.75, with exponent −1, so the step is 2^-24 for the whole triangle. Floats resolve this step at the vertex with z =
+  // 0.25.
   const std::vector<glm::vec4> p{{-1, -1, 0.25f, 1}, {3, -1, 0.75f, 1}, {-1, 3, 0.25f, 1}};
   const float without = offset_depth(DepthFormat::d32f, p, {}, 3, 3);
   EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = 2.0f}, 3, 3), without + 2 * 0x1p-24f);
 }
 
 TEST(DepthOffset, SlopeIsTheSteeperOfBothDirections) {
-  // z grows by 1/256 a pixel in x and falls by 1/512 in y: m = 1/256.
+  // z increases by 1/256 per pixel in x and decreases by 1/512 in y, so m = 1/256.
   const auto plane = [](float x, float y) { return 0.5f + (x - 32) / 256 - (y - 32) / 512; };
   const auto vertex = [&](float x, float y) { return glm::vec4(x / 32 - 1, y / 32 - 1, plane(x, y), 1); };
   const std::vector<glm::vec4> p{vertex(0, 0), vertex(64, 0), vertex(0, 64)};
-  const std::vector<glm::vec4> q{vertex(0, 0), vertex(0, 64), vertex(64, 0)};  // the other way round: the same
+  const std::vector<glm::vec4> q{vertex(0, 0), vertex(0, 64), vertex(64, 0)};  // opposite winding; the result must not change
   for (const auto& t : {p, q}) {
     const float z = plane(10.5f, 10.5f);
-    // The sum of plane and offset rounds a few times by 2^-25.
+    // The sum of plane and offset has a few rounding errors of 2^-25.
     EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = 2.0f}, 10, 10), z + 2.0f / 256, 2e-7f);
     EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = -3.0f}, 10, 10), z - 3.0f / 256, 2e-7f);
     EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = 2.0f, .clamp = 0.001f}, 10, 10), z + 0.001f, 2e-7f);
     EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = -2.0f, .clamp = -0.001f}, 10, 10), z - 0.001f, 2e-7f);
     EXPECT_NEAR(offset_depth(DepthFormat::d32f, t, {.slope = -2.0f, .clamp = 0.001f}, 10, 10), z - 2.0f / 256,
-                2e-7f);  // an upper bound only
+                2e-7f);  // only an upper bound
     EXPECT_NEAR(offset_depth(DepthFormat::d16, t, {.slope = 1.0f, .constant = 5.0f}, 10, 10),
                 (static_cast<double>(z) + 1.0 / 256) * 65535 + 5, 0.51);
     EXPECT_NEAR(offset_depth(DepthFormat::d24, t, {.slope = 1.0f, .constant = 5.0f}, 10, 10),
@@ -441,8 +442,8 @@ TEST(DepthOffset, ResultStaysInTheRange) {
   EXPECT_EQ(offset_depth(DepthFormat::d32f, full_screen(0.001f), {.constant = -1e9f}, 10, 10), 0.0f);
 }
 
-TEST(DepthOffset, SignByConvention) {
-  // Two coplanar quads: the decal wins with a negative offset under LESS, with a positive one under reversed Z.
+TEST(DepthOffset, SignFollowsTheDepthConvention) {
+  // For two coplanar quads, the decal wins with a negative offset under LESS and with a positive offset under reversed Z.
   for (const bool reversed : {false, true}) {
     for (const float sign : {-1.0f, 1.0f}) {
       Image<glm::vec4> image(8, 8);
@@ -461,13 +462,13 @@ TEST(DepthOffset, SignByConvention) {
 
 // ---- formats ---------------------------------------------------------------------------------------------------
 
-// Codes are the nearest whole numbers to z·(2^n − 1), ties to even (GL 4.6, section 2.3.5.2 leaves the tie open), from
-// the float depth. Every value is tried through a pass whose triangle has that depth everywhere.
+// Codes are the integers nearest to z·(2^n − 1), ties to even (OpenGL 4.6, section 2.3.5.2 does not define ties), computed from the float
+// depth. Every value is tested in a pass with a primitive of that depth.
 TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
   Random r(4);
   constexpr int kSide = 64;
   for (int batch = 0; batch < effort(40); ++batch) {
-    // One small square a value: pixel (x, y) has its own depth.
+    // One small square per value: each pixel (x, y) has its own depth.
     std::vector<float> z(kSide * kSide);
     std::vector<glm::vec4> positions;
     for (int i = 0; i < kSide * kSide; ++i) {
@@ -476,7 +477,7 @@ TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
       const bool wide = batch % 2 == 0;
       const double codes = wide ? 16777215.0 : 65535.0;
       value =
-          kind == 0 ? r.real(0.0f, 1.0f) : static_cast<float>((r.integer(0, static_cast<int>(codes) - 1) + 0.5) / codes);  // beside a tie
+          kind == 0 ? r.real(0.0f, 1.0f) : static_cast<float>((r.integer(0, static_cast<int>(codes) - 1) + 0.5) / codes);  // close to a tie
       if (kind == 2) value = static_cast<float>((r.integer(0, 1 << r.integer(1, 16)) + 0.5) / codes);
       if (kind == 3) value = static_cast<float>(r.real(0.0, codes) / codes);
       value = std::min(value, 1.0f);
@@ -498,14 +499,14 @@ TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
       const float value = z[static_cast<std::size_t>(i)];
       const int x = i % kSide, y = i / kSide;
       ASSERT_EQ(pixel(d32f, x, y), value);
-      // 24 + 24 bits: exact in double.
+      // 24 + 24 bits are exact in double.
       ASSERT_EQ(pixel(d24, x, y), static_cast<uint32_t>(std::nearbyint(static_cast<double>(value) * 16777215.0))) << value;
       ASSERT_EQ(pixel(d16, x, y), static_cast<uint16_t>(std::nearbyint(static_cast<double>(value) * 65535.0))) << value;
     }
   }
 }
 
-TEST(DepthFormats, LoadedDepthIsWhatWasStored) {
+TEST(DepthFormats, LoadReturnsStoredDepth) {
   Random r(5);
   Image<uint16_t> d16(70, 50);
   Image<uint32_t> d24(70, 50);
@@ -534,7 +535,7 @@ TEST(DepthFormats, LoadedDepthIsWhatWasStored) {
 
 // ---- invariance ------------------------------------------------------------------------------------------------
 
-// The same position expression, everything else different: attributes, varyings, what the fragment does.
+// Uses the same position expression, but different attributes, varyings and fragment outputs.
 struct Full {
   glm::mat4 clip_from_model{1.0f};
   template <class R>
@@ -558,7 +559,7 @@ struct Full {
   }
 };
 
-TEST(DepthInvariance, PrePassThenEqualLosesNothing) {
+TEST(DepthInvariance, PrePassThenEqualLosesNoPixels) {
   Random r(6);
   int64_t covered = 0, lost = 0;
   uint64_t clipped = 0;
@@ -573,7 +574,7 @@ TEST(DepthInvariance, PrePassThenEqualLosesNothing) {
     }
     for (int k = 0; k < 300; ++k) indices.push_back(static_cast<uint32_t>(r.integer(0, 119)));
     const Indices list(indices, positions.size());
-    // Reversed Z, infinitely far, near 0.3: many triangles cross the near plane and w = 0.
+    // Reversed Z with an infinite far plane and near = 0.3, so that many triangles cross the near plane and w = 0.
     glm::mat4 m(0.0f);
     m[0][0] = r.real(0.5f, 3.0f);
     m[1][1] = r.real(0.5f, 3.0f);
@@ -592,7 +593,7 @@ TEST(DepthInvariance, PrePassThenEqualLosesNothing) {
     first.draw_depth(MatrixShader{m}, make_vertex_view(stream(positions)), list, state);
     clipped += first.run(one_worker()).clipped;
 
-    // What the pre-pass covered: everything nearer than "infinitely far".
+    // The pre-pass covered every pixel that is nearer than infinity.
     Image<glm::vec4> color(kWidth, kHeight);
     ColorTarget color_target = rgba32f_target(color);
     color_target.clear_value = glm::vec4(-1000.0f);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pass shares its work among threads: large draws are split, small ones put together, chunks grow. None of it may show.
+// A pass distributes its work to threads: large draws are split, small draws are combined, and chunks grow. None of this may affect the
+// result.
 #include <algorithm>
 #include <memory>
 #include <type_traits>
@@ -15,13 +16,13 @@ constexpr int kDrawsSize = 96;
 
 struct Primitives {
   Topology topology;
-  std::size_t corners;  ///< of each
+  std::size_t corners;  ///< vertices per primitive
   std::vector<glm::vec4> positions{}, colors{};
 
   std::size_t count() const { return positions.size() / corners; }
 };
 
-// Small, one behind the other: their order shows in every pixel. Every fiftieth has a corner behind the eye.
+// Small overlapping primitives, whose order is visible in every pixel. Every fiftieth has a vertex behind the eye.
 Primitives many(Topology topology, std::size_t corners, int count) {
   Random random(31);
   Primitives p{topology, corners};
@@ -42,7 +43,7 @@ struct DrawsPicture {
   PassStatistics statistics;
 };
 
-// The primitives in draws of these many, over and over.
+// Splits the primitives into draws whose sizes cycle through the given list.
 DrawsPicture draw_in_parts(const Primitives& p, const std::vector<std::size_t>& sizes, int threads, const PassOptions& options = {}) {
   DrawsPicture drawn;
   Pass pass(kDrawsSize, kDrawsSize, rgba32f_target(drawn.image), {}, options);
@@ -63,7 +64,7 @@ void expect_same(const DrawsPicture& a, const DrawsPicture& b) {
   EXPECT_EQ(a.statistics, b.statistics);
 }
 
-// Whole, in chunks of the pass's own choice and in the smallest, and in parts.
+// Compares a single draw, with the default and the smallest chunk size, with the same primitives split into several draws.
 void expect_any_parts_are_the_same(const Primitives& p, const std::vector<std::vector<std::size_t>>& splits) {
   const DrawsPicture whole = draw_in_parts(p, {p.count()}, 1);
   EXPECT_EQ(whole.statistics.primitives_in, p.count());
@@ -72,28 +73,28 @@ void expect_any_parts_are_the_same(const Primitives& p, const std::vector<std::v
   expect_same(draw_in_parts(p, {p.count()}, 1, {.chunk_triangles = 7}), whole);
   for (const std::vector<std::size_t>& sizes : splits) {
     for (const int threads : {1, 3}) {
-      SCOPED_TRACE(testing::Message() << "draws from " << sizes.front() << " primitives on, " << threads << " threads");
+      SCOPED_TRACE(testing::Message() << "draws of " << sizes.front() << " primitives first, " << threads << " threads");
       expect_same(draw_in_parts(p, sizes, threads), whole);
     }
   }
 }
 
-// 45,000 triangles fill a chunk to the 4369 that always fit; draws of more than 2048 vertices are split.
-TEST(Draws, OfTrianglesAreDrawnInTheirOrder) {
+// 45,000 triangles fill chunks up to the 4369 that always fit. Draws of more than 2048 vertices are split.
+TEST(Draws, SplitTrianglesAreDrawnInOrder) {
   expect_any_parts_are_the_same(many(Topology::triangles, 3, 45000), {{1}, {1, 0, 5, 1000, 2, 3000, 0, 0, 700}, {683, 682}, {0, 20000}});
 }
 
-// 80,000 points of a draw each fill a chunk with the most segments that it has.
-TEST(Draws, OfPointsAreDrawnInTheirOrder) { expect_any_parts_are_the_same(many(Topology::points, 1, 80000), {{1}, {2049, 2048}}); }
+// 80,000 points in one draw each fill a chunk with the maximum number of segments.
+TEST(Draws, SplitPointsAreDrawnInOrder) { expect_any_parts_are_the_same(many(Topology::points, 1, 80000), {{1}, {2049, 2048}}); }
 
-// A shader that owns something, in memory of its own alignment.
+// A shader with a non-trivial destructor and a large alignment.
 struct alignas(64) Holder : ConstantShader {
   std::shared_ptr<const int> stored;
   explicit Holder(std::shared_ptr<const int> held_) : stored(std::move(held_)) {}
   Holder(const Holder& other) : ConstantShader(other), stored(other.stored) { EXPECT_EQ(reinterpret_cast<uintptr_t>(this) % 64, 0u); }
 };
 
-TEST(Draws, KeepTheirShaderUntilThePassHasRun) {
+TEST(Draws, KeepTheirShadersUntilThePassHasRun) {
   static_assert(!std::is_move_assignable_v<Pass>);  // draws would outlive the memory of their shaders
   const auto stored = std::make_shared<const int>(1);
   const std::vector<glm::vec4> positions{{-1, -1, 0, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}};
@@ -107,7 +108,7 @@ TEST(Draws, KeepTheirShaderUntilThePassHasRun) {
     moved.run(one_worker());
     EXPECT_EQ(stored.use_count(), 1);
     moved.draw(Holder(stored), make_vertex_view(stream(positions)));
-    EXPECT_EQ(stored.use_count(), 2);  // and this one never runs
+    EXPECT_EQ(stored.use_count(), 2);  // destroyed without being run
   }
   EXPECT_EQ(stored.use_count(), 1);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles that cover whole tiles, in every order with others: what waits to be written must not be seen to wait. Tiles of 32 px never
-// wait (raster/visibility/full_tile.h asks for 64), so both must draw alike; what is drawn at all is for the other tests.
+// Draws triangles that cover whole tiles in random order with others. Full-tile writes are delayed, which must not be visible. Tiles of 32
+// px never delay writes (raster/visibility/full_tile.h requires 64 px), so both tile sizes must give the same result. Other tests verify
+// the result itself.
 #include "halfspace/raster/visibility/full_tile.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ struct Step {
   bool depth_only;
 };
 
-// Beyond all edges of the picture, at one depth or two; or a small one anywhere; or one over about half.
+// Returns a triangle that covers the whole picture, at one depth or two, a small one at a random position, or one that covers about half.
 std::vector<glm::vec4> random_positions(Random& r) {
   const auto depth = [&] { return 0.125f * static_cast<float>(r.integer(-7, 7)); };
   const float z = depth(), far_z = r.coin() ? z : depth();
@@ -70,7 +71,7 @@ StepsPicture drawn(const std::vector<Step>& steps, int tile_size, bool has_depth
   return out;
 }
 
-TEST(FullTileOccluder, IsDrawnAsSmallerTilesAre) {
+TEST(FullTileOccluder, MatchesSmallerTiles) {
   int pictures = 0;
   std::set<std::vector<uint64_t>> counts;
   for (int seed = 0; seed < effort(4000); ++seed) {
@@ -86,10 +87,10 @@ TEST(FullTileOccluder, IsDrawnAsSmallerTilesAre) {
     counts.insert(whole.statistics.queries);
     ++pictures;
   }
-  EXPECT_GT(counts.size(), static_cast<std::size_t>(pictures) / 4) << "pictures differ";
+  EXPECT_GT(counts.size(), static_cast<std::size_t>(pictures) / 4) << "the random pictures are too similar";
 }
 
-// Puts every pixel at one depth.
+// Gives every pixel the same depth.
 struct DeepShader : FlatColorShader {
   float depth;
   template <class R>
@@ -98,8 +99,8 @@ struct DeepShader : FlatColorShader {
   }
 };
 
-// What a shader has written may lie beyond what the tile knew of its depths.
-TEST(FullTileOccluder, IsTestedAgainstDepthsThatAShaderWrote) {
+// Depths written by a shader may be outside the depth bounds of the tile.
+TEST(FullTileOccluder, IsTestedAgainstDepthsWrittenByAShader) {
   for (const float written : {0.125f, 0.875f}) {
     for (const CompareOp op : {CompareOp::less, CompareOp::greater}) {
       Image<glm::vec4> color(kStepsWidth, kStepsHeight);
@@ -107,7 +108,7 @@ TEST(FullTileOccluder, IsTestedAgainstDepthsThatAShaderWrote) {
       DepthTarget target = d32f_target(depth);
       target.clear_value = 0.5f;
       Pass pass(kStepsWidth, kStepsHeight, rgba32f_target(color), target);
-      const float z = 0.5f * (written + 0.5f);  // between what is written and what was there
+      const float z = 0.5f * (written + 0.5f);  // between the written depth and the previous one
       const auto place = [](float window_z) {
         const float z_ndc = 2.0f * window_z - 1.0f;
         return std::vector<glm::vec4>{{-4, -4, z_ndc, 1}, {8, -4, z_ndc, 1}, {-4, 8, z_ndc, 1}};
@@ -126,8 +127,8 @@ TEST(FullTileOccluder, IsTestedAgainstDepthsThatAShaderWrote) {
   }
 }
 
-// What lies behind costs a test, and what is hidden later is never shaded.
-TEST(FullTileOccluder, ShadesWhatIsSeenAlone) {
+// Occluded triangles cost only a depth test, and triangles that are hidden later are never shaded.
+TEST(FullTileOccluder, ShadesOnlyVisibleFragments) {
   std::vector<Step> steps;
   for (const float z : {0.5f, 0.25f, 0.75f, -0.5f, 0.0f})
     steps.push_back({{{-4, -4, z, 1}, {8, -4, z, 1}, {-4, 8, z, 1}}, glm::vec4(z), {}, false});

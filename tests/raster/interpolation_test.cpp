@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Interpolation against long double, evaluated from what the fragment stage is given: the snapped positions and the
-// float 1/w of the vertices. Errors are relative to the largest |value| of the triangle's three vertices.
+// Compares interpolation with long double, evaluated from the input of the fragment stage: the snapped positions and the float 1/w of the
+// vertices. Errors are relative to the largest |value| of the three vertices.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +20,7 @@ struct Corner {
   glm::vec4 value;
 };
 
-/// The triangle as OpenGL 4.6, section 14.6.1 interpolates it, in long double.
+/// Interpolates a triangle in long double as specified in OpenGL 4.6, section 14.6.1.
 class ExactPlane {
  public:
   explicit ExactPlane(const std::array<Corner, 3>& v) : v_(v) {
@@ -53,7 +53,7 @@ class ExactPlane {
     const auto b = linear_weights(x, y);
     return b[0] * v_[0].q + b[1] * v_[1].q + b[2] * v_[2].q;
   }
-  /// d(smooth)/dx and /dy per pixel: (N'·D − N·D') / D² of the quotient above.
+  /// Returns d(smooth)/dx and d(smooth)/dy per pixel: (N'·D − N·D') / D² of the quotient above.
   std::array<Exact, 2> derivatives(int k, Exact x, Exact y) const {
     const auto b = linear_weights(x, y);
     std::array<Exact, 2> out;
@@ -100,12 +100,12 @@ struct Scene {
   }
 };
 
-// Window coordinates in pixels, and w.
+// Converts window coordinates in pixels and w to clip space.
 glm::vec4 clip_at(const Scene& s, double x, double y, double w) {
   return {static_cast<float>((2 * x / s.width - 1) * w), static_cast<float>((2 * y / s.height - 1) * w), 0.0f, static_cast<float>(w)};
 }
 
-// Draws the scene's triangle alone; uncovered pixels keep a NaN.
+// Draws only the triangle of the scene. Uncovered pixels keep a NaN.
 template <class S>
 Image<glm::vec4> draw(const S& shader, const Scene& s, const DrawState& state = {}) {
   Image<glm::vec4> image(s.width, s.height);
@@ -158,7 +158,7 @@ const char* name_of(Shape s) {
 }
 const char* name_of(Values v) { return v == Values::unit ? "[0,1]" : v == Values::symmetric ? "[-1,1]" : "offset"; }
 
-// Random triangles of one shape that meet a small target, wherever on the triangle the target lies.
+// Returns a random triangle of the given shape and a small render target, which can be anywhere on the triangle.
 Scene random_scene(Random& r, Shape shape, Values values, double w_ratio) {
   Scene s;
   s.width = shape == Shape::small ? 8 : shape == Shape::sliver ? 1024 : 64;
@@ -175,7 +175,7 @@ Scene random_scene(Random& r, Shape shape, Values values, double w_ratio) {
       const double angle = turn + 2.0944 * static_cast<double>(i) + r.real(-0.6, 0.6), reach = size * r.real(0.2, 1.0);
       p[i] = {cx + reach * std::cos(angle), cy + reach * std::sin(angle)};
     }
-    // Bring a random point of the triangle to the middle of the target.
+    // Move a random point of the triangle to the center of the target.
     double a = r.real(0.0, 1.0), b = r.real(0.0, 1.0);
     if (a + b > 1) a = 1 - a, b = 1 - b;
     for (int axis = 0; axis < 2; ++axis) {
@@ -186,7 +186,7 @@ Scene random_scene(Random& r, Shape shape, Values values, double w_ratio) {
   }
   const double w0 = r.magnitude(1e-3, 1e3);
   const glm::vec4 base(r.real(-1000.0f, 1000.0f));
-  const int near = r.integer(0, 2), far = (near + r.integer(1, 2)) % 3;  // these have the whole ratio between them
+  const int near = r.integer(0, 2), far = (near + r.integer(1, 2)) % 3;  // the ratio of these two vertices is w_ratio
   for (int i = 0; i < 3; ++i) {
     const double w = w0 * (i == near ? 1.0 : i == far ? w_ratio : r.magnitude(1.0, std::max(w_ratio, 1.0 + 1e-9)));
     const auto at = static_cast<std::size_t>(i);
@@ -218,9 +218,9 @@ Error measure(uint64_t seed, int triangles, Shape shape, Values values, double w
   return e;
 }
 
-// Relative to the largest |value|, with u = 2^-24: a weight near 1 errs by u (its own rounding, and that of what it
-// lacks of 1), one in the middle by up to 2u (what the rounding of the three terms does to it); the difference to v0's
-// value can be twice the largest value, and is itself rounded (u); so is the result (u/2). 5u = 3e-7.
+// Relative to the largest |value|, with u = 2^-24: a weight near 1 has an error of u (from its own rounding and that of its complement),
+// and a weight near 1/2 of up to 2u (from the rounding of the three terms). The difference to the value of v0 can be twice the largest
+// value and is itself rounded (u). The result is also rounded (u/2). The total is 5u = 3e-7.
 constexpr Exact kTolerance = 3e-7L;
 
 TEST(Interpolation, SmoothValuesStayWithinTolerance) {
@@ -254,9 +254,9 @@ TEST(Interpolation, LinearValuesStayWithinTolerance) {
   }
 }
 
-// Beyond a ratio of 1e4 nothing is promised, but as no step of it cancels the error does not grow. The table is the
-// chart's data.
-TEST(Interpolation, LargeRatiosOfW) {
+// The accuracy is only specified for ratios up to 1e4. No step suffers from cancellation, however, so the error does not grow beyond that.
+// The printed table is the data of the chart in the documentation.
+TEST(Interpolation, LargeRatiosOfWStayWithinTolerance) {
   for (const double ratio : {1e4, 1e5, 1e6, 1e7, 1e8, 1e10, 1e12}) {
     Error e;
     for (const Shape shape : {Shape::medium, Shape::huge, Shape::sliver}) {
@@ -270,7 +270,7 @@ TEST(Interpolation, LargeRatiosOfW) {
   }
 }
 
-// A value that is the same at all three vertices is that value at every pixel, in every bit.
+// A value that is equal at all three vertices must be bit-identical at every pixel.
 TEST(Interpolation, ConstantsStayConstant) {
   Random r(4);
   for (int i = 0; i < effort(400); ++i) {
@@ -281,9 +281,9 @@ TEST(Interpolation, ConstantsStayConstant) {
   }
 }
 
-TEST(Interpolation, PerspectiveAndAffineDifferWhereWDoes) {
-  // A floor from w = 1 (bottom) to w = 9 (top): at half the height the true value is 0.1 of the way (q = 1 and 1/9:
-  // (1/9)/2 / (1/2 + 1/18) = 0.1), the affine one 0.5.
+TEST(Interpolation, PerspectiveAndLinearDifferOnlyIfWVaries) {
+  // A floor from w = 1 (bottom) to w = 9 (top). Halfway up, the affine value is 0.5, and the perspective-correct value is 0.1: with q = 1
+  // and 1/9, (1/9)/2 / (1/2 + 1/18) = 0.1.
   Scene s{{}, {}, 64, 64};
   s.positions = {clip_at(s, -64, 0, 1), clip_at(s, 128, 0, 1), clip_at(s, 32, 64, 9)};
   s.values = {glm::vec4(0), glm::vec4(0), glm::vec4(1)};
@@ -292,7 +292,7 @@ TEST(Interpolation, PerspectiveAndAffineDifferWhereWDoes) {
   EXPECT_NEAR(pixel(affine, 32, 31).x, h, 1e-6);
   EXPECT_NEAR(pixel(perspective, 32, 31).x, (h / 9) / (h / 9 + 1 - h), 1e-6);
 
-  // Where w is the same everywhere both are the same function; here within its roundings.
+  // If w is constant, both are the same function, within their rounding errors.
   Random r(5);
   for (int i = 0; i < effort(100); ++i) {
     const Scene flat = random_scene(r, Shape::medium, Values::symmetric, 1.0);
@@ -305,9 +305,9 @@ TEST(Interpolation, PerspectiveAndAffineDifferWhereWDoes) {
 
 // ---- clipped triangles -----------------------------------------------------------------------------------------
 
-// A clipped triangle's pieces interpolate between corners whose positions are snapped and whose values are rounded to
-// float. The value is compared with the unsnapped plane through the whole triangle, allowing for half a sub-pixel
-// (√2/512 px) of displacement by the value's own slope, and for two roundings more.
+// The triangles of a clipped polygon interpolate between vertices with snapped positions and values rounded to float. The result is
+// compared with the unsnapped plane of the whole triangle. The tolerance is a displacement of half a sub-pixel (√2/512 px) times the slope
+// of the value, plus two roundings.
 TEST(Interpolation, ClippedTrianglesKeepTheirValues) {
   Random r(6);
   int64_t compared = 0;
@@ -320,7 +320,7 @@ TEST(Interpolation, ClippedTrianglesKeepTheirValues) {
       s.values.push_back({r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), r.real(0.0f, 1.0f)});
     }
     const auto& p = s.positions;
-    const auto n = [&](std::size_t k) {  // homogeneous edge function opposite of vertex k, as in clip_test
+    const auto n = [&](std::size_t k) {  // homogeneous edge function opposite to vertex k, as in clip_test
       const glm::dvec3 a(p[(k + 1) % 3].x, p[(k + 1) % 3].y, p[(k + 1) % 3].w), b(p[(k + 2) % 3].x, p[(k + 2) % 3].y, p[(k + 2) % 3].w);
       return glm::cross(a, b);
     };
@@ -346,7 +346,7 @@ TEST(Interpolation, ClippedTrianglesKeepTheirValues) {
         const double error = std::fabs(static_cast<double>(got[k]) - here);
         worst = std::max<Exact>(worst, static_cast<Exact>(error));
         ++compared;
-        // Both axes may be off by 1/512 px, each corner differently: twice √2/512 px of the slope bounds it.
+        // Each corner can be displaced by 1/512 px in both axes, in different directions, which is bounded by twice √2/512 px of the slope.
         ASSERT_LE(error, slope * 2 * 1.4143 / 512 + 1e-6) << i << ": " << x << ", " << y;
       }
     });
@@ -358,12 +358,12 @@ TEST(Interpolation, ClippedTrianglesKeepTheirValues) {
 // ---- derivatives and quads -------------------------------------------------------------------------------------
 
 struct DerivativeShader {
-  int what = 0;  // 0: ddx, 1: ddy, 2 … 5: the value at pixel (0,0), (1,0), (0,1), (1,1) of the quad; 6: 1/w, z, position
+  int what = 0;  // 0: ddx, 1: ddy, 2 to 5: the value at pixel (0,0), (1,0), (0,1), (1,1) of the quad; 6: 1/w, z, position
   template <class R>
   using Attributes = ValueShader::Attributes<R>;
   template <class R>
   struct Varyings {
-    Flat<R> first;  // so that the member asked for is not the first
+    Flat<R> first;  // makes sure that the tested member is not the first one
     vec4<R> value;
   };
   template <class R>
@@ -381,7 +381,7 @@ struct DerivativeShader {
   }
 };
 
-TEST(Derivatives, AgreeWithTheExactOnes) {
+TEST(Derivatives, MatchTheExactDerivatives) {
   Random r(7);
   Error e;
   for (int i = 0; i < effort(400); ++i) {
@@ -392,8 +392,8 @@ TEST(Derivatives, AgreeWithTheExactOnes) {
     for_each_covered(dx, [&](int x, int y, const glm::vec4& got_x) {
       for (int k = 0; k < 4; ++k) {
         const auto want = exact.derivatives(k, center_of(x), center_of(y));
-        // The derivative is a sum of terms that may cancel: relative to the steepest of the four components in both
-        // directions, which stands for the size of the terms.
+        // The derivative is a sum of terms that may cancel. The error is therefore relative to the steepest of the four components in both
+        // directions, which approximates the magnitude of the terms.
         Exact scale = 0;
         for (int n = 0; n < 4; ++n) {
           const auto d = exact.derivatives(n, center_of(x), center_of(y));
@@ -405,13 +405,13 @@ TEST(Derivatives, AgreeWithTheExactOnes) {
     });
   }
   e.report("derivatives");
-  // Each weight's derivative is a product of seven rounded factors, none of which cancels (5e-7); the two terms of a
-  // component may cancel each other, which the scale of the four components does not quite make good.
+  // The derivative of each weight is a product of seven rounded factors without cancellation (5e-7). The two terms of a component may
+  // cancel, which the scale of the four components does not fully account for.
   EXPECT_LE(static_cast<double>(e.mean()), 2e-7);
   EXPECT_LE(static_cast<double>(e.most), 3e-6);
 }
 
-TEST(Derivatives, AgreeWithFiniteDifferences) {
+TEST(Derivatives, MatchFiniteDifferences) {
   Random r(8);
   for (int i = 0; i < effort(60); ++i) {
     const Scene s = random_scene(r, Shape::large, Values::symmetric, r.magnitude(1.0, 10.0));
@@ -419,7 +419,7 @@ TEST(Derivatives, AgreeWithFiniteDifferences) {
     const Image<glm::vec4> dx = draw(DerivativeShader{0}, s), dy = draw(DerivativeShader{1}, s);
     for_each_covered(dx, [&](int x, int y, const glm::vec4& got) {
       for (int k = 0; k < 4; ++k) {
-        // Central differences over ±1/16 px: their own error is of the order of the third derivative, far below 1e-6.
+        // Central differences over ±1/16 px. Their own error is of the order of the third derivative, far below 1e-6.
         const Exact cx = center_of(x), cy = center_of(y);
         const Exact fx = (exact.smooth(k, cx + 16, cy) - exact.smooth(k, cx - 16, cy)) * 8;
         const Exact fy = (exact.smooth(k, cx, cy + 16) - exact.smooth(k, cx, cy - 16)) * 8;
@@ -430,7 +430,7 @@ TEST(Derivatives, AgreeWithFiniteDifferences) {
   }
 }
 
-TEST(Derivatives, QuadNeighboursAreTheirOwnValues) {
+TEST(Derivatives, QuadNeighborsMatchTheirOwnPixels) {
   Random r(9);
   int64_t compared = 0;
   for (int i = 0; i < effort(60); ++i) {
@@ -441,9 +441,9 @@ TEST(Derivatives, QuadNeighboursAreTheirOwnValues) {
         const Image<glm::vec4> there = draw(DerivativeShader{2 + k + 2 * j}, s);
         for_each_covered(there, [&](int x, int y, const glm::vec4& got) {
           const glm::vec4& want = pixel(direct, (x & ~1) + k, (y & ~1) + j);
-          if (std::isnan(want.w)) return;  // the triangle does not cover that neighbour
+          if (std::isnan(want.w)) return;  // the triangle does not cover that neighbor
           ++compared;
-          ASSERT_EQ(got, want) << x << ", " << y;  // the same arithmetic, hence the same bits
+          ASSERT_EQ(got, want) << x << ", " << y;  // the arithmetic is the same, so the bits are
         });
       }
     }
@@ -451,7 +451,7 @@ TEST(Derivatives, QuadNeighboursAreTheirOwnValues) {
   EXPECT_GT(compared, effort(60) * 4000);
 }
 
-TEST(Pixels, KnowTheirPositionDepthAndW) {
+TEST(Pixels, ProvidePositionDepthAndW) {
   Random r(10);
   Error inv_w;
   for (int i = 0; i < effort(200); ++i) {
@@ -460,13 +460,13 @@ TEST(Pixels, KnowTheirPositionDepthAndW) {
     for_each_covered(draw(DerivativeShader{6}, s), [&](int x, int y, const glm::vec4& got) {
       ASSERT_EQ(got.z, static_cast<float>(x) + 0.5f);
       ASSERT_EQ(got.w, static_cast<float>(y) + 0.5f);
-      ASSERT_EQ(got.y, 0.5f);  // clip z = 0 everywhere
+      ASSERT_EQ(got.y, 0.5f);  // clip z is 0 everywhere
       const Exact want = exact.inv_w(center_of(x), center_of(y));
       inv_w.add(std::fabs(static_cast<Exact>(got.x) - want) / want);
     });
   }
   inv_w.report("1/w, relative to itself");
-  EXPECT_LE(inv_w.most, 6e-7L);  // a sum of non-negative terms: ten roundings at most, whatever the ratio
+  EXPECT_LE(inv_w.most, 6e-7L);  // a sum of non-negative terms with at most ten roundings, for any ratio
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lines, outlines and clip distances by hand. (What lines cover is compared with the rule as it is written in tests/property.)
+// Tests lines, outlines and clip distances with hand-computed cases. (tests/property compares line coverage with the specified rule.)
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -9,7 +9,7 @@ namespace {
 
 using namespace raster_test;
 
-// Pixels are counted: one added for every fragment.
+// Counts fragments: each fragment adds one to its pixel.
 Image<glm::vec4> draw_lines(const std::vector<Point>& points, DrawState state, const PassOptions& options = {}) {
   std::vector<glm::vec4> p;
   for (const Point& at : points) p.push_back(clip_position(at, 16, 16));
@@ -30,7 +30,7 @@ int total(const Image<glm::vec4>& image) {
 constexpr int kCenter = 128;
 Point center(int x, int y) { return {x * 256 + kCenter, y * 256 + kCenter}; }
 
-TEST(Lines, FromCentreToCentreLeaveTheLastPixelOut) {
+TEST(Lines, SegmentsBetweenCentersOmitTheLastPixel) {
   for (const auto& [a, b] :
        {std::pair{Point{2, 3}, Point{9, 3}}, {Point{9, 3}, Point{2, 3}}, {Point{4, 2}, Point{4, 11}}, {Point{3, 3}, Point{8, 8}}}) {
     const Image<glm::vec4> image = draw_lines({center(a.x, a.y), center(b.x, b.y)}, {.topology = Topology::lines});
@@ -40,8 +40,8 @@ TEST(Lines, FromCentreToCentreLeaveTheLastPixelOut) {
   }
 }
 
-// Because a line leaves out the diamond it ends in, a strip draws no pixel twice at its joints, and a loop closes.
-TEST(Lines, StripsAndLoopsMeetOnce) {
+// A line does not cover the diamond in which it ends, so a strip draws no pixel twice at its joints and a loop is closed.
+TEST(Lines, StripsAndLoopsDrawJointsOnce) {
   const std::vector<Point> square{center(2, 2), center(12, 2), center(12, 9), center(2, 9)};
   const Image<glm::vec4> strip = draw_lines(square, {.topology = Topology::line_strip});
   EXPECT_EQ(total(strip), 10 + 7 + 10);
@@ -50,20 +50,20 @@ TEST(Lines, StripsAndLoopsMeetOnce) {
   for (int i = 0; i < 256; ++i) EXPECT_LE(loop.data()[i].x, 1.0f);
 }
 
-TEST(Lines, WideOnesAreWideAlongTheShorterAxis) {
+TEST(Lines, WideLinesAreExtendedAlongTheMinorAxis) {
   for (const int width : {1, 2, 3, 6}) {
     const Image<glm::vec4> image =
         draw_lines({center(3, 8), center(9, 8)}, {.topology = Topology::lines, .line_width = static_cast<float>(width)});
     EXPECT_EQ(total(image), 6 * width);
-    const int below = (width - 1) / 2 + (width % 2 == 0 ? 1 : 0);  // (w − 1)/2 px down; a centre in the middle goes down too
+    const int below = (width - 1) / 2 + (width % 2 == 0 ? 1 : 0);  // (w − 1)/2 px down; a center on the boundary is included below
     EXPECT_EQ(pixel(image, 5, 8 - below).x, 1.0f) << width;
     EXPECT_EQ(pixel(image, 5, 8 - below - 1).x, 0.0f) << width;
     EXPECT_EQ(pixel(image, 5, 8 - below + width).x, 0.0f) << width;
   }
 }
 
-// With several samples a line is a rectangle, here one on whole pixels.
-TEST(Lines, WithSamplesAreRectangles) {
+// With several samples, a line is a rectangle. This one is aligned to pixels.
+TEST(Lines, MultisampledLinesAreRectangles) {
   const Image<glm::vec4> image =
       draw_lines({{2 * 256, 8 * 256}, {10 * 256, 8 * 256}}, {.topology = Topology::lines, .line_width = 4.0f}, {.samples = 4});
   for (int y = 0; y < 16; ++y) {
@@ -94,7 +94,8 @@ struct RampShader : ConstantShader {
   }
 };
 
-// OpenGL 4.6, equations 14.5 and 14.6: t along the line; with w of 1 and 3 the perspective one is (t/3)/((1 − t) + t/3).
+// OpenGL 4.6, equations 14.5 and 14.6: t is the position along the line. With w = 1 and w = 3, the perspective-correct value is (t/3)/((1 −
+// t) + t/3).
 TEST(Lines, InterpolateAlongTheLine) {
   const glm::vec4 a = clip_position(center(1, 5), 16, 16), b = clip_position(center(13, 5), 16, 16, 0.5f);
   const std::vector<glm::vec4> p{a, b * 3.0f};
@@ -108,7 +109,7 @@ TEST(Lines, InterpolateAlongTheLine) {
     for (int x = 1; x < 13; ++x) {
       for (int y = 4; y <= 6; ++y) {
         const float t = static_cast<float>(x - 1) / 12.0f;
-        EXPECT_NEAR(pixel(image, x, y).x, (t / 3) / ((1 - t) + t / 3), 3e-7f);  // the bound of shading/pixel.h
+        EXPECT_NEAR(pixel(image, x, y).x, (t / 3) / ((1 - t) + t / 3), 3e-7f);  // the bound documented in shading/pixel.h
         EXPECT_NEAR(pixel(image, x, y).y, t, 3e-7f);
         EXPECT_EQ(pixel(image, x, y).z, provoking == ProvokingVertex::first ? 0.0f : 1.0f);
         EXPECT_NEAR(pixel(image, x, y).w, 0.5f + 0.25f * t, 1e-7f);
@@ -117,7 +118,7 @@ TEST(Lines, InterpolateAlongTheLine) {
   }
 }
 
-TEST(Lines, PolygonModes) {
+TEST(Lines, PolygonModesDrawOutlinesAndVertices) {
   const std::vector<Point> triangle{center(2, 2), center(12, 2), center(2, 12)};
   const Image<glm::vec4> outline = draw_lines(triangle, {.polygon_mode = PolygonMode::line});
   EXPECT_EQ(total(outline), 30);  // three sides of ten pixels
@@ -129,7 +130,7 @@ TEST(Lines, PolygonModes) {
   EXPECT_EQ(total(culled), 0);
 }
 
-// The plane x = 3.25 px by one distance, y = 5 px by the other.
+// One clip distance is the plane x = 3.25 px, the other y = 5 px.
 struct TwoDistances : ConstantShader {
   template <class R>
   PerVertex<R, 2> vertex(const Attributes<R>& in, Varyings<R>&) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Several samples a pixel: where they lie, how they are shaded, masked and resolved.
+// Tests multisampling: sample positions, shading, masks and resolve.
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -9,7 +9,7 @@ namespace {
 
 using namespace raster_test;
 
-// In 1/16 px from the lower left corner (Vulkan 1.3, standard sample locations).
+// Positions in 1/16 px from the lower left corner of the pixel (Vulkan 1.3, standard sample locations).
 const std::vector<std::vector<Point>> kStandard{
     {{12, 12}, {4, 4}}, {{6, 2}, {14, 6}, {2, 10}, {10, 14}}, {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}}};
 
@@ -19,8 +19,8 @@ std::vector<glm::vec4> square(const Point& low, const Point& high) {
   return p;
 }
 
-// A square just round one sample of one pixel covers 1/n of it, and a square beside it nothing.
-TEST(Multisample, SamplesLieAtTheStandardPositions) {
+// A tiny square around one sample of a pixel covers 1/n of it, and a square next to it covers nothing.
+TEST(Multisample, SamplesAreAtTheStandardPositions) {
   for (std::size_t pattern = 0; pattern < kStandard.size(); ++pattern) {
     const auto n = static_cast<int>(kStandard[pattern].size());
     for (int s = 0; s < n; ++s) {
@@ -49,7 +49,7 @@ TEST(Multisample, DeferredPixelsAreShadedOncePerPrimitive) {
       pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.depth = {.compare = CompareOp::always}});
     const PassStatistics s = pass.run(one_worker());
     EXPECT_EQ(s.samples_passed, static_cast<uint64_t>(3 * n * 256));
-    // The diagonal's 16 pixels show both triangles, but for the pattern of 2, whose samples lie on the diagonal.
+    // The 16 pixels on the diagonal show both triangles, except for the 2-sample pattern, whose samples are on the diagonal.
     EXPECT_EQ(s.fragments_shaded, n == 2 ? 256u : 256u + 16u);
     Pass each(16, 16, rgba32f_target(image), {}, {.samples = n, .supersample = true});
     each.draw(ConstantShader{}, make_vertex_view(stream(p)));
@@ -58,7 +58,7 @@ TEST(Multisample, DeferredPixelsAreShadedOncePerPrimitive) {
   }
 }
 
-// The window position as a colour: what per-sample shading sees, and what per-pixel shading does.
+// Returns the window position as a color, to distinguish per-sample from per-pixel shading.
 struct PlaceShader {
   template <class R>
   struct Attributes {
@@ -79,7 +79,7 @@ struct PlaceShader {
   }
 };
 
-TEST(Multisample, ShadingByPixelAndBySample) {
+TEST(Multisample, PerSampleShadingUsesSamplePositions) {
   const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
   for (std::size_t pattern = 0; pattern < kStandard.size(); ++pattern) {
     for (std::size_t s = 0; s < kStandard[pattern].size(); ++s) {
@@ -93,14 +93,14 @@ TEST(Multisample, ShadingByPixelAndBySample) {
         const float x = 3.0f + static_cast<float>(at.x) / 16.0f, y = 9.0f + static_cast<float>(at.y) / 16.0f;
         EXPECT_EQ(c.x, x);
         EXPECT_EQ(c.y, y);
-        EXPECT_NEAR(c.z, x / 8.0f - 1.0f, 3e-7f);  // interpolation errs below 3e-7 of the largest value
+        EXPECT_NEAR(c.z, x / 8.0f - 1.0f, 3e-7f);  // the interpolation error is below 3e-7 of the largest value
         EXPECT_NEAR(c.w, y / 8.0f - 1.0f, 3e-7f);
       }
     }
   }
 }
 
-// 4.6, section 17.3.1: alpha 0 covers nothing, alpha 1 everything, and more alpha never less.
+// OpenGL 4.6, section 17.3.1: alpha 0 covers nothing, alpha 1 covers everything, and coverage never decreases with alpha.
 TEST(Multisample, AlphaToCoverageIsMonotonic) {
   const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
   for (const int n : {2, 4, 8}) {
@@ -113,7 +113,7 @@ TEST(Multisample, AlphaToCoverageIsMonotonic) {
       pass.run(one_worker());
       const float covered = image.at(7, 7).x;
       EXPECT_GE(covered, before);
-      EXPECT_NEAR(covered, alpha, 0.5f / static_cast<float>(n));  // to the nearest number of samples
+      EXPECT_NEAR(covered, alpha, 0.5f / static_cast<float>(n));  // rounded to the nearest number of samples
       if (step == 0 || step == 32) {
         EXPECT_EQ(covered, alpha);
       }
@@ -122,8 +122,8 @@ TEST(Multisample, AlphaToCoverageIsMonotonic) {
   }
 }
 
-// Over a background of 1, an edge must show at least n + 1 different values along its way (VK-GL-CTS asks this of multisample).
-TEST(Multisample, EdgesShowAllShadesAndSharedEdgesNone) {
+// Along a slightly tilted edge, all n + 1 coverage values must occur (VK-GL-CTS has the same requirement).
+TEST(Multisample, EdgesShowAllCoverageValuesAndSharedEdgesAreSeamless) {
   for (const int n : {2, 4, 8}) {
     Image<glm::vec4> image(64, 64);
     std::vector<glm::vec4> p;
@@ -139,17 +139,17 @@ TEST(Multisample, EdgesShowAllShadesAndSharedEdgesNone) {
       seen[static_cast<std::size_t>(samples)] = true;
     }
     EXPECT_EQ(std::count(seen.begin(), seen.end(), true), n + 1);
-    for (int x = 20; x < 64; ++x) EXPECT_EQ(pixel(image, x, x).x, 1.0f) << x;  // nor is one left out near it
+    for (int x = 20; x < 64; ++x) EXPECT_EQ(pixel(image, x, x).x, 1.0f) << x;  // and omits none
   }
 }
 
-TEST(Multisample, ResolveIsTheMeanInLinearLight) {
+TEST(Multisample, ResolveAveragesInLinearLight) {
   Image<glm::u8vec4> image(16, 16);
   const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
   Pass pass(16, 16, srgb8a8_target(image), {}, {.samples = 2});
   pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.sample_mask = 2});
   pass.run(one_worker());
-  EXPECT_EQ(image.at(4, 4), (glm::u8vec4{188, 188, 188, 128}));  // the code of 0.5, and 127.5 up
+  EXPECT_EQ(image.at(4, 4), (glm::u8vec4{188, 188, 188, 128}));  // the code of 0.5; and 127.5 rounded up
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Colour masks, blend factors, stencil, several attachments and occlusion queries, by values worked out by hand.
+// Tests color masks, blend factors, stencil, multiple attachments and occlusion queries with hand-computed values.
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -9,7 +9,7 @@ namespace {
 
 using namespace raster_test;
 
-// A triangle over the whole of any target, at a window depth in [0, 1].
+// Returns a triangle that covers any render target, at a window depth in [0, 1].
 std::vector<glm::vec4> whole(float depth) { return full_screen(2.0f * depth - 1.0f); }
 
 // N colours: (n, 0.25, 0.5, 0.75) for the n-th.
@@ -32,7 +32,7 @@ struct NumberedColors {
   }
 };
 
-TEST(Operations, ColorMaskKeepsChannelsAlsoUnderDeferredDraws) {
+TEST(Operations, ColorMaskAlsoAppliesToDeferredDraws) {
   Image<glm::u8vec4> image(9, 5);
   const std::vector<glm::vec4> p = whole(0.5f);
   Pass pass(9, 5, rgba8_target(image), {});
@@ -42,7 +42,7 @@ TEST(Operations, ColorMaskKeepsChannelsAlsoUnderDeferredDraws) {
   for (int i = 0; i < 45; ++i) EXPECT_EQ(image.data()[i], (glm::u8vec4{51, 255, 153, 255}));
 }
 
-TEST(Operations, BlendFactorsByHand) {
+TEST(Operations, BlendFactorsMatchHandComputedValues) {
   const glm::vec4 src{0.5f, 0.25f, 1.0f, 0.5f}, dst{0.25f, 0.5f, 0.75f, 0.25f}, constant{0.5f, 0.0f, 1.0f, 0.75f};
   struct Case {
     BlendFactor factor;
@@ -69,7 +69,7 @@ TEST(Operations, BlendFactorsByHand) {
   }
 }
 
-// OpenGL 4.6, section 17.3.9: what is stored as sRGB is blended as light. Half of white over black is the code of 0.5.
+// OpenGL 4.6, section 17.3.9: sRGB attachments are blended in linear space. Half of white over black gives the code of 0.5.
 TEST(Operations, SrgbIsBlendedInLinearLight) {
   Image<glm::u8vec4> image(3, 3);
   const std::vector<glm::vec4> p = whole(0.5f);
@@ -79,13 +79,13 @@ TEST(Operations, SrgbIsBlendedInLinearLight) {
   EXPECT_EQ(image.at(1, 1), (glm::u8vec4{188, 188, 188, 128}));  // 255·encode(0.5) = 187.5…
 }
 
-TEST(Operations, DualSourceBlending) {
+TEST(Operations, DualSourceBlendingUsesBothColors) {
   Image<glm::vec4> image(3, 3);
   ColorTarget target = rgba32f_target(image);
   target.clear_value = {0.5f, 0.5f, 0.5f, 0.5f};
   const std::vector<glm::vec4> p = whole(0.5f);
   Pass pass(3, 3, target, {});
-  // A colour and a transmission for each channel, as coloured glass has them.
+  // A color and a transmittance per channel, as for colored glass.
   pass.draw(NumberedColors<2>{{glm::vec4{0.125f, 0, 0, 1}, glm::vec4{0.5f, 0.25f, 0, 0}}}, make_vertex_view(stream(p)),
             {.blend = BlendState{BlendEquation::add, BlendFactor::one, BlendFactor::src1_color, BlendEquation::add, BlendFactor::one,
                                  BlendFactor::one_minus_src1_alpha}});
@@ -93,7 +93,7 @@ TEST(Operations, DualSourceBlending) {
   EXPECT_EQ(image.at(1, 1), (glm::vec4{0.375f, 0.125f, 0.0f, 1.5f}));
 }
 
-TEST(Operations, EachAttachmentHasItsFormatBlendingAndMask) {
+TEST(Operations, EachAttachmentHasItsOwnFormatBlendingAndMask) {
   Image<glm::vec4> a(20, 9), c(20, 9);
   Image<glm::u8vec4> b(20, 9), d(20, 9);
   std::array<ColorTarget, 4> targets{rgba32f_target(a), rgba8_target(b), rgba32f_target(c), srgb8a8_target(d)};
@@ -109,11 +109,12 @@ TEST(Operations, EachAttachmentHasItsFormatBlendingAndMask) {
   EXPECT_EQ(a.at(19, 8), (glm::vec4{0, 0.25f, 0.5f, 1}));
   EXPECT_EQ(b.at(19, 8), (glm::u8vec4{255, 0, 51, 255}));
   EXPECT_EQ(c.at(19, 8), (glm::vec4{3, 4, 5, 4}));
-  EXPECT_EQ(d.at(19, 8), (glm::u8vec4{255, 255, 255, 255}));  // the shader has no fourth colour
+  EXPECT_EQ(d.at(19, 8), (glm::u8vec4{255, 255, 255, 255}));  // the shader has no fourth output
 }
 
-// Counting by stencil: what fails, what fails the depth test and what passes leave three different marks.
-TEST(Operations, StencilTellsApartWhatBecameOfASample) {
+// Uses the stencil operations to mark samples: those that fail the stencil test, fail the depth test, or pass end up with three different
+// values.
+TEST(Operations, StencilDistinguishesFailDepthFailAndPass) {
   Image<uint32_t> depth(8, 8);
   Image<glm::vec4> image(8, 8);
   DepthTarget target = d24s8_target(depth);
@@ -136,7 +137,7 @@ TEST(Operations, StencilTellsApartWhatBecameOfASample) {
   EXPECT_EQ(pixel(depth, 1, 6) & 0xff, 250u);
   EXPECT_EQ(pixel(depth, 1, 1) & 0xff, 8u);
   EXPECT_EQ(pixel(depth, 6, 1) & 0xff, 6u);
-  EXPECT_EQ(pixel(depth, 6, 1) >> 8, 12582911u);  // 0.75 · (2^24 − 1), to the nearest even
+  EXPECT_EQ(pixel(depth, 6, 1) >> 8, 12582911u);  // 0.75 · (2^24 − 1), rounded to the nearest even
   EXPECT_EQ(pixel(depth, 1, 1) >> 8, 4194304u);
 }
 
@@ -155,7 +156,7 @@ TEST(Operations, StencilFacesAndMasksAreSeparate) {
   EXPECT_EQ(pixel(depth, 1, 1), (DepthStencil{0.5f, 0xaf}));
 }
 
-TEST(Operations, QueriesCountWhatPasses) {
+TEST(Operations, QueriesCountPassingSamples) {
   for (const bool defer : {true, false}) {
     Image<glm::vec4> image(100, 70);
     Pass pass(100, 70, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = defer});
@@ -163,7 +164,7 @@ TEST(Operations, QueriesCountWhatPasses) {
     pass.draw(ConstantShader{}, make_vertex_view(stream(middle)), {.scissor = Rect{3, 5, 80, 40}, .query = 0});
     pass.draw(ConstantShader{}, make_vertex_view(stream(far)), {.scissor = Rect{0, 0, 50, 70}, .query = 1});
     pass.draw(ConstantShader{}, make_vertex_view(stream(far)), {.scissor = Rect{10, 10, 20, 20}, .query = 2});
-    pass.draw(ConstantShader{}, make_vertex_view(stream(near)), {.scissor = Rect{0, 0, 7, 3}, .query = 0});  // a query may cover several
+    pass.draw(ConstantShader{}, make_vertex_view(stream(near)), {.scissor = Rect{0, 0, 7, 3}, .query = 0});  // adds to query 0
     const PassStatistics s = pass.run(one_worker());
     ASSERT_EQ(s.queries.size(), 3u);
     EXPECT_EQ(s.queries[0], 80u * 40 + 7 * 3);
@@ -174,8 +175,8 @@ TEST(Operations, QueriesCountWhatPasses) {
   }
 }
 
-// Depth alone first, then colour where the depth is equal: every pixel is shaded once, and the order of draws is no matter.
-TEST(Operations, DepthFirstShadesEveryPixelOnce) {
+// Draws depth first, then color where the depth is equal: every pixel is shaded once, for any order of draws.
+TEST(Operations, DepthPrePassShadesEveryPixelOnce) {
   Image<glm::vec4> image(64, 64);
   Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = false});
   const std::vector<glm::vec4> near = whole(0.25f), far = whole(0.75f);

@@ -10,7 +10,7 @@
 namespace halfspace {
 namespace {
 
-// What other passes of this process left.
+// Discards lists that other passes of this process have returned.
 void forget_draws() {
   while (take_draw_list().capacity() != 0) {
   }
@@ -20,13 +20,13 @@ struct Holder {
   std::shared_ptr<const int> stored;
 };
 
-// A draw whose shader, kept on the heap, holds something.
+// Returns a draw whose shader, stored on the heap, owns an object.
 Draw draw_of(std::shared_ptr<const int> stored) {
   static constexpr ShaderKernels kNone;
   return {kNone, {new Holder{std::move(stored)}, [](const void* kept) { delete static_cast<const Holder*>(kept); }}, nullptr, {}, {}};
 }
 
-TEST(PassMemory, ListsOfDrawsComeBackEmptyAndWithTheirRoom) {
+TEST(PassMemory, DrawListsAreRecycledEmptyWithTheirCapacity) {
   forget_draws();
   std::vector<Draw> draws;
   draws.reserve(100);
@@ -40,7 +40,7 @@ TEST(PassMemory, ListsOfDrawsComeBackEmptyAndWithTheirRoom) {
   EXPECT_EQ(take_draw_list().capacity(), 0u);
 }
 
-TEST(PassMemory, WhatIsTooLargeIsNotKept) {
+TEST(PassMemory, ExcessivelyLargeListsAreNotKept) {
   forget_draws();
   std::vector<Draw> draws;
   draws.reserve((std::size_t{257} << 20) / sizeof(Draw));
@@ -48,7 +48,7 @@ TEST(PassMemory, WhatIsTooLargeIsNotKept) {
   EXPECT_EQ(take_draw_list().capacity(), 0u);
 }
 
-TEST(PassMemory, ShadersOfFinishedDrawsAreLetGo) {
+TEST(PassMemory, ReturningAListDestroysItsShaders) {
   const auto shader = std::make_shared<const int>(1);
   std::vector<Draw> draws;
   draws.push_back(draw_of(shader));

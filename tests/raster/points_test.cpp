@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points and sprites: what they cover, the point coordinate, clipping by footprint, depth by the shader.
+// Tests points and sprites: coverage, point coordinates, clipping by footprint, and shader-written depth.
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -9,7 +9,7 @@ namespace {
 
 using namespace raster_test;
 
-// A point of a given size that shows its coordinate.
+// A point of a given size that outputs its point coordinate.
 struct CoordShader {
   float size = 1.0f;
   template <class R>
@@ -36,7 +36,7 @@ Image<glm::vec4> draw_points(const std::vector<glm::vec4>& p, float size, DrawSt
   return image;
 }
 
-// OpenGL 4.6, section 14.4.1: the pixels whose centres lie in the square; its left and lower sides own what lies on them.
+// OpenGL 4.6, section 14.4.1: a point covers the pixels whose centers are in the square. Centers on its left and bottom sides are included.
 TEST(Points, CoverTheirSquare) {
   for (int i = 0; i < 400; ++i) {
     Random r(static_cast<uint64_t>(i));
@@ -55,7 +55,7 @@ TEST(Points, CoverTheirSquare) {
 }
 
 // Section 14.4.1: s = 1/2 + (x − xw)/size, t = 1/2 ∓ (y − yw)/size.
-TEST(Points, CoordinateFromEitherOrigin) {
+TEST(Points, CoordinateSupportsBothOrigins) {
   const Point center{10 * 256, 8 * 256};
   for (const PointOrigin origin : {PointOrigin::upper_left, PointOrigin::lower_left}) {
     const Image<glm::vec4> image = draw_points({clip_position(center, 32, 16)}, 8.0f, {.point_origin = origin});
@@ -69,26 +69,26 @@ TEST(Points, CoordinateFromEitherOrigin) {
   }
 }
 
-TEST(Points, AreClippedByFootprintNotByCentre) {
-  // Centres outside on every side, and one far beyond the guard band whose square still reaches in.
+TEST(Points, AreClippedByFootprintAndNotByCenter) {
+  // The centers are outside on several sides; one is far outside the guard band, and its square still reaches into the picture.
   const Image<glm::vec4> left = draw_points({clip_position({-3 * 256, 8 * 256}, 32, 16)}, 10.0f);
   for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(left, x, 8).w, x < 2 ? 1.0f : 0.0f) << x;
   const Image<glm::vec4> above = draw_points({clip_position({16 * 256, 20 * 256}, 32, 16)}, 12.0f);
   for (int y = 0; y < 16; ++y) EXPECT_EQ(pixel(above, 16, y).w, y >= 14 ? 1.0f : 0.0f) << y;
-  const Image<glm::vec4> far = draw_points({{1250.0f, 0, 0, 1}}, 40000.0f);  // 20016 px to the right, 20000 px half a side
+  const Image<glm::vec4> far = draw_points({{1250.0f, 0, 0, 1}}, 40000.0f);  // 20016 px to the right, with a half side of 20000 px
   for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(far, x, 3).w, x >= 16 ? 1.0f : 0.0f) << x;
   const Image<glm::vec4> behind = draw_points({{0, 0, 0, -1}, {0, 0, 2, 1}, {0, 0, -2, 1}}, 10.0f);
   for (int i = 0; i < 32 * 16; ++i) EXPECT_EQ(behind.data()[i].w, 0.0f);
 }
 
-TEST(Points, Of4096Pixels) {
+TEST(Points, SupportSizesOf4096Pixels) {
   const Image<glm::vec4> image = draw_points({{0, 0, 0, 1}}, 4096.0f, {}, 4200, 33);
   for (int x = 0; x < 4200; ++x) ASSERT_EQ(pixel(image, x, 16).w, x >= 52 && x < 4148 ? 1.0f : 0.0f) << x;
   EXPECT_NEAR(pixel(image, 52, 16).x, 0.5f / 4096, 1e-9f);
-  EXPECT_NEAR(pixel(image, 4147, 16).x, 4095.5f / 4096, 6e-8f);  // an ulp below 1
+  EXPECT_NEAR(pixel(image, 4147, 16).x, 4095.5f / 4096, 6e-8f);  // one ulp below 1
 }
 
-// A hemisphere over each point: depth by pixel, through visibility.
+// A hemisphere over each point, with per-pixel depth from the visibility function.
 struct BallShader {
   template <class R>
   struct Attributes {
@@ -127,7 +127,7 @@ TEST(Points, SpritesWithBoundsAndDepthAreShadedOnce) {
     Pass pass(64, 64, rgba32f_target(images[defer]), {.format = DepthFormat::d32f}, {.defer = defer});
     pass.draw(BallShader{}, make_vertex_view(stream(p), stream(c)), {.topology = Topology::points});
     const PassStatistics s = pass.run(one_worker());
-    EXPECT_EQ(s.culled_outside, 1u);  // the fourth says that it is not drawn
+    EXPECT_EQ(s.culled_outside, 1u);  // the fourth is marked as not drawn
     uint64_t covered = 0;
     for (int i = 0; i < 64 * 64; ++i) covered += images[defer].data()[i].w > 0.0f ? 1 : 0;
     if (defer) {
@@ -137,7 +137,7 @@ TEST(Points, SpritesWithBoundsAndDepthAreShadedOnce) {
     }
   }
   for (int i = 0; i < 64 * 64; ++i) EXPECT_EQ(images[0].data()[i], images[1].data()[i]);
-  // Two equal balls meet in the plane between them.
+  // Two equal balls intersect in the plane between them.
   for (int y = 24; y < 40; ++y) {
     EXPECT_EQ(pixel(images[1], 31, y).x, 1.0f);
     EXPECT_EQ(pixel(images[1], 32, y).y, 1.0f);

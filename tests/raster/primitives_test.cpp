@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Strips, fans, restarts, base vertex and instances, by values known by hand.
+// Tests strips, fans, primitive restart, base vertex and instancing with hand-computed values.
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -11,7 +11,7 @@ using namespace raster_test;
 
 glm::vec4 red_at(float red) { return {red, 0.0f, 0.0f, 1.0f}; }
 
-// Corners of a 32x16 px picture: a strip over it as a zigzag of columns 8 px wide, lower corner first.
+// Vertices of a strip across a 32x16 px picture: a zigzag of columns 8 px wide that starts at the bottom.
 std::vector<glm::vec4> zigzag() {
   std::vector<glm::vec4> p;
   for (int i = 0; i < 10; ++i) p.push_back(clip_position({256 * 8 * (i / 2), i % 2 == 0 ? 0 : 256 * 16}, 32, 16));
@@ -38,12 +38,12 @@ std::vector<glm::vec4> numbered(std::size_t n) {
   return c;
 }
 
-TEST(Primitives, AStripCoversEveryPixelOnceAndFacesOneWay) {
+TEST(Primitives, AStripCoversEveryPixelOnceWithOneFacing) {
   const std::vector<glm::vec4> p = zigzag();
   std::vector<uint32_t> list(p.size());
   for (uint32_t i = 0; i < list.size(); ++i) list[i] = i;
   Image<glm::vec4> image(32, 16);
-  // Lower, upper, next lower: clockwise.
+  // Bottom, top, next bottom: clockwise.
   const PassStatistics s =
       count_coverage(image, p, list, {.topology = Topology::triangle_strip, .cull = CullMode::back, .front = Winding::clockwise});
   EXPECT_EQ(s.primitives_in, 8u);
@@ -53,14 +53,14 @@ TEST(Primitives, AStripCoversEveryPixelOnceAndFacesOneWay) {
   }
 }
 
-// OpenGL 4.6, table 13.2: of triangle i of a strip the vertex i provokes under the first-vertex convention, else i + 2; of
-// triangle i of a fan i + 1, else i + 2 (counted from 0).
-TEST(Primitives, ProvokingVertices) {
+// OpenGL 4.6, table 13.2, counted from 0: the provoking vertex of triangle i of a strip is i under the first-vertex convention and i + 2
+// otherwise. For a fan it is i + 1 and i + 2.
+TEST(Primitives, ProvokingVerticesFollowOpenGl) {
   const std::vector<glm::vec4> p = zigzag(), c = numbered(p.size());
   const Indices all = Indices::sequential(p.size());
   const Drawing first = draw_strip(all, {.topology = Topology::triangle_strip, .provoking = ProvokingVertex::first}, stream(p), stream(c));
   const Drawing last = draw_strip(all, {.topology = Topology::triangle_strip}, stream(p), stream(c));
-  for (int column = 0; column < 4; ++column) {  // lower left: an even triangle, upper right: an odd one
+  for (int column = 0; column < 4; ++column) {  // lower left: even triangle; upper right: odd triangle
     const int even = 2 * column, x = 8 * column;
     EXPECT_EQ(pixel(first.image, x, 1).x, static_cast<float>(even));
     EXPECT_EQ(pixel(first.image, x + 7, 14).x, static_cast<float>(even + 1));
@@ -81,7 +81,7 @@ TEST(Primitives, ProvokingVertices) {
   EXPECT_EQ(pixel(fan_last.image, 1, 14).x, 3.0f);
 }
 
-TEST(Primitives, RestartBeginsAnewAndLeavesNoTriangleBetween) {
+TEST(Primitives, RestartBeginsANewStripWithoutAConnectingTriangle) {
   const std::vector<glm::vec4> p = zigzag(), c = numbered(p.size());
   const std::vector<uint32_t> list{0xffffffffu, 0, 1, 2, 3, 0xffffffffu, 0xffffffffu, 6, 7, 0xffffffffu, 6, 7, 8, 9};
   const Drawing d =
@@ -90,7 +90,7 @@ TEST(Primitives, RestartBeginsAnewAndLeavesNoTriangleBetween) {
   EXPECT_EQ(d.statistics.vertices_shaded, 8u);
   EXPECT_EQ(d.statistics.vertices_in, 10u);
   for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(d.image, x, 8).w, x < 8 || x >= 24 ? 1.0f : 0.0f) << x;
-  const std::vector<uint16_t> narrow{0, 1, 2, 0xffff, 2, 1, 3};  // restarts work in lists too
+  const std::vector<uint16_t> narrow{0, 1, 2, 0xffff, 2, 1, 3};  // restart also works for lists
   const Drawing e = draw_strip(Indices(std::span(narrow), p.size(), PrimitiveRestart::on), {}, stream(p), stream(c));
   EXPECT_EQ(e.statistics.primitives_in, 2u);
 }
@@ -101,10 +101,10 @@ TEST(Primitives, BaseVertexIsAddedToEveryIndex) {
   const Indices indices(list, p.size());
   const Drawing d = draw_strip(indices, {.topology = Topology::triangle_strip, .base_vertex = 4}, stream(p), stream(c));
   for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(d.image, x, 8).w, x >= 16 && x < 24 ? 1.0f : 0.0f) << x;
-  EXPECT_EQ(pixel(d.image, 16, 1).x, 6.0f);  // triangle 4, 5, 6: the last provokes
+  EXPECT_EQ(pixel(d.image, 16, 1).x, 6.0f);  // triangle 4, 5, 6: the last vertex is provoking
 }
 
-// Every instance draws one column: its number moves it, and every second one has a colour of its own.
+// Every instance draws one column, which is moved by its instance number. Every second instance reads a new color.
 struct ColumnShader : FlatColorShader {
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
@@ -115,7 +115,7 @@ struct ColumnShader : FlatColorShader {
   }
 };
 
-TEST(Primitives, InstancesKnowTheirNumberAndReadTheirRow) {
+TEST(Primitives, InstancesHaveTheirNumberAndReadTheirData) {
   const std::vector<glm::vec4> p = zigzag(), c{red_at(10.0f), red_at(20.0f)};
   const std::vector<uint32_t> list{0, 1, 2, 3};
   const Indices indices(list, p.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the raster tests share: meshes given in 1/256 px whose positions
-// survive the vertex stage exactly, and draws into a float image.
+// Shared helpers of the raster tests: meshes in units of 1/256 px whose positions pass through the vertex stage exactly, and draws into a
+// float image.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,18 +20,18 @@
 
 namespace halfspace::raster_test {
 
-/// Repetitions of a random test: fewer where a sanitizer makes each many times slower.
+/// Number of repetitions of a random test, reduced for sanitizer builds, which are many times slower.
 constexpr int effort(int n) { return kSanitized ? (n + 15) / 16 : n; }
 
-/// A window position in 1/256 px.
+/// A window position in units of 1/256 px.
 struct Point {
   int32_t x, y;
   friend bool operator==(const Point&, const Point&) = default;
 };
 using PointTriangle = std::array<Point, 3>;
 
-/// The clip position (w = 1) that lands on p in a viewport of width × height px at the origin. Exact: both sizes must
-/// be powers of two, so that nothing but a power of two is divided by, and |p| ≤ 2^23.
+/// Returns the clip position (w = 1) that maps to p in a viewport of width × height px at the origin. The result is exact if both sizes are
+/// powers of two and |p| ≤ 2^23.
 inline glm::vec4 clip_position(const Point& p, int width, int height, float z = 0.0f) {
   return {static_cast<float>(p.x - 128 * width) / static_cast<float>(128 * width),
           static_cast<float>(p.y - 128 * height) / static_cast<float>(128 * height), z, 1.0f};
@@ -40,16 +40,16 @@ inline glm::vec4 clip_position(const Point& p, int width, int height, float z = 
 inline constexpr BlendState kAdd{BlendEquation::add, BlendFactor::one, BlendFactor::one,
                                  BlendEquation::add, BlendFactor::one, BlendFactor::one};
 
-/// A triangle that covers the whole of any target, at a depth of clip space.
+/// Returns a triangle that covers any render target completely, at clip-space depth z.
 inline std::vector<glm::vec4> full_screen(float z = 0.0f) { return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}}; }
 
-/// The pixel at window coordinates (x, y), whose origin is the lower left; images hold the top row first.
+/// Returns the pixel at window coordinates (x, y). The window origin is at the lower left, while images store the top row first.
 template <class T>
 const T& pixel(const Image<T>& image, int x, int y) {
   return image.at(x, image.height() - 1 - y);
 }
 
-/// Draws triangles with one colour each, added up (blend) or the last one winning (deferred).
+/// Draws triangles with one color each. The colors are either added up (blended) or replaced by the last triangle (deferred).
 inline PassStatistics draw_colors(Image<glm::vec4>& image, std::span<const PointTriangle> triangles, std::span<const glm::vec4> colors,
                                   bool add_up, const PassOptions& options = {}) {
   std::vector<glm::vec4> positions, vertex_colors;
@@ -68,7 +68,7 @@ inline PassStatistics draw_colors(Image<glm::vec4>& image, std::span<const Point
   return pass.run(one_worker());
 }
 
-/// The vertex stage alone, on every vertex of the view.
+/// Runs only the vertex stage, on every vertex of the view.
 template <class S>
 ShadedVertices shade(const S& shader, const VertexView& view, const Rect& viewport, const DrawState& state = {}) {
   std::pmr::monotonic_buffer_resource memory;
@@ -82,7 +82,7 @@ ShadedVertices shade(const S& shader, const VertexView& view, const Rect& viewpo
   return out;
 }
 
-/// Draws a mesh of clip positions; every covered sample adds 1 to its pixel.
+/// Draws a mesh of clip positions. Every covered sample adds 1 to its pixel.
 inline PassStatistics count_coverage(Image<glm::vec4>& image, const std::vector<glm::vec4>& positions, const std::vector<uint32_t>& indices,
                                      DrawState state = {}, const PassOptions& options = {}) {
   const Indices list(indices, positions.size());

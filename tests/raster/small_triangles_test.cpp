@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small triangles are rasterized W of a tile's list at once. What they draw must be what they draw one by one, each in a pass of its own:
-// every pixel and depth, and as many samples that pass. Draws alternate, depths tie, and extents go from a pixel to the largest that counts
-// as small and beyond.
+// Small triangles are rasterized in groups of W. The result must equal that of drawing each triangle in a pass of its own: all pixels and
+// depths, and the number of passing samples. The test mixes draws, uses equal depths, and varies the extents from one pixel to beyond the
+// limit for small triangles.
 #include <algorithm>
 
 #include "halfspace/raster/tile/tile.h"
@@ -18,7 +18,8 @@ struct Triangles {
   DrawState state;
 };
 
-// Up to three times W triangles of one draw (W at the most 16). Their first corner lies in or near the picture, all depths are one of five.
+// Returns up to three times W triangles for one draw (W is at most 16). The first vertex is in or near the picture, and depths have one of
+// five values.
 Triangles random_triangles(Random& r) {
   Triangles t;
   const int count = r.integer(1, 48), largest = r.coin() ? 3 : r.coin() ? 16 : 70;
@@ -44,7 +45,7 @@ struct SmallPicture {
   PassStatistics statistics;
 };
 
-// Draws into what is there.
+// Draws on top of the existing contents.
 void draw(std::span<const Triangles> draws, SmallPicture& out) {
   ColorTarget color = rgba32f_target(out.color);
   DepthTarget depth = d32f_target(out.depth);
@@ -54,7 +55,7 @@ void draw(std::span<const Triangles> draws, SmallPicture& out) {
   out.statistics += pass.run(one_worker());
 }
 
-// The k-th alone.
+// Returns only the k-th triangle.
 Triangles only(const Triangles& t, std::size_t k) {
   const auto three = [k](const std::vector<glm::vec4>& all) {
     const std::span part = std::span(all).subspan(3 * k, 3);
@@ -63,7 +64,7 @@ Triangles only(const Triangles& t, std::size_t k) {
   return {three(t.positions), three(t.colors), t.state};
 }
 
-TEST(SmallTriangles, AreDrawnTogetherAsOneByOne) {
+TEST(SmallTriangles, BatchesMatchIndividualTriangles) {
   Random random(22);
   uint64_t passed = 0;
   for (int i = 0; i < effort(400); ++i) {
@@ -80,10 +81,10 @@ TEST(SmallTriangles, AreDrawnTogetherAsOneByOne) {
     ASSERT_EQ(together.statistics.samples_passed, single.statistics.samples_passed) << i;
     passed += together.statistics.samples_passed;
   }
-  EXPECT_GT(passed, static_cast<uint64_t>(effort(400)) * 100) << "hardly anything was drawn";
+  EXPECT_GT(passed, static_cast<uint64_t>(effort(400)) * 100) << "too few samples passed";
 }
 
-TEST(SmallTriangles, PixelsLieWhereTheirPacketsSay) {
+TEST(SmallTriangles, PixelIndicesMatchPacketPositions) {
   for (int p = 0; p < kPackets; ++p) {
     const Int together = pixel_at(lane_x() + packet_x(p), lane_y() + packet_y(p));
     for (int k = 0; k < kLanes; ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The vertex stage's window positions against exact arithmetic: x/w·half + center, rounded to 1/256 px.
+// Compares the window positions of the vertex stage with exact arithmetic: x/w·half + center, rounded to 1/256 px.
 #include "raster/raster_test.h"
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 
 static_assert(std::numeric_limits<long double>::digits >= 64);
 
-/// How far k is from the exact position, in 1/256 px. x·H and (k − C)·w are products of at most 24 and 25 bits, exact
-/// in long double; their difference over w errs by less than 2^-38 for positions within ±2^23.
+/// Returns the distance of k from the exact position, in 1/256 px. x·H and (k − C)·w are products of at most 24 and 25 bits, which long
+/// double represents exactly. For positions within ±2^23, their difference divided by w has an error below 2^-38.
 long double distance(int32_t k, float x, float w, double half, double center) {
   const auto h = static_cast<long double>(half * 256), c = static_cast<long double>(center * 256);
   const auto xl = static_cast<long double>(x), wl = static_cast<long double>(w);
@@ -20,8 +20,8 @@ long double distance(int32_t k, float x, float w, double half, double center) {
 }
 
 struct Tally {
-  int64_t positions = 0, off = 0;  // off: not the nearest
-  long double excess = 0;          // the largest distance above one half
+  int64_t positions = 0, off = 0;  // off: not rounded to the nearest
+  long double excess = 0;          // the largest distance in excess of one half
   void add(long double d) {
     ++positions;
     const long double e = std::fabs(d) - 0.5L;
@@ -37,8 +37,8 @@ struct Tally {
   }
 };
 
-// The quotient's remainder is known to 2^-23 of itself, which is 2^-24 of the quotient; times 2^22 sub-pixels that is
-// about 2^-24, and the last two sums of numbers below 2 round by 2^-24 each. 2^-22 holds with room.
+// The remainder of the quotient has a relative error of 2^-23, or 2^-24 of the quotient, which is about 2^-24 at 2^22 sub-pixels. The last
+// two sums are of numbers below 2 and round by 2^-24 each. 2^-22 is a safe bound.
 constexpr long double kMaxExcess = 0x1p-22L;
 
 Tally snap_many(const std::vector<glm::vec4>& positions, const Rect& viewport) {
@@ -56,7 +56,7 @@ Tally snap_many(const std::vector<glm::vec4>& positions, const Rect& viewport) {
 const std::array<Rect, 5> kViewports{
     {{0, 0, 1920, 1080}, {0, 0, 1, 1}, {-16384, 16384, 16383, 16384}, {17, -5, 1001, 333}, {8000, 8000, 8191, 63}}};
 
-TEST(Snapping, PositionsInTheViewport) {
+TEST(Snapping, ViewportPositionsAreNearest) {
   Random r(1);
   for (const Rect& viewport : kViewports) {
     std::vector<glm::vec4> positions(static_cast<std::size_t>(effort(200000)));
@@ -71,7 +71,7 @@ TEST(Snapping, PositionsInTheViewport) {
   }
 }
 
-TEST(Snapping, PositionsUpToTheGuardBand) {
+TEST(Snapping, GuardBandPositionsAreNearest) {
   Random r(2);
   for (const Rect& viewport : kViewports) {
     std::vector<glm::vec4> positions(static_cast<std::size_t>(effort(200000)));
@@ -88,8 +88,8 @@ TEST(Snapping, PositionsUpToTheGuardBand) {
   }
 }
 
-// Positions within some ulps of the middle between two sub-pixels: only there may the result not be the nearest.
-TEST(Snapping, NearTies) {
+// Positions within a few ulps of the midpoint between two sub-pixels. Only these may round to the wrong side.
+TEST(Snapping, NearTiesExceedHalfAStepOnlySlightly) {
   Random r(3);
   for (const Rect& viewport : kViewports) {
     std::vector<glm::vec4> positions(static_cast<std::size_t>(effort(200000)));
@@ -107,8 +107,8 @@ TEST(Snapping, NearTies) {
   }
 }
 
-TEST(Snapping, ByHand) {
-  // 256 px wide: x/w = 0 is 128 px, one sub-pixel is 2^-15; ties go to the even sub-pixel.
+TEST(Snapping, MatchesHandComputedPositions) {
+  // With a width of 256 px, x/w = 0 is at 128 px and one sub-pixel is 2^-15. Ties round to the even sub-pixel.
   const std::vector<glm::vec4> positions{{0, 0, 0, 1},
                                          {-1, 1, 0, 1},
                                          {0x1p-15f, -0x1p-15f, 0, 1},
@@ -121,8 +121,8 @@ TEST(Snapping, ByHand) {
   for (std::size_t i = 0; i < want.size(); ++i) EXPECT_EQ((Point{v.screen[i].x, v.screen[i].y}), want[i]) << i;
 }
 
-// Twice the same vertex, or the same point times a power of two, is the same position in every bit.
-TEST(Snapping, PowersOfTwoChangeNothing) {
+// Scaling a vertex by a power of two must not change any bit of its position.
+TEST(Snapping, ScalingByPowersOfTwoChangesNothing) {
   Random r(4);
   std::vector<glm::vec4> positions;
   for (int i = 0; i < effort(20000); ++i) {

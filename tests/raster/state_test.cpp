@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of a draw and of a pass, by hand-made cases: culling, viewport and scissor, provoking vertex, load and
-// store, post step, statistics, vertex views and indices, and the checks that stop a caller's bug.
+// Tests draw and pass state with small cases: culling, viewport and scissor, provoking vertex, load and store, post step, statistics,
+// vertex views and indices, and the checks that detect incorrect use.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,7 +13,7 @@ namespace {
 
 // ---- shaders ---------------------------------------------------------------------------------------------------
 
-// Shows which face it sees: (1, 0) front, (0, 1) back.
+// Outputs the visible face: (1, 0) for front, (0, 1) for back.
 struct FacingShader : PositionShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
@@ -21,7 +21,7 @@ struct FacingShader : PositionShader {
   }
 };
 
-// Three vertices' values in the order of submission, by the primitive stage.
+// Outputs the values of the three vertices in submission order, using the primitive stage.
 struct OrderShader {
   template <class R>
   struct Attributes {
@@ -51,7 +51,7 @@ struct OrderShader {
   }
 };
 
-// Keeps the left half of the window.
+// Keeps only the left half of the window.
 template <bool has_visibility>
 struct HalfShader;
 template <>
@@ -70,7 +70,7 @@ struct HalfShader<true> : HalfShader<false> {
   }
 };
 
-// Writes a depth of its own: x/64.
+// Writes its own depth, x/64.
 template <bool has_visibility>
 struct DepthShader;
 template <>
@@ -110,7 +110,7 @@ bool is_everywhere(const Image<glm::vec4>& image, const glm::vec4& want) {
 
 // ---- culling ---------------------------------------------------------------------------------------------------
 
-TEST(Culling, ModesAndWindings) {
+TEST(Culling, ModesAndWindingsCullTheRightFaces) {
   for (const Winding front : {Winding::counter_clockwise, Winding::clockwise}) {
     for (const bool counter_clockwise : {true, false}) {  // in the window, y up
       for (const CullMode mode : {CullMode::none, CullMode::front, CullMode::back, CullMode::front_and_back}) {
@@ -146,38 +146,38 @@ void expect_drawn_rect(const Image<glm::vec4>& image, int x0, int y0, int x1, in
   }
 }
 
-TEST(Viewport, DefaultIsTheWholeTarget) {
+TEST(Viewport, DefaultsToTheWholeTarget) {
   Image<glm::vec4> image(70, 33);
   draw(image, ConstantShader{}, kFullScreen);
   expect_drawn_rect(image, 0, 0, 70, 33);
 }
 
-TEST(Viewport, LowerLeftIsTheOriginAndTheTopRowComesFirst) {
+TEST(Viewport, OriginIsAtTheLowerLeftAndTheTopRowIsFirst) {
   // The lower left quarter: x and y from −1 to 0.
   Image<glm::vec4> image(8, 8);
   draw(image, ConstantShader{}, {{-1, -1, 0, 1}, {0, -1, 0, 1}, {-1, 0, 0, 1}, {0, -1, 0, 1}, {0, 0, 0, 1}, {-1, 0, 0, 1}});
   EXPECT_EQ(image.at(0, 7),
-            glm::vec4(1));  // the last row in memory is the bottom
+            glm::vec4(1));  // the last row in memory is at the bottom
   EXPECT_EQ(image.at(3, 4), glm::vec4(1));
   EXPECT_EQ(image.at(0, 0), glm::vec4(0));
   EXPECT_EQ(image.at(4, 7), glm::vec4(0));
 }
 
-TEST(Viewport, PlacesAndConfines) {
+TEST(Viewport, ConfinesDrawingToItsRectangle) {
   for (const Rect& v :
        {Rect{10, 20, 30, 7}, {0, 0, 1, 1}, {69, 39, 1, 1}, {-20, -5, 50, 30}, {60, 30, 50, 50}, {-100, -100, 1000, 1000}, {64, 0, 6, 40}}) {
     for (const int tile_size : {8, 64}) {
       Image<glm::vec4> image(70, 40);
       DrawState state;
       state.viewport = v;
-      // Far beyond the viewport's edges: it confines as a scissor does.
+      // The triangle extends far beyond the viewport, which confines drawing like a scissor rectangle.
       draw(image, ConstantShader{}, {{-5, -5, 0, 1}, {15, -5, 0, 1}, {-5, 15, 0, 1}}, state, {.tile_size = tile_size});
       expect_drawn_rect(image, std::max(0, v.x), std::max(0, v.y), std::min(70, v.x + v.width), std::min(40, v.y + v.height));
     }
   }
 }
 
-TEST(Viewport, WhollyOutsideDrawsNothing) {
+TEST(Viewport, DrawsNothingIfOutsideOfTheTarget) {
   Image<glm::vec4> image(70, 40);
   DrawState state;
   state.viewport = Rect{70, 0, 10, 10};
@@ -187,7 +187,7 @@ TEST(Viewport, WhollyOutsideDrawsNothing) {
 }
 
 TEST(Viewport, TransformsPositions) {
-  // Viewport (16, 8) of 32 × 16: x = −1 … 0 is 16 … 32, y = 0 … 1 is 16 … 24.
+  // The viewport starts at (16, 8) with a size of 32 × 16: x from −1 to 0 maps to 16 to 32, and y from 0 to 1 maps to 16 to 24.
   Image<glm::vec4> image(64, 32);
   DrawState state;
   state.viewport = Rect{16, 8, 32, 16};
@@ -195,7 +195,7 @@ TEST(Viewport, TransformsPositions) {
   expect_drawn_rect(image, 16, 16, 32, 24);
 }
 
-TEST(Scissor, CutsToPixels) {
+TEST(Scissor, ClipsToPixels) {
   for (const Rect& r :
        {Rect{3, 4, 5, 6}, {0, 0, 70, 40}, {-10, -10, 20, 20}, {65, 35, 100, 100}, {5, 5, 0, 10}, {5, 5, 10, 0}, {-50, 0, 50, 40}}) {
     for (const bool blended : {false, true}) {
@@ -210,7 +210,7 @@ TEST(Scissor, CutsToPixels) {
   }
 }
 
-TEST(Scissor, MeetsTheViewport) {
+TEST(Scissor, IntersectsWithTheViewport) {
   Image<glm::vec4> image(64, 64);
   DrawState state;
   state.viewport = Rect{10, 10, 30, 30};
@@ -221,8 +221,8 @@ TEST(Scissor, MeetsTheViewport) {
 
 // ---- provoking vertex and primitive order ----------------------------------------------------------------------
 
-TEST(ProvokingVertex, FirstAndLastHoweverTheTriangleIsTurned) {
-  // Depths all different, so that setup starts each rotation at another vertex; clipped by near when asked.
+TEST(ProvokingVertex, IsIndependentOfRotationWindingAndClipping) {
+  // All depths differ, so that setup starts each rotation at a different vertex. If clipped is set, the near plane cuts the triangle.
   for (const bool clipped : {false, true}) {
     const std::array<glm::vec4, 3> corners{glm::vec4(-1, -1, 0.3f, 1), glm::vec4(1, -1, clipped ? -3.0f : 0.1f, 1),
                                            glm::vec4(0, 1, 0.2f, 1)};
@@ -272,7 +272,7 @@ void load_keeps_what_is_not_drawn(F make_target, uint64_t seed) {
   Random r(seed);
   Image<T> image(70, 40);
   std::span<std::byte> bytes(reinterpret_cast<std::byte*>(image.data()), image.texels().size() * sizeof(T));
-  for (std::byte& b : bytes) b = static_cast<std::byte>(r.integer(0, 0x7b));  // all bits of all formats, but no NaN or Inf
+  for (std::byte& b : bytes) b = static_cast<std::byte>(r.integer(0, 0x7b));  // all bits of all formats, except NaN and infinity
   const Image<T> before = image;
   ColorTarget target = make_target(image);
   target.load = LoadOp::load;
@@ -295,7 +295,7 @@ void load_keeps_what_is_not_drawn(F make_target, uint64_t seed) {
   EXPECT_EQ(changed, 35);
 }
 
-TEST(LoadStore, LoadKeepsWhatIsNotDrawn) {
+TEST(LoadStore, LoadPreservesPixelsThatAreNotDrawn) {
   load_keeps_what_is_not_drawn<glm::vec4>([](auto& i) { return rgba32f_target(i); }, 1);
   load_keeps_what_is_not_drawn<U16Vec4>([](auto& i) { return rgba16f_target(i); }, 2);
   load_keeps_what_is_not_drawn<glm::u8vec4>([](auto& i) { return rgba8_target(i); }, 3);
@@ -332,20 +332,20 @@ TEST(LoadStore, StoreDontCareWritesNothing) {
   for (const float z : depth.texels()) ASSERT_EQ(z, 0.125f);
 }
 
-TEST(LoadStore, LoadDontCareLeavesTilesAloneThatNothingTouches) {
+TEST(LoadStore, LoadDontCareLeavesUntouchedTilesUnchanged) {
   Image<glm::vec4> image(128, 64);
   std::fill_n(image.data(), 128 * 64, glm::vec4(7.0f));
   ColorTarget target = rgba32f_target(image);
   target.load = LoadOp::dont_care;
   Pass pass(128, 64, target, {});
   DrawState state;
-  state.viewport = Rect{0, 0, 64, 64};  // the left tile, all of it
+  state.viewport = Rect{0, 0, 64, 64};  // exactly the left tile
   pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)), state);
   EXPECT_EQ(pass.run(one_worker()).tiles_touched, 1u);
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 128; ++x) ASSERT_EQ(pixel(image, x, y), glm::vec4(x < 64 ? 1.0f : 7.0f));
   }
-  // The same beside a depth that is cleared everywhere.
+  // The same with a depth attachment that is cleared everywhere.
   Image<float> depth(128, 64);
   Pass again(128, 64, target, d32f_target(depth));
   again.draw(ConstantShader{glm::vec4(3)}, make_vertex_view(stream(kFullScreen)), state);
@@ -368,8 +368,8 @@ TEST(LoadStore, APassIsEmptyAfterItsRun) {
   EXPECT_TRUE(is_everywhere(image, glm::vec4(2)));
 }
 
-TEST(LoadStore, TargetsWithoutImages) {
-  // Colour and depth live in the tiles alone; only the post target is written.
+TEST(LoadStore, TargetsDoNotNeedImages) {
+  // Color and depth exist only in tile memory; only the post target is written.
   Image<glm::u8vec4> out(70, 40);
   Pass pass(70, 40, {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f});
   pass.draw(ConstantShader{glm::vec4(0.5f)}, make_vertex_view(stream(kFullScreen)));
@@ -378,7 +378,7 @@ TEST(LoadStore, TargetsWithoutImages) {
   for (const glm::u8vec4& p : out.texels()) ASSERT_EQ(p, glm::u8vec4(255));
 }
 
-TEST(PostDeathTest, NeedsAColour) {
+TEST(PostDeathTest, RequiresAColorAttachment) {
   Image<float> depth(8, 8);
   Image<glm::u8vec4> out(8, 8);
   Pass pass(8, 8, {}, d32f_target(depth));
@@ -398,7 +398,7 @@ TEST(Post, RunsOnEveryPixelOnce) {
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 70; ++x) {
       ASSERT_EQ(pixel(image, x, y), x < 35 ? glm::vec4(5, 6, 7, 8) : glm::vec4(1, 2, 3,
-                                                                               4));  // the colour itself is stored as it was
+                                                                               4));  // the color itself is stored unchanged
       ASSERT_EQ(pixel(out, x, y), x < 35 ? glm::vec4(6, 5, 8, 8) : glm::vec4(2, 1, 4, 4));
     }
   }
@@ -406,7 +406,7 @@ TEST(Post, RunsOnEveryPixelOnce) {
 
 // ---- statistics ------------------------------------------------------------------------------------------------
 
-TEST(Statistics, OneTriangleOverFourTiles) {
+TEST(Statistics, CountOneTriangleInFourTiles) {
   Image<glm::vec4> image(128, 128);
   const PassStatistics s = draw(image, ConstantShader{}, kFullScreen);
   PassStatistics want;
@@ -422,7 +422,7 @@ TEST(Statistics, OneTriangleOverFourTiles) {
   EXPECT_EQ(s, want);
 }
 
-TEST(Statistics, EachReasonForCulling) {
+TEST(Statistics, CountEachReasonForCulling) {
   const auto count = [](const std::vector<glm::vec4>& p, CullMode cull = CullMode::none) {
     Image<glm::vec4> image(64, 64);
     DrawState state;
@@ -431,34 +431,34 @@ TEST(Statistics, EachReasonForCulling) {
   };
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(count({{nan, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}).culled_non_finite, 1u);
-  // beyond the right side; beyond far; behind the eye; cut by near and guard planes until nothing is left
+  // beyond the right side; beyond the far plane; behind the eye; clipped away by the near and guard planes
   EXPECT_EQ(count({{2, 0, 0, 1}, {3, 0, 0, 1}, {2, 1, 0, 1}}).culled_outside, 1u);
   EXPECT_EQ(count({{0, 0, 2, 1}, {1, 0, 2, 1}, {0, 1, 2, 1}}).culled_outside, 1u);
   EXPECT_EQ(count({{0, 0, 0, -1}, {1, 0, 0, -1}, {0, 1, 0, -1}}).culled_outside, 1u);
   EXPECT_EQ(count({{-1, 0, -3, 1}, {2000, 0, 0, -1}, {-2000, 1, 0, -1}}).culled_outside, 1u);
   EXPECT_EQ(count({{-1, -1, 0, 1}, {0, 1, 0, 1}, {1, -1, 0, 1}}, CullMode::back).culled_face, 1u);
   EXPECT_EQ(count({{-1, -1, 0, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}}).culled_degenerate, 1u);
-  // a triangle of half a pixel between the centres
+  // a triangle of half a pixel between pixel centers
   EXPECT_EQ(count({{1.0f / 32, 0, 0, 1}, {1.4f / 32, 0, 0, 1}, {1.2f / 32, 0.4f / 32, 0, 1}}).culled_no_sample, 1u);
   for (const auto& s : {count({{2, 0, 0, 1}, {3, 0, 0, 1}, {2, 1, 0, 1}}), count({{-1, -1, 0, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}})}) {
     EXPECT_EQ(s.primitives_in, 1u);
     EXPECT_EQ(s.triangles_binned + s.bin_entries + s.samples_tested + s.fragments_shaded + s.tiles_touched + s.clipped, 0u);
   }
-  // clipped by near into a quad: one clipped, two binned
+  // clipped by the near plane into a quad: one clipped, two binned
   const PassStatistics quad = count({{-1, -1, -3, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}});
   EXPECT_EQ(quad.clipped, 1u);
   EXPECT_EQ(quad.triangles_binned, 2u);
   EXPECT_EQ(quad.bin_entries, 2u);
   EXPECT_EQ(quad.tiles_touched, 1u);
-  // clipped, then culled by its face: counted once
+  // clipped, then culled by its facing: counted once
   const PassStatistics both = count({{-1, -1, -3, 1}, {0, 1, 0, 1}, {1, -1, 0, 1}}, CullMode::back);
   EXPECT_EQ(both.clipped, 1u);
   EXPECT_EQ(both.culled_face, 1u);
   EXPECT_EQ(both.triangles_binned, 0u);
 }
 
-TEST(Statistics, DeferredShadesOnlyWhatIsSeen) {
-  // Far before near, then the other way round; 64 × 64 samples a layer.
+TEST(Statistics, DeferredDrawsShadeOnlyVisibleFragments) {
+  // Draws far before near, then near before far, with 64 × 64 samples per layer.
   for (const bool near_first : {false, true}) {
     for (const bool defer : {true, false}) {
       const auto first = full_screen(near_first ? -0.5f : 0.5f), second = full_screen(near_first ? 0.5f : -0.5f);
@@ -467,7 +467,7 @@ TEST(Statistics, DeferredShadesOnlyWhatIsSeen) {
       pass.draw(ConstantShader{glm::vec4(1)}, make_vertex_view(stream(first)));
       pass.draw(ConstantShader{glm::vec4(2)}, make_vertex_view(stream(second)));
       const PassStatistics s = pass.run(one_worker());
-      // A block that a deferred layer has covered knows its depths, and the layer behind is rejected whole.
+      // A block that a deferred layer covers completely has exact depth bounds, so the layer behind it is rejected by block.
       EXPECT_EQ(s.samples_tested, near_first && defer ? 4096u : 8192u);
       EXPECT_EQ(s.samples_passed, near_first ? 4096u : 8192u);
       EXPECT_EQ(s.fragments_shaded, near_first || defer ? 4096u : 8192u);
@@ -479,7 +479,8 @@ TEST(Statistics, DeferredShadesOnlyWhatIsSeen) {
 }
 
 TEST(Statistics, BlocksBehindAreNotTested) {
-  // Eight layers, each nearer, after which a block's bounds are made exact; then eight behind them, rejected whole.
+  // Draws eight layers from far to near, after which the bounds of each block are made exact, and then eight layers behind them, which are
+  // rejected by block.
   std::vector<glm::vec4> positions;
   for (int layer = 0; layer < 16; ++layer) {
     const auto p = full_screen(layer < 8 ? 0.5f - 0.1f * static_cast<float>(layer) : 0.6f);
@@ -494,7 +495,7 @@ TEST(Statistics, BlocksBehindAreNotTested) {
   EXPECT_EQ(s.fragments_shaded, 4096u);
 }
 
-TEST(Statistics, FlushesAreCountedAndChangeNothing) {
+TEST(Statistics, FlushesAreCountedAndDoNotChangeTheResult) {
   Random r(1);
   std::vector<glm::vec4> positions, colors;
   for (int i = 0; i < 3 * 200; ++i) {
@@ -520,7 +521,7 @@ TEST(Statistics, FlushesAreCountedAndChangeNothing) {
   EXPECT_EQ(statistics[0].bin_entries, statistics[1].bin_entries);
   EXPECT_EQ(statistics[0].vertices_shaded, 600u);
 
-  // Targets without images live on in memory of the pass from flush to flush.
+  // Between flushes, attachments without images are kept in memory of the pass.
   Image<glm::vec4> posted(100, 80);
   Pass pass(100, 80, {.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f},
             {.chunk_triangles = 2, .bin_budget = 1});
@@ -555,13 +556,13 @@ TEST(Discard, DropsColorAndDepth) {
   }
 }
 
-TEST(ShaderDepth, ReplacesTheTrianglesDepth) {
+TEST(ShaderDepth, ReplacesTheInterpolatedDepth) {
   const auto run = [](const auto& shader, bool blended) {
     Image<glm::vec4> image(64, 64);
     Image<float> depth(64, 64);
     Pass pass(64, 64, rgba32f_target(image), d32f_target(depth));
     DrawState state;
-    state.depth.range_far = 0.875f;  // what the shader writes is held to the range
+    state.depth.range_far = 0.875f;  // shader-written depth is clamped to the range
     if (blended) state.blend = kAdd;
     auto second = shader;
     second.color = glm::vec4(2);
@@ -569,7 +570,7 @@ TEST(ShaderDepth, ReplacesTheTrianglesDepth) {
     second.bias = 1;
     pass.draw(shader, make_vertex_view(stream(kFullScreen)), state);
     pass.draw(second, make_vertex_view(stream(kFullScreen)),
-              state);  // 1 − x/64: nearer from the middle on
+              state);  // 1 − x/64: nearer in the right half
     pass.run(one_worker());
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 64; ++x) {
@@ -594,7 +595,7 @@ struct Vertex {
   glm::vec4 position;
 };
 
-TEST(VertexView, InterleavedEqualsSeparate) {
+TEST(VertexView, InterleavedMatchesSeparateStreams) {
   Random r(2);
   std::vector<Vertex> interleaved;
   std::vector<glm::vec4> positions, colors;
@@ -614,14 +615,14 @@ TEST(VertexView, InterleavedEqualsSeparate) {
   EXPECT_GT(drawn_pixels(a), 1000);
 }
 
-TEST(Indices, AllKindsDrawTheSame) {
+TEST(Indices, AllIndexTypesDrawTheSame) {
   Random r(3);
   std::vector<glm::vec4> positions, unrolled;
   for (int i = 0; i < 1000; ++i) positions.push_back({r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), r.real(-1.0f, 1.0f), 1});
   std::vector<uint16_t> narrow;
   std::vector<uint32_t> wide;
   for (int i = 0; i < 100; ++i) {
-    const int k = r.integer(300, 399) * (i == 0 ? 1 : 2) % 700 + 100;  // with gaps: many vertices unused
+    const int k = r.integer(300, 399) * (i == 0 ? 1 : 2) % 700 + 100;  // with gaps: many vertices are unused
     narrow.push_back(static_cast<uint16_t>(k));
     wide.push_back(static_cast<uint32_t>(k));
     unrolled.push_back(positions[static_cast<std::size_t>(k)]);
@@ -639,7 +640,7 @@ TEST(Indices, AllKindsDrawTheSame) {
     if (i == 1) pass.draw(ConstantShader{}, make_vertex_view(stream(positions)), by_wide, state);
     if (i == 2) pass.draw(ConstantShader{}, make_vertex_view(stream(unrolled)), state);
     const PassStatistics s = pass.run(one_worker());
-    EXPECT_EQ(s.primitives_in, 33u);  // 100 indices: the last one is left over
+    EXPECT_EQ(s.primitives_in, 33u);  // 100 indices: the last one is ignored
     EXPECT_EQ(s.vertices_shaded, i == 2 ? 100u : distinct.size());
   }
   EXPECT_EQ(image[0], image[1]);
@@ -647,7 +648,7 @@ TEST(Indices, AllKindsDrawTheSame) {
   EXPECT_GT(drawn_pixels(image[0]), 500);
 }
 
-TEST(Indices, EmptyDrawsNothing) {
+TEST(Indices, EmptyListsDrawNothing) {
   const std::vector<uint32_t> none;
   const std::vector<glm::vec4> no_vertices;
   Image<glm::vec4> image(16, 16);
@@ -660,7 +661,7 @@ TEST(Indices, EmptyDrawsNothing) {
   EXPECT_EQ(drawn_pixels(image), 0);
 }
 
-TEST(Indices, KnowTheirRange) {
+TEST(Indices, ReportTheirRange) {
   const std::vector<uint32_t> list{7, 3, 9, 3};
   const Indices i(list, 10);
   EXPECT_EQ(i.size(), 4u);
@@ -673,9 +674,9 @@ TEST(Indices, KnowTheirRange) {
   EXPECT_EQ(Indices(dense, 7).used_count(), 3u);
 }
 
-// ---- the caller's bugs -----------------------------------------------------------------------------------------
+// ---- incorrect use ---------------------------------------------------------------------------------------------
 
-TEST(StateDeathTest, VerticesAndIndices) {
+TEST(StateDeathTest, ChecksVerticesAndIndices) {
   const std::vector<glm::vec4> four(4), five(5);
   const std::vector<uint32_t> list{0, 1, 4};
   EXPECT_DEATH(make_vertex_view(stream(four), stream(five)), "s.count == vertex_count \\(5 vs 4\\)");
@@ -683,12 +684,12 @@ TEST(StateDeathTest, VerticesAndIndices) {
   const std::vector<uint16_t> narrow{0, 1, 9};
   EXPECT_DEATH(Indices(narrow, 9), "check failed");
   EXPECT_DEATH(Indices::sequential(std::size_t{1} << 32), "check failed");
-  // Longer than 32-bit gather indices reach: a view is all that is asked, nothing is read.
+  // Longer than 32-bit gather indices can address. Only a view is created; nothing is read.
   const VertexStream huge{four[0].x == 0 ? &four[0].x : nullptr, 4, 4, std::size_t{1} << 29};
   EXPECT_DEATH(make_vertex_view(huge), "check failed");
 }
 
-TEST(StateDeathTest, Passes) {
+TEST(StateDeathTest, ChecksPasses) {
   Image<glm::vec4> image(16, 16);
   EXPECT_DEATH(Pass(0, 16, rgba32f_target(image), {}), "check failed");
   EXPECT_DEATH(Pass(16, 16385, rgba32f_target(image), {}), "check failed");
@@ -696,13 +697,13 @@ TEST(StateDeathTest, Passes) {
   EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 0}), "check failed");
   EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 8193}), "check failed");
   EXPECT_DEATH(Pass(16, 16, {.format = ColorFormat::rgba8}, {}),
-               "check failed");  // would be stored, but where?
+               "check failed");  // would be stored, but has no image
   EXPECT_DEATH(Pass(16, 16, {.format = ColorFormat::rgba8, .load = LoadOp::load, .store = StoreOp::dont_care}, {}), "check failed");
   EXPECT_DEATH(Pass(16, 16, {}, {.format = DepthFormat::d32f, .load = LoadOp::load}), "check failed");
   EXPECT_DEATH(Pass(16, 16, {}, {.format = DepthFormat::d32f, .store = StoreOp::store}), "check failed");
 }
 
-TEST(StateDeathTest, Draws) {
+TEST(StateDeathTest, ChecksDraws) {
   Image<glm::vec4> image(16, 16);
   const std::vector<glm::vec4> p(3), q(6);
   const std::vector<uint32_t> list{0, 1, 5};
@@ -714,7 +715,7 @@ TEST(StateDeathTest, Draws) {
     pass.draw(ConstantShader{}, make_vertex_view(stream(p)), state);
   };
   EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(ConstantShader{}, make_vertex_view(stream(p)), of_six), "check failed");
-  const VertexView untyped = make_vertex_view(stream(p));  // of streams that are known here, the compiler asks
+  const VertexView untyped = make_vertex_view(stream(p));  // untyped, so that the compiler does not check the streams
   EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(FlatColorShader{}, untyped), "vertices.components == .* \\(4 vs 8\\)");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 0, 16}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 16385, 16}; }), "check failed");
@@ -725,7 +726,7 @@ TEST(StateDeathTest, Draws) {
   EXPECT_DEATH(draw_with([](DrawState& s) { s.depth.range_far = std::numeric_limits<float>::quiet_NaN(); }), "check failed");
 }
 
-TEST(State, DepthAloneLeavesColorAsItIs) {
+TEST(State, DepthOnlyDrawsLeaveColorUnchanged) {
   Image<glm::vec4> image(16, 16);
   Image<float> depth(16, 16);
   const std::vector<uint32_t> list{0, 1, 2};

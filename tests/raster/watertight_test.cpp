@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes with shared vertices draw every sample of their inside exactly once: additive count 1, no holes, no double
-// hits. Inside is decided by an independent crossing count on the mesh's outline in whole numbers, so also the samples
-// on the outline have one right answer and there is no tolerance.
+// Meshes with shared vertices must draw every inside sample exactly once: additive blending must give 1, without holes or double hits. The
+// reference counts crossings of the mesh outline in integer arithmetic. The result for samples on the outline is therefore also
+// well-defined, and there is no tolerance.
 #include <algorithm>
 #include <cmath>
 
@@ -14,17 +14,17 @@ namespace {
 struct FixedMesh {
   std::vector<Point> points;
   std::vector<uint32_t> indices;
-  std::vector<Point> outline;  // closed, without self-intersections; empty: the mesh covers the whole target
+  std::vector<Point> outline;  // closed, without self-intersections; if empty, the mesh covers the whole target
 };
 
 int64_t cross(const Point& a, const Point& b, const Point& c) {
   return (int64_t{b.x} - a.x) * (int64_t{c.y} - a.y) - (int64_t{b.y} - a.y) * (int64_t{c.x} - a.x);
 }
 
-/// Which centres of a row of pixels, moved by an infinitesimal step to the right and a far smaller one up, are inside?
-/// Counts the outline's crossings of the ray from each centre to the right: an edge spans the ray's height if one end
-/// is above the centre and the other is not (the step up decides ends at its height); it is crossed if it passes
-/// strictly right of the centre (the step right decides edges through the centre).
+/// Returns which pixel centers of a row are inside, after moving them by an infinitesimal step to the right and a far smaller one up.
+/// Counts how often the outline crosses the ray from each center to the right. An edge spans the height of the ray if exactly one end is
+/// above the center (the step up decides for ends at that height). It is crossed if it passes strictly to the right of the center (the step
+/// to the right decides for edges through the center).
 std::vector<bool> inside_outline(const std::vector<Point>& outline, int y, int width) {
   std::vector<bool> toggles(static_cast<std::size_t>(width) + 1);
   const int64_t sy = int64_t{y} * 256 + 128;
@@ -32,7 +32,7 @@ std::vector<bool> inside_outline(const std::vector<Point>& outline, int y, int w
     Point a = outline[i], b = outline[(i + 1) % outline.size()];
     if ((a.y > sy) == (b.y > sy)) continue;
     if (a.y > b.y) std::swap(a, b);
-    // Centres x with (256·x + 128 − a.x)·(b.y − a.y) < (b.x − a.x)·(sy − a.y): all below some x.
+    // Centers x with (256·x + 128 − a.x)·(b.y − a.y) < (b.x − a.x)·(sy − a.y), which are all x below a bound.
     const int64_t dy = int64_t{b.y} - a.y, divisor = 256 * dy;
     const int64_t bound = (int64_t{b.x} - a.x) * (sy - a.y) + (int64_t{a.x} - 128) * dy;
     const int64_t below = bound / divisor + (bound % divisor > 0 ? 1 : 0);  // rounded up
@@ -64,7 +64,7 @@ class WatertightCheck {
         inside_ += want;
         if (count == (want ? 1.0f : 0.0f)) continue;
         ++(count < 1.0f ? holes_ : doubles_);
-        if (holes_ + doubles_ < 10) ADD_FAILURE() << "pixel " << x << ", " << y << " drawn " << count << " times instead of " << want;
+        if (holes_ + doubles_ < 10) ADD_FAILURE() << "pixel " << x << ", " << y << " drawn " << count << " times; expected " << want;
       }
     }
   }
@@ -82,8 +82,8 @@ class WatertightCheck {
   int64_t samples_ = 0, inside_ = 0, holes_ = 0, doubles_ = 0;
 };
 
-/// A fan round the centre; ring in counter-clockwise order with gaps below 180°. Triangles' windings at random: neither
-/// the fill rule nor anything else may depend on which way round a triangle was submitted.
+/// Returns a fan around the center. The ring is in counter-clockwise order with gaps below 180°. Triangles have random winding, because
+/// neither the fill rule nor anything else may depend on it.
 FixedMesh make_fan(Random& r, const Point& center, const std::vector<Point>& ring) {
   FixedMesh m{{center}, {}, ring};
   m.points.insert(m.points.end(), ring.begin(), ring.end());
@@ -97,7 +97,7 @@ FixedMesh make_fan(Random& r, const Point& center, const std::vector<Point>& rin
   return m;
 }
 
-/// Keeps of candidates, sorted by angle round the centre, what makes a proper fan; empty if that is none.
+/// Sorts the candidates by angle around the center and keeps those that form a valid fan. Returns an empty ring if that is not possible.
 std::vector<Point> make_ring(const Point& center, std::vector<Point> candidates) {
   const auto half = [&](const Point& p) { return p.y > center.y || (p.y == center.y && p.x > center.x) ? 0 : 1; };
   std::erase_if(candidates, [&](const Point& p) { return p == center; });
@@ -114,11 +114,11 @@ std::vector<Point> make_ring(const Point& center, std::vector<Point> candidates)
 }
 
 Point on_center(int x, int y) { return {x * 256 + 128, y * 256 + 128}; }
-Point snap_to(const Point& p, int grid) {  // grid 1: anywhere; 128: pixel centres and corners; 256: centres
+Point snap_to(const Point& p, int grid) {  // grid 1: anywhere; 128: pixel centers and corners; 256: centers
   return grid == 256 ? Point{(p.x & ~255) + 128, (p.y & ~255) + 128} : Point{p.x - p.x % grid, p.y - p.y % grid};
 }
 
-TEST(Watertight, RandomFans) {
+TEST(Watertight, RandomFansAreWatertight) {
   Random r(1);
   WatertightCheck check;
   for (int i = 0; i < effort(1500); ++i) {
@@ -136,7 +136,7 @@ TEST(Watertight, RandomFans) {
   EXPECT_GT(check.inside(), effort(1500) * 1000);
 }
 
-/// Zigzag between an upper and a lower row of vertices, left to right: a triangle strip.
+/// Returns a triangle strip that alternates between a lower and an upper row of vertices, from left to right.
 FixedMesh make_strip(Random& r, const std::vector<Point>& lower, const std::vector<Point>& upper) {
   FixedMesh m;
   for (std::size_t i = 0; i < lower.size(); ++i) {
@@ -156,13 +156,13 @@ FixedMesh make_strip(Random& r, const std::vector<Point>& lower, const std::vect
   return m;
 }
 
-TEST(Watertight, RandomStrips) {
+TEST(Watertight, RandomStripsAreWatertight) {
   Random r(2);
   WatertightCheck check;
   for (int i = 0; i < effort(1000); ++i) {
     const int grid = i % 3 == 0 ? 1 : i % 3 == 1 ? 128 : 256;
     std::vector<Point> lower, upper;
-    // Columns strictly from left to right, so that no triangle folds over; steps from a sub-pixel to 40 px.
+    // Columns are strictly ordered from left to right, so that no triangle folds over. The steps are between a sub-pixel and 40 px.
     for (int x = r.integer(-20 * 256, 0); x < 150 * 256;
          x += grid * r.integer(1, 1 << r.integer(0, 13 - static_cast<int>(std::bit_width(static_cast<unsigned>(grid)))))) {
       lower.push_back(snap_to({x, r.integer(-10 * 256, 60 * 256)}, grid));
@@ -185,7 +185,7 @@ TEST(Watertight, JitteredGridsCoverEverything) {
     FixedMesh m;
     for (int y = 0; y < n; ++y) {
       for (int x = 0; x < n; ++x) {
-        // Less than a quarter of a cell: triangles of a cell keep their orientation whichever way it is split.
+        // Less than a quarter of a cell, so that the triangles of a cell keep their orientation for either diagonal.
         const int jitter = i % 4 == 0 ? 0 : plane / 4 - 1;
         m.points.push_back({(x - 1) * plane + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0),
                             (y - 1) * plane + r.integer(-jitter, jitter) + (i % 2 ? 128 : 0)});
@@ -208,10 +208,10 @@ TEST(Watertight, JitteredGridsCoverEverything) {
 
 // ---- shared edges and vertices exactly on samples ----------------------------------------------------------------
 
-// The quad of facebookresearch/DRTK's issue 9, whose diagonal leads through samples: in either order of the second
-// triangle's vertices each of its 6x6 samples is drawn once. DRTK's samples are at whole coordinates, ours at halves;
-// 0.49993896484375 = 0.5 - 2^-14 and 6.50006103515625 = 6.5 + 2^-14.
-TEST(Watertight, TheQuadOfDrtkIssue9) {
+// The quad from issue 9 of facebookresearch/DRTK, whose diagonal passes through samples. Each of its 6x6 samples must be drawn once, for
+// either vertex order of the second triangle. Samples are at integer coordinates in DRTK and at half-integers here. 0.49993896484375 = 0.5
+// - 2^-14 and 6.50006103515625 = 6.5 + 2^-14.
+TEST(Watertight, QuadOfDrtkIssue9IsWatertight) {
   const std::array<glm::vec2, 4> corners{
       {{0.5f, 0.49993896484375f}, {0.5f, 6.5f}, {6.50006103515625f, 0.49993896484375f}, {6.50006103515625f, 6.5f}}};
   std::vector<glm::vec4> positions;
@@ -228,9 +228,9 @@ TEST(Watertight, TheQuadOfDrtkIssue9) {
   }
 }
 
-// A fan whose spokes all lead through pixel centres: from a centre by multiples of small whole steps. Far ends make the
-// barycentrics of the samples on a spoke quotients of large products, which float arithmetic rounds to either side.
-TEST(Watertight, SpokesThroughPixelCenters) {
+// All spokes of the fan pass through pixel centers: they lead from a center along multiples of small integer steps. With distant ends, the
+// barycentric coordinates of samples on a spoke are quotients of large products, which float arithmetic may round to either side.
+TEST(Watertight, SpokesThroughPixelCentersAreWatertight) {
   Random r(4);
   WatertightCheck check;
   for (int i = 0; i < effort(1500); ++i) {
@@ -247,13 +247,13 @@ TEST(Watertight, SpokesThroughPixelCenters) {
   EXPECT_GT(check.inside(), effort(1500) * 1000);
 }
 
-// The same with the middle vertex off the centres and far outside of the target, so that edges pass through samples
-// whose distances from both ends are unlike.
-TEST(Watertight, EdgesThroughPixelCentersFromAfar) {
+// The same for edges that are not between pixel centers: the ends are far outside of the target, at different distances from the samples on
+// the edge.
+TEST(Watertight, DistantEdgesThroughPixelCentersAreWatertight) {
   Random r(5);
   WatertightCheck check;
   for (int i = 0; i < effort(600); ++i) {
-    // Quads over the target's width and height, split along diagonals through centre q with odd steps.
+    // Quads that cover the width and height of the target, split along diagonals through center q with odd steps.
     const Point q = on_center(r.integer(32, 96), r.integer(32, 96));
     const int dx = 2 * r.integer(0, 400) + 1, dy = 2 * r.integer(0, 400) + 1, sign = r.coin() ? 1 : -1;
     const int far = 40 * 256 / std::max(1, std::min(dx, dy) / 256 + 1);
@@ -272,15 +272,15 @@ TEST(Watertight, EdgesThroughPixelCentersFromAfar) {
   EXPECT_GT(check.inside(), 10000);
 }
 
-// Horizontal, vertical and diagonal edges through centres, at the far end of the largest target: 8191.5 and its like
-// have no bits left for a float barycentric's rounding.
-TEST(Watertight, AxisAlignedAndDiagonalEdgesAtLargeCoordinates) {
+// Horizontal, vertical and diagonal edges through pixel centers, at the far end of the largest target. A float barycentric has no bits left
+// for rounding at coordinates such as 8191.5.
+TEST(Watertight, AxisAlignedAndDiagonalEdgesAtLargeCoordinatesAreWatertight) {
   Random r(6);
   WatertightCheck check;
   constexpr int kWidth = 16384, kHeight = 16;
   for (int i = 0; i < effort(24); ++i) {
     FixedMesh m;
-    // Rows at centres' heights, columns at centres, each cell split by a 45° diagonal through centres.
+    // Rows and columns pass through pixel centers. A 45° diagonal through pixel centers splits each cell.
     const int step = 4 << (i % 3);
     const int columns = kWidth / step + 2, rows = kHeight / step + 3;
     for (int y = 0; y < rows; ++y) {
@@ -303,10 +303,9 @@ TEST(Watertight, AxisAlignedAndDiagonalEdgesAtLargeCoordinates) {
   check.report();
 }
 
-// ---- through perspective and across clip planes ----------------------------------------------------------------
+// ---- perspective and clip planes -------------------------------------------------------------------------------
 
-// A closed surface round the eye covers every pixel of every picture exactly once, however its triangles cross near
-// guard planes and w = 0.
+// A closed surface around the eye must cover every pixel exactly once, even if its triangles cross the near plane, guard planes and w = 0.
 struct Surface {
   std::vector<glm::dvec3> points;
   std::vector<uint32_t> indices;
@@ -319,7 +318,7 @@ Surface octahedron() {
 
 Surface tetrahedron() { return {{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}}; }
 
-// Every triangle into four; shared edges share their middles.
+// Splits every triangle into four. Shared edges share their midpoints.
 Surface subdivide(const Surface& s) {
   Surface out{s.points, {}};
   std::vector<std::pair<uint64_t, uint32_t>> middles;
@@ -351,9 +350,9 @@ struct Projection {
   ClipDepth depth;
   double far = 1e5;
 
-  glm::vec4 operator()(const glm::dvec3& p) const {  // p in eye space, looking along −z
+  glm::vec4 operator()(const glm::dvec3& p) const {  // p is in eye space, looking along −z
     const double w = -p.z;
-    double z = near;  // reversed, infinitely far: z/w = near/w
+    double z = near;  // reversed Z with an infinite far plane: z/w = near/w
     if (depth == ClipDepth::negative_one_to_one) z = (w * (far + near) - 2 * far * near) / (far - near);
     return {static_cast<float>(p.x * scale_x), static_cast<float>(p.y * scale_y), static_cast<float>(z), static_cast<float>(w)};
   }
@@ -389,13 +388,13 @@ struct Counts {
   }
 };
 
-TEST(WatertightClipped, ClosedSurfacesRoundTheEye) {
+TEST(WatertightClipped, ClosedSurfacesAroundTheEyeCoverEverything) {
   Random r(7);
   Counts counts;
   const std::array<Surface, 4> surfaces{tetrahedron(), octahedron(), subdivide(octahedron()), subdivide(subdivide(octahedron()))};
   for (int i = 0; i < effort(3000); ++i) {
     const Surface& surface = surfaces[static_cast<std::size_t>(i % 4)];
-    // The eye somewhere well inside of a convex body: near = 0.001 lies inside of it too.
+    // The eye is well inside of a convex body, and so is the near plane at 0.001.
     const glm::dmat3 turn = random_rotation(r);
     const glm::dvec3 eye(r.real(-0.15, 0.15), r.real(-0.15, 0.15), r.real(-0.15, 0.15));
     const double size = r.magnitude(1.0, 1000.0);
@@ -412,16 +411,16 @@ TEST(WatertightClipped, ClosedSurfacesRoundTheEye) {
   EXPECT_GT(counts.clipped, static_cast<uint64_t>(effort(3000)));
 }
 
-// A plane that passes near the eye, as a fan with its middle in view and its rim far behind and beside: cut by the near
-// plane in view, by w = 0 and by the guard planes. It covers what the plane covers: every sample whose ray meets it
-// between near and far, decided at 4 points 1/256 px from the sample; where these disagree the sample may be either.
+// A plane that passes near the eye, drawn as a fan whose rim is far behind and to the side. It is cut by the near plane, by w = 0 and by
+// the guard planes. The fan must cover every sample whose ray meets the plane between near and far. This is evaluated at 4 points 1/256 px
+// from the sample; if they disagree, either result is accepted.
 class PlaneFan {
  public:
   PlaneFan(Random& r, const Projection& projection, int spokes) : project_(projection) {
     const glm::dmat3 turn = random_rotation(r);
     const glm::dvec3 middle(r.real(-0.5, 0.5) / project_.scale_x, r.real(-0.5, 0.5) / project_.scale_y, -1.0);
-    // Half of the fans have their middle in view, the others beyond near or behind the eye, so that near cuts narrow
-    // wedges.
+    // Half of the fans have their center in view. For the others it is in front of the near plane or behind the eye, so that the near plane
+    // cuts narrow wedges.
     const double depth = (r.coin() ? r.magnitude(2.0, 200.0) : r.real(-5.0, 1.0)) * project_.near;
     normal_ = turn[2];
     offset_ = glm::dot(normal_, middle * depth);
@@ -429,7 +428,7 @@ class PlaneFan {
     const int n = spokes;
     const double start = r.real(0.0, 6.0);
     for (int i = 0; i < n; ++i) {
-      // A rim so far away that its outline, foreshortened, is beyond far, or the plane's horizon itself.
+      // The rim is so far away that its outline is beyond the far plane or is the horizon of the plane.
       const double angle = start + (i + r.real(0.0, 0.8)) * 2 * 3.14159265358979 / n;
       points_.push_back(middle * depth + r.magnitude(1e7, 1e9) * (std::cos(angle) * turn[0] + std::sin(angle) * turn[1]));
     }
@@ -444,10 +443,10 @@ class PlaneFan {
   }
   const std::vector<uint32_t>& indices() const { return indices_; }
 
-  // Distance along the view direction at window position (x, y) of a size × size target is between near and far?
+  // Returns whether the distance along the view direction is between near and far, at window position (x, y) of a size × size target.
   bool covers(double x, double y, double size) const {
     const glm::dvec3 ray((2 * x / size - 1) / project_.scale_x, (2 * y / size - 1) / project_.scale_y, -1.0);
-    const double w = offset_ / glm::dot(normal_, ray);  // the ray has w = 1 at its end
+    const double w = offset_ / glm::dot(normal_, ray);  // the end of the ray has w = 1
     return w >= project_.near && w <= project_.far;
   }
 
@@ -470,9 +469,9 @@ FanResult draw_fans(uint64_t seed, int fans, double most_spokes, bool complain) 
   constexpr int kSize = 128;
   for (int i = 0; i < fans; ++i) {
     Projection projection = random_projection(r, 0.1);
-    projection.depth = ClipDepth::negative_one_to_one;  // its far plane hides the rim
+    projection.depth = ClipDepth::negative_one_to_one;  // the far plane hides the rim
     projection.far = 1e4;
-    const PlaneFan fan(r, projection, static_cast<int>(r.magnitude(4.0, most_spokes)));  // from 4 on no gap reaches 180°
+    const PlaneFan fan(r, projection, static_cast<int>(r.magnitude(4.0, most_spokes)));  // with at least 4 spokes, no gap reaches 180°
     Image<glm::vec4> image(kSize, kSize);
     result.counts.clipped += count_coverage(image, fan.positions(), fan.indices(), state_of(projection)).clipped;
     bool any_inside = false, any_outside = false;
@@ -503,7 +502,7 @@ FanResult draw_fans(uint64_t seed, int fans, double most_spokes, bool complain) 
   return result;
 }
 
-TEST(WatertightClipped, FansAcrossNearAndGuardPlanes) {
+TEST(WatertightClipped, FansAcrossNearAndGuardPlanesAreWatertight) {
   const FanResult f = draw_fans(8, effort(1200), 60, true);
   EXPECT_EQ(f.counts.holes, 0);
   EXPECT_EQ(f.counts.doubles, 0);
@@ -511,10 +510,10 @@ TEST(WatertightClipped, FansAcrossNearAndGuardPlanes) {
   EXPECT_LT(f.undecided, f.inside / 100);
 }
 
-// Up to thousands of spokes: wedges narrower than 1/256 px, which snapping can turn over, as it can any sliver. There
-// two neighbours overlap by less than a sub-pixel, and a sample in the overlap is drawn more than once; that is what
-// snapped positions mean, in D3D too. It is rare, and there are never holes.
-TEST(WatertightClipped, FansOfSlivers) {
+// With thousands of spokes, wedges become narrower than 1/256 px, and snapping can invert them like any sliver. Adjacent triangles then
+// overlap by less than a sub-pixel, and a sample in the overlap is drawn more than once. This is inherent to snapped positions, as in
+// Direct3D. It is rare, and holes never occur.
+TEST(WatertightClipped, SliverFansHaveNoHolesAndFewDoubleHits) {
   const FanResult f = draw_fans(9, effort(1200), 3000, false);
   EXPECT_EQ(f.counts.holes, 0);
   EXPECT_LE(f.counts.doubles, f.counts.samples / 1000000 + 2);
