@@ -22,7 +22,7 @@ float hold(float x, float low, float high) {  // NaN becomes low
 }
 
 uint8_t encode_unorm8(float x) {
-  return static_cast<uint8_t>(std::lround(static_cast<double>(hold(x, 0.0f, 1.0f)) * 255.0));  // the product is exact, and never half-way
+  return static_cast<uint8_t>(std::lround(static_cast<double>(hold(x, 0.0f, 1.0f)) * 255.0));  // the product is exact and never a tie
 }
 
 float decode_half(uint16_t h) {
@@ -34,7 +34,7 @@ float decode_half(uint16_t h) {
   return static_cast<float>((h & 0x8000) != 0 ? -size : size);
 }
 
-// To the nearest half, ties to even, infinities and all beyond them held to the largest finite half.
+// Rounds to the nearest half, ties to even. Infinities and values that are too large become the largest finite half.
 uint16_t encode_half(float x) {
   const uint32_t sign = std::bit_cast<uint32_t>(x) >> 16 & 0x8000u;
   if (std::isnan(x)) return static_cast<uint16_t>(sign | 0x7e00u | (std::bit_cast<uint32_t>(x) >> 13 & 0x3ffu));
@@ -42,7 +42,7 @@ uint16_t encode_half(float x) {
   if (size < 0x1p-14) return static_cast<uint16_t>(sign | static_cast<uint32_t>(std::nearbyint(size * 0x1p24)));
   const int exponent = std::ilogb(size);
   const auto mantissa =
-      static_cast<uint32_t>(std::nearbyint(std::ldexp(size, 10 - exponent)));  // 1024 … 2048: 2048 carries into the exponent
+      static_cast<uint32_t>(std::nearbyint(std::ldexp(size, 10 - exponent)));  // 1024 to 2048; 2048 carries into the exponent
   return static_cast<uint16_t>(sign | ((static_cast<uint32_t>(exponent + 14) << 10) + mantissa));
 }
 
@@ -171,7 +171,7 @@ Framebuffer Framebuffer::resolved() const {
     for (std::size_t a = 0; a < color_formats_.size(); ++a) {
       std::vector<glm::vec4> c;
       for (int s = 0; s < samples_; ++s) c.push_back(color(a, {pixel.x, pixel.y, s}));
-      while (c.size() > 1) {  // neighbours two by two
+      while (c.size() > 1) {  // add adjacent pairs
         for (std::size_t i = 0; i < c.size() / 2; ++i) c[i] = c[2 * i] + c[2 * i + 1];
         c.resize(c.size() / 2);
       }
@@ -186,7 +186,7 @@ Framebuffer Framebuffer::resolved() const {
 Point center_of(int x, int y) { return {int64_t{x} * 256 + 128, int64_t{y} * 256 + 128}; }
 
 Point position_of(const Sample& s, int samples) {
-  // In 1/16 px, from the Vulkan specification's table of standard sample locations.
+  // In 1/16 px, from the standard sample locations in the Vulkan specification.
   static const std::vector<std::pair<int, int>> two{{12, 12}, {4, 4}}, four{{6, 2}, {14, 6}, {2, 10}, {10, 14}},
       eight{{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
   if (samples == 1) return center_of(s.x, s.y);
@@ -210,7 +210,7 @@ namespace {
 constexpr float kGuard = 16384.0f;  // px
 constexpr float kMinW = 0x1p-96f;
 
-// Clip space → window, for one viewport and depth range.
+// Maps clip space to the window for one viewport and depth range.
 struct Transform {
   float half_width, half_height, center_x, center_y;
   float z_scale, z_bias;
@@ -237,8 +237,8 @@ Transform make_transform(const Rect& r, const DepthState& d) {
   return t;
 }
 
-// x/w·half + center in 1/256 px, to the nearest whole number. Within 2^-20 of a tie the pipeline may go either way; there
-// its arithmetic is followed: quotient and remainder, product and its error, sum and its error.
+// Rounds x/w·half + center to the nearest multiple of 1/256 px. Within 2^-20 of a tie, the pipeline may round either way. In that case,
+// this function follows its arithmetic: quotient and remainder, product and its error, sum and its error.
 int64_t snap(float x, float w, float half, float center) {
   const long double exact =
       (static_cast<long double>(x) / static_cast<long double>(w) * static_cast<long double>(half) + static_cast<long double>(center)) *
@@ -282,7 +282,7 @@ bool needs_clip(const Transform& t, const DepthState& d, const glm::vec4& p) {
   return !inside_guard || p.w < kMinW;
 }
 
-// Are all three vertices beyond one plane of the view volume?
+// Returns whether all three vertices are outside of the same plane of the view volume.
 bool all_outside(const DepthState& d, const std::array<const ShadedVertex*, 3>& v) {
   const auto all = [&](auto beyond) { return beyond(v[0]->pos_clip) && beyond(v[1]->pos_clip) && beyond(v[2]->pos_clip); };
   if (all([](const glm::vec4& p) { return p.x < -p.w; }) || all([](const glm::vec4& p) { return p.x > p.w; })) return true;
@@ -293,8 +293,8 @@ bool all_outside(const DepthState& d, const std::array<const ShadedVertex*, 3>& 
 
 // ---- clipping ----------------------------------------------------------------------------------------------------
 
-// A corner of the polygon that clipping leaves: a position, as which mixture of the triangle's vertices, and which vertex
-// it is, if one.
+// A corner of a clipped polygon: its position, its weights with respect to the vertices of the triangle, and the vertex that it equals, if
+// any.
 struct ClipPoint {
   std::array<double, 4> p;
   std::array<double, 3> weight;
@@ -302,10 +302,10 @@ struct ClipPoint {
 };
 using Polygon = std::vector<ClipPoint>;
 
-// Inside is a·x + b·y + c·z + d·w + k ≥ 0.
+// A point is inside if a·x + b·y + c·z + d·w + k ≥ 0.
 struct Plane {
   double a, b, c, d, k;
-  std::optional<std::array<double, 3>> by_vertex{};  // a clip distance: what it is at the triangle's vertices
+  std::optional<std::array<double, 3>> by_vertex{};  // for a clip distance: its values at the vertices of the triangle
 
   double operator()(const ClipPoint& q) const {
     if (!by_vertex) return a * q.p[0] + b * q.p[1] + c * q.p[2] + d * q.p[3] + k;
@@ -314,7 +314,7 @@ struct Plane {
   }
 };
 
-// In the order in which they cut.
+// Returns the planes in clipping order.
 std::vector<Plane> clip_planes(const Transform& t, const DepthState& state) {
   std::vector<Plane> planes{{0, 0, 0, 1, -static_cast<double>(kMinW)}};
   if (!state.clamp) {
@@ -328,7 +328,7 @@ std::vector<Plane> clip_planes(const Transform& t, const DepthState& state) {
   return planes;
 }
 
-// (a·p − b·q) / (a − b) of everything in p and q.
+// Returns (a·p − b·q) / (a − b) for all members of p and q.
 ClipPoint mix(double a, const ClipPoint& p, double b, const ClipPoint& q) {
   ClipPoint r{};
   for (std::size_t i = 0; i < 4; ++i) r.p[i] = (a * p.p[i] - b * q.p[i]) / (a - b);
@@ -337,10 +337,10 @@ ClipPoint mix(double a, const ClipPoint& p, double b, const ClipPoint& q) {
   return r;
 }
 
-// Where the edge from an inside to an outside point meets the plane.
+// Returns the intersection of the plane with the edge from an inside point to an outside point.
 ClipPoint meet(const Plane& plane, const ClipPoint& in, const ClipPoint& out) { return mix(plane(in), out, plane(out), in); }
 
-// Where it meets the least w: first w = 0, then the little way back.
+// Returns the intersection of the edge with w = kMinW: first intersects it with w = 0, and then moves back along the edge.
 ClipPoint meet_least_w(const ClipPoint& in, const ClipPoint& out) {
   ClipPoint r = mix(in.p[3], out, out.p[3], in);
   const double back = static_cast<double>(kMinW) / (in.p[3] - out.p[3]);
@@ -366,7 +366,7 @@ Polygon cut(const Plane& plane, bool is_least_w, const Polygon& polygon) {
   return kept;
 }
 
-// Of a line between two points what lies inside: two points or none.
+// Returns the part of a line that is inside of the plane: two points or none.
 Polygon cut_line(const Plane& plane, bool is_least_w, const Polygon& line) {
   if (line.empty()) return {};
   const bool in0 = plane(line[0]) >= 0, in1 = plane(line[1]) >= 0;
@@ -379,7 +379,7 @@ int64_t snap_corner(double ndc, float half, float center) {
   return std::llrint((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0);
 }
 
-// The polygon's corner in the window. A corner that is a vertex of the triangle keeps the bits it has unclipped.
+// Returns the corner of a polygon in the window. A corner that is a vertex of the triangle has the same bits as without clipping.
 Corner clip_corner(const Transform& t, const ClipPoint& c, const std::array<const ShadedVertex*, 3>& v, const ShaderFacts& facts,
                    std::size_t provoking) {
   Corner r;
@@ -393,7 +393,7 @@ Corner clip_corner(const Transform& t, const ClipPoint& c, const std::array<cons
   r.varyings.resize(facts.interpolations.size());
   for (std::size_t i = 0; i < r.varyings.size(); ++i) {
     std::array<double, 3> weight = c.weight;
-    if (facts.interpolations[i] == Interpolation::linear) {  // linear in the window: weights in proportion to w
+    if (facts.interpolations[i] == Interpolation::linear) {  // linear in the window: weights are proportional to w
       for (std::size_t k = 0; k < 3; ++k) weight[k] = c.weight[k] * static_cast<double>(v[k]->pos_clip.w) / c.p[3];
     }
     double sum = 0.0;
@@ -403,10 +403,10 @@ Corner clip_corner(const Transform& t, const ClipPoint& c, const std::array<cons
   return r;
 }
 
-// ---- a triangle in the window --------------------------------------------------------------------------------------
+// ---- triangles in the window -----------------------------------------------------------------------------------------
 
 struct Box {
-  int64_t x0, y0, x1, y1;  // pixels, half open
+  int64_t x0, y0, x1, y1;  // in pixels; x1 and y1 are exclusive
   bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
@@ -422,7 +422,7 @@ Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
   return b;
 }
 
-// The pixels with a sample in the closed bounding box, as far as the samples' own box tells.
+// Returns the pixels that may have a sample in the closed bounding box, based on the bounding box of the sample positions.
 Box covered_box(const WindowTriangle& t, int samples) {
   if (t.is_line) {
     const int64_t margin = t.width / 2 + 3;
@@ -448,8 +448,8 @@ int64_t cross(int64_t ax, int64_t ay, int64_t bx, int64_t by) { return ax * by -
 
 int64_t turn(const Corner& a, const Corner& b, const Corner& c) { return cross(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y); }
 
-// The fan of a clipped polygon: from the first corner from which all pieces turn one way (none: from the last corner, without
-// the pieces that turn against the whole).
+// Splits a clipped polygon into a fan. The apex is the first corner for which all triangles have the same orientation. If there is none,
+// the apex is the last corner, and triangles with the opposite orientation are dropped.
 std::vector<std::array<Corner, 3>> fan(const std::vector<Corner>& polygon) {
   std::vector<std::array<Corner, 3>> pieces;
   for (std::size_t apex = 0; apex < polygon.size(); ++apex) {
@@ -475,7 +475,7 @@ bool culls_face(CullMode mode, bool front) {
   return mode == CullMode::front_and_back || (mode == CullMode::front && front) || (mode == CullMode::back && !front);
 }
 
-// Polygon offset, GL 4.6 section 14.6.5. dz1, dz2: depth of corners 1 and 2 less that of corner 0.
+// Polygon offset, OpenGL 4.6, section 14.6.5. dz1 and dz2 are the depths of corners 1 and 2 relative to corner 0.
 float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTriangle& t, double dz1, double dz2) {
   double offset = 0.0;
   const auto dx = [&](std::size_t i) { return static_cast<double>(t.corner[i].x - t.corner[0].x); };
@@ -503,7 +503,7 @@ enum class Fate { drawn, degenerate, wrong_face, no_sample };
 
 bool covers_none_of_few(const WindowTriangle& t, const Box& box);
 
-// Face, order of corners and depth of a triangle whose corners are given as submitted.
+// Determines the facing, corner order and depth of a triangle whose corners are in submission order.
 std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format, int samples,
                                                      const std::array<Corner, 3>& submitted, std::size_t provoking,
                                                      std::optional<bool> faces_front = {}) {
@@ -522,7 +522,8 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
     std::swap(c[1], c[2]);
     t.area = -t.area;
   }
-  // The corner of smallest depth comes first: of equals the first, going counter-clockwise from the first submitted.
+  // The corner with the smallest depth comes first. If several are equal, the first one in counter-clockwise order, starting from the first
+  // submitted corner, is chosen.
   const auto nearest = std::min_element(c.begin(), c.end(), [](const Corner& a, const Corner& b) { return a.z < b.z; });
   std::rotate(c.begin(), nearest, c.end());
   if (samples == 1 && covers_none_of_few(t, intersect(covered_box(t, samples), allowed))) return {Fate::no_sample, t};
@@ -536,16 +537,16 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   return {Fate::drawn, t};
 }
 
-// ---- a pixel of a triangle -----------------------------------------------------------------------------------------
+// ---- coverage and depth of a pixel -------------------------------------------------------------------------------------
 
-// ---- lines: the diamond-exit rule as it is written (OpenGL 4.6, section 14.5.1) --------------------------------------
+// ---- lines: the diamond-exit rule (OpenGL 4.6, section 14.5.1) ---------------------------------------------------------
 
 __extension__ typedef __int128 Wide;
 struct WidePoint {
   Wide x, y;
 };
 
-// Does the segment meet the open diamond |x| + |y| < h? Each of its four sides leaves an open interval of the segment.
+// Returns whether the segment intersects the open diamond |x| + |y| < h. Each of the four sides restricts the segment to an open interval.
 bool meets_diamond(const WidePoint& a, const WidePoint& b, Wide h) {
   Wide low_n = -1, low_d = 1, high_n = 2, high_d = 1;
   for (const auto& [sx, sy] : {std::pair{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}) {
@@ -565,7 +566,7 @@ bool meets_diamond(const WidePoint& a, const WidePoint& b, Wide h) {
   return low_n * high_d < high_n * low_d;
 }
 
-// Does the line, one pixel wide, produce the pixel? Both ends are moved by (-e, -e^2).
+// Returns whether a line of width 1 produces the pixel. Both endpoints are moved by (-e, -e^2).
 bool produces(const Point& from, const Point& to, int64_t x, int64_t y) {
   const bool near_by = std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)}) < int64_t{1} << 19;
   const int bits = near_by ? 40 : 34;
@@ -582,7 +583,7 @@ bool produces(const Point& from, const Point& to, int64_t x, int64_t y) {
 bool line_covers(const WindowTriangle& t, int64_t x, int64_t y) {
   const int64_t dx = t.to.x - t.from.x, dy = t.to.y - t.from.y;
   const bool y_major = std::abs(dy) > std::abs(dx);
-  // Far from the line there is nothing to ask.
+  // Reject pixels far from the line early.
   const auto along = static_cast<double>(y_major ? y * 256 + 128 - t.from.y : x * 256 + 128 - t.from.x);
   const double slope = static_cast<double>(y_major ? dx : dy) / static_cast<double>(y_major ? dy : dx);
   const double across = static_cast<double>(y_major ? x * 256 + 128 - t.from.x : y * 256 + 128 - t.from.y) - slope * along;
@@ -596,8 +597,8 @@ bool line_covers(const WindowTriangle& t, int64_t x, int64_t y) {
   return false;
 }
 
-// Is the point inside? One on an edge belongs to the side where the point lies that is a hair to the right of
-// it and, less than that, above it.
+// Returns whether a point is inside. A point on an edge is treated as if it were slightly further to the right and, by a smaller amount,
+// further up.
 bool covers(const WindowTriangle& t, const Point& at) {
   if (t.is_line) return line_covers(t, at.x >> 8, at.y >> 8);
   if (t.is_point) return at.x >= t.low.x && at.x < t.high.x && at.y >= t.low.y && at.y < t.high.y;
@@ -605,21 +606,21 @@ bool covers(const WindowTriangle& t, const Point& at) {
     const Corner& a = t.corner[i];
     const Corner& b = t.corner[(i + 1) % 3];
     const int64_t e = cross(b.x - a.x, b.y - a.y, at.x - a.x, at.y - a.y);
-    const int64_t to_right = -(b.y - a.y), upwards = b.x - a.x;  // how e changes
+    const int64_t to_right = -(b.y - a.y), upwards = b.x - a.x;  // changes of e for these steps
     const bool inside = e != 0 ? e > 0 : to_right != 0 ? to_right > 0 : upwards > 0;
     if (!inside) return false;
   }
   return true;
 }
 
-// a·b − c·d after Kahan.
+// a·b − c·d by Kahan's method.
 float determinant(float a, float b, float c, float d) {
   const float product = c * d;
   const float lost = std::fma(-c, d, product);
   return std::fma(a, b, -product) + lost;
 }
 
-// Extent of a triangle up to which its edge functions are exact whole numbers in the depth sum.
+// Maximum extent of triangles whose edge functions are exact integers in the depth sum.
 constexpr int64_t kExactExtent = 63 * 256;
 
 bool is_small(const WindowTriangle& t) {
@@ -628,7 +629,7 @@ bool is_small(const WindowTriangle& t) {
   return xh - xl <= kExactExtent && yh - yl <= kExactExtent;
 }
 
-// Does a small triangle, of the pixels' centres in a box of at most 4 x 4, cover none?
+// Returns whether a small triangle covers none of the pixel centers in a box of at most 4 x 4 pixels.
 bool covers_none_of_few(const WindowTriangle& t, const Box& box) {
   if (!is_small(t) || box.x1 - box.x0 > 4 || box.y1 - box.y0 > 4) return false;
   for (int64_t y = box.y0; y < box.y1; ++y) {
@@ -646,7 +647,7 @@ float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, floa
   return hold(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, hold(t.z_max, low, high));
 }
 
-// The two determinants E1 = d × e2 and E2 = e1 × d in floats, d from corner 0 to the point.
+// Returns the determinants E1 = d × e2 and E2 = e1 × d in float, where d is the vector from corner 0 to the point.
 std::pair<float, float> float_determinants(const WindowTriangle& t, const Point& at) {
   const auto& c = t.corner;
   const auto f = [](int64_t v) { return static_cast<float>(v); };
@@ -654,7 +655,7 @@ std::pair<float, float> float_determinants(const WindowTriangle& t, const Point&
   return {determinant(dx, f(c[2].y - c[0].y), dy, f(c[2].x - c[0].x)), determinant(f(c[1].x - c[0].x), dy, f(c[1].y - c[0].y), dx)};
 }
 
-// The window depth that is tested.
+// Returns the window depth for the depth test.
 float tested_depth(const WindowTriangle& t, const DepthState& state, const Point& at) {
   if (t.is_point) return depth_sum(t, state, 0.0f, 0.0f);
   if (!t.is_line && is_small(t)) {
@@ -756,7 +757,7 @@ uint8_t stencil_result(const StencilFace& f, StencilOp op, uint8_t stored) {
 
 namespace {
 
-// The plane in which corner 1 lies one step of s and corner 2 one step of t away from where the point coordinate is (0, 0).
+// Returns a plane in which corner 1 is one step in s and corner 2 one step in t away from the origin of the point coordinate.
 Surface point_surface(const WindowTriangle& t) {
   const auto f = [](int64_t v) { return static_cast<float>(v); };
   const bool from_top = t.origin == PointOrigin::upper_left;
@@ -798,7 +799,7 @@ Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> int
   l.e2x = static_cast<float>(c[2]->x - c[0]->x);
   l.e2y = static_cast<float>(c[2]->y - c[0]->y);
   l.area = determinant(l.e1x, l.e2y, l.e1y, l.e2x);
-  // A power of two takes the largest 1/w to [1, 2) (a denormal one to below 1).
+  // Scale by a power of two so that the largest 1/w is in [1, 2), or below 1 if it is a denormal.
   const float largest = std::max({c[0]->inv_w, c[1]->inv_w, c[2]->inv_w});
   const int exponent = std::max(std::ilogb(largest), -127);
   l.q0 = std::ldexp(c[0]->inv_w, -exponent);
@@ -816,8 +817,8 @@ Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> int
 
 namespace {
 
-// The sum of three numbers, and the second's and third's shares in it; by how much the rounded shares miss a whole 1 is
-// shared out again.
+// Returns the sum of three numbers and the fractions of the second and the third. The error by which the rounded fractions do not add up to
+// 1 is distributed proportionally.
 std::array<float, 3> share(const std::array<float, 3>& n) {
   const float sum = n[0] + (n[1] + n[2]);
   const float inverse = 1.0f / sum;
@@ -841,7 +842,7 @@ SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const Dept
   const std::array<float, 3> linear = share({e0, e1, e2});
   const std::array<float, 3> perspective = share({e0 * l.q0, e1 * l.q1, e2 * l.q2});
   p.weights = {perspective[1], perspective[2], linear[1], linear[2], perspective[0], 1.0f / perspective[0]};
-  // Shaders are told the depth by float determinants, also for triangles whose tested depth is by whole numbers.
+  // Shaders receive the depth from float determinants, even for triangles whose tested depth uses exact integers.
   const auto [z1, z2] = t.is_point ? std::pair{0.0f, 0.0f} : float_determinants(t, at);
   p.z = depth_sum(t, state, z1, z2);
   return p;
@@ -874,7 +875,7 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
     }
     const std::size_t step = state.topology == Topology::triangles ? 3 : 1;
     for (std::size_t i = 0; i + 3 <= run.size(); i += step) {
-      std::array<uint32_t, 3> t{run[i], run[i + 1], run[i + 2]};  // table 13.2: first and last vertex provoke, but in a fan
+      std::array<uint32_t, 3> t{run[i], run[i + 1], run[i + 2]};  // table 13.2: the first or last vertex is provoking, except in a fan
       if (state.topology == Topology::triangle_fan) t = {run[i + 1], run[i + 2], run[0]};
       const bool turned = state.topology == Topology::triangle_strip && i % 2 == 1;
       if (state.provoking == ProvokingVertex::first) {
@@ -898,7 +899,7 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
   return out;
 }
 
-// ---- the loops -----------------------------------------------------------------------------------------------------------
+// ---- the main loops ------------------------------------------------------------------------------------------------------
 
 std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, const ShadedVertex& v) {
   ++counts_.primitives_in;
@@ -942,7 +943,7 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
     ++counts_.culled_degenerate;
     return {};
   }
-  // Some pixel whose samples' box meets the rectangle must be allowed.
+  // The rectangle must intersect the sample bounding box of a drawable pixel.
   const Box allowed = allowed_pixels(target_, state);
   WindowTriangle closed = t;
   closed.is_point = false;
@@ -956,7 +957,7 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
   return {t};
 }
 
-// A line: one of the diamond-exit rule, or with several samples a pixel the two halves of a rectangle.
+// Returns a line that follows the diamond-exit rule or, with several samples per pixel, the two halves of a rectangle.
 std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const Corner& a, const Corner& b, const std::vector<float>& flat,
                                                   bool front) {
   const int64_t dx = b.x - a.x, dy = b.y - a.y;
@@ -999,7 +1000,7 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
   return halves;
 }
 
-// The lines or points that a polygon is drawn as.
+// Returns the lines or points as which a polygon is drawn.
 std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, const std::vector<Corner>& corners,
                                                      const std::vector<int>& vertex, const std::array<const ShadedVertex*, 3>& v,
                                                      const std::vector<float>& flat) {
@@ -1038,7 +1039,7 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
     ++counts_.culled_non_finite;
     return {};
   }
-  bool beyond_all = false, beyond_any = false;  // of a clip distance
+  bool beyond_all = false, beyond_any = false;  // for a single clip distance
   for (std::size_t k = 0; k < v[0]->clip_distances.size(); ++k) {
     const auto beyond = [k](const ShadedVertex* s) { return !(s->clip_distances[k] >= 0.0f); };
     beyond_all |= std::all_of(v.begin(), v.end(), beyond);
@@ -1085,7 +1086,7 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
     for (std::size_t i = 0; i < (line ? 2 : 3); ++i) corners.push_back(project(transform, *v[i]));
   }
   const std::vector<float>& flat = v[provoking]->varyings;
-  if (line || state.polygon_mode != PolygonMode::fill || corners_are_cut) {  // all corners carry the provoking vertex's flat values
+  if (line || state.polygon_mode != PolygonMode::fill || corners_are_cut) {  // all corners have the flat values of the provoking vertex
     for (Corner& c : corners) {
       for (std::size_t i = 0; i < c.varyings.size(); ++i) {
         if (facts.interpolations[i] == Interpolation::flat) c.varyings[i] = flat[i];
@@ -1126,7 +1127,7 @@ void Renderer::rasterize(const DrawState& state, const ShaderFacts& facts, const
 void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Surface& surface, int x, int y,
                           const FragmentFunction& shade) {
   std::optional<FragmentResult> of_pixel;
-  Point centroid = center_of(x, y);  // unless a sample is not covered: then the first that is
+  Point centroid = center_of(x, y);  // if only some samples are covered, replaced by the first of them
   std::vector<Point> covered;
   for (int i = 0; i < target_.samples(); ++i) {
     const Point p = position_of({x, y, i}, target_.samples());
@@ -1171,7 +1172,7 @@ bool Renderer::depth_passes(const DrawState& state, const Sample& s, double z) c
   return !state.depth.test || target_.depth_format() == DepthFormat::none || compares(state.depth.compare, z, target_.depth(s));
 }
 
-// Stencil, then depth; the stencil remembers what became of the sample.
+// Performs the stencil test and then the depth test. The stencil operation depends on the results of both.
 bool Renderer::tests_pass(const DrawState& state, bool front, const Sample& s, double z) {
   if (!state.stencil || !has_stencil(target_.depth_format())) return depth_passes(state, s, z);
   const StencilFace& f = front ? state.stencil->front : state.stencil->back;

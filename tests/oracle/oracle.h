@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The oracle: the whole pipeline once more, by the plainest loops, for tests to compare the tile path with, byte for
-// byte. It has the full state of a draw and shares with src/raster only the words (draw_state.h, target.h); with
-// src/shading the contract by which a shader is called. One pixel, one triangle, one fragment at a time, in order:
-// no lanes, tiles, bins, stepping, deferral or bounds on depth.
+// The oracle is an independent implementation of the whole pipeline in the simplest possible loops, which tests compare with the tile path
+// byte for byte. It supports the full draw state. It shares only type definitions with src/raster (draw_state.h, target.h), and the shader
+// interface with src/shading. It processes one pixel, one triangle and one fragment at a time, in order, without lanes, tiles, bins,
+// incremental evaluation, deferred shading or depth bounds.
 //
-// Where a result depends on the order of float operations, the oracle follows what is written down in shading/pixel.h
-// (weights and components), raster/visibility/visibility.h and raster/pipeline/pipeline_data.h (depth) and raster/primitives/clip.h
-// (clipping).
+// If a result depends on the order of float operations, the oracle follows the specifications in shading/pixel.h (weights and components),
+// raster/visibility/visibility.h and raster/pipeline/pipeline_data.h (depth) and raster/primitives/clip.h (clipping).
 #pragma once
 
 #include <array>
@@ -23,7 +22,7 @@
 
 namespace halfspace::oracle {
 
-/// What was done; the fields of PassStatistics that do not depend on how a pass does its work.
+/// Counts of the work done. Contains the fields of PassStatistics that do not depend on how a pass organizes its work.
 struct Counts {
   uint64_t vertices_shaded = 0;
   uint64_t primitives_in = 0;
@@ -33,20 +32,20 @@ struct Counts {
   uint64_t culled_degenerate = 0;
   uint64_t culled_no_sample = 0;
   uint64_t clipped = 0;
-  uint64_t triangles = 0;  ///< triangles of which some sample may be drawn
+  uint64_t triangles = 0;  ///< triangles that may cover a sample
   uint64_t samples_passed = 0;
-  bool has_lines = false;  ///< then what lines leave no sample is not counted as the pass does
+  bool has_lines = false;  ///< if set, primitives without samples are counted differently from a pass
   std::map<uint32_t, uint64_t> queries;
 };
 
 /// A sample of a pixel.
 struct Sample {
-  int x = 0, y = 0;  ///< the pixel, in window coordinates
+  int x = 0, y = 0;  ///< window coordinates of the pixel
   int number = 0;
 };
 
-/// Colour and depth images in the targets' formats and layout (top row first), read and written by window coordinates; with
-/// several samples an image for each, one after the other.
+/// Color and depth images in the formats and layout of the targets (top row first), accessed by window coordinates. With several samples,
+/// there is one image per sample, stored one after the other.
 class Framebuffer {
  public:
   Framebuffer(int width, int height, std::vector<ColorFormat> colors, DepthFormat depth, int samples = 1);
@@ -60,17 +59,17 @@ class Framebuffer {
   void clear_color(std::size_t attachment, glm::vec4 value);
   void clear_depth(float value, uint8_t stencil);
 
-  /// A sample's colour, decoded.
+  /// Returns the decoded color of a sample.
   glm::vec4 color(std::size_t attachment, const Sample& s) const;
   void set_color(std::size_t attachment, const Sample& s, glm::vec4 value);
-  /// A sample's depth as the format holds it: a code, or for floats the depth itself.
+  /// Returns the depth of a sample as stored in the format: a code, or the depth itself for float formats.
   double depth(const Sample& s) const;
   void set_depth(const Sample& s, double value);
   uint8_t stencil(const Sample& s) const;
   void set_stencil(const Sample& s, uint8_t value);
-  /// What the format holds for a window depth in [0, 1].
+  /// Returns the stored value for a window depth in [0, 1].
   double depth_value(float z) const;
-  /// One sample a pixel: the mean of the colours, depth and stencil of the first.
+  /// Returns a framebuffer with one sample per pixel: the mean of the colors, and the depth and stencil of the first sample.
   Framebuffer resolved() const;
 
   std::vector<std::vector<std::byte>> color_bytes;
@@ -84,20 +83,20 @@ class Framebuffer {
   DepthFormat depth_format_;
 };
 
-/// A point of the window in 1/256 px.
+/// A point in the window, in 1/256 px.
 struct Point {
   int64_t x = 0, y = 0;
 };
 Point center_of(int x, int y);
-/// Where a sample lies, by the standard positions for that many samples.
+/// Returns the position of a sample, from the standard positions for the given sample count.
 Point position_of(const Sample& s, int samples);
 
-/// A vertex after the vertex function.
+/// The output of the vertex function.
 struct ShadedVertex {
   glm::vec4 pos_clip{};
   float point_size = 1.0f;
   std::vector<float> clip_distances;
-  bool has_bounds = false;  ///< low and high, in normalized device coordinates, instead of a size
+  bool has_bounds = false;  ///< low and high, in NDC, are used instead of a size
   glm::vec2 low{}, high{};
   std::vector<float> varyings;
 };
@@ -105,60 +104,61 @@ struct ShadedVertex {
 /// A corner of a triangle in the window.
 struct Corner {
   int64_t x = 0, y = 0;  ///< 1/256 px
-  float z = 0.0f;        ///< window depth before offset and clamp
+  float z = 0.0f;        ///< window depth before offset and clamping
   float inv_w = 0.0f;
   std::vector<float> varyings;
 };
 
-/// A triangle in the window, counter-clockwise (y up), the corner of smallest depth first.
+/// A triangle in the window. Corners are in counter-clockwise order (y up) and begin with the one of smallest depth.
 struct WindowTriangle {
   std::array<Corner, 3> corner;
-  std::vector<float> flat;  ///< the provoking vertex's varyings
+  std::vector<float> flat;  ///< varyings of the provoking vertex
   bool front = false;
-  int64_t area = 0;                ///< twice the area, (1/256 px)²
-  float z0 = 0, z_max = 0;         ///< smallest and largest depth, offset included
+  int64_t area = 0;                ///< twice the area, in (1/256 px)²
+  float z0 = 0, z_max = 0;         ///< smallest and largest depth, including the offset
   float z_step1 = 0, z_step2 = 0;  ///< depth per unit of E1 and E2
 
-  bool is_line = false;  ///< then one from `from` to `to`, so many pixels wide, and corner 2 lies beside corner 0
+  bool is_line = false;  ///< a line of `width` pixels from `from` to `to`; corner 2 is to the side of corner 0
   Point from, to;
   int width = 1;
-  bool is_point = false;  ///< then a rectangle, of which corner 0 is the point and low … high (half open) the extent
+  bool is_point = false;  ///< a point or sprite at corner 0 that covers the rectangle from low to high (exclusive)
   Point low, high;
   PointOrigin origin = PointOrigin::upper_left;
 };
 
-/// What the fragment function answered.
+/// The output of the fragment function.
 struct FragmentResult {
   std::vector<glm::vec4> colors;
   bool keep = true;
   float depth = 0.0f;
 };
 
-/// A shader as the untyped part of the oracle sees it.
+/// Properties of a shader, for the parts of the oracle that do not depend on its type.
 struct ShaderFacts {
   bool has_fragment = true;
   bool writes_depth = false;
   std::span<const Interpolation> interpolations;
 };
 
-/// Everything interpolation needs of a triangle. Vertex 0 is the one of smallest 1/w.
+/// Input of interpolation for one triangle. Vertex 0 is the one with the smallest 1/w.
 struct Surface {
   TriangleLanes<float> lanes;
   std::vector<float> value0, delta1, delta2;
 };
 
-/// A point of a triangle's surface: where and with which weights.
+/// A point on the surface of a triangle and its interpolation weights.
 struct SurfacePoint {
   Weights<float> weights;
-  float dx, dy;  ///< from vertex 0, 1/256 px
-  float z;       ///< window depth, as shaders are told
+  float dx, dy;  ///< from vertex 0, in 1/256 px
+  float z;       ///< window depth as passed to shaders
 };
 
 Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations);
 SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, const Point& at);
 float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, std::size_t component);
 
-/// What a draw reads. A vertex's attributes are its row's; their last instance_components come from the instance's row.
+/// Input of a draw. Attributes come from the row of the vertex, except for the last instance_components, which come from the row of the
+/// instance.
 template <class S>
 struct Input {
   using Row = typename S::template Attributes<float>;
@@ -171,7 +171,7 @@ struct Input {
 };
 inline constexpr uint32_t kRestart = 0xffffffffu;
 
-/// The triangles that indices make, each with its provoking vertex first or last as the state says.
+/// Returns the triangles that the indices form. The provoking vertex is first or last, as the state requires.
 std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, bool restart, const DrawState& state);
 
 class Renderer {
@@ -188,12 +188,13 @@ class Renderer {
   template <class S>
   void draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance);
 
-  // at: where the pixel is looked at; centroid: where its centroid varyings are
+  // at: where the pixel is evaluated; centroid: where its centroid varyings are evaluated
   using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Point& at, const Point& centroid)>;
 
-  // A submitted point in the window, or none.
+  // Returns a submitted point in the window; empty if it is culled.
   std::vector<WindowTriangle> window_points(const DrawState& state, const ShadedVertex& v);
-  // A submitted triangle's pieces in the window (of a line the third vertex is the second): none if culled, several if clipped.
+  // Returns the pieces of a submitted triangle in the window: none if it is culled, several if it is clipped. For a line, the third vertex
+  // equals the second.
   std::vector<WindowTriangle> window_triangles(const DrawState& state, const ShaderFacts& facts,
                                                const std::array<const ShadedVertex*, 3>& v);
   std::vector<WindowTriangle> window_line(const DrawState& state, const Corner& a, const Corner& b, const std::vector<float>& flat,
@@ -214,7 +215,7 @@ class Renderer {
   Counts counts_;
 };
 
-/// Every pixel of `from` sent through the function (as Pass::post does) into a new framebuffer without depth.
+/// Applies the function to every pixel of `from`, like Pass::post, and writes the results to a new framebuffer without depth.
 template <class F>
 Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format) {
   Framebuffer to(from.width(), from.height(), {format}, DepthFormat::none);
@@ -224,7 +225,7 @@ Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format)
   return to;
 }
 
-// ---- the part that calls the shader ----------------------------------------------------------------------------
+// ---- code that depends on the shader type ----------------------------------------------------------------------
 
 namespace detail {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Passes at the edge of what is allowed, compared with the oracle byte for byte, or with what must hold by itself.
+// Tests passes at the limits of valid input. Results are compared with the oracle byte for byte, or with known properties.
 #include <gtest/gtest.h>
 
 #include <xmmintrin.h>
@@ -28,7 +28,7 @@ void add_draw(Scene& scene, const Rows& rows, const std::vector<uint32_t>& indic
   scene.draws.push_back(make_draw(ColorShader{}, "ColorShader", rows, indices, state, VertexLayout::tight, IndexLayout::wide));
 }
 
-// Random triangles of a few kinds over the scene.
+// Adds random triangles of several kinds.
 void add_random(Scene& scene, uint64_t seed, const DrawState& state = {}) {
   Random random(seed);
   Geometry g;
@@ -51,7 +51,7 @@ void expect_as_oracle(const Scene& scene) {
   }
 }
 
-TEST(EdgeCases, TargetsOfOnePixelToTheLargest) {
+TEST(EdgeCases, TargetsFromOnePixelToTheLargestMatchTheOracle) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 2}, {3, 1}, {16384, 1}, {1, 16384}, {16383, 2}, {65, 63}}) {
     Scene s = scene_of(width, height, ColorFormat::rgba16f, DepthFormat::d24);
     add_random(s, static_cast<uint64_t>(width * 3 + height));
@@ -60,7 +60,7 @@ TEST(EdgeCases, TargetsOfOnePixelToTheLargest) {
   }
 }
 
-TEST(EdgeCases, ViewportsBeyondTheTarget) {
+TEST(EdgeCases, ViewportsBeyondTheTargetMatchTheOracle) {
   for (const Rect& viewport : {Rect{-16384, -16384, 16384, 16384}, Rect{-8000, -9000, 16384, 16384}, Rect{16384, 16384, 16384, 16384},
                                Rect{40, 30, 1, 1}, Rect{-7, -9, 200, 3}, Rect{69, 49, 300, 300}, Rect{-100, 20, 101, 5}}) {
     Scene s = scene_of(70, 50);
@@ -69,7 +69,7 @@ TEST(EdgeCases, ViewportsBeyondTheTarget) {
   }
 }
 
-TEST(EdgeCases, ScissorsEmptyPartialAndOutside) {
+TEST(EdgeCases, EmptyPartialAndOutsideScissorsMatchTheOracle) {
   for (const Rect& scissor : {Rect{0, 0, 0, 0}, Rect{10, 10, 0, 20}, Rect{10, 10, 20, 0}, Rect{-30, -30, 10, 10}, Rect{70, 50, 5, 5},
                               Rect{-5, -5, 20, 17}, Rect{17, 33, 1, 1}, Rect{-16384, -16384, 16384, 16384}, Rect{7, 9, 41, 33}}) {
     Scene s = scene_of(70, 50);
@@ -78,7 +78,7 @@ TEST(EdgeCases, ScissorsEmptyPartialAndOutside) {
   }
 }
 
-TEST(EdgeCases, NothingToDraw) {
+TEST(EdgeCases, EmptyDrawsMatchTheOracle) {
   for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
     Scene s = scene_of(70, 50);
     s.color.clear_value = glm::vec4(0.25f, 0.5f, 0.75f, 1.0f);
@@ -88,10 +88,10 @@ TEST(EdgeCases, NothingToDraw) {
         make_draw(ColorShader{}, "sequential", rows, std::vector<uint32_t>(count, 0), {}, VertexLayout::tight, IndexLayout::none));
     expect_as_oracle(s);
   }
-  expect_as_oracle(scene_of(33, 17));  // a pass without draws clears
+  expect_as_oracle(scene_of(33, 17));  // a pass without draws only clears
 }
 
-TEST(EdgeCases, EveryTriangleDegenerate) {
+TEST(EdgeCases, DegenerateTrianglesDrawNothing) {
   Scene s = scene_of(40, 40);
   const Rows rows{{{-1, -1, 0, 1}, {1, 0, 0}}, {{1, 1, 0, 1}, {0, 1, 0}}, {{0, 0, 0, 1}, {0, 0, 1}}, {{0.0001f, 0, 0, 1}, {1, 1, 1}}};
   add_draw(s, rows, {0, 0, 0, 0, 1, 1, 0, 1, 2, 2, 3, 2, 2, 2, 3});
@@ -101,7 +101,7 @@ TEST(EdgeCases, EveryTriangleDegenerate) {
   EXPECT_EQ(statistics.samples_passed, 0u);
 }
 
-TEST(EdgeCases, AHundredDrawsInOnePass) {
+TEST(EdgeCases, AHundredDrawsInOnePassMatchTheOracle) {
   Scene s = scene_of(100, 60, ColorFormat::srgb8a8, DepthFormat::d16);
   for (uint64_t d = 0; d < 100; ++d) {
     DrawState state;
@@ -112,7 +112,7 @@ TEST(EdgeCases, AHundredDrawsInOnePass) {
   expect_as_oracle(s);
 }
 
-TEST(EdgeCases, VerticesThatManyTrianglesShare) {
+TEST(EdgeCases, SharedVerticesMatchTheOracle) {
   Scene s = scene_of(64, 64);
   Random random(5);
   Rows rows;
@@ -127,19 +127,19 @@ TEST(EdgeCases, VerticesThatManyTrianglesShare) {
   EXPECT_EQ(run_pass(s, {}, 1).statistics.vertices_shaded, 12u);
 }
 
-TEST(EdgeCases, EqualDepthsOfAnotherShader) {
+TEST(EdgeCases, EqualPassesAtTheDepthsOfAnEarlierDraw) {
   for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
     Scene s = scene_of(150, 90, ColorFormat::rgba8, format);
     add_random(s, 11);
-    Scene depth_first = s;  // the same triangles again by another draw with EQUAL: the picture of the last draw must win everywhere
+    Scene depth_first = s;  // draws the same triangles again with EQUAL: the last draw must win at every pixel
     add_random(depth_first, 11, {.depth = {.compare = CompareOp::equal}});
     expect_as_oracle(depth_first);
     const PassStatistics once = run_pass(s, {}, 1).statistics, twice = run_pass(depth_first, {}, 1).statistics;
-    EXPECT_GE(twice.samples_passed - once.samples_passed, 150u * 90u);  // every visible pixel passes EQUAL
+    EXPECT_GE(twice.samples_passed - once.samples_passed, 150u * 90u);  // every visible pixel passes
   }
 }
 
-TEST(EdgeCases, ReversedDepth) {
+TEST(EdgeCases, ReversedDepthMatchesTheOracle) {
   for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
     Scene s = scene_of(120, 80, ColorFormat::rgba32f, format);
     s.depth.clear_value = 0.0f;
@@ -149,9 +149,8 @@ TEST(EdgeCases, ReversedDepth) {
   }
 }
 
-TEST(EdgeCases, CornersAtTheEyeAndBeyondAllBounds) {
-  // Vertices at and about w = 0, edges that lead through the eye, magnitudes up to the largest floats: nothing may crash, and
-  // bytes stay equal.
+TEST(EdgeCases, ExtremePositionsMatchTheOracle) {
+  // Vertices at and near w = 0, edges through the eye, and magnitudes up to the largest floats must not crash and must give the same bytes.
   const std::array<float, 12> values{0.0f, -0.0f, 1.0f, -1.0f, 1e-30f, -1e-20f, 1e-38f, 3e38f, -3e38f, 1e20f, 0.5f, -2.0f};
   for (const bool clamp : {false, true}) {
     Scene s = scene_of(64, 48, ColorFormat::rgba8);
@@ -169,7 +168,7 @@ TEST(EdgeCases, CornersAtTheEyeAndBeyondAllBounds) {
   }
 }
 
-TEST(EdgeCases, LoadOpDontCareUnderAFullScreenDraw) {
+TEST(EdgeCases, LoadOpDontCareUnderAFullScreenDrawMatchesTheOracle) {
   Scene s = scene_of(77, 41);
   s.color.load = s.depth.load = LoadOp::dont_care;
   s.color_before.assign(77 * 41 * 4, std::byte{0x5a});
@@ -178,7 +177,7 @@ TEST(EdgeCases, LoadOpDontCareUnderAFullScreenDraw) {
   expect_as_oracle(s);
 }
 
-TEST(EdgeCases, StoreOpDontCareLeavesTheImages) {
+TEST(EdgeCases, StoreOpDontCareDoesNotChangeTheImages) {
   const Rows rows{{{-1, -1, 0, 1}, {1, 1, 1}}, {{3, -1, 0, 1}, {1, 1, 1}}, {{-1, 3, 0, 1}, {1, 1, 1}}};
   Image<glm::u8vec4> color(70, 50);
   Image<float> depth(70, 50);
@@ -192,7 +191,7 @@ TEST(EdgeCases, StoreOpDontCareLeavesTheImages) {
   EXPECT_EQ(depth, Image<float>(70, 50));
 }
 
-TEST(EdgeCases, APassRunsAgainAfterItsRun) {
+TEST(EdgeCases, APassCanBeReused) {
   const Rows rows{{{-1, -1, 0, 1}, {1, 0, 0}}, {{1, -1, 0, 1}, {0, 1, 0}}, {{0, 1, 0, 1}, {0, 0, 1}}};
   Image<glm::u8vec4> color(70, 50);
   Pass pass(70, 50, rgba8_target(color), {.format = DepthFormat::d32f});
@@ -206,7 +205,7 @@ TEST(EdgeCases, APassRunsAgainAfterItsRun) {
   EXPECT_EQ(color, first);
 }
 
-TEST(EdgeCases, NoBudgetAtAllStillFlushesAndEnds) {
+TEST(EdgeCases, ZeroBudgetFlushesAndTerminates) {
   Scene s = scene_of(70, 50);
   for (const int seed : {14, 15, 16}) add_random(s, static_cast<uint64_t>(seed));
   const PassResult whole = run_pass(s, {}, 1);
@@ -215,8 +214,8 @@ TEST(EdgeCases, NoBudgetAtAllStillFlushesAndEnds) {
   EXPECT_GE(flushed.statistics.flushes, 1u);
 }
 
-// Flushes between draws of every kind, to targets that have no image of their own.
-TEST(EdgeCases, FlushesKeepWhatHasNoImage) {
+// Flushes occur between draws of every kind, with attachments that have no image.
+TEST(EdgeCases, FlushesPreserveAttachmentsWithoutImages) {
   for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f}) {
     for (const DepthFormat depth : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
       Scene s = scene_of(90, 70, format, depth);
@@ -235,7 +234,7 @@ TEST(EdgeCases, FlushesKeepWhatHasNoImage) {
   }
 }
 
-TEST(EdgeCases, MoreChunksThanIdsFlush) {
+TEST(EdgeCases, FlushesWhenChunkIdsRunOut) {
   Scene s = scene_of(64, 64);
   Random random(30);
   Geometry g;
@@ -248,18 +247,18 @@ TEST(EdgeCases, MoreChunksThanIdsFlush) {
   EXPECT_EQ(difference(s, run_oracle(s).pictures, flushed.pictures), "");
 }
 
-TEST(EdgeCases, TheCallersFloatModeMakesNoDifference) {
+TEST(EdgeCases, TheFloatModeOfTheCallerHasNoEffect) {
   Scene s = scene_of(90, 70, ColorFormat::rgba32f, DepthFormat::d32f);
   add_random(s, 31, {.depth = {.range_near = 0.1f, .range_far = 0.7f}, .offset = {.slope = 1.0f, .constant = 3.0f}});
   const PassResult expected = run_pass(s, {}, 2);
   for (const unsigned mode :
-       {0x1f80u | 0x8040u, 0x1f80u | 0x2000u, 0x1f80u | 0x4000u, 0x1f80u | 0x6000u}) {  // no denormals; down; up; to zero
+       {0x1f80u | 0x8040u, 0x1f80u | 0x2000u, 0x1f80u | 0x4000u, 0x1f80u | 0x6000u}) {  // no denormals; round down; up; toward zero
     const unsigned before = _mm_getcsr();
     _mm_setcsr(mode);
     const PassResult actual = run_pass(s, {}, 2);
     const unsigned after = _mm_getcsr();
     _mm_setcsr(before);
-    EXPECT_EQ(after & 0xffc0u, mode & 0xffc0u);  // and the pass leaves it as it was
+    EXPECT_EQ(after & 0xffc0u, mode & 0xffc0u);  // the pass restores the mode
     EXPECT_EQ(difference(s, expected.pictures, actual.pictures), "") << "mode " << mode;
   }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random scenes through the tile path and the oracle, and through the tile path with other threads, tiles, chunks and
-// budgets, deferred and immediate: always the same bytes.
+// Draws random scenes with the tile path and the oracle, and with the tile path at other thread counts, tile sizes, chunk sizes and
+// budgets, deferred and immediate. The results must be identical byte for byte.
 //
-// HALFSPACE_SEED=n   runs the one scene n of each theme and prints it (choose the theme with --gtest_filter)
-// HALFSPACE_DRAW=k   with it: only draw k of the scene
+// HALFSPACE_SEED=n   runs only scene n of each theme and prints it (select the theme with --gtest_filter)
+// HALFSPACE_DRAW=k   in addition, runs only draw k of the scene
 // HALFSPACE_STATES=n runs n scenes of each theme instead of kScenes
 #include <gtest/gtest.h>
 
@@ -33,8 +33,8 @@ PassOptions random_options(Random& random) {
   return o;
 }
 
-// Other ways to do the same work. Every scene meets the shading at once, a flush in mid-pass and more threads than cores;
-// over the scenes every combination comes.
+// Returns alternative options that must give the same result. Every scene is drawn with immediate shading, a flush during the pass, and
+// more threads than cores. Over all scenes, every combination occurs.
 std::vector<Variant> variants(uint64_t seed) {
   Random random(seed ^ 0x5eed);
   std::vector<Variant> v;
@@ -67,28 +67,28 @@ std::string statistics_difference(const PassStatistics& s, const oracle::Counts&
   return out;
 }
 
-// What went wrong with a scene, or nothing.
+// Returns a description of the first error in a scene; empty if there is none.
 std::string check_scene(const Scene& scene, uint64_t seed) {
   const OracleResult oracle = run_oracle(scene);
   const PassResult base = run_pass(scene, {}, 1);
   std::string wrong = difference(scene, oracle.pictures, base.pictures);
-  if (!wrong.empty()) return "tile path against oracle: " + wrong;
+  if (!wrong.empty()) return "tile path differs from the oracle: " + wrong;
   wrong = statistics_difference(base.statistics, oracle.counts);
-  if (!wrong.empty()) return "statistics against oracle: " + wrong;
+  if (!wrong.empty()) return "statistics differ from the oracle: " + wrong;
   for (const Variant& v : variants(seed)) {
     const PassResult other = run_pass(scene, v.options, v.threads);
     wrong = difference(scene, base.pictures, other.pictures);
     if (!wrong.empty()) return describe(v.options, v.threads) + ": " + wrong;
     if (v.threads == 1 || seed % 4 != 0) continue;
     if (run_pass(scene, v.options, 1).statistics != other.statistics)
-      return describe(v.options, v.threads) + ": statistics differ from one thread's";
+      return describe(v.options, v.threads) + ": statistics differ from those of one thread";
   }
   return {};
 }
 
 class RandomScenes : public testing::TestWithParam<Theme> {};
 
-TEST_P(RandomScenes, SameBytesByOracleThreadsTilesChunksAndFlushes) {
+TEST_P(RandomScenes, MatchTheOracleForAnyThreadsTilesChunksAndFlushes) {
   const Theme theme = GetParam();
   const char* one = std::getenv("HALFSPACE_SEED");
   const char* many = std::getenv("HALFSPACE_STATES");

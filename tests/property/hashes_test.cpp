@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hashes of the pixels of fixed scenes: every compiler, lane width, instruction set (x86-64-v3 and later) and optimisation level
-// must give the same.
+// Hashes of the pixels of fixed scenes, which must be equal for every compiler, lane width, instruction set (x86-64-v3 and later) and
+// optimization level.
 #include <gtest/gtest.h>
 
 #include "property/random_scene.h"
@@ -151,7 +151,7 @@ std::vector<NamedScene> all_scenes() {
   return scenes;
 }
 
-TEST(Hashes, PixelsAreThoseOfTheCommittedFile) {
+TEST(Hashes, PixelsMatchTheCommittedHashes) {
   for (const NamedScene& s : all_scenes()) {
     const Pictures pictures = run_pass(s.scene, {}, 2).pictures;
     EXPECT_TRUE(expect_hash(s.name, hash_of(pictures)))
@@ -160,7 +160,7 @@ TEST(Hashes, PixelsAreThoseOfTheCommittedFile) {
   expect_no_other_hashes();
 }
 
-TEST(Hashes, ScenesAreThoseOfTheOracle) {
+TEST(Hashes, ScenesMatchTheOracle) {
   for (const NamedScene& s : all_scenes()) {
     EXPECT_EQ(difference(s.scene, run_oracle(s.scene).pictures, run_pass(s.scene, {}, 2).pictures), "") << s.name;
   }

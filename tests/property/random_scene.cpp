@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// A point in window coordinates (px), depth 0 … 1 between near and far, and w.
+// A point in window coordinates (px), with a depth from 0 (near) to 1 (far), and w.
 struct WindowPoint {
   float x, y, z, w;
 };
@@ -23,7 +23,7 @@ glm::vec4 to_clip(const Rect& v, ClipDepth clip, const WindowPoint& p) {
   return {x * p.w, y * p.w, z * p.w, p.w};
 }
 
-// Places points in a viewport.
+// Adds random geometry in a viewport.
 class Placer {
  public:
   Placer(const Rect& viewport, ClipDepth clip, Random& random, Geometry& out) : v_(viewport), clip_(clip), random_(random), out_(out) {}
@@ -42,7 +42,7 @@ class Placer {
     const float z = std::clamp(p.z + random_.real(-0.2f, 0.2f), 0.0f, 1.0f);
     return {x, y, z, random_.once_in(3) ? p.w : depth_w()};
   }
-  // Half of all triangles are orthographic, or nearly: equal w and equal z are cases of their own.
+  // Half of all triangles are orthographic or almost orthographic, because equal w and equal z are special cases.
   float depth_w() { return random_.once_in(2) ? 1.0f : random_.real(0.1f, 10.0f); }
 
   uint32_t add(const WindowPoint& p) { return add(to_clip(v_, clip_, p)); }
@@ -83,10 +83,10 @@ class Placer {
       default: triangle(a, b, {0.5f * (a.x + b.x), 0.5f * (a.y + b.y), b.z, 1.0f}); break;
     }
   }
-  // Corners on pixel centres, pixel edges or whole sub-pixels: samples lie exactly on edges and corners.
+  // Vertices on pixel centers, pixel edges or quarters of a pixel, so that samples are exactly on edges and vertices.
   void on_the_grid() {
     const float step = random_.pick({0.5f, 1.0f, 0.25f, 4.0f});
-    const bool sloped = random_.once_in(2);  // depth at a corner must be the corner's, not a little more
+    const bool sloped = random_.once_in(2);  // at a vertex, depth must equal that of the vertex
     const float z = random_.pick({0.25f, 0.5f, 0.75f});
     const auto point = [&] {
       const WindowPoint p = anywhere(0.1f);
@@ -157,7 +157,7 @@ class Placer {
       }
     }
   }
-  // Just small enough for edge functions in 32 bits, or just not.
+  // A size just below or just above the limit for 32-bit edge functions.
   void about_63_px() {
     const WindowPoint a = anywhere(0.0f);
     const float extent = 63.0f + random_.pick({-1.0f, -1.0f / 256.0f, 0.0f, 1.0f / 256.0f});
@@ -248,7 +248,7 @@ StencilFace random_stencil_face(Random& random) {
   return f;
 }
 
-// What comes after coverage: stencil, masks, a state for each attachment, dual sources, samples, queries.
+// Adds state for the operations after coverage: stencil, masks, per-attachment state, dual-source blending, samples and queries.
 void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawState& s) {
   if (!random.once_in(3)) {
     s.stencil.emplace();
@@ -274,7 +274,7 @@ void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawS
   if (random.once_in(3)) s.query = static_cast<uint32_t>(random.below(3));
 }
 
-// Mostly a test that something can pass against the cleared depth.
+// Returns a random depth state, usually one with which fragments can pass against the cleared depth.
 DepthState random_depth(float clear_value, Random& random) {
   DepthState d;
   d.test = !random.once_in(8);
@@ -315,7 +315,7 @@ Kind random_kind(Theme theme, Random& random) {
         {Kind::behind_the_eye, Kind::crossing_depth, Kind::beyond_guard, Kind::steep, Kind::tiny_w, Kind::huge, Kind::non_finite});
   }
   if (random.once_in(2))
-    return random.pick({Kind::whole_target, Kind::medium, Kind::medium, Kind::mesh, Kind::fan, Kind::huge});  // what fills pixels
+    return random.pick({Kind::whole_target, Kind::medium, Kind::medium, Kind::mesh, Kind::fan, Kind::huge});  // they cover many pixels
   return static_cast<Kind>(random.below(kKinds));
 }
 
@@ -328,7 +328,7 @@ glm::mat4 random_matrix(Random& random) {
   return m;
 }
 
-// Fills the images that the pass loads. Floats are finite and not too large, depths in [0, 1].
+// Fills the images that the pass loads, with finite and moderate floats and with depths in [0, 1].
 void fill_images(Scene& s, Random& random) {
   std::vector<ColorFormat> formats{s.color.format};
   for (const ColorTarget& c : s.more_colors) formats.push_back(c.format);
@@ -347,7 +347,7 @@ void fill_images(Scene& s, Random& random) {
   s.depth_before = f.depth_bytes;
 }
 
-// Positions, and numbers for all other attributes.
+// Returns rows with the given positions and random values for all other attributes.
 template <class A>
 std::vector<A> random_rows(const std::vector<glm::vec4>& positions, Random& random) {
   std::vector<A> rows;
@@ -359,7 +359,7 @@ std::vector<A> random_rows(const std::vector<glm::vec4>& positions, Random& rand
   return rows;
 }
 
-// Strips, fans, restarts, instances and a base vertex.
+// Returns a draw of strips, fans, restarts, instances or with a base vertex.
 template <class S>
 SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, DrawState state, Random& random) {
   using A = typename S::template Attributes<float>;
@@ -371,7 +371,7 @@ SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, 
   for (std::size_t i = 0; input.restart && i < input.indices.size(); ++i) {
     if (random.once_in(random.pick({2, 5, 20}))) input.indices[i] = oracle::kRestart;
   }
-  if (!input.vertices.empty() && random.once_in(3)) {  // some rows before those that are used, or none but by a negative base
+  if (!input.vertices.empty() && random.once_in(3)) {  // add unused rows in front, or use a negative base
     state.base_vertex = random.pick({1, 5, -3});
     const auto extra = static_cast<std::size_t>(std::max(state.base_vertex, 0));
     input.vertices.insert(input.vertices.begin(), extra, input.vertices.front());
@@ -394,7 +394,7 @@ SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, cons
   using A = typename S::template Attributes<float>;
   std::vector<A> rows = random_rows<A>(g.positions, random);
   const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
-  if (HasFragmentFunction<S> && random.once_in(4)) {  // without an index list: vertices are repeated, and one or two may be left over
+  if (HasFragmentFunction<S> && random.once_in(4)) {  // without an index list, vertices are repeated, and one or two may be left over
     std::vector<A> repeated;
     std::vector<uint32_t> sequence;
     for (const uint32_t i : g.indices) repeated.push_back(rows[i]);
@@ -440,7 +440,7 @@ SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawSta
   }
 }
 
-// Points of all sizes, by state and by shader, and sprites that give their bounds.
+// Returns a draw of points, whose size comes from the state or the shader, or of sprites with explicit bounds.
 template <class S>
 SceneDraw points_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
   state.topology = Topology::points;
@@ -465,7 +465,7 @@ SceneDraw random_points(const Scene& scene, const Geometry& g, const DrawState& 
   }
 }
 
-// Lines, outlines and clip distances.
+// Returns a draw of lines, outlines or triangles with clip distances.
 template <class S>
 SceneDraw lines_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
   if (random.once_in(2)) {
@@ -519,7 +519,7 @@ SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Ge
   }
 }
 
-// Stencil, more colours, more samples.
+// Adds a stencil buffer, more color attachments and more samples.
 void add_attachments(Theme theme, bool depth_only, Random& random, Scene& s) {
   s.depth.format = random.pick({DepthFormat::d24s8, DepthFormat::d32fs8, DepthFormat::d32fs8, DepthFormat::d24});
   s.depth.stencil_clear_value = static_cast<uint8_t>(random.pick({0, 0, 1, 128, 255}));
@@ -568,7 +568,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
   glm::mat4 matrix(1.0f);
   for (int d = 0; d < draws; ++d) {
     DrawState state = random_state(s, theme, random);
-    if (d == 0 || !random.once_in(3)) {  // else the last draw's geometry once more: equal depths
+    if (d == 0 || !random.once_in(3)) {  // otherwise draw the last geometry again, for equal depths
       g = {};
       matrix = random_matrix(random);
       const Rect viewport = viewport_of(s, state);

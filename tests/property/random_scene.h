@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random scenes: triangles of every kind that is hard to draw, under random states.
+// Random scenes with all kinds of difficult triangles and random states.
 #pragma once
 
 #include "property/scene.h"
@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// What a scene is mostly made of.
+/// The main feature that a scene tests.
 enum class Theme { opaque, blended, discarding, depth_writing, faces, clipped, many_draws, primitives, operations, samples, points, lines };
 inline constexpr Theme kThemes[] = {Theme::opaque,     Theme::blended, Theme::discarding, Theme::depth_writing,
                                     Theme::faces,      Theme::clipped, Theme::many_draws, Theme::primitives,
@@ -16,10 +16,10 @@ inline constexpr Theme kThemes[] = {Theme::opaque,     Theme::blended, Theme::di
 inline constexpr const char* kThemeNames[] = {"Opaque",    "Blended",    "Discarding", "DepthWriting", "Faces",  "Clipped",
                                               "ManyDraws", "Primitives", "Operations", "Samples",      "Points", "Lines"};
 
-/// The scene of a seed: the same on every machine and compiler.
+/// Returns the scene for a seed. It is identical on every machine and compiler.
 Scene random_scene(Theme theme, uint64_t seed);
 
-/// Positions in clip space and triangles over them.
+/// Positions in clip space and the indices of triangles.
 struct Geometry {
   std::vector<glm::vec4> positions;
   std::vector<uint32_t> indices;
@@ -47,7 +47,7 @@ enum class Kind {
 };
 inline constexpr int kKinds = 17;
 
-/// Adds triangles of a kind, placed in a viewport.
+/// Adds triangles of a kind to a viewport.
 void add_triangles(Kind kind, const Rect& viewport, ClipDepth clip, Random& random, Geometry& out);
 
 }  // namespace halfspace

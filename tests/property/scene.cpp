@@ -18,7 +18,7 @@ constexpr const char* kCompareNames[] = {"never", "less", "equal", "less_equal",
 
 std::size_t pixels_of(const Scene& s) { return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height); }
 
-// A component's value, for messages and to find the worst pixel.
+// Returns the value of a component, for messages and for finding the worst pixel.
 double value_at(const std::vector<std::byte>& bytes, std::size_t index, std::size_t size, bool is_float) {
   const std::byte* p = bytes.data() + index * size;
   if (size == 1) return static_cast<double>(std::to_integer<int>(*p));
@@ -37,7 +37,8 @@ double value_at(const std::vector<std::byte>& bytes, std::size_t index, std::siz
   return v;
 }
 
-// One picture against another: components values of `size` bytes a pixel.
+// Compares two pictures with `components` values of `size` bytes per pixel. Returns a description of the difference; empty if they are
+// equal.
 std::string compare(const char* name, const Scene& scene, const std::vector<std::byte>& expected, const std::vector<std::byte>& actual,
                     std::size_t components, std::size_t size, bool is_float) {
   if (expected == actual) return {};
@@ -85,7 +86,7 @@ void lay_out_vertices(const float* rows, std::size_t count, int components, Vert
   view.vertex_count = count;
   view.components = components;
   const auto n = static_cast<std::size_t>(components);
-  // Streams are runs of components: all in one, or cut in two (which need not be where a member ends).
+  // A stream is a sequence of components. There is either a single stream or two, which need not be split between members.
   const std::size_t first_part = layout == VertexLayout::tight || n < 2 ? n : std::min(n - 1, std::size_t{3});
   const std::size_t gap = layout == VertexLayout::padded ? 3 : 0;
   if (layout == VertexLayout::separate) {
@@ -115,7 +116,7 @@ void lay_out_vertices(const float* rows, std::size_t count, int components, Vert
 void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
                        DrawMemory& memory) {
   if (instance_components == 0) return;
-  // The vertices' streams lose their last components; what is left of them keeps its place.
+  // Remove the last components from the vertex streams. The remaining ones keep their offsets.
   VertexView& view = memory.view;
   std::size_t rest = static_cast<std::size_t>(components) - instance_components;
   int streams = 0;
@@ -197,7 +198,7 @@ OracleResult run_oracle(const Scene& scene) {
   std::vector<ColorFormat> formats;
   for (const ColorTarget& c : colors) formats.push_back(c.format);
   oracle::Framebuffer target(scene.width, scene.height, formats, scene.depth.format, scene.samples);
-  const auto fill = [&](std::vector<std::byte>& bytes, const std::vector<std::byte>& before) {  // every sample the pixel's value
+  const auto fill = [&](std::vector<std::byte>& bytes, const std::vector<std::byte>& before) {  // every sample has the value of its pixel
     for (std::size_t i = 0; !before.empty() && i < bytes.size(); ++i) bytes[i] = before[i % before.size()];
   };
   fill(target.depth_bytes, scene.depth_before);
@@ -224,12 +225,12 @@ OracleResult run_oracle(const Scene& scene) {
 std::string difference(const Scene& scene, const Pictures& expected, const Pictures& actual) {
   const bool two_words = scene.depth.format == DepthFormat::d32fs8;
   const std::size_t depth_bytes = two_words ? 4 : static_cast<std::size_t>(bytes_per_pixel(scene.depth.format));
-  std::string out = compare_color("colour", scene, scene.color.format, expected.color, actual.color) +
+  std::string out = compare_color("color", scene, scene.color.format, expected.color, actual.color) +
                     compare("depth", scene, expected.depth, actual.depth, two_words ? 2 : 1, depth_bytes,
                             scene.depth.format == DepthFormat::d32f || two_words) +
                     compare_color("post", scene, scene.post_format, expected.post, actual.post);
   for (std::size_t i = 0; i < scene.more_colors.size(); ++i) {
-    out += compare_color("further colour", scene, scene.more_colors[i].format, expected.more[i], actual.more[i]);
+    out += compare_color("additional color", scene, scene.more_colors[i].format, expected.more[i], actual.more[i]);
   }
   return out;
 }
@@ -265,7 +266,7 @@ std::string describe(const PassOptions& o, int threads) {
 std::string describe(const Scene& s) {
   std::ostringstream out;
   out << s.width << 'x' << s.height << ' ' << kColorNames[static_cast<int>(s.color.format)] << ' '
-      << kDepthNames[static_cast<int>(s.depth.format)] << ", " << 1 + s.more_colors.size() << " colours, " << s.samples << " samples"
+      << kDepthNames[static_cast<int>(s.depth.format)] << ", " << 1 + s.more_colors.size() << " colors, " << s.samples << " samples"
       << (s.supersample ? ", supersampled" : "") << '\n';
   for (const SceneDraw& d : s.draws) {
     const DepthState& z = d.state.depth;
@@ -276,7 +277,7 @@ std::string describe(const Scene& s) {
         << (z.clip == ClipDepth::zero_to_one ? " [0,w]" : " [-w,w]") << " range " << z.range_near << ' ' << z.range_far << ", polygon mode "
         << static_cast<int>(d.state.polygon_mode) << ", line width " << d.state.line_width << (d.state.blend ? ", blend" : "")
         << (d.state.stencil ? ", stencil" : "") << (d.state.color_mask.all() ? "" : ", mask")
-        << (d.state.sample_shading ? ", shaded by sample" : "") << (d.state.alpha_to_coverage ? ", alpha to coverage" : "");
+        << (d.state.sample_shading ? ", sample shading" : "") << (d.state.alpha_to_coverage ? ", alpha to coverage" : "");
     if (d.state.offset.slope != 0 || d.state.offset.constant != 0) out << ", offset";
     for (const auto& r : {d.state.viewport, d.state.scissor}) {
       if (r) out << " [" << r->x << ' ' << r->y << ' ' << r->width << 'x' << r->height << ']';

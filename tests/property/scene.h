@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene of the property tests: a target, its images before the pass, and draws, that can be sent through the tile path
-// with any options, and through the oracle.
+// A scene of the property tests: a target, its initial contents, and draws. It can be drawn by the tile path with any options and by the
+// oracle.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace halfspace {
 
-/// A draw of some shader, its type forgotten.
+/// A type-erased draw with some shader.
 struct SceneDraw {
   std::function<void(Pass&)> submit;
   std::function<void(oracle::Renderer&)> reference;
@@ -29,18 +29,18 @@ struct Scene {
   int width = 1, height = 1;
   int samples = 1;
   bool supersample = false;
-  ColorTarget color;  ///< data is filled in by run_pass
+  ColorTarget color;  ///< run_pass sets the data pointers
   DepthTarget depth;
-  std::vector<ColorTarget> more_colors;               ///< attachments 1, 2 and 3; they have images
-  std::vector<std::byte> color_before, depth_before;  ///< what the images hold before the pass
+  std::vector<ColorTarget> more_colors;               ///< attachments 1, 2 and 3, which have images
+  std::vector<std::byte> color_before, depth_before;  ///< contents of the images before the pass
   std::vector<std::vector<std::byte>> more_before;
   std::vector<SceneDraw> draws;
-  bool has_color_image = true;  ///< else the colour is seen through the post step alone
+  bool has_color_image = true;  ///< otherwise the color is only visible through the post step
   bool has_depth_image = true;
-  ColorFormat post_format = ColorFormat::none;  ///< none: no post step; else Curve into an image of this format
+  ColorFormat post_format = ColorFormat::none;  ///< if not none, a post step applies Curve and writes an image of this format
 };
 
-/// What is seen of a scene afterwards.
+/// The visible results of a scene.
 struct Pictures {
   std::vector<std::byte> color, depth, post;
   std::vector<std::vector<std::byte>> more;
@@ -56,26 +56,27 @@ struct OracleResult {
   oracle::Counts counts;
 };
 
-/// The state's viewport, or the whole target.
+/// Returns the viewport of the state; defaults to the whole target.
 Rect viewport_of(const Scene& scene, const DrawState& state);
 
 PassResult run_pass(const Scene& scene, const PassOptions& options, int threads);
 OracleResult run_oracle(const Scene& scene);
 
-/// Empty if a and b are the same, else where they differ most: "colour: 12 of 7000 pixels differ; worst (x, y): … against …".
+/// Returns an empty string if the pictures are equal, and otherwise where they differ most: "color: 12 of 7000 pixels differ; worst, window
+/// (x, y): … expected, got …".
 std::string difference(const Scene& scene, const Pictures& expected, const Pictures& actual);
 
-/// The colours as codes, or the post step's, or depth as greys: for a look at what is wrong.
+/// Converts the color, the post step's output or the depth (as gray) to 8-bit codes, for visual inspection.
 Image<glm::u8vec4> codes_of(const Scene& scene, const Pictures& pictures);
 
 std::string describe(const PassOptions& options, int threads);
 std::string describe(const Scene& scene);
 
-/// How a draw's vertices lie in memory.
+/// How the vertices of a draw are stored in memory.
 enum class VertexLayout { tight, padded, separate };
 enum class IndexLayout { none, narrow, wide };
 
-/// The draw of a shader; `none` needs indices 0, 1, 2, ….
+/// Creates a draw of a shader. With IndexLayout::none, the indices must be 0, 1, 2, ….
 template <class S>
 SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Input<S>& input, const DrawState& state,
                     VertexLayout vertex_layout, IndexLayout index_layout);
@@ -86,11 +87,11 @@ SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typena
                    index_layout);
 }
 
-// ---- the part that knows the shader ------------------------------------------------------------------------------
+// ---- code that depends on the shader type ------------------------------------------------------------------------
 
 namespace detail {
 
-/// Keeps a draw's memory.
+/// Owns the memory of a draw.
 struct DrawMemory {
   std::vector<std::vector<float>> buffers;
   VertexView view;
@@ -99,10 +100,10 @@ struct DrawMemory {
   std::optional<Indices> indices;  ///< none: sequential
 };
 
-/// Lays rows of `components` floats out as streams.
+/// Stores rows of `components` floats as streams.
 void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory);
 void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, bool restart, IndexLayout layout, DrawMemory& memory);
-/// The last `instance_components` of each vertex come from rows of `components` floats instead, one for `divisor` instances.
+/// Replaces the last `instance_components` of each vertex by values from rows of `components` floats, with one row per `divisor` instances.
 void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
                        DrawMemory& memory);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shaders for the property tests: between them they use every part of the contract. Each hands out colours held to a
-// range, so that no picture holds a NaN (whose bits an instruction's operand order decides).
+// Shaders for the property tests, which together use every part of the shader interface. Each clamps its output, so that no picture
+// contains a NaN (whose bits would depend on the operand order of instructions).
 #pragma once
 
 #include "halfspace/raster/pass.h"
@@ -21,7 +21,7 @@ struct PositionAndA {
   vec4<R> a;
 };
 
-/// No varyings: all that a Pixel says by itself.
+/// No varyings; uses only the built-in inputs in Pixel.
 struct PixelShader {
   glm::mat4 clip_from_model{1.0f};
   glm::vec4 color{1.0f};
@@ -41,7 +41,7 @@ struct PixelShader {
   }
 };
 
-/// One smooth colour.
+/// One smooth color.
 struct ColorShader {
   glm::mat4 clip_from_model{1.0f};
   float brightness = 1.0f;
@@ -65,7 +65,7 @@ struct ColorShader {
   }
 };
 
-/// Twelve components of all three kinds of interpolation.
+/// Twelve components with all three kinds of interpolation.
 struct MixedShader {
   template <class R>
   struct Attributes {
@@ -99,7 +99,7 @@ struct MixedShader {
   }
 };
 
-/// Analytic derivatives, and differences over the quad.
+/// Analytic derivatives and differences within the quad.
 struct DerivativeShader {
   template <class R>
   struct Attributes {
@@ -136,7 +136,7 @@ struct DerivativeShader {
   }
 };
 
-/// Discards where the product of two varyings is small; with or without a visibility function that says so beforehand.
+/// Discards fragments for which the product of two varyings is small, with or without a visibility function that predicts it.
 template <bool has_visibility>
 struct CutoutShader {
   float threshold = 0.2f;
@@ -171,7 +171,7 @@ struct CutoutShader {
   }
 };
 
-/// Writes a depth of its own (now and then out of range), and discards.
+/// Writes its own depth (sometimes out of range) and discards.
 template <bool has_visibility>
 struct BumpShader {
   float height = 0.1f;
@@ -204,7 +204,7 @@ struct BumpShader {
   }
 };
 
-/// Primitive stage: the face normal, and a value that tells which vertex was which.
+/// Uses the primitive stage to output the face normal and a value that identifies the order of the vertices.
 struct FaceShader {
   template <class R>
   struct Attributes {
@@ -237,7 +237,7 @@ struct FaceShader {
   }
 };
 
-/// Primitive stage and discard with a visibility function.
+/// Primitive stage and discard, with a visibility function.
 struct FaceCutoutShader {
   template <class R>
   struct Attributes {
@@ -271,7 +271,7 @@ struct FaceCutoutShader {
   }
 };
 
-/// Moves by the number of the instance, and shows that of the vertex.
+/// Moves vertices by the instance number and outputs the vertex number.
 struct InstanceShader {
   glm::vec2 step{0.1f, -0.05f};
   template <class R>
@@ -300,7 +300,7 @@ struct InstanceShader {
   }
 };
 
-/// N colours, one of which may be the other source of blending; discards in stripes.
+/// N colors, one of which can be the second source of blending; discards in stripes.
 template <std::size_t N>
 struct ManyColorsShader {
   float width = 0.2f;
@@ -335,7 +335,7 @@ struct ManyColorsShader {
   }
 };
 
-/// Points of a size from an attribute, cut to a disc by the point coordinate.
+/// Points whose size comes from an attribute, cut to a disk by the point coordinate.
 template <bool has_visibility>
 struct PointShader {
   float size = 10.0f;
@@ -369,7 +369,7 @@ struct PointShader {
   }
 };
 
-/// Sprites that say what rectangle they cover, with a depth by pixel.
+/// Sprites that specify the rectangle they cover, with per-pixel depth.
 template <bool has_visibility>
 struct BoundsShader {
   float size = 0.1f;
@@ -431,10 +431,10 @@ struct ClipShader {
   }
 };
 
-/// Depth alone; its positions are those of ColorShader.
+/// Draws only depth; its positions equal those of ColorShader.
 using DepthShader = MatrixShader;
 
-/// A post step: a tone curve of + − × ÷ alone.
+/// A post step: a tone curve that uses only addition, subtraction, multiplication and division.
 struct Curve {
   template <class R>
   vec4<R> operator()(const vec4<R>& c) const {
