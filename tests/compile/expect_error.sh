@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # expect_error.sh SOURCE.cpp COMPILER FLAGS...
-# Passes if the compiler rejects the source in under 20 lines that hold the text after "the message must name: ", and, where
-# it is a shader, say so. Flags after "compile with: " in the source follow the others.
+# Passes if the compiler rejects the source with fewer than 20 lines of output that contain the text after "the message must name: ". For
+# sources about a shader, the output must also contain "the shader". Flags after "compile with: " in the source are appended to the command.
 set -u
 source=$1
 shift
@@ -9,12 +9,12 @@ expected=$(sed -n 's/.*the message must name: //p' "$source" | sed 's/\.$//')
 [ -n "$expected" ] || { echo "$source does not say what the message must name"; exit 1; }
 read -ra flags <<< "$(sed -n 's/.*compile with: //p' "$source")"
 if message=$("$@" "${flags[@]}" "$source" 2>&1); then
-  echo "$source compiles, but must not"
+  echo "$source compiles; expected an error"
   exit 1
 fi
 lines=$(printf '%s\n' "$message" | wc -l)
 printf '%s\n' "$message"
-[ "$lines" -lt 20 ] || { echo "the message has $lines lines; under 20 were promised"; exit 1; }
+[ "$lines" -lt 20 ] || { echo "the message has $lines lines; expected fewer than 20"; exit 1; }
 if grep -q "A shader" "$source"; then
   printf '%s\n' "$message" | grep -qF "the shader" || { echo "the message does not say what the shader lacks"; exit 1; }
 fi

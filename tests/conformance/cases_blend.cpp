@@ -10,7 +10,7 @@ namespace halfspace::conformance {
 
 namespace {
 
-constexpr int kStrips = 8;  // of the destination, upright, and of the source, across: 64 pairs of colours
+constexpr int kStrips = 8;  // vertical strips of the destination and horizontal ones of the source: 64 pairs of colors
 constexpr const char* kFactorNames[] = {"zero",
                                         "one",
                                         "src_color",
@@ -59,7 +59,7 @@ double factor(BlendFactor f, int channel, const glm::dvec4& s, const glm::dvec4&
   if (f == BlendFactor::zero) return 0.0;
   if (f == BlendFactor::one) return 1.0;
   if (f == BlendFactor::src_alpha_saturate) return channel == 3 ? 1.0 : std::min(s.w, 1.0 - d.w);
-  // The others come in runs of four: x colour, one minus it, x alpha, one minus it.
+  // The others are in groups of four: color, one minus color, alpha, one minus alpha.
   const bool second = i > static_cast<int>(BlendFactor::src_alpha_saturate);
   glm::dvec4 of = s1;
   bool by_alpha = i >= static_cast<int>(BlendFactor::src1_alpha), minus = (i - static_cast<int>(BlendFactor::src1_color)) % 2 == 1;
@@ -84,7 +84,7 @@ double blended(BlendEquation e, double s, double fs, double d, double fd) {
   return std::max(s, d);
 }
 
-// What is read back after a linear value was stored, and within which tolerance; of sRGB the code.
+// Returns the value that is read back after a linear value was stored; for sRGB, the code.
 double stored(ColorFormat format, int channel, double v) {
   if (format == ColorFormat::rgba32f || format == ColorFormat::rgba16f) return v;
   v = std::clamp(v, 0.0, 1.0);
@@ -96,7 +96,7 @@ double to_light(ColorFormat format, int channel, float v) {
   return static_cast<double>(kSrgbToLinear[static_cast<std::size_t>(std::lround(v * 255.0f))]);
 }
 
-// The formula of OpenGL 4.6, section 17.3.6, from the destination as it is stored.
+// Evaluates the formula in OpenGL 4.6, section 17.3.6, from the stored destination.
 std::string blend_formula(const Picture& p, const Seen& seen) {
   Picture before = p;
   before.draws.pop_back();
@@ -122,7 +122,7 @@ std::string blend_formula(const Picture& p, const Seen& seen) {
         }
         expected[k] = stored(format, k, mask[k] ? v : d[k]);
       }
-      // Half a code; of halfs half of the last of 11 bits, of floats what a few roundings leave.
+      // Half a code for 8-bit formats, half of the last of 11 bits for half floats, and a few roundings for floats.
       const double tolerance = format == ColorFormat::rgba32f ? 1e-6 : format == ColorFormat::rgba16f ? 0x1p-11 : kHalfCode;
       return expect_near(expected, seen.color(x, y, a), tolerance);
     });
@@ -151,10 +151,10 @@ void add(Cases& cases, ColorFormat format, BlendState b, Kind kind = Kind::color
                    blend_formula, true});
 }
 
-constexpr int kOneSource = 15;  // factors without a second source
+constexpr int kOneSource = 15;  // factors that do not need a second source
 BlendFactor factor_number(int i) { return static_cast<BlendFactor>(i % kOneSource); }
 
-// Every pair of factors, those of alpha another pair, so that over all sets every pair of alpha comes too.
+// Adds every pair of factors. Alpha uses other pairs, so that all pairs also occur for alpha over all cases.
 void add_factors(Cases& cases, ColorFormat format) {
   for (int s = 0; s < kOneSource; ++s) {
     for (int d = 0; d < kOneSource; ++d) {
@@ -187,7 +187,7 @@ void add_second_sources(Cases& cases) {
   }
 }
 
-// A second source that alpha's factors alone ask for.
+// Adds cases in which only the alpha factors use the second source.
 void add_second_alpha(Cases& cases) {
   constexpr auto kFirst = static_cast<int>(BlendFactor::src1_color);
   for (int i = 0; i < 4; ++i) {
@@ -198,7 +198,7 @@ void add_second_alpha(Cases& cases) {
   }
 }
 
-// Attachments with equations and masks of their own.
+// Adds cases with separate equations and masks per attachment.
 void add_attachments(Cases& cases) {
   for (int i = 0; i < 20; ++i) {
     cases.push_back({"attachments_" + std::to_string(i),

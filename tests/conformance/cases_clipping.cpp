@@ -9,9 +9,9 @@ namespace halfspace::conformance {
 
 namespace {
 
-// The 26 parts of space round the view volume: −1, 0 or 1 on each axis.
+// The 26 parts of space around the view volume: −1, 0 or 1 on each axis.
 glm::ivec3 part(int number) {
-  const int i = number < 13 ? number : number + 1;  // 13 is the volume itself
+  const int i = number < 13 ? number : number + 1;  // 13 is the view volume
   return {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
 }
 std::string part_name(int number) {
@@ -25,7 +25,7 @@ std::string part_name(int number) {
   say(d.z, "near", "far");
   return name;
 }
-// A point of that part, between 1.2 and `reach` times as far out as the volume's side.
+// Returns a point in that part, between 1.2 and `reach` times as far from the center as the sides of the view volume.
 glm::vec4 outside(int number, float reach, Random& random) {
   const glm::ivec3 d = part(number);
   const float w = random.pick({0.5f, 1.0f, 3.0f});
@@ -56,7 +56,7 @@ Picture triangle_picture(const std::array<int, 3>& parts, float reach, uint64_t 
   return p;
 }
 
-// Inside of the one triangle the colour of its homogeneous weights, outside none.
+// Inside of a single triangle, a pixel has the color from its homogeneous weights; outside, it has the clear color.
 std::string as_if_unclipped(const Picture& p, const Seen& seen) {
   const std::vector<Vertex>& v = p.draws[0].vertices;
   std::vector<std::pair<Weighed, std::array<glm::vec4, 3>>> triangles;
@@ -72,7 +72,8 @@ std::string as_if_unclipped(const Picture& p, const Seen& seen) {
       if (w == Where::unsure) return {};
       if (w == Where::inside) expected = triangle.color(colors, at);
     }
-    // A vertex snapped by 1/512 px moves colours by as much of their slope: two codes where a triangle is seen from the side.
+    // Snapping moves a vertex by 1/512 px and the colors by their slope times that distance: two codes for triangles that are almost
+    // edge-on.
     return expect_near(expected, seen.color(x, y), 2.0 / 255.0);
   });
 }
@@ -94,7 +95,7 @@ void add_triangles(Cases& cases) {
 
 // ---- polygons and their edges --------------------------------------------------------------------------------------
 
-// A fan of n corners round the middle, `radius` half windows wide, its depths from −z to z; w differs.
+// A fan of n corners around the center, with a radius of `radius` half windows, depths from −z to z, and varying w.
 Picture polygon_picture(int corners, float radius, float z, bool behind) {
   Picture p;
   p.colors = {ColorFormat::rgba32f};
@@ -123,7 +124,7 @@ std::vector<Region> triangle_regions(const Picture& p) {
 }
 std::string covered(const Picture& p, const Seen& seen) { return expect_red(p, seen, triangle_regions(p)); }
 
-// Two triangles with an edge in common that leaves the window: no sample of the edge is drawn twice or left out.
+// Two triangles with a shared edge that extends beyond the window. No sample on the edge may be drawn twice or omitted.
 Picture edge_picture(int i) {
   Random random(static_cast<uint64_t>(i) + 400);
   Picture p;
@@ -139,8 +140,8 @@ Picture edge_picture(int i) {
   p.draws.push_back(std::move(d));
   return p;
 }
-// Above or below the common edge everything is covered as far as the two triangles reach: together they are convex enough that a pixel
-// of the window near the edge belongs to just one.
+// The two triangles must also cover their union exactly once. It is convex enough that a pixel of the window near the edge belongs to only
+// one of them.
 std::string edge_once(const Picture& p, const Seen& seen) {
   std::string wrong = covered(p, seen);
   if (!wrong.empty()) return wrong;
@@ -177,12 +178,12 @@ Picture line_picture(int from, int to, float width, uint64_t seed) {
   return p;
 }
 
-// Points near the line and between near and far are drawn, all others not.
+// Pixels near the part of the line between near and far must be drawn, and all others must not.
 std::string on_the_line(const Picture& p, const Seen& seen) {
   const glm::dvec4 a(p.draws[0].vertices[0].pos_clip), b(p.draws[0].vertices[1].pos_clip);
   const double width = static_cast<double>(p.draws[0].state.line_width);
   glm::dvec2 ends[2];
-  double low = 0.0, high = 1.0;  // of the line, what lies between near and far
+  double low = 0.0, high = 1.0;  // the part of the line between near and far
   const auto keep = [&](double da, double db) {
     if (da < 0.0 && db < 0.0) high = -1.0;
     if (da < 0.0 && db >= 0.0) low = std::max(low, da / (da - db));
@@ -198,7 +199,7 @@ std::string on_the_line(const Picture& p, const Seen& seen) {
   }
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     const bool drawn = seen.color(x, y) != p.clear_color;
-    if (low >= high) return drawn ? "drawn, and nothing should be" : "";
+    if (low >= high) return drawn ? "drawn; expected an empty picture" : "";
     const glm::dvec2 at(x + 0.5, y + 0.5), e = ends[1] - ends[0];
     const int major = std::fabs(e.y) > std::fabs(e.x) ? 1 : 0;
     const double t = (at[major] - ends[0][major]) / e[major], end = 1.0 / std::fabs(e[major]);
@@ -220,7 +221,7 @@ Picture point_picture(const glm::vec4& center, float size) {
   return p;
 }
 
-// A point is cut by the window, not with its centre, and goes as a whole beyond near and far.
+// A point is clipped by the window and not by its center. Beyond near or far, it is discarded completely.
 std::string point_rectangle(const Picture& p, const Seen& seen) {
   const glm::vec4 c = p.draws[0].vertices[0].pos_clip;
   if (c.z < -c.w || c.z > c.w) return expect_red(p, seen, {});
@@ -244,7 +245,7 @@ void add_lines_and_points(Cases& cases) {
     const glm::vec4 center(glm::vec3(d) * 1.125f, 1.0f);
     const bool center_is_out = d.x != 0 || d.y != 0;
     cases.push_back({"point_" + part_name(i), [=] { return point_picture(center, 11.0f); }, point_rectangle, true,
-                     center_is_out ? "Mesa clips points by their centre" : nullptr});
+                     center_is_out ? "Mesa clips points by their center" : nullptr});
   }
 }
 

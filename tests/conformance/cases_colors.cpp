@@ -11,7 +11,7 @@ namespace halfspace::conformance {
 
 namespace {
 
-// Triangles or lines side by side, each with its own colours.
+// Adjacent triangles or lines with different colors.
 Picture colored(const Named& kind, bool projected, ColorMode mode, int samples = 1) {
   Picture p;
   p.samples = samples;
@@ -20,7 +20,7 @@ Picture colored(const Named& kind, bool projected, ColorMode mode, int samples =
   d.state.topology = kind.topology;
   d.state.line_width = kind.width;
   d.vertices = kind.topology == Topology::triangles ? zigzag(p, 9, projected) : zigzag(p, 7, projected);
-  if (kind.topology == Topology::triangle_fan) {  // round a first vertex at the bottom
+  if (kind.topology == Topology::triangle_fan) {  // around a first vertex at the bottom
     d.vertices.assign(1, {clip_at(p, 16, 1, 0.0f, projected ? 2.0f : 1.0f), color_number(20)});
     for (int i = 0; i < 6; ++i) {
       const double angle = 0.3 + 0.5 * i;
@@ -34,7 +34,7 @@ Picture colored(const Named& kind, bool projected, ColorMode mode, int samples =
   return p;
 }
 
-// In the inside of exactly one triangle its colour is that of the interpolation; where triangles are culled nothing is.
+// Inside of exactly one triangle, a pixel must have its interpolated color. Culled triangles must not be drawn.
 std::string triangle_colors(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   struct Shown {
@@ -52,27 +52,27 @@ std::string triangle_colors(const Picture& p, const Seen& seen) {
     }
     const double area = (w[1].x - w[0].x) * (w[2].y - w[0].y) - (w[1].y - w[0].y) * (w[2].x - w[0].x);
     if (is_culled(d.state.cull, (area > 0) == (d.state.front == Winding::counter_clockwise))) continue;
-    if (d.mode == kLinear) {  // the same point of the window with w = 1
+    if (d.mode == kLinear) {  // the same window position with w = 1
       for (glm::vec4& c : at) c = glm::vec4(glm::vec3(c) / c.w, 1.0f);
     }
     shown.push_back({weigh(p, d.state.depth, at).value(), colors});
   }
   const bool clipped = std::any_of(d.vertices.begin(), d.vertices.end(), [](const Vertex& v) { return v.pos_clip.z > v.pos_clip.w; });
-  const double tolerance = clipped ? 2.0 * kHalfCode : kHalfCode;  // new corners are snapped: 1/512 px of the colours' slopes
+  const double tolerance = clipped ? 2.0 * kHalfCode : kHalfCode;  // new vertices are snapped by 1/512 px times the slope of the colors
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     const glm::dvec2 at(x + 0.5, y + 0.5);
-    const double around = p.samples == 1 ? kMargin : 0.75;  // with samples the whole pixel must lie inside, or outside
+    const double around = p.samples == 1 ? kMargin : 0.75;  // with several samples, the whole pixel must be inside or outside
     glm::dvec4 expected(p.clear_color);
     for (const Shown& s : shown) {
       const Where w = where(s.triangle.region, at, around);
       if (w == Where::unsure) return {};
-      if (w == Where::inside) expected = s.triangle.color(s.colors, at);  // they do not overlap, or the last is in front
+      if (w == Where::inside) expected = s.triangle.color(s.colors, at);  // there is no overlap, or the last one is in front
     }
     return expect_near(expected, seen.color(x, y), tolerance);
   });
 }
 
-// Every pixel of a line shows the colour of a provoking vertex, or nothing.
+// Every pixel of a line has the color of a provoking vertex, or is not drawn.
 std::string provoking_colors(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   const std::vector<Assembled> lines = assembled(d);
@@ -82,18 +82,18 @@ std::string provoking_colors(const Picture& p, const Seen& seen) {
     for (const Assembled& a : lines) {
       if (expect_near(glm::dvec4(d.vertices[a.provoking].color), got, kHalfCode).empty()) return {};
     }
-    return "a colour of no provoking vertex";
+    return "the color is not that of a provoking vertex";
   });
 }
 
-// Every colour of a line lies between the smallest and the largest of its vertices' in each channel; of a wide one as much beyond them as
-// its corners lie beyond its ends (w/2 px, and half a pixel).
+// Every channel of a line is between the minimum and maximum of its vertices. For a wide line, the color can exceed this range to the
+// extent that its corners are beyond its ends (w/2 px and half a pixel).
 std::string colors_in_range(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   glm::vec4 low(1.0f), high(0.0f);
   for (const Vertex& v : d.vertices) low = glm::min(low, v.color), high = glm::max(high, v.color);
   if (d.state.line_width > 1.0f) {
-    constexpr float kShortest = 20.0f;  // px, of the lines of a zigzag
+    constexpr float kShortest = 20.0f;  // length in px of the shortest line in a zigzag
     const glm::vec4 beyond = (high - low) * (0.5f * d.state.line_width + 0.5f) / kShortest;
     low -= beyond;
     high += beyond;
@@ -101,7 +101,7 @@ std::string colors_in_range(const Picture& p, const Seen& seen) {
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     const glm::vec4 got = seen.color(x, y), half(static_cast<float>(kHalfCode));
     const bool in_range = glm::all(glm::lessThanEqual(low - half, got)) && glm::all(glm::lessThanEqual(got, high + half));
-    return got == p.clear_color || in_range ? "" : "a colour beyond the vertices'";
+    return got == p.clear_color || in_range ? "" : "the color is outside of the range of the vertices";
   });
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kCompareNames[] = {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
 constexpr const char* kOpNames[] = {"keep",   "zero",           "replace",       "increment_clamp", "decrement_clamp",
                                     "invert", "increment_wrap", "decrement_wrap"};
-// What the stencil holds before, strip by strip, and the depth; the draw's own depth is the one of strip 2.
+// The initial stencil value of each strip and the initial depth of each row. The depth of the tested draw equals that of row 2.
 constexpr std::array<uint8_t, 8> kStencils{0, 1, 5, 0x7f, 0x80, 0xa5, 0xfe, 0xff};
 constexpr std::array<float, 4> kDepths{0.25f, 0.5f, 0.625f, 0.75f};
 constexpr float kDrawn = 0.625f;
@@ -19,7 +19,8 @@ constexpr int kSize = 16;
 
 float ndc(float window_depth) { return 2.0f * window_depth - 1.0f; }
 
-// Upright strips of stencil values, depths across, then one rectangle by the state; its left half faces away.
+// Draws vertical strips of stencil values and rows of depths, and then rectangles with the tested state, of which every other column is
+// back-facing.
 Picture cells(DepthFormat format, const DrawState& state) {
   Picture p;
   p.width = p.height = kSize;
@@ -41,7 +42,7 @@ Picture cells(DepthFormat format, const DrawState& state) {
   }
   Drawing d;
   d.state = state;
-  for (const bool back : {true, false}) {  // columns 0, 2, 4, … face away
+  for (const bool back : {true, false}) {  // columns 0, 2, 4, … are back-facing
     for (int x = back ? 0 : 1; x < kSize; x += 2) {
       add_rectangle(d, p, {static_cast<double>(x), 0, x + 1.0, kSize}, color_number(9), ndc(kDrawn));
       if (back) std::swap(d.indices[d.indices.size() - 5], d.indices[d.indices.size() - 4]);
@@ -67,7 +68,7 @@ double as_stored(DepthFormat format, float z) {
   return code ? std::floor(static_cast<double>(z) * most + 0.5) : static_cast<double>(z);
 }
 
-// OpenGL 4.6, sections 17.3.3 and 17.3.4, cell by cell.
+// Evaluates OpenGL 4.6, sections 17.3.3 and 17.3.4, for each cell.
 std::string tests_by_hand(const Picture& p, const Seen& seen) {
   const DrawState& state = p.draws.back().state;
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
@@ -101,7 +102,7 @@ Case state_case(std::string name, DepthFormat format, const DrawState& state) {
 StencilOp op_number(int i) { return static_cast<StencilOp>(i % 8); }
 CompareOp compare_number(int i) { return static_cast<CompareOp>(i % 8); }
 
-// Every comparison of the stencil with every one of the depth, each twice; operations go round so that each meets each place.
+// Adds every pair of stencil and depth comparisons twice. The operations rotate so that each occurs in every role.
 void add_both(Cases& cases) {
   for (int i = 0; i < 128; ++i) {
     const int stencil = i % 8, depth = i / 8 % 8;
@@ -121,7 +122,7 @@ void add_both(Cases& cases) {
   }
 }
 
-// Each operation alone, in each of the three places.
+// Adds each operation separately in each of the three roles.
 void add_operations(Cases& cases) {
   for (int op = 0; op < 8; ++op) {
     const std::string name = kOpNames[op];
@@ -138,7 +139,7 @@ void add_operations(Cases& cases) {
   }
 }
 
-// The depth test alone: every comparison in every format, written and not.
+// Adds cases for only the depth test: every comparison in every format, with and without depth writes.
 void add_depth(Cases& cases) {
   constexpr std::pair<DepthFormat, const char*> kFormats[] = {
       {DepthFormat::d16, "d16"}, {DepthFormat::d24, "d24"}, {DepthFormat::d32f, "d32f"}, {DepthFormat::d24s8, "d24s8"}};

@@ -19,7 +19,7 @@ constexpr std::pair<const char*, DepthFormat> kDepthFormats[] = {{"d16", DepthFo
                                                                  {"d24s8", DepthFormat::d24s8},
                                                                  {"d32fs8", DepthFormat::d32fs8}};
 
-// Everything has the value that its format makes of the clear value.
+// Every pixel must have the clear value as represented in its format.
 std::string cleared(const Picture& p, const Seen& seen) {
   const ColorFormat format = p.colors[0];
   glm::dvec4 color(p.clear_color);
@@ -79,12 +79,12 @@ void add_clears(Cases& cases) {
 
 // ---- instances -----------------------------------------------------------------------------------------------------
 
-// A column of 2 px for each instance, from the left; `rows` give its green, one for `divisor` instances.
+// Draws a column of 2 px for each instance, starting at the left. `rows` contain their green, with one row per `divisor` instances.
 Picture instanced(uint32_t instances, uint32_t divisor, bool indexed, bool strip) {
   Picture p;
   Drawing d;
   d.kind = Kind::instance;
-  d.value = 2.0f / 16.0f;  // 2 px in normalized device coordinates
+  d.value = 2.0f / 16.0f;  // 2 px in NDC
   d.state.instances = instances;
   add_rectangle(d, p, {0, 4, 2, 28}, {0.75f, 0, 0, 1});
   if (strip) {
@@ -143,7 +143,7 @@ constexpr std::pair<const char*, Topology> kTopologies[] = {{"points", Topology:
 constexpr const char* kPlaces[] = {"begin", "end", "middle", "twice", "every_third", "every_fourth", "incomplete", "often", "only"};
 constexpr int kPlaceCount = 9, kIndices = 13;
 
-// Where among the indices 0 … 12 a restart comes before.
+// Returns whether a restart precedes index i of 0 to 12.
 bool restarts_before(int place, int i) {
   switch (place) {
     case 0: return i == 0;
@@ -182,7 +182,7 @@ Picture restarted(Topology topology, int place, bool narrow, uint32_t instances)
   return p;
 }
 
-// The same as a draw for each run of indices between restarts, instance by instance.
+// Must equal a separate draw for each run of indices between restarts, instance by instance.
 std::string as_single_draws(const Picture& p, const Seen& seen) {
   Picture single = p;
   single.draws.clear();
@@ -191,7 +191,7 @@ std::string as_single_draws(const Picture& p, const Seen& seen) {
     Drawing run = all;
     run.restart = false;
     run.state.instances = 1;
-    if (all.kind == Kind::instance) {  // the one instance of these draws is number 0
+    if (all.kind == Kind::instance) {  // in these draws, the single instance is number 0
       run.kind = Kind::color;
       run.mode = kSmooth;
       for (Vertex& v : run.vertices) {

@@ -33,7 +33,7 @@ Picture scissored(Topology topology, const Rect& scissor) {
   return p;
 }
 
-// Within the scissor what is seen without it, beyond it nothing.
+// Inside of the scissor rectangle, the picture must equal the one without it. Nothing may be drawn outside.
 std::string scissor_cuts(const Picture& p, const Seen& seen) {
   Picture whole = p;
   whole.draws[0].state.scissor.reset();
@@ -51,7 +51,7 @@ constexpr std::pair<const char*, Kind> kKinds[] = {{"color", Kind::color},      
                                                    {"depth", Kind::depth},      {"point", Kind::point}, {"derivative", Kind::derivative},
                                                    {"instance", Kind::instance}};
 
-// A heap of all colours, then the shader under a state that asks several operations at once.
+// Draws random triangles of all colors, and then the shader with a state that combines several operations.
 void several_operations(int number, DrawState& s, Picture& p) {
   const StencilFace counting{.pass = StencilOp::increment_wrap};
   const StencilFace where_even{.compare = CompareOp::equal, .reference = 0, .read_mask = 1};
@@ -118,7 +118,7 @@ struct Format {
 constexpr Format kFormats[] = {
     {"fixed16", DepthFormat::d16}, {"fixed24", DepthFormat::d24}, {"float32", DepthFormat::d32f}, {"fixed24_stencil8", DepthFormat::d24s8}};
 
-// A rectangle from window depth `left` to `right` over the window's width.
+// Draws a rectangle over the window with a window depth from `left` to `right`.
 Picture offset_picture(DepthFormat format, float left, float right, const DepthOffset& offset) {
   Picture p;
   p.depth = format;
@@ -132,7 +132,7 @@ Picture offset_picture(DepthFormat format, float left, float right, const DepthO
   return p;
 }
 
-// o = slope·m + constant·r (OpenGL 4.6, section 14.6.5), clamped; all depths lie in one power of two, so r is one number.
+// o = slope·m + constant·r (OpenGL 4.6, section 14.6.5), clamped. All depths have the same exponent, so r is constant.
 std::string offset_formula(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   const double left = 0.5 * static_cast<double>(d.vertices[0].pos_clip.z) + 0.5,
@@ -147,13 +147,13 @@ std::string offset_formula(const Picture& p, const Seen& seen) {
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     const double z = std::fmin(std::fmax(left + (right - left) * (x + 0.5) / 32.0 + by, 0.0), 1.0);
     const double expected = is_float ? z : z * codes, got = seen.depth(x, y);
-    // Fixed: rounded to a code (of 24 bits the float that is rounded errs by half a code too). Float: two roundings of 2^-24.
+    // Fixed point: rounded to a code (for 24 bits, the float has another error of half a code). Float: two roundings of 2^-24.
     const double tolerance = is_float ? 0x1p-23 : codes > 65535.0 ? 1.5 : 0.51;
     return std::fabs(got - expected) <= tolerance ? "" : "depth " + std::to_string(got) + ", expected " + std::to_string(expected);
   });
 }
 
-// The rectangle once more with an offset, in another colour: towards the eye it is seen, away from it not.
+// Draws the rectangle again with an offset and another color. It must be visible if the offset is toward the eye.
 Case rendered(const std::string& name, DepthFormat format, float slope, float constant) {
   const bool shown = slope + constant < 0.0f;
   return {name,
@@ -167,7 +167,7 @@ Case rendered(const std::string& name, DepthFormat format, float slope, float co
           [=](const Picture&, const Seen& seen) {
             return for_each_pixel(seen, [&](int x, int y) -> std::string {
               const bool blue = seen.color(x, y) == glm::vec4(0.0f, 0.0f, 1.0f, 1.0f);
-              return blue == shown ? "" : shown ? "the offset rectangle is not seen" : "the offset rectangle is seen";
+              return blue == shown ? "" : shown ? "the offset rectangle is not visible" : "the offset rectangle is visible";
             });
           },
           true};

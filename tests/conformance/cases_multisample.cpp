@@ -24,7 +24,7 @@ Picture counting_picture(int samples) {
 
 // ---- edges ---------------------------------------------------------------------------------------------------------
 
-// 25 thin triangles round the middle.
+// 25 thin triangles around the center.
 Picture fan_picture(int samples) {
   Picture p = counting_picture(samples);
   for (int i = 0; i < 25; ++i) {
@@ -48,7 +48,7 @@ std::vector<Region> regions_of(const Picture& p) {
   return regions;
 }
 
-// Edges show all shares of the samples, each within its closed bounds.
+// Edge pixels must have all possible numbers of covered samples, each within its bounds.
 std::string all_shares(const Picture& p, const Seen& seen) {
   std::set<float> values;
   for_each_pixel(seen, [&](int x, int y) {
@@ -56,11 +56,11 @@ std::string all_shares(const Picture& p, const Seen& seen) {
     return std::string();
   });
   if (values.size() < static_cast<std::size_t>(p.samples) + 1)
-    return "only " + std::to_string(values.size()) + " shares of a pixel are seen";
+    return "only " + std::to_string(values.size()) + " different coverage values occur";
   return expect_red(p, seen, regions_of(p));
 }
 
-// Squares cut in two by a diagonal: together each sample once.
+// Quads that are split by a diagonal. Each sample must be drawn once.
 Picture common_edge_picture(int samples, int n) {
   Picture p = counting_picture(samples);
   for (int i = 0; i < n * n; ++i) {
@@ -76,7 +76,7 @@ Picture common_edge_picture(int samples, int n) {
 
 // ---- masks and alpha -----------------------------------------------------------------------------------------------
 
-// Whole pixels; columns of rising alpha.
+// Whole pixels, with an alpha that increases from column to column.
 Picture columns(int samples, bool alpha_to_coverage, uint32_t mask) {
   Picture p = counting_picture(samples);
   DrawState& s = p.draws[0].state;
@@ -91,16 +91,16 @@ std::string masked_share(const Picture& p, const Seen& seen) {
   return for_each_pixel(
       seen, [&](int x, int y) { return expect_near(glm::dvec4(glm::vec3(share), seen.color(x, y).w), seen.color(x, y), 1e-6); });
 }
-// None at 0, all at 1, more from column to column, and never further from alpha than half a sample.
+// Coverage is 0 for alpha 0 and full for alpha 1, never decreases from column to column, and differs from alpha by at most half a sample.
 std::string alpha_share(const Picture& p, const Seen& seen) {
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     const float share = seen.color(x, y).x, alpha = static_cast<float>(x) / 31.0f;
-    if (x > 0 && share < seen.color(x - 1, y).x) return "fewer samples at more alpha";
+    if (x > 0 && share < seen.color(x - 1, y).x) return "fewer samples for a higher alpha";
     return std::fabs(share - alpha) <= 0.5f / static_cast<float>(p.samples) + 1e-6f ? "" : "share " + std::to_string(share);
   });
 }
 
-// ---- shading by sample, centroid, depth and stencil by sample --------------------------------------------------------
+// ---- per-sample shading, centroid, per-sample depth and stencil ----------------------------------------------------------
 
 enum class By { pixel, sample, supersample, centroid, depth, stencil };
 constexpr const char* kByNames[] = {"by_pixel", "sample_shading", "supersample", "centroid", "depth", "stencil"};
@@ -113,7 +113,7 @@ Picture sampled(By by, int samples) {
   d.vertices = zigzag(p, 9, true);
   d.mode = by == By::centroid ? kCentroid : kSmooth;
   d.state.sample_shading = by == By::sample;
-  if (by == By::depth || by == By::stencil) {  // a second heap, which the first's samples let through in part
+  if (by == By::depth || by == By::stencil) {  // a second set of triangles, partly hidden per sample by the first
     p.draws.push_back(d);
     d.vertices = scattered(p, 30, 4);
     if (by == By::stencil) {
@@ -127,7 +127,7 @@ Picture sampled(By by, int samples) {
   return p;
 }
 
-// A colour made by centroid never leaves the range of its vertices, where the centre's may.
+// With centroid interpolation, a color never leaves the range of the vertices, unlike one interpolated at the pixel center.
 std::string within_vertices(const Picture& p, const Seen& seen) {
   glm::vec4 low(1.0f), high(0.0f);
   for (const Vertex& v : p.draws[0].vertices) low = glm::min(low, v.color), high = glm::max(high, v.color);
@@ -136,7 +136,7 @@ std::string within_vertices(const Picture& p, const Seen& seen) {
     if (share.low < 1.0 || share.high > 1.0) return {};
     const glm::vec4 c = seen.color(x, y), half(static_cast<float>(kHalfCode));
     return glm::all(glm::lessThanEqual(low - half, c)) && glm::all(glm::lessThanEqual(c, high + half)) ? ""
-                                                                                                       : "a colour beyond the vertices'";
+                                                                                                       : "color outside of vertex range";
   });
 }
 
@@ -145,8 +145,8 @@ std::string within_vertices(const Picture& p, const Seen& seen) {
 struct Query {
   const char* name;
   Topology topology;
-  void (*hide)(Picture&, DrawState&);  ///< changes the picture before the query's draw
-  int visible;                         ///< samples of the 20 x 12 px rectangle that are left; −1: those that are seen
+  void (*hide)(Picture&, DrawState&);  ///< changes the picture before the draw with the query
+  int visible;                         ///< samples of the 20 x 12 px rectangle that pass; −1: the visible pixels
 };
 
 void nothing(Picture&, DrawState&) {}
@@ -203,14 +203,15 @@ Picture query_picture(const Query& q, bool in_two_draws) {
     d.vertices = zigzag(p, 8);
     for (Vertex& v : d.vertices) v.color = glm::vec4(1.0f);
   }
-  if (in_two_draws) {  // the second finds the first's depth in its place
+  if (in_two_draws) {  // the second draw is tested against the depth of the first
     p.draws.push_back(d);
   }
   p.draws.push_back(std::move(d));
   return p;
 }
 
-// The query holds the closed form's samples, or as many as pixels show the draw's colour; twice where nothing keeps the second draw out.
+// The query must return the number from the closed form or, if there is none, the number of pixels that have the color of the draw. The
+// number is doubled if nothing rejects the second draw.
 std::string counted(const Query& q, const Picture& p, const Seen& seen) {
   uint64_t expected = static_cast<uint64_t>(std::max(q.visible, 0));
   if (q.visible < 0) {

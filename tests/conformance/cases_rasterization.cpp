@@ -13,7 +13,7 @@ namespace {
 
 std::string samples_suffix(int samples) { return samples == 1 ? "" : "_samples_" + std::to_string(samples); }
 
-// Fragments add up in a float target, so that what is drawn twice shows.
+// Adds up fragments in a float target, so that samples that are drawn twice can be detected.
 Drawing counting(const glm::vec4& color) {
   Drawing d;
   d.state.blend = kAdd;
@@ -27,7 +27,7 @@ Drawing counting(const glm::vec4& color) {
 enum class Quads { basic_quad, basic_quad_reverse, clipped_full, clipped_partly, projected };
 constexpr const char* kQuadNames[] = {"basic_quad", "basic_quad_reverse", "clipped_full", "clipped_partly", "projected"};
 
-// Rotated squares side by side, or one that reaches beyond the window.
+// Adjacent rotated squares, or one square that extends beyond the window.
 Picture quads_picture(Quads quads, int samples) {
   Picture p;
   p.width = p.height = 64;
@@ -71,7 +71,7 @@ Picture primitives_picture(const Named& kind, PolygonMode mode, float point_size
   return p;
 }
 
-// What fills: triangles and points (squares round the vertex).
+// Checks filled primitives: triangles and points (squares around the vertex).
 std::string filled(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   std::vector<Region> regions;
@@ -90,7 +90,7 @@ std::string filled(const Picture& p, const Seen& seen) {
   return expect_red(p, seen, regions);
 }
 
-// A point that shows its coordinate: at the pixel's centre from the square's corner.
+// A point that outputs its point coordinate, which is the distance of the pixel center from the corner of the square.
 Picture coordinate_picture(PointOrigin origin, int samples) {
   Picture p;
   p.samples = samples;
@@ -110,13 +110,14 @@ std::string coordinate_formula(const Picture& p, const Seen& seen) {
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     glm::dvec2 c = (glm::dvec2(x + 0.5, y + 0.5) - low) / size;
     if (p.draws[0].state.point_origin == PointOrigin::upper_left) c.y = 1.0 - c.y;
-    const double margin = 1.0 / size;  // a pixel inside of the square
+    const double margin = 1.0 / size;  // the pixel is inside of the square
     const bool inside = c.x > margin && c.x < 1.0 - margin && c.y > margin && c.y < 1.0 - margin;
     return inside ? expect_near({c.x, c.y, 1.0, 1.0}, seen.color(x, y), 1e-6) : "";
   });
 }
 
-// Of a line of one sample and width w each column (row) between its ends holds w pixels, none further than (w + 1)/2 from it.
+// For a line of width w with one sample per pixel, each column (or row) between its ends has w pixels, and none is more than (w + 1)/2
+// away.
 std::string thin_lines(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   const double width = static_cast<double>(d.state.line_width);

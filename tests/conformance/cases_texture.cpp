@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFunctions[] = {"ddx", "ddy", "fwidth", "quad_ddx", "quad_ddy", "quad_fwidth"};
 
-// A rectangle over the window, u and v changing with both x and y, w from side to side if projected.
+// A rectangle over the window in which u and v vary with x and y. If projected, w varies from left to right.
 Picture derivative_picture(int mode, float scale, bool projected, int samples) {
   Picture p;
   p.samples = samples;
@@ -22,13 +22,13 @@ Picture derivative_picture(int mode, float scale, bool projected, int samples) {
   Drawing d;
   d.kind = Kind::derivative;
   d.mode = mode;
-  d.value = 1.0f / scale;  // brings every scale to the same colours
+  d.value = 1.0f / scale;  // gives the same colors for every scale
   const std::array<glm::dvec2, 4> corners{glm::dvec2(0, 0), glm::dvec2(32, 0), glm::dvec2(32, 32), glm::dvec2(0, 32)};
   std::array<Vertex, 4> quad;
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec2 c = corners[i];
     const float w = projected ? static_cast<float>(1.0 / (0.25 + 0.75 * c.x / 32.0)) : 1.0f;
-    // In perspective u/w is linear in the window: u is the ratio of two linear functions.
+    // With perspective, u/w is linear in the window, so u is the ratio of two linear functions.
     const glm::vec2 uv = glm::vec2(glm::dvec2(0.5 * c.x - 0.25 * c.y + 1.0, 0.125 * c.x + 0.75 * c.y - 3.0)) * (projected ? w : 1.0f);
     quad[i] = {clip_at(p, c.x, c.y, 0.0f, w), glm::vec4(1.0f), glm::vec4(uv * scale, 0, 0)};
   }
@@ -37,7 +37,7 @@ Picture derivative_picture(int mode, float scale, bool projected, int samples) {
   return p;
 }
 
-// The closed form: u and v are linear in x and y, or such over 0.25 + 0.75·x/32; the quad's differences are those of the function.
+// u and v are linear in x and y, divided by 0.25 + 0.75·x/32 if projected. Quad differences are evaluated from the same functions.
 std::string derivative_formula(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   const bool projected = d.vertices[0].pos_clip.w != 1.0f, by_quad = d.mode >= kQuadDdx;
@@ -57,7 +57,8 @@ std::string derivative_formula(const Picture& p, const Seen& seen) {
       dy = glm::dvec2(-0.25, 0.75) / q;
     }
     const glm::dvec2 of = d.mode % 3 == kDdx ? dx : d.mode % 3 == kDdy ? dy : glm::abs(dx) + glm::abs(dy);
-    // Vertices' u and w are floats: relative 2^-22 of the largest u (70) and its slopes. A quad subtracts numbers of that size.
+    // u and w are floats at the vertices, with a relative error of 2^-22 of the largest u (70) and its slopes. Quad differences subtract
+    // numbers of this magnitude.
     const double tolerance = by_quad ? 70.0 * 4 * 0x1p-23 : 70.0 * 0x1p-22;
     return expect_near(glm::dvec4(of, 0.0, 1.0), seen.color(x, y), tolerance);
   });
@@ -69,7 +70,7 @@ constexpr const char* kTexelNames[] = {"rgba8", "srgb8", "r8", "r16", "rgba16f",
 constexpr const char* kFilterNames[] = {"nearest", "linear", "mipmap"};
 constexpr const char* kWrapNames[] = {"repeat", "mirror", "clamp", "border"};
 
-// A rectangle over the window that shows u from u0 to u1 and v from v0 to v1; `turn` exchanges the axes.
+// A rectangle over the window that shows u from u0 to u1 and v from v0 to v1; `turn` swaps the axes.
 Picture textured(std::shared_ptr<const Texture2D> texture, const Sampler& sampler, const glm::vec4& u0_v0_u1_v1, bool turn, int size = 32) {
   Picture p;
   p.width = p.height = size;
@@ -86,7 +87,7 @@ Picture textured(std::shared_ptr<const Texture2D> texture, const Sampler& sample
   return p;
 }
 
-// Coordinates and level of every pixel are known; where rounding of a coordinate could choose another texel or level, each is good.
+// The coordinates and the level of every pixel are known. If rounding could select another texel or level, either result is accepted.
 std::string lookup_by_rule(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   const Texture2D& t = *d.texture;
@@ -99,12 +100,13 @@ std::string lookup_by_rule(const Picture& p, const Seen& seen) {
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     const glm::dvec2 at = corner(0) + (x + 0.5) * along_x + (y + 0.5) * along_y;
     std::string wrong;
-    for (int i = 0; i < 27; ++i) {  // 2^-12 texel (Vulkan's Roadmap asks 2^-8 of hardware), 2^-10 of a level
+    for (int i = 0; i < 27; ++i) {  // 2^-12 texel (Vulkan's Roadmap requires 2^-8 of hardware) and 2^-10 of a level
       const glm::dvec3 beside(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       const glm::dvec2 uv = at + glm::dvec2(beside.x, beside.y) * 0x1p-12 / size;
       const test::Mixed m = test::reference(t, d.sampler, uv.x, uv.y, lod + beside.z * 0x1p-10);
       const glm::dvec4 range = m.high - m.low;
-      // Fractions of a texel hold 15 bits, coordinates 2^-12 texel as above, levels 2^-10: that share of what is mixed.
+      // Texel fractions have 15 bits, coordinates are varied by 2^-12 texel and levels by 2^-10, as above. The tolerance is this fraction
+      // of the range of the texels.
       const double tolerance = 0x1p-9 * std::max({range.x, range.y, range.z, range.w}) + 1e-6 * (1.0 + std::fabs(m.high.x));
       wrong = expect_near(m.value, seen.color(x, y), tolerance);
       if (wrong.empty()) return wrong;
@@ -123,7 +125,7 @@ void add_filter(Cases& cases, const std::string& name, int width, int height, Te
 }
 
 void add_filters(Cases& cases) {
-  for (int f = 0; f < 6; ++f) {  // formats by filters: magnified and minified
+  for (int f = 0; f < 6; ++f) {  // formats by filters, magnified and minified
     for (int mag = 0; mag < 2; ++mag) {
       for (int min = 0; min < 3; ++min) {
         const Sampler s{.mag = static_cast<Filter>(mag), .min = static_cast<Filter>(min)};
@@ -136,7 +138,7 @@ void add_filters(Cases& cases) {
       }
     }
   }
-  for (int ws = 0; ws < 4; ++ws) {  // wraps of both axes by filter
+  for (int ws = 0; ws < 4; ++ws) {  // wrap modes of both axes by filters
     for (int wt = 0; wt < 4; ++wt) {
       for (int filter = 0; filter < 2; ++filter) {
         const Sampler s{.mag = static_cast<Filter>(filter),
@@ -155,7 +157,7 @@ void add_filters(Cases& cases) {
     for (int min = 0; min < 3; ++min) {
       for (const bool minified : {false, true}) {
         const Sampler s{.mag = min == 0 ? Filter::nearest : Filter::bilinear, .min = static_cast<Filter>(min), .wrap_t = Wrap::clamp};
-        // Three and two texels a pixel, or some two texels in all.
+        // Three and two texels per pixel, or about two texels in total.
         const glm::vec2 texels = minified ? glm::vec2(96.0f, 70.0f) : glm::vec2(2.3f, 1.7f);
         const glm::vec2 reach = texels / glm::vec2(size);
         add_filter(cases,
@@ -168,7 +170,7 @@ void add_filters(Cases& cases) {
   }
 }
 
-// Level n holds the one value n/8: what is seen is the level.
+// Level n has a constant color that identifies it.
 std::shared_ptr<const Texture2D> level_numbers(int width, int height) {
   std::vector<Image<glm::u8vec4>> levels;
   for (int i = 0;; ++i) {
@@ -183,7 +185,7 @@ std::shared_ptr<const Texture2D> level_numbers(int width, int height) {
 void add_levels(Cases& cases) {
   constexpr glm::ivec2 kSizes[] = {{64, 64}, {32, 128}, {57, 35}};
   for (const glm::ivec2& size : kSizes) {
-    for (int i = 0; i < 10; ++i) {  // levels −1 … 7
+    for (int i = 0; i < 10; ++i) {  // levels −1 to 7
       const float lod = -1.0f + static_cast<float>(i) * 0.83f;
       const std::string suffix = std::string("_") + std::to_string(size.x) + "x" + std::to_string(size.y) + "_" + std::to_string(i);
       const Sampler s{.mag = Filter::bilinear, .min = Filter::trilinear};
@@ -210,7 +212,7 @@ void add_levels(Cases& cases) {
 
 Cases derivate_cases() {
   Cases cases;
-  for (int mode = 0; mode < 6; ++mode) {  // supersampled, a derivative is still that by pixel of the picture
+  for (int mode = 0; mode < 6; ++mode) {  // even if supersampled, a derivative is per pixel of the picture
     cases.push_back({std::string(kFunctions[mode]) + "_supersampled",
                      [=] {
                        Picture p = derivative_picture(mode, 1.0f, false, 4);

@@ -117,7 +117,8 @@ Region polygon(std::span<const glm::dvec2> corners) {
   return r;
 }
 
-// With p = Σ bi·pi and p = (X, Y, ·, 1): b = M⁻¹·(X, Y, 1), M of the columns (xi, yi, wi). X and Y are linear in the window's x and y.
+// With p = Σ bi·pi and p = (X, Y, ·, 1), b = M⁻¹·(X, Y, 1), where the columns of M are (xi, yi, wi). X and Y are linear in the window
+// coordinates x and y.
 std::optional<Weighed> weigh(const Picture& picture, const DepthState& depth, const std::array<glm::vec4, 3>& v) {
   glm::dmat3 m;
   for (int i = 0; i < 3; ++i) {

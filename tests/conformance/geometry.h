@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shapes for the parameter sets, and where in the window they lie, in double precision: what a picture is judged by besides the oracle.
+// Shapes for the cases and their geometry in the window, in double precision. Pictures are checked against this geometry in addition to the
+// oracle.
 #pragma once
 
 #include <array>
@@ -14,30 +15,31 @@ namespace halfspace::conformance {
 inline constexpr BlendState kAdd{BlendEquation::add, BlendFactor::one, BlendFactor::one,
                                  BlendEquation::add, BlendFactor::one, BlendFactor::one};
 
-/// The clip position of a point of the window (px); exact on the 1/256 px grid.
+/// Returns the clip position of a point in the window (px); exact on the 1/256 px grid.
 glm::vec4 clip_at(const Picture& picture, double x, double y, float z_ndc = 0.0f, float w = 1.0f);
-/// Where a vertex lies in the window (px); w > 0.
+/// Returns the window position of a vertex (px). w must be positive.
 glm::dvec2 window_of(const Picture& picture, const glm::vec4& pos_clip);
-/// Two triangles of four corners in their order round the quad, over the vertices that the drawing has.
+/// Adds two triangles for a quad whose corners are in order around it.
 void add_quad(Drawing& drawing, const std::array<Vertex, 4>& corners);
-/// A rectangle in px of one colour.
+/// Adds a rectangle (px) of one color.
 void add_rectangle(Drawing& drawing, const Picture& picture, const glm::dvec4& x0_y0_x1_y1, const glm::vec4& color, float z_ndc = 0.0f);
-/// Eight colours that differ in every channel.
+/// Returns one of eight colors that differ in every channel.
 glm::vec4 color_number(int i);
-/// n vertices in the window, on the 1/256 px grid, the same for a seed everywhere; colours differ. w is 1, or from 1/2 to 2.
+/// Returns n vertices of different colors on the 1/256 px grid of the window, which are identical everywhere for a given seed. w is 1, or
+/// between 1/2 and 2 if projected.
 std::vector<Vertex> scattered(const Picture& picture, int n, uint64_t seed, bool projected = false);
-/// n vertices that zigzag from left to right, so that strips and lists of triangles lie side by side.
+/// Returns n vertices that zigzag from left to right, so that strips and lists form adjacent triangles.
 std::vector<Vertex> zigzag(const Picture& picture, int n, bool projected = false);
 
-/// Every triangle or line that the drawing's vertices and indices make (without restart): the numbers of its vertices, OpenGL's order
-/// (4.6, table 10.1), and which of them provokes by the convention.
+/// A triangle or line formed by the vertices and indices of a drawing (without restart): its vertex numbers in OpenGL's order (OpenGL 4.6,
+/// table 10.1) and its provoking vertex.
 struct Assembled {
-  std::array<uint32_t, 3> vertex;  ///< of a line the third is the second
+  std::array<uint32_t, 3> vertex;  ///< for a line, the third vertex equals the second
   uint32_t provoking;
 };
 std::vector<Assembled> assembled(const Drawing& drawing);
 
-/// A convex part of the window.
+/// A convex region of the window is an intersection of half planes.
 struct HalfPlane {
   double a, b, c;  ///< inside where a·x + b·y + c >= 0, in px
 };
@@ -45,35 +47,37 @@ struct Region {
   std::vector<HalfPlane> planes;
 };
 enum class Where : uint8_t { inside, outside, unsure };
-/// Unsure within the margin of an edge (px). The default is twice what snapping moves a vertex, as VK-GL-CTS's box is wider than its grid.
+/// `unsure` means closer than the margin (px) to an edge. The default margin is twice the distance by which snapping can move a vertex;
+/// VK-GL-CTS also uses a margin larger than its grid.
 inline constexpr double kMargin = 2.0 / 256.0;
 Where where(const Region& region, const glm::dvec2& point, double margin = kMargin);
 
-/// A convex polygon of the window, in either order.
+/// Returns a convex polygon of the window, whose corners can have either orientation.
 Region polygon(std::span<const glm::dvec2> corners);
-/// What is seen of a triangle of clip space, w of any sign, between near and far (unless clamped): the planes of its homogeneous weights.
-/// None if it is seen edge-on.
+/// Computes the visible part of a clip-space triangle, with w of any sign, between near and far (unless clamped), from the planes of its
+/// homogeneous weights. Returns nothing if the triangle is seen edge-on.
 struct Weighed {
   Region region;
   std::array<HalfPlane, 3> weight;  ///< of the vertices, for a point scaled to w = 1
 
-  /// The perspective-correct value at a point.
+  /// Returns the perspective-correct value at a point.
   glm::dvec4 color(const std::array<glm::vec4, 3>& of, const glm::dvec2& point) const;
 };
 std::optional<Weighed> weigh(const Picture& picture, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip);
 
-/// The share of a pixel's samples that lie in regions, each counted as often as a region holds it: at least and at most.
+/// Lower and upper bounds for the fraction of a pixel's samples inside of regions. A sample counts once for each region that contains it.
 struct Share {
   double low = 0.0, high = 0.0;
 };
 Share share_of(const std::vector<Region>& regions, int x, int y, int samples);
-/// Every pixel's red lies between the shares times the weight of one fragment. Empty, or the first pixel that does not.
+/// Checks that the red of every pixel is between the bounds times the weight of a fragment. Returns a message about the first pixel that is
+/// not; empty if there is none.
 std::string expect_red(const Picture& picture, const Seen& seen, const std::vector<Region>& regions, double weight = 1.0);
 
-/// The same of the quads that the first drawing has: four vertices each.
+/// The same for the quads of the first drawing, with four vertices each.
 std::string quads_once(const Picture& picture, const Seen& seen);
 
-/// Calls f(x, y) for every pixel until it returns a message.
+/// Calls f(x, y) for every pixel until it returns a message, and returns that message.
 template <class F>
 std::string for_each_pixel(const Seen& seen, const F& f) {
   for (int y = 0; y < seen.height; ++y) {
@@ -84,9 +88,9 @@ std::string for_each_pixel(const Seen& seen, const F& f) {
   }
   return {};
 }
-/// "1 0.5 0 1 expected, got 1 0.6 0 1", or nothing where they differ by no more than the tolerance.
+/// Returns a message such as "1 0.5 0 1 expected, got 1 0.6 0 1", or an empty string if the difference is within the tolerance.
 std::string expect_near(const glm::dvec4& expected, const glm::vec4& got, double tolerance);
-/// Half a code of 8 bits, rounded up by what float arithmetic adds.
+/// Half of an 8-bit code, plus a margin for float arithmetic.
 inline constexpr double kHalfCode = 0.502 / 255.0;
 
 }  // namespace halfspace::conformance

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The groups of parameter sets, named as VK-GL-CTS names them.
+// The groups of cases, named like those of VK-GL-CTS.
 #pragma once
 
 #include <ostream>
@@ -34,7 +34,7 @@ struct Group {
   Cases (*cases)();
 };
 inline void PrintTo(const Group& g, std::ostream* os) { *os << g.name; }
-/// All but the random states, which are made by number (random_state.h).
+/// All groups except the random states, which are created by number (random_state.h).
 inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"Primitives", primitives_cases},
                                     {"Interpolation", interpolation_cases},

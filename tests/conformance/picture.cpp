@@ -144,7 +144,7 @@ std::string difference_from_oracle(const Picture& picture) {
   std::string wrong = difference(scene, expected.pictures, deferred.pictures);
   if (wrong.empty()) {
     wrong = difference(scene, expected.pictures, at_once.pictures);
-    if (!wrong.empty()) wrong = "shaded at once in tiles of 8: " + wrong;
+    if (!wrong.empty()) wrong = "immediate shading in tiles of 8: " + wrong;
   }
   if (wrong.empty() && expected.counts.samples_passed != deferred.statistics.samples_passed) {
     wrong = "samples passed: " + std::to_string(expected.counts.samples_passed) + " expected, got " +
@@ -172,9 +172,9 @@ std::string describe(const Picture& picture) {
 std::string check(const Case& c) {
   const Picture picture = c.picture();
   std::string wrong = difference_from_oracle(picture);
-  if (!wrong.empty()) return "against the oracle: " + wrong + describe(picture);
+  if (!wrong.empty()) return "differs from the oracle: " + wrong + describe(picture);
   const Seen seen = draw(picture);
-  if (!c.may_be_constant && seen.is_constant()) return "nothing is seen\n" + describe(picture);
+  if (!c.may_be_constant && seen.is_constant()) return "the picture is constant\n" + describe(picture);
   if (c.truth) wrong = c.truth(picture, seen);
   return wrong.empty() ? wrong : wrong + "\n" + describe(picture);
 }

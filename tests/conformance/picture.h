@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture of the conformance tests as plain data: what is drawn, with which of a few shaders, into what. The tile path, the oracle and
-// Mesa draw the same data, so a set of parameters is written once.
+// A picture of the conformance tests as plain data: the drawings, their shaders (one of a few), and the targets. The tile path, the oracle
+// and Mesa draw the same data, so every case is written only once.
 #pragma once
 
 #include <functional>
@@ -14,20 +14,20 @@
 
 namespace halfspace::conformance {
 
-/// The shaders of shaders.h.
+/// The shaders in shaders.h.
 enum class Kind : uint8_t { color, clip, cutout, depth, point, derivative, texture, instance, two_colors, four_colors };
 
-/// What `color` shows: its varying, interpolated in one of four ways.
+/// Output of `color`: its varying with one of four interpolation qualifiers.
 enum ColorMode { kSmooth, kFlat, kLinear, kCentroid };
-/// What `derivative` shows of u, times its value: exact derivatives, or differences over the 2x2 quad.
+/// Output of `derivative`, multiplied by its value: exact derivatives of the coordinates, or differences within the 2x2 quad.
 enum DerivativeMode { kDdx, kDdy, kFwidth, kQuadDdx, kQuadDdy, kQuadFwidth };
-/// How `texture` chooses its level: by the derivatives of its coordinates, or by `value`.
+/// How `texture` determines the level: from the derivatives of its coordinates, or from `value`.
 enum TextureMode { kByDerivatives, kByLevel };
 
 struct Vertex {
   glm::vec4 pos_clip;
   glm::vec4 color{1.0f};
-  glm::vec4 extra{0.0f};  ///< clip distances, point size, texture coordinates or an offset, as the shader reads it
+  glm::vec4 extra{0.0f};  ///< clip distances, point size, texture coordinates or an offset, depending on the shader
 };
 
 struct Drawing {
@@ -35,10 +35,10 @@ struct Drawing {
   int mode = 0;
   float value = 0.0f;
   std::vector<Vertex> vertices;
-  std::vector<uint32_t> indices{};  ///< none: all vertices in order
-  bool restart = false;             ///< kRestart among the indices ends a primitive
-  bool narrow = false;              ///< indices of 16 bits
-  std::vector<glm::vec4> rows{};    ///< not empty: `extra` comes from here, one row for `divisor` instances
+  std::vector<uint32_t> indices{};  ///< if empty, all vertices in order
+  bool restart = false;             ///< the index kRestart ends a primitive
+  bool narrow = false;              ///< 16-bit indices
+  std::vector<glm::vec4> rows{};    ///< if not empty, `extra` is read from here, with one row per `divisor` instances
   uint32_t divisor = 1;
   std::shared_ptr<const Texture2D> texture{};
   Sampler sampler{};
@@ -46,7 +46,7 @@ struct Drawing {
 };
 
 struct Picture {
-  int width = 32, height = 32;  ///< powers of two: positions on the 1/256 px grid are exact
+  int width = 32, height = 32;  ///< powers of two, so that positions on the 1/256 px grid are exact
   int samples = 1;
   bool supersample = false;
   std::vector<ColorFormat> colors{ColorFormat::rgba8};
@@ -57,7 +57,7 @@ struct Picture {
   std::vector<Drawing> draws{};
 };
 
-/// A drawn picture, by window coordinates (origin lower left).
+/// A drawn picture, addressed by window coordinates (origin at the lower left).
 struct Seen {
   int width = 0, height = 0;
   std::vector<ColorFormat> formats;
@@ -65,9 +65,9 @@ struct Seen {
   Pictures bytes;
   std::vector<uint64_t> queries;
 
-  /// The stored numbers: codes/255 of 8-bit formats (of sRGB the code, not the light), else the floats.
+  /// Returns the stored value: code/255 for 8-bit formats (for sRGB the code, not the linear value), otherwise the floats.
   glm::vec4 color(int x, int y, std::size_t attachment = 0) const;
-  /// A code, or of float formats the depth.
+  /// Returns the code or, for float formats, the depth.
   double depth(int x, int y) const;
   int stencil(int x, int y) const;
   bool is_constant() const;
@@ -76,26 +76,27 @@ struct Seen {
   std::size_t index(int x, int y) const;
 };
 
-/// A set of parameters.
+/// A test case.
 struct Case {
   std::string name;
   std::function<Picture()> picture;
-  /// What the picture must hold by a closed form; empty, or what is wrong. May be null: then the oracle is the truth.
+  /// Checks the picture against a closed form. Returns a description of the error, or an empty string. If null, the oracle is the only
+  /// reference.
   std::function<std::string(const Picture&, const Seen&)> truth{};
-  bool may_be_constant = false;       ///< else a picture of one colour is a failure
-  const char* not_by_mesa = nullptr;  ///< why Mesa is not asked
+  bool may_be_constant = false;       ///< otherwise, a picture of a single color is an error
+  const char* not_by_mesa = nullptr;  ///< reason why Mesa does not draw this case
 };
 using Cases = std::vector<Case>;
 
-/// By the tile path.
+/// Draws with the tile path.
 Seen draw(const Picture& picture, const PassOptions& options = {}, int threads = 1);
-/// By the oracle.
+/// Draws with the oracle.
 Seen draw_by_oracle(const Picture& picture);
-/// Empty, or how the tile path (deferred, and at once in small tiles) differs from the oracle.
+/// Compares the tile path (deferred, and immediate in small tiles) with the oracle. Returns the difference; empty if there is none.
 std::string difference_from_oracle(const Picture& picture);
-/// Everything that is not the default, for messages.
+/// Returns a description of the picture for messages.
 std::string describe(const Picture& picture);
-/// Everything that is asked of a case: the oracle, its closed form, and that something is seen.
+/// Performs all checks of a case: the oracle, its closed form, and that the picture is not constant.
 std::string check(const Case& c);
 
 }  // namespace halfspace::conformance

@@ -80,7 +80,7 @@ void random_primitives(Random& r, Drawing& d) {
   s.line_width = r.pick({1.0f, 1.0f, 3.0f});
   if (r.once_in(10) && s.topology != Topology::points) s.polygon_mode = r.pick({PolygonMode::line, PolygonMode::point});
   if (d.kind == Kind::instance) s.instances = static_cast<uint32_t>(r.between(1, 4));
-  if (r.once_in(4)) {  // indices, restarts among them
+  if (r.once_in(4)) {  // indices, some of them restarts
     d.restart = r.once_in(2);
     d.narrow = r.once_in(2);
     const int n = static_cast<int>(d.vertices.size());
@@ -98,10 +98,10 @@ Drawing random_drawing(const Picture& p, Random& r, bool first) {
   d.mode = d.kind == Kind::color ? r.below(3) : d.kind == Kind::derivative ? r.below(6) : 0;
   d.value = r.real(0.05f, 0.6f);
   const uint64_t seed = r.bits();
-  const bool projected = r.once_in(2);  // one number after the other: compilers order arguments as they like
+  const bool projected = r.once_in(2);  // in this order, since the evaluation order of arguments is unspecified
   d.vertices = scattered(p, r.between(6, 20), seed, projected);
   for (Vertex& v : d.vertices) {
-    if (first && r.once_in(2)) v.pos_clip.x = v.pos_clip.x * 2.0f;  // fills more, and is cut
+    if (first && r.once_in(2)) v.pos_clip.x = v.pos_clip.x * 2.0f;  // covers more pixels and is clipped
     if (r.once_in(12)) v.pos_clip.z *= 3.0f;
     if (r.once_in(25)) v.pos_clip.w *= -1.0f;
     v.color = {r.real(0, 1), r.real(0, 1), r.real(0, 1), r.real(0, 1)};
@@ -120,7 +120,7 @@ Drawing random_drawing(const Picture& p, Random& r, bool first) {
   }
   random_primitives(r, d);
   random_tests(p, r, d);
-  if (first) {  // something to work on
+  if (first) {  // makes sure that something is drawn
     if (!r.once_in(4)) d.state.depth.compare = CompareOp::less;
     if (!r.once_in(4)) d.state.cull = CullMode::none;
     if (!r.once_in(4)) d.state.stencil.reset();
@@ -129,7 +129,7 @@ Drawing random_drawing(const Picture& p, Random& r, bool first) {
   return d;
 }
 
-// Leaves out every other primitive, by the k-th bit of its number.
+// Drops every other group of primitives, selected by bit k of the primitive number.
 void drop_primitives(Picture& p, int k, int which) {
   for (Drawing& d : p.draws) {
     const DrawState& s = d.state;
@@ -144,13 +144,13 @@ void drop_primitives(Picture& p, int k, int which) {
   }
 }
 
-// The simplifications, by bits.
+// Returns the simplifications in the order of their bits.
 std::vector<std::function<void(Picture&)>> simplifications() {
   std::vector<std::function<void(Picture&)>> all;
   for (int k = 0; k < 5; ++k) {
     for (int which = 0; which < 2; ++which) all.push_back([=](Picture& p) { drop_primitives(p, k, which); });
   }
-  const auto each = [&](auto change) {  // draw by draw
+  const auto each = [&](auto change) {  // for each draw
     for (std::size_t i = 0; i < 4; ++i) {
       all.push_back([=](Picture& p) {
         if (i < p.draws.size()) change(p.draws[i].state);
@@ -167,14 +167,14 @@ std::vector<std::function<void(Picture&)>> simplifications() {
   each([](DrawState& s) { s.polygon_mode = PolygonMode::fill, s.instances = 1; });
   all.push_back([](Picture& p) {
     for (Drawing& d : p.draws) {
-      if (p.colors.size() == 1 && d.kind != Kind::two_colors) d.kind = Kind::color;  // two colours: the blending may ask for both
+      if (p.colors.size() == 1 && d.kind != Kind::two_colors) d.kind = Kind::color;  // not with two colors: blending may need both
       d.mode = kSmooth;
     }
   });
   all.push_back([](Picture& p) { p.samples = 1, p.supersample = false; });
   all.push_back([](Picture& p) { p.colors.assign(p.colors.size(), ColorFormat::rgba8); });
   all.push_back([](Picture& p) { p.depth = DepthFormat::d32fs8; });
-  for (std::size_t i = 4; i-- > 0;) {  // last: from the last draw to the first, so that the numbers above hold
+  for (std::size_t i = 4; i-- > 0;) {  // draws are removed from last to first, so that the numbers above stay valid
     all.push_back([=](Picture& p) {
       if (i < p.draws.size() && p.draws.size() > 1) p.draws.erase(p.draws.begin() + static_cast<std::ptrdiff_t>(i));
     });
@@ -227,7 +227,7 @@ RandomState shrink(RandomState state, const std::function<bool(const Picture&)>&
   const std::size_t n = simplifications().size();
   for (bool shrank = true; shrank;) {
     shrank = false;
-    for (std::size_t i = n; i-- > 0;) {  // whole draws first
+    for (std::size_t i = n; i-- > 0;) {  // try to remove whole draws first
       const uint64_t bit = uint64_t{1} << i;
       if ((state.simplified & bit) != 0 || !fails(random_picture({state.seed, state.simplified | bit}))) continue;
       state.simplified |= bit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random states by number: a picture of a few draws whose every state is drawn by lot. A state that fails is shrunk: simplifications,
-// numbered by bits, are applied as long as it still fails, so a seed and a row of bits stand for what is left.
+// Random states by number: a picture of a few draws with random state. A state that fails is shrunk by applying simplifications, which are
+// numbered by bits, as long as it still fails. A seed and a set of bits therefore identify the result.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace halfspace::conformance {
 
-/// "1234" or, shrunk, "1234:8f03".
+/// Has the form "1234" or, if shrunk, "1234:8f03".
 struct RandomState {
   uint64_t seed = 0;
-  uint64_t simplified = 0;  ///< bits of the simplifications that are applied
+  uint64_t simplified = 0;  ///< bits of the applied simplifications
 
   std::string text() const;
-  /// False if the text is no state.
+  /// Returns false if the text is not a valid state.
   static bool parse(const std::string& text, RandomState& state);
 };
 
-/// The same on every machine.
+/// Returns the picture of a state, which is identical on every machine.
 Picture random_picture(const RandomState& state);
-/// Applies every simplification that leaves the state failing, until none does.
+/// Applies simplifications as long as the state keeps failing.
 RandomState shrink(RandomState state, const std::function<bool(const Picture&)>& fails);
 
 inline constexpr uint64_t kRandomSets = 64, kStatesPerSet = 80;

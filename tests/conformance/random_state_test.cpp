@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random states: the tile path against the oracle. A failure prints the command that draws the shrunk state alone:
+// Compares random states drawn by the tile path with the oracle. A failure prints the command that draws only the shrunk state:
 //
-//   HALFSPACE_STATE=1234:8f03 build/release/bin/test-conformance --gtest_filter=ConformanceRandomState.Again
+//   HALFSPACE_STATE=1234:8f03 build/release/bin/test-conformance --gtest_filter=ConformanceRandomState.ReplaysTheGivenState
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -22,7 +22,7 @@ std::string what_is_wrong(const Picture& p) {
 
 class RandomStates : public testing::TestWithParam<uint64_t> {};
 
-TEST_P(RandomStates, AreTheOracles) {
+TEST_P(RandomStates, MatchTheOracle) {
   uint64_t seen = 0;
   for (uint64_t i = 0; i < kStatesPerSet; ++i) {
     const RandomState state{GetParam() * kStatesPerSet + i, 0};
@@ -33,28 +33,29 @@ TEST_P(RandomStates, AreTheOracles) {
     }
     const RandomState shrunk = shrink(state, [](const Picture& p) { return !difference_from_oracle(p).empty(); });
     FAIL() << "seed " << state.seed << ", shrunk: HALFSPACE_STATE=" << shrunk.text()
-           << " build/release/bin/test-conformance --gtest_filter=ConformanceRandomState.Again\n"
+           << " build/release/bin/test-conformance --gtest_filter=ConformanceRandomState.ReplaysTheGivenState\n"
            << what_is_wrong(random_picture(shrunk));
   }
   RecordProperty("not_constant", std::to_string(seen));
-  EXPECT_GE(seen * 10, kStatesPerSet * 8) << "too many states of which nothing is seen";
+  EXPECT_GE(seen * 10, kStatesPerSet * 8) << "too many states give a constant picture";
 }
 
 INSTANTIATE_TEST_SUITE_P(Conformance, RandomStates, testing::Range(uint64_t{0}, kRandomSets),
                          [](const auto& set) { return "seeds_from_" + std::to_string(set.param * kStatesPerSet); });
 
-TEST(ConformanceRandomState, Again) {
+TEST(ConformanceRandomState, ReplaysTheGivenState) {
   const char* text = std::getenv("HALFSPACE_STATE");
-  if (text == nullptr) GTEST_SKIP() << "HALFSPACE_STATE names no state";
+  if (text == nullptr) GTEST_SKIP() << "HALFSPACE_STATE is not set";
   RandomState state;
-  ASSERT_TRUE(RandomState::parse(text, state)) << "HALFSPACE_STATE=" << text << " is no state; expected SEED or SEED:BITS";
+  ASSERT_TRUE(RandomState::parse(text, state)) << "HALFSPACE_STATE=" << text << " is not a valid state; expected SEED or SEED:BITS";
   const Picture picture = random_picture(state);
   std::printf("%s", describe(picture).c_str());
   EXPECT_EQ(what_is_wrong(picture), "");
 }
 
-// A failure is made up: whatever subtracts when it blends. What is left does, needs nothing else, and can be told by its text.
-TEST(ConformanceRandomState, ShrinksToWhatFails) {
+// Uses an artificial failure: blending with the equation subtract. The shrunk state must still have it and nothing unnecessary, and its
+// text must reproduce it.
+TEST(ConformanceRandomState, ShrinksToAMinimalFailure) {
   const auto subtracts = [](const Picture& p) {
     for (const Drawing& d : p.draws) {
       if (d.state.blend && d.state.blend->color_equation == BlendEquation::subtract) return true;

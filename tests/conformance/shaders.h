@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shaders of the conformance tests, one for each Kind. All take a Vertex; tests/mesa has the same in GLSL.
+// The shaders of the conformance tests, one for each Kind. All use Vertex as input; tests/mesa has the same shaders in GLSL.
 #pragma once
 
 #include "conformance/picture.h"
@@ -14,7 +14,7 @@ struct VertexAttributes {
   vec4<R> extra;
 };
 
-/// A colour, interpolated as the mode says.
+/// A color, interpolated according to the mode.
 struct ColorShader {
   int mode = kSmooth;
   template <class R>
@@ -42,13 +42,13 @@ struct ColorShader {
   }
 };
 
-/// What most others hand over.
+/// The varyings of most shaders.
 template <class R>
 struct ColorVaryings {
   vec4<R> color;
 };
 
-/// Hands over the colour.
+/// Passes the color through.
 struct VertexColor {
   template <class R>
   using Attributes = VertexAttributes<R>;
@@ -61,7 +61,7 @@ struct VertexColor {
   }
 };
 
-/// Four clip distances, in `extra`.
+/// Four clip distances, from `extra`.
 struct ClipShader {
   template <class R>
   using Attributes = VertexAttributes<R>;
@@ -78,7 +78,7 @@ struct ClipShader {
   }
 };
 
-/// Discards where red is below `value`.
+/// Discards fragments whose red is below `value`.
 struct CutoutShader : VertexColor {
   float value = 0.5f;
   template <class R>
@@ -99,7 +99,7 @@ struct DepthShader : VertexColor {
   }
 };
 
-/// Points of extra.x px that show their coordinate.
+/// Points of extra.x px that output their point coordinate.
 struct PointShader {
   template <class R>
   using Attributes = VertexAttributes<R>;
@@ -117,7 +117,7 @@ struct PointShader {
   }
 };
 
-/// Hands over extra.x and extra.y.
+/// Passes extra.x and extra.y through.
 struct CoordinatesShader {
   template <class R>
   using Attributes = VertexAttributes<R>;
@@ -132,7 +132,7 @@ struct CoordinatesShader {
   }
 };
 
-/// Derivatives of extra.x and extra.y, times `value`.
+/// Derivatives of extra.x and extra.y, multiplied by `value`.
 struct DerivativeShader : CoordinatesShader {
   int mode = kDdx;
   float value = 1.0f;
@@ -157,7 +157,7 @@ struct DerivativeShader : CoordinatesShader {
   }
 };
 
-/// A texture at (extra.x, extra.y).
+/// Samples a texture at (extra.x, extra.y).
 struct TextureShader : CoordinatesShader {
   std::shared_ptr<const Texture2D> texture;
   Sampler sampler;
@@ -170,7 +170,7 @@ struct TextureShader : CoordinatesShader {
   }
 };
 
-/// Moves to the right by `value` an instance, and by extra; the colour's blue counts instances too.
+/// Moves each instance to the right by `value` times its number, and by extra. Blue also encodes the instance.
 struct InstanceShader {
   float value = 0.0f;
   template <class R>
@@ -189,7 +189,7 @@ struct InstanceShader {
   }
 };
 
-/// N colours made of two: for attachments, or the second source of blending.
+/// Computes N colors from two, for attachments or for the second source of blending.
 template <std::size_t N>
 struct ColorsShader {
   template <class R>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The kinds of triangles and lines, by name.
+// Triangle and line topologies with their names.
 #pragma once
 
 #include "halfspace/raster/draw_state.h"
@@ -10,7 +10,7 @@ namespace halfspace::conformance {
 struct Named {
   const char* name;
   Topology topology;
-  float width = 1.0f;  ///< of lines
+  float width = 1.0f;  ///< line width
 };
 inline constexpr Named kTriangles[] = {
     {"triangles", Topology::triangles}, {"triangle_strip", Topology::triangle_strip}, {"triangle_fan", Topology::triangle_fan}};

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks every #include "..." of the tree against the layout in CONTRIBUTING.md.
 
-  includes_test.py          runs the checks, and the checks' own tests
-  includes_test.py --list   prints which module includes which, and which of raster's phases includes which
+  includes_test.py          runs the checks and the tests of the checks
+  includes_test.py --list   prints the dependencies between modules and between the phases of raster
 """
 
 import re
@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# Modules of src/, and what each may include directly; what those may include is allowed too.
+# Modules of src/ and the modules that each may include directly. Indirect dependencies are allowed as well.
 MODULES = {
     "core": [],
     "shading": ["core"],
@@ -26,10 +26,10 @@ MODULES = {
     "reference": ["render"],
     "study": ["reference"],
 }
-# Headers of enums and plain structs, which include no SIMD header: a scene description may include these too.
+# Headers with only enums and plain structs, which do not include any SIMD headers. Scene descriptions may include these, too.
 PLAIN_HEADERS = {"shading/sampler.h", "shading/light_types.h", "shading/tone_types.h"}
 
-# The phases inside raster, lowest first. A file includes files of its own phase and of lower ones.
+# The phases within raster, lowest first. A file may include files of its own phase and of lower phases.
 RASTER_PHASES = [
     ["draw_state", "target", "vertex_input", "statistics"],
     ["pipeline/"],
@@ -41,7 +41,7 @@ RASTER_PHASES = [
     ["pass", "naive"],
 ]
 
-# Third-party headers, and the only files of src/ that may include them.
+# Third-party headers and the only files or folders of src/ that may include them.
 THIRD_PARTY = {
     "OpenImageIO/": "image/tool/",
     "spng.h": "image/png.cpp",
@@ -49,12 +49,12 @@ THIRD_PARTY = {
     "embree": "reference/ray_scene.cpp",
 }
 
-# Folders whose headers are included by their path from the folder.
+# Folders whose headers are included by their path relative to the folder.
 PROGRAM_FOLDERS = ["apps", "benchmarks", "tests"]
 
 
 def allowed_modules(module):
-    """The module itself and everything below it."""
+    """Returns the module and all modules that it may include, directly or indirectly."""
     allowed = {module}
     for lower in MODULES[module]:
         allowed |= allowed_modules(lower)
@@ -62,7 +62,7 @@ def allowed_modules(module):
 
 
 def raster_phase(path):
-    """The phase of a file of raster, for example 'raster/tile/blend.h': its row in RASTER_PHASES, or None."""
+    """Returns the row in RASTER_PHASES of a file of raster, for example 'raster/tile/blend.h', or None."""
     rest = path.removeprefix("raster/")
     for row, names in enumerate(RASTER_PHASES):
         for name in names:
@@ -72,7 +72,7 @@ def raster_phase(path):
 
 
 def check_library_include(includer, included):
-    """What is wrong with a file of src/ that includes another, or None. Both are paths from src/."""
+    """Returns the problem with an include between files of src/, or None. Both paths are relative to src/."""
     module, target = includer.split("/")[0], included.split("/")[0]
     if module not in MODULES or target not in MODULES:
         return f"includes {included}: unknown module; expected one of {', '.join(MODULES)}"
@@ -81,18 +81,18 @@ def check_library_include(includer, included):
     if target not in allowed_modules(module):
         return f"includes {included}: {module} may include {', '.join(sorted(allowed_modules(module)))}"
     if includer in PLAIN_HEADERS and included not in PLAIN_HEADERS:
-        return f"includes {included}: a plain header includes no other header of ours"
+        return f"includes {included}: plain headers may only include other plain headers"
     if module == target == "raster":
         from_row, to_row = raster_phase(includer), raster_phase(included)
         if from_row is None or to_row is None:
-            return f"includes {included}: one of the two belongs to no phase of raster"
+            return f"includes {included}: one of the two files does not belong to a phase of raster"
         if to_row > from_row:
             return f"includes {included}: {RASTER_PHASES[from_row][0]} is below {RASTER_PHASES[to_row][0]}"
     return None
 
 
 def check_include(file, spelled, exists):
-    """What is wrong with `#include "spelled"` in a file (its path from the root), or None. exists(path) asks the tree."""
+    """Returns the problem with `#include "spelled"` in a file (path relative to the root), or None. exists(path) tests for a file."""
     if spelled.startswith("halfspace/"):
         included = spelled.removeprefix("halfspace/")
         if not exists("src/" + included):
@@ -106,15 +106,15 @@ def check_include(file, spelled, exists):
 
 
 def check_third_party(file, spelled):
-    """What is wrong with `#include <spelled>` in a file of src/, or None."""
+    """Returns the problem with `#include <spelled>` in a file of src/, or None."""
     for prefix, home in THIRD_PARTY.items():
         if spelled.startswith(prefix) and not file.removeprefix("src/").startswith(home):
-            return f"includes <{spelled}>: only {home} may"
+            return f"includes <{spelled}>: only {home} may include it"
     return None
 
 
 def sources():
-    """(path from the root, text) of every C++ file."""
+    """Yields the path (relative to the root) and the text of every C++ file."""
     for folder in ["src"] + PROGRAM_FOLDERS:
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix in (".h", ".cpp"):
@@ -150,7 +150,7 @@ class Tree(unittest.TestCase):
 
 
 class Checks(unittest.TestCase):
-    """The checks find what they should: each of these would break the layout."""
+    """Tests that the checks detect violations of the layout."""
 
     def check(self, file, spelled, files=()):
         return check_include(file, spelled, lambda path: path in files)
@@ -201,7 +201,7 @@ def print_arrows():
                     key = (row(includer), row(included))
                     phases[key] = phases.get(key, 0) + 1
     for title, arrows in ("modules", modules), ("raster", phases):
-        print(f"{title}: {len(arrows)} arrows")
+        print(f"{title}: {len(arrows)} dependencies")
         for (a, b), count in sorted(arrows.items()):
             print(f"  {a} -> {b}: {count}")
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Passes and scenes on stacks of 128 KiB, both the calling thread's and those of std::thread workers. (TBB chooses the
-// stacks of its own threads.)
+// Runs passes and scenes with stacks of 128 KiB, both on the calling thread and on std::thread workers. (TBB chooses the stack size of its
+// own threads.)
 #include "support/small_stack.h"
 
 #include <gtest/gtest.h>
@@ -25,14 +25,14 @@ namespace {
 class SmallStack : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
-    if (kSanitized) GTEST_SKIP() << "sanitizers widen the frames of functions";
+    if (kSanitized) GTEST_SKIP() << "sanitizers enlarge stack frames";
   }
 };
 
-// One thread is the calling one; a team larger than the machine has std::threads.
+// With 1, the calling thread does all the work. A pool that is larger than the machine uses std::threads.
 INSTANTIATE_TEST_SUITE_P(Threads, SmallStack, testing::Values(1, Workers::cores() + 2));
 
-// ---- the stacks are small indeed -------------------------------------------------------------------------------
+// ---- verification of the stack size ----------------------------------------------------------------------------
 
 __attribute__((noinline)) char touch_stack(std::size_t bytes) {
   volatile char* memory = static_cast<volatile char*>(__builtin_alloca(bytes));
@@ -40,8 +40,8 @@ __attribute__((noinline)) char touch_stack(std::size_t bytes) {
   return memory[0];
 }
 
-TEST(SmallStackDeathTest, AnOverflowEndsTheProgram) {
-  if (kSanitized) GTEST_SKIP() << "sanitizers report an overflow themselves";
+TEST(SmallStackDeathTest, OverflowsTerminateTheProgram) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers report stack overflows themselves";
   on_small_stack([] { touch_stack(kSmallStack / 2); });
   on_small_stack([] { std::thread([] { touch_stack(kSmallStack / 2); }).join(); });
   EXPECT_EXIT(on_small_stack([] { touch_stack(kSmallStack); }), testing::KilledBySignal(SIGSEGV), "");
@@ -51,7 +51,7 @@ TEST(SmallStackDeathTest, AnOverflowEndsTheProgram) {
 
 // ---- a pass ----------------------------------------------------------------------------------------------------
 
-/// Smooth colour, with depth and coverage by the shader.
+/// Outputs an interpolated color; the shader also determines depth and coverage.
 template <bool has_visibility>
 struct WaveShader {
   template <class R>
@@ -79,7 +79,7 @@ struct WaveShader {
   }
 };
 
-/// Two colours.
+/// Two color outputs.
 struct TwoColorShader : FlatColorShader {
   template <class R>
   FragmentMRT<R, 2> fragment(const Varyings<R>& in, const Pixel<R>&) const {
@@ -92,7 +92,7 @@ struct Vertices {
   auto view() const { return make_vertex_view(stream(positions), stream(colors)); }
 };
 
-/// Triangles of every size, some of which are clipped.
+/// Returns triangles of all sizes, some of which are clipped.
 Vertices random_vertices(int triangles) {
   Random r(7);
   Vertices v;
@@ -154,7 +154,7 @@ void run_pass(int threads, const Vertices& v, const PassOptions& options) {
   EXPECT_TRUE(std::ranges::any_of(post.texels(), [](const glm::u8vec4& c) { return c.x > 0; }));
 }
 
-TEST_P(SmallStack, Pass) {
+TEST_P(SmallStack, PassesRunOnSmallStacks) {
   const Vertices v = random_vertices(200);
   on_small_stack([&] {
     for (const int samples : {1, 4, 8}) {
@@ -178,7 +178,7 @@ void render_scene(const std::string& name, const std::vector<std::string>& setti
   EXPECT_TRUE(std::ranges::any_of(picture.texels(), [&](const glm::u8vec4& c) { return c != picture.at(0, 0); })) << name;
 }
 
-TEST_P(SmallStack, Scenes) {
+TEST_P(SmallStack, ScenesRenderOnSmallStacks) {
   on_small_stack([&] {
     render_scene("shapes", {}, GetParam());
     render_scene("day-night", {"samples=4"}, GetParam());
