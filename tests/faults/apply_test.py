@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that every planted fault (tests/faults) and every patch of tests/off still applies to the tree."""
+"""Checks that every fault (tests/faults) and every patch in tests/off applies to the current tree."""
 
 import shutil
 import subprocess
@@ -16,7 +16,7 @@ import mutate  # noqa: E402
 
 
 def fault_problem(stem, content, root):
-    """Why a fault does not apply to the tree below root, or None."""
+    """Returns the reason why a fault does not apply to the tree at root, or None."""
     try:
         fault = mutate.parse(stem, content)
         if not (root / fault.file).is_file():
@@ -29,13 +29,13 @@ def fault_problem(stem, content, root):
 
 
 def patch_problem(patch, root):
-    """Why a patch does not apply to the tree below root without fuzz, or None."""
+    """Returns the reason why a patch does not apply without fuzz to the tree at root, or None."""
     command = ["patch", "--dry-run", "--force", "--silent", "--fuzz=0", "-p1", "-d", str(root), "-i", str(patch)]
     result = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     return None if result.returncode == 0 else f"{patch.name}: {result.stdout.strip()}"
 
 
-needs_patch = unittest.skipUnless(shutil.which("patch"), "the program patch is missing (Debian and Ubuntu: patch)")
+needs_patch = unittest.skipUnless(shutil.which("patch"), "the program patch is not installed (package patch on Debian and Ubuntu)")
 
 
 class Tree(unittest.TestCase):
@@ -45,20 +45,20 @@ class Tree(unittest.TestCase):
         problems = [fault_problem(path.stem, path.read_text(encoding="utf-8"), ROOT) for path in files]
         self.assertEqual([p for p in problems if p], [])
 
-    def test_no_fault_is_there_twice(self):
+    def test_faults_are_unique(self):
         faults = mutate.load_all()
         self.assertEqual(len({fault.name for fault in faults}), len(faults))
         self.assertEqual(len({(fault.file, fault.old, fault.new) for fault in faults}), len(faults))
 
     @needs_patch
-    def test_every_patch_of_what_is_off_applies(self):
+    def test_every_off_patch_applies(self):
         patches = sorted((ROOT / "tests" / "off").glob("*.patch"))
         self.assertTrue(patches)
         self.assertEqual([p for p in (patch_problem(patch, ROOT) for patch in patches) if p], [])
 
 
 class Checks(unittest.TestCase):
-    """The checks report faults and patches that do not apply."""
+    """Tests that the checks report faults and patches that do not apply."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -82,14 +82,14 @@ class Checks(unittest.TestCase):
         self.assertIn("does not exist", self.problem("- int one\n+ long one\n", file="src/core/b.h"))
         self.assertIn("no test programs", self.problem("- int one\n+ long one\n", file="a.h"))
 
-    def test_files_that_are_no_faults(self):
+    def test_malformed_faults(self):
         self.assertIn("new text is the old text", self.problem("- int one\n+ int one\n"))
         self.assertIn("old text is empty", self.problem("- \n+ int one\n"))
         self.assertIn("expected a line", self.problem("+ int one\n"))
         self.assertIn("expected a line", self.problem("- int one\n+ long one\nsomething else\n"))
         self.assertIn("expected a line", self.problem("- int one\n+ long one\n", name=""))
 
-    def test_what_is_planted(self):
+    def test_planted_text(self):
         fault = mutate.parse("stem", "name: A fault\nfile: src/core/a.h\n- one = 1;\n- int two\n+ one = 1;\n+ int deux\n")
         self.assertEqual("int one = 1;\nint deux = 2;\n", fault.planted("int one = 1;\nint two = 2;\n"))
         self.assertEqual((fault.stem, fault.name, fault.file), ("stem", "A fault", "src/core/a.h"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Messages of errors. Most tests check the place and keywords of a message, so that its wording can improve.
+// Checks of error messages. Most tests check only the place and keywords of a message, so that its wording can be improved.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace halfspace {
 
-/// The message of the Error that f throws; "(no error)" if it throws none.
+/// Returns the message of the Error that f throws, or "(no error)".
 template <class Error, class F>
 std::string message_of(F&& f) {
   try {
@@ -31,14 +31,14 @@ std::string output_error(F&& f) {
   return message_of<OutputError>(f);
 }
 
-/// Is the message one line that begins with the place of the error, for example "a.json: objects.ball.radius", and has all
-/// keywords after it?
+/// Checks that the message is a single line that begins with the place of the error, such as "a.json: objects.ball.radius", and contains
+/// all keywords after it.
 inline testing::AssertionResult tells(const std::string& message, const std::string& place, const std::vector<std::string>& keywords) {
   const auto fail = [&] { return testing::AssertionFailure() << "message: " << message << "\n  "; };
   if (message.find('\n') != std::string::npos) return fail() << "has several lines";
   if (!message.starts_with(place)) return fail() << "does not begin with '" << place << "'";
   for (const std::string& word : keywords) {
-    if (message.find(word, place.size()) == std::string::npos) return fail() << "lacks '" << word << "'";
+    if (message.find(word, place.size()) == std::string::npos) return fail() << "does not contain '" << word << "'";
   }
   return testing::AssertionSuccess();
 }

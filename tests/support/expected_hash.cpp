@@ -44,7 +44,7 @@ void write_hashes(const std::filesystem::path& path, const std::map<std::string,
   write_bytes(path, text);
 }
 
-// Reads the file, lets `change` change the hashes, and writes it; other processes wait.
+// Reads the file, calls `change` to modify the hashes, and writes the file. Holds a lock, so that other processes wait.
 template <class F>
 void update(const std::filesystem::path& path, const F& change) {
   const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -64,7 +64,7 @@ HashFile& program_hashes() {
   return file;
 }
 
-// After all tests of the program, not only some: every name of the file was used.
+// If all tests of the program have run, checks that they have used every name in the file.
 class UnusedNames : public testing::Environment {
  public:
   void TearDown() override {
@@ -87,7 +87,7 @@ std::string HashFile::check(const std::string& name, uint64_t hash) {
   }
   if (hashes_.empty()) return "cannot read " + path_.string() + "; run the tests from the root of the source tree";
   const auto found = hashes_.find(name);
-  if (found == hashes_.end()) return path_.string() + ": no hash named '" + name + "'; HALFSPACE_RENEW_HASHES=1 adds it";
+  if (found == hashes_.end()) return path_.string() + ": no hash named '" + name + "'; set HALFSPACE_RENEW_HASHES=1 to add it";
   if (found->second == hash) return "";
   return "the hash of '" + name + "' is " + as_text(hash) + "; expected " + as_text(found->second) + " (" + path_.string() + ")";
 }
@@ -115,7 +115,7 @@ bool expect_hash(const std::string& name, uint64_t hash) {
 void expect_no_other_hashes() {
   HashFile& file = program_hashes();
   if (file.mode() == HashFile::Mode::renew) return file.remove_unused();
-  for (const std::string& name : file.unused()) ADD_FAILURE() << file.path() << ": no test has the name '" << name << "'";
+  for (const std::string& name : file.unused()) ADD_FAILURE() << file.path() << ": no test uses the name '" << name << "'";
 }
 
 bool expect_picture(const std::string& name, const Image<glm::u8vec4>& picture, const std::function<Image<glm::u8vec4>()>& expected) {

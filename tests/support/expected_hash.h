@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Committed hashes: tests/PROGRAM/hashes.txt has a line "NAME HASH" for each, in hexadecimal. With HALFSPACE_RENEW_HASHES=1 the
-// tests write the hashes to the file instead of comparing them.
+// Committed hashes. tests/PROGRAM/hashes.txt contains one line "NAME HASH" (in hexadecimal) per hash. With HALFSPACE_RENEW_HASHES=1, tests
+// update the file instead of comparing hashes.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@
 
 namespace halfspace {
 
-/// A file of hashes. Several processes may renew it at once.
+/// A file of hashes. Several processes may update it concurrently.
 class HashFile {
  public:
   enum class Mode { compare, renew };
 
   HashFile(std::filesystem::path path, Mode mode);
 
-  /// Compares the hash with that of the file, or writes it there. Returns what is wrong; empty if nothing is.
+  /// Compares the hash with the one in the file, or writes it to the file. Returns an error message; empty on success.
   std::string check(const std::string& name, uint64_t hash);
-  /// The names of the file that check() was not called with.
+  /// Returns the names in the file that were not passed to check().
   std::vector<std::string> unused() const;
-  /// Removes them from the file.
+  /// Removes the unused names from the file.
   void remove_unused();
 
   Mode mode() const { return mode_; }
@@ -41,14 +41,15 @@ class HashFile {
   std::set<std::string> used_;
 };
 
-/// Fails the test if the hash is not the one of this program's file. Returns whether it is, or was renewed. `name`: no spaces.
+/// Fails the test if the hash differs from the one in this program's file. Returns whether they were equal or the file was updated. The
+/// name must not contain spaces.
 bool expect_hash(const std::string& name, uint64_t hash);
 
-/// Fails the test if the program's file has names that no test used: for a test that uses them all.
+/// Fails the test if the program's file contains names that no test has used. Call it only from a test that uses all of them.
 void expect_no_other_hashes();
 
-/// Compares the hash of a picture's codes. A picture that differs is written to the build folder's test-output; so are its
-/// differences from `expected`, if that is given: it draws the right picture, or one close to it, in another way.
+/// Compares the hash of the codes of a picture. If it differs, writes the picture to the folder test-output of the build. If `expected` is
+/// given, it must return the correct or a similar picture; the difference from that picture is then also written.
 bool expect_picture(const std::string& name, const Image<glm::u8vec4>& picture, const std::function<Image<glm::u8vec4>()>& expected = {});
 
 }  // namespace halfspace

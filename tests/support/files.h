@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whole files, and the data that is not part of the repository.
+// Functions for whole files and for data that is not part of the repository.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-/// The bytes of a file; empty if it cannot be read.
+/// Returns the contents of a file; empty if it cannot be read.
 inline std::string read_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -21,10 +21,10 @@ inline void write_bytes(const std::filesystem::path& path, std::string_view byte
   std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// A file or folder of ../shared/data, from the root of the source tree, where tests run. It may be absent: a test that needs it
-/// begins with `if (!exists(path)) GTEST_SKIP() << absent(path);`.
+/// Returns the path of a file or folder in ../shared/data, relative to the root of the source tree, where tests run. It may not exist.
+/// Tests that need it begin with `if (!exists(path)) GTEST_SKIP() << absent(path);`.
 inline std::filesystem::path shared_data(const std::filesystem::path& name) { return "../shared/data" / name; }
 
-inline std::string absent(const std::filesystem::path& path) { return path.string() + " is absent: it is not part of the repository"; }
+inline std::string absent(const std::filesystem::path& path) { return path.string() + " does not exist; it is not part of the repository"; }
 
 }  // namespace halfspace

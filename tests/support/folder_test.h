@@ -14,7 +14,7 @@
 
 namespace halfspace {
 
-/// A test with a temporary folder of its own.
+/// Base class of tests that need a temporary folder.
 class FolderTest : public testing::Test {
  protected:
   std::size_t file_count() const {

@@ -5,11 +5,11 @@
 
 namespace halfspace {
 
-/// FNV-1a, 64 bits, over numbers: each is one step, whether it is a byte or a word.
+/// 64-bit FNV-1a over numbers. Each number is one step, regardless of whether it is a byte or a word.
 class Hash {
  public:
   void add(uint64_t number) { value_ = (value_ ^ number) * 0x100000001b3u; }
-  /// The channels of an Image of codes.
+  /// Adds all channels of an image of codes.
   template <class Image>
   void add_codes(const Image& image) {
     for (const auto& t : image.texels()) {

@@ -9,13 +9,13 @@
 
 namespace halfspace {
 
-/// What a program said, and how it ended.
+/// Output and exit code of a program.
 struct ProgramOutput {
-  int exit_code = -1;  ///< -1: it did not start, or a signal ended it
-  std::string text;    ///< standard output, and what the command redirects there
+  int exit_code = -1;  ///< -1 if the program did not start or was terminated by a signal
+  std::string text;    ///< standard output, including what the command redirects to it
 };
 
-/// Runs a command of the shell.
+/// Runs a shell command.
 inline ProgramOutput run_command(const std::string& command) {
   ProgramOutput output;
   std::FILE* pipe = ::popen(command.c_str(), "r");
@@ -27,7 +27,7 @@ inline ProgramOutput run_command(const std::string& command) {
   return output;
 }
 
-/// Does the command succeed? What it prints is dropped.
+/// Returns whether the command succeeds. Its output is discarded.
 inline bool command_works(const std::string& command) { return run_command(command + " > /dev/null 2>&1").exit_code == 0; }
 
 }  // namespace halfspace

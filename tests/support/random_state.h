@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Parts of a random state of a draw.
+// Random parts of a draw state.
 #pragma once
 
 #include "halfspace/raster/draw_state.h"
@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// Blending by random equations and, of the first `factors` of BlendFactor, random factors.
+/// Returns random blend equations and random factors from the first `factors` values of BlendFactor.
 inline BlendState random_equations(Random& random, int factors) {
   const auto factor = [&] { return static_cast<BlendFactor>(random.below(factors)); };
   const auto equation = [&] { return static_cast<BlendEquation>(random.below(5)); };

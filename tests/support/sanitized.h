@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Does a sanitizer watch this build? HS_SANITIZED is 1 then and 0 else, for the preprocessor; kSanitized says the same.
+// HS_SANITIZED is 1 if the build uses a sanitizer, and 0 otherwise. kSanitized is the same as a bool.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

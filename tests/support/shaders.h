@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small shaders that several test programs draw with. Positions are clip coordinates unless a matrix is named.
+// Small shaders that several test programs use. Positions are in clip space unless the shader has a matrix.
 #pragma once
 
 #include "halfspace/raster/pass.h"
@@ -19,7 +19,7 @@ struct ColoredAttributes {
 template <class R>
 struct NoVaryings {};
 
-/// The position alone: draws depth.
+/// Only a position, for depth-only draws.
 struct PositionShader {
   template <class R>
   using Attributes = PositionAttributes<R>;
@@ -31,7 +31,7 @@ struct PositionShader {
   }
 };
 
-/// The position alone, by a matrix.
+/// Only a position, transformed by a matrix.
 struct MatrixShader {
   glm::mat4 clip_from_model{1.0f};
   template <class R>
@@ -44,7 +44,7 @@ struct MatrixShader {
   }
 };
 
-/// One colour for all pixels.
+/// One color for all pixels.
 struct ConstantShader : PositionShader {
   glm::vec4 color{1.0f};
   ConstantShader() = default;
@@ -55,7 +55,7 @@ struct ConstantShader : PositionShader {
   }
 };
 
-/// The colour of the provoking vertex.
+/// The color of the provoking vertex.
 struct FlatColorShader {
   template <class R>
   using Attributes = ColoredAttributes<R>;
@@ -74,7 +74,7 @@ struct FlatColorShader {
   }
 };
 
-/// The colours of the vertices, interpolated with perspective.
+/// The colors of the vertices with perspective-correct interpolation.
 struct SmoothColorShader {
   template <class R>
   using Attributes = ColoredAttributes<R>;
@@ -93,7 +93,7 @@ struct SmoothColorShader {
   }
 };
 
-/// The colours of the vertices, interpolated linearly in the window.
+/// The colors of the vertices, interpolated linearly in the window.
 struct LinearColorShader {
   template <class R>
   using Attributes = ColoredAttributes<R>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Code that must do with a small stack, such as musl's 128 KiB.
+// Runs code with a small stack, such as musl's 128 KiB.
 #pragma once
 
 #include <pthread.h>
@@ -14,13 +14,13 @@ namespace halfspace {
 
 inline constexpr std::size_t kSmallStack = std::size_t{128} << 10;
 
-/// Calls function on a thread with a stack of kSmallStack, as are, while it runs, the stacks of new std::threads. What
-/// overflows a stack ends the program: below each lie 16 MiB of memory that may not be touched. An exception is rethrown.
+/// Calls function on a thread with a stack of kSmallStack bytes. While it runs, this is also the stack size of new std::threads. A stack
+/// overflow terminates the program, because 16 MiB below each stack are inaccessible. Exceptions are rethrown.
 template <class F>
 void on_small_stack(F&& function) {
   constexpr std::size_t kGuard = std::size_t{16} << 20;
   const auto expect_zero = [](int error) {
-    if (error != 0) throw std::runtime_error("no thread with a small stack");
+    if (error != 0) throw std::runtime_error("cannot create a thread with a small stack");
   };
   pthread_attr_t usual, small;
   expect_zero(pthread_getattr_default_np(&usual));

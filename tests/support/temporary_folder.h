@@ -9,7 +9,7 @@
 
 namespace halfspace {
 
-/// A new folder in the system's folder for temporary files, removed with all it holds when the object is destroyed.
+/// A new folder in the system's temporary directory. The destructor removes it with all of its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -9,15 +9,15 @@
 
 namespace halfspace {
 
-/// The name of this test program without "test-", for example "render".
+/// Returns the name of this test program without "test-", for example "render".
 std::string test_program();
 
-/// Writes a picture to BUILD/test-output/PROGRAM-NAME.png, for tests that fail, and returns its path. Characters of the name that
-/// are no letters, digits, dots or dashes become underscores.
+/// Writes a picture of a failed test to BUILD/test-output/PROGRAM-NAME.png and returns its path. Characters of the name other than letters,
+/// digits, dots and dashes are replaced by underscores.
 std::filesystem::path write_test_picture(const std::string& name, const Image<glm::u8vec4>& picture);
 
-/// Writes the picture and, if `expected` is not empty, the colours of the differences from it (image_difference.h) with
-/// "-difference" after the name. Returns what was written where, in words, for the message of a failed test.
+/// Writes the picture. If `expected` is not empty, also writes the difference colors (image_difference.h), with "-difference" appended to
+/// the name. Returns a text with the paths, for the message of the failed test.
 std::string write_failed_picture(const std::string& name, const Image<glm::u8vec4>& picture, const Image<glm::u8vec4>& expected);
 
 }  // namespace halfspace

@@ -5,7 +5,7 @@
 
 namespace halfspace {
 
-/// For tests where the number of threads does not matter: results do not depend on it (tests/property shows it).
+/// For tests in which the thread count does not matter. Results do not depend on it, which tests/property verifies.
 inline const Workers& one_worker() {
   static const Workers workers(1);
   return workers;

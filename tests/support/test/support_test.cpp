@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tests' own tools: committed hashes and pictures that differ are reported, and so are messages that say something else.
+// Tests of the test support: hash and picture mismatches must be reported, and checks of error messages must detect wrong messages.
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace halfspace {
 namespace {
 
-// This program's file of hashes stays as it is, also while those of others are renewed.
+// Never update the hash file of this program, even while those of other programs are updated.
 [[maybe_unused]] const int kNotRenewed = ::unsetenv("HALFSPACE_RENEW_HASHES");
 
 class Hashes : public testing::Test {
@@ -39,7 +39,7 @@ TEST_F(Hashes, AreCompared) {
 }
 
 TEST_F(Hashes, AreRenewed) {
-  HashFile file(path, HashFile::Mode::renew), other(path, HashFile::Mode::renew);  // as two processes have it
+  HashFile file(path, HashFile::Mode::renew), other(path, HashFile::Mode::renew);  // as in two processes
   EXPECT_EQ(file.check("two", 2), "");
   EXPECT_EQ(other.check("one", 1), "");
   EXPECT_EQ(file.check("three", 0xfedcba9876543210u), "");
@@ -52,18 +52,18 @@ TEST_F(Hashes, AreRenewed) {
 }
 
 // FNV-1a of "foobar", from the test vectors of its authors.
-TEST_F(Hashes, AreFnv1a) {
+TEST_F(Hashes, UseFnv1a) {
   Hash hash;
   for (const char c : std::string("foobar")) hash.add(static_cast<unsigned char>(c));
   EXPECT_EQ(hash.value(), 0x85944171f73967e8u);
 }
 
-TEST_F(Hashes, OfThisProgramAreInItsFile) {
+TEST_F(Hashes, AreReadFromTheFileOfTheProgram) {
   EXPECT_TRUE(expect_hash("zero", 0));
   EXPECT_NONFATAL_FAILURE(expect_hash("zero", 1), "tests/support/hashes.txt");
 }
 
-TEST(TestPictures, ThatDifferAreWritten) {
+TEST(TestPictures, MismatchesAreWritten) {
   Image<glm::u8vec4> picture(3, 2), expected(3, 2);
   picture.at(1, 1) = glm::u8vec4(255, 0, 0, 255);
   EXPECT_NONFATAL_FAILURE(expect_picture("a picture/of two", picture, [&] { return expected; }), "no hash named 'a picture/of two'");
@@ -77,7 +77,7 @@ TEST(TestPictures, ThatDifferAreWritten) {
   EXPECT_EQ(write_failed_picture("alone", picture, {}).find("difference"), std::string::npos);
 }
 
-TEST(Messages, TellPlaceAndKeywords) {
+TEST(Messages, AreCheckedForPlaceAndKeywords) {
   EXPECT_TRUE(tells("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.radius", {"number", "'x'"}));
   EXPECT_FALSE(tells("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.scale", {}));
   EXPECT_FALSE(tells("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.radius", {"radius"}));
