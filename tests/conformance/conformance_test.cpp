@@ -28,7 +28,7 @@ TEST_P(FillRules, CoverEachSampleOnce) { expect_right(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, FillRules, testing::ValuesIn(fill_rules_cases()), case_name);
 
 class Primitives : public ConformanceOf {};
-TEST_P(Primitives, CoverTheRightSamples) { expect_right(); }
+TEST_P(Primitives, CoverTheCorrectSamples) { expect_right(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Primitives, testing::ValuesIn(primitives_cases()), case_name);
 
 class Interpolation : public ConformanceOf {};
@@ -101,7 +101,7 @@ TEST_P(TextureFiltering, FollowsTheSpecification) { expect_right(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, TextureFiltering, testing::ValuesIn(texture_filtering_cases()), case_name);
 
 class TextureMipmap : public ConformanceOf {};
-TEST_P(TextureMipmap, SelectsTheRightLevel) { expect_right(); }
+TEST_P(TextureMipmap, SelectsTheCorrectLevel) { expect_right(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, TextureMipmap, testing::ValuesIn(texture_mipmap_cases()), case_name);
 
 class Clears : public ConformanceOf {};

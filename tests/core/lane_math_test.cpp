@@ -307,7 +307,7 @@ void expect_monotone(const char* what, F f, float lo, float hi) {
   float last = f(lo);
   for (float x = lo; x <= hi; x = std::nextafter(x, kInf)) {
     const float value = f(x);
-    ASSERT_GE(value, last) << what << " steps down at " << x;
+    ASSERT_GE(value, last) << what << " decreases at " << x;
     last = value;
   }
 }

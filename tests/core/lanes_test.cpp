@@ -204,7 +204,7 @@ TEST(Lanes, BroadcastPreservesEveryBit) {
   });
 }
 
-TEST(Lanes, GathersLoadsAndStoresAccessTheRightElements) {
+TEST(Lanes, GathersLoadsAndStoresAccessTheCorrectElements) {
   std::vector<float> table(1000);
   std::vector<int32_t> int_table(1000);
   for (std::size_t i = 0; i < 1000; ++i) {

@@ -40,7 +40,7 @@ TEST(TrigDouble, QuarterTurnsAreExact) {
 TEST(TrigDouble, IsWithinOneUlpOfLongDouble) {
   double worst = 0;
   for (int i = 0; i <= 200000; ++i) {
-    const double t = i / 800000.0;  // a quarter turn at most
+    const double t = i / 800000.0;  // at most a quarter turn
     const SinCosDouble a = sincos_turns(t);
     // Near a quarter turn, rounding of its argument would make the long double cosine inaccurate. The sine of the remaining angle, which is
     // exact, gives the same value.

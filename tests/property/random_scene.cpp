@@ -86,7 +86,7 @@ class Placer {
   // Vertices on pixel centers, pixel edges or quarters of a pixel, so that samples are exactly on edges and vertices.
   void on_the_grid() {
     const float step = random_.pick({0.5f, 1.0f, 0.25f, 4.0f});
-    const bool sloped = random_.once_in(2);  // at a vertex, depth must equal that of the vertex
+    const bool sloped = random_.once_in(2);  // depth must be exact at vertices, also on a slope
     const float z = random_.pick({0.25f, 0.5f, 0.75f});
     const auto point = [&] {
       const WindowPoint p = anywhere(0.1f);
@@ -359,7 +359,7 @@ std::vector<A> random_rows(const std::vector<glm::vec4>& positions, Random& rand
   return rows;
 }
 
-// Returns a draw of strips, fans, restarts, instances or with a base vertex.
+// Returns a draw with a random combination of topology, primitive restart, instances and base vertex.
 template <class S>
 SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, DrawState state, Random& random) {
   using A = typename S::template Attributes<float>;

@@ -385,8 +385,8 @@ class ClipComparison {
   const PassStatistics& statistics() const { return statistics_; }
 
  private:
-  // Vertices are snapped to 1/256 px, which moves them by at most 1/512 px in x and in y. The drawn outline is therefore within √2/512 px =
-  // 0.71/256 px of the exact one. 1/256 px also leaves room for the rounding of clipped corners.
+  // Vertices are snapped to 1/256 px, which moves them by at most 1/512 px in x and in y. The drawn outline is therefore within
+  // √2/512 px = 0.71/256 px of the exact one. 1/256 px also leaves room for the rounding of clipped corners.
   static constexpr long double kTolerance = 1.0L / 256;
 
   void add(long double d, const ClipTriangle& t, int x, int y) {
@@ -416,14 +416,14 @@ float whole(Random& r, int bits) {
   return static_cast<float>(r.integer(-limit, limit));
 }
 
-// Random triangles that cross every plane, with coordinates of all magnitudes and w of both signs.
+// Returns a random triangle with coordinates of all magnitudes and w of both signs, so that all planes are crossed.
 ClipTriangle any_triangle(Random& r) {
   ClipTriangle t;
   for (glm::vec4& v : t) v = {whole(r, 24), whole(r, 24), whole(r, 24), whole(r, 24)};
   return t;
 }
 
-// Random triangles with at least one vertex in the picture, so that more of each triangle is visible. Other vertices can be up to 1e5 px
+// Returns a random triangle with at least one vertex in the picture, so that more of it is visible. The other vertices can be up to 1e5 px
 // away or behind the eye.
 ClipTriangle seen_triangle(Random& r) {
   ClipTriangle t;

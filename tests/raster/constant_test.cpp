@@ -13,7 +13,7 @@
 namespace halfspace::raster_test {
 namespace {
 
-// ConstantShader accepts a Pixel; this shader has no parameters, which makes it constant.
+// ConstantShader's fragment function has a Pixel parameter. This one does not, which makes the shader constant by its type.
 struct PaintShader {
   glm::vec4 color;
   template <class R>
@@ -57,7 +57,7 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
                     random.integer(-kPictureSize * 256, 2 * kPictureSize * 256)};
       positions.push_back(clip_position(p, kPictureSize, kPictureSize, random.real(-0.9f, 0.9f)));
     }
-    // Every second picture has a second triangle, which usually shares an edge with the first one.
+    // Every second picture has a second triangle that shares an edge with the first one. In a few cases, it is the same triangle.
     if (i % 2 == 1) {
       const auto edge = static_cast<std::size_t>(random.integer(0, 2));
       const glm::vec4 a = positions[edge], b = positions[(edge + 1) % 3], c = positions[(edge + 2) % 3];
@@ -73,7 +73,7 @@ TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
   }
 }
 
-TEST(CoveredArea, TrianglePairsCoverAnAreaOnlyIfTheyShareAnEdge) {
+TEST(CoveredArea, PairsCoverEveryPixelExactlyOnce) {
   Random random(5);
   const auto rotated = [](Triangle t) {
     if ((t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) < (t.y[1] - t.y[0]) * (t.x[2] - t.x[0])) {

@@ -117,7 +117,7 @@ class Comparison {
       for (int x = 0; x < width_; ++x) {
         if (pixel(drawn, x, y) == pixel(want, x, y)) continue;
         if (differences_++ < 10) {
-          ADD_FAILURE() << path << ": pixel " << x << ", " << y << " has weight " << pixel(drawn, x, y).x << " instead of "
+          ADD_FAILURE() << path << ": pixel " << x << ", " << y << " has weight " << pixel(drawn, x, y).x << "; expected "
                         << pixel(want, x, y).x;
         }
       }

@@ -163,7 +163,7 @@ TEST(Depth, ClippedTrianglesStayWithinHalfAGridStepOfTheirPlane) {
     if (std::fabs(area) < 1e-3L) continue;
     const Exact dz_dx = ((z[1] - z[0]) * (y[2] - y[0]) - (z[2] - z[0]) * (y[1] - y[0])) / area;
     const Exact dz_dy = ((z[2] - z[0]) * (x[1] - x[0]) - (z[1] - z[0]) * (x[2] - x[0])) / area;
-    const Image<float> depth = draw_depth(kSize, kSize, p, always(), 2.0f);  // cleared to 1
+    const Image<float> depth = draw_depth(kSize, kSize, p, always(), 2.0f);  // the clear value is clamped to 1
     clipped += std::any_of(z.begin(), z.end(), [](Exact v) { return v < 0 || v > 1; }) ? 1 : 0;
     for (int py = 0; py < kSize; ++py) {
       for (int px = 0; px < kSize; ++px) {
@@ -206,7 +206,7 @@ bool is_everywhere(const Image<float>& depth, float z) {
   return std::all_of(depth.texels().begin(), depth.texels().end(), [z](float got) { return got == z; });
 }
 
-TEST(Depth, CompareOpsPassTheRightSamples) {
+TEST(Depth, CompareOpsMatchTheirDefinitions) {
   const std::array<CompareOp, 8> ops{CompareOp::never,   CompareOp::less,      CompareOp::equal,         CompareOp::less_equal,
                                      CompareOp::greater, CompareOp::not_equal, CompareOp::greater_equal, CompareOp::always};
   //                                 new < stored, new == stored, new > stored
@@ -407,8 +407,8 @@ TEST(DepthOffset, ConstantIsInUnitsOfTheSmallestStep) {
 }
 
 TEST(DepthOffset, FloatStepFollowsTheLargestDepthOfTheTriangle) {
-  // The largest |z| is 0.75, with exponent −1, so the step is 2^-24 for the whole triangle. Floats resolve this step at the vertex with z =
-  // 0.25.
+  // The largest |z| is 0.75, with exponent −1, so the step is 2^-24 for the whole triangle. Floats resolve this step at the vertex with
+  // z = 0.25.
   const std::vector<glm::vec4> p{{-1, -1, 0.25f, 1}, {3, -1, 0.75f, 1}, {-1, 3, 0.25f, 1}};
   const float without = offset_depth(DepthFormat::d32f, p, {}, 3, 3);
   EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = 2.0f}, 3, 3), without + 2 * 0x1p-24f);

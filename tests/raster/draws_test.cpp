@@ -22,7 +22,7 @@ struct Primitives {
   std::size_t count() const { return positions.size() / corners; }
 };
 
-// Small overlapping primitives, whose order is visible in every pixel. Every fiftieth has a vertex behind the eye.
+// Returns small overlapping primitives whose order is visible in every pixel. Every fiftieth has a vertex behind the eye.
 Primitives many(Topology topology, std::size_t corners, int count) {
   Random random(31);
   Primitives p{topology, corners};

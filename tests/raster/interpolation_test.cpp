@@ -465,7 +465,7 @@ TEST(Pixels, ProvidePositionDepthAndW) {
       inv_w.add(std::fabs(static_cast<Exact>(got.x) - want) / want);
     });
   }
-  inv_w.report("1/w, relative to itself");
+  inv_w.report("1/w, relative error");
   EXPECT_LE(inv_w.most, 6e-7L);  // a sum of non-negative terms with at most ten roundings, for any ratio
 }
 

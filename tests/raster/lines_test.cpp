@@ -55,7 +55,7 @@ TEST(Lines, WideLinesAreExtendedAlongTheMinorAxis) {
     const Image<glm::vec4> image =
         draw_lines({center(3, 8), center(9, 8)}, {.topology = Topology::lines, .line_width = static_cast<float>(width)});
     EXPECT_EQ(total(image), 6 * width);
-    const int below = (width - 1) / 2 + (width % 2 == 0 ? 1 : 0);  // (w − 1)/2 px down; a center on the boundary is included below
+    const int below = (width - 1) / 2 + (width % 2 == 0 ? 1 : 0);  // (w − 1)/2 px down, rounded up
     EXPECT_EQ(pixel(image, 5, 8 - below).x, 1.0f) << width;
     EXPECT_EQ(pixel(image, 5, 8 - below - 1).x, 0.0f) << width;
     EXPECT_EQ(pixel(image, 5, 8 - below + width).x, 0.0f) << width;
@@ -94,8 +94,8 @@ struct RampShader : ConstantShader {
   }
 };
 
-// OpenGL 4.6, equations 14.5 and 14.6: t is the position along the line. With w = 1 and w = 3, the perspective-correct value is (t/3)/((1 −
-// t) + t/3).
+// OpenGL 4.6, equations 14.5 and 14.6, where t is the position along the line. For w = 1 and w = 3, the perspective-correct value is
+// (t/3)/((1 − t) + t/3).
 TEST(Lines, InterpolateAlongTheLine) {
   const glm::vec4 a = clip_position(center(1, 5), 16, 16), b = clip_position(center(13, 5), 16, 16, 0.5f);
   const std::vector<glm::vec4> p{a, b * 3.0f};

@@ -58,7 +58,7 @@ TEST(Multisample, DeferredPixelsAreShadedOncePerPrimitive) {
   }
 }
 
-// Returns the window position as a color, to distinguish per-sample from per-pixel shading.
+// Outputs the window position as a color, to distinguish per-sample from per-pixel shading.
 struct PlaceShader {
   template <class R>
   struct Attributes {

@@ -12,7 +12,7 @@ using namespace raster_test;
 // Returns a triangle that covers any render target, at a window depth in [0, 1].
 std::vector<glm::vec4> whole(float depth) { return full_screen(2.0f * depth - 1.0f); }
 
-// N colours: (n, 0.25, 0.5, 0.75) for the n-th.
+// Outputs N colors: output n is colors[n].
 template <std::size_t N>
 struct NumberedColors {
   std::array<glm::vec4, N> colors{};

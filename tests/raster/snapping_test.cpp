@@ -56,7 +56,7 @@ Tally snap_many(const std::vector<glm::vec4>& positions, const Rect& viewport) {
 const std::array<Rect, 5> kViewports{
     {{0, 0, 1920, 1080}, {0, 0, 1, 1}, {-16384, 16384, 16383, 16384}, {17, -5, 1001, 333}, {8000, 8000, 8191, 63}}};
 
-TEST(Snapping, ViewportPositionsAreNearest) {
+TEST(Snapping, ViewportPositionsAreWithinErrorBound) {
   Random r(1);
   for (const Rect& viewport : kViewports) {
     std::vector<glm::vec4> positions(static_cast<std::size_t>(effort(200000)));
@@ -71,7 +71,7 @@ TEST(Snapping, ViewportPositionsAreNearest) {
   }
 }
 
-TEST(Snapping, GuardBandPositionsAreNearest) {
+TEST(Snapping, GuardBandPositionsAreWithinErrorBound) {
   Random r(2);
   for (const Rect& viewport : kViewports) {
     std::vector<glm::vec4> positions(static_cast<std::size_t>(effort(200000)));
@@ -89,7 +89,7 @@ TEST(Snapping, GuardBandPositionsAreNearest) {
 }
 
 // Positions within a few ulps of the midpoint between two sub-pixels. Only these may round to the wrong side.
-TEST(Snapping, NearTiesExceedHalfAStepOnlySlightly) {
+TEST(Snapping, NearTiesAreWithinErrorBound) {
   Random r(3);
   for (const Rect& viewport : kViewports) {
     std::vector<glm::vec4> positions(static_cast<std::size_t>(effort(200000)));

@@ -110,7 +110,7 @@ bool is_everywhere(const Image<glm::vec4>& image, const glm::vec4& want) {
 
 // ---- culling ---------------------------------------------------------------------------------------------------
 
-TEST(Culling, ModesAndWindingsCullTheRightFaces) {
+TEST(Culling, ModesAndWindingsSelectTheCulledFaces) {
   for (const Winding front : {Winding::counter_clockwise, Winding::clockwise}) {
     for (const bool counter_clockwise : {true, false}) {  // in the window, y up
       for (const CullMode mode : {CullMode::none, CullMode::front, CullMode::back, CullMode::front_and_back}) {

@@ -48,7 +48,7 @@ TEST(Lighting, PointLightsAttenuateWithDistance) {
   EXPECT_EQ(at<double>(light, LightModel::lambert, 1, kUp, kUp).diffuse.x, 1.0 / 16) << "inverse square";
 }
 
-TEST(Lighting, SpotIsFullInsideDarkOutsideAndSmoothBetween) {
+TEST(Lighting, SpotIsFullInsideDarkOutsideAndSmoothInBetween) {
   Light spot{.type = LightType::spot, .place_rws = {0, 0, 2}};
   const double inner = std::cos(20 * kPi / 180), outer = std::cos(30 * kPi / 180);
   spot.cos_outer = static_cast<float>(outer);
@@ -81,8 +81,8 @@ TEST(Lighting, HighlightsPeakInTheMirrorDirection) {
     const double off = std::abs(degrees + 40) * kPi / 180;
     const double phong = at<double>(light, LightModel::phong, s, kUp, v).specular.x;
     const double blinn = at<double>(light, LightModel::blinn_phong, s, kUp, v).specular.x;
-    // l is rounded to float. The error of its length, 6e-8, is multiplied by 50 by the power. Its angle has the same error, multiplied by
-    // the slope of cos^50, which is at most 4.3.
+    // l is rounded to float. The error of its length, 6e-8, grows by a factor of 50 in the power. The error of its angle is also 6e-8
+    // and is multiplied by the slope of cos^50, which is at most 4.3.
     EXPECT_NEAR(phong, std::pow(std::max(std::cos(off), 0.0), s), 3.3e-6) << degrees;
     EXPECT_NEAR(blinn, std::pow(std::cos(off / 2), s), 3.3e-6) << degrees;
   }

@@ -173,7 +173,7 @@ TEST(SphereIntersection, SpheresCutByTheNearPlaneMatchLongDouble) {
   RecordProperty("worst_normal_1e-6", std::to_string(worst.normal * 1e6));
 }
 
-// Constructs spheres that almost touch the ray: ten million rays that hit or miss by between 2^-8 of the radius and less than its last bit.
+// Constructs spheres that almost touch the ray. Ten million rays hit or miss by 2^-8 of the radius down to less than its last bit.
 TEST(SphereIntersection, VisibilityAtTheRimMatchesLongDouble) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(5);

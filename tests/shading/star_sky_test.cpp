@@ -36,8 +36,8 @@ TEST(StarSky, LanesMatchScalarBits) {
 }
 
 TEST(StarSky, DensityIsTheFractionOfCellsWithAStar) {
-  // The disk of a cell covers π·(1.3·pixel)² on the face, and less toward the corners: scaled by the mean of 1/√(1 + a² + b²) over the
-  // face.
+  // The disk of a cell covers π·(1.3·pixel)² on the face, multiplied by a factor that decreases toward the corners. `mean` is
+  // the average of this factor, 1/√(1 + a² + b²).
   double mean = 0.0;
   for (int i = 0; i < 100; ++i) {
     for (int j = 0; j < 100; ++j) mean += 1e-4 / std::sqrt(1.0 + std::pow((i + 0.5) / 100, 2) + std::pow((j + 0.5) / 100, 2));
@@ -49,8 +49,8 @@ TEST(StarSky, DensityIsTheFractionOfCellsWithAStar) {
     int lit = 0;
     for (int i = 0; i < kCount; ++i) lit += sky.star_light<float>(direction(i, kCount)).x > 0 ? 1 : 0;
     const double want = mean * static_cast<double>(density) * 24576.0 * std::pow(1.3 * static_cast<double>(pixel), 2) / 4.0 * kCount;
-    // A quarter of 24576 cells has a standard deviation of √(24576·3/16) = 68, or 1.1%. 9000 random hits add another 1.1%. The tolerance is
-    // four standard deviations of both.
+    // If a quarter of the 24576 cells has a star, the standard deviation of their number is √(24576·3/16) = 68, or 1.1%. The random number
+    // of about 9000 hits adds another 1.1%. The tolerance is four standard deviations of both.
     EXPECT_NEAR(lit, want, 0.06 * want);
   }
 }
