@@ -12,13 +12,13 @@ namespace halfspace {
 namespace {
 
 constexpr float kExponents[] = {1.0f / 2.2f, 1.0f / 2.4f, 1.0f, 0.5f, 0.9f, 0.01f};
-constexpr uint32_t kStride = 509;  // about four million floats per exponent
+constexpr uint32_t kBitStride = 509;  // about four million floats per exponent
 
 TEST(FixedPower, IsWithinErrorBound) {
   for (const float y : kExponents) {
     const FixedPower power(y);
     double worst = 0;
-    for (int64_t i = as_int(0x1p-126f); i < as_int(detail::kInfinity); i += kStride) {
+    for (int64_t i = as_int(0x1p-126f); i < as_int(detail::kInfinity); i += kBitStride) {
       const float x = as_real(static_cast<int32_t>(i));
       const double want = std::pow(static_cast<double>(x), static_cast<double>(y));
       worst = std::max(worst, std::fabs(static_cast<double>(power(x)) - want) / want);
@@ -66,7 +66,7 @@ TEST(FixedPower, MatchesTheCommittedHash) {
   Hash hash;
   for (const float y : kExponents) {
     const FixedPower power(y);
-    for (int64_t i = as_int(0x1p-126f); i < as_int(detail::kInfinity); i += 100 * kStride) {
+    for (int64_t i = as_int(0x1p-126f); i < as_int(detail::kInfinity); i += 100 * kBitStride) {
       hash.add(static_cast<uint32_t>(as_int(power(as_real(static_cast<int32_t>(i))))));
     }
   }
