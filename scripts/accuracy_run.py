@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs all studies, and renews docs/accuracy.md (its run and its tables; the words stay) and docs/charts.
+"""Runs all studies and updates the generated parts of docs/results/accuracy.md (the run and the tables) and docs/results/charts.
 
-    scripts/accuracy_run.py build/release/bin/halfspace [FOLDER]      from the root of the tree; some minutes
+    scripts/accuracy_run.py build/release/bin/halfspace [FOLDER]      run from the root of the tree; takes some minutes
 
-With FOLDER, takes what `halfspace chart all -o FOLDER` has written there before.
+With FOLDER, uses the files that an earlier `halfspace chart all -o FOLDER` has written there.
 """
 import json
 import os
@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 
-DOC = "docs/accuracy.md"
+DOC = "docs/results/accuracy.md"
 
 
 def number(x):
@@ -30,15 +30,15 @@ def table(study):
         cells += [number(ms["median"]), number(ms["low"]) + " to " + number(ms["high"]), "yes" if v["pareto"] else ""]
         rows.append("| " + " | ".join(cells) + " |")
     truth = study["truth"]
-    text = f"{study['setting']}. Error: {study['error_name']}; time: {study['time_name']}.\n"
-    text += f"Truth: {truth['method']}; its own error {truth['error']:.1e} ({truth['error_method']}).\n\n"
-    return text + "<details><summary>Figures</summary>\n\n" + "\n".join(rows) + "\n\n</details>\n"
+    text = f"{study['setting']}. Error: {study['error_name']}. Time: {study['time_name']}.\n"
+    text += f"Reference: {truth['method']}. Its error is {truth['error']:.1e} ({truth['error_method']}).\n\n"
+    return text + "<details><summary>Table</summary>\n\n" + "\n".join(rows) + "\n\n</details>\n"
 
 
 def replaced(text, name, content):
     pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.S)
     if not pattern.search(text):
-        sys.exit(f"{DOC}: has no place for {name}")
+        sys.exit(f"{DOC}: the marker <!-- {name} --> is missing")
     return pattern.sub(lambda m: m.group(1) + content + m.group(2), text)
 
 
@@ -48,7 +48,7 @@ def main():
     folder = sys.argv[2] if len(sys.argv) == 3 else "build/charts"
     if len(sys.argv) == 2:
         subprocess.run([sys.argv[1], "chart", "all", "-o", folder], check=True)
-    os.makedirs("docs/charts", exist_ok=True)
+    os.makedirs("docs/results/charts", exist_ok=True)
     with open(DOC, encoding="utf-8") as file:
         text = file.read()
     for name in re.findall(r"<!-- study (\w+) -->", text):
@@ -56,7 +56,7 @@ def main():
             study = json.load(file)
         text = replaced(text, f"study {name}", table(study))
         for suffix in (".svg", "-dark.svg"):
-            shutil.copy(os.path.join(folder, name + suffix), "docs/charts")
+            shutil.copy(os.path.join(folder, name + suffix), "docs/results/charts")
         run = study["run"]
     text = replaced(text, "run", f"`{run['command']}`, {run['date']}, {run['processor']}, {run['cores']} cores, {run['threads']} threads, "
                     f"{run['version']}.\n")

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# How wrong the original sprite is by the angle off the axis: docs/sprite_error.csv and its chart docs/sprite_error.svg.
+# Measures the error of the original sprite by the angle off the axis. Writes docs/explanation/sprite_error.csv and its chart,
+# docs/explanation/sprite_error.svg.
 # Needs ImageMagick (compare) and gnuplot.
 #
 #   scripts/chart_sprites.sh [PROGRAM]     default: build/release/bin/halfspace
@@ -18,7 +19,7 @@ cat > "$work/scene.json" << 'END'
   "cameras": { "main": { "position": [0, 0, 0], "target": [0, 0, -1], "fov": 100, "near": 0.1, "far": 100 } },
   "particles": { "file": "one.csv" } }
 END
-echo "angle_degrees,sphere_px,wrong_px,wrong_share,one_minus_cos" > docs/sprite_error.csv
+echo "angle_degrees,sphere_px,wrong_px,wrong_share,one_minus_cos" > docs/explanation/sprite_error.csv
 for angle in $(seq 0 5 50); do
   awk -v a="$angle" 'BEGIN { t = a * atan2(0, -1) / 180; printf "%.17g,0,%.17g,0.5\n", 3 * sin(t), -3 * cos(t) }' > "$work/one.csv"
   for sprite in original exact; do
@@ -27,17 +28,17 @@ for angle in $(seq 0 5 50); do
   wrong=$(compare -metric AE "$work/original.png" "$work/exact.png" null: 2>&1 || true)
   sphere=$(convert "$work/exact.png" -colorspace gray -threshold 50% -format '%[fx:mean*w*h]' info:)
   awk -v a="$angle" -v s="$sphere" -v w="$wrong" \
-    'BEGIN { printf "%d,%d,%d,%.4f,%.4f\n", a, s + 0.5, w, w / s, 1 - cos(a * atan2(0, -1) / 180) }' >> docs/sprite_error.csv
+    'BEGIN { printf "%d,%d,%d,%.4f,%.4f\n", a, s + 0.5, w, w / s, 1 - cos(a * atan2(0, -1) / 180) }' >> docs/explanation/sprite_error.csv
 done
 gnuplot << 'END'
 set terminal svg size 640,400 font "sans,12" background "white"
-set output "docs/sprite_error.svg"
+set output "docs/explanation/sprite_error.svg"
 set datafile separator ","
 set xlabel "angle off the axis (degrees)"
 set ylabel "pixels wrong, share of the sphere's"
 set key top left
 set grid
-plot "docs/sprite_error.csv" skip 1 using 1:4 with linespoints pointtype 7 title "particles.sprite=original", \
-     "docs/sprite_error.csv" skip 1 using 1:5 with lines dashtype 2 title "1 - cos of the angle"
+plot "docs/explanation/sprite_error.csv" skip 1 using 1:4 with linespoints pointtype 7 title "particles.sprite=original", \
+     "docs/explanation/sprite_error.csv" skip 1 using 1:5 with lines dashtype 2 title "1 - cos of the angle"
 END
-cat docs/sprite_error.csv
+cat docs/explanation/sprite_error.csv

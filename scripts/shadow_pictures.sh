@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Renders the pictures of docs/shadows.md: each failure of shadow maps, and its cure.
+# Renders the pictures of docs/explanation/shadows.md: each failure of shadow maps, and its cure.
 #
 #   scripts/shadow_pictures.sh [PROGRAM [DIRECTORY]]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${1:-build/release/bin/halfspace}
-out=${2:-docs/shadows}
+out=${2:-docs/explanation/shadows}
 scenes=$(mktemp -d)
 trap 'rm -r "$scenes"' EXIT
 mkdir -p "$out"

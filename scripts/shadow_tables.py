@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the tables of docs/shadows.md anew, between its two markers, from the CSV of `halfspace validate --table`.
+"""Rewrites the shadow tables of docs/results/accuracy.md, between their two markers, from the CSV of `halfspace validate --table`.
 
-    halfspace validate --table --size 480x270 > table.csv && scripts/shadow_tables.py table.csv docs/shadows.md
+    halfspace validate --table --size 480x270 > table.csv && scripts/shadow_tables.py table.csv docs/results/accuracy.md
 """
 import csv
 import sys
@@ -12,7 +12,7 @@ TITLES = {
     "bias": ("bias (pcf3, 2048)", "bias"),
     "filter": ("filter (auto, 2048)", "method"),
     "resolution": ("resolution (pcf3, auto)", "resolution"),
-    "angle": ("light from the vertical, degrees", "angle"),
+    "angle": ("angle of the light from the vertical, degrees", "angle"),
 }
 
 
@@ -25,7 +25,7 @@ def tables(rows):
     for factor, (title, column) in TITLES.items():
         of_factor = [row for row in rows if row["factor"] == factor]
         timed = factor != "angle"
-        head = [title, *scenes, "mean error"] + (["map, ms", "look-up, ms"] if timed else [])
+        head = [title, *scenes, "mean error"] + (["map, ms", "lookup, ms"] if timed else [])
         yield "| " + " | ".join(head) + " |\n" + "|---" * len(head) + "|\n"
         for value in dict.fromkeys(row[column] for row in of_factor):
             group = [row for row in of_factor if row[column] == value]

@@ -108,7 +108,7 @@ class SceneAssets {
   /// height are the image size in pixels.
   void expect(const SceneDescription& scene, int width, int height);
 
-  /// Returns the same scene with the cheapest models that keep the image within the allowed error (docs/accuracy.md). The choice is
+  /// Returns the same scene with the cheapest models that keep the image within the allowed error (docs/results/accuracy.md). The choice is
   /// made by an error and cost model from the scene alone, so it is the same on every machine. Throws like prepare.
   FittedScene fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed);
 

@@ -22,7 +22,7 @@ enum class ShadingRate : uint8_t {
 /// Specular model: none, based on the reflected ray (Phong), or based on the half vector (Blinn-Phong).
 enum class LightModel : uint8_t { lambert, phong, blinn_phong };
 
-/// How a shadow map is filtered. docs/shadows.md lists the cost and the error of each filter.
+/// How a shadow map is filtered. docs/explanation/shadows.md lists the cost and the error of each filter.
 enum class ShadowFilter : uint8_t {
   hard,      ///< the nearest texel
   bilinear,  ///< four texels, compared first and then interpolated
@@ -44,7 +44,7 @@ enum class ShadowBias : uint8_t {
   normal_offset,   ///< moves the point along the normal
   receiver_plane,  ///< compares each texel with the plane of the triangle at the texel center
   adaptive,        ///< the same with the plane of the shading normal, and an additional offset (Dou et al., JCGT 3(4), 2014)
-  automatic,       ///< the method that performed best in measurements: docs/shadows.md
+  automatic,       ///< the method that performed best in measurements: docs/explanation/shadows.md
   original         ///< 0.0005 of the depth range, as in the original day-night demo
 };
 

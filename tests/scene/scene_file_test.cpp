@@ -459,7 +459,8 @@ TEST(Animation, LeavingTheRangeIsTold) {
 // ---- schema ----------------------------------------------------------------------------------------------------
 
 TEST(Schema, InDocsIsTheProgramsOwn) {
-  EXPECT_TRUE(read_bytes("docs/scene.schema.json") == scene_schema()) << "renew it: halfspace list --schema > docs/scene.schema.json";
+  EXPECT_TRUE(read_bytes("docs/reference/scene.schema.json") == scene_schema())
+      << "renew it: halfspace list --schema > docs/reference/scene.schema.json";
 }
 
 // An independent validator (Python's jsonschema) accepts what the program accepts, and refuses what it refuses.

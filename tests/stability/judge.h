@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Where methods fail: each test holds the plain method, in the regime where it is known to fail, beside ours. The numbers go into
-// the test's report, from which scripts/stability_table.py makes docs/stability.md.
+// the test's report, from which scripts/stability_table.py makes docs/explanation/stability.md.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table is whole: docs/stability.md has each row 1 to 28, and every test that it names is there, and every test is in it.
+// The table is whole: docs/explanation/stability.md has each row 1 to 28, and every test that it names is there, and every test is in it.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -11,8 +11,8 @@ namespace halfspace::stability {
 namespace {
 
 TEST(StabilityTable, HasEveryRowAndTest) {
-  std::ifstream file("docs/stability.md");  // tests run from the source tree
-  ASSERT_TRUE(file) << "docs/stability.md is missing; scripts/stability_table.py makes it";
+  std::ifstream file("docs/explanation/stability.md");  // tests run from the source tree
+  ASSERT_TRUE(file) << "docs/explanation/stability.md is missing; scripts/stability_table.py makes it";
   std::set<int> rows;
   std::set<std::string> named;
   for (std::string line; std::getline(file, line);) {

@@ -127,7 +127,7 @@ TEST(Stability, GouraudHighlights) {
 TEST(Stability, MinificationOfAChequer) {
   const Study study = study_texture_filter({.quick = true}, Workers(2));
   // A probe is a trilinear look-up, wider than the box that it stands for: at each edge of a square it errs by some tenth of the
-  // contrast over a pixel. (docs/accuracy.md has every filter, at 960x540.)
+  // contrast over a pixel. (docs/results/accuracy.md has every filter, at 960x540.)
   judge({16, "minification aliasing",
          "a chequered plane to the horizon; nearest texel against 16x anisotropic, truth of 1,024 look-ups a pixel", "RMS error of light"},
         variant(study, "nearest").error, 0.15, variant(study, "16x").error, 0.02);

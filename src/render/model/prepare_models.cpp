@@ -2,7 +2,7 @@
 //
 // Chooses the cheapest models whose image differs from that of the finest models by at most the allowed error. The result is the
 // scene with other mesh resolutions, maps, filters and sample counts, and the reasons for them. Constants are fitted to the
-// measurements in docs/accuracy.md; nothing is timed.
+// measurements in docs/results/accuracy.md; nothing is timed.
 #include <algorithm>
 #include <array>
 #include <cmath>
