@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A workload draws one fixed image repeatedly. All renderers that are compared use the same formulas (docs/performance.md).
+// A workload draws one fixed image repeatedly. All renderers that are compared use the same formulas (docs/results/performance.md).
 #pragma once
 
 #include <functional>

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Measures Halfspace beside llvmpipe, SwiftShader and Embree, and the machine's own limits, all in one run; writes results as JSON, a table
-# and charts. What is not there (Chromium's SwiftShader, Embree) is left out with a message.
+# Measures Halfspace, llvmpipe, SwiftShader, Embree and the limits of the machine in one run. Writes the results as JSON, Markdown tables and
+# charts. Programs that are not installed (SwiftShader from Chromium, Embree) are skipped with a message.
 #
 #   scripts/bench.sh [--quick] [--docs] [--out DIR] [ARGUMENT...]
-#     --quick   a few minutes instead of about an hour: one short round
-#     --docs    also renews the tables of docs/performance.md and README.md, and the charts in docs/benchmark
-#     --out     where results go (default: build/bench/results)
-#   Further arguments go to scripts/bench_measure.py: --only, --threads, --sizes, --rounds, --seconds, --no-sweeps.
+#     --quick   runs one short round, which takes a few minutes instead of about an hour
+#     --docs    also updates the tables in docs/results/performance.md and README.md, and the charts in docs/results/benchmark
+#     --out     output folder (default: build/bench/results)
+#   Other arguments are passed to scripts/bench_measure.py: --only, --threads, --sizes, --rounds, --seconds, --no-sweeps.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -34,7 +34,7 @@ mkdir -p build/bench
 build native native benchmarks
 build v3 x86-64-v3 halfspace-bench
 
-rm -rf build/bench/truths  # a workload's formula may have changed
+rm -rf build/bench/truths  # the definition of a workload may have changed
 mkdir -p "$out"
 python3 scripts/bench_measure.py --native build/bench/native/bin --v3 build/bench/v3/bin --truths build/bench/truths \
   --out "$out/results.json" "${measure[@]}"

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Charts of what bench_measure.py wrote, as PNG and SVG. Needs matplotlib."""
+"""Draws charts of the results of bench_measure.py as PNG and SVG. Needs matplotlib."""
 import matplotlib
 
 matplotlib.use("Agg")
-matplotlib.rcParams["svg.hashsalt"] = "halfspace"  # the same picture, the same bytes
+matplotlib.rcParams["svg.hashsalt"] = "halfspace"  # makes the SVG files reproducible
 import matplotlib.pyplot as plt
 
 from bench_tables import COMPARED, intensity, sweep_series
@@ -24,7 +24,7 @@ def legend_beside(axes):
 
 
 def bars(results, folder):
-    """Frames a second of each program over llvmpipe's, by workload: up is faster than llvmpipe, down is slower."""
+    """Draws the frame rate of each program relative to llvmpipe, by workload: bars above 1 are faster than llvmpipe."""
     n = results.threads
     for size in results.sizes:
         names = [w for w in COMPARED if (f"llvmpipe {n}", w, size) in results.rows]
@@ -43,7 +43,7 @@ def bars(results, folder):
         axes.set_yticks(ticks, [f"{r:g}" for r in ticks])
         axes.minorticks_off()
         axes.set_xticks(range(len(names)), names, rotation=45, ha="right")
-        axes.set_ylabel("frames a second over llvmpipe's")
+        axes.set_ylabel("frame rate relative to llvmpipe")
         axes.set_title(f"{size}, {n} threads")
         legend_beside(axes)
         save(figure, folder, f"workloads_{size}")
@@ -61,7 +61,7 @@ def finish(axes, x_label, y_label, log_x, log_y):
 
 
 def by_program(results, folder, sweep, panels, x_label, log_x=True):
-    """A line a program; a panel for each (label of y, function of x and ms, logarithmic)."""
+    """Draws one line per program. Each panel is (y label, function of x and ms, whether y is logarithmic)."""
     series = sweep_series(results, sweep)
     if not series:
         return
@@ -74,7 +74,7 @@ def by_program(results, folder, sweep, panels, x_label, log_x=True):
 
 
 def by_workload(results, folder, sweep, label, value, x_label, log_x, log_y):
-    """A line a workload; a panel for each program, of one scale. value: of x, ms and the first point's ms."""
+    """Draws one line per workload and one panel per program, with a common y axis. value: function of x, ms and the ms of the first point."""
     series = sweep_series(results, sweep)
     if not series:
         return
@@ -95,7 +95,7 @@ def by_workload(results, folder, sweep, label, value, x_label, log_x, log_y):
 
 
 def roofline(results, folder):
-    """Operations a second against operations a byte that leaves the tile, under what multiply-adds and memset allow."""
+    """Draws a roofline: operations per second against operations per byte written from the tile, below the FMA and memset limits."""
     n = results.threads
     for size in results.sizes:
         peak, bandwidth = results.limits.get(("fma", n)), results.limits.get((f"memset {size}", n))
@@ -104,17 +104,17 @@ def roofline(results, folder):
             continue
         figure, axes = plt.subplots(figsize=(9, 5))
         low, high = 0.5 * min(p[1] for p in points), 4 * max(max(p[1] for p in points), peak / bandwidth)
-        axes.plot([low, peak / bandwidth, high], [low * bandwidth, peak, peak], color="black", label=f"memset {bandwidth:.0f} GB/s, multiply-adds {peak:.0f} GFLOP/s")
+        axes.plot([low, peak / bandwidth, high], [low * bandwidth, peak, peak], color="black", label=f"memset {bandwidth:.0f} GB/s, FMA {peak:.0f} GFLOP/s")
         for k, (workload, x, y) in enumerate(points):
             axes.plot(x, y, marker="os^Dv*P"[k % 7], linestyle="", color=f"C{k % 10}", label=workload)
-        finish(axes, "operations a byte that leaves the tile", "GFLOP/s", True, True)
+        finish(axes, "operations per byte written from the tile", "GFLOP/s", True, True)
         axes.set_title(f"{size}, {n} threads, native build")
         legend_beside(axes)
         save(figure, folder, f"roofline_{size}")
 
 
 def triangles_of_size(area):
-    return max(16, min(1_000_000, int(4e6 / area)))  # as benchmarks/sweeps.cpp has it
+    return max(16, min(1_000_000, int(4e6 / area)))  # must match benchmarks/sweeps.cpp
 
 
 def draw_all(results, folder):
@@ -123,12 +123,12 @@ def draw_all(results, folder):
     roofline(results, folder)
     pixels = 1920 * 1080
     by_program(results, folder, "triangle_size",
-               [("million triangles a second, 1 thread", lambda x, ms: 1e-3 * triangles_of_size(x) / ms, True),
-                ("million pixels of triangles a second, 1 thread", lambda x, ms: 1e-3 * x * triangles_of_size(x) / ms, True)], "area of a triangle, px²")
+               [("million triangles per second, 1 thread", lambda x, ms: 1e-3 * triangles_of_size(x) / ms, True),
+                ("million triangle pixels per second, 1 thread", lambda x, ms: 1e-3 * x * triangles_of_size(x) / ms, True)], "triangle area, px²")
     by_program(results, folder, "triangle_count",
-               [("ms a frame at 1920x1080, 1 thread", lambda x, ms: ms, True), ("ns a triangle", lambda x, ms: 1e6 * ms / x, True)], "triangles of the sphere")
-    by_program(results, folder, "overdraw", [("million pixels of quads a second, 1 thread", lambda x, ms: 1e-3 * pixels * x / ms, True)],
-               "quads over the whole picture, back to front")
-    by_program(results, folder, "varyings", [("ms a frame at 1920x1080, 1 thread", lambda x, ms: ms, False)], "floats from vertex to fragment", False)
-    by_workload(results, folder, "threads", "times as fast as one thread", lambda x, ms, first: first / ms, "threads", False, False)
-    by_workload(results, folder, "picture_size", "ns a pixel, 1 thread", lambda x, ms, first: 1e6 * ms / x**2, "side of the picture, px", True, True)
+               [("ms per frame at 1920x1080, 1 thread", lambda x, ms: ms, True), ("ns per triangle", lambda x, ms: 1e6 * ms / x, True)], "triangles of the sphere")
+    by_program(results, folder, "overdraw", [("million quad pixels per second, 1 thread", lambda x, ms: 1e-3 * pixels * x / ms, True)],
+               "full-screen quads, back to front")
+    by_program(results, folder, "varyings", [("ms per frame at 1920x1080, 1 thread", lambda x, ms: ms, False)], "floats passed from vertex to fragment shader", False)
+    by_workload(results, folder, "threads", "speedup over one thread", lambda x, ms, first: first / ms, "threads", False, False)
+    by_workload(results, folder, "picture_size", "ns per pixel, 1 thread", lambda x, ms, first: 1e6 * ms / x**2, "picture size, px per side", True, True)

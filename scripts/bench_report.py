@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tables and charts of a run of the benchmark (the JSON of bench_measure.py), into a folder; with --docs also into the documents."""
+"""Writes the tables and charts of a benchmark run (the JSON file of bench_measure.py) to a folder, and with --docs to the documents."""
 import argparse
 import json
 import re
@@ -10,8 +10,8 @@ from pathlib import Path
 
 import bench_tables
 
-DOCUMENTS = ["README.md", "docs/performance.md"]
-CHARTS = Path("docs/benchmark")
+DOCUMENTS = ["README.md", "docs/results/performance.md"]
+CHARTS = Path("docs/results/benchmark")
 
 
 MARKED = re.compile(r"<!-- benchmark: (\w+) -->\n.*?<!-- /benchmark -->", flags=re.DOTALL)
@@ -22,7 +22,7 @@ def marked_sections(text):
 
 
 def renewed(text, sections):
-    """Replaces what stands between <!-- benchmark: NAME --> and <!-- /benchmark -->."""
+    """Replaces the text between <!-- benchmark: NAME --> and <!-- /benchmark --> by sections[NAME]."""
     return MARKED.sub(lambda m: f"<!-- benchmark: {m.group(1)} -->\n{sections[m.group(1)]}\n<!-- /benchmark -->", text)
 
 
@@ -30,7 +30,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", type=Path)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--docs", action="store_true", help="renew README.md, docs/performance.md and docs/benchmark, in the current folder")
+    parser.add_argument("--docs", action="store_true", help="update README.md, docs/results/performance.md and docs/results/benchmark in the current folder")
     args = parser.parse_args()
 
     results = bench_tables.Results(json.loads(args.results.read_text()))
@@ -47,7 +47,7 @@ def main():
         print("bench_report.py: no charts, matplotlib is missing (Debian: python3-matplotlib)", file=sys.stderr)
     else:
         bench_charts.draw_all(results, args.out)
-        if args.docs:  # PNG alone: the pages show those
+        if args.docs:  # The documents use only the PNG files.
             CHARTS.mkdir(parents=True, exist_ok=True)
             for chart in args.out.glob("*.png"):
                 shutil.copy(chart, CHARTS)

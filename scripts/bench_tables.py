@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Markdown tables of what bench_measure.py wrote. Standard library alone."""
+"""Makes Markdown tables from the results of bench_measure.py. Needs only the standard library."""
 import math
 
-# The workloads that peers are compared by; the others are ours alone, and no part of the mean.
+# The workloads in the geometric mean. The others are listed in the tables but are not part of the mean.
 COMPARED = ["clear", "fill", "layers_b2f", "layers_f2b", *(f"sphere_{k}_{n}" for k in ("phong", "gouraud", "flat") for n in ("20k", "200k", "2m")),
             "tiny_1m", "shadow_200k", "points_100k", "hdr_200k", "tonemap"]
 TRIANGLES = {"200k": 200_000, "2m": 2_000_000, "1m": 1_000_000}
 
-# Floating-point operations of one shaded pixel, counted by hand in the shader's source (a fused multiply-add is two, a division or a root
-# one): 50 for the weights of a pixel, 4 a varying, 50 for derivatives of a texture coordinate, 120 for a trilinear look-up, 105 for
-# Blinn's light, 95 for Phong's, 10 a texel of the shadow map, 160 for the tone curve.
+# Floating-point operations per shaded pixel, counted by hand in the shader source. A fused multiply-add counts as two operations, a division
+# or square root as one. The counts are 50 for the barycentric weights, 4 per varying, 50 for the derivatives of a texture coordinate, 120
+# for a trilinear lookup, 105 for Blinn-Phong lighting, 95 for Phong lighting, 10 per shadow map texel and 160 for the tone curve.
 FLOPS = {"layers": 50 + 36 + 95, "sphere_phong": 50 + 32 + 50 + 120 + 105, "sphere_gouraud": 50 + 16 + 50 + 120 + 6,
          "sphere_flat": 50 + 8 + 50 + 120 + 6, "shadow": 50 + 24 + 105 + 28 + 90, "hdr": 357 + 3 + 160, "tonemap": 160, "points": 20 + 95}
-# Bytes of one pixel that must leave the tile.
+# Bytes per pixel that must be written from the tile to memory.
 BYTES = {"clear": 8, "fill": 4}
 
 
 class Results:
-    """The numbers of one run, by what they belong to."""
+    """The results of one run, indexed by contender, workload and size."""
 
     def __init__(self, results):
         self.raw = results
@@ -34,16 +34,16 @@ class Results:
         return row["ms"] if row else None
 
     def picture_counts(self, contender, workload, size):
-        """Is the picture within 1/255 of double precision on 99.9% of what it covers, and no further from it than llvmpipe's?"""
+        """Whether the picture is within 1/255 of double precision on 99.9% of the covered pixels, and as accurate as llvmpipe's."""
         ours = self.pictures.get((contender, workload, size))
         theirs = self.pictures.get(("llvmpipe 1", workload, size))
         if not ours or ours["colors_off"] > ours["covered"] / 1000:
             return False
-        # 0.002/255 is what equal pictures differ by where one rounds half a code up and the other down.
+        # Pictures that differ only in how they round half a code differ by 0.002/255 RMS.
         return not theirs or (ours["colors_off"] <= theirs["colors_off"] + ours["covered"] / 1e5 and ours["rms_color"] <= theirs["rms_color"] + 0.002)
 
     def ratio(self, ours, theirs, workload, size):
-        """How many times as long the peer takes; None where either was not measured or our picture does not count."""
+        """The peer's time divided by ours; None if either was not measured or our picture is not accurate enough."""
         a, b = self.ms(ours, workload, size), self.ms(theirs, workload, size)
         return b / a if a and b and self.picture_counts(ours, workload, size) else None
 
@@ -70,10 +70,18 @@ def table(head, rows):
 
 def source_line(results):
     m, raw = results.raw["machine"], results.raw
-    rounds = f"{raw['rounds']} interleaved rounds of {raw['seconds']} s; the median of the rounds' medians" if raw["rounds"] > 1 else f"one round of {raw['seconds']} s"
+    rounds = (f"Times are medians over {raw['rounds']} interleaved rounds of {raw['seconds']} s; each round contributes its median frame time."
+              if raw["rounds"] > 1 else f"Times are median frame times of one round of {raw['seconds']} s.")
     others = max(m["busy_before"], m["busy_after"])
-    busy = f" **Other work ran beside it (it kept {others:.1f} cores busy): the figures are no measure of the programs.**" if others > 0.2 else ""
-    return f"From the run of {m['date']}: {m['cpu']}, {m['cores']} cores, {m['system']}, {m['compiler']}, commit {m['commit']}; {rounds}.{busy}"
+    busy = f" **Other processes kept {others:.1f} cores busy during the run, so the times are not reliable.**" if others > 0.2 else ""
+    return (f"Measured on {m['date']} at commit {m['commit']} on {m['cpu']}, {m['cores']} cores, {m['system']}, compiled with {m['compiler']}. "
+            f"{rounds}{busy}")
+
+
+def stamp(results):
+    """The machine, date and commit of a table, as a line below it."""
+    m = results.raw["machine"]
+    return f"Measured on {m['cpu']}, {m['date']}, commit {m['commit']}."
 
 
 def time_table(results, size):
@@ -88,15 +96,16 @@ def time_table(results, size):
         return f"{min(row['ms_rounds']) / row['ms']:.2f} … {max(row['ms_rounds']) / row['ms']:.2f}" if row else "–"
 
     rows = [[w, *(number(results.ms(c, w, size)) for c in columns), spread(w)] for w in results.names]
-    return table([f"{size}, ms", *columns, f"rounds of native {n} over their median"], rows)
+    return table([f"{size}, ms", *columns, f"rounds of native {n} / median"], rows)
 
 
 def ratio_table(results, size):
     n = results.threads
-    pairs = [("native 1 : llvmpipe 1", "halfspace native 1", "llvmpipe 1"), (f"native {n} : llvmpipe {n}", f"halfspace native {n}", f"llvmpipe {n}"),
-             ("v3 1 : llvmpipe 1", "halfspace v3 1", "llvmpipe 1"), (f"v3 {n} : llvmpipe {n}", f"halfspace v3 {n}", f"llvmpipe {n}"),
-             (f"native {n} : SwiftShader {n}", f"halfspace native {n}", f"SwiftShader {n}"),
-             (f"native {n} : Embree {n}", f"halfspace native {n}", f"Embree {n}")]
+    threads = f"{n} thread{'s' if n > 1 else ''}"
+    pairs = [("native vs llvmpipe, 1 thread", "halfspace native 1", "llvmpipe 1"), (f"native vs llvmpipe, {threads}", f"halfspace native {n}", f"llvmpipe {n}"),
+             ("v3 vs llvmpipe, 1 thread", "halfspace v3 1", "llvmpipe 1"), (f"v3 vs llvmpipe, {threads}", f"halfspace v3 {n}", f"llvmpipe {n}"),
+             (f"native vs SwiftShader, {threads}", f"halfspace native {n}", f"SwiftShader {n}"),
+             (f"native vs Embree, {threads}", f"halfspace native {n}", f"Embree {n}")]
     pairs = list(dict((p[0], p) for p in pairs).values())
 
     def scaling(workload):
@@ -105,7 +114,7 @@ def ratio_table(results, size):
 
     rows = [[w, *(times(results.ratio(a, b, w, size)) for _, a, b in pairs), scaling(w), picture(results, w, size)] for w in results.names]
     rows.append(["**geometric mean of the first 18**", *(times(results.mean_ratio(a, b, size)) for _, a, b in pairs[:5]), *([""] * (len(pairs) - 5)), "", ""])
-    return table([size, *(p[0] for p in pairs), f"{n} threads : 1", "pixels off, ours / llvmpipe's"], rows)
+    return table([size, *(p[0] for p in pairs), f"native, {threads} vs 1", "pixels beyond 1/255, Halfspace / llvmpipe"], rows)
 
 
 def picture(results, workload, size):
@@ -121,25 +130,25 @@ def covered_pixels(results, workload, size):
 
 
 def flops(workload):
-    """Of a shaded pixel; None where triangles are most of the work, or the workload is not counted."""
+    """Operations per shaded pixel; None if triangles are most of the work or the workload has no count."""
     return None if workload.endswith("_2m") else next((count for key, count in FLOPS.items() if workload.startswith(key)), None)
 
 
 def resource(results, workload, size, threads):
-    """(what binds by this model, the rate reached, the limit, its unit); None where there is no model."""
+    """(limiting resource in this model, rate reached, limit, unit); None if the workload has no model."""
     ms, covered = results.ms(f"halfspace native {threads}", workload, size), covered_pixels(results, workload, size)
     width, height = map(int, size.split("x"))
     if not ms or not covered:
         return None
     if workload in BYTES:
-        return (f"{BYTES[workload]} bytes a pixel leave the tile; memset", 1e-6 * BYTES[workload] * width * height / ms,
+        return (f"memory: {BYTES[workload]} bytes written per pixel", 1e-6 * BYTES[workload] * width * height / ms,
                 results.limits.get((f"memset {size}", threads)), "GB/s")
     count = flops(workload)
-    return (f"{count} operations a shaded pixel; multiply-adds", 1e-6 * count * covered / ms, results.limits.get(("fma", threads)), "GFLOP/s") if count else None
+    return (f"arithmetic: {count} operations per shaded pixel", 1e-6 * count * covered / ms, results.limits.get(("fma", threads)), "GFLOP/s") if count else None
 
 
 def intensity(results, workload, size, threads):
-    """(operations a byte that leaves the tile, GFLOP/s reached); None where operations are not counted."""
+    """(operations per byte written from the tile, GFLOP/s reached); None if the workload has no operation count."""
     ms, covered, count = results.ms(f"halfspace native {threads}", workload, size), covered_pixels(results, workload, size), flops(workload)
     width, height = map(int, size.split("x"))
     written = {"tonemap": 4, "hdr_200k": 16}.get(workload, 8) * width * height
@@ -160,7 +169,7 @@ def resource_table(results, size):
             rows.append([w, what, f"{reached:.1f} {unit}", f"{limit:.1f} {unit}", f"{100 * reached / limit:.0f}%", cycles])
         elif triangles:
             rows.append([w, "triangles", "–", "–", "–", cycles])
-    return table([f"{size}, {n} threads, native", "resource", "reached", "limit", "share", "core cycles a triangle of the mesh"], rows)
+    return table([f"{size}, {n} threads, native", "resource", "reached", "limit", "share", "core cycles per triangle"], rows)
 
 
 def limit_table(results):
@@ -171,7 +180,7 @@ def limit_table(results):
 
 
 def slope(points):
-    """Of the least-squares line through the logarithms: 1 where cost grows as the number does."""
+    """Slope of the least-squares line through the logarithms: 1 if the cost is proportional to the count."""
     if len(points) < 2:
         return None
     x, y = [math.log(p[0]) for p in points], [math.log(p[1]) for p in points]
@@ -191,36 +200,37 @@ def sweep_series(results, sweep):
 
 
 def growth_table(results):
-    """What a triangle and a pixel cost as there are more of them. The exponent is that of the fit of cost to number: 1 where each costs the same."""
+    """The cost per triangle and per pixel as their number grows. The exponent is slope(): 1 if the cost is proportional to the count."""
     rows = []
     for (who, _), points in sweep_series(results, "triangle_count").items():
         decades = [p for p in points if p[0] in (1e4, 1e5, 1e6, 1e7)]
         mean = ", ".join(f"{1e6 * ms / x:.1f}" for x, ms in decades)
         further = ", ".join(f"{1e6 * (b[1] - a[1]) / (b[0] - a[0]):.1f}" for a, b in zip(decades, decades[1:]))
-        rows.append([who, "ns a triangle at 10^4, 10^5, 10^6, 10^7", mean, number(slope([p for p in points if p[0] >= 1e5]))])
-        rows.append([who, "ns a further triangle between them", further, ""])
+        rows.append([who, "ns per triangle at 10^4, 10^5, 10^6, 10^7", mean, number(slope([p for p in points if p[0] >= 1e5]))])
+        rows.append([who, "ns per additional triangle between these counts", further, ""])
     for (who, workload), points in sweep_series(results, "picture_size").items():
         large = [(x, ms) for x, ms in points if x >= 512]
         costs = ", ".join(f"{1e6 * ms / x**2:.2f}" for x, ms in large)
-        rows.append([f"{who}, {workload}", f"ns a pixel at {', '.join(str(int(x)) + '²' for x, _ in large)}", costs, number(slope([(x * x, ms) for x, ms in large]))])
+        rows.append([f"{who}, {workload}", f"ns per pixel at {', '.join(str(int(x)) + '²' for x, _ in large)}", costs, number(slope([(x * x, ms) for x, ms in large]))])
     return table(["one thread", "cost", "values", "exponent"], rows)
 
 
 def sections(results):
-    """What documents show, by the name of its place."""
-    by_size = lambda make: "\n\n".join(make(results, size) for size in results.sizes)
+    """The generated sections of the documents, by the name in their markers."""
+    stamped = lambda text: f"{text}\n\n{stamp(results)}"
+    by_size = lambda make: stamped("\n\n".join(make(results, size) for size in results.sizes))
     n = results.threads
-    means = " ".join(
-        f"At {size} Halfspace is, in the geometric mean of the first 18 workloads, {times(results.mean_ratio(f'halfspace native {n}', f'llvmpipe {n}', size))} as fast as "
-        f"llvmpipe on {n} threads (x86-64-v3 build: {times(results.mean_ratio(f'halfspace v3 {n}', f'llvmpipe {n}', size))}) and "
-        f"{times(results.mean_ratio(f'halfspace native {n}', f'SwiftShader {n}', size))} as fast as SwiftShader." for size in results.sizes)
+    means = "Speedup on {} thread{}, geometric mean of 18 workloads: {}.".format(n, "s" if n > 1 else "", "; ".join(
+        f"at {size}, {times(results.mean_ratio(f'halfspace native {n}', f'llvmpipe {n}', size))} over llvmpipe "
+        f"({times(results.mean_ratio(f'halfspace v3 {n}', f'llvmpipe {n}', size))} with the x86-64-v3 build) and "
+        f"{times(results.mean_ratio(f'halfspace native {n}', f'SwiftShader {n}', size))} over SwiftShader" for size in results.sizes))
     return {
         "source": source_line(results),
         "means": means,
         "times": by_size(time_table),
         "ratios": by_size(ratio_table),
         "resources": by_size(resource_table),
-        "limits": limit_table(results),
-        "growth": growth_table(results),
-        "readme": source_line(results) + " " + means + "\n\n" + ratio_table(results, results.sizes[0]),
+        "limits": stamped(limit_table(results)),
+        "growth": stamped(growth_table(results)),
+        "readme": means + "\n\n" + source_line(results),
     }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The long tests: both compilers, all presets, lane widths and instruction sets, the mutation run, the cost figures.
-# Run before an issue is resolved; the last run stands in docs/testing.md.
+# Run before an issue is resolved; the last run stands in docs/development/testing.md.
 #
 #   scripts/test_full.sh [STEP...]     default: all steps; "scripts/test_full.sh list" names them
 set -euo pipefail

@@ -69,9 +69,9 @@ class Tables(unittest.TestCase):
 
     def test_what_ran_beside_it_is_told(self):
         quiet = results()
-        self.assertNotIn("Other work", bench_tables.source_line(quiet))
+        self.assertNotIn("Other processes", bench_tables.source_line(quiet))
         quiet.raw["machine"]["busy_after"] = 0.5
-        self.assertIn("Other work ran beside it (it kept 0.5 cores busy)", bench_tables.source_line(quiet))
+        self.assertIn("Other processes kept 0.5 cores busy", bench_tables.source_line(quiet))
 
     def test_processors_of_one_name_are_told_apart(self):
         of_cores = "processor\t: 0\ncpu family\t: {}\nmodel\t\t: 17\nmodel name\t: AMD EPYC\n\nprocessor\t: 1\ncpu family\t: 9\nmodel name\t: other\n"

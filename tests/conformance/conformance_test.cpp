@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Draws every case of every group (groups.h) with the tile path, and compares it with the oracle byte for byte and with its closed form, if
-// it has one. docs/conformance.md describes what each group requires.
+// it has one. docs/results/conformance.md describes what each group requires.
 #include <gtest/gtest.h>
 
 #include "conformance/groups.h"

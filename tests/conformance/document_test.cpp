@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks that docs/conformance.md contains the current number of cases per group, and that each group has enough of them.
+// Checks that docs/results/conformance.md contains the current number of cases per group, and that each group has enough of them.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -25,8 +25,8 @@ std::map<std::string, int> registered_sets() {
 }  // namespace
 
 TEST(ConformanceDocument, HasTheCurrentCounts) {
-  std::ifstream file("docs/conformance.md");
-  ASSERT_TRUE(file) << "docs/conformance.md not found; run the test from the root of the source tree";
+  std::ifstream file("docs/results/conformance.md");
+  ASSERT_TRUE(file) << "docs/results/conformance.md not found; run the test from the root of the source tree";
   const std::regex row(R"(\| [^|]+ \| (\d+) \| `(\w+)` \| (\d+) \|.*)");
   std::map<std::string, int> registered = registered_sets();
   int sum = 0;
@@ -35,14 +35,14 @@ TEST(ConformanceDocument, HasTheCurrentCounts) {
     if (!std::regex_match(line, match, row)) continue;
     const int there = std::stoi(match[1]), here = std::stoi(match[3]);
     const std::string suite = match[2];
-    EXPECT_EQ(here, registered[suite]) << "docs/conformance.md, " << suite;
+    EXPECT_EQ(here, registered[suite]) << "docs/results/conformance.md, " << suite;
     EXPECT_GE(here * 4, there) << suite << ": fewer than a quarter of the cases in VK-GL-CTS";
     EXPECT_GE(here, 10) << suite;
     sum += here;
     registered.erase(suite);
   }
   EXPECT_GE(sum, 600);
-  EXPECT_TRUE(registered.empty()) << registered.begin()->first << " has no row in docs/conformance.md";
+  EXPECT_TRUE(registered.empty()) << registered.begin()->first << " has no row in docs/results/conformance.md";
 }
 
 }  // namespace halfspace::conformance

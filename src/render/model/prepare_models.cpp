@@ -36,7 +36,7 @@ constexpr double kEdgePixels = 0.35;
 constexpr double kShadowEdgeTexels = 1.25;
 
 // Cost of a vertex, relative to the time that per-vertex lighting saves per pixel: about 10 ns compared with 2.5 ns
-// (docs/performance.md).
+// (docs/results/performance.md).
 constexpr double kPixelsPerVertex = 4.0;
 
 // From the study texture_filter: 99.9th percentile of the error in linear light at full contrast.
