@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the programs of the benchmark side by side and writes what they print, with the machine it came from, as one JSON file.
+"""Runs the programs of the benchmark and writes their results and a description of the machine to a JSON file.
 
-For each size and workload the programs take turns, round after round, so that a machine that changes its speed changes it for all.
+The programs are interleaved for each size and workload, round after round, so that changes in the speed of the machine affect all of them.
 """
 import argparse
 import datetime
@@ -22,18 +22,18 @@ SPHERES = [f"sphere_{light}_{count}" for light in ("phong", "gouraud", "flat") f
 
 @dataclass
 class Contender:
-    """A program with its arguments, at one number of threads."""
+    """A program with its arguments and thread count."""
 
-    key: str  # as tables and charts name it
+    key: str  # name in tables and charts
     command: list
     threads: int
-    only: list = field(default_factory=list)  # workloads it draws; empty: all
+    only: list = field(default_factory=list)  # supported workloads; empty means all
 
     def draws(self, workload):
         return not self.only or workload in self.only
 
     def run(self, *arguments):
-        """The JSON lines that the program prints; None where it fails."""
+        """Returns the JSON lines printed by the program, or None if it fails."""
         done = subprocess.run([*self.command, "--threads", str(self.threads), "--json", *arguments], capture_output=True, text=True)
         if done.returncode != 0:
             print(f"{self.key}: {done.stderr.strip()}", file=sys.stderr)
@@ -42,7 +42,7 @@ class Contender:
 
 
 class Progress:
-    """One line that says how far the run is; nothing unless on a terminal."""
+    """Shows the progress of the run in one line, only on a terminal."""
 
     def __init__(self, total):
         self.total, self.done, self.start = total, 0, time.monotonic()
@@ -58,9 +58,10 @@ class Progress:
 
 
 def cpu_name(cpuinfo):
-    """The processor's name with its family and model: a name alone ("AMD EPYC") may stand for cores of half another's rate.
+    """Returns the name of the processor with its family and model. Processors with the same name ("AMD EPYC") can differ in speed by a
+    factor of two.
 
-    cpuinfo: the text of /proc/cpuinfo."""
+    cpuinfo is the content of /proc/cpuinfo."""
     fields = {}
     for line in cpuinfo.splitlines():
         key, _, value = line.partition(":")
@@ -90,7 +91,7 @@ def machine():
 
 
 def busy_cores(seconds=2.0):
-    """How many cores other work keeps busy, while this program waits. (The load average still counts what ended a minute ago.)"""
+    """Returns the number of cores kept busy by other processes. (The load average would include processes that ended a minute ago.)"""
     def busy_ticks():
         user, nice, system, _idle, _waiting, *rest = map(int, Path("/proc/stat").read_text().splitlines()[0].split()[1:9])
         return user + nice + system + sum(rest)
@@ -101,16 +102,16 @@ def busy_cores(seconds=2.0):
 
 
 def contenders(args):
-    """All that can run here. What is absent is named once on stderr."""
+    """Returns all programs that can run on this machine. Reports missing ones on stderr."""
     n = args.threads
     found = []
 
     def add(key, command, threads, only=()):
         contender = Contender(key, [str(c) for c in command], threads, list(only))
         if not Path(command[0]).exists():
-            print(f"{key}: left out, {command[0]} is not built", file=sys.stderr)
+            print(f"{key}: skipped, {command[0]} is not built", file=sys.stderr)
         elif contender.run("--only", "sphere_phong_20k", "--size", "16x16", "--seconds", "0") is None:
-            print(f"{key}: left out", file=sys.stderr)
+            print(f"{key}: skipped", file=sys.stderr)
         else:
             found.append(contender)
 
@@ -125,8 +126,8 @@ def contenders(args):
 
 
 def measure_rounds(runners, names, sizes, rounds, seconds, extra=(), progress=None):
-    """Lines of (contender, workload, size): the median over rounds of each round's median, and how far rounds lie apart. A round goes
-    through everything, so that what disturbs the machine for a minute meets one round of a line, not all of them."""
+    """Returns a row per contender, workload and size, with the median over all rounds of each round's median. A round measures all
+    combinations, so that a disturbance of a minute affects one round of a row and not all of them."""
     lines = {}
     for _ in range(rounds):
         for size, name, r in itertools.product(sizes, names, runners):
@@ -157,7 +158,7 @@ def names_of(command):
 
 
 def check_pictures(runners, names, sizes, truths):
-    """Every program's pictures against double precision. Slow the first time: the truths are kept."""
+    """Compares the images of every program with double precision. The first run is slow; the references are cached."""
     rows = []
     progress = Progress(len(sizes) * len(runners))
     for size in sizes:
@@ -165,7 +166,7 @@ def check_pictures(runners, names, sizes, truths):
             drawn = [name for name in names if r.draws(name)]
             got = r.run("--only", ",".join(drawn), "--size", size, "--seconds", "0", "--check", str(truths)) or []
             rows += [{"contender": r.key, "workload": line["workload"], "size": size, **line["picture"]} for line in got]
-            progress.step(f"pictures {size} {r.key}")
+            progress.step(f"images {size} {r.key}")
     return rows
 
 
@@ -184,7 +185,7 @@ def sweep_points(command, sweep):
 
 
 def measure_sweeps(runners, args, progress_of):
-    """Series of one number each; rows have "x". Those of triangles and varyings run on one thread, which tells a cost most plainly."""
+    """Measures the parameter sweeps; "x" is the parameter of a row. They run on one thread, which shows the cost most directly."""
     rows = []
     program = args.native / "halfspace-bench"
     rounds = 1 if args.quick else 3
@@ -192,7 +193,7 @@ def measure_sweeps(runners, args, progress_of):
         chosen = [r for r in runners if r.key in ("halfspace native 1", "llvmpipe 1") or (sweep == "triangle_count" and r.key == "Embree 1")]
         everyone = [Contender(r.key, r.command, r.threads) for r in chosen]
         points = sweep_points(program, sweep)
-        if args.quick:  # the largest take long to prepare
+        if args.quick:  # the largest meshes take long to prepare
             points = [p for p in points if p not in ("triangle_count=3200000", "triangle_count=10000000")]
         progress = progress_of(len(points) * rounds * len(everyone))
         got = measure_rounds(everyone, points, ["1920x1080"], rounds, args.seconds, ("--sweep", sweep), progress)
@@ -201,7 +202,7 @@ def measure_sweeps(runners, args, progress_of):
 
 
 def measure_threads(runners, args, progress_of):
-    """1 to twice as many threads as there are cores."""
+    """Measures thread counts from 1 to twice the number of cores."""
     rows = []
     names = ["layers_b2f", "sphere_phong_20k", "sphere_phong_2m", "shadow_200k", "tiny_1m"]
     counts = sorted({1, 2, 3, 4, args.threads, args.threads + 1, 2 * args.threads} | {2**k for k in range(8) if 2**k <= args.threads})
@@ -215,7 +216,7 @@ def measure_threads(runners, args, progress_of):
 
 
 def measure_sizes(runners, args, progress_of):
-    """Square pictures of 256 to 8192 pixels a side."""
+    """Measures square images of 256 to 8192 pixels per side."""
     sides = [256, 512, 1024, 2048] + ([] if args.quick else [4096, 8192])
     names = ["clear", "fill", "layers_f2b", "sphere_phong_20k", "tonemap"]
     chosen = [r for r in runners if r.key in ("halfspace native 1", "llvmpipe 1")]
@@ -227,17 +228,17 @@ def measure_sizes(runners, args, progress_of):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--native", type=Path, required=True, help="folder of the native build's programs")
-    parser.add_argument("--v3", type=Path, required=True, help="folder of the x86-64-v3 build's programs")
-    parser.add_argument("--out", type=Path, required=True, help="the JSON file to write")
-    parser.add_argument("--truths", type=Path, required=True, help="folder of pictures in double precision, made where absent")
-    parser.add_argument("--only", default="", help="these workloads alone, by comma")
+    parser.add_argument("--native", type=Path, required=True, help="folder with the programs of the native build")
+    parser.add_argument("--v3", type=Path, required=True, help="folder with the programs of the x86-64-v3 build")
+    parser.add_argument("--out", type=Path, required=True, help="JSON file to write")
+    parser.add_argument("--truths", type=Path, required=True, help="folder of reference images in double precision; missing ones are created")
+    parser.add_argument("--only", default="", help="comma-separated list of workloads to run")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--sizes", default="1920x1080,512x512")
     parser.add_argument("--rounds", type=int)
-    parser.add_argument("--seconds", type=float, help="of each program in each round")
-    parser.add_argument("--no-sweeps", action="store_true", help="the workloads alone, no series")
-    parser.add_argument("--quick", action="store_true", help="fewer rounds, shorter, the largest left out")
+    parser.add_argument("--seconds", type=float, help="time per program and round")
+    parser.add_argument("--no-sweeps", action="store_true", help="skip the parameter sweeps")
+    parser.add_argument("--quick", action="store_true", help="fewer and shorter rounds, without the largest meshes and images")
     args = parser.parse_args()
     args.rounds = args.rounds or (1 if args.quick else 5)
     args.seconds = args.seconds or (0.1 if args.quick else 0.5)

@@ -13,7 +13,7 @@ done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# One white sphere of ambient light alone, radius 1/6 of its distance, 100 degrees of view: silhouettes.
+# The silhouette of a white sphere with ambient light only. Its radius is 1/6 of its distance; the field of view is 100 degrees.
 cat > "$work/scene.json" << 'END'
 { "version": 1, "ambient": 1, "background": { "color": [0, 0, 0] },
   "cameras": { "main": { "position": [0, 0, 0], "target": [0, 0, -1], "fov": 100, "near": 0.1, "far": 100 } },
@@ -35,7 +35,7 @@ set terminal svg size 640,400 font "sans,12" background "white"
 set output "docs/explanation/sprite_error.svg"
 set datafile separator ","
 set xlabel "angle off the axis (degrees)"
-set ylabel "pixels wrong, share of the sphere's"
+set ylabel "wrong pixels relative to the sphere's area"
 set key top left
 set grid
 plot "docs/explanation/sprite_error.csv" skip 1 using 1:4 with linespoints pointtype 7 title "particles.sprite=original", \

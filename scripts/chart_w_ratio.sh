@@ -17,8 +17,8 @@ set logscale x
 set format x "10^{%L}"
 set yrange [0:3.5e-7]
 set format y "%.1e"
-set xlabel "largest w of a triangle, of its smallest"
-set ylabel "error of a varying, of the largest of the vertices"
+set xlabel "ratio of the largest to the smallest w of a triangle"
+set ylabel "error of a varying relative to the largest vertex value"
 set key center right
 set grid
 plot "docs/explanation/w_ratio_error.csv" skip 1 using 1:2 with linespoints pointtype 7 title "largest", \

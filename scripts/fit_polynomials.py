@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fits the polynomials of src/core/lane_math.h and prints their coefficients as floats, lowest power first.
 
-Each row: the minimax polynomial p of a given degree for target(x) on [a, b], the error weighted by weight(x), found
-with Remez's exchange algorithm in 50 digits. The weight turns the error of p into the relative error of the function
-that lane_math.h builds around it, which is what is printed beside the name. Needs mpmath; no arguments; 10 seconds.
+Each row is the minimax polynomial p of a given degree for target(x) on [a, b], with the error weighted by weight(x). It is computed with
+the Remez exchange algorithm in 50 digits. The weight converts the error of p to the relative error of the function that lane_math.h
+builds from it, which is printed next to the name. Needs mpmath; takes no arguments and about 10 seconds.
 """
 import struct
 
@@ -15,7 +15,7 @@ LN2 = log(2)
 
 
 def remez(target, weight, a, b, degree, rounds=12, grid=600):
-    """The coefficients (lowest first) and the largest weighted error."""
+    """Returns the coefficients (lowest first) and the largest weighted error."""
     n = degree + 2
     points = [(a + b) / 2 - (b - a) / 2 * cospi(mpf(i) / (n - 1)) for i in range(n)]
     for _ in range(rounds):
@@ -28,7 +28,7 @@ def remez(target, weight, a, b, degree, rounds=12, grid=600):
 
 
 def extrema(error, a, b, n, grid):
-    """The n alternating extrema of error: in each run of one sign the point of the largest error."""
+    """Returns the n alternating extrema of error: the point with the largest error in each interval of constant sign."""
     runs = []
     for x in linspace(a, b, grid):
         e = error(x)
@@ -54,7 +54,7 @@ def show(name, fit):
 
 
 def float_sum(name, x, bits=24):
-    """x as a sum of three floats, the first of which keeps only `bits` bits."""
+    """Prints x as a sum of three floats, the first of which has only `bits` significant bits."""
     parts = []
     for keep in (bits, 24, 24):
         e = int(mp.floor(log(fabs(x)) / LN2)) + 1 - keep
@@ -64,9 +64,9 @@ def float_sum(name, x, bits=24):
     print("%-10s {%s}" % (name, ", ".join(parts)))
 
 
-# Intervals that hold 0, where the targets are 0/0, are fitted a hair to one side: no grid point meets 0.
+# Intervals that contain 0, where the targets are 0/0, are shifted slightly so that no grid point is exactly 0.
 tiny = mpf(10) ** -12
-third = mpf("0.50001")  # pow hands exp2 fractions a little beyond one half
+third = mpf("0.50001")  # pow calls exp2 with fractions slightly beyond one half
 show("exp2", remez(lambda f: (2**f - 1) / f, lambda f: fabs(f) / 2**f, -third, third + tiny, 5))
 h = LN2 / 2 * mpf("1.00001")
 show("exp", remez(lambda f: (exp(f) - 1 - f) / f**2, lambda f: f**2 / exp(f), -h, h + tiny, 4))
@@ -87,10 +87,10 @@ show("cos", remez(lambda z: (cos(sqrt(z)) - 1 + z / 2) / z**2, lambda z: z**2 / 
 float_sum("pi/2", mp.pi / 2)
 show("atan", remez(lambda z: (atan(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sqrt(z) / atan(sqrt(z)), tiny, mpf(1), 8))
 show("asin", remez(lambda z: (asin(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sqrt(z) / asin(sqrt(z)), tiny, mpf(1) / 4, 4))
-# The guess of inverse_sqrt leaves r = 1 - x*y^2 within [-0.0691, 0.0676].
+# For the initial guess y of inverse_sqrt, r = 1 - x*y^2 is in [-0.0691, 0.0676].
 guess = remez(lambda r: (1 / sqrt(1 - r) - 1) / r, lambda r: fabs(r) * sqrt(1 - r), mpf("-0.0691"), mpf("0.0676") + tiny, 3)
 show("inverse_sqrt", guess)
-# What unit_pow and levels of detail make of less: their logarithms and powers of two need no full precision.
+# Lower degrees for unit_pow and the level of detail, whose logarithms and powers of two do not need full precision.
 log2_over_f = (lambda f: log(1 + f) / LN2 / f, lambda f: fabs(f * LN2 / log(1 + f)), lo, hi)
 show("unit_pow: log2", remez(*log2_over_f, 6))
 show("unit_pow: exp2", remez(lambda f: (2**f - 1) / f, lambda f: fabs(f) / 2**f, -third, third + tiny, 4))

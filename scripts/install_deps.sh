@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing where all is there.
+# Installs the packages that halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing if all are installed.
 #
 #   scripts/install_deps.sh [--tests | --benchmarks]
-#     --tests       also what the tests need
-#     --benchmarks  also what scripts/bench.sh needs: the tests' packages, and matplotlib for its charts
+#     --tests       also installs the packages that the tests need
+#     --benchmarks  also installs the packages that scripts/bench.sh needs: those of the tests, and matplotlib for the charts
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libspng-dev libcli11-dev nlohmann-json3-dev libfmt-dev libembree-dev)
@@ -20,7 +20,7 @@ esac
 fail() { echo "install_deps.sh: $*" >&2; exit 1; }
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
-  fail "this system has no apt; install the counterparts of: ${packages[*]}"
+  fail "this system has no apt; install the equivalents of: ${packages[*]}"
 fi
 
 installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]; }
@@ -33,14 +33,14 @@ done
 
 run=(env DEBIAN_FRONTEND=noninteractive)
 if [ "$(id -u)" -ne 0 ]; then
-  sudo -n true 2> /dev/null || fail "no right to install (neither root nor sudo without a password); ask for: ${missing[*]}"
+  sudo -n true 2> /dev/null || fail "cannot install packages (needs root, or sudo without a password); missing: ${missing[*]}"
   run=(sudo -n env DEBIAN_FRONTEND=noninteractive)
 fi
 
 echo "install_deps.sh: installing ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-# The lists may be stale or absent: fetch them only where the packages cannot be had without.
+# The package lists may be outdated or missing. Update them only if the installation fails without.
 if ! "${run[@]}" apt-get -o DPkg::Lock::Timeout=120 install -y --no-install-recommends "${missing[@]}" > "$log" 2>&1; then
   "${run[@]}" apt-get update > "$log" 2>&1 || true
   if ! "${run[@]}" apt-get -o DPkg::Lock::Timeout=120 install -y --no-install-recommends "${missing[@]}" > "$log" 2>&1; then

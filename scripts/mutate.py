@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Plants the faults of tests/faults in a copy of the tree, one at a time, and checks that the tests catch each.
+"""Applies the faults of tests/faults to a copy of the source tree, one at a time, and checks that the tests detect each.
 
   scripts/mutate.py           all faults
   scripts/mutate.py N         fault N of the list
@@ -9,17 +9,17 @@
   scripts/mutate.py list      numbers, file names and what each fault does
 
 The last line is "N caught, M missed"; the exit code is 1 if any fault was missed. A fault is caught if a test fails. A fault
-that does not build proves nothing and counts as missed (warnings are not errors here).
+that does not compile proves nothing and counts as missed (warnings are not errors here).
 
-A fault file has a name, a file, the text to replace (lines that begin with "- ") and the new text (lines that begin with "+ ",
-none to delete the old text):
+A fault file has a name, a source file, the old text (lines that begin with "- ") and the new text (lines that begin with "+ "; without
+any, the old text is deleted):
 
-  name: Clipping leaves the near plane out
+  name: Clipping skips the near plane
   file: src/raster/primitives/clip.cpp
   - case 1: return p.z + p.w;
   + case 1: return 1.0;
 
-The old text must occur exactly once in the file. It may be a part of a line. tests/faults/apply_test.py checks all fault files.
+The old text must occur exactly once in the file. It can be part of a line. tests/faults/apply_test.py checks all fault files.
 """
 
 import os
@@ -34,7 +34,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 FAULTS = ROOT / "tests" / "faults"
 
-# The test programs that may notice a fault in a folder, in the order in which they run: most faults fail in the first.
+# Test programs that can detect a fault in a folder, in the order in which they run. Most faults are detected by the first one.
 TESTS = {
     "src/core/": ["core", "raster", "property", "conformance", "shading"],
     "src/geometry/": ["geometry", "render"],
@@ -62,7 +62,7 @@ class Fault:
     new: str
 
     def planted(self, text):
-        """The text with the fault in it."""
+        """Returns the text with the fault applied."""
         count = text.count(self.old)
         if count != 1:
             raise FaultError(f"{self.stem}: the old text occurs {count} times in {self.file}, expected once")
@@ -76,7 +76,7 @@ class Fault:
 
 
 def parse(stem, content):
-    """The fault that a fault file describes."""
+    """Parses a fault file."""
     match = re.fullmatch(r"name: (.+)\nfile: (.+)\n((?:-.*\n)+)((?:\+.*\n)*)", content)
     if not match:
         raise FaultError(f"{stem}: expected a line 'name: ...', a line 'file: ...', lines '- ...' and lines '+ ...'")
@@ -99,7 +99,7 @@ def load_all():
 
 
 def select(faults, arguments):
-    """The faults that the command line asks for, with their numbers."""
+    """Returns the faults selected on the command line, with their numbers."""
     numbered = list(enumerate(faults, 1))
     if not arguments:
         return numbered
@@ -117,11 +117,11 @@ def select(faults, arguments):
 
 
 class Copy:
-    """A copy of the tree, with a build folder."""
+    """A copy of the source tree with a build folder."""
 
     def __init__(self, root):
         self.root, self.build, self.log = root, root / "build", ""
-        # For compilers run through ccache: copies share their objects whatever their path.
+        # Lets ccache share objects between copies with different paths.
         self.environment = dict(os.environ, CCACHE_BASEDIR=str(root))
         listed = self.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], ROOT).stdout
         for name in filter(None, listed.split("\0")):
@@ -140,7 +140,7 @@ class Copy:
         return result.returncode == 0
 
     def check(self, tests):
-        """Builds and runs test programs up to the first that fails: "passed", "failed" or "does not build"."""
+        """Builds and runs test programs until one fails. Returns "passed", "failed" or "does not build"."""
         for test in tests:
             result = self.run(["cmake", "--build", str(self.build), "--target", f"test-{test}"], self.root)
             self.log = result.stdout
@@ -150,20 +150,20 @@ class Copy:
                 result = self.run([str(self.build / "bin" / f"test-{test}"), "--gtest_fail_fast", "--gtest_brief=1"], self.root, 600)
                 self.log = result.stdout
             except subprocess.TimeoutExpired:
-                self.log = f"test-{test} did not end within 600 s"
+                self.log = f"test-{test} did not finish within 600 s"
                 return "failed"
             if result.returncode != 0:
                 return "failed"
         return "passed"
 
     def failure(self):
-        """The test that failed, or the last line of the output."""
+        """Returns the name of the failed test, or the last line of the output."""
         match = re.search(r"\[  FAILED  \] ([A-Za-z0-9_/.]+)", self.log)
         return match.group(1) if match else self.log.strip().rpartition("\n")[2]
 
 
 def run_faults(selected):
-    """Plants each fault; the number of caught ones and of missed ones."""
+    """Applies each fault. Returns the numbers of caught and missed faults."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Copy(Path(folder))
         print("building the tree without faults", flush=True)

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# What is off costs nothing: for each feature, the instructions of a scene that does not use it, counted by callgrind in the
-# x86-64-v3 build, against a build from which a patch (tests/off) has taken the feature's code path. At most 1 % more.
+# Checks that unused features have no cost. For each feature, counts the instructions of a scene that does not use it with callgrind in
+# the x86-64-v3 build, and compares them with a build without the code path of the feature (removed by a patch in tests/off). The
+# difference must be at most 1 %.
 #
-#   scripts/off_costs.sh [FEATURE...]     default: all of tests/off; some minutes
+#   scripts/off_costs.sh [FEATURE...]     default: all of tests/off; takes some minutes
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v valgrind > /dev/null || { echo "off_costs.sh: valgrind is missing (Debian and Ubuntu: valgrind)" >&2; exit 1; }
@@ -15,7 +16,7 @@ for feature in "$@"; do
   [ -f "tests/off/$feature.patch" ] || { echo "off_costs.sh: no feature '$feature'; expected one of: $(cd tests/off && echo *.patch)" >&2; exit 2; }
 done
 
-# A copy to patch, with the times of its files, so that only what a patch touches is built again.
+# Patches a copy of the tree. Its file times are preserved, so that only files changed by a patch are rebuilt.
 rm -rf "$tree"
 mkdir -p "$tree"
 git ls-files -z | tar --null -T - -c | tar -x -C "$tree"
@@ -26,7 +27,7 @@ mkdir -p "$build"
 cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3 -DHALFSPACE_BUILD_BENCHMARKS=OFF > /dev/null
 build_program
 
-# A globe with a map and a highlight: no shadow, no normal map, nothing mirrored, no HDR, one sample, nothing blended.
+# A globe with a color map and a highlight, without shadow, normal map, reflection, HDR, multisampling and blending.
 instructions() {
   valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no --toggle-collect='halfspace::Pass::run(*' \
     "$build/bin/halfspace" render earth --size 640x360 --threads 1 -o "$build/picture.png" \
@@ -41,10 +42,10 @@ for feature in "$@"; do
   patch -s -p1 --fuzz=0 -d "$tree" < "tests/off/$feature.patch"
   build_program
   without=$(instructions)
-  # Statistics are no pixels; no patch may change any.
-  cmp -s "$build/picture.png" "$build/whole.png" || failed+=("$feature (another picture)")
+  # A patch must not change the image.
+  cmp -s "$build/picture.png" "$build/whole.png" || failed+=("$feature (the image changed)")
   awk -v f="$feature" -v a="$whole" -v b="$without" \
-    'BEGIN { printf "%-13s %s without its code path: %+.3f %% for being off\n", f, b, 100 * (a / b - 1); exit a > 1.01 * b }' ||
+    'BEGIN { printf "%-13s %s without its code path: %+.3f %% overhead when unused\n", f, b, 100 * (a / b - 1); exit a > 1.01 * b }' ||
     failed+=("$feature")
   patch -s -R -p1 --fuzz=0 -d "$tree" < "tests/off/$feature.patch"
 done

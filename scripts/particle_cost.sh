@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What a sphere of particles costs at 100,000 and at 1,000,000: processor time of a whole picture, one thread, less that of a picture
-# without spheres; runs take turns, and of each kind the shortest counts. More keys of the scene may follow.
+# Measures the cost per sphere for 100,000 and 1,000,000 particles: the CPU time of a complete image on one thread, minus that of an image
+# without spheres. Runs are interleaved, and the shortest of each kind counts. Additional scene keys can be given.
 #
 #   scripts/particle_cost.sh [PROGRAM [--set KEY=VALUE...]]     default: build/release/bin/halfspace
 set -euo pipefail
@@ -25,6 +25,6 @@ for sprite in exact original; do
     done
     awk -v s="$sprite" -v r="$arrangement" -v a="${least[0]}" -v b="${least[100000]}" -v c="${least[1000000]}" 'BEGIN {
       p = (b - a) * 1e4; q = (c - a) * 1e3
-      printf "%-8s %-6s  100k: %4.0f ns a sphere  1M: %4.0f ns  ratio %.2f\n", s, r, p, q, q / p }'
+      printf "%-8s %-6s  100k: %4.0f ns per sphere  1M: %4.0f ns  ratio %.2f\n", s, r, p, q, q / p }'
   done
 done

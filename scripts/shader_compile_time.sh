@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Seconds that one more shader adds to a translation unit: 9 copies of Blinn-Phong against 1, divided by 8.
+# Measures the compile time that each additional shader adds to a translation unit: 9 copies of Blinn-Phong minus 1, divided by 8.
 # shader_compile_time.sh [COMPILER]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,4 +27,4 @@ seconds() {
 }
 one=$(seconds 1)
 nine=$(seconds 9)
-awk -v c="$compiler" -v a="$one" -v b="$nine" 'BEGIN { printf "%s: 1 shader %.2f s, 9 shaders %.2f s, %.2f s for each\n", c, a, b, (b - a) / 8 }'
+awk -v c="$compiler" -v a="$one" -v b="$nine" 'BEGIN { printf "%s: 1 shader %.2f s, 9 shaders %.2f s, %.2f s per additional shader\n", c, a, b, (b - a) / 8 }'

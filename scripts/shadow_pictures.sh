@@ -18,7 +18,7 @@ picture() {
   "$program" render "$scene" --size 400x250 "${@/#/--set=}" -o "$out/$name.png"
 }
 
-# A small plate high above a large one, which is close over the ground: at the small one's outline two depths meet in one texel.
+# A small plate high above a large one that is close to the ground. At the outline of the small plate, two depths meet in one texel.
 cat > "$scenes/plates.json" <<'END'
 { "version": 1, "ambient": 0.15,
   "cameras": { "main": { "position": [1.2, 0.72, 2.4], "target": [0, 0.02, -0.2], "fov": 45, "near": 0.1, "far": 100 } },
@@ -28,7 +28,7 @@ cat > "$scenes/plates.json" <<'END'
                "low": { "shape": "cube", "size": 5, "scale": [1, 0.01, 1], "position": [0, 0.9, 0], "color": [0.6, 0.26, 0.16] } },
   "shadow": { "resolution": 512, "radius": 4 } }
 END
-# A ring and stakes on a plane that reaches to the horizon.
+# A ring and stakes on a plane that extends to the horizon.
 cat > "$scenes/stakes.json" <<'END'
 { "version": 1, "ambient": 0.15,
   "cameras": { "main": { "position": [0, 1.4, 0], "target": [0, 0.5, -4], "fov": 45, "near": 0.1, "far": 400 } },

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How long `halfspace render earth --size 512x512` takes from start to file, beside the least that such a picture needs.
+"""Measures the time of `halfspace render earth --size 512x512` from start to file, compared with the minimum such an image needs.
 
   scripts/start_to_file.py [--bin DIR] [--rounds N]     default: build/release/bin, 15
 
-The least is halfspace-least-earth (build the target of that name): it links the same libraries, makes the scene's maps, waits as long as
-a further frame takes and writes the same pixels. Twice: its maps are colours and heights, or the normals made of these as well. The three take
-turns; the least and the median of each are printed. What halfspace-least-earth needs to read the pixels does not count.
+The minimum is given by halfspace-least-earth (a build target): it links the same libraries, generates the maps of the scene, waits for
+the duration of an additional frame and writes the same pixels. It runs in two variants: with color and height maps, and with normal maps
+derived from them as well. The three programs are interleaved, and the minimum and median of each are printed. The time in which
+halfspace-least-earth reads the pixels is subtracted.
 """
 import argparse
 import json
@@ -18,18 +19,18 @@ import time
 from pathlib import Path
 
 SIZE = "512x512"
-MAP_WIDTH = 2048  # what the scene chooses for a picture of this size
+MAP_WIDTH = 2048  # the width that the scene selects for an image of this size
 
 
 def wall_ms(command):
-    """Wall time of a command, and what it printed."""
+    """Returns the wall time of a command and its output."""
     start = time.perf_counter()
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
     return 1000 * (time.perf_counter() - start), done.stdout
 
 
 def frame_ms(program, folder):
-    """What a further frame takes, its picture not written: of 21 frames and of one the difference."""
+    """Returns the time per additional frame without writing it, from the difference between 21 frames and one."""
 
     def render_ms(frames):
         pictures = os.path.join(folder, "frame%02d.png")
@@ -54,11 +55,11 @@ def main():
             for maps in ("heights", "normals"):
                 ms, read_ms = wall_ms([least, maps, str(MAP_WIDTH), f"{frame:.3f}", picture, copy])
                 times[maps].append(ms - float(read_ms))
-    print(f"a further frame: {frame:.2f} ms; {arguments.rounds} rounds")
-    for name, what in (("render", "halfspace render earth"), ("heights", "colours and heights"), ("normals", "colours, heights and normals")):
+    print(f"additional frame: {frame:.2f} ms; {arguments.rounds} rounds")
+    for name, what in (("render", "halfspace render earth"), ("heights", "colors and heights"), ("normals", "colors, heights and normals")):
         low, middle = min(times[name]), statistics.median(times[name])
         ratio = "" if name == "render" else f"   render takes {min(times['render']) / low:.2f} and {statistics.median(times['render']) / middle:.2f} times as long"
-        print(f"{what:30} least {low:6.1f} ms, median {middle:6.1f} ms{ratio}")
+        print(f"{what:30} minimum {low:6.1f} ms, median {middle:6.1f} ms{ratio}")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the release preset and runs all its tests; ends in ctest's summary.
+# Installs missing packages, builds the release preset and runs all its tests. The output ends with the summary of ctest.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The long tests: both compilers, all presets, lane widths and instruction sets, the mutation run, the cost figures.
-# Run before an issue is resolved; the last run stands in docs/development/testing.md.
+# Runs the long tests: both compilers, all presets, SIMD widths and instruction sets, the mutation tests and the cost measurements.
+# Run it before an issue is resolved. The results of the last run are in docs/development/testing.md.
 #
 #   scripts/test_full.sh [STEP...]     default: all steps; "scripts/test_full.sh list" names them
 set -euo pipefail
@@ -17,8 +17,8 @@ build_and_test() {
   cmake --build "$dir" -- -j "$jobs" > "$dir/build.log" 2>&1 || { grep -E 'error|FAILED' "$dir/build.log" | head -20; return 1; }
   run_tests "$dir"
 }
-# Whole programs, as many at once as there are cores: thousands of starts under a sanitizer take longer than what they test. What is no
-# GoogleTest (shaders that must not compile) goes by ctest.
+# Runs whole test programs, one per core, because starting a program for each of thousands of tests under a sanitizer takes longer than the
+# tests. Tests that do not use GoogleTest (shaders that must not compile) are run with ctest.
 run_tests() {
   local status=0
   find "$1/bin" -name 'test-*' -executable | xargs -P "$jobs" -I{} sh -c '{} --gtest_brief=1 > {}.log 2>&1 || { echo "failed: {}"; tail -40 {}.log; exit 1; }' ||
@@ -28,10 +28,10 @@ run_tests() {
   grep 'tests passed' "$1/ctest.log"
   return $status
 }
-# Sanitizers by clang, which builds them in a fraction of the time.
+# Sanitizer builds use clang, which compiles them in a fraction of the time.
 sanitized() { build_and_test "$1" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON "${@:2}"; }
 
-# 100 runs at 1, 2 and 64 threads of a picture of 100,000 blended points: one hash.
+# Renders 100,000 blended points 100 times with 1, 2 and 64 threads; all images must have the same hash.
 blended_order() {
   local dir=build/full/gcc-native
   cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release > /dev/null
@@ -39,7 +39,7 @@ blended_order() {
   HALFSPACE_RUNS=100 "$dir/bin/test-conformance" --gtest_filter='ConformanceOrder.*'
 }
 
-# What --max-error promises, on 208 random views.
+# Checks the guarantees of --max-error on 208 random views.
 random_views() {
   local dir=build/full/gcc-native
   cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release > /dev/null

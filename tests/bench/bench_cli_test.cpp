@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-bench as its users meet it. CMake gives its place as HALFSPACE_BENCH_PROGRAM.
+// The command line of halfspace-bench. CMake defines HALFSPACE_BENCH_PROGRAM as the path of the program.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -28,7 +28,7 @@ struct Mistake {
 };
 class BenchMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(BenchMistake, IsToldInOneLine) {
+TEST_P(BenchMistake, IsReportedInOneLine) {
   const Outcome outcome = bench(GetParam().arguments);
   EXPECT_EQ(outcome.exit_code, 2);
   ASSERT_TRUE(outcome.text.ends_with('\n')) << outcome.text;
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(All, BenchMistake,
                                          Mistake{"--only fill tiny_1m", "unexpected argument", {"'tiny_1m'", "--help"}},
                                          Mistake{"fill", "unexpected argument", {"'fill'", "--help"}}));
 
-TEST(BenchCli, HelpFitsAScreenAndEndsInTwoExamples) {
+TEST(BenchCli, HelpFitsOnAScreenAndEndsWithTwoExamples) {
   const Outcome outcome = bench("--help");
   EXPECT_EQ(outcome.exit_code, 0);
   const std::vector<std::string> lines = lines_of(outcome.text);
@@ -56,12 +56,12 @@ TEST(BenchCli, HelpFitsAScreenAndEndsInTwoExamples) {
   EXPECT_TRUE(lines[lines.size() - 1].starts_with("  halfspace-bench ")) << outcome.text;
 }
 
-TEST(BenchCli, JsonIsALineAWorkload) {
+TEST(BenchCli, JsonHasOneLinePerWorkload) {
   const Outcome outcome = bench("--only layers_f2b,fill --size 64x32 --threads 2 --seconds 0 --json");
   EXPECT_EQ(outcome.exit_code, 0);
   const std::vector<std::string> lines = lines_of(outcome.text);
   ASSERT_EQ(lines.size(), 2u) << outcome.text;
-  EXPECT_EQ(nlohmann::json::parse(lines[0]).at("workload"), "fill");  // the table's order
+  EXPECT_EQ(nlohmann::json::parse(lines[0]).at("workload"), "fill");  // in the order of the table
   for (const std::string& line : lines) {
     const nlohmann::json row = nlohmann::json::parse(line);
     EXPECT_EQ(row.at("size"), "64x32");
@@ -71,28 +71,27 @@ TEST(BenchCli, JsonIsALineAWorkload) {
     EXPECT_LE(row.at("ms_min"), row.at("ms"));
     EXPECT_LE(row.at("ms"), row.at("ms_max"));
     EXPECT_GE(row.at("cpu_ms"), 0.0);
-    EXPECT_FALSE(row.contains("frames_mb"));  // of one alone
+    EXPECT_FALSE(row.contains("frames_mb"));  // only reported for a single workload
   }
 }
 
-TEST(BenchCli, TellsTheMemoryOfASingleWorkload) {
+TEST(BenchCli, ReportsTheMemoryOfASingleWorkload) {
   const auto megabytes = [](const std::string& name) {
     const Outcome outcome = bench("--only " + name + " --size 64x64 --threads 1 --seconds 0 --json");
     EXPECT_EQ(outcome.exit_code, 0);
     return nlohmann::json::parse(outcome.text).at("frames_mb").get<double>();
   };
-  // Three million vertices of 17 bytes; what preparation gave back may serve for some of them. A cleared picture of 64x64 takes almost
-  // nothing.
+  // Three million vertices of 17 bytes, some of which can reuse memory freed by preparation. A cleared 64x64 image needs almost no memory.
   EXPECT_GE(megabytes("tiny_1m"), megabytes("clear") + 25);
 }
 
-TEST(BenchCli, EveryRoundCountsAFrame) {
+TEST(BenchCli, EveryRoundRendersAFrame) {
   const Outcome outcome = bench("--only fill --size 16x16 --threads 1 --seconds 0.01 --json");
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_GE(nlohmann::json::parse(outcome.text).at("frames"), 5);  // five rounds, a frame at least in each
+  EXPECT_GE(nlohmann::json::parse(outcome.text).at("frames"), 5);  // five rounds of at least one frame each
 }
 
-TEST(BenchCli, PicturesAreWrittenWhereAsked) {
+TEST(BenchCli, WritesImagesToTheOutputFolder) {
   const TemporaryFolder directory;
   const std::string name = directory.path().string();
   const Outcome outcome = bench("--only fill,layers_f2b --size 64x32 --seconds 0 --out " + name + "/new");
@@ -104,7 +103,7 @@ TEST(BenchCli, PicturesAreWrittenWhereAsked) {
   EXPECT_EQ(bench("--only fill --size 4x4 --seconds 0 --out /dev/null/x").exit_code, 4);
 }
 
-TEST(BenchCli, ChecksPicturesWhereAsked) {
+TEST(BenchCli, ChecksImagesOnRequest) {
   const TemporaryFolder truths;
   for (const char* sweep : {"", "--sweep overdraw "}) {
     const std::string only = *sweep != 0 ? "overdraw=2" : "layers_b2f";
@@ -118,7 +117,7 @@ TEST(BenchCli, ChecksPicturesWhereAsked) {
   }
 }
 
-TEST(BenchCli, ListNamesAll) {
+TEST(BenchCli, ListNamesEveryWorkload) {
   const Outcome outcome = bench("--list");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(lines_of(outcome.text).size(), 25u);

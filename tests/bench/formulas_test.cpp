@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The workloads draw what their formulas say: rays and closed forms in double, written here a second time and apart from the
-// workloads' shaders, which the naive pipeline of workloads_test.cpp shares with them.
+// Checks the workloads against ray tracing and closed forms in double. The formulas are written independently of the workloads' shaders,
+// which workloads_test.cpp shares through the naive pipeline.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Image<glm::u8vec4> drawn(std::string_view name, WorkloadSize size) {
   return *workload->picture().color;
 }
 
-// The ray of a pixel: a camera at `eye` that looks at `center`. Not of unit length.
+// Returns the ray of a pixel for a camera at `eye` that looks at `center`. The ray is not normalized.
 dvec3 ray_of(int x, int row, const dvec3& eye, const dvec3& center) {
   const dvec3 ahead = glm::normalize(center - eye), right = glm::normalize(glm::cross(ahead, dvec3(0, 1, 0))),
               up = glm::cross(right, ahead);
@@ -38,7 +38,7 @@ dvec3 ray_of(int x, int row, const dvec3& eye, const dvec3& center) {
   return ahead + kTan * (s * right + t * up);
 }
 
-// Where a ray first meets the unit sphere.
+// Returns the first intersection of a ray with the unit sphere.
 std::optional<dvec3> on_sphere(const dvec3& from, const dvec3& along) {
   const double a = glm::dot(along, along), b = glm::dot(from, along), c = glm::dot(from, from) - 1, d = b * b - a * c;
   if (d < 0 || -b - std::sqrt(d) < 0) return std::nullopt;
@@ -57,8 +57,8 @@ void expect_color(const Image<glm::u8vec4>& image, int x, int row, const dvec3& 
     ASSERT_NEAR(image.at(x, row)[k] / 255.0, std::clamp(expected[k], 0.0, 1.0), 1.0 / 255) << x << ' ' << row << " channel " << k;
 }
 
-// The nearest of the ten hides the others, in either order.
-TEST(WorkloadFormulas, Layers) {
+// The nearest of the ten layers hides the others, in either order.
+TEST(WorkloadFormulas, LayersShowTheNearestOne) {
   for (const std::string_view name : {"layers_b2f", "layers_f2b"}) {
     const Image<glm::u8vec4> image = drawn(name, kSize);
     for (int row = 0; row < kSize.height && !HasFatalFailure(); ++row) {
@@ -72,8 +72,8 @@ TEST(WorkloadFormulas, Layers) {
   }
 }
 
-// The checker's colour at a point of the sphere; nothing within 16 texels of another square, where the filter mixes them (a pixel
-// spans up to 7 texels where the sphere is seen from ahead).
+// Returns the color of the checkerboard at a point of the sphere, or nothing within 16 texels of another square, where the filter mixes
+// them. (A pixel spans up to 7 texels where the sphere faces the camera.)
 std::optional<dvec3> checker(const dvec3& p) {
   const double turn = std::atan2(p.z, p.x) / (2 * std::numbers::pi);
   const double x = 2048 * (turn - std::floor(turn)), y = 1024 * std::acos(p.y) / std::numbers::pi;
@@ -83,8 +83,8 @@ std::optional<dvec3> checker(const dvec3& p) {
   return light ? dvec3(230.0 / 255) : dvec3(40.0 / 255, 90.0 / 255, 160.0 / 255);
 }
 
-// The mesh of two million triangles lies within 5e-6 of the sphere, that of 200,000 within 4e-5: far less than a code.
-TEST(WorkloadFormulas, SpherePhongAndHdr) {
+// The mesh of two million triangles is within 5e-6 of the sphere, and that of 200,000 within 4e-5, which is far less than a code.
+TEST(WorkloadFormulas, SpherePhongAndHdrMatch) {
   const Image<glm::u8vec4> phong = drawn("sphere_phong_2m", kSize), hdr = drawn("hdr_200k", kSize);
   const auto tone = [](const dvec3& c) { return glm::pow(0.8 * c / (1.0 + 0.8 * c), dvec3(1 / 2.2)); };
   const dvec3 eye(0, 0.8, 2.7);
@@ -107,7 +107,7 @@ TEST(WorkloadFormulas, SpherePhongAndHdr) {
   expect_color(hdr, 0, 0, tone({0.4, 0.6, 1.5}));
 }
 
-TEST(WorkloadFormulas, Shadow) {
+TEST(WorkloadFormulas, ShadowMatches) {
   const Image<glm::u8vec4> image = drawn("shadow_200k", kSize);
   const dvec3 eye(0, 1.5, 4.5), l = glm::normalize(dvec3(0.5, 1.0, 0.3));
   int in_shadow = 0, lit = 0, dark_side = 0;
@@ -117,7 +117,7 @@ TEST(WorkloadFormulas, Shadow) {
       if (const std::optional<dvec3> p = on_sphere(eye, ray)) {
         const dvec3 v = glm::normalize(eye - *p);
         const double n_l = glm::dot(*p, l);
-        if (glm::dot(*p, v) < 0.1 || std::abs(n_l) < 0.15) continue;  // the rim; where bias and filter decide
+        if (glm::dot(*p, v) < 0.1 || std::abs(n_l) < 0.15) continue;  // skips the rim, and angles at which bias and filter decide
         expect_color(image, x, row, blinn({0.8, 0.3, 0.2}, *p, l, v, n_l > 0 ? 1 : 0));
         dark_side += n_l < 0 ? 1 : 0;
         continue;
@@ -127,8 +127,8 @@ TEST(WorkloadFormulas, Shadow) {
       if (ray.y >= 0 || reach > 4.05) {
         expect_color(image, x, row, {0.10, 0.20, 0.30});
       } else if (reach < 3.95) {
-        const double off = glm::length(p - l * glm::dot(p, l)) - 1;  // of the light's ray from the sphere
-        if (std::abs(off) < 0.02) continue;                          // 12 texels of the map: the edge
+        const double off = glm::length(p - l * glm::dot(p, l)) - 1;  // distance of the shadow ray from the sphere
+        if (std::abs(off) < 0.02) continue;                          // skips the edge of the shadow: 12 texels of the map
         expect_color(image, x, row, blinn(dvec3(0.6), {0, 1, 0}, l, glm::normalize(eye - p), off > 0 ? 1 : 0));
         ++(off > 0 ? lit : in_shadow);
       }
@@ -139,11 +139,12 @@ TEST(WorkloadFormulas, Shadow) {
   EXPECT_GT(dark_side, 3000);
 }
 
-// A million triangles of 1 px² side by side cover a million pixels. On the grid of 1/256 px two owned edges against one that is
-// not add half an edge of 362 steps to an area of 362²/2, 0.3%; and the places of 1357 columns within a pixel are not quite even.
-TEST(WorkloadFormulas, Tiny) {
+// A million adjacent triangles of 1 px² cover a million pixels. On the 1/256 px grid, two inclusive edges against one exclusive edge add
+// half an edge of 362 steps to an area of 362²/2, or 0.3%. In addition, the positions of 1357 columns within a pixel are not perfectly
+// uniform.
+TEST(WorkloadFormulas, TinyCoversTheExpectedArea) {
   const Image<glm::u8vec4> image = drawn("tiny_1m", {1920, 1080});
-  const auto covered = std::ranges::count(image.texels(), glm::u8vec4(229, 153, 26, 255));  // the float 0.9 is below 229.5/255
+  const auto covered = std::ranges::count(image.texels(), glm::u8vec4(229, 153, 26, 255));  // the float 0.9 is less than 229.5/255
   const auto background = std::ranges::count(image.texels(), glm::u8vec4(26, 51, 77, 255));
   EXPECT_EQ(covered + background, 1920 * 1080);
   EXPECT_NEAR(static_cast<double>(covered), 1e6, 1e4);

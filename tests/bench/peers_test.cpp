@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What Halfspace is compared with draws the same pictures, and the other programs of the benchmark run. CMake gives the places of
-// those that are built; the others' tests are skipped.
+// Checks that the peer renderers draw the same images as Halfspace, and that the other programs of the benchmark run. CMake defines the
+// paths of the programs that are built; the tests of the others are skipped.
 #include <gtest/gtest.h>
 
 #include "bench/program.h"
@@ -24,7 +24,7 @@ namespace {
 
 using test::Outcome;
 
-// All workloads but the largest meshes, which the same code draws.
+// Returns the names of all workloads except those with the largest meshes, which use the same code as the smaller ones.
 std::string all_but_2m() {
   std::string names;
   for (const WorkloadKind& kind : workloads()) {
@@ -33,18 +33,19 @@ std::string all_but_2m() {
   return names;
 }
 
-// Rounding to codes alone is 0.29/255. llvmpipe's level of detail comes from differences between pixels, through an estimate of the
-// logarithm: at this small size up to a tenth of textured pixels is off by more than a code, none by many. Its points lie on a grid, which
-// is coarse for disks this small, and its anisotropic footprint is another one; where it decides the edge of a hole otherwise, another
-// layer shows. A wrong light, matrix, state or mesh is off by tens.
+// Returns the allowed RMS error in codes. Rounding to codes alone gives 0.29. llvmpipe computes the level of detail from differences
+// between pixels with an approximate logarithm; at this small size up to a tenth of the textured pixels is off by more than one code, but
+// none by many. It snaps points to a grid that is coarse for disks this small, and uses a different anisotropic footprint. Where alpha
+// testing decides the edge of a hole differently, another layer is visible. A wrong light, matrix, state or mesh gives an error of tens of
+// codes.
 double allowed_rms(const std::string& workload) {
   if (workload == "aniso_floor") return 10.0;
   if (workload == "points_100k") return 5.0;
-  if (workload == "shadow_200k") return 0.3;  // most of it holds no texture and no light
+  if (workload == "shadow_200k") return 0.3;  // most of it is neither textured nor lit
   return workload == "alpha_test" ? 2.0 : 0.6;
 }
 
-TEST(BenchGl, DrawsTheSamePictures) {
+TEST(BenchGl, DrawsTheSameImages) {
   const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built";
   const TemporaryFolder truths;
@@ -63,9 +64,9 @@ TEST(BenchGl, DrawsTheSamePictures) {
   }
 }
 
-// Rays hit where triangles lie: what is off is the outline, and edges of the checker. At this size the outline of the sphere is
-// 1.5% of it, of which rays and the 1/256 px grid decide few pixels differently.
-TEST(BenchEmbree, DrawsTheSamePictures) {
+// Rays hit the triangles, so only the outline and the edges of the checkerboard can differ. At this size the outline is 1.5% of the sphere,
+// and rays and the 1/256 px grid disagree on few of its pixels.
+TEST(BenchEmbree, DrawsTheSameImages) {
   const std::string program = HALFSPACE_BENCH_EMBREE_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "halfspace-bench-embree is not built";
   const TemporaryFolder truths;
@@ -79,12 +80,12 @@ TEST(BenchEmbree, DrawsTheSamePictures) {
   for (const nlohmann::json& row : rows) {
     const nlohmann::json& picture = row.at("picture");
     EXPECT_LE(picture.at("colors_off").get<double>(), picture.at("covered").get<double>() / 200) << row.dump();
-    // Rays meet the triangles where they are, not where they were snapped to: depth differs by 1/512 px of slope, which is steep there.
+    // Rays intersect unsnapped triangles, so depth differs by the slope over 1/512 px, which is large near the outline.
     EXPECT_LE(picture.at("depths_off").get<double>(), picture.at("covered").get<double>() / 50) << row.dump();
   }
 }
 
-TEST(BenchGl, SaysWhichDriversThereAre) {
+TEST(BenchGl, ListsTheAvailableDrivers) {
   const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built";
   const Outcome outcome = test::run_program(program, "--driver llvm --only fill");
@@ -93,7 +94,7 @@ TEST(BenchGl, SaysWhichDriversThereAre) {
   EXPECT_TRUE(tells(outcome.text.substr(0, outcome.text.size() - 1), "halfspace-bench-gl: --driver", {"'llvm'", "llvmpipe", "softpipe"}));
 }
 
-TEST(BenchPeers, HaveTheSeriesOfHalfspace) {
+TEST(BenchPeers, SupportTheSweepsOfHalfspace) {
   for (const std::string program : {HALFSPACE_BENCH_GL_PROGRAM, HALFSPACE_BENCH_EMBREE_PROGRAM}) {
     if (program.empty()) continue;
     const Outcome list = test::run_program(program, "--sweep triangle_count --list");
@@ -114,7 +115,7 @@ TEST(Limits, AreMeasured) {
   EXPECT_EQ(test::run_program(HALFSPACE_LIMITS_PROGRAM, "--seconds 0").exit_code, 2);
 }
 
-TEST(Stages, Run) {
+TEST(Stages, RunAndReportResults) {
   const std::string program = HALFSPACE_STAGES_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "halfspace-stages is not built";
   const Outcome outcome =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs one of the benchmark's programs.
+// Helpers that run the programs of the benchmark.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ namespace halfspace::test {
 
 using Outcome = ProgramOutput;
 
-/// streams: what of standard error is kept, as the shell says it.
+/// Runs a program. `streams` is a shell redirection that determines how standard error is captured.
 inline Outcome run_program(const std::string& program, const std::string& arguments, const std::string& streams = "2>&1") {
   return run_command(program + " " + arguments + " " + streams);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The series, and how far pictures are from double precision.
+// The parameter sweeps, and the comparison of images with double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,13 +21,13 @@ const WorkloadKind& point_of(std::string_view name) {
       if (kind.name == name) return kind;
     }
   }
-  ADD_FAILURE() << "no point " << name;
+  ADD_FAILURE() << "no sweep point " << name;
   return workloads()[0];
 }
 
 class SweepPictures : public testing::TestWithParam<const char*> {};
 
-TEST_P(SweepPictures, AreThoseOfDoublePrecision) {
+TEST_P(SweepPictures, MatchDoublePrecision) {
   WorkloadAssets assets;
   const std::unique_ptr<Workload> workload = point_of(GetParam()).prepare({191, 127}, assets);
   workload->frame(Workers(1));
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(All, SweepPictures,
                          testing::Values("triangle_size=64", "triangle_count=3200", "overdraw=64", "varyings=0", "varyings=4",
                                          "varyings=32"));
 
-TEST(Sweeps, AreNamedByTheirNumbers) {
+TEST(Sweeps, AreNamedByParameterAndValue) {
   EXPECT_EQ(sweeps().size(), 4u);
   EXPECT_EQ(sweeps()[0].kinds.front().name, "triangle_size=0.25");
   EXPECT_EQ(sweeps()[0].kinds.back().name, "triangle_size=1000000");
@@ -52,8 +52,8 @@ TEST(Sweeps, AreNamedByTheirNumbers) {
   EXPECT_EQ(sweeps()[3].kinds.size(), kVaryings.size());
 }
 
-// Two pixels drawn, one of them wrong in each way; two that are not, one of them wrong.
-TEST(PictureErrors, CountsWhatIsOff) {
+// Two covered pixels, one of which has a wrong color and depth, and two background pixels, one of which is wrong.
+TEST(PictureErrors, CountsWrongPixels) {
   WorkloadTruth truth(4, 1, vec4<double>(0.2), 1.0);
   truth.depth.at(0, 0) = truth.depth.at(1, 0) = 0.5;
   Image<glm::u8vec4> color(4, 1);
@@ -77,13 +77,13 @@ TEST(PictureErrors, CountsWhatIsOff) {
   EXPECT_NEAR(some.worst_depth, 1e-4, 1e-7);
 }
 
-TEST(PictureErrors, ATruthIsKept) {
+TEST(PictureErrors, CachesReferences) {
   const TemporaryFolder directory;
   WorkloadAssets assets;
   const std::unique_ptr<Workload> workload = point_of("varyings=4").prepare({40, 30}, assets);
   const WorkloadTruth made = kept_truth(directory.path().string(), "some", *workload, {40, 30});
   EXPECT_TRUE(std::filesystem::exists(directory.path().string() + "/some.40x30.truth"));
-  // What is read back is the file's, whatever workload is asked.
+  // The data that is read back comes from the file, regardless of the workload passed.
   const std::unique_ptr<Workload> other = point_of("overdraw=1").prepare({40, 30}, assets);
   const WorkloadTruth read = kept_truth(directory.path().string(), "some", *other, {40, 30});
   for (std::size_t i = 0; i < made.color.texels().size(); ++i) {

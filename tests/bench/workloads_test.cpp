@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every workload's picture, against the same picture in double precision: the closed form of clear, fill and points_100k, the
-// naive pipeline of all others (hdr_200k, tonemap: and the curve; blend_10: a layer at a time; msaa4_200k: a sample at a time). Nothing
-// here depends on time.
+// Compares the image of every workload with double precision: with a closed form for clear, fill and points_100k, and with the naive
+// pipeline for all others (followed by the tone curve for hdr_200k and tonemap, layer by layer for blend_10, and sample by sample for
+// msaa4_200k). No test depends on timing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,12 +18,12 @@
 
 namespace halfspace {
 
-// Shown by GoogleTest where a case fails.
+// Printed by GoogleTest if a case fails.
 void PrintTo(const WorkloadKind& kind, std::ostream* out) { *out << kind.name; }
 
 namespace {
 
-// Odd, with a tile that is cut on either side. HALFSPACE_BENCH_SIZE=1920x1080 judges the pictures of another size.
+// The default size is odd and gives partial tiles at both edges. HALFSPACE_BENCH_SIZE=1920x1080 selects another size.
 WorkloadSize size_of_pictures() {
   WorkloadSize size{223, 149};
   const char* given = std::getenv("HALFSPACE_BENCH_SIZE");
@@ -33,13 +33,13 @@ WorkloadSize size_of_pictures() {
   return size;
 }
 
-// Window depths are near 1, where a float's step is 6e-8; a position's error of some 1e-7 reaches them through the slope of a
-// surface seen edge-on. Where the near plane cuts, a corner may be snapped to the next 1/256 px, and depth falls steeply there.
+// Window depths are close to 1, where the step of a float is 6e-8. A position error of about 1e-7 affects depth through the slope of a
+// surface seen edge-on. Where the near plane clips, a vertex can be snapped to a different 1/256 px, and depth is steep there.
 double depth_tolerance(std::string_view workload) { return workload == "near_clip" ? 1e-4 : 1e-5; }
 
 class WorkloadPictures : public testing::TestWithParam<WorkloadKind> {};
 
-TEST_P(WorkloadPictures, AreThoseOfDoublePrecision) {
+TEST_P(WorkloadPictures, MatchDoublePrecision) {
   const WorkloadSize size = size_of_pictures();
   WorkloadAssets assets;
   const std::unique_ptr<Workload> workload = GetParam().prepare(size, assets);
@@ -55,7 +55,7 @@ TEST_P(WorkloadPictures, AreThoseOfDoublePrecision) {
   RecordProperty("colors_off", errors.colors_off);
   RecordProperty("depths_off", errors.depths_off);
 
-  // Every frame is the first again, by any number of threads.
+  // Every frame is identical to the first one, for any thread count.
   workload->frame(Workers(3));
   EXPECT_TRUE(*workload->picture().color == first);
 }
@@ -64,7 +64,7 @@ std::string name_of(const testing::TestParamInfo<WorkloadKind>& info) { return s
 
 INSTANTIATE_TEST_SUITE_P(All, WorkloadPictures, testing::ValuesIn(workloads().begin(), workloads().end()), name_of);
 
-TEST(WorkloadTable, NamesEachOnce) {
+TEST(WorkloadTable, NamesAreUnique) {
   EXPECT_EQ(workloads().size(), 25u);
   for (const WorkloadKind& kind : workloads()) {
     EXPECT_EQ(std::ranges::count(workloads(), kind.name, &WorkloadKind::name), 1) << kind.name;
@@ -72,7 +72,7 @@ TEST(WorkloadTable, NamesEachOnce) {
   }
 }
 
-TEST(WorkloadMeshes, SpheresHaveTheirTriangles) {
+TEST(WorkloadMeshes, SpheresHaveTheExpectedTriangleCount) {
   EXPECT_EQ(sphere_mesh(51, 200).indices.size(), 3u * 20'000);
   EXPECT_EQ(sphere_mesh(201, 500).indices.size(), 3u * 200'000);
   EXPECT_EQ(sphere_mesh(501, 2000).indices.size(), 3u * 2'000'000);
@@ -88,13 +88,13 @@ TEST(WorkloadMeshes, SphereFacesOutward) {
   }
 }
 
-TEST(WorkloadTexture, LevelsAreMeansInCodes) {
+TEST(WorkloadTexture, MipLevelsAreAveragesOfCodes) {
   const Texture2D texture = checker_texture();
   EXPECT_EQ(texture.levels(), 12);
   EXPECT_EQ(texture.texel(0, 64, 0), glm::u8vec4(230, 230, 230, 255));
   EXPECT_EQ(texture.texel(0, 63, 0), glm::u8vec4(40, 90, 160, 255));
   EXPECT_EQ(texture.texel(6, 1, 0), glm::u8vec4(230, 230, 230, 255));  // a square is one texel
-  EXPECT_EQ(texture.texel(7, 3, 3), glm::u8vec4(135, 160, 195, 255));  // two of each, evenly
+  EXPECT_EQ(texture.texel(7, 3, 3), glm::u8vec4(135, 160, 195, 255));  // the average of two texels of each color
   EXPECT_EQ(texture.texel(11, 0, 0), glm::u8vec4(135, 160, 195, 255));
 }
 

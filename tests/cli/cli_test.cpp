@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The program as its users meet it: run as a process, judged by exit code, streams and files. CMake gives the
-// program's place as HALFSPACE_PROGRAM.
+// Runs the program as a process and checks its exit code, streams and files. CMake defines HALFSPACE_PROGRAM as the path of the program.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -37,14 +36,14 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Outcome {
-  int exit_code = -1;  // −1: died of a signal
+  int exit_code = -1;  // −1 if it was killed by a signal
   int signal = 0;
   std::string out, err;
 };
 
 int lines_of(const std::string& text) { return static_cast<int>(std::ranges::count(text, '\n')); }
 
-// Runs the program in a directory of its own, which is gone when the test ends.
+// Runs the program in a temporary directory, which is deleted at the end of the test.
 class Cli : public testing::Test {
  protected:
   void SetUp() override { fs::create_directory(directory); }
@@ -61,7 +60,7 @@ class Cli : public testing::Test {
     const int o = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     const int e = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (::chdir(directory.c_str()) != 0 || ::dup2(o, STDOUT_FILENO) < 0 || ::dup2(e, STDERR_FILENO) < 0) ::_exit(99);
-    std::signal(SIGINT, SIG_DFL);  // a shell has what it runs in the background ignore it, and the program keeps to that
+    std::signal(SIGINT, SIG_DFL);  // shells start background jobs with SIGINT ignored, and the program keeps that setting
     ::execv(argv[0], argv.data());
     ::_exit(99);
   }
@@ -87,17 +86,17 @@ class Cli : public testing::Test {
   const fs::path root = folder.path(), directory = root / "here";
 };
 
-// ---- wrong input: the exit code and the one line ---------------------------------------------------------------
+// ---- invalid input: exit code and one-line message --------------------------------------------------------------
 
 struct Mistake {
   const char* name;
   std::vector<std::string> arguments;
   int exit_code;
-  std::string place;  // what follows "halfspace: "; {here} is the test's folder, for paths in --set are made absolute
+  std::string place;  // text after "halfspace: "; {here} is the directory of the test, because paths in --set become absolute
   std::vector<std::string> keywords;
 };
 
-// The scenes that ship, as a message lists them. (Tests run from the source tree.)
+// Returns the list of shipped scenes as printed in error messages. (Tests run from the root of the source tree.)
 std::string shipped_scenes() {
   std::vector<std::string> names;
   std::error_code absent;
@@ -213,15 +212,15 @@ const Mistake kMistakes[] = {
     {"FullDisk", {"render", "earth", "--size", "8x8", "-o", "/dev/full"}, 4, "/dev/full", {"cannot write", "No space left on device"}},
 };
 
-// One line, with its end, that tells place and keywords.
+// Checks that the text is one complete line that contains the place and the keywords.
 testing::AssertionResult is_line_that_tells(const std::string& text, const std::string& place, const std::vector<std::string>& keywords) {
-  if (!text.ends_with('\n')) return testing::AssertionFailure() << "no whole line: " << text;
+  if (!text.ends_with('\n')) return testing::AssertionFailure() << "not a complete line: " << text;
   return tells(text.substr(0, text.size() - 1), place, keywords);
 }
 
 class CliMistake : public Cli, public testing::WithParamInterface<Mistake> {};
 
-TEST_P(CliMistake, IsToldInOneLine) {
+TEST_P(CliMistake, IsReportedInOneLine) {
   const Outcome o = run(GetParam().arguments);
   EXPECT_EQ(o.exit_code, GetParam().exit_code);
   std::string place = "halfspace: " + GetParam().place;
@@ -233,8 +232,8 @@ TEST_P(CliMistake, IsToldInOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(Table, CliMistake, testing::ValuesIn(kMistakes), [](const auto& mistake) { return mistake.param.name; });
 
-// A few messages as they are read.
-TEST_F(Cli, MistakesInFullSentences) {
+// Checks the complete text of some messages.
+TEST_F(Cli, ErrorMessagesAreExact) {
   const auto error = [&](const std::vector<std::string>& arguments) { return run(arguments).err; };
   EXPECT_EQ(error({"rendr", "earth"}), "halfspace: unknown command 'rendr'; did you mean 'render'?\n");
   EXPECT_EQ(error({"render", "earth", "--size", "640"}),
@@ -248,16 +247,16 @@ TEST_F(Cli, MistakesInFullSentences) {
             "halfspace: /dev/full: cannot write (No space left on device)\n");
 }
 
-TEST_F(Cli, AFileThatIsNoImageIsBadInput) {
+TEST_F(Cli, RejectsFilesThatAreNotImages) {
   std::ofstream(directory / "map.png") << "no picture";
   const Outcome o = run({"render", "earth", "--set", "earth.color=map.png"});
   EXPECT_EQ(o.exit_code, 3);
   EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: scene earth: objects.earth.color: " + (directory / "map.png").string(), {"PNG"}));
 }
 
-// On a processor that lacks what this build uses, one line instead of an illegal instruction: an emulator plays the
-// lesser processor (qemu64 has nothing beyond SSE3).
-TEST_F(Cli, ALesserProcessorIsToldInOneLine) {
+// On a processor without the required features, the program prints one line instead of crashing with an illegal instruction. An emulator
+// provides such a processor (qemu64 supports nothing beyond SSE3).
+TEST_F(Cli, ReportsAnUnsupportedProcessorInOneLine) {
   if (!command_works("qemu-x86_64 --version")) GTEST_SKIP() << "qemu-x86_64 (package qemu-user) is absent";
   if (kSanitized) GTEST_SKIP() << "sanitizers do not run in the emulator";
   const std::string command = std::string("qemu-x86_64 -cpu qemu64 ") + HALFSPACE_PROGRAM + " info 2> " + (root / "err").string();
@@ -266,16 +265,16 @@ TEST_F(Cli, ALesserProcessorIsToldInOneLine) {
   EXPECT_TRUE(is_line_that_tells(line, "halfspace: ", {"this build needs", "SSSE3", "processor"}));
 }
 
-// ---- what works ------------------------------------------------------------------------------------------------
+// ---- valid input -----------------------------------------------------------------------------------------------
 
-TEST_F(Cli, RenderWritesTheSceneUnderItsName) {
+TEST_F(Cli, RenderNamesTheFileAfterTheScene) {
   const Outcome o = run({"render", "earth", "--size", "64x36"});
   EXPECT_EQ(o.exit_code, 0) << o.err;
-  EXPECT_EQ(o.out + o.err, "") << "nothing is said where nothing was asked";
+  EXPECT_EQ(o.out + o.err, "") << "the program is silent unless output is requested";
   EXPECT_EQ(files(), std::vector<std::string>{"earth.png"});
 }
 
-TEST_F(Cli, OutputsMakeMissingFolders) {
+TEST_F(Cli, CreatesMissingFolders) {
   const auto succeeds = [&](const std::vector<std::string>& arguments) {
     const Outcome o = run(arguments);
     EXPECT_EQ(o.exit_code, 0) << o.err;
@@ -290,7 +289,7 @@ TEST_F(Cli, OutputsMakeMissingFolders) {
     EXPECT_TRUE(fs::exists(directory / name)) << name;
 }
 
-TEST_F(Cli, ThreadsDoNotChangeTheFile) {
+TEST_F(Cli, OutputIsIdenticalForAnyThreadCount) {
   for (const char* n : {"1", "2", "7"})
     EXPECT_EQ(run({"render", "earth", "--size", "200x120", "--threads", n, "-o", std::string(n) + ".png"}).exit_code, 0);
   EXPECT_EQ(read_bytes(directory / "1.png"), read_bytes(directory / "2.png"));
@@ -298,7 +297,7 @@ TEST_F(Cli, ThreadsDoNotChangeTheFile) {
 }
 
 TEST_F(Cli, ShadingOverridesEveryObject) {
-  // Two objects, one of them with a rate of its own.
+  // Two objects, one of which specifies a shading rate.
   std::ofstream(directory / "s.json") << R"({"version": 1, "lights": {"l": {"direction": [1, 1, 1]}},
     "objects": {"a": {"latitudes": 8, "longitudes": 16, "position": [-1.1, 0, 0]},
                 "b": {"latitudes": 8, "longitudes": 16, "position": [1.1, 0, 0], "shading": "gouraud"}}})";
@@ -312,11 +311,11 @@ TEST_F(Cli, ShadingOverridesEveryObject) {
     pictures.push_back(read_bytes(directory / out));
   }
   std::ranges::sort(pictures);
-  EXPECT_EQ(std::ranges::adjacent_find(pictures), pictures.end()) << "five different pictures";
+  EXPECT_EQ(std::ranges::adjacent_find(pictures), pictures.end()) << "all five images differ";
 }
 
-// What --max-error chooses is told, and can be printed as a scene that gives the same picture.
-TEST_F(Cli, MaxErrorTellsWhatItChose) {
+// The choices of --max-error are reported, and can be printed as a scene that renders the same image.
+TEST_F(Cli, MaxErrorReportsItsChoices) {
   const std::vector<std::string> asked{"render", "shadow-plane", "--size", "160x90", "--max-error", "0.3"};
   std::vector<std::string> render = asked, print = asked;
   render.insert(render.end(), {"--stats=json", "-o", "asked.png"});
@@ -329,8 +328,9 @@ TEST_F(Cli, MaxErrorTellsWhatItChose) {
     choices[choice.at("key")] = choice.at("value");
     EXPECT_FALSE(choice.at("why").get<std::string>().empty());
   }
-  EXPECT_EQ(choices.at("samples"), "4") << "0.5/sqrt(4) px is the first within 0.3";
-  EXPECT_LT(std::stoi(choices.at("objects.earth.latitudes")), 128) << "a globe of some 20 px needs fewer than the scene says";
+  EXPECT_EQ(choices.at("samples"), "4") << "4 is the smallest sample count with 0.5/sqrt(samples) px within 0.3";
+  EXPECT_LT(std::stoi(choices.at("objects.earth.latitudes")), 128)
+      << "a globe of about 20 px needs fewer latitudes than the scene specifies";
   EXPECT_EQ(choices.at("shadow.method"), "bilinear");
   const Outcome printed = run(print);
   EXPECT_EQ(printed.exit_code, 0) << printed.err;
@@ -339,13 +339,13 @@ TEST_F(Cli, MaxErrorTellsWhatItChose) {
   EXPECT_EQ(read_bytes(directory / "asked.png"), read_bytes(directory / "chosen.png"));
 }
 
-TEST_F(Cli, AColorMapIsUsed) {
+TEST_F(Cli, RenderUsesAColorMap) {
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "map.png"}).exit_code, 0);
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "again.png", "--set", "earth.color=map.png"}).exit_code, 0);
   EXPECT_EQ(files(), (std::vector<std::string>{"again.png", "map.png"}));
 }
 
-TEST_F(Cli, StatisticsAsTextAndJson) {
+TEST_F(Cli, PrintsStatisticsAsTextAndJson) {
   const Outcome text = run({"render", "--stats", "earth", "--size", "64x36"});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_TRUE(text.out.starts_with("earth, 64x36, ")) << text.out;
@@ -355,13 +355,13 @@ TEST_F(Cli, StatisticsAsTextAndJson) {
   EXPECT_TRUE(parsed.at("counts").contains("fragments_shaded"));
 }
 
-TEST_F(Cli, Info) {
+TEST_F(Cli, InfoPrintsVersionAndJsonKeys) {
   EXPECT_TRUE(run({"info"}).out.starts_with("halfspace "));
   const auto parsed = nlohmann::json::parse(run({"info", "--json"}).out);
   for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool"}) EXPECT_TRUE(parsed.contains(key)) << key;
 }
 
-TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
+TEST_F(Cli, HelpFitsOnAScreenAndEndsWithTwoExamples) {
   for (const char* command : {"render", "convert-normal", "validate", "compare", "chart", "list", "info", "completion"}) {
     const Outcome o = run({command, "--help"});
     EXPECT_EQ(o.exit_code, 0);
@@ -381,10 +381,10 @@ TEST_F(Cli, HelpFitsAScreenAndEndsWithTwoExamples) {
 
 // ---- scenes, frames, formats -----------------------------------------------------------------------------------
 
-TEST_F(Cli, PrintIsASceneThatRendersTheSamePicture) {
+TEST_F(Cli, PrintedSceneRendersTheSameImage) {
   const Outcome printed = run({"render", "moon", "--set", "moon.latitudes=40", "--camera", "terminator", "--print"});
   EXPECT_EQ(printed.exit_code, 0) << printed.err;
-  EXPECT_TRUE(files().empty()) << "--print renders nothing";
+  EXPECT_TRUE(files().empty()) << "--print does not render";
   std::ofstream(directory / "my.json") << printed.out;
   const std::vector<std::string> size{"--size", "96x54"};
   EXPECT_EQ(run({"render", "my.json", "--size", "96x54"}).exit_code, 0);
@@ -393,7 +393,7 @@ TEST_F(Cli, PrintIsASceneThatRendersTheSamePicture) {
   EXPECT_NE(read_bytes(directory / "my.png"), "");
 }
 
-TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
+TEST_F(Cli, WorksInADeletedWorkingDirectory) {
   fs::create_directory(directory / "gone");
   const std::string command = "cd " + (directory / "gone").string() + " && rmdir ../gone && " HALFSPACE_PROGRAM " list > " +
                               (root / "out").string() + " 2>&1; " HALFSPACE_PROGRAM " render earth --size 8x8 -o " +
@@ -402,14 +402,14 @@ TEST_F(Cli, AWorkingDirectoryThatIsGoneIsNoTroubleWhereNoneIsNeeded) {
   EXPECT_GE(lines_of(read_bytes(root / "out")), 5);
 }
 
-TEST_F(Cli, ASceneFileTellsItsErrors) {
+TEST_F(Cli, ReportsErrorsInSceneFiles) {
   std::ofstream(directory / "my.json") << "{\"version\": 1, \"objects\": {\"a\": {\"raduis\": 2}}}";
   const Outcome o = run({"render", "my.json"});
   EXPECT_EQ(o.exit_code, 3);
   EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: my.json: objects.a.raduis", {"unknown key", "'radius'"}));
 }
 
-TEST_F(Cli, ListTellsScenesAndKeys) {
+TEST_F(Cli, ListPrintsScenesAndKeys) {
   const Outcome scenes = run({"list"});
   EXPECT_EQ(lines_of(scenes.out), lines_of(run({"list", "--names"}).out));
   EXPECT_GE(lines_of(scenes.out), 5);
@@ -421,7 +421,7 @@ TEST_F(Cli, ListTellsScenesAndKeys) {
   EXPECT_TRUE(nlohmann::json::accept(run({"list", "--schema"}).out));
 }
 
-TEST_F(Cli, CompletionScriptsAreRight) {
+TEST_F(Cli, CompletionScriptsWork) {
   for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
   EXPECT_EQ(run({"completion", "words"}).out, "render\nconvert-normal\nvalidate\ncompare\nchart\nlist\ninfo\ncompletion\n");
   std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
@@ -440,11 +440,11 @@ try halfspace compare --js
   EXPECT_EQ(read_bytes(root / "out"), "render\nearth\nmoon.latitudes=\n--resume\nshading_rate shadows\n--json\n");
 }
 
-TEST_F(Cli, FramesAreNumberedAndResumed) {
+TEST_F(Cli, NumbersAndResumesFrames) {
   const std::vector<std::string> command{"render", "moon", "--size", "48x27", "--frames", "8..11", "--fps", "12", "-o", "m.png"};
   EXPECT_EQ(run(command).exit_code, 0);
   EXPECT_EQ(files(), (std::vector<std::string>{"m_0008.png", "m_0009.png", "m_0010.png", "m_0011.png"}));
-  // A frame is the picture at its time.
+  // A frame equals the image rendered at its time.
   EXPECT_EQ(run({"render", "moon", "--size", "48x27", "--time", "0.75", "-o", "one.png"}).exit_code, 0);
   EXPECT_EQ(read_bytes(directory / "one.png"), read_bytes(directory / "m_0009.png"));
   const std::string whole = read_bytes(directory / "m_0010.png");
@@ -457,11 +457,11 @@ TEST_F(Cli, FramesAreNumberedAndResumed) {
   EXPECT_EQ(o.exit_code, 0) << o.err;
   EXPECT_EQ(o.err, "") << "no progress in a pipe";
   EXPECT_EQ(read_bytes(directory / "m_0009.png"), read_bytes(directory / "one.png"));
-  EXPECT_EQ(read_bytes(directory / "m_0010.png"), whole) << "half a file is rendered again";
-  EXPECT_EQ(fs::last_write_time(directory / "m_0008.png"), before) << "a whole one is left";
+  EXPECT_EQ(read_bytes(directory / "m_0010.png"), whole) << "a truncated file is rendered again";
+  EXPECT_EQ(fs::last_write_time(directory / "m_0008.png"), before) << "a complete file is kept";
 }
 
-TEST_F(Cli, AnAnimationHasTheSamePixelsForAnyThreads) {
+TEST_F(Cli, AnimationIsIdenticalForAnyThreadCount) {
   for (const char* threads : {"1", "2"}) {
     const std::string out = std::string("t") + threads + ".png";
     EXPECT_EQ(run({"render", "moon", "--size", "64x36", "--frames", "0..47", "--threads", threads, "-o", out}).exit_code, 0);
@@ -473,7 +473,7 @@ TEST_F(Cli, AnAnimationHasTheSamePixelsForAnyThreads) {
     EXPECT_NE(one, "");
     EXPECT_EQ(one, read_bytes(directory / ("t2_" + number))) << i;
     if (i == 0) first = one;
-    EXPECT_EQ(one == first, i == 0) << "Moon and light turn";
+    EXPECT_EQ(one == first, i == 0) << "Moon and light rotate";
   }
 }
 
@@ -481,13 +481,13 @@ TEST_F(Cli, WritesEveryFormat) {
   for (const char* name : {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"}) {
     const Outcome o = run({"render", "earth", "--size", "64x36", "-o", name});
     EXPECT_EQ(o.exit_code, 0) << o.err;
-    // Read back as a map of the scene itself.
+    // Read the file back as a map of a scene.
     const Outcome again = run({"render", "moon", "--size", "32x18", "-o", "again.png", "--set", std::string("moon.height=") + name});
     EXPECT_EQ(again.exit_code, 0) << name << ": " << again.err;
   }
 }
 
-TEST_F(Cli, AFullStandardOutputIsTold) {
+TEST_F(Cli, ReportsAFullStandardOutput) {
   const std::string command = std::string(HALFSPACE_PROGRAM) + " info > /dev/full 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
   EXPECT_EQ(read_bytes(root / "err"), "halfspace: standard output: cannot write\n");
@@ -495,15 +495,15 @@ TEST_F(Cli, AFullStandardOutputIsTold) {
 
 // ---- streams ---------------------------------------------------------------------------------------------------
 
-TEST_F(Cli, APipeThatNoOneReadsIsTold) {
+TEST_F(Cli, ReportsAPipeWithoutReader) {
   ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0666), 0);
   const Outcome o = run({"render", "earth", "--size", "8x8", "-o", "pipe"});
   EXPECT_EQ(o.exit_code, 4);
   EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: pipe", {"reads"}));
 }
 
-// More than a pipe holds at once: the program waits for its reader.
-TEST_F(Cli, APipeThatSomeoneReadsGetsThePicture) {
+// The image is larger than a pipe buffer, so the program has to wait for the reader.
+TEST_F(Cli, WritesToAPipeWithAReader) {
   EXPECT_EQ(run({"render", "earth", "--size", "640x360", "-o", "file.png"}).exit_code, 0);
   ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0666), 0);
   const std::string reader = "(sleep 0.3; cat) < " + (directory / "pipe").string() + " > " + (directory / "copy.png").string() + " &";
@@ -516,8 +516,8 @@ TEST_F(Cli, APipeThatSomeoneReadsGetsThePicture) {
   EXPECT_EQ(read_bytes(directory / "copy.png"), read_bytes(directory / "file.png"));
 }
 
-// A picture on standard output, into a file or a pipe, is that picture alone; the report goes to standard error.
-TEST_F(Cli, ReportsStayOutOfThePicture) {
+// An image written to standard output, as a file or a pipe, must not be mixed with other output; reports go to standard error.
+TEST_F(Cli, ReportsDoNotMixWithTheImage) {
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", "file.png"}).exit_code, 0);
   const Outcome o = run({"render", "earth", "--size", "64x36", "-o", "/dev/stdout", "--stats=json"});
   EXPECT_EQ(o.exit_code, 0) << o.err;
@@ -531,7 +531,7 @@ TEST_F(Cli, ReportsStayOutOfThePicture) {
 
 // ---- compare ---------------------------------------------------------------------------------------------------
 
-TEST_F(Cli, CompareTellsNumbersAndJudges) {
+TEST_F(Cli, CompareReportsNumbersAndChecksTheTolerance) {
   for (const char* size : {"64x36", "32x18"})
     EXPECT_EQ(run({"render", "earth", "--size", size, "-o", std::string(size) + ".png"}).exit_code, 0);
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "--shading", "flat", "-o", "flat.png"}).exit_code, 0);
@@ -540,7 +540,7 @@ TEST_F(Cli, CompareTellsNumbersAndJudges) {
   EXPECT_TRUE(same.out.starts_with("64x36.png vs. 64x36.png, 64x36, 8-bit codes / 255\nrmse         0\n")) << same.out;
   EXPECT_NE(same.out.find("\npsnr         infinite\n"), std::string::npos) << same.out;
   const Outcome json = run({"compare", "64x36.png", "flat.png", "--json", "-o", "d.png"});
-  EXPECT_EQ(json.exit_code, 0) << "without a tolerance nothing is judged";
+  EXPECT_EQ(json.exit_code, 0) << "without --tolerance, differences are not an error";
   const auto parsed = nlohmann::json::parse(json.out);
   for (const char* key : {"rmse", "psnr_db", "max", "p999", "share_above_1_255", "ssim"}) EXPECT_TRUE(parsed.at(key).is_number()) << key;
   EXPECT_TRUE(fs::exists(directory / "d.png"));
@@ -559,11 +559,11 @@ TEST_F(Cli, CompareTellsNumbersAndJudges) {
   EXPECT_EQ(lines_of(bad.err), 1) << bad.err;
 }
 
-TEST_F(Cli, CompareOfLinearFilesIsOfLight) {
+TEST_F(Cli, CompareUsesLinearValuesForLinearFiles) {
   for (const char* name : {"a.exr", "a.png"}) EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", name}).exit_code, 0);
   EXPECT_EQ(nlohmann::json::parse(run({"compare", "a.exr", "a.exr", "--json"}).out).at("values"), "linear");
-  // A linear file beside codes counts by its codes: those of the same scene, but for the half's rounding (2^-11 of the light, which
-  // moves a code where it lies that near between two).
+  // A linear file is compared with an 8-bit file by its codes. They are those of the same scene, except where rounding to half (2^-11 of
+  // the value) moves a value from one code to the next.
   const auto mixed = nlohmann::json::parse(run({"compare", "a.exr", "a.png", "--json"}).out);
   EXPECT_EQ(mixed.at("values"), "codes");
   EXPECT_LE(mixed.at("max").get<double>(), 1.0 / 255.0);
@@ -584,20 +584,20 @@ TEST_F(Cli, ChartWritesDataChartAndPage) {
   EXPECT_NE(page.find("antialiasing-8-samples.png"), std::string::npos);
   if (!command_works("gnuplot --version")) {
     EXPECT_NE(o.out.find("gnuplot is missing (Debian and Ubuntu: gnuplot-nox)"), std::string::npos);
-    GTEST_SKIP() << "gnuplot is absent: no charts";
+    GTEST_SKIP() << "gnuplot is not installed, so charts cannot be tested";
   }
   for (const char* file : {"antialiasing.svg", "antialiasing-dark.svg", "antialiasing.png"})
     EXPECT_GT(fs::file_size(directory / "out" / file), 5000u);
   const std::string svg = read_bytes(directory / "out" / "antialiasing.svg");
   for (const auto& row : data.at("variants")) EXPECT_NE(svg.find(row.at("name").get<std::string>()), std::string::npos) << row;
-  // A second study joins the page of the first.
+  // A second study is added to the page of the first one.
   EXPECT_EQ(run({"chart", "tone", "--quick", "-o", "out"}).exit_code, 0);
   const std::string both = read_bytes(directory / "out" / "index.html");
   EXPECT_NE(both.find("id=\"antialiasing\""), std::string::npos);
   EXPECT_NE(both.find("id=\"tone\""), std::string::npos);
 }
 
-TEST_F(Cli, WithoutGnuplotTheDataAreWritten) {
+TEST_F(Cli, ChartWritesDataWithoutGnuplot) {
   const std::string command = "cd " + directory.string() + " && PATH=/nowhere " HALFSPACE_PROGRAM " chart tone --quick -o out > " +
                               (root / "out").string() + " 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
@@ -610,7 +610,7 @@ TEST_F(Cli, WithoutGnuplotTheDataAreWritten) {
 
 // ---- convert-normal --------------------------------------------------------------------------------------------
 
-TEST_F(Cli, ConvertNormalMakesAMap) {
+TEST_F(Cli, ConvertNormalWritesAMap) {
   EXPECT_EQ(run({"render", "earth", "--size", "64x32", "-o", "heights.png"}).exit_code, 0);
   for (const char* edges : {"repeat", "clamp", "sphere"}) {
     const Outcome o = run({"convert-normal", "heights.png", "-o", "normal.png", "--strength", "4", "--edges", edges});
@@ -618,11 +618,12 @@ TEST_F(Cli, ConvertNormalMakesAMap) {
     EXPECT_EQ(o.out + o.err, "");
   }
   const std::string map = read_bytes(directory / "normal.png");
-  EXPECT_EQ(map.find("sRGB"), std::string::npos) << "normals are no colours";
-  EXPECT_EQ(run({"convert-normal", "normal.png", "-o", "again.png"}).exit_code, 0) << "what was written can be read";
+  EXPECT_EQ(map.find("sRGB"), std::string::npos) << "normals are not colors";
+  EXPECT_EQ(run({"convert-normal", "normal.png", "-o", "again.png"}).exit_code, 0) << "the written file can be read";
 }
 
-// On a terminal a bar fills, fits the line, and is gone at the end and after an interrupt (util-linux's script plays the terminal).
+// On a terminal, the progress bar advances, fits into the line, and is cleared at the end and after an interrupt. (`script` from util-linux
+// provides the terminal.)
 TEST_F(Cli, ProgressIsABarOnATerminal) {
   if (!command_works("script --version")) GTEST_SKIP() << "script (util-linux) is absent";
   const auto shown = [&](const std::string& command) {
@@ -638,14 +639,15 @@ TEST_F(Cli, ProgressIsABarOnATerminal) {
   EXPECT_TRUE(wide.ends_with("\r\033[K")) << wide;
   std::istringstream narrow(shown("stty cols 24; " + frames + "3"));
   int lines = 0;
-  for (std::string line; std::getline(narrow, line, '\r'); ++lines) EXPECT_LT(line.size(), 24u + 3u) << "with the three codes of clearing";
+  for (std::string line; std::getline(narrow, line, '\r'); ++lines)
+    EXPECT_LT(line.size(), 24u + 3u) << "including three characters that clear the line";
   EXPECT_GT(lines, 4);
   const std::string stopped = shown("stty cols 80; timeout --foreground -s INT 2 " + frames + "999999");
   EXPECT_NE(stopped.find("/1000000  "), std::string::npos);
   EXPECT_TRUE(stopped.ends_with("\r\033[K")) << stopped;
 }
 
-// The files of a folder that are being written: created, and not closed yet.
+// Tracks the files of a folder that are being written: created, but not closed yet.
 class OpenFiles {
  public:
   explicit OpenFiles(const fs::path& folder) : events_(::inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {
@@ -655,7 +657,7 @@ class OpenFiles {
   OpenFiles(const OpenFiles&) = delete;
   OpenFiles& operator=(const OpenFiles&) = delete;
 
-  // Sleeps until a file is created or closed; false if none is in this time.
+  // Waits until a file is created or closed. Returns false on timeout.
   bool wait(std::chrono::milliseconds at_most) const {
     pollfd events{events_, POLLIN, 0};
     return ::poll(&events, 1, static_cast<int>(at_most.count())) == 1;
@@ -681,8 +683,8 @@ class OpenFiles {
   std::set<std::string> open_;
 };
 
-// Stops a program while it writes a file. If the file is closed before this test wakes up, the program runs on to its next file; false
-// if that takes over a minute.
+// Stops a program while it is writing a file. If the file is already closed when this test wakes up, the program continues to the next
+// file. Returns false if this takes more than a minute.
 bool stop_while_writing(pid_t child, OpenFiles& files) {
   using std::chrono::milliseconds;
   using Clock = std::chrono::steady_clock;
@@ -696,9 +698,9 @@ bool stop_while_writing(pid_t child, OpenFiles& files) {
   return false;
 }
 
-// A series that lasts far longer is interrupted at many moments, and while a file is being written: the program dies of the signal, and
-// what it leaves are whole pictures. Each has more than a megabyte, and a signal is handled between two such pieces of a file.
-TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
+// Interrupts a long animation at many moments, including while a file is being written. The program must die from the signal, and the files
+// it leaves must be complete images. Each has more than a megabyte, and signals are handled between the chunks in which a file is written.
+TEST_F(Cli, InterruptsLeaveNoPartialFiles) {
   const auto render = [&](const std::string& frames) {
     return start({"render", "earth", "--size", "1920x1080", "--frames", frames, "-o", "earth.exr"});
   };
@@ -730,7 +732,7 @@ TEST_F(Cli, AnInterruptLeavesNoPartialFile) {
     for (int i = 0; i < 3; ++i) {
       OpenFiles open_files(directory);
       const pid_t child = render("0..999");
-      EXPECT_TRUE(stop_while_writing(child, open_files)) << "no picture in a minute";
+      EXPECT_TRUE(stop_while_writing(child, open_files)) << "no image was written within a minute";
       interrupt(child, signal);
     }
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The check at the program's start, on the machine itself: a program of start_check.cpp and cpu.cpp alone is said to need
-// FMA4 and XOP, which no processor since 2017 has, beside what every one has. An emulator of a lesser processor has a
-// test of its own (Cli.ALesserProcessorIsToldInOneLine).
+// Tests the check at program start on the actual machine. The tested program consists of start_check.cpp and cpu.cpp and is built to
+// require FMA4 and XOP, which no processor since 2017 supports, in addition to SSE3, which every processor supports. A separate test uses
+// an emulator (Cli.ReportsAnUnsupportedProcessorInOneLine).
 #include <gtest/gtest.h>
 
 #include <string>
@@ -13,13 +13,13 @@
 namespace halfspace {
 namespace {
 
-TEST(StartCheck, SaysInOneLineWhatTheProcessorLacks) {
+TEST(StartCheck, ReportsMissingFeaturesInOneLine) {
   const ProgramOutput output = run_command(HALFSPACE_LESSER_PROGRAM " 2>&1");
   const std::string& said = output.text;
   EXPECT_EQ(output.exit_code, 1);
   ASSERT_TRUE(said.ends_with('\n')) << said;
   EXPECT_TRUE(tells(said.substr(0, said.size() - 1), "halfspace: ", {"this build needs", "FMA4", "XOP", "processor"}));
-  EXPECT_EQ(said.find("SSE3"), std::string::npos) << said << "which every processor has";
+  EXPECT_EQ(said.find("SSE3"), std::string::npos) << said << "every processor supports SSE3";
 }
 
 }  // namespace

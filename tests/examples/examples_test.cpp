@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs every program of apps/examples and checks its picture where the values follow from the program's text.
+// Runs every program of apps/examples and checks pixels whose values follow from its source.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 using Picture = Image<glm::u8vec4>;
 
-// Runs example-NAME in the test's temporary folder and returns the picture it writes.
+// Runs example-NAME in the temporary folder of the test and returns the image it writes.
 Picture run_example(const std::string& name) {
   const std::filesystem::path out = std::filesystem::path(testing::TempDir()) / ("example-" + name + ".png");
   const std::string command =
@@ -31,7 +31,7 @@ Picture run_example(const std::string& name) {
 
 uint8_t srgb(float linear) { return static_cast<uint8_t>(linear_to_srgb(linear)); }
 
-// Pixels whose channels all lie between two bounds.
+// Returns the share of pixels for which is_one returns true.
 template <class F>
 double share(const Picture& picture, F is_one) {
   std::size_t n = 0;
@@ -39,65 +39,66 @@ double share(const Picture& picture, F is_one) {
   return static_cast<double>(n) / static_cast<double>(picture.texels().size());
 }
 
-TEST(Examples, Triangle) {
+TEST(Examples, TriangleInterpolatesColors) {
   const Picture p = run_example("triangle");
   ASSERT_EQ(p.width(), 640);
   EXPECT_EQ(p.at(0, 0), glm::u8vec4(srgb(0.01f), srgb(0.01f), srgb(0.02f), 255));
-  // The centre of pixel (320, 240) is (1/640, -1/480) in normalized device coordinates: weights 1/4 of red and green, 1/2 of blue, each
-  // within 0.003 of it, which is at most two codes of the sRGB curve there.
+  // The center of pixel (320, 240) is (1/640, -1/480) in NDC. The weights of red, green and blue there are 1/4, 1/4 and 1/2 to within
+  // 0.003, which is at most two sRGB codes.
   const glm::u8vec4 c = p.at(320, 240);
   EXPECT_NEAR(c.x, srgb(0.25f), 2);
   EXPECT_NEAR(c.y, srgb(0.25f), 2);
   EXPECT_NEAR(c.z, srgb(0.5f), 2);
 }
 
-TEST(Examples, TexturedCube) {
+TEST(Examples, TexturedCubeShowsBothColorsEqually) {
   const Picture p = run_example("textured_cube");
   EXPECT_EQ(p.at(0, 0), glm::u8vec4(0));
   const auto is_bright = [](const glm::u8vec4& c) { return c == glm::u8vec4(230, 180, 60, 255); };
   const auto is_dark = [](const glm::u8vec4& c) { return c == glm::u8vec4(40, 60, 120, 255); };
-  // The two colours cover equal parts of each face. What is left of the cube is filtered between them.
+  // The two colors cover equal parts of each face; the remaining pixels of the cube are filtered between them.
   EXPECT_GT(share(p, is_bright), 0.05);
   EXPECT_NEAR(share(p, is_bright), share(p, is_dark), 0.01);
 }
 
-TEST(Examples, OwnShader) {
+TEST(Examples, OwnShaderDiscardsAndUsesFlatVaryings) {
   const Picture p = run_example("own_shader");
   EXPECT_EQ(p.at(10, 240).w, 0);  // |x| > 0.9 is discarded
   EXPECT_EQ(p.at(30, 240).w, 255);
-  // The two triangles of the quad differ by the factor 1/2 of their flat varying. Pixels mirrored at the diagonal from the lower left to
-  // the upper right have the same distance from the centre.
+  // The flat varying of the two triangles of the quad differs by a factor of 1/2. Pixels mirrored across the diagonal from the lower left
+  // to the upper right have the same distance from the center.
   const glm::u8vec4 lower = p.at(300, 400), upper = p.at(479 - 400, 479 - 300);
   EXPECT_NEAR(srgb_to_linear<float>(int32_t{lower.x}) * 2.0f, srgb_to_linear<float>(int32_t{upper.x}), 0.01f);  // two codes
 }
 
-TEST(Examples, RenderToTexture) {
+TEST(Examples, RenderToTextureReadsAllLevels) {
   const Picture p = run_example("render_to_texture");
-  // At the centre all four levels hold (4, 2, 1), which Reinhard's curve maps to 4/5, 2/3 and 1/2; far from the disk they hold 0.
+  // At the center all four levels contain (4, 2, 1), which the Reinhard operator maps to 4/5, 2/3 and 1/2. Far from the disk they contain
+  // 0.
   EXPECT_EQ(p.at(128, 128), glm::u8vec4(srgb(0.8f), srgb(2.0f / 3.0f), srgb(0.5f), 255));
   EXPECT_EQ(p.at(2, 2), glm::u8vec4(0, 0, 0, 255));
 }
 
-TEST(Examples, ShadowMap) {
+TEST(Examples, ShadowMapDarkensTheGround) {
   const Picture p = run_example("shadow_map");
-  // The ground's normal is (0, 1, 0), which meets the light at a cosine of 4/sqrt(29). In shadow 0.2 of the colour is left.
+  // The ground's normal is (0, 1, 0), and its cosine with the light direction is 4/sqrt(29). In shadow, 0.2 of the color remains.
   const auto code = [](float color, float light) { return int{srgb(color * light)}; };
   const float lit = 0.8f * 4.0f / std::sqrt(29.0f) + 0.2f;
-  const auto is_near = [&](const glm::u8vec4& c, float light) {  // within a code, as the normal is rounded
+  const auto is_near = [&](const glm::u8vec4& c, float light) {  // within one code, because the normal is rounded
     return std::abs(c.x - code(0.7f, light)) <= 1 && std::abs(c.y - code(0.65f, light)) <= 1 && std::abs(c.z - code(0.6f, light)) <= 1;
   };
   EXPECT_GT(share(p, [&](const glm::u8vec4& c) { return is_near(c, lit); }), 0.3);
   EXPECT_GT(share(p, [&](const glm::u8vec4& c) { return is_near(c, 0.2f); }), 0.02);
-  EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c == glm::u8vec4(0); }), 0.05) << "the background";
+  EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c == glm::u8vec4(0); }), 0.05) << "share of the background";
 }
 
-TEST(Examples, Instances) {
+TEST(Examples, InstancesCoverTheImage) {
   const Picture p = run_example("instances");
   EXPECT_EQ(p.at(320, 10), glm::u8vec4(0));
   EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.w == 255; }), 0.2);
 }
 
-TEST(Examples, Msaa) {
+TEST(Examples, MsaaSmoothsEdges) {
   const Picture p = run_example("msaa");
   const auto grays = [&](int x0) {
     int n = 0;
@@ -105,15 +106,15 @@ TEST(Examples, Msaa) {
       for (int x = x0; x < x0 + 256; ++x) n += p.at(x, y).x != 0 && p.at(x, y).x != 255 ? 1 : 0;
     return n;
   };
-  EXPECT_EQ(grays(0), 0);      // one sample: inside or outside
-  EXPECT_GT(grays(256), 500);  // four samples: some pixels of the edges are covered in part
+  EXPECT_EQ(grays(0), 0);      // one sample: fully inside or outside
+  EXPECT_GT(grays(256), 500);  // four samples: edge pixels are partially covered
 }
 
-TEST(Examples, ReadDepth) {
+TEST(Examples, ReadDepthShowsDistances) {
   const Picture p = run_example("read_depth");
   EXPECT_EQ(p.at(2, 2).x, 0);        // the far plane
-  EXPECT_EQ(p.at(128, 128).x, 255);  // the sphere's front, 3 units away
-  // Where the silhouette is, the distance is nearly that of the centre less its inclination: between 3.5 and 4 units.
+  EXPECT_EQ(p.at(128, 128).x, 255);  // the front of the sphere, 3 units away
+  // At the silhouette the distance is slightly less than that of the center: between 3.5 and 4 units.
   EXPECT_NEAR(p.at(128, 66).x, 255.0 * (4.0 - 3.33), 40.0);
 }
 

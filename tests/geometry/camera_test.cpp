@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 glm::dvec3 divided(const glm::dvec4& clip) { return glm::dvec3(clip.x, clip.y, clip.z) / clip.w; }
 double depth(const glm::dmat4& m, double z) { return divided(m * glm::dvec4(0, 0, z, 1)).z; }
 
-TEST(Camera, LookAtMovesTheEyeToTheOriginAndTheTargetAhead) {
+TEST(Camera, LookAtMovesTheEyeToTheOriginAndTheTargetToMinusZ) {
   const glm::dvec3 eye(3, 4, 5), target(-1, 2, 0.5);
   const glm::dmat4 v = look_at(eye, target, {0, 1, 0});
   const glm::dvec4 e = v * glm::dvec4(eye, 1);
@@ -28,19 +28,19 @@ TEST(Camera, LookAtMovesTheEyeToTheOriginAndTheTargetAhead) {
   const glm::dvec4 up = v * glm::dvec4(0, 1, 0, 0);
   EXPECT_NEAR(up.x, 0, 1e-15);
   EXPECT_GT(up.y, 0);
-  EXPECT_NEAR(glm::determinant(v), 1, 1e-14) << "right-handed: a rotation, not a mirror";
+  EXPECT_NEAR(glm::determinant(v), 1, 1e-14) << "right-handed: a rotation without reflection";
 }
 
 TEST(Camera, LookAtFromPlusZIsATranslation) {
-  // +x stays to the right and +y above.
+  // +x remains on the right and +y up.
   const glm::dmat4 v = look_at({0, 0, 2}, {0, 0, 0}, {0, 1, 0});
   const glm::dvec4 p = v * glm::dvec4(1, 2, 3, 1);
   EXPECT_EQ(p, glm::dvec4(1, 2, 1, 1));
 }
 
-TEST(Camera, PerspectiveFillsTheAngle) {
+TEST(Camera, PerspectiveCoversTheFieldOfView) {
   for (const glm::dmat4& m : {perspective_gl(kPi / 2, 2.0, 1, 10), perspective_reversed(kPi / 2, 2.0, 1, 10)}) {
-    // 90° of height at distance 3: y = ±3 at the edge, x = ±6 with aspect 2.
+    // A field of view of 90° at distance 3: y = ±3 at the edge, and x = ±6 for an aspect ratio of 2.
     const glm::dvec3 corner = divided(m * glm::dvec4(6, 3, -3, 1));
     EXPECT_NEAR(corner.x, 1, 1e-15);
     EXPECT_NEAR(corner.y, 1, 1e-15);
@@ -66,17 +66,17 @@ TEST(Camera, InfiniteReversedDepthIsNearOverDistance) {
   const glm::dmat4 m = perspective_reversed(1, 1, 0.25, kInfinity);
   EXPECT_EQ(depth(m, -0.25), 1);
   EXPECT_EQ(depth(m, -1e6), 0.25 / 1e6);
-  EXPECT_NEAR(depth(m, -3), depth(perspective_reversed(1, 1, 0.25, 1e12), -3), 1e-12) << "the limit of far planes";
+  EXPECT_NEAR(depth(m, -3), depth(perspective_reversed(1, 1, 0.25, 1e12), -3), 1e-12) << "the limit for large far distances";
 }
 
-TEST(Camera, RoundedOnceReversedDepthIsExactAtTheNearPlane) {
-  // With near a power of two every number of the row is a float.
+TEST(Camera, FloatReversedDepthIsExactAtTheNearPlane) {
+  // If near is a power of two, every element of the row is representable as a float.
   const glm::mat4 m(perspective_reversed(1, 1, 0.125, kInfinity));
   const glm::vec4 near = m * glm::vec4(0, 0, -0.125f, 1);
   EXPECT_EQ(near.z / near.w, 1.0f);
 }
 
-TEST(Camera, OrthographicMapsItsBox) {
+TEST(Camera, OrthographicMapsTheViewVolume) {
   const glm::dmat4 gl = orthographic_gl(4, 1.5, 1, 9);
   const glm::dmat4 reversed = orthographic_reversed(4, 1.5, 1, 9);
   EXPECT_EQ(divided(gl * glm::dvec4(3, 2, -1, 1)), glm::dvec3(1, 1, -1));

@@ -37,13 +37,13 @@ glm::dvec3 normal_os(double u, double v) {
   return {std::sin(kPi * v) * std::cos(2 * kPi * u), std::cos(kPi * v), -std::sin(kPi * v) * std::sin(2 * kPi * u)};
 }
 
-// P', in libm's double.
+// Returns the displaced position P', computed in double with libm.
 glm::dvec3 surface(double u, double v) {
   return (static_cast<double>(kRadius) + kScale * (rough_field().at(u, v).value - kZero)) * normal_os(u, v);
 }
 
-// normalize(P'v × P'u) by central differences. Their error is P'''·h²/6 + 1e-16·|P'|/h with P''' up to 1e4 here (half a texel
-// is 1/64): with h = 1e-5 below 1e-6 of lengths from 2πr·sin πv on, so the direction is right to 1e-6 / sin πv.
+// Returns normalize(P'v × P'u) from central differences. Their error is P'''·h²/6 + 1e-16·|P'|/h, where P''' is at most 1e4 (half a texel
+// is 1/64). With h = 1e-5 that is below 1e-6, and the lengths are at least 2πr·sin πv, so the direction is accurate to 1e-6 / sin πv.
 glm::dvec3 difference_normal(double u, double v) {
   const double h = 1e-5;
   return glm::normalize(glm::cross(surface(u, v + h) - surface(u, v - h), surface(u + h, v) - surface(u - h, v)));
@@ -53,7 +53,7 @@ struct Place {
   double u, v;
 };
 
-// The exact place of a vertex: its texture coordinates are rounded to float.
+// Returns the exact (u, v) of a vertex, whose texture coordinates are rounded to float.
 Place place(const Mesh& m, std::size_t i, int latitudes, int longitudes) {
   const double v = std::round(static_cast<double>(m.uvs[i].y) * latitudes) / latitudes;
   return {std::round(static_cast<double>(m.uvs[i].x) * 2 * longitudes) / (2 * longitudes), v};
@@ -61,7 +61,7 @@ Place place(const Mesh& m, std::size_t i, int latitudes, int longitudes) {
 
 bool at_pole(const Mesh& m, std::size_t i) { return m.uvs[i].y == 0.0f || m.uvs[i].y == 1.0f; }
 
-TEST(DisplacedSphere, SlopesGiveTheNormalOfTheSurface) {
+TEST(DisplacedSphere, SlopesMatchTheSurfaceNormal) {
   for (double u = 0.003; u < 1; u += 0.037) {
     for (const double v : {0.02, 0.1, 0.37, 0.5, 0.81, 0.97}) {
       const glm::dvec3 s = slopes_at(rough_field(), u, v, static_cast<double>(kRadius), kScale, kZero);
@@ -69,7 +69,7 @@ TEST(DisplacedSphere, SlopesGiveTheNormalOfTheSurface) {
       const glm::dvec3 m = glm::cross(normal_os(u, v), e);
       const glm::dvec3 n = glm::normalize(s.z * normal_os(u, v) - s.x * e - s.y * m);
       EXPECT_LT(glm::length(n - difference_normal(u, v)), 1e-6 / std::sin(kPi * v));
-      // The same from the analytic derivatives, without the division by sin πv: nothing but rounding is between them.
+      // The analytic derivatives give the same normal up to rounding, because they do not divide by sin πv.
       const HeightSample h = rough_field().at(u, v);
       const double r = static_cast<double>(kRadius), g = kScale * (h.value - kZero);
       const glm::dvec3 pu = 2 * kPi * std::sin(kPi * v) * (r + g) * e + kScale * h.du * normal_os(u, v);
@@ -81,8 +81,8 @@ TEST(DisplacedSphere, SlopesGiveTheNormalOfTheSurface) {
   }
 }
 
-// Vertices are rounded to float: 6e-8 of a unit, and 1e-7 for the three components.
-TEST(DisplacedSphere, VerticesLieOnTheSurfaceWithItsNormals) {
+// Vertices are rounded to float: 6e-8 per unit of length, and 1e-7 for all three components.
+TEST(DisplacedSphere, VerticesAndNormalsMatchTheSurface) {
   const int latitudes = 24, longitudes = 48;
   const Mesh m = displaced_uv_sphere(latitudes, longitudes, kRadius, rough_field(), kScale, kZero, two_workers());
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
@@ -99,9 +99,9 @@ TEST(DisplacedSphere, VerticesLieOnTheSurfaceWithItsNormals) {
   }
 }
 
-// The tangent is P'u's direction; the bitangent is what of −P'v is at right angles to it. Tolerances as above: central
-// differences to 1e-6 over |P'u| = 2πr·sin πv, and roundings to float.
-TEST(DisplacedSphere, TangentsAreTheDirectionsOfItsMap) {
+// The tangent has the direction of P'u; the bitangent is the component of −P'v perpendicular to it. The tolerances are those from above:
+// 1e-6 of central differences divided by |P'u| = 2πr·sin πv, and rounding to float.
+TEST(DisplacedSphere, TangentsFollowTheTextureCoordinates) {
   const int latitudes = 24, longitudes = 48;
   const Mesh m = displaced_uv_sphere(latitudes, longitudes, kRadius, rough_field(), kScale, kZero, two_workers());
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
@@ -117,7 +117,7 @@ TEST(DisplacedSphere, TangentsAreTheDirectionsOfItsMap) {
   }
 }
 
-// Every triangle is seen from outside as uv_sphere's is.
+// Every triangle has the winding of uv_sphere's.
 TEST(DisplacedSphere, TrianglesFaceOutward) {
   const Mesh m = displaced_uv_sphere(48, 96, kRadius, rough_field(), kScale, kZero, two_workers());
   const Mesh sphere = uv_sphere(48, 96, kRadius);
@@ -130,9 +130,9 @@ TEST(DisplacedSphere, TrianglesFaceOutward) {
   }
 }
 
-// (r + 0)·n is uv_sphere's own expression in double, so not a bit differs; nor do the normals, where n has length 1 to 1e-16
-// and dividing by it moves less than half a float's last place, except on a tie: one ulp.
-TEST(DisplacedSphere, WithoutHeightItIsUvSphere) {
+// (r + 0)·n is the expression that uv_sphere evaluates in double, so positions are bit-identical. Normals are normalized once more; n has
+// length 1 to within 1e-16, so a component changes by less than half an ulp of float and can differ by one ulp on a tie.
+TEST(DisplacedSphere, WithoutHeightItEqualsUvSphere) {
   const Mesh sphere = uv_sphere(24, 48, kRadius);
   for (const double scale : {0.0, 0.7}) {
     const HeightField field = scale == 0.0 ? rough_field() : HeightField(constant_map(0.25f), 0.0, two_workers());
@@ -147,7 +147,7 @@ TEST(DisplacedSphere, WithoutHeightItIsUvSphere) {
   }
 }
 
-TEST(DisplacedSphere, AConstantHeightGivesALargerSphere) {
+TEST(DisplacedSphere, ConstantHeightGivesALargerSphere) {
   const HeightField field(constant_map(0.75f), 0.0, two_workers());
   const Mesh m = displaced_uv_sphere(24, 48, kRadius, field, 0.5, 0.25, two_workers());
   const Mesh sphere = uv_sphere(24, 48, kRadius + 0.25f);
@@ -157,7 +157,7 @@ TEST(DisplacedSphere, AConstantHeightGivesALargerSphere) {
   }
 }
 
-TEST(DisplacedSphere, APoleHasOneHeightAndTheSpheresFrame) {
+TEST(DisplacedSphere, PolesHaveOneHeightAndTheFrameOfTheSphere) {
   const Mesh m = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, two_workers());
   const Mesh sphere = uv_sphere(24, 48, kRadius);
   for (const float pole : {0.0f, 1.0f}) {
@@ -181,7 +181,7 @@ TEST(DisplacedSphere, APoleHasOneHeightAndTheSpheresFrame) {
   }
 }
 
-TEST(DisplacedSphere, BothSidesOfTheSeamHaveTheSameBits) {
+TEST(DisplacedSphere, BothSidesOfTheSeamAreBitIdentical) {
   const Mesh m = displaced_uv_sphere(24, 46, kRadius, rough_field(), kScale, kZero, two_workers());
   std::map<float, std::size_t> west;  // by v
   int pairs = 0;
@@ -199,7 +199,7 @@ TEST(DisplacedSphere, BothSidesOfTheSeamHaveTheSameBits) {
   EXPECT_EQ(pairs, 23);
 }
 
-TEST(DisplacedSphere, MayKeepTheSpheresNormals) {
+TEST(DisplacedSphere, CanKeepTheNormalsOfTheSphere) {
   const Mesh m = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, two_workers(), ReliefNormals::undisplaced);
   const Mesh displaced = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, two_workers());
   const Mesh sphere = uv_sphere(24, 48, kRadius);
@@ -209,7 +209,7 @@ TEST(DisplacedSphere, MayKeepTheSpheresNormals) {
   EXPECT_NE(displaced.normals, sphere.normals);
 }
 
-TEST(SlopeMap, HoldsTheSlopesAtTexelCentres) {
+TEST(SlopeMap, StoresTheSlopesAtTexelCenters) {
   const double r = static_cast<double>(kRadius);
   const Image<glm::vec4> map = slope_map(rough_field(), 64, 32, r, kScale, kZero, two_workers());
   for (int y = 0; y < 32; ++y) {
@@ -221,8 +221,8 @@ TEST(SlopeMap, HoldsTheSlopesAtTexelCentres) {
   EXPECT_TRUE(map == slope_map(rough_field(), 64, 32, r, kScale, kZero, Workers(5)));
 }
 
-// By hand: a map that rises by one unit of height over the πr from pole to pole.
-TEST(SlopeMap, SignsAndUnits) {
+// Closed form: the map falls by one unit of height over the distance πr from the north pole to the south pole.
+TEST(SlopeMap, SignsAndUnitsAreCorrect) {
   Image<float> map(32, 16);
   for (int y = 0; y < 16; ++y) {
     for (float& t : map.row(y)) t = 1.0f - 0.0625f * static_cast<float>(y);  // higher in the north

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The generators besides uv_sphere, undisplaced and displaced, against their formulas in libm's double.
+// Compares the generators other than uv_sphere, with and without displacement, with their formulas, evaluated in double with libm.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace halfspace {
 namespace {
 
-// A face of a shape: a point and its unit normal by (u, v), and the factor of heights there.
+// A face of a shape: position and unit normal as functions of (u, v), and the factor that fades out the displacement.
 struct Face {
   std::function<glm::dvec3(double, double)> position, normal;
   std::function<double(double, double)> fade = [](double, double) { return 1.0; };
@@ -27,9 +27,9 @@ struct ShapeCase {
   std::string name;
   Mesh (*make)(int n, const Displacement* d);
   MapEdges edges;
-  double area, volume;  // closed forms; volume 0: open
+  double area, volume;  // closed forms; a volume of 0 marks an open surface
   std::vector<Face> faces;
-  std::size_t (*face_of)(const glm::vec3& normal);  // of the undisplaced mesh
+  std::size_t (*face_of)(const glm::vec3& normal);  // maps a normal of the undisplaced mesh to an index into `faces`
 };
 void PrintTo(const ShapeCase& s, std::ostream* os) { *os << s.name; }
 
@@ -44,7 +44,7 @@ double fade_in_radius(double u, double v) { return smooth(1 - std::hypot(2 * u -
 glm::dvec3 out(double u) { return {std::cos(2 * kPi * u), 0, -std::sin(2 * kPi * u)}; }
 const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
-// A flat face: the map's middle is at `center`, from edge to edge it spans `size` along right and −up.
+// Returns a flat face. The center of the map is at `center`; u spans `size` along `right`, and v spans `size` along −`up`.
 Face flat(const glm::dvec3& center, const glm::dvec3& right, const glm::dvec3& up, double size, double (*fade)(double, double)) {
   return {[=](double u, double v) { return center + size * ((u - 0.5) * right + (0.5 - v) * up); },
           [=](double, double) { return glm::cross(right, up); }, fade};
@@ -74,7 +74,7 @@ glm::dvec3 knot(double u) {
   return ring * out(2 * u) + 0.6 * std::sin(6 * kPi * u) * kY;
 }
 double knot_length() {
-  constexpr int kSteps = 20000;  // chords are short by a part in 1e-7
+  constexpr int kSteps = 20000;  // the relative error of the chord lengths is about 1e-7
   double length = 0.0;
   for (int i = 0; i < kSteps; ++i) length += glm::distance(knot(static_cast<double>(i) / kSteps), knot((i + 1.0) / kSteps));
   return length;
@@ -121,7 +121,7 @@ std::vector<ShapeCase> shape_cases() {
        2 * kPi * kPi * 1.5 * 0.25,
        {{[](double u, double v) { return 1.5 * out(u) + 0.5 * torus_normal(u, v); }, torus_normal}},
        first_face},
-      {"TorusKnot",  // of a tube round a closed curve: circumference and section, times the curve's length
+      {"TorusKnot",  // tube around a closed curve: circumference or cross-section times the length of the curve
        [](int n, const Displacement* d) { return torus_knot(1.5f, 0.2f, 2 * n, 24 * n, d); },
        MapEdges::torus,
        2 * kPi * 0.2 * knot_length(),
@@ -142,12 +142,12 @@ std::vector<ShapeCase> shape_cases() {
 class Generator : public testing::TestWithParam<ShapeCase> {};
 INSTANTIATE_TEST_SUITE_P(Shapes, Generator, testing::ValuesIn(shape_cases()), [](const auto& p) { return p.param.name; });
 
-// Is ∂P/∂u zero there? At the poles of a sphere and the apex of a cone.
+// Returns whether ∂P/∂u is zero: at the poles of a sphere and the apex of a cone.
 bool is_pole(const ShapeCase& s, const Face& face, double u, double v) {
   return (s.name == "Icosphere" || s.name == "Cone") && glm::length(face.position(u + 0.1, v) - face.position(u - 0.1, v)) < 1e-5;
 }
 
-TEST_P(Generator, IsSoundClosedAndOutward) {
+TEST_P(Generator, IsValidClosedAndFacesOutward) {
   for (const int n : {2, 3, 8, 16}) {
     const Mesh m = GetParam().make(n, nullptr);
     expect_sound(m);
@@ -156,8 +156,8 @@ TEST_P(Generator, IsSoundClosedAndOutward) {
   }
 }
 
-// Coordinates are rounded to float, which moves the formula's point by up to 2π·1.5·2^-25 and as much where u is above 1.
-TEST_P(Generator, IsTheFormula) {
+// Texture coordinates are rounded to float, which moves the point of the formula by up to 2π·1.5·2^-25, or twice that where u exceeds 1.
+TEST_P(Generator, MatchesTheFormula) {
   const ShapeCase& s = GetParam();
   const Mesh m = s.make(8, nullptr);
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
@@ -168,8 +168,8 @@ TEST_P(Generator, IsTheFormula) {
   }
 }
 
-// Central differences over h = 1e-5 err by (2πh)²/6 relative and by 1e-16/h; the rest is rounding to float.
-TEST_P(Generator, TangentsAreTheDirectionsOfTheMap) {
+// Central differences with h = 1e-5 have a relative error of (2πh)²/6 and a rounding error of 1e-16/h; the rest is rounding to float.
+TEST_P(Generator, TangentsFollowTheTextureCoordinates) {
   const ShapeCase& s = GetParam();
   const Mesh m = s.make(8, nullptr);
   const double h = 1e-5;
@@ -179,7 +179,7 @@ TEST_P(Generator, TangentsAreTheDirectionsOfTheMap) {
     if (!is_pole(s, face, u, v)) {
       EXPECT_LT(glm::length(tangent_of(m, i) - glm::normalize(face.position(u + h, v) - face.position(u - h, v))), 1e-6) << u << " " << v;
     }
-    // The bitangent is what of −∂P/∂v is at right angles to the tangent: a tube's lines along and round it need not be.
+    // The bitangent is the component of −∂P/∂v perpendicular to the tangent; the u and v lines of a tube need not be orthogonal.
     const glm::dvec3 upwards = glm::normalize(face.position(u, v - h) - face.position(u, v + h)), t = tangent_of(m, i);
     EXPECT_LT(glm::length(bitangent_of(m, i) - glm::normalize(upwards - t * glm::dot(t, upwards))), 1e-6) << u << " " << v;
   }
@@ -195,8 +195,8 @@ std::pair<double, double> area_and_volume(const Mesh& m) {
   return {area, volume};
 }
 
-// Flat faces are exact but for rounding; chords miss an arc by the square of its angle, so twice as fine is four times as near
-// (a third order would show as 8, a first as 2).
+// Flat faces are exact up to rounding. On curved faces, chords have an error that is quadratic in their angle, so doubling the resolution
+// divides the error by four (a first-order error would be halved, a third-order one divided by eight).
 TEST_P(Generator, AreaAndVolumeConvergeToTheClosedForm) {
   const ShapeCase& s = GetParam();
   const bool is_flat = s.edges == MapEdges::sheet;
@@ -219,10 +219,10 @@ TEST_P(Generator, AreaAndVolumeConvergeToTheClosedForm) {
 
 constexpr double kReliefScale = 0.2, kReliefZero = 0.3;
 
-// Rough, and different at all edges.
+// Returns a rough height field whose opposite edges differ.
 HeightField rough_field(MapEdges edges) { return HeightField(rough_map(12, 7, 7), 0.5, one_worker(), edges); }
 
-TEST_P(Generator, DisplacedStaysClosed) {
+TEST_P(Generator, DisplacedMeshStaysClosed) {
   const ShapeCase& s = GetParam();
   const HeightField field = rough_field(s.edges);
   const Displacement d{&field, kReliefScale, kReliefZero};
@@ -235,15 +235,16 @@ TEST_P(Generator, DisplacedStaysClosed) {
     float moved = 0;
     for (std::size_t i = 0; i < m.positions.size(); ++i) moved = std::max(moved, glm::distance(m.positions[i], flat.positions[i]));
     if (n > 2) {
-      EXPECT_GT(moved, 0.05f) << "something is displaced";
+      EXPECT_GT(moved, 0.05f) << "the displacement moves some vertices";
     }
   }
 }
 
-// P' = P + n·g·fade, its normal P'v × P'u and its tangent P'u by central differences over h: they err by P'''·h²/6 with P'''
-// up to kReliefScale·4·12³ = 1400 (splines) and up to 1400 (fades, whose second derivative jumps: h·6/(0.125)²·kReliefScale = 8e-5·h/1e-6),
-// so by less than 1e-4 with h = 1e-6; the shortest |P'u| away from poles is 0.2.
-TEST_P(Generator, DisplacedHasTheNormalsAndTangentsOfItsSurface) {
+// Compares with P' = P + n·g·fade, its tangent P'u and its normal P'v × P'u. The derivatives are central differences with step h = 1e-6
+// and have an error of P'''·h²/6. P''' reaches kReliefScale·4·12³ = 1400 for the splines, and a similar value for the fades. The second
+// derivative of a fade is discontinuous, which adds h·6/0.125²·kReliefScale = 8e-5. The total is below 1e-4. The shortest |P'u| away from
+// the poles is 0.2.
+TEST_P(Generator, DisplacedNormalsAndTangentsMatchTheSurface) {
   const ShapeCase& s = GetParam();
   const HeightField field = rough_field(s.edges);
   const Displacement d{&field, kReliefScale, kReliefZero};
@@ -278,7 +279,7 @@ TEST(Generators, BrokenPreconditionsAbort) {
   EXPECT_DEATH(plane(1, 0), "segments >= 1");
 }
 
-TEST(Icosphere, TrianglesAreNearlyOfOneSizeAndNeverSpanTheMap) {
+TEST(Icosphere, TrianglesHaveSimilarAreasAndDoNotSpanTheMap) {
   const Mesh m = icosphere(4, 1.0f);
   EXPECT_EQ(m.indices.size(), 3u * 20u * 256u);
   double least = 1e9, most = 0;
@@ -288,9 +289,9 @@ TEST(Icosphere, TrianglesAreNearlyOfOneSizeAndNeverSpanTheMap) {
     least = std::min(least, area);
     most = std::max(most, area);
     const float low = std::min({a.uv.x, b.uv.x, c.uv.x}), high = std::max({a.uv.x, b.uv.x, c.uv.x});
-    EXPECT_LT(high - low, 0.21f) << "the first triangles span a fifth of a turn";
+    EXPECT_LT(high - low, 0.21f) << "a face of the icosahedron spans a fifth of a turn";
   }
-  EXPECT_LT(most / least, 2.0) << "a uv_sphere's differ by 20 times here";
+  EXPECT_LT(most / least, 2.0) << "in a comparable uv_sphere the ratio is 20";
 }
 
 }  // namespace

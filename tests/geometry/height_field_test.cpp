@@ -21,7 +21,7 @@
 namespace halfspace {
 namespace {
 
-// A smooth function on the sphere (a polynomial in the place), from 0 to 1.
+// Returns a smooth function on the sphere with values from 0 to 1: a polynomial in the position.
 double smooth_height(double u, double v) {
   const double s = std::sin(kPi * v);
   const double x = s * std::cos(2 * kPi * u), y = std::cos(kPi * v), z = -s * std::sin(2 * kPi * u);
@@ -46,9 +46,9 @@ Image<float> quantized(Image<float> map) {
 
 bool same_bits(const HeightSample& a, const HeightSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-// The difference quotient over h is off by f'''·h²/6, and f''' of texels in [0, 1] is at most 4·W³ (W the texels a unit);
-// h = 1e-7 / W leaves that at 1e-14·W, and its rounding at 1e-16 / h = 1e-9·W.
-TEST(HeightField, GradientIsThatOfTheValue) {
+// The difference quotient with step h has an error of f'''·h²/6, and f''' is at most 4·W³ for texels in [0, 1] and W texels per unit. With
+// h = 1e-7 / W that is 1e-14·W; the rounding error is 1e-16 / h = 1e-9·W.
+TEST(HeightField, GradientIsTheDerivativeOfTheValue) {
   for (const double smoothing : {0.0, 1.5}) {
     const HeightField f(rough_map(32, 16, 12345), smoothing, two_workers());
     for (const double u : {0.0, 0.013, 0.25, 0.4999, 0.7, 0.98, 0.999}) {
@@ -62,8 +62,7 @@ TEST(HeightField, GradientIsThatOfTheValue) {
   }
 }
 
-// Value and gradient go on without a step over texel borders, the seam and the poles.
-TEST(HeightField, ManyPlacesOfARowAreThoseOneByOne) {
+TEST(HeightField, RowSamplesMatchSingleSamples) {
   for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
     const HeightField field(map_of(34, 17, smooth_height), 0.7, two_workers(), edges);
     std::vector<double> places{0.0, 1.0, 0.5, -0.25};
@@ -83,9 +82,9 @@ TEST(HeightField, ManyPlacesOfARowAreThoseOneByOne) {
   }
 }
 
-// Where the size is a power of two the coordinates of the centres are exact, and so are the bits; elsewhere at() looks beside the centre
-// by some 1e-16 of the map.
-TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
+// For power-of-two sizes the texel centers are exact in double, and the results are bit-identical. For other sizes at() samples about 1e-16
+// of the map away from the center.
+TEST(HeightField, TexelSamplesMatchSingleSamples) {
   for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
     for (const auto& [width, height] : {std::pair(32, 16), std::pair(2, 1), std::pair(30, 11)}) {
       const HeightField field(rough_map(width, height, 12345), 0.0, two_workers(), edges);
@@ -95,7 +94,7 @@ TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
         field.at_texels(row, samples);
         for (int x = 0; x < width; ++x) {
           const HeightSample got = samples[static_cast<std::size_t>(x)], want = field.at((x + 0.5) / width, (row + 0.5) / height);
-          const double tolerance = exact ? 0.0 : 1e-12;  // slopes are up to 30 a map, and their slopes 30² times that 1e-16
+          const double tolerance = exact ? 0.0 : 1e-12;  // slopes reach 30 and second derivatives 30² per unit of u or v, times 1e-16
           EXPECT_NEAR(got.value, want.value, tolerance) << width << ' ' << x << ' ' << row;
           EXPECT_NEAR(got.du, want.du, tolerance) << width << ' ' << x << ' ' << row;
           EXPECT_NEAR(got.dv, want.dv, tolerance) << width << ' ' << x << ' ' << row;
@@ -105,6 +104,7 @@ TEST(HeightField, TexelsOfARowAreThoseOneByOne) {
   }
 }
 
+// Value and gradient are continuous across texel borders, the seam and the poles.
 TEST(HeightField, IsSmoothOverSeamAndPoles) {
   const HeightField f(rough_map(32, 16, 12345), 0.0, two_workers());
   const double tiny = 1e-12;
@@ -140,9 +140,9 @@ TEST(HeightField, ConstantsAreExact) {
   }
 }
 
-// Away from the poles, where it is bent: the spline's weights give any straight line back, as do symmetric filters. The
-// ramp's texels are multiples of 2^-7, so only double rounds, and smoothed texels are rounded to float.
-TEST(HeightField, RampsAlongVAreKept) {
+// The spline and symmetric filters reproduce a linear ramp, except near the poles, where the map mirrors it. The texels are multiples of
+// 2^-7, so the unfiltered field has only the rounding error of double; smoothed texels are rounded to float.
+TEST(HeightField, ReproducesRampsAlongV) {
   const Image<float> map = map_of(128, 64, [](double, double v) { return v; });
   const HeightField plain(map, 0.0, two_workers()), smoothed(map, 1.5, two_workers());
   for (double v = 0.2; v < 0.8; v += 0.0137) {
@@ -155,9 +155,9 @@ TEST(HeightField, RampsAlongVAreKept) {
   }
 }
 
-// Halved, a pattern of the map's finest stripes is gone: its mean is left. Where texels are not cut at their borders, the side
-// lobes of the average let a ninth of the slope through.
-TEST(HeightField, FilteringRemovesWhatIsTooFine) {
+// At half the resolution, stripes one texel wide average out to their mean. At other ratios the side lobes of the averaging filter let a
+// ninth of the slope through.
+TEST(HeightField, FilteringRemovesFineDetail) {
   const HeightField stripes(map_of(64, 32, [](double u, double) { return static_cast<int>(u * 64) % 2 == 0 ? 0.0 : 1.0; }), 0.0,
                             two_workers());
   const HeightField half = stripes.filtered(32, two_workers());
@@ -178,7 +178,7 @@ TEST(HeightField, FilteringRemovesWhatIsTooFine) {
   EXPECT_LT(most_uneven, 0.125 * before);
 }
 
-TEST(HeightField, FilteringKeepsWhatIsCoarse) {
+TEST(HeightField, FilteringKeepsCoarseDetail) {
   const HeightField fine(map_of(512, 256, smooth_height), 0.0, two_workers());
   EXPECT_EQ(fine.filtered(512, two_workers()).width(), 512);
   const HeightField coarse = fine.filtered(128, two_workers());
@@ -187,8 +187,8 @@ TEST(HeightField, FilteringKeepsWhatIsCoarse) {
   }
 }
 
-// Round a pole the texels of a row lie close together; noise in them must not become slope. Smoothed, the slope to the east
-// (du / sin πv) of the rows next to the pole is no more than at the equator; unsmoothed it is many times as much.
+// Near a pole the texels of a row are close together, and noise in them must not turn into slope. In a smoothed field the slope to the east
+// (du / sin πv) of the rows next to the pole is similar to that at the equator; in an unsmoothed field it is many times larger.
 TEST(HeightField, PolesAreNotNoisy) {
   const Image<float> map = rough_map(256, 128, 12345);
   const auto mean_square_slope = [](const HeightField& f, double v) {
@@ -203,7 +203,7 @@ TEST(HeightField, PolesAreNotNoisy) {
   }
 }
 
-// The largest error of the gradient, in value per unit of u or v, against the smooth function itself.
+// Returns the largest error of the gradient, in value per unit of u or v, relative to the smooth function.
 double gradient_error(const HeightField& f) {
   double most = 0;
   for (double u = 0.001; u < 1; u += 0.0031) {
@@ -217,7 +217,7 @@ double gradient_error(const HeightField& f) {
   return most;
 }
 
-// The terraces of 8 bits make slopes of up to 1/255 a texel, which is far more than the map's own.
+// Quantization to 8 bits creates terraces with slopes of up to 1/255 per texel, far more than the slopes of the map.
 TEST(HeightField, SmoothingRemovesTerraces) {
   const Image<float> map = quantized(map_of(512, 256, smooth_height));
   const double rough = gradient_error(HeightField(map, 0.0, two_workers()));
@@ -228,7 +228,7 @@ TEST(HeightField, SmoothingRemovesTerraces) {
   EXPECT_LT(smoothed, 0.1 * rough);
 }
 
-TEST(HeightField, OddAndLeastSizesWork) {
+TEST(HeightField, AcceptsOddAndMinimumSizes) {
   for (const auto& [width, height] : {std::pair(2, 1), std::pair(3, 2), std::pair(37, 19)}) {
     const HeightField f(rough_map(width, height, 12345), 1.0, Workers(1));
     EXPECT_EQ(f.width(), width / 2 * 2);
@@ -241,7 +241,7 @@ TEST(HeightField, OddAndLeastSizesWork) {
   EXPECT_DEATH(HeightField(Image<float>(1, 1), 0.0, Workers(1)), "width");
 }
 
-TEST(HeightField, ThreadsChangeNothing) {
+TEST(HeightField, IsBitIdenticalForAnyThreadCount) {
   const Image<float> map = rough_map(101, 50, 12345);
   const HeightField one = HeightField(map, 1.2, Workers(1)).filtered(60, Workers(1));
   const HeightField many = HeightField(map, 1.2, Workers(7)).filtered(60, Workers(7));
@@ -250,7 +250,7 @@ TEST(HeightField, ThreadsChangeNothing) {
   }
 }
 
-TEST(HeightField, SameBitsEverywhere) {
+TEST(HeightField, MatchesTheStoredHash) {
   const HeightField f = HeightField(rough_map(100, 50, 12345), 1.2, two_workers()).filtered(60, two_workers());
   Hash hash;
   for (double u = 0; u < 1; u += 0.0625) {

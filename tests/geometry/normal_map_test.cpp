@@ -22,12 +22,12 @@ Image<float> heights_of(int width, int height, F value) {
 
 glm::dvec3 decoded(const glm::u8vec4& t) { return glm::dvec3(t.x, t.y, t.z) / 255.0 * 2.0 - 1.0; }
 
-// Half a code.
+// Half a code step in decoded units, which range from −1 to 1.
 constexpr double kHalfCode = 1.0 / 255.0;
 
-// h = 1/2 + A·sin φ with φ = a·x + b·y in texels: differences over two texels give A·cos φ·sin a, and the average across
-// (4 + 2·cos b)/6 of that. Heights are rounded to float (3e-8 of a height, 1e-6 of a slope of 30).
-TEST(NormalMap, OfWavesIsTheClosedForm) {
+// h = 1/2 + A·sin φ with φ = a·x + b·y in texels. The difference over two texels is A·cos φ·sin a, and averaging across the other axis
+// multiplies it by (4 + 2·cos b)/6. Heights are rounded to float: 3e-8 of a height, 1e-6 of a slope at strength 30.
+TEST(NormalMap, WavesMatchTheClosedForm) {
   const int width = 48, height = 32;
   for (const auto& [along_x, along_y] : {std::pair(1, 0), std::pair(0, 3), std::pair(2, 1), std::pair(-5, 4)}) {
     const double a = 2 * std::numbers::pi * along_x / width, b = 2 * std::numbers::pi * along_y / height, amplitude = 0.4, strength = 30;
@@ -46,8 +46,8 @@ TEST(NormalMap, OfWavesIsTheClosedForm) {
   }
 }
 
-// Against the slope of the wave itself the difference is below a²/6 + b²/6 of it: 0.6% for a wave of 48 texels.
-TEST(NormalMap, OfALongWaveIsItsSlope) {
+// The relative difference from the slope of the wave is at most a²/6 + b²/6. For a wavelength of 48 texels that is 0.3% per axis.
+TEST(NormalMap, LongWavesMatchTheirSlope) {
   const int n = 48;
   const double a = 2 * std::numbers::pi / n;
   const Image<glm::u8vec4> map =
@@ -58,8 +58,9 @@ TEST(NormalMap, OfALongWaveIsItsSlope) {
   }
 }
 
-// A ramp of one texel a texel: 45°. What rises to the right turns the normal to the left, what rises upwards turns it down.
-TEST(NormalMap, SignsAndUnits) {
+// A ramp that rises by one texel per texel, that is, by 45°. A ramp that rises to the right turns the normal to the left; one that rises
+// upwards turns it down.
+TEST(NormalMap, SignsAndUnitsAreCorrect) {
   const double side = std::sqrt(0.5);
   const auto center = [](const Image<float>& heights) { return decoded(normal_map(heights, 16, MapEdges::sheet, two_workers()).at(8, 8)); };
   const glm::dvec3 right = center(heights_of(17, 17, [](int x, int) { return x / 16.0; }));
@@ -72,17 +73,17 @@ TEST(NormalMap, SignsAndUnits) {
             glm::u8vec4(128, 128, 255, 255));
 }
 
-// A step at the edge shows where the map repeats, and not where it ends.
-TEST(NormalMap, EdgesAreTheChosenOnes) {
+// The step between opposite edges is visible if the map repeats, and invisible if it does not.
+TEST(NormalMap, RespectsTheEdgeMode) {
   const Image<float> ramp = heights_of(16, 16, [](int x, int y) { return (x + y) / 32.0; });
   const auto at = [&](MapEdges edges, int x, int y) { return decoded(normal_map(ramp, 8, edges, two_workers()).at(x, y)); };
-  EXPECT_GT(at(MapEdges::torus, 0, 8).x, 0.3) << "the left neighbour of column 0 is the highest";
+  EXPECT_GT(at(MapEdges::torus, 0, 8).x, 0.3) << "the left neighbor of column 0 is the highest column";
   EXPECT_LT(at(MapEdges::sheet, 0, 8).x, 0);
   EXPECT_LT(at(MapEdges::torus, 8, 0).y, -0.3);
   EXPECT_GT(at(MapEdges::sheet, 8, 0).y, 0);
 }
 
-TEST(NormalMap, ThreadsChangeNothing) {
+TEST(NormalMap, IsBitIdenticalForAnyThreadCount) {
   const Image<float> heights = heights_of(37, 23, [](int x, int y) { return (x * 7 + y * y * 3) % 11 / 10.0; });
   EXPECT_TRUE(normal_map(heights, 3, MapEdges::torus, Workers(1)) == normal_map(heights, 3, MapEdges::torus, Workers(5)));
 }

@@ -7,7 +7,7 @@
 
 namespace halfspace {
 
-/// Heights in [0, 1), different in every texel.
+/// Returns pseudo-random heights in [0, 1) without spatial correlation.
 inline Image<float> rough_map(int width, int height, uint32_t seed) {
   Image<float> map(width, height);
   for (int y = 0; y < height; ++y) {

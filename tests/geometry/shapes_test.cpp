@@ -17,7 +17,7 @@ namespace {
 
 class UvSphere : public testing::TestWithParam<std::pair<int, int>> {};
 
-TEST_P(UvSphere, IsSoundClosedAndOutward) {
+TEST_P(UvSphere, IsValidClosedAndFacesOutward) {
   const auto [latitudes, longitudes] = GetParam();
   const Mesh m = uv_sphere(latitudes, longitudes, 2.5f);
   EXPECT_EQ(m.indices.size(), static_cast<std::size_t>(6 * longitudes * (latitudes - 1)));
@@ -26,14 +26,14 @@ TEST_P(UvSphere, IsSoundClosedAndOutward) {
   expect_closed(m);
 }
 
-TEST_P(UvSphere, IsTheFormula) {
+TEST_P(UvSphere, MatchesTheFormula) {
   const auto [latitudes, longitudes] = GetParam();
   const Mesh m = uv_sphere(latitudes, longitudes, 2.5f);
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
     const double u = 2 * std::numbers::pi * static_cast<double>(m.uvs[i].x);
     const double v = std::numbers::pi * static_cast<double>(m.uvs[i].y);
     const glm::dvec3 n(std::sin(v) * std::cos(u), std::cos(v), -std::sin(v) * std::sin(u));
-    // uvs are rounded to float, which moves the formula's point by up to 2π·2^-25.
+    // uvs are rounded to float, which moves the point of the formula by up to 2π·2^-25.
     EXPECT_NEAR(glm::length(glm::dvec3(m.positions[i]) - 2.5 * n), 0, 2.5 * 4e-7);
     EXPECT_NEAR(glm::length(glm::dvec3(m.normals[i]) - n), 0, 4e-7);
   }
@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, UvSphere,
                          testing::Values(std::pair(2, 3), std::pair(3, 4), std::pair(16, 32), std::pair(37, 53), std::pair(180, 360)),
                          [](const auto& size) { return std::to_string(size.param.first) + "x" + std::to_string(size.param.second); });
 
-TEST(UvSphereSeam, BothSidesHaveTheSamePositionBits) {
+TEST(UvSphereSeam, BothSidesHaveBitIdenticalPositions) {
   const Mesh m = uv_sphere(9, 13, 1.7f);
   std::map<float, Bits> west;  // by v
   int pairs = 0;
@@ -58,7 +58,7 @@ TEST(UvSphereSeam, BothSidesHaveTheSamePositionBits) {
   EXPECT_EQ(pairs, 8);
 }
 
-TEST(UvSpherePoles, OneVertexPerSectorAtItsMiddle) {
+TEST(UvSpherePoles, HaveOneVertexPerSectorAtItsCenter) {
   const int longitudes = 12;
   const Mesh m = uv_sphere(6, longitudes, 1.0f);
   for (const float pole : {0.0f, 1.0f}) {
@@ -70,7 +70,7 @@ TEST(UvSpherePoles, OneVertexPerSectorAtItsMiddle) {
     }
     EXPECT_EQ(us.size(), static_cast<std::size_t>(longitudes));
   }
-  // A triangle at a pole spans its sector symmetrically: no swirl.
+  // A triangle at a pole spans its sector symmetrically, so the texture does not swirl.
   for (std::size_t i = 0; i < m.indices.size(); i += 3) {
     std::array<glm::vec2, 3> uv = {corner(m, i).uv, corner(m, i + 1).uv, corner(m, i + 2).uv};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -80,8 +80,8 @@ TEST(UvSpherePoles, OneVertexPerSectorAtItsMiddle) {
   }
 }
 
-// The left edge of a map is 180° W at +x; a quarter of the map further east is −z. Seen from outside with north up,
-// east lies to the right.
+// The left edge of a map is 180° W and is placed at +x; a quarter of the map further east is −z. Seen from outside with north up, east is
+// to the right.
 TEST(UvSphereEarth, IsNotMirrored) {
   const Mesh m = uv_sphere(4, 8, 1.0f);
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
@@ -97,7 +97,7 @@ TEST(UvSphereEarth, IsNotMirrored) {
   }
 }
 
-TEST(Cube, IsSoundClosedAndOutward) {
+TEST(Cube, IsValidClosedAndFacesOutward) {
   const Mesh m = cube(3.0f);
   EXPECT_EQ(m.positions.size(), 24u);
   EXPECT_EQ(m.indices.size(), 36u);
@@ -107,7 +107,7 @@ TEST(Cube, IsSoundClosedAndOutward) {
   for (const glm::vec3& p : m.positions) EXPECT_EQ(glm::abs(p), glm::vec3(1.5f));
 }
 
-TEST(Plane, FacesUpWithItsTextureReadFromAbove) {
+TEST(Plane, FacesUpAndItsTextureReadsFromAbove) {
   const Mesh m = plane(4.0f);
   expect_sound(m);
   expect_outward(m);
@@ -119,8 +119,8 @@ TEST(Plane, FacesUpWithItsTextureReadFromAbove) {
 
 // ---- tangents --------------------------------------------------------------------------------------------------
 
-// On flat faces position is linear in (u, v): ∂P/∂u and ∂P/∂v of a triangle are those of its face, but for the rounding of
-// positions and coordinates to float (some 1e-7 of an edge).
+// On flat faces the position is linear in (u, v), so ∂P/∂u and ∂P/∂v of a triangle are those of its face, except for the rounding of
+// positions and coordinates to float (about 1e-7 of an edge).
 void expect_tangents_of_flat_faces(const Mesh& m) {
   for (std::size_t i = 0; i < m.indices.size(); i += 3) {
     const Corner a = corner(m, i), b = corner(m, i + 1), c = corner(m, i + 2);
@@ -135,14 +135,14 @@ void expect_tangents_of_flat_faces(const Mesh& m) {
   }
 }
 
-TEST(Tangents, OfFlatFacesAreTheDirectionsOfTheirMap) {
+TEST(Tangents, OfFlatFacesFollowTheTextureCoordinates) {
   expect_tangents_of_flat_faces(plane(4.0f));
   expect_tangents_of_flat_faces(cube(3.0f));
 }
 
-// Central differences over h = 1e-6 err by (2πh)²/6 and by 1e-16/h; a vertex is rounded to float. The poles have no ∂P/∂u:
-// their tangent is that of their longitude, a unit vector (IsSoundClosedAndOutward).
-TEST(Tangents, OfUvSphereAreTheDirectionsOfItsMap) {
+// Central differences with h = 1e-6 have errors of (2πh)²/6 and 1e-16/h; a vertex is rounded to float. ∂P/∂u is zero at the poles; the
+// tangent of a pole vertex is that of its longitude, a unit vector (see IsValidClosedAndFacesOutward).
+TEST(Tangents, OfUvSphereFollowTheTextureCoordinates) {
   const Mesh m = uv_sphere(12, 24, 2.0f);
   const auto sphere = [](double u, double v) {
     const double a = 2 * std::numbers::pi * u, b = std::numbers::pi * v;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Normals of pixels from normal and bump maps, drawn and measured against the normals of the bumps' formula.
+// Renders normal and bump maps and compares the shading normals of pixels with the analytic normals of the bumps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,13 +18,14 @@ namespace halfspace {
 namespace {
 
 constexpr int kSize = 256;
-constexpr double kHalf = 1.05;  // of the view's height, in units
+constexpr double kHalf = 1.05;  // half the height of the view, in units
 
 using Plain = SurfaceShader<ShadingRate::phong, true>;
 using Mapped = SurfaceShader<ShadingRate::phong, true, NormalDetail::map>;
 using Bumped = SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>;
 
-// Three suns, the columns' directions; a white Lambert surface that all three reach shows its normal as lightsᵀ·n.
+// Directions of three lights, one per column. A white Lambert surface that all of them reach has the color lightsᵀ·n, from which the normal
+// can be recovered.
 const glm::dmat3 kSuns(glm::normalize(glm::dvec3(0.4, 0, 1)), glm::normalize(glm::dvec3(-0.2, 0.35, 1)),
                        glm::normalize(glm::dvec3(-0.2, -0.35, 1)));
 
@@ -40,7 +41,8 @@ std::vector<Light> suns() {
   return lights;
 }
 
-// What a mesh, placed by `world`, shows of its normals from +z (orthographic); (0, 0, 0) where there is nothing.
+// Renders a mesh, transformed by `world`, from +z with an orthographic camera and returns the normals of the pixels. Background pixels are
+// (0, 0, 0).
 template <class S>
 Image<glm::dvec3> normals_seen(const Mesh& mesh, const DetailMap& detail, const glm::dmat4& world = glm::dmat4(1.0)) {
   const std::vector<Light> lights = suns();
@@ -86,7 +88,7 @@ Image<glm::dvec3> normals_seen(const Mesh& mesh, const DetailMap& detail, const 
 
 glm::dvec2 spot_of(int x, int row) { return {((x + 0.5) / kSize * 2 - 1) * kHalf, (1 - (row + 0.5) / kSize * 2) * kHalf}; }
 
-// Bumps on the unit sphere: A · sin 2πku · sin²πv · cos πlv, flat at the poles.
+// Bumps on the unit sphere: A · sin 2πku · sin²πv · cos πlv. They vanish at the poles.
 struct Bumps {
   double amplitude = 0.02;
   int k = 16, l = 12;
@@ -110,7 +112,7 @@ PassContext frame_at(const glm::dvec3& p) {
   return {u01, v, sphere_frame(sincos_turns(u01), sincos_turns(0.5 * v))};
 }
 
-// n − ∇h at a place of the sphere that is no pole.
+// Returns the normalized n − ∇h at a position on the sphere, which must not be a pole.
 glm::dvec3 bumped(const Bumps& b, const PassContext& f) {
   const double east = b.du(f.u, f.v) / (2 * kPi * std::sin(kPi * f.v)), north = -b.dv(f.u, f.v) / kPi;
   return glm::normalize(f.axes.normal - f.axes.east * east - f.axes.north * north);
@@ -130,8 +132,8 @@ DetailMap detail_of(const Texture2D& map, bool difference = false) {
   return {.map = &map, .sampler = kSampler, .strength = 1, .flip_green = false, .difference = difference};
 }
 
-// Root mean square of the angle to the formula's normals, in radians, where the sphere is seen at less than 45°: there all suns
-// reach every bump (they stand 22° off, and bumps tilt by up to 18°).
+// Returns the RMS angle to the analytic normals, in radians, over the part of the sphere that is tilted by less than 45° from the view
+// direction. All lights reach every bump there: they are 22° off the axis, and bumps tilt by up to 18°.
 double angle_error(const Image<glm::dvec3>& seen, const Bumps& b) {
   double sum = 0;
   int count = 0;
@@ -149,7 +151,7 @@ double angle_error(const Image<glm::dvec3>& seen, const Bumps& b) {
   return std::sqrt(sum / count);
 }
 
-// How much neighbours within a 2x2 quad differ, over how much neighbours of two quads do. Rows and columns count from the lower left.
+// Returns the difference between horizontal neighbors inside a 2x2 quad divided by that between neighbors in different quads.
 double blockiness(const Image<glm::dvec3>& seen) {
   double within = 0, across = 0;
   for (int row = kSize / 4; row < kSize * 3 / 4; ++row) {
@@ -165,7 +167,7 @@ class SphereBumps : public testing::Test {
   const Image<float> map = heights(bumps, 1024, 512);
 };
 
-TEST_F(SphereBumps, GradientIsRightAndDifferenceIsBlocky) {
+TEST_F(SphereBumps, GradientIsAccurateAndDifferenceIsBlocky) {
   const Texture2D slopes(height_slopes(map, Wrap::repeat, Wrap::clamp), TexelFormat::rgba16f);
   const Texture2D codes(codes16(map));
   const Image<glm::dvec3> gradient = normals_seen<Bumped>(sphere, detail_of(slopes));
@@ -175,10 +177,11 @@ TEST_F(SphereBumps, GradientIsRightAndDifferenceIsBlocky) {
   RecordProperty("difference_error", std::to_string(poor));
   RecordProperty("gradient_blockiness", std::to_string(blockiness(gradient)));
   RecordProperty("difference_blockiness", std::to_string(blockiness(difference)));
-  // Slopes up to 0.32. The parabola errs by (2πk/1024)²/6 = 0.16% of them, linear filtering by half of that again, halfs by 0.05%; facets
-  // tilt σ by up to π/512 against the normal, that part of the slope.
+  // Slopes reach 0.32. The parabola has a relative error of (2πk/1024)²/6 = 0.16%, linear filtering adds half of that, and half floats add
+  // 0.05%. Facets tilt the derivatives of the position by up to π/512 against the normal, a relative error of the same size.
   EXPECT_LT(good, 2e-3);
-  // The difference is the slope half a pixel away: 2πk/(2·256·0.95·...) of phase, a tenth of a slope of 0.15 in the mean.
+  // The finite difference is the slope half a pixel away. Half a pixel is 0.07 to 0.09 rad of phase, so the error is about a tenth of the
+  // mean slope of 0.15.
   EXPECT_GT(poor, 10 * good);
   EXPECT_NEAR(blockiness(gradient), 1.0, 0.05);
   EXPECT_LT(blockiness(difference), 0.3);
@@ -196,14 +199,14 @@ Image<glm::vec4> coded_normals(const Bumps& b, int width, int height) {
   return image;
 }
 
-TEST_F(SphereBumps, NormalMapGivesTheSame) {
+TEST_F(SphereBumps, NormalMapMatchesTheBumps) {
   const Texture2D normals(coded_normals(bumps, 1024, 512), TexelFormat::rgba16f);
-  // Halfs of codes: 1/2048 beside 1/2, so 0.05% of a slope of 1; linear filtering 0.1% of 0.3.
+  // The step of a half float near 1/2 is 1/2048, which is 0.05% of a slope of 1; linear filtering adds 0.1% of a slope of 0.3.
   EXPECT_LT(angle_error(normals_seen<Mapped>(sphere, detail_of(normals)), bumps), 1e-3);
 }
 
-TEST_F(SphereBumps, MirroredAndTurnedBumpsStayWhatTheyAre) {
-  // Mirrored in x the sphere shows at (x, y) what it has at (−x, y), with the normal's x turned round.
+TEST_F(SphereBumps, MirroringTheObjectMirrorsTheBumps) {
+  // Mirrored in x, the sphere shows at (x, y) the point that was at (−x, y), and the x component of the normal changes sign.
   const Texture2D slopes(height_slopes(map, Wrap::repeat, Wrap::clamp), TexelFormat::rgba16f);
   const Texture2D normals(coded_normals(bumps, 1024, 512), TexelFormat::rgba16f);
   glm::dmat4 mirror(1.0);
@@ -216,16 +219,17 @@ TEST_F(SphereBumps, MirroredAndTurnedBumpsStayWhatTheyAre) {
     }
     return sum * 4 / (kSize * kSize);
   };
-  // In the mean: a pixel on an edge of facets falls to the other one, where bumps are up to π/256 of their slope different.
+  // The mean over pixels, because a pixel on the edge between two facets may fall on the other facet, where the slope of a bump differs by
+  // up to π/256 of its value.
   EXPECT_LT(check(normals_seen<Bumped>(sphere, detail_of(slopes)), normals_seen<Bumped>(sphere, detail_of(slopes), mirror)), 2e-5);
   EXPECT_LT(check(normals_seen<Mapped>(sphere, detail_of(normals)), normals_seen<Mapped>(sphere, detail_of(normals), mirror)), 2e-5);
 }
 
-TEST_F(SphereBumps, PolesAndZeroTangentsAreSound) {
+TEST_F(SphereBumps, PolesAndZeroTangentsGiveFiniteNormals) {
   const Texture2D slopes(height_slopes(map, Wrap::repeat, Wrap::clamp), TexelFormat::rgba16f);
   const Texture2D codes(codes16(map));
   const Texture2D normals(coded_normals(bumps, 1024, 512), TexelFormat::rgba16f);
-  glm::dmat4 north_up(1.0);  // the north pole faces the eye
+  glm::dmat4 north_up(1.0);  // turns the north pole towards the eye
   north_up[1] = {0, 0, 1, 0};
   north_up[2] = {0, -1, 0, 0};
   Mesh no_tangents = sphere;
@@ -242,7 +246,7 @@ TEST_F(SphereBumps, PolesAndZeroTangentsAreSound) {
         }
       }
     }
-    // At the pole itself, where the bumps end, it is the sphere's normal.
+    // At the pole, where the bumps vanish, the result is the normal of the sphere.
     const glm::dvec3 middle = glm::normalize(seen.at(kSize / 2, kSize / 2));
     EXPECT_LT(glm::length(middle - glm::dvec3(0, 0, 1)), 0.02) << what;
   };
@@ -252,14 +256,14 @@ TEST_F(SphereBumps, PolesAndZeroTangentsAreSound) {
   const Image<glm::dvec3> without = normals_seen<Mapped>(no_tangents, detail_of(normals)), plain = normals_seen<Plain>(no_tangents, {});
   for (int row = 0; row < kSize; ++row) {
     for (int x = 0; x < kSize; ++x)
-      ASSERT_LT(glm::length(without.at(x, row) - plain.at(x, row)), 1e-5) << "zero tangents: the mesh's normals";
+      ASSERT_LT(glm::length(without.at(x, row) - plain.at(x, row)), 1e-5) << "without tangents, the normals of the mesh are used";
   }
 }
 
-TEST(PlaneBumps, NormalMapOnAStretchedPlane) {
-  // A plane that faces the eye, stretched to twice its width: a normal map tilts by what it says, whatever the scale.
+TEST(PlaneBumps, NormalMapIsIndependentOfScale) {
+  // A plane that faces the eye, stretched to twice its width. Stretching must not change the tilt of the mapped normals.
   Image<glm::vec4> code(1, 1);
-  code.at(0, 0) = {0.6f, 0.7f, 1.0f, 1.0f};  // (0.2, 0.4, 1) before it is made a unit vector
+  code.at(0, 0) = {0.6f, 0.7f, 1.0f, 1.0f};  // (0.2, 0.4, 1) before normalization
   const Texture2D map(code, TexelFormat::rgba32f);
   glm::dmat4 world(0.0);
   world[0] = {2, 0, 0, 0};
@@ -275,8 +279,8 @@ TEST(PlaneBumps, NormalMapOnAStretchedPlane) {
   }
 }
 
-TEST(PlaneBumps, HeightsAreInTheWorldsUnit) {
-  // The same plane with a wave across it: its slope by the world's width, 4 units for the whole map.
+TEST(PlaneBumps, HeightsAreInWorldUnits) {
+  // The same plane with a wave along x. The slope is relative to the world-space width, which is 4 units for the whole map.
   constexpr int kTexels = 512;
   Image<float> wave(kTexels, 1);
   for (int x = 0; x < kTexels; ++x) wave.at(x, 0) = static_cast<float>(0.5 + 0.5 * std::sin(2 * kPi * 3 * (x + 0.5) / kTexels));
@@ -293,7 +297,7 @@ TEST(PlaneBumps, HeightsAreInTheWorldsUnit) {
     const double u = (spot_of(x, 0).x + 2) / 4;
     const double slope = 0.1 * 0.5 * 2 * kPi * 3 * std::cos(2 * kPi * 3 * u) / 4;
     const glm::dvec3 want = glm::normalize(glm::dvec3(-slope, 0, 1));
-    // (2π·3/512)²/6 = 0.02% of a slope of 0.24, and as much of linear filtering.
+    // (2π·3/512)²/6 = 0.02% of a slope of 0.24, and the same again for linear filtering.
     EXPECT_LT(glm::length(seen.at(x, kSize / 2) - want), 1.2e-4) << x;
   }
 }

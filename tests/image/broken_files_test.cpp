@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Damaged and hostile image files: whatever a file holds, each reader returns an image or throws InputError of one
-// line. Every folder is read by a child process with little memory and little time, so that a crash or a hang is told
-// by name and ends nothing else.
+// Reads damaged and hostile image files. Whatever a file contains, each reader must return an image or throw an InputError with a one-line
+// message. Each folder is read in a child process with limited memory and time, so a crash or a hang fails one test and reports the file.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -23,7 +22,8 @@
 namespace halfspace {
 namespace {
 
-constexpr unsigned kSecondsPerFile = 300;  // a decoder that hangs is ended after 60 s of its own, which a busy machine makes long
+// Wall-clock limit. A hanging decoder is killed after 60 s of CPU time, which takes longer on a busy machine.
+constexpr unsigned kSecondsPerFile = 300;
 constexpr rlim_t kAddressSpace = rlim_t{2} << 30;
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
   return files;
 }
 
-// Sanitizers reserve terabytes of addresses.
+// Sanitizers reserve terabytes of address space.
 void limit_memory() {
   if (kSanitized) return;
   const rlimit limit = {kAddressSpace, kAddressSpace};
@@ -62,7 +62,7 @@ std::string verdict_on(const std::filesystem::path& path, const Reader& reader) 
   }
 }
 
-// A line to the parent at the start of every file and reader, and one at its end: "ok", or the error.
+// Runs in the child. Writes two lines per file and reader: the names before reading, then "ok" or the error.
 [[noreturn]] void read_all(const std::vector<std::filesystem::path>& files, int to_parent) {
   std::FILE* out = ::fdopen(to_parent, "w");
   limit_memory();
@@ -108,23 +108,23 @@ Outcome read_in_child(const std::vector<std::filesystem::path>& files) {
 
 class BrokenFiles : public testing::TestWithParam<const char*> {};
 
-TEST_P(BrokenFiles, GiveAnImageOrOneLine) {
+TEST_P(BrokenFiles, ReturnsAnImageOrOneLineError) {
   const std::filesystem::path folder = shared_data(GetParam());
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << absent(folder);
   const std::vector<std::filesystem::path> files = files_in(folder);
   const Outcome outcome = read_in_child(files);
   const std::string last = outcome.lines.empty() ? "(none)" : outcome.lines.back();
   ASSERT_TRUE(WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == 0)
-      << "the reader died of signal " << WTERMSIG(outcome.status) << " (14: over " << kSecondsPerFile << " s) at " << last;
+      << "the reader was killed by signal " << WTERMSIG(outcome.status) << " (14: timeout of " << kSecondsPerFile << " s) at " << last;
   const std::size_t count = files.size() * std::size(kReaders);
-  ASSERT_EQ(outcome.lines.size(), 2 * count) << "a message has more than one line";
+  ASSERT_EQ(outcome.lines.size(), 2 * count) << "an error message spans several lines";
   std::size_t images = 0;
   for (std::size_t i = 0; i < 2 * count; i += 2) {
     const std::string& verdict = outcome.lines[i + 1];
     EXPECT_TRUE(verdict == "ok" || verdict.starts_with("error ")) << outcome.lines[i] << ": " << verdict;
     images += verdict == "ok" ? 1 : 0;
   }
-  std::printf("%zu files, %zu readers: %zu images, %zu refused\n", files.size(), std::size(kReaders), images, count - images);
+  std::printf("%zu files, %zu readers: %zu images, %zu rejected\n", files.size(), std::size(kReaders), images, count - images);
 }
 
 INSTANTIATE_TEST_SUITE_P(Folders, BrokenFiles,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small image files as their formats spell them, for what this project does not write.
+// Builders for small image files in formats that the renderer reads but does not write.
 #pragma once
 
 #include <bit>
@@ -14,14 +14,14 @@
 
 namespace halfspace {
 
-/// The number's bytes, the highest first.
+/// Returns the lowest `bytes` bytes of a number in big-endian order.
 inline std::string big_endian(uint32_t number, int bytes) {
   std::string text;
   for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) text += static_cast<char>(number >> shift & 0xff);
   return text;
 }
 
-/// The memory of the numbers (this machine's order: the lowest byte first).
+/// Returns the object representation of the numbers, in host byte order.
 template <class T>
 std::string memory_of(const std::vector<T>& numbers) {
   std::string bytes(numbers.size() * sizeof(T), '\0');
@@ -29,7 +29,7 @@ std::string memory_of(const std::vector<T>& numbers) {
   return bytes;
 }
 
-/// PNG's checksum (CRC-32).
+/// Computes the checksum of a PNG chunk (CRC-32).
 inline uint32_t png_checksum(std::string_view bytes) {
   uint32_t crc = ~0u;
   for (const char c : bytes) {
@@ -43,7 +43,7 @@ inline std::string png_chunk(const std::string& type, const std::string& data) {
   return big_endian(static_cast<uint32_t>(data.size()), 4) + type + data + big_endian(png_checksum(type + data), 4);
 }
 
-/// The bytes as a zlib stream of one stored block (at most 65535 bytes).
+/// Wraps the bytes (at most 65535) in a zlib stream with one stored block.
 inline std::string stored_zlib(const std::string& data) {
   uint32_t a = 1, b = 0;  // Adler-32
   for (const char c : data) {
@@ -56,7 +56,7 @@ inline std::string stored_zlib(const std::string& data) {
   return "\x78\x01\x01" + low_first + inverted + data + big_endian(b << 16 | a, 4);
 }
 
-/// A PNG of one row of 16-bit codes; color_type 0 is grey, 2 RGB, 4 grey and alpha, 6 RGBA.
+/// Builds a PNG with one row of 16-bit codes. color_type: 0 is gray, 2 RGB, 4 gray and alpha, 6 RGBA.
 inline std::string png16_row(const std::vector<uint16_t>& codes, int width, int color_type) {
   std::string row(1, '\0');  // filter: none
   for (const uint16_t c : codes) row += big_endian(c, 2);
@@ -65,15 +65,15 @@ inline std::string png16_row(const std::vector<uint16_t>& codes, int width, int 
   return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", stored_zlib(row)) + png_chunk("IEND", "");
 }
 
-/// TIFF's SampleFormat.
+/// Values of TIFF's SampleFormat tag.
 enum class TiffSamples : uint16_t { code = 1, whole = 2, number = 3 };
 
-/// An uncompressed grey TIFF of one row; T is the sample's type.
+/// Builds an uncompressed grayscale TIFF with one row; T is the sample type.
 template <class T>
 std::string gray_tiff_row(const std::vector<T>& samples, TiffSamples kind) {
   static_assert(std::endian::native == std::endian::little);
   const uint32_t width = static_cast<uint32_t>(samples.size());
-  constexpr uint32_t kFirst = 8;  // where the samples begin
+  constexpr uint32_t kFirst = 8;  // file offset of the samples
   const uint32_t bytes = width * sizeof(T);
   const uint32_t directory = kFirst + (bytes + 1) / 2 * 2;
   const std::pair<uint16_t, uint32_t> entries[] = {{256, width},
@@ -93,7 +93,7 @@ std::string gray_tiff_row(const std::vector<T>& samples, TiffSamples kind) {
   return file + memory_of<uint32_t>({0});
 }
 
-/// A colour PFM; rows from the bottom one up.
+/// Builds a color PFM. Rows are ordered bottom to top.
 inline std::string pfm(int width, int height, const std::vector<float>& numbers) {
   return "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n" + memory_of(numbers);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the tests of pictures in files share.
+// Shared by the tests of image files.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,7 +17,7 @@ inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 inline constexpr const char* kNoImageTool = "halfspace-image-tool is not built here (OpenImageIO is absent)";
 
-// A test that needs halfspace-image-tool.
+// Fixture for tests that need halfspace-image-tool; skips them if it is not built.
 class ImageToolTest : public FolderTest {
  protected:
   void SetUp() override {
@@ -25,7 +25,7 @@ class ImageToolTest : public FolderTest {
   }
 };
 
-// Every code occurs in every channel; alpha is 255 throughout if opaque.
+// Returns an image in which every 8-bit code occurs in every channel. Alpha is 255 everywhere if opaque is set.
 inline Image<glm::u8vec4> test_picture(bool opaque) {
   Image<glm::u8vec4> image(67, 41);
   for (int y = 0; y < image.height(); ++y) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writing in every format: what comes back, and what a second program finds in the files.
+// Writes images in every format, reads them back, and checks the files with ImageMagick.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -34,7 +34,8 @@ Image<glm::vec4> one_texel(const glm::vec4& texel) {
   return image;
 }
 
-// Light from 2^-20 to 2^15 of either sign, the channels of a pixel up to 2^8 apart; more rows than the tool handles at once.
+// Linear values of both signs with magnitudes from 2^-20 to 2^15; the channels of a pixel differ by up to a factor of 2^8. The image has
+// more rows than the tool processes at once.
 Image<glm::vec4> test_light(bool opaque) {
   Image<glm::vec4> image(37, 150);
   for (int y = 0; y < image.height(); ++y) {
@@ -49,7 +50,7 @@ Image<glm::vec4> test_light(bool opaque) {
 
 float as_half(float x) { return half_to_float(float_to_half(x)); }
 
-// What ImageMagick tells of a file, or nothing where it is not installed.
+// Returns the output of ImageMagick's identify for a file, or an empty string if it is not installed.
 std::string identify(const std::filesystem::path& path, const std::string& format) {
   const ProgramOutput output = run_command("identify -format '" + format + "' '" + path.string() + "' 2>/dev/null");
   return output.exit_code == 0 ? output.text : "";
@@ -62,7 +63,7 @@ std::vector<double> numbers_in(const std::string& text) {
   return numbers;
 }
 
-TEST_F(ImageFormats, AreToldByTheName) {
+TEST_F(ImageFormats, AreRecognizedByExtension) {
   EXPECT_EQ(image_file_of("a.png"), ImageFile::png);
   EXPECT_EQ(image_file_of("dir.exr/a.PNG"), ImageFile::png);
   EXPECT_EQ(image_file_of("a.jpg"), ImageFile::jpeg);
@@ -76,7 +77,7 @@ TEST_F(ImageFormats, AreToldByTheName) {
   EXPECT_FALSE(is_linear(ImageFile::png) || is_linear(ImageFile::jpeg) || is_linear(ImageFile::tiff));
 }
 
-TEST_F(ImageFormats, TakeTheRightKindOfPictureAlone) {
+TEST_F(ImageFormats, RejectImagesOfTheWrongKind) {
   const Image<glm::u8vec4> codes(1, 1);
   const Image<glm::vec4> light(1, 1);
   EXPECT_TRUE(tells(output_error([&] { write_image("a.bmp", codes); }), "a.bmp", {"name", ".png", ".tif"}));
@@ -95,11 +96,11 @@ TEST_F(ToolFormats, TiffIsExact) {
     write_image(directory / "a.tif", test_picture(opaque));
     EXPECT_TRUE(read_image(directory / "a.tif") == test_picture(opaque)) << (opaque ? "RGB" : "RGBA, straight alpha");
   }
-  EXPECT_EQ(file_count(), 1u) << "nothing is left beside the picture";
+  EXPECT_EQ(file_count(), 1u) << "no other file is left behind";
 }
 
-TEST_F(ToolFormats, JpegIsNearAndOpaque) {
-  // A smooth picture: quality 95 keeps it within 4 codes, 1 on the average.
+TEST_F(ToolFormats, JpegIsCloseAndOpaque) {
+  // A smooth image: at quality 95 the error is at most 4 codes, and 1 on average.
   Image<glm::u8vec4> image(64, 48);
   for (int y = 0; y < 48; ++y) {
     for (int x = 0; x < 64; ++x) image.at(x, y) = glm::u8vec4(4 * x, 5 * y, 255 - 2 * (x + y), 128);
@@ -121,7 +122,7 @@ TEST_F(ToolFormats, JpegIsNearAndOpaque) {
   EXPECT_LE(sum, 3 * 64 * 48);
 }
 
-TEST_F(ToolFormats, ExrHoldsTheNearestHalves) {
+TEST_F(ToolFormats, ExrStoresTheNearestHalfFloats) {
   const Image<glm::vec4> light = test_light(true);
   const Image<glm::vec4> again = write_and_read("a.exr", light);
   for (std::size_t i = 0; i < light.texels().size(); ++i) {
@@ -130,7 +131,7 @@ TEST_F(ToolFormats, ExrHoldsTheNearestHalves) {
   }
 }
 
-TEST_F(ToolFormats, ExrIsPremultipliedInTheFileAndStraightInMemory) {
+TEST_F(ToolFormats, ExrStoresPremultipliedAlpha) {
   const Image<glm::vec4> light = test_light(false);
   const Image<glm::vec4> again = write_and_read("a.exr", light);
   for (std::size_t i = 0; i < light.texels().size(); ++i) {
@@ -138,30 +139,31 @@ TEST_F(ToolFormats, ExrIsPremultipliedInTheFileAndStraightInMemory) {
     ASSERT_EQ(again.data()[i].w, t.w);
     for (int c = 0; c < 3; ++c) ASSERT_EQ(again.data()[i][c], as_half(t[c] * t.w) / t.w) << i;
   }
-  // Read as heights, the file shows what it holds: the first channel, not divided.
+  // read_gray returns the stored first channel, without dividing by alpha.
   EXPECT_EQ(read_gray(directory / "a.exr").at(0, 0), as_half(light.at(0, 0).x * 0.25f));
 }
 
-TEST_F(ToolFormats, ExrHasAlphaOnlyWhereItSaysSomething) {
-  EXPECT_EQ(write_and_read("a.exr", one_texel({0.5f, 2.0f, 8.0f, 0.0f})).at(0, 0), glm::vec4(0.0f)) << "colours are lost at alpha 0";
+TEST_F(ToolFormats, ExrOmitsAlphaOfOpaqueImages) {
+  EXPECT_EQ(write_and_read("a.exr", one_texel({0.5f, 2.0f, 8.0f, 0.0f})).at(0, 0), glm::vec4(0.0f))
+      << "premultiplication loses the color where alpha is 0";
   write_image(directory / "b.exr", one_texel({0.5f, 2.0f, 8.0f, 1.0f}));
   const auto has_alpha = [&](const char* name) {
     const std::string text = read_bytes(directory / name);
-    // The list of channels: each a name that ends in 0, and 16 bytes of which the first is the type (1: half).
+    // An entry of the channel list is a zero-terminated name and 16 bytes, the first of which is the type (1: half).
     return text.find(std::string("A\0\1\0\0\0", 6)) != std::string::npos;
   };
   EXPECT_TRUE(has_alpha("a.exr"));
   EXPECT_FALSE(has_alpha("b.exr"));
 }
 
-TEST_F(ToolFormats, ExrHoldsInfinitiesAndNoNaN) {
+TEST_F(ToolFormats, ExrClampsInfinitiesAndReplacesNaN) {
   EXPECT_EQ(write_and_read("a.exr", one_texel({kInfinity, -kInfinity, kNaN, 1.0f})).at(0, 0), glm::vec4(kMaxHalf, -kMaxHalf, 0.0f, 1.0f));
   EXPECT_EQ(write_and_read("a.exr", one_texel({1e9f, 65520.0f, 1e-9f, 1.0f})).at(0, 0), glm::vec4(kMaxHalf, kMaxHalf, 0.0f, 1.0f));
   EXPECT_EQ(write_and_read("a.exr", one_texel({kInfinity, 1.0f, 1.0f, 0.0f})).at(0, 0), glm::vec4(0.0f));
   EXPECT_EQ(write_and_read("a.exr", one_texel({1.0f, 1.0f, 1.0f, kNaN})).at(0, 0), glm::vec4(0.0f));
 }
 
-TEST_F(ToolFormats, TheSamePixelsGiveTheSameFile) {
+TEST_F(ToolFormats, SamePixelsGiveIdenticalFiles) {
   for (const char* extension : {".exr", ".hdr"}) {
     std::string files[2];
     for (std::string& text : files) {
@@ -172,9 +174,9 @@ TEST_F(ToolFormats, TheSamePixelsGiveTheSameFile) {
   }
 }
 
-// RGBE has 8 bits for each channel and one exponent, that of the largest: a step is at least 1/256 and at most 1/128 of
-// the largest channel, and half a step is the error.
-TEST_F(ToolFormats, HdrIsNearTheLargestChannel) {
+// RGBE stores 8 bits per channel and a shared exponent, which is that of the largest channel. A step is between 1/256 and 1/128 of the
+// largest channel; the error is at most half a step.
+TEST_F(ToolFormats, HdrErrorIsBoundedByTheLargestChannel) {
   const Image<glm::vec4> light = test_light(false);
   const Image<glm::vec4> again = write_and_read("a.hdr", light);
   for (std::size_t i = 0; i < light.texels().size(); ++i) {
@@ -182,21 +184,21 @@ TEST_F(ToolFormats, HdrIsNearTheLargestChannel) {
     const float largest = std::max(t.x, t.y);
     EXPECT_LE(std::abs(again.data()[i].x - t.x), largest / 256.0f) << i;
     EXPECT_LE(std::abs(again.data()[i].y - t.y), largest / 256.0f) << i;
-    EXPECT_EQ(again.data()[i].z, 0.0f) << "negative";
+    EXPECT_EQ(again.data()[i].z, 0.0f) << "negative values become 0";
     EXPECT_EQ(again.data()[i].w, 1.0f);
   }
 }
 
-TEST_F(ToolFormats, HdrAtItsEnds) {
+TEST_F(ToolFormats, HdrRoundsAndClampsExtremeValues) {
   EXPECT_EQ(write_and_read("a.hdr", one_texel({kInfinity, -kInfinity, kNaN, 1.0f})).at(0, 0), glm::vec4(65536.0f, 0.0f, 0.0f, 1.0f))
-      << "65504 to 8 bits";
+      << "65504 rounded to 8 bits";
   EXPECT_EQ(write_and_read("a.hdr", one_texel({255.75f, 3.0f, 1.0f, 0.5f})).at(0, 0), glm::vec4(256.0f, 4.0f, 2.0f, 1.0f))
-      << "the largest rounds up to a power of two, and the step doubles";
+      << "the largest channel rounds up to a power of two, which doubles the step";
   EXPECT_EQ(write_and_read("a.hdr", one_texel({3e38f, 0.0f, 0.0f, 1.0f})).at(0, 0), glm::vec4(0x1p126f, 0.0f, 0.0f, 1.0f));
   EXPECT_EQ(write_and_read("a.hdr", one_texel({1e-35f, 0.0f, 0.0f, 1.0f})).at(0, 0), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
 }
 
-TEST_F(ToolFormats, DepthIsKeptBitForBit) {
+TEST_F(ToolFormats, DepthIsBitIdentical) {
   Image<float> depth(5, 70);
   for (int y = 0; y < 70; ++y) {
     for (int x = 0; x < 5; ++x) depth.at(x, y) = std::ldexp(1.0f + static_cast<float>(x) / 7.0f, -y);
@@ -213,7 +215,7 @@ TEST_F(ToolFormats, TopRowComesFirst) {
   EXPECT_TRUE(write_and_read("a.hdr", image) == image);
 }
 
-TEST_F(ToolFormats, APictureMayBeOneWideOrOneHigh) {
+TEST_F(ToolFormats, ImagesCanBeOnePixelWideOrHigh) {
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 200), std::pair(200, 1)}) {
     const Image<glm::u8vec4> codes(width, height);
     write_image(directory / "a.tif", codes);
@@ -226,7 +228,7 @@ TEST_F(ToolFormats, APictureMayBeOneWideOrOneHigh) {
   }
 }
 
-TEST_F(ToolFormats, ASecondProgramReadsTheSame) {
+TEST_F(ToolFormats, ImageMagickReadsTheSamePixels) {
   Image<glm::vec4> light(9, 5);
   light.at(3, 2) = glm::vec4(0.75f, 0.5f, 0.25f, 1.0f);
   Image<glm::u8vec4> codes(9, 5);

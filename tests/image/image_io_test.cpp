@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using ImageIo = FolderTest;
 
-// The colour type in a PNG's header: 2 RGB, 6 RGBA.
+// Returns the color type in a PNG's header: 2 is RGB, 6 is RGBA.
 int color_type(const std::vector<std::byte>& png) { return static_cast<int>(png.at(25)); }
 
 bool contains(const std::vector<std::byte>& bytes, std::string_view word) {
@@ -41,18 +41,18 @@ TEST_F(ImageIo, PngRoundTripKeepsEveryCode) {
     write_png(directory / "a.png", image);
     EXPECT_TRUE(read_image(directory / "a.png") == image);
   }
-  EXPECT_EQ(file_count(), 1u) << "nothing is left beside the picture";
+  EXPECT_EQ(file_count(), 1u) << "no other file is left behind";
 }
 
-TEST_F(ImageIo, AlphaIsDroppedWhereAllAreOpaque) {
+TEST_F(ImageIo, OmitsAlphaOfOpaqueImages) {
   EXPECT_EQ(color_type(encode_png(test_picture(true))), 2);
   EXPECT_EQ(color_type(encode_png(test_picture(false))), 6);
 }
 
-TEST_F(ImageIo, PngSaysSrgb) { EXPECT_TRUE(contains(encode_png(test_picture(true)), "sRGB")); }
+TEST_F(ImageIo, PngDeclaresSrgb) { EXPECT_TRUE(contains(encode_png(test_picture(true)), "sRGB")); }
 
 TEST_F(ImageIo, PngKeepsTransparentColors) {
-  // Straight alpha: a colour survives an alpha of 0.
+  // Alpha is straight, so a color survives an alpha of 0.
   Image<glm::u8vec4> image(1, 1);
   image.at(0, 0) = glm::u8vec4(10, 20, 30, 0);
   EXPECT_TRUE(decode_png(encode_png(image), "x") == ColorPicture(image));
@@ -87,7 +87,7 @@ TEST_F(ImageIo, WritesToADeviceInPlace) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST_F(ImageIo, SaysWhyItCannotWrite) {
+TEST_F(ImageIo, ReportsWhyItCannotWrite) {
   EXPECT_EQ(output_error([&] { write_png(directory, test_picture(true)); }), directory.string() + ": is a directory; expected a file name");
   const fs::path slash = directory / "no/";
   EXPECT_EQ(output_error([&] { write_png(slash, test_picture(true)); }), slash.string() + ": is a directory; expected a file name");
@@ -100,19 +100,19 @@ TEST_F(ImageIo, SaysWhyItCannotWrite) {
   EXPECT_EQ(output_error([&] { write_png("/dev/full", test_picture(true)); }), "/dev/full: cannot write (No space left on device)");
 }
 
-TEST_F(ImageIo, MakesMissingDirectories) {
+TEST_F(ImageIo, CreatesMissingDirectories) {
   const fs::path path = directory / "new" / "folder" / "a.png";
   check_writable(path);
-  EXPECT_FALSE(fs::exists(directory / "new")) << "asking makes nothing";
+  EXPECT_FALSE(fs::exists(directory / "new")) << "check_writable creates nothing";
   write_png(path, test_picture(true));
   EXPECT_TRUE(read_image(path) == test_picture(true));
 }
 
-TEST_F(ImageIo, SaysThatADirectoryMayNotBeWrittenTo) {
-  // Without root's rights, which reach everywhere.
+TEST_F(ImageIo, ReportsAnUnwritableDirectory) {
+  // Runs without root privileges, because root can write anywhere.
   const pid_t child = ::fork();
   if (child == 0) {
-    fs::permissions(directory, fs::perms(0555));  // read and enter, for everyone
+    fs::permissions(directory, fs::perms(0555));  // read and execute for everyone
     if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
     for (const fs::path& path : {directory / "a.png", directory / "no" / "a.png"}) {
       if (output_error([&] { check_writable(path); }) !=
@@ -127,8 +127,8 @@ TEST_F(ImageIo, SaysThatADirectoryMayNotBeWrittenTo) {
   EXPECT_EQ(status, 0);
 }
 
-TEST_F(ImageIo, LeavesNothingBehindWhereTheDiskIsFull) {
-  // A limit on the size of files stands for the full disk; its signal must be off for write() to fail instead.
+TEST_F(ImageIo, LeavesNothingBehindWhenTheDiskIsFull) {
+  // A file size limit simulates a full disk. SIGXFSZ is ignored so that write() fails instead.
   const fs::path path = put("a.png", "old");
   const pid_t child = ::fork();
   if (child == 0) {
@@ -142,10 +142,10 @@ TEST_F(ImageIo, LeavesNothingBehindWhereTheDiskIsFull) {
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
   EXPECT_EQ(file_count(), 1u);
-  EXPECT_EQ(fs::file_size(path), 3u) << "the old file is untouched";
+  EXPECT_EQ(fs::file_size(path), 3u) << "the old file is unchanged";
 }
 
-TEST_F(ImageIo, SaysWhatIsWrongWithAnInput) {
+TEST_F(ImageIo, ReportsWhatIsWrongWithAnInput) {
   struct Case {
     const char* name;
     std::string bytes;
@@ -167,8 +167,8 @@ TEST_F(ImageIo, SaysWhatIsWrongWithAnInput) {
   EXPECT_TRUE(tells(input_error([&] { read_image("/dev/zero"); }), "/dev/zero", {"regular file"}));
 }
 
-// A PNG that is cut short is refused, or it is whole but for its last marks; one with a byte changed is refused or still
-// gives a picture of its size. None crashes.
+// A truncated PNG is either rejected or decodes completely, if only trailing chunks are missing. A PNG with one changed byte is either
+// rejected or decodes to an image of the right size. Neither crashes.
 TEST_F(ImageIo, DamagedPngNeverCrashes) {
   const std::vector<std::byte> whole = encode_png(test_picture(false));
   EXPECT_THROW(decode_png(std::span(whole).first(whole.size() / 2), "cut"), InputError);
@@ -188,8 +188,8 @@ TEST_F(ImageIo, DamagedPngNeverCrashes) {
   }
 }
 
-// A whole header that claims 30000x2000 pixels of RGBA, and no pixels.
-TEST_F(ImageIo, PngThatClaimsMoreThanItHoldsIsRefused) {
+// A valid header that claims 30000x2000 RGBA pixels, without pixel data.
+TEST_F(ImageIo, RejectsAPngThatClaimsMoreThanItHolds) {
   const std::string header = big_endian(30000, 4) + big_endian(2000, 4) + std::string{8, 6, 0, 0, 0};
   const fs::path path = put("bomb.png", "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header));
   EXPECT_EQ(input_error([&] { read_image(path); }),
@@ -198,7 +198,7 @@ TEST_F(ImageIo, PngThatClaimsMoreThanItHoldsIsRefused) {
 
 TEST_F(ImageIo, ReadsOtherFormats) {
   if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
-  // A binary PPM of 2x1 and an uncompressed TGA of 1x1 with alpha, as their formats spell them.
+  // A binary 2x1 PPM and an uncompressed 1x1 TGA with alpha.
   const Image<glm::u8vec4> ppm = read_image(put("a.ppm", "P6 2 1 255\n\x01\x02\x03\xff\xfe\xfd"));
   ASSERT_EQ(ppm.width(), 2);
   EXPECT_EQ(ppm.at(0, 0), glm::u8vec4(1, 2, 3, 255));
@@ -209,7 +209,7 @@ TEST_F(ImageIo, ReadsOtherFormats) {
   EXPECT_EQ(grey.at(0, 0), glm::u8vec4(128, 128, 128, 255));
 }
 
-TEST_F(ImageIo, DamagedFilesOfOtherFormatsAreRefusedInOneLine) {
+TEST_F(ImageIo, RejectsDamagedFilesOfOtherFormatsWithOneLine) {
   if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   for (const char* name : {"a.jpg", "b.jpg"}) {
     const std::string what = input_error([&] { read_image(put(name, "\xff\xd8\xff\xe0 nothing more")); });
@@ -217,8 +217,8 @@ TEST_F(ImageIo, DamagedFilesOfOtherFormatsAreRefusedInOneLine) {
   }
 }
 
-// PngSuite against a second decoder's results (stb's, which came with the files).
-TEST_F(ImageIo, PngSuiteDecodesAsElsewhere) {
+// Compares our decoding of PngSuite with that of stb_image, which is included with the files.
+TEST_F(ImageIo, PngSuiteMatchesAnotherDecoder) {
   const fs::path primary = shared_data("pngsuite/primary"), expected = shared_data("pngsuite/primary_check");
   if (!fs::exists(primary)) GTEST_SKIP() << absent(primary);
   int compared = 0;

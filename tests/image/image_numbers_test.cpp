@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reading at full precision: heights and linear light.
+// Reading at full precision: heights and linear radiance.
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
@@ -28,7 +28,7 @@ TEST_F(ImageNumbers, HeightsOfA16BitPngAreExact) {
   for (const uint16_t c : codes) expected.push_back(static_cast<float>(c) / 65535.0f);
   EXPECT_EQ(texels_of(read_gray(put("a.png", png16_row(codes, 6, 0)))), expected);
   EXPECT_EQ(texels_of(read_gray(put("rgb.png", png16_row(codes, 2, 2)))), (std::vector<float>{expected[0], expected[3]}))
-      << "a colour file's first channel";
+      << "the first channel of a color file";
 }
 
 TEST_F(ImageNumbers, HeightsOfAn8BitPngAreCodesOver255) {
@@ -39,7 +39,7 @@ TEST_F(ImageNumbers, HeightsOfAn8BitPngAreCodesOver255) {
   for (int i = 0; i < 256; ++i) EXPECT_EQ(heights.at(i, 0), static_cast<float>(i) / 255.0f);
 }
 
-TEST_F(ImageNumbers, PngCodesAreDecodedFromSrgbAndAlphaIsNot) {
+TEST_F(ImageNumbers, PngColorsAreDecodedFromSrgbAndAlphaIsLinear) {
   Image<glm::u8vec4> image(256, 1);
   for (int i = 0; i < 256; ++i) image.at(i, 0) = glm::u8vec4(i, 255 - i, 0, i);
   write_png(directory / "a.png", image);
@@ -58,14 +58,14 @@ TEST_F(ImageNumbers, SixteenBitCodesAreDecodedFromSrgb) {
     const double v = codes[2 * static_cast<std::size_t>(i)] / 65535.0;
     const double expected = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
     EXPECT_NEAR(light.at(i, 0).x, expected, 3e-7 * expected);
-    EXPECT_EQ(light.at(i, 0).x, light.at(i, 0).z) << "grey is repeated";
+    EXPECT_EQ(light.at(i, 0).x, light.at(i, 0).z) << "gray is replicated to all channels";
     EXPECT_EQ(light.at(i, 0).w, static_cast<float>(codes[2 * static_cast<std::size_t>(i) + 1]) / 65535.0f);
   }
   const Image<glm::vec4> widened = read_linear(put("b.png", png16_row({0x8080, 0x0101, 0xffff}, 1, 2)));
-  EXPECT_EQ(widened.at(0, 0), glm::vec4(kSrgbToLinear[0x80], kSrgbToLinear[1], 1.0f, 1.0f)) << "as the 8-bit codes 128, 1, 255";
+  EXPECT_EQ(widened.at(0, 0), glm::vec4(kSrgbToLinear[0x80], kSrgbToLinear[1], 1.0f, 1.0f)) << "equal to the 8-bit codes 128, 1, 255";
 }
 
-TEST_F(ToolNumbers, HeightsOfTiff) {
+TEST_F(ToolNumbers, ReadsHeightsFromTiff) {
   EXPECT_EQ(texels_of(read_gray(put("8.tif", gray_tiff_row<uint8_t>({0, 51, 255}, TiffSamples::code)))),
             (std::vector<float>{0.0f, 0.2f, 1.0f}));
   EXPECT_EQ(texels_of(read_gray(put("16.tif", gray_tiff_row<uint16_t>({0, 1, 65535}, TiffSamples::code)))),
@@ -76,7 +76,7 @@ TEST_F(ToolNumbers, HeightsOfTiff) {
             (std::vector<float>{-1.0f, 0.0f, 1.0f}));
 }
 
-TEST_F(ToolNumbers, PfmStartsWithItsBottomRow) {
+TEST_F(ToolNumbers, PfmStartsWithTheBottomRow) {
   const Image<glm::vec4> image = read_linear(put("a.pfm", pfm(1, 2, {1.0f, 2.0f, 3.0f, -4.0f, 5.5f, 6.0f})));
   ASSERT_EQ(image.height(), 2);
   EXPECT_EQ(image.at(0, 0), glm::vec4(-4.0f, 5.5f, 6.0f, 1.0f));
@@ -84,15 +84,15 @@ TEST_F(ToolNumbers, PfmStartsWithItsBottomRow) {
   EXPECT_EQ(texels_of(read_gray(directory / "a.pfm")), (std::vector<float>{-4.0f, 1.0f}));
 }
 
-TEST_F(ToolNumbers, RadianceBytesMeanMantissasTimesAPower) {
-  // Mantissas over 256, times 2^(exponent − 128).
+TEST_F(ToolNumbers, DecodesRgbe) {
+  // Mantissas divided by 256, times 2^(exponent − 128).
   const std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + std::string("\x80\x40\x20\x81\xff\x00\x01\x90", 8);
   const Image<glm::vec4> image = read_linear(put("a.hdr", file));
   EXPECT_EQ(image.at(0, 0), glm::vec4(1.0f, 0.5f, 0.25f, 1.0f));
   EXPECT_EQ(image.at(1, 0), glm::vec4(65280.0f, 0.0f, 256.0f, 1.0f));
 }
 
-TEST_F(ToolNumbers, InfinitiesAreHeldAsLightAndRefusedAsHeights) {
+TEST_F(ToolNumbers, InfinitiesAreClampedInColorsAndRejectedInHeights) {
   const std::filesystem::path path = directory / "a.exr";
   Image<float> depth(3, 2);
   depth.at(1, 1) = kInfinity;
@@ -104,7 +104,7 @@ TEST_F(ToolNumbers, InfinitiesAreHeldAsLightAndRefusedAsHeights) {
   EXPECT_EQ(read_linear(path).at(1, 1).x, -kMaxHalf);
 }
 
-TEST_F(ToolNumbers, NaNIsRefusedByItsPixel) {
+TEST_F(ToolNumbers, RejectsNaNAndReportsThePixel) {
   const std::filesystem::path path = directory / "a.exr";
   Image<float> depth(3, 2);
   depth.at(2, 0) = kNaN;
@@ -113,15 +113,15 @@ TEST_F(ToolNumbers, NaNIsRefusedByItsPixel) {
     EXPECT_TRUE(tells(error, path.string(), {"NaN", "(2, 0)"}));
 }
 
-TEST_F(ToolNumbers, NumbersAreNoCodes) {
+TEST_F(ToolNumbers, RejectsFloatFilesAsEightBitImages) {
   const std::filesystem::path tiff = put("a.tif", gray_tiff_row<float>({1.0f, 2.0f}, TiffSamples::number));
   EXPECT_TRUE(tells(input_error([&] { read_image(tiff); }), tiff.string(), {"linear values", "16-bit codes", "PNG"}));
   const std::filesystem::path pfm_file = put("a.pfm", pfm(1, 1, {1.0f, 2.0f, 3.0f}));
   EXPECT_TRUE(tells(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear values", "16-bit codes", "PNG"}));
 }
 
-// The lists of formats in full: they are what a user can choose from.
-TEST_F(ImageNumbers, SayWhichFilesTheyRead) {
+// Checks the complete list of formats, because users choose from it.
+TEST_F(ImageNumbers, ErrorListsReadableFormats) {
   const std::filesystem::path path = put("a.txt", "This is not a picture.");
   const std::string line =
       path.string() + ": is not a supported image; expected PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, OpenEXR, HDR or PFM";
@@ -129,9 +129,9 @@ TEST_F(ImageNumbers, SayWhichFilesTheyRead) {
   EXPECT_TRUE(tells(input_error([&] { read_linear(path); }), path.string(), {"OpenEXR, HDR or PFM"}));
 }
 
-// ---- files of others -------------------------------------------------------------------------------------------
+// ---- third-party files -----------------------------------------------------------------------------------------
 
-TEST_F(ToolNumbers, MoonHeights) {
+TEST_F(ToolNumbers, ReadsMoonHeights) {
   const std::filesystem::path wide = shared_data("moon/ldem_1440x720_16bit_derived.png"), narrow = shared_data("moon/ldem_3_8bit.jpg");
   if (!std::filesystem::exists(wide)) GTEST_SKIP() << absent(wide);
   const Image<float> heights = read_gray(wide), codes = read_gray(narrow);
@@ -142,18 +142,18 @@ TEST_F(ToolNumbers, MoonHeights) {
     for (const float h : image.texels()) sum += static_cast<double>(h);
     return sum / static_cast<double>(image.texels().size());
   };
-  // The figures are ImageMagick's.
+  // Values computed by ImageMagick.
   EXPECT_NEAR(mean(heights), 0.433154, 1e-6);
   EXPECT_NEAR(heights.at(700, 300), 0.441428, 1e-6);
   EXPECT_NEAR(heights.at(10, 10), 0.439307, 1e-6);
-  EXPECT_NEAR(mean(codes), mean(heights), 0.001) << "the one was made from the other";
+  EXPECT_NEAR(mean(codes), mean(heights), 0.001) << "one was derived from the other";
 }
 
-TEST_F(ToolNumbers, EnvironmentMaps) {
+TEST_F(ToolNumbers, ReadsEnvironmentMaps) {
   struct Case {
     const char* name;
     int width, height;
-    glm::vec3 at_100_50;  // ImageMagick's
+    glm::vec3 at_100_50;  // computed by ImageMagick
     float error;
   };
   const Case cases[] = {{"OrientationLatLong.exr", 1024, 512, glm::vec3(0.990723f), 1e-5f},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where halfspace-image-tool is absent, dies or talks nonsense. The tool is looked for beside the running program, so a
-// copy of this test program runs in a directory of its own, with a script in the tool's place.
+// Behavior when halfspace-image-tool is missing, crashes or sends invalid data. The tool is looked up in the directory of the running
+// program, so these tests run a copy of the test program in a temporary directory, next to a script that replaces the tool.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the copy runs: it writes what it is told into "lines", in its working directory.
+// Run by the copy. Writes the error messages to the file "lines" in the working directory.
 TEST(ImageToolCopy, DISABLED_WritesAndReads) {
   const Image<glm::u8vec4> codes(400, 300);
   const Image<glm::vec4> light(400, 300);
@@ -39,7 +39,7 @@ TEST(ImageToolCopy, DISABLED_WritesAndReads) {
 
 class ImageTool : public FolderTest {
  protected:
-  // The lines of a copy of this program, which finds the script (nothing where it is empty) in the tool's place.
+  // Returns the lines written by a copy of this program that runs next to the script, or without a tool if the script is empty.
   std::string lines_beside(const std::string& script) const {
     const fs::path copy = directory / "test";
     fs::copy_file("/proc/self/exe", copy);
@@ -61,7 +61,7 @@ class ImageTool : public FolderTest {
   }
 };
 
-// Both pictures were not written and the third not read, for these reasons, and no file is left.
+// Expects that both writes failed for the first reason, the read failed for the second, and no file was left behind.
 void expect_failures(const std::string& told, const std::string& of_writing, const std::string& of_reading) {
   std::istringstream lines(told);
   std::string line;
@@ -76,30 +76,30 @@ void expect_failures(const std::string& told, const std::string& of_writing, con
   EXPECT_FALSE(std::getline(lines, line)) << told;
 }
 
-TEST_F(ImageTool, Absent) { expect_failures(lines_beside(""), "not installed", "not installed"); }
+TEST_F(ImageTool, ReportsAMissingTool) { expect_failures(lines_beside(""), "not installed", "not installed"); }
 
-TEST_F(ImageTool, DiesAtOnce) { expect_failures(lines_beside("kill -SEGV $$"), "died: Segmentation fault", "died: Segmentation fault"); }
+TEST_F(ImageTool, ReportsACrash) { expect_failures(lines_beside("kill -SEGV $$"), "died: Segmentation fault", "died: Segmentation fault"); }
 
-TEST_F(ImageTool, EndsHalfWay) {
-  // It hears 1000 bytes of the picture and begins a right answer of 100 bytes.
+TEST_F(ImageTool, ReportsATruncatedAnswer) {
+  // The script reads 1000 bytes of the image and sends the beginning of a valid 100-byte answer.
   const std::string script = "head -c 1000 >/dev/null; printf 'HIT1\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
   expect_failures(lines_beside(script), "ended early", "ended early");
 }
 
-TEST_F(ImageTool, IsOfAnotherVersion) {
+TEST_F(ImageTool, ReportsAnotherProtocolVersion) {
   const std::string script = "cat >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'";
   expect_failures(lines_beside(script), "different version", "different version");
 }
 
-TEST_F(ImageTool, PromisesTooMuch) {
-  // A file of 2^63 bytes; a picture of 2^31 − 1 pixels on an edge.
+TEST_F(ImageTool, RejectsAnswersWithHugeSizes) {
+  // A file of 2^63 bytes; an image with a width of 2^31 − 1 pixels.
   const std::string script =
       "case $1 in write) printf 'HIT1\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
       "*) printf 'HIT1\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
   expect_failures(lines_beside(script), "different version", "2147483647x1");
 }
 
-TEST_F(ImageTool, RefusesWhatItCannotWrite) {
+TEST_F(ImageTool, ReportsUnsupportedFormatsAndHeaders) {
   if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   PictureHeader header;
   header.width = 4000;
@@ -111,18 +111,18 @@ TEST_F(ImageTool, RefusesWhatItCannotWrite) {
   EXPECT_TRUE(tells(output_error([&] { encode_by_tool("a.jpg", "jpeg", header, black); }), "a.jpg: cannot write", {"header"}));
 }
 
-TEST_F(ImageTool, AFullDiskIsTold) {
+TEST_F(ImageTool, ReportsAFullDisk) {
   if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   fs::create_symlink("/dev/full", directory / "a.jpg");
   EXPECT_TRUE(tells(output_error([&] { write_image(directory / "a.jpg", test_picture(true)); }), (directory / "a.jpg").string(),
                     {"No space left on device"}));
 }
 
-TEST_F(ImageTool, ADirectoryThatCannotBeWrittenIsTold) {
+TEST_F(ImageTool, ReportsAnUnwritableDirectory) {
   fs::permissions(directory, static_cast<fs::perms>(0555));
   const pid_t child = ::fork();
   if (child == 0) {
-    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);  // root may write everywhere, nobody may not
+    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);  // root can write anywhere, so continue as nobody
     const fs::path path = directory / "a.exr";
     const std::string what = output_error([&] { write_image(path, Image<glm::vec4>(2, 2)); });
     ::_exit(tells(what, path.string(), {"cannot write", "Permission denied"}) ? 0 : 1);

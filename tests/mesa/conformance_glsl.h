@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shaders of tests/conformance/shaders.h in GLSL.
+// GLSL versions of the shaders of tests/conformance/shaders.h.
 #pragma once
 
 namespace halfspace::test::conformance_glsl {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pictures of tests/conformance drawn by Mesa: in each group at least 99.9% of the covered pixels agree.
+// Draws the images of tests/conformance with Mesa. In each group at least 99.9% of the covered pixels must agree.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -74,29 +74,31 @@ bool is_inside(const conformance::Vertex& v) {
   return std::fabs(p.x) <= p.w && std::fabs(p.y) <= p.w && std::fabs(p.z) <= p.w;
 }
 
-// Why Mesa is not asked for a picture, or null.
+// Returns the reason why an image cannot be compared with Mesa, or null if it can.
 const char* not_comparable(const conformance::Picture& p) {
-  if (p.samples == 2 || p.samples == 8) return "llvmpipe has 1 or 4 samples";
-  if (p.colors.size() > 1) return "one colour is compared";
-  if (p.supersample) return "OpenGL has no such option";
+  if (p.samples == 2 || p.samples == 8) return "llvmpipe supports only 1 or 4 samples";
+  if (p.colors.size() > 1) return "only one color attachment is compared";
+  if (p.supersample) return "OpenGL has no supersampling";
   for (const Drawing& d : p.draws) {
     const DrawState& s = d.state;
     const bool lines = is_lines(s.topology) || s.polygon_mode == PolygonMode::line;
     const bool in_perspective = std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.pos_clip.w != 1.0f; });
-    if (s.alpha_to_coverage) return "OpenGL leaves open which samples an alpha covers";
-    if (p.samples > 1 && (s.sample_shading || d.mode == conformance::kCentroid)) return "OpenGL leaves open where inside a pixel is shaded";
-    if (lines && !(d.kind == Kind::color && d.mode == conformance::kFlat)) return "llvmpipe interpolates along a line's longer axis alone";
-    if (d.kind == Kind::point && p.samples > 1) return "llvmpipe's point coordinate is half a pixel off with samples";
+    if (s.alpha_to_coverage) return "OpenGL does not specify which samples an alpha value covers";
+    if (p.samples > 1 && (s.sample_shading || d.mode == conformance::kCentroid))
+      return "OpenGL does not specify the position at which a sample or centroid is shaded";
+    if (lines && !(d.kind == Kind::color && d.mode == conformance::kFlat))
+      return "llvmpipe interpolates only along the major axis of a line";
+    if (d.kind == Kind::point && p.samples > 1) return "with multisampling, llvmpipe's point coordinate is off by half a pixel";
     const bool derives = d.kind == Kind::derivative || (d.kind == Kind::texture && d.mode == conformance::kByDerivatives);
-    if (derives && in_perspective) return "OpenGL leaves open which differences of a quad a derivative is";
+    if (derives && in_perspective) return "OpenGL does not specify which differences of a quad give a derivative";
     const bool turns_over = std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.pos_clip.w < 0.0f; });
     if (d.kind == Kind::color && d.mode == conformance::kLinear && turns_over)
-      return "OpenGL leaves noperspective open where w changes its sign";
-    if (s.stencil && s.polygon_mode != PolygonMode::fill) return "llvmpipe tests outlines of back faces as front faces";
-    if (d.texture && d.texture->format() > TexelFormat::srgb8a8) return "textures of 8-bit RGBA are uploaded";
+      return "OpenGL does not define noperspective interpolation if w changes sign";
+    if (s.stencil && s.polygon_mode != PolygonMode::fill) return "llvmpipe applies the front-face stencil state to outlines of back faces";
+    if (d.texture && d.texture->format() > TexelFormat::srgb8a8) return "only 8-bit RGBA textures can be uploaded";
     if (draws_points(s) && (d.kind == Kind::clip || !std::all_of(d.vertices.begin(), d.vertices.end(), is_inside)))
-      return "Mesa clips points by their centre";
-    if (p.samples > 1 && s.scissor) return "llvmpipe's scissor lets samples of the pixels beside it through";
+      return "Mesa clips points by their center";
+    if (p.samples > 1 && s.scissor) return "llvmpipe's scissor passes samples of pixels next to the rectangle";
   }
   return nullptr;
 }
@@ -107,14 +109,14 @@ bool blends(const conformance::Picture& p) {
 
 float srgb_to_linear(float code) { return kSrgbToLinear[static_cast<std::size_t>(std::lround(code * 255.0f))]; }
 
-// By how much a channel may differ.
+// Returns the allowed difference per channel.
 float tolerance(const conformance::Picture& p) {
   constexpr float kCode = 1.01f / 255.0f;
   const bool textured = std::any_of(p.draws.begin(), p.draws.end(), [](const Drawing& d) { return d.texture != nullptr; });
-  if (textured) return 2.0f * kCode;  // llvmpipe's log2 errs by 0.04, its sRGB by 0.001
+  if (textured) return 2.0f * kCode;  // llvmpipe's log2 has an error of 0.04, its sRGB conversion one of 0.001
   const bool floats = p.colors[0] == ColorFormat::rgba16f || p.colors[0] == ColorFormat::rgba32f;
   if (floats) return 0x1p-10f;
-  // Mesa blends 8 bits in whole numbers, each product rounded; VK-GL-CTS allows three codes.
+  // Mesa blends 8-bit colors in integers and rounds each product; VK-GL-CTS allows three codes.
   return blends(p) ? 3.0f * kCode : kCode;
 }
 
@@ -126,7 +128,7 @@ void print_pixel(int x, int y, const glm::vec4& a, const glm::vec4& b) {
   std::printf("\n");
 }
 
-// A pixel is covered where either picture is not as it was cleared.
+// A pixel counts as covered if it differs from the clear color in either image.
 int64_t compare_with_mesa(const conformance::Picture& p, const std::string& name, Agreement& sum) {
   const TargetSpec target{p.width, p.height, p.colors[0], p.clear_color, p.clear_depth, p.depth, p.clear_stencil, p.samples};
   std::vector<MesaDraw> draws;
@@ -136,7 +138,7 @@ int64_t compare_with_mesa(const conformance::Picture& p, const std::string& name
   conformance::Picture nothing = p;
   nothing.draws.clear();
   const glm::vec4 clear = conformance::draw(nothing).color(0, 0);
-  const bool in_light = p.colors[0] == ColorFormat::srgb8a8 && blends(p);  // llvmpipe decodes what is there less exactly
+  const bool in_light = p.colors[0] == ColorFormat::srgb8a8 && blends(p);  // llvmpipe decodes the destination less accurately
   const auto near = [in_light, most = tolerance(p)](const glm::vec4& a, const glm::vec4& b) {
     for (int k = 0; k < 4; ++k) {
       const bool near_by_code = std::fabs(a[k] - b[k]) <= most * std::max(1.0f, std::fabs(a[k]));
@@ -163,7 +165,7 @@ int64_t compare_with_mesa(const conformance::Picture& p, const std::string& name
 }
 
 void expect_agreement(const Agreement& a) {
-  std::printf("%lld pictures, %lld covered pixels, %lld differ\n", static_cast<long long>(a.pictures), static_cast<long long>(a.covered),
+  std::printf("%lld images, %lld covered pixels, %lld differ\n", static_cast<long long>(a.pictures), static_cast<long long>(a.covered),
               static_cast<long long>(a.differing));
   testing::Test::RecordProperty("covered", std::to_string(a.covered));
   testing::Test::RecordProperty("differing", std::to_string(a.differing));
@@ -189,7 +191,7 @@ INSTANTIATE_TEST_SUITE_P(Groups, MesaConformance, testing::ValuesIn(conformance:
 
 class MesaRandomStates : public MesaTest {
  protected:
-  // Levels come by lot here; llvmpipe's err by 0.04, which counts where filters or levels change.
+  // Mip levels are random here, and llvmpipe's level of detail has an error of 0.04, which matters where the filter or level changes.
   static bool comparable(const conformance::Picture& p) {
     const bool filter_changes = std::any_of(p.draws.begin(), p.draws.end(), [](const Drawing& d) {
       const bool by_level = d.sampler.min == Filter::trilinear || (d.sampler.mag == Filter::nearest) != (d.sampler.min == Filter::nearest);

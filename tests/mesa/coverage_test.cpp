@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage alone: every fragment adds 1/255, so a pixel holds the number of triangles that cover it, and a fragment
-// that only one renderer draws cannot hide behind another.
+// Compares coverage. Every fragment adds 1/255, so a pixel stores the number of triangles that cover it, and a fragment drawn by only one
+// renderer cannot be hidden by another fragment.
 #include "mesa/mesa_context.h"
 #include "mesa/scenes.h"
 #include "mesa/twin_pass.h"
@@ -31,19 +31,19 @@ Figures count_fragments(const ColoredMesh& mesh, const TargetSpec& target) {
   return figures;
 }
 
-// Why coverage may differ. It matters where a pixel hangs on the last 1/256 px: on thin triangles, and on edges through
-// pixel centres. Halfspace rounds the exact quotient x/w to the grid and does not clip at the window's edges.
-constexpr const char* kRounding = "rounds window coordinates to float before it snaps them to 1/256 px";
+// Reasons why coverage may differ. They matter where a pixel depends on the last 1/256 px: on thin triangles, and on edges through pixel
+// centers. Halfspace rounds the exact quotient x/w to the grid and does not clip at the edges of the window.
+constexpr const char* kRounding = "rounds window coordinates to float before snapping them to 1/256 px";
 constexpr const char* kClipping =
-    "clips triangles at the window's edges to new vertices, which are snapped too, and rounds before it snaps";
+    "clips triangles at the edges of the window to new vertices, which are also snapped, and rounds before snapping";
 
 }  // namespace
 
-// Positions on the 1/256 px grid and inside of a window where clip coordinates hold them exactly: no rounding and no
-// clipping. Not one fragment may differ.
+// Positions are on the 1/256 px grid and inside a window in which clip coordinates represent them exactly, so there is no rounding or
+// clipping. Not a single fragment may differ.
 class CoverageOnGrid : public MesaFixture<testing::TestWithParam<SoupCase>> {};
 
-TEST_P(CoverageOnGrid, IsTheSame) {
+TEST_P(CoverageOnGrid, IsIdentical) {
   const Figures figures = count_fragments(make_soup(GetParam().soup, 1024, 256), {.width = 1024, .height = 256});
   EXPECT_GT(figures.covered, 1000);
   EXPECT_EQ(figures.coverage_differs, 0);
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SoupCase{"on_quarter_pixels", {.triangles = 50000, .size = 3, .grid = 0.25f, .inside = true}}),
     case_name);
 
-// Positions as they come.
+// Positions are not aligned to the grid.
 class CoverageOf : public MesaFixture<testing::TestWithParam<SoupCase>> {};
 
 TEST_P(CoverageOf, DiffersOnAtMostOneFragmentInTenThousand) {
@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 using Coverage = MesaTest;
 
-// Every pixel of a sheet that covers the window is drawn exactly once, by both.
-TEST_F(Coverage, OfSheetsOfSharedVerticesIsOneEverywhere) {
+// Every pixel of a mesh of shared vertices that covers the window must be drawn exactly once by both renderers.
+TEST_F(Coverage, OfMeshesWithSharedVerticesIsOneEverywhere) {
   for (const float jitter : {0.0f, 0.1f, 0.3f}) {
     const ColoredMesh mesh = make_sheet(150, 90, jitter, 7);
     TwinPass pass({.width = 640, .height = 360});
@@ -102,7 +102,7 @@ TEST_F(Coverage, OfSheetsOfSharedVerticesIsOneEverywhere) {
   }
 }
 
-TEST_F(Coverage, OfTinyTrianglesSideBySide) {
+TEST_F(Coverage, OfAdjacentTinyTrianglesAgrees) {
   const Figures figures = count_fragments(make_tiny(640, 360), {.width = 640, .height = 360});
   EXPECT_LE(figures.coverage_share(), 1e-4);
 }

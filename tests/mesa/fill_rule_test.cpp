@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who owns a sample that lies exactly on an edge: hand-made cases, drawn by both.
+// Samples that are exactly on an edge: simple cases, drawn by both renderers.
 #include "mesa/mesa_context.h"
 #include "mesa/scenes.h"
 #include "mesa/twin_pass.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSize = 16;
 
-// Coverage as text, top row first, for a readable failure.
+// Formats coverage as text, top row first, for readable failure messages.
 std::string coverage(const Picture& p) {
   std::string s;
   for (int row = 0; row < kSize; ++row) {
@@ -37,10 +37,9 @@ TwinPass draw_polygon(const std::vector<glm::vec2>& corners_px) {
 
 using FillRule = MesaTest;
 
-// A square whose corners are the centres of pixels (4, 4) and (8, 8), y up. Its left and lower edges own their samples:
-// columns 4 to 7 and rows 4 to 7 from below are drawn. Our images hold the top row first, so the lower edge is the
-// lower one of the displayed picture too.
-TEST_F(FillRule, SquareOwnsItsLeftAndLowerSamples) {
+// The corners of the square are the centers of pixels (4, 4) and (8, 8), y up. Its left and lower edges own their samples, so columns 4 to
+// 7 and rows 4 to 7 from below are drawn. Images store the top row first, so the lower edge is also the lower one in the displayed image.
+TEST_F(FillRule, SquareOwnsSamplesOnItsLeftAndLowerEdges) {
   const TwinPass pass = draw_polygon({{4.5f, 4.5f}, {8.5f, 4.5f}, {8.5f, 8.5f}, {4.5f, 8.5f}});
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
@@ -56,7 +55,7 @@ TEST_F(FillRule, WindingDoesNotMatter) {
   EXPECT_EQ(coverage(pass.halfspace()), coverage(pass.mesa()));
 }
 
-TEST_F(FillRule, DiagonalsThroughSamples) {
+TEST_F(FillRule, DiagonalsThroughSamplesAgree) {
   const TwinPass pass = draw_polygon({{8.5f, 2.5f}, {13.5f, 7.5f}, {8.5f, 12.5f}, {3.5f, 7.5f}});
   EXPECT_EQ(coverage(pass.halfspace()), coverage(pass.mesa()));
 }

@@ -17,11 +17,11 @@ void set_environment() {
   set("EGL_PLATFORM", "surfaceless");
   set("LIBGL_ALWAYS_SOFTWARE", "1");
   set("GALLIUM_DRIVER", "llvmpipe");
-  // no_aos_sampling: filter textures in float, not in 8-bit integers; no_quad_lod: a level of detail for each pixel.
+  // no_aos_sampling filters textures in float instead of 8-bit integers; no_quad_lod computes a level of detail per pixel.
   set("GALLIVM_PERF", "no_aos_sampling,no_quad_lod");
-  // The key of Mesa's shader cache does not know GALLIVM_PERF: a cached shader might be one compiled without it.
+  // The key of Mesa's shader cache does not include GALLIVM_PERF, so a cached shader could have been compiled without it.
   set("MESA_SHADER_CACHE_DISABLE", "true");
-  // llvmpipe's extra threads gain nothing here: tests run one beside the other.
+  // llvmpipe's additional threads do not help, because tests already run in parallel.
   set("LP_NUM_THREADS", "0");
 }
 
@@ -37,7 +37,7 @@ std::unique_ptr<MesaContext> MesaContext::create(std::string& why_not) {
     why_not = what;
     return nullptr;
   };
-  // libepoxy ends the process where it cannot load what a call needs, so first ask.
+  // libepoxy terminates the process if it cannot load a function, so check for the library first.
   if (dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL) == nullptr) return absent("libEGL.so.1 is missing (Debian: libegl1)");
   if (!contains(eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_MESA_platform_surfaceless"))
     return absent("EGL has no surfaceless platform (Debian: libegl-mesa0)");
@@ -46,7 +46,7 @@ std::unique_ptr<MesaContext> MesaContext::create(std::string& why_not) {
   mesa->display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (mesa->display_ == EGL_NO_DISPLAY || !eglInitialize(mesa->display_, nullptr, nullptr)) {
     mesa->display_ = nullptr;
-    return absent("Mesa's surfaceless display does not open (Debian: libgl1-mesa-dri)");
+    return absent("Mesa's surfaceless display cannot be opened (Debian: libgl1-mesa-dri)");
   }
   eglBindAPI(EGL_OPENGL_API);
   const EGLint want_config[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
@@ -59,7 +59,7 @@ std::unique_ptr<MesaContext> MesaContext::create(std::string& why_not) {
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   mesa->context_ = eglCreateContext(mesa->display_, config, EGL_NO_CONTEXT, want_context);
   if (mesa->context_ == EGL_NO_CONTEXT || !eglMakeCurrent(mesa->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, mesa->context_))
-    return absent("Mesa makes no OpenGL 4.5 core context");
+    return absent("Mesa cannot create an OpenGL 4.5 core context");
 
   const auto text = [](GLenum name) { return std::string(reinterpret_cast<const char*>(glGetString(name))); };
   mesa->description_ = text(GL_RENDERER) + ", " + text(GL_VERSION);
@@ -79,6 +79,6 @@ MesaContext::~MesaContext() {
 
 }  // namespace halfspace::test
 
-// Mesa leaves some kilobytes behind at exit, from libraries already unloaded, which no suppression can name. What
-// Halfspace might leak, the other test programs see.
+// Mesa leaks a few kilobytes at exit, from libraries that are already unloaded, so no suppression can name them. Leaks in Halfspace are
+// found by the other test programs.
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mesa's software rasterizer llvmpipe as a second opinion: an OpenGL context without a window.
+// An OpenGL context without a window for Mesa's software rasterizer llvmpipe, which serves as an independent reference.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace halfspace::test {
 
-/// A surfaceless EGL context of OpenGL 4.5 core on llvmpipe, current on the thread that made it until destroyed.
+/// A surfaceless EGL context with OpenGL 4.5 core on llvmpipe. It is current on the thread that created it until it is destroyed.
 class MesaContext {
  public:
-  /// Null where EGL, Mesa or llvmpipe is absent; why_not then says in one line what is missing. Sets the environment
-  /// variables that choose llvmpipe and its exact texture filtering (see the .cpp), for the whole process.
+  /// Returns null if EGL, Mesa or llvmpipe is missing; why_not then names the missing part in one line. Sets environment variables for the
+  /// whole process that select llvmpipe and its exact texture filtering (see the .cpp).
   static std::unique_ptr<MesaContext> create(std::string& why_not);
   ~MesaContext();
   MesaContext(const MesaContext&) = delete;
@@ -30,7 +30,8 @@ class MesaContext {
   std::string description_;
 };
 
-/// A test that draws with Mesa, or is skipped with the reason. Base: testing::Test or testing::TestWithParam<…>.
+/// Fixture for tests that draw with Mesa; skips them with a reason if Mesa is not available. Base: testing::Test or
+/// testing::TestWithParam<…>.
 template <class Base>
 class MesaFixture : public Base {
  protected:

@@ -14,7 +14,7 @@ namespace halfspace::test {
 
 namespace {
 
-// ---- objects that delete themselves --------------------------------------------------------------------------------
+// ---- RAII wrappers of OpenGL objects --------------------------------------------------------------------------------
 
 template <void (*const* generate)(GLsizei, GLuint*), void (*const* remove)(GLsizei, const GLuint*)>
 struct Object {
@@ -44,17 +44,17 @@ void compile(GLuint program, GLenum stage, const char* shared, const char* sourc
     throw std::runtime_error(std::string("GLSL: ") + log.data() + source);
   }
   glAttachShader(program, shader);
-  glDeleteShader(shader);  // when the program goes
+  glDeleteShader(shader);  // freed together with the program
 }
 
 void link(GLuint program) {
   glLinkProgram(program);
   GLint good = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &good);
-  if (!good) throw std::runtime_error("a GLSL program does not link");
+  if (!good) throw std::runtime_error("a GLSL program cannot be linked");
 }
 
-// ---- a draw --------------------------------------------------------------------------------------------------------
+// ---- draw calls ----------------------------------------------------------------------------------------------------
 
 void bind_stream(GLuint location, const Buffer& buffer, const VertexStream& s) {
   const std::size_t floats = s.count == 0 ? 0 : (s.count - 1) * static_cast<std::size_t>(s.stride) + static_cast<std::size_t>(s.components);
@@ -88,7 +88,7 @@ void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs)
                                     static_cast<GLsizei>(draw.state.instances), draw.state.base_vertex);
 }
 
-// Textures of a size and number of samples as the framebuffer's attachments.
+// A framebuffer with textures of the target's size and the given number of samples as attachments.
 class Attachments {
  public:
   Attachments(const TargetSpec& target, int samples) {
@@ -96,7 +96,7 @@ class Attachments {
     attach(color_, GL_COLOR_ATTACHMENT0, gl(target.format), target, samples);
     const GLenum place = has_stencil(target.depth) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
     if (target.depth != DepthFormat::none) attach(depth_, place, gl(target.depth), target, samples);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw std::runtime_error("the framebuffer is not complete");
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw std::runtime_error("the framebuffer is incomplete");
   }
   GLuint framebuffer() const { return framebuffer_.id; }
 
@@ -127,7 +127,7 @@ void clear(const TargetSpec& target) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-// Draws into the bound framebuffer.
+// Draws to the bound framebuffer.
 void draw_all(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs) {
   enable(GL_FRAMEBUFFER_SRGB, target.format == ColorFormat::srgb8a8);
   glDisable(GL_DITHER);
@@ -140,7 +140,7 @@ void expect_no_error() {
   if (const GLenum error = glGetError(); error != GL_NO_ERROR) throw std::runtime_error("OpenGL error " + std::to_string(error));
 }
 
-// GL's first row is the lowest; ours is the top one.
+// The first row in OpenGL is the lowest; in our images it is the top row.
 template <class T>
 void read(Image<T>& image, GLenum format, GLenum type) {
   for (int row = 0; row < image.height(); ++row)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws by OpenGL what a Pass is told to draw: the same vertex views, index lists and draw states.
+// Draws with OpenGL from the inputs of a Pass: the same vertex views, index lists and draw states.
 #pragma once
 
 #include <array>
@@ -16,19 +16,19 @@
 
 namespace halfspace::test {
 
-/// What both renderers draw into: a cleared colour image and a cleared depth image.
+/// Render target of both renderers: a cleared color image and a cleared depth image.
 struct TargetSpec {
-  int width = 320;  ///< not 512: llvmpipe on LLVM 15 crashes there
+  int width = 320;  ///< must not be 512: llvmpipe on LLVM 15 crashes at that width
   int height = 240;
   ColorFormat format = ColorFormat::rgba8;
   glm::vec4 clear_color = glm::vec4(0.0f);
   float clear_depth = 1.0f;
   DepthFormat depth = DepthFormat::d32f;
   uint8_t clear_stencil = 0;
-  int samples = 1;  ///< or 4
+  int samples = 1;  ///< 1 or 4
 };
 
-/// Colour codes and window depths, top row first.
+/// Color codes and window-space depths, top row first.
 struct Picture {
   Image<glm::u8vec4> color;
   Image<float> depth;
@@ -42,7 +42,7 @@ class UniformSetter {
   void operator()(const char* name, const glm::vec3& value) const;
   void operator()(const char* name, const glm::vec4& value) const;
   void operator()(const char* name, const glm::mat4& value) const;
-  /// Uploads the texture's own levels, one by one. A shader has at most one texture.
+  /// Uploads the levels of the texture one by one. A shader has at most one texture.
   void operator()(const char* name, const Texture2D& texture, const Sampler& sampler) const;
 
  private:
@@ -50,7 +50,7 @@ class UniformSetter {
   unsigned program_;
 };
 
-/// One draw call. shared_glsl comes before both sources; stream i of the vertices is the attribute at location i.
+/// One draw call. shared_glsl is prepended to both sources. Stream i of the vertices is the attribute at location i.
 struct MesaDraw {
   const char* shared_glsl;
   const char* vertex_glsl;
@@ -59,29 +59,29 @@ struct MesaDraw {
   VertexView vertices;
   std::vector<uint32_t> indices;
   DrawState state;
-  bool restart = false;         ///< the index 2^32 − 1 ends a primitive
-  bool own_point_size = false;  ///< the vertex shader gives it
+  bool restart = false;         ///< the index 2^32 − 1 restarts a primitive
+  bool own_point_size = false;  ///< the vertex shader writes gl_PointSize
   int clip_distances = 0;
 };
 
-/// Linked programs, kept from picture to picture; to be destroyed before the context.
+/// Cache of linked programs, kept between images. Must be destroyed before the context.
 class MesaPrograms {
  public:
   MesaPrograms() = default;
   MesaPrograms(const MesaPrograms&) = delete;
   MesaPrograms& operator=(const MesaPrograms&) = delete;
   ~MesaPrograms();
-  /// The draw's program; sources are told apart by their addresses.
+  /// Returns the program of a draw. Sources are compared by address.
   unsigned of(const MesaDraw& draw);
 
  private:
   std::map<std::array<const char*, 3>, unsigned> programs_;
 };
 
-/// Draws with the current context (MesaContext), and returns the colours as they are stored (of 8-bit formats codes/255), in rows from
-/// the bottom. Samples are resolved.
+/// Draws with the current context (see MesaContext) and returns the colors as stored (codes/255 for 8-bit formats), bottom row first.
+/// Multisampled targets are resolved.
 std::vector<glm::vec4> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs);
-/// The same as codes, with the depth: of rgba8 or srgb8a8 and d32f, of one sample.
+/// Returns color codes and depth. The target must be rgba8 or srgb8a8 with d32f and a single sample.
 Picture draw_with_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws);
 
 }  // namespace halfspace::test

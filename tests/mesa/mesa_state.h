@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Our states in OpenGL's words.
+// Translates draw states to OpenGL.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -13,9 +13,9 @@ GLenum gl(Topology topology);
 GLenum gl(ColorFormat format);
 GLenum gl(DepthFormat format);
 
-/// glEnable or glDisable.
+/// Calls glEnable or glDisable.
 void enable(GLenum what, bool on);
-/// Sets all of the context's state that a draw into the target asks for; nothing of an earlier draw stays.
+/// Sets all context state that a draw to the target depends on; nothing from an earlier draw remains.
 void set_state(const MesaDraw& draw, const TargetSpec& target);
 
 }  // namespace halfspace::test

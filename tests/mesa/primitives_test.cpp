@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Strips, fans, points, lines and outlines, and what blending and masks make of them, drawn by both.
+// Compares strips, fans, points, lines and outlines, drawn by both renderers.
 #include "mesa/mesa_context.h"
 #include "mesa/scenes.h"
 #include "mesa/twin_pass.h"
@@ -10,14 +10,14 @@ namespace halfspace::test {
 
 namespace {
 
-constexpr int kWidth = 256, kHeight = 128;  // powers of two: positions on the 1/256 px grid are exact for both
+constexpr int kWidth = 256, kHeight = 128;  // powers of two, so positions on the 1/256 px grid are exact for both renderers
 
 struct Case {
   const char* name;
   DrawState state;
 };
 
-// Vertices on the 1/256 px grid, within the window.
+// Returns vertices on the 1/256 px grid inside the window.
 ColoredMesh scattered(int n, uint32_t seed) {
   std::mt19937 random(seed);
   const auto place = [&](int size) { return static_cast<float>(random() % static_cast<uint32_t>(size * 256)) / 256.0f; };
@@ -33,7 +33,7 @@ ColoredMesh scattered(int n, uint32_t seed) {
 
 class MesaPrimitives : public MesaTest, public testing::WithParamInterface<Case> {};
 
-// Additive draws of 1/255 count fragments, so that a pixel drawn twice shows too.
+// Additive draws of 1/255 count fragments, so pixels that are drawn twice are detected.
 TEST_P(MesaPrimitives, CoverTheSamePixels) {
   const ColoredMesh mesh = scattered(GetParam().state.topology == Topology::triangle_strip ? 12 : 60, 7);
   DrawState state = GetParam().state;

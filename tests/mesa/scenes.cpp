@@ -10,7 +10,7 @@ namespace halfspace::test {
 
 namespace {
 
-/// std::mt19937 is the same everywhere; std's distributions are not.
+/// std::mt19937 is the same on every platform; the distributions of std are not.
 class Random {
  public:
   explicit Random(uint32_t seed) : engine_(seed) {}
@@ -26,7 +26,7 @@ glm::vec2 ndc_from_px(const glm::vec2& p, int width, int height) {
   return {2.0f * p.x / static_cast<float>(width) - 1.0f, 2.0f * p.y / static_cast<float>(height) - 1.0f};
 }
 
-// Braces, not parentheses, where two numbers are drawn: only they fix the order of evaluation.
+// Vectors are initialized with braces where they take two random numbers, because only braces fix the order of evaluation.
 std::array<glm::vec2, 3> random_corners(const Soup& soup, Random& random, const glm::vec2& center) {
   std::array<glm::vec2, 3> corners;
   const float angle = random.uniform(0, 6.2831853f);
@@ -54,7 +54,7 @@ ColoredMesh make_soup(const Soup& soup, int width, int height) {
       float w = random.uniform(1.0f, soup.w_ratio);
       if (soup.grid > 0.0f) w = std::exp2(std::floor(std::log2(w)));
       float z = random.uniform(-0.99f, 0.99f) * w;
-      if (soup.crosses_near) {  // some z below −w, some w below 0
+      if (soup.crosses_near) {  // some z are below −w, some w below 0
         w = random.uniform(-0.5f, 2.0f);
         z = random.uniform(-1.5f, 1.0f) * std::fabs(w);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Colours: interpolation of every kind, Blinn-Phong's light, textures.
+// Compares colors: interpolation qualifiers, Blinn-Phong lighting and textures.
 #include "mesa/mesa_context.h"
 #include "mesa/scenes.h"
 #include "mesa/twin_pass.h"
@@ -20,12 +20,13 @@ void finish(TwinPass& pass, const char* what_mesa_does = nullptr) {
   expect_verdict(figures, what_mesa_does);
 }
 
-// Halfspace interpolates between the snapped vertices, Mesa between those before snapping: GL allows both. A colour that
-// changes by 1 within a pixel differs by up to 1/256 for it, and thin triangles are covered a little differently.
-constexpr const char* kUnsnapped = "interpolates between unsnapped vertices, and clips at the window's edges to new ones";
+// Halfspace interpolates between snapped vertices, Mesa between unsnapped ones; OpenGL allows both. A color that changes by 1 within a
+// pixel differs by up to 1/256 as a result, and thin triangles have slightly different coverage.
+constexpr const char* kUnsnapped = "interpolates between unsnapped vertices, and clips at the edges of the window to new ones";
 constexpr const char* kClippedLinear =
-    "loses noperspective varyings of triangles in perspective that it clips at the window's edges (22.3: even a constant becomes 0)";
-constexpr const char* kFastLog2 = "chooses the level of detail by an approximate log2, off by up to 0.04 levels";
+    "loses noperspective varyings of triangles in perspective that are clipped at the edges of the window (22.3: even a constant becomes "
+    "0)";
+constexpr const char* kFastLog2 = "computes the level of detail with an approximate log2, which is off by up to 0.04 levels";
 
 }  // namespace
 
@@ -43,7 +44,7 @@ class SoupTest : public MesaFixture<testing::TestWithParam<SoupCase>> {
 };
 const DrawState kFirstVertex = state_with([](DrawState& s) { s.provoking = ProvokingVertex::first; });
 
-// Positions on the 1/256 px grid, which snapping does not move: here both must agree at every size and shape.
+// Positions are on the 1/256 px grid, so snapping does not move them. Both renderers must agree for every size and shape.
 class ColorsOnGrid : public SoupTest {
  protected:
   template <class S>
@@ -51,10 +52,10 @@ class ColorsOnGrid : public SoupTest {
     draw_soup(shader, 1024, 256, GetParam().what_mesa_does, state);
   }
 };
-TEST_P(ColorsOnGrid, Smooth) { draw(SmoothColor{}); }
-TEST_P(ColorsOnGrid, NoPerspective) { draw(LinearColor{}); }
-TEST_P(ColorsOnGrid, FlatFromTheLastVertex) { draw(FlatColor{}); }
-TEST_P(ColorsOnGrid, FlatFromTheFirstVertex) { draw(FlatColor{}, kFirstVertex); }
+TEST_P(ColorsOnGrid, SmoothAgrees) { draw(SmoothColor{}); }
+TEST_P(ColorsOnGrid, NoPerspectiveAgrees) { draw(LinearColor{}); }
+TEST_P(ColorsOnGrid, FlatFromTheLastVertexAgrees) { draw(FlatColor{}); }
+TEST_P(ColorsOnGrid, FlatFromTheFirstVertexAgrees) { draw(FlatColor{}, kFirstVertex); }
 
 constexpr float kShadingGrid = 1.0f / 256.0f;
 INSTANTIATE_TEST_SUITE_P(
@@ -66,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SoupCase{"in_perspective", {.triangles = 500, .size = 100, .w_ratio = 100, .grid = kShadingGrid, .inside = true}}),
     case_name);
 
-// Positions as they come, beyond the window and through the near plane too.
+// Positions are not aligned to the grid, and triangles extend beyond the window or cross the near plane.
 class ColorsOf : public SoupTest {
  protected:
   template <class S>
@@ -76,10 +77,10 @@ class ColorsOf : public SoupTest {
     draw_soup(shader, kShadingWidth, kShadingHeight, linear && clipped ? kClippedLinear : GetParam().what_mesa_does, state);
   }
 };
-TEST_P(ColorsOf, Smooth) { draw(SmoothColor{}); }
-TEST_P(ColorsOf, NoPerspective) { draw(LinearColor{}); }
-TEST_P(ColorsOf, FlatFromTheLastVertex) { draw(FlatColor{}); }
-TEST_P(ColorsOf, FlatFromTheFirstVertex) { draw(FlatColor{}, kFirstVertex); }
+TEST_P(ColorsOf, SmoothAgrees) { draw(SmoothColor{}); }
+TEST_P(ColorsOf, NoPerspectiveAgrees) { draw(LinearColor{}); }
+TEST_P(ColorsOf, FlatFromTheLastVertexAgrees) { draw(FlatColor{}); }
+TEST_P(ColorsOf, FlatFromTheFirstVertexAgrees) { draw(FlatColor{}, kFirstVertex); }
 
 INSTANTIATE_TEST_SUITE_P(Soup, ColorsOf,
                          testing::Values(SoupCase{"tiny", {.triangles = 50000, .size = 2}, kUnsnapped},                         //
@@ -90,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Soup, ColorsOf,
                                          SoupCase{"crossing_near", {.triangles = 60, .size = 150, .crosses_near = true}}),
                          case_name);
 
-// ---- light on a sphere -----------------------------------------------------------------------------------------
+// ---- lit spheres -----------------------------------------------------------------------------------------------
 
 class SphereOf : public MesaFixture<testing::TestWithParam<ColorFormat>> {
  protected:

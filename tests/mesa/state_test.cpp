@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The states of a draw, one by one, on a heap of triangles of every winding and depth. Window and viewports measure
-// powers of two and vertices lie on the 1/256 px grid, so that snapping moves nothing and depths agree too.
+// Tests the states of a draw call one by one, on random triangles of either winding and various depths. The sizes of window and viewports
+// are powers of two and vertices are on the 1/256 px grid, so snapping moves nothing and depths agree too.
 #include "mesa/mesa_context.h"
 #include "mesa/scenes.h"
 #include "mesa/twin_pass.h"
@@ -44,7 +44,7 @@ std::vector<StateCase> cull_cases() {
           {"cull_back_ccw", with_cull(CullMode::back)},   {"cull_back_cw", with_cull(CullMode::back, Winding::clockwise)}};
 }
 
-// `never` and `equal` have tests of their own. From a depth of 0.5 every operator passes some fragments and fails some.
+// `never` and `equal` have separate tests. With a clear depth of 0.5, every other operator passes some fragments and rejects some.
 std::vector<StateCase> compare_cases() {
   TargetSpec half = kTarget;
   half.clear_depth = 0.5f;
@@ -89,7 +89,7 @@ std::vector<StateCase> all_cases() {
 
 class StateOf : public MesaFixture<testing::TestWithParam<StateCase>> {};
 
-TEST_P(StateOf, DrawsTheSamePicture) {
+TEST_P(StateOf, DrawsTheSameImage) {
   const StateCase& c = GetParam();
   const ColoredMesh mesh = make_soup(c.soup, kStateWidth, kStateHeight);
   TwinPass pass(c.target);
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Heap, StateOf, testing::ValuesIn(all_cases()), case_nam
 
 using State = MesaTest;
 
-TEST_F(State, NothingIsDrawnByNeverAndByCullingBothFaces) {
+TEST_F(State, NeverAndCullingBothFacesDrawNothing) {
   const ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   TwinPass pass(kTarget);
   pass.draw(SmoothColor{}, mesh.positions_and_colors(), mesh.indices, with_depth({.compare = CompareOp::never}));
@@ -113,8 +113,8 @@ TEST_F(State, NothingIsDrawnByNeverAndByCullingBothFaces) {
   EXPECT_EQ(pass.figures().covered, 0);
 }
 
-// The same triangles twice, the second time with EQUAL and in other colours: all of the first are replaced.
-TEST_F(State, EqualReplacesWhatTheSameTrianglesDrew) {
+// Draws the same triangles twice, the second time with EQUAL and in other colors, which must replace all pixels of the first draw.
+TEST_F(State, EqualReplacesPixelsOfTheSameTriangles) {
   const ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   TwinPass pass(kTarget);
   pass.draw(OneColor{glm::vec4(1.0f)}, mesh.positions(), mesh.indices);
@@ -125,8 +125,8 @@ TEST_F(State, EqualReplacesWhatTheSameTrianglesDrew) {
   expect_agreement(figures);
 }
 
-// Codes in between two may be rounded either way; a multiple of 1/255 may not.
-TEST_F(State, ClearValues) {
+// Values between two codes may be rounded either way; multiples of 1/255 must be exact.
+TEST_F(State, ClearValuesAgree) {
   for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::srgb8a8}) {
     for (int i = 0; i <= 1020; ++i) {
       const float v = static_cast<float>(i) / 1020.0f;
@@ -151,8 +151,8 @@ struct OffsetCase {
 };
 class OffsetOf : public MesaFixture<testing::TestWithParam<OffsetCase>> {};
 
-// The heap, and the same heap in other colours pushed by the offset: where the second shows, and the depth it leaves.
-TEST_P(OffsetOf, DrawsTheSamePictureAndDepth) {
+// Draws the triangles, and again in other colors with the offset. Compares where the second draw is visible and the resulting depth.
+TEST_P(OffsetOf, DrawsTheSameImageAndDepth) {
   const ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   TwinPass pass(kTarget);
   pass.draw(OneColor{glm::vec4(1.0f)}, mesh.positions(), mesh.indices);
@@ -161,7 +161,7 @@ TEST_P(OffsetOf, DrawsTheSamePictureAndDepth) {
   const Figures figures = pass.figures(0);
   report(figures);
   expect_agreement(figures);
-  EXPECT_LE(figures.depth_differs, figures.covered / 100);  // Mesa errs by a few 1e-6 on steep triangles
+  EXPECT_LE(figures.depth_differs, figures.covered / 100);  // Mesa has an error of a few 1e-6 on steep triangles
 }
 
 INSTANTIATE_TEST_SUITE_P(Heap, OffsetOf,
@@ -190,7 +190,7 @@ class BlendOf : public MesaFixture<testing::TestWithParam<BlendCase>> {
   }
 };
 
-TEST_P(BlendOf, OneLayerOntoAPicture) {
+TEST_P(BlendOf, OneLayerOverAnImage) {
   const ColoredMesh picture = make_sheet(7, 5, 0.3f, 1), layer = make_sheet(9, 8, 0.3f, 2, 0.6f);
   TwinPass pass(kTarget);
   pass.draw(SmoothColor{}, picture.positions_and_colors(), picture.indices);
@@ -201,7 +201,7 @@ TEST_P(BlendOf, OneLayerOntoAPicture) {
   expect_agreement(figures);
 }
 
-// Some twenty layers. Each is rounded to 8 bits; Halfspace computes it in float, Mesa from 8-bit colours and factors.
+// About twenty layers, each rounded to 8 bits. Halfspace computes a layer in float, Mesa from 8-bit colors and factors.
 TEST_P(BlendOf, ManyLayers) {
   ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   for (std::size_t i = 0; i < mesh.colors.size(); ++i) mesh.colors[i].w = 0.2f + 0.1f * static_cast<float>(i % 6);
@@ -212,7 +212,7 @@ TEST_P(BlendOf, ManyLayers) {
   pass.run();
   const Figures figures = pass.figures(200);
   report(figures);
-  expect_halfspace_right(figures, "blends 8-bit colours in whole numbers, so that rounding adds up from layer to layer");
+  expect_halfspace_right(figures, "blends 8-bit colors in integers, so rounding errors accumulate from layer to layer");
 }
 
 namespace {

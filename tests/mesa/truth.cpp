@@ -44,7 +44,7 @@ double factor(BlendFactor f, const glm::dvec4& src, const glm::dvec4& dst, const
     case BlendFactor::one_minus_constant_color: return 1.0 - constant[k];
     case BlendFactor::constant_alpha: return constant.w;
     case BlendFactor::one_minus_constant_alpha: return 1.0 - constant.w;
-    default: return k == 3 ? 1.0 : std::min(src.w, 1.0 - dst.w);  // src_alpha_saturate; no twin has a second source
+    default: return k == 3 ? 1.0 : std::min(src.w, 1.0 - dst.w);  // src_alpha_saturate; dual-source factors are not used in these tests
   }
 }
 
@@ -98,7 +98,7 @@ TruthTriangle truth_triangle(const std::array<glm::vec4, 3>& pos_clip, const Rec
 
 std::array<double, 3> TruthTriangle::weights(double px, double py) const {
   std::array<double, 3> b;
-  for (std::size_t i = 0; i < 3; ++i) {  // exact for snapped positions: products below 2^53
+  for (std::size_t i = 0; i < 3; ++i) {  // exact for snapped positions, because products are below 2^53
     const std::size_t s = (i + 1) % 3, e = (i + 2) % 3;
     b[i] = ((x[e] - x[s]) * (py - y[s]) - (y[e] - y[s]) * (px - x[s])) / area;
   }
@@ -111,7 +111,7 @@ bool TruthTriangle::covers(const std::array<double, 3>& b, bool fill_rule) const
     const double p = b[i] * (q[i] > 0.0 ? 1.0 : -1.0);
     if (p < 0.0) return false;
     if (p > 0.0 || !fill_rule) continue;
-    // On the edge: the samples of left edges, and of horizontal ones below the inside, belong to the triangle.
+    // On the edge: samples on left edges and on horizontal edges below the interior belong to the triangle.
     const std::size_t s = (i + 1) % 3, e = (i + 2) % 3;
     const double turn = area > 0.0 ? 1.0 : -1.0;
     const double ex = (x[e] - x[s]) * turn, ey = (y[e] - y[s]) * turn;

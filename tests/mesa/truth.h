@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pixel in double precision, by the plainest reading of OpenGL: every triangle in turn, no clipping (a point of the
-// plane is judged by the signs of its clip-space weights), the shader run with R = double. It tells whose error a
-// difference is. Vertex functions run in float, as both renderers run them. The target holds 8-bit codes: every fragment
-// is rounded to them, and blending starts from them.
+// Computes a pixel in double precision, following the OpenGL specification as directly as possible: all triangles in order, no clipping
+// (coverage follows from the signs of clip-space weights), and the shader evaluated with R = double. This decides which renderer causes a
+// difference. Vertex functions are evaluated in float, as in both renderers. The target stores 8-bit codes: every fragment is rounded to
+// them, and blending starts from them.
 #pragma once
 
 #include <algorithm>
@@ -15,39 +15,40 @@
 
 namespace halfspace::test {
 
-/// Where the vertices lie: as computed, or rounded to the 1/256 px grid (triangles that reach w ≤ 0 are never rounded).
+/// Vertex positions: as computed, or rounded to the 1/256 px grid. Triangles that reach w ≤ 0 are never rounded.
 enum class Positions { exact, snapped };
 
-/// What a pixel holds so far.
+/// Current contents of a pixel.
 struct TruthPixel {
   glm::u8vec4 codes{0};
   double depth = 1.0;
 };
 
 bool passes(CompareOp op, double value, double held);
-/// The 8-bit codes of a linear colour.
+/// Returns the 8-bit codes of a linear color.
 glm::u8vec4 truth_codes(const glm::dvec4& color, ColorFormat format);
-/// A fragment's colour onto the codes of a pixel.
+/// Blends the color of a fragment with the codes of a pixel.
 glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& held, const BlendState& blend, ColorFormat format);
 
-/// A triangle in window coordinates, in 1/256 px. Weights may be negative or w below 0: the formulas are projective.
+/// A triangle in window coordinates, in 1/256 px. Weights and w can be negative, because the formulas are projective.
 struct TruthTriangle {
   std::array<double, 3> x, y, z, q;  ///< q = 1/w
   double area;
 
-  /// Window-space (linear) weights at a point, in the same units.
+  /// Returns the window-space (linear) weights at a point, in 1/256 px.
   std::array<double, 3> weights(double px, double py) const;
-  /// Does the point belong to the triangle? owner: points exactly on an edge follow the fill rule, else all belong.
+  /// Returns whether the point with these weights belongs to the triangle. With fill_rule, points exactly on an edge follow the fill rule;
+  /// otherwise they all belong to it.
   bool covers(const std::array<double, 3>& b, bool fill_rule) const;
 };
 TruthTriangle truth_triangle(const std::array<glm::vec4, 3>& pos_clip, const Rect& viewport, const DepthState& depth, Positions positions);
 bool truth_culled(const TruthTriangle& t, const DrawState& state);
 
-/// A draw that can be asked for its fragments at a pixel.
+/// A draw call that can be evaluated at a single pixel.
 class TruthDraw {
  public:
   virtual ~TruthDraw() = default;
-  /// Draws into one pixel: its centre, in window coordinates (y up).
+  /// Draws to one pixel. `center` is its center in window coordinates (y up).
   virtual void draw(const glm::dvec2& center, Positions positions, TruthPixel& pixel) const = 0;
 };
 

@@ -16,7 +16,7 @@ int distance(const glm::u8vec4& a, const glm::u8vec4& b) {
   return d;
 }
 
-// At most `most` of the pixels, spread evenly.
+// Returns at most `most` of the pixels, evenly distributed.
 std::vector<std::pair<int, int>> some_of(const std::vector<std::pair<int, int>>& pixels, int most) {
   std::vector<std::pair<int, int>> some;
   if (most == 0 || pixels.empty()) return some;
@@ -70,7 +70,7 @@ Figures TwinPass::fragment_figures(int most_judged) const {
   for (int row = 0; row < target_.height; ++row) {
     for (int x = 0; x < target_.width; ++x) {
       const int a = ours_.color.at(x, row).x, b = mesa_.color.at(x, row).x;
-      EXPECT_LT(std::max(a, b), 255) << "too many layers to count";
+      EXPECT_LT(std::max(a, b), 255) << "more layers than an 8-bit count can hold";
       f.covered += std::max(a, b);
       f.coverage_differs += std::abs(a - b);
       f.worst = std::max(f.worst, std::abs(a - b));
@@ -102,11 +102,11 @@ void TwinPass::judge(int x, int row, int tolerance, Figures& f) const {
   const auto text = [](const glm::u8vec4& c) {
     return std::to_string(c.x) + ',' + std::to_string(c.y) + ',' + std::to_string(c.z) + ',' + std::to_string(c.w);
   };
-  std::printf("    x %d row %d: Halfspace %s  Mesa %s  truth %s  of unsnapped vertices %s\n", x, row, text(a).c_str(), text(b).c_str(),
+  std::printf("    x %d row %d: Halfspace %s  Mesa %s  truth %s  for unsnapped vertices %s\n", x, row, text(a).c_str(), text(b).c_str(),
               text(snapped).c_str(), text(exact).c_str());
 }
 
-// Clipping makes vertices that are snapped too, which moves an edge by up to 1/256 px: the truth does not know of them.
+// Clipping creates vertices that are also snapped, which moves an edge by up to 1/256 px; the reference does not model them.
 bool TwinPass::is_right_beside(int x, int row, int tolerance) const {
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
@@ -127,16 +127,17 @@ void TwinPass::judge_depths(const std::vector<std::pair<int, int>>& pixels, int 
 
 void report(const Figures& f) {
   const auto n = [](int64_t v) { return static_cast<long long>(v); };
-  std::printf("  covered %lld  coverage differs %lld (%.4f%%)  colour differs %lld (%.4f%%)  worst %d/255  depth differs %lld\n",
+  std::printf("  covered %lld  coverage differs %lld (%.4f%%)  color differs %lld (%.4f%%)  worst %d/255  depth differs %lld\n",
               n(f.covered), n(f.coverage_differs), 100.0 * f.coverage_share(), n(f.color_differs), 100.0 * f.color_share(), f.worst,
               n(f.depth_differs));
   if (f.halfspace_depth_error + f.mesa_depth_error > 0.0)
     std::printf("  largest depth error where depths differ: Halfspace %.2g, Mesa %.2g\n", f.halfspace_depth_error, f.mesa_depth_error);
   if (f.halfspace_right_beside != 0)
-    std::printf("  Halfspace right for a point within 1/256 px of the pixel's centre: %lld more\n", n(f.halfspace_right_beside));
+    std::printf("  Halfspace correct for a point within 1/256 px of the pixel center: %lld more\n", n(f.halfspace_right_beside));
   if (f.judged != 0)
     std::printf(
-        "  of %lld judged in double: Halfspace right %lld, Mesa %lld of vertices on the 1/256 px grid; %lld and %lld of unsnapped ones\n",
+        "  of %lld checked in double: correct for vertices on the 1/256 px grid: Halfspace %lld, Mesa %lld; for unsnapped ones: %lld and "
+        "%lld\n",
         n(f.judged), n(f.halfspace_right), n(f.mesa_right), n(f.halfspace_right_exact), n(f.mesa_right_exact));
   testing::Test::RecordProperty("covered", std::to_string(f.covered));
   testing::Test::RecordProperty("coverage_differs", std::to_string(f.coverage_differs));

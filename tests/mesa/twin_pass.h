@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene drawn twice, by Halfspace's Pass and by Mesa, and how far the two agree.
+// Draws a scene with Halfspace's Pass and with Mesa, and measures how far the results agree.
 #pragma once
 
 #include <string>
@@ -14,23 +14,23 @@ namespace halfspace::test {
 
 inline constexpr float kDepthTolerance = 1e-6f;
 
-/// The figures of a comparison. A pixel is covered where alpha left its clear value 0.
+/// Results of a comparison. A pixel counts as covered if its alpha differs from the clear value 0.
 struct Figures {
-  int64_t covered = 0;           ///< pixels covered in either picture
-  int64_t coverage_differs = 0;  ///< … in one only
+  int64_t covered = 0;           ///< pixels covered in either image
+  int64_t coverage_differs = 0;  ///< pixels covered in only one image
   int64_t color_differs = 0;     ///< a channel differs by more than one code
-  int worst = 0;                 ///< the largest difference of a channel, in codes
+  int worst = 0;                 ///< maximum difference of a channel, in codes
   int64_t depth_differs = 0;     ///< window depths differ by more than kDepthTolerance
 
-  // Of the pixels that differ, judged in double precision (a sample of them, where they are many):
+  // Differing pixels, or a sample of them if there are many, checked against double precision:
   int64_t judged = 0;
-  int64_t halfspace_right = 0, mesa_right = 0;              ///< within one code of the truth of snapped vertices
-  int64_t halfspace_right_exact = 0, mesa_right_exact = 0;  ///< … of unsnapped vertices
-  int64_t halfspace_right_beside = 0;                       ///< not the first, but right for a point 1/256 px beside
-  // Of the pixels whose depth differs, where colours agree: the largest errors.
+  int64_t halfspace_right = 0, mesa_right = 0;              ///< within one code of the reference for snapped vertices
+  int64_t halfspace_right_exact = 0, mesa_right_exact = 0;  ///< within one code of the reference for unsnapped vertices
+  int64_t halfspace_right_beside = 0;                       ///< wrong for the pixel center, but correct for a point within 1/256 px of it
+  // Maximum errors over pixels whose depths differ although their colors agree.
   double halfspace_depth_error = 0.0, mesa_depth_error = 0.0;
 
-  /// The share of the judged pixels where Halfspace errs (all, if none was judged).
+  /// Returns the share of the checked pixels for which Halfspace is wrong, or 1 if none was checked.
   double halfspace_wrong() const {
     return judged == 0 ? 1.0 : 1.0 - static_cast<double>(halfspace_right + halfspace_right_beside) / static_cast<double>(judged);
   }
@@ -45,7 +45,7 @@ class TwinPass {
  public:
   explicit TwinPass(const TargetSpec& target = {}) : target_(target) {}
 
-  /// Adds a draw to both. Vertices, indices and textures must outlive run().
+  /// Adds a draw call to both. Vertices, indices and textures must outlive run().
   template <Shader S>
   void draw(const S& shader, const VertexView& vertices, const std::vector<uint32_t>& indices, const DrawState& state = {}) {
     const auto list = std::make_shared<const Indices>(indices, vertices.vertex_count);
@@ -55,17 +55,17 @@ class TwinPass {
     truths_.push_back(std::make_unique<TruthDrawOf<S>>(shader, vertices, indices, state, target_));
   }
 
-  /// Draws both pictures.
+  /// Draws both images.
   void run();
   const Picture& halfspace() const { return ours_; }
   const Picture& mesa() const { return mesa_; }
 
-  /// Compares the pictures, and judges up to most_judged differing pixels in double precision. With the environment
-  /// variable HALFSPACE_MESA_PIXELS set, the judged pixels are printed.
+  /// Compares the images and checks up to most_judged differing pixels in double precision. If the environment variable
+  /// HALFSPACE_MESA_PIXELS is set, these pixels are printed.
   Figures figures(int most_judged = 0) const;
-  /// For additive draws of 1/255: the number of fragments of every pixel, compared; covered counts fragments.
+  /// Compares the number of fragments per pixel, for additive draws of 1/255; `covered` then counts fragments.
   Figures fragment_figures(int most_judged = 0) const;
-  /// The truth of one pixel, or of a point beside its centre (in pixels).
+  /// Returns the reference value of a pixel, or of a point at the offset `beside` (in pixels) from its center.
   TruthPixel truth(int x, int row, Positions positions, const glm::dvec2& beside = glm::dvec2(0.0)) const;
 
  private:
@@ -81,7 +81,7 @@ class TwinPass {
   Picture ours_, mesa_;
 };
 
-/// The default state, changed: state_with([](DrawState& s) { s.cull = CullMode::back; }).
+/// Returns the default state with a change: state_with([](DrawState& s) { s.cull = CullMode::back; }).
 template <class Change>
 DrawState state_with(const Change& change) {
   DrawState state;
@@ -89,20 +89,20 @@ DrawState state_with(const Change& change) {
   return state;
 }
 
-/// The name of a parameterized test: its parameter's.
+/// Returns the name of a parameterized test, which is that of its parameter.
 inline const auto case_name = [](const auto& test) { return std::string(test.param.name); };
 
-/// Prints the figures, and records them as properties of the running test.
+/// Prints the figures and records them as properties of the running test.
 void report(const Figures& figures);
 
-/// Coverage may differ on at most 0.01% of the covered pixels, and colour must be within 1/255 on at least 99.9%.
+/// Coverage may differ on at most 0.01% of the covered pixels, and color must be within 1/255 on at least 99.9%.
 inline constexpr double kCoverageBound = 1e-4, kColorBound = 1e-3;
-/// Expects the two pictures to agree within the bounds.
+/// Expects that the two images agree within the bounds.
 void expect_agreement(const Figures& figures);
-/// For what Mesa is known to draw less exactly, for the reason given: expects Halfspace's picture to agree with the truth
-/// (of vertices on the 1/256 px grid) within the bounds, as far as the judged pixels tell.
+/// Expects that Halfspace agrees with the reference for vertices on the 1/256 px grid within the bounds, extrapolated from the checked
+/// pixels. Used for features that Mesa is known to draw less accurately; what_mesa_does is the reason.
 void expect_halfspace_right(const Figures& figures, const char* what_mesa_does);
-/// The one or the other: what_mesa_does null means that they agree.
+/// Calls expect_agreement if what_mesa_does is null, and expect_halfspace_right otherwise.
 inline void expect_verdict(const Figures& figures, const char* what_mesa_does) {
   what_mesa_does == nullptr ? expect_agreement(figures) : expect_halfspace_right(figures, what_mesa_does);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shaders written twice, for Halfspace and in GLSL, side by side: line for line the same. kSharedGlsl comes before
-// each kVertexGlsl and kFragmentGlsl; uniforms() names every member for GLSL.
+// Each shader is written for Halfspace and in GLSL, line by line the same. kSharedGlsl is prepended to each kVertexGlsl and kFragmentGlsl;
+// uniforms() sets every member as a GLSL uniform.
 #pragma once
 
 #include "halfspace/shading/contract.h"
@@ -9,9 +9,9 @@
 
 namespace halfspace::test {
 
-// ---- functions that the shaders share ---------------------------------------------------------------------------
+// ---- functions shared by the shaders -----------------------------------------------------------------------------
 
-/// (diffuse, specular) of a point light.
+/// Returns (diffuse, specular) of a point light.
 template <class R>
 HS_INLINE vec2<R> blinn_phong(const vec3<R>& p, const vec3<R>& n, const glm::vec3& eye, const glm::vec3& light) {
   const vec3<R> N = normalize(n);
@@ -20,8 +20,8 @@ HS_INLINE vec2<R> blinn_phong(const vec3<R>& p, const vec3<R>& n, const glm::vec
   return vec2<R>(R(0.08f) + R(0.8f) * max(dot(N, L), R(0.0f)), R(0.4f) * pow(max(dot(N, H), R(0.0f)), R(48.0f)));
 }
 
-/// Comes before every GLSL source. transform() is our mat4 × vec4: it adds in the same order, which `precise` keeps;
-/// level_of_detail() is Halfspace's of that name (shading/texture.h), from the differences that GLSL offers.
+/// Prepended to every GLSL source. transform() is our mat4 × vec4; it adds in the same order, which `precise` preserves. level_of_detail()
+/// matches the function of that name in shading/texture.h, computed from the differences that GLSL provides.
 inline constexpr const char* kSharedGlsl = R"(#version 450 core
     vec4 transform(mat4 m, vec4 p) {
       precise vec4 r = (m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3] * p.w);
@@ -40,9 +40,9 @@ inline constexpr const char* kSharedGlsl = R"(#version 450 core
       return 0.5 * log2(max(dot(dx, dx), dot(dy, dy)));
     })";
 
-// ---- a colour at each vertex, interpolated in the three ways --------------------------------------------------------
+// ---- vertex colors with the three interpolation qualifiers ----------------------------------------------------------
 
-/// Perspective-correct colours. Positions are in clip space.
+/// Perspective-correct colors. Positions are in clip space.
 struct SmoothColor {
   template <class R>
   struct Attributes {
@@ -81,7 +81,7 @@ struct SmoothColor {
   void uniforms(const Set&) const {}
 };
 
-/// The provoking vertex's colour.
+/// The color of the provoking vertex.
 struct FlatColor {
   template <class R>
   struct Attributes {
@@ -120,7 +120,7 @@ struct FlatColor {
   void uniforms(const Set&) const {}
 };
 
-/// Colours that vary linearly in the window, whatever the perspective.
+/// Colors interpolated linearly in window space, without perspective correction.
 struct LinearColor {
   template <class R>
   struct Attributes {
@@ -159,7 +159,7 @@ struct LinearColor {
   void uniforms(const Set&) const {}
 };
 
-/// One colour for all pixels.
+/// One color for all pixels.
 struct OneColor {
   glm::vec4 color{1.0f};
 
@@ -193,9 +193,9 @@ struct OneColor {
   }
 };
 
-// ---- Blinn and Phong's light on a sphere: per pixel, per vertex, per triangle ---------------------------------------
+// ---- Blinn-Phong lighting of a sphere: per pixel, per vertex, per triangle ------------------------------------------
 
-/// The uniforms and attributes of the three.
+/// Uniforms and attributes shared by the lit shaders.
 struct Lit {
   glm::mat4 clip_from_world{1.0f};
   glm::vec3 eye{0.0f}, light{0.0f};
@@ -253,7 +253,7 @@ struct PhongPerPixel : Lit {
     })";
 };
 
-/// The same with a texture in place of the base colour, at the level of detail of OpenGL 4.6, section 8.14.1.
+/// PhongPerPixel with a texture in place of the base color, sampled at the level of detail of OpenGL 4.6, section 8.14.1.
 struct TexturedPhong : Lit {
   const Texture2D* albedo = nullptr;
   Sampler sampler;
@@ -310,7 +310,7 @@ struct TexturedPhong : Lit {
   }
 };
 
-/// The same shader; in GLSL the level of detail is left to Mesa.
+/// TexturedPhong, but the GLSL version lets Mesa choose the level of detail.
 struct ImplicitlyTexturedPhong : TexturedPhong {
   static constexpr const char* kFragmentGlsl = R"(
     in vec3 position, normal;

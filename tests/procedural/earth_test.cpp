@@ -18,7 +18,7 @@ int difference(const glm::u8vec4& a, const glm::u8vec4& b) {
   return d;
 }
 
-// The largest and the mean difference of two columns.
+// Returns the maximum and the mean difference between two columns.
 std::pair<int, double> column_difference(const Image<glm::u8vec4>& map, int a, int b) {
   int most = 0;
   double sum = 0;
@@ -30,8 +30,7 @@ std::pair<int, double> column_difference(const Image<glm::u8vec4>& map, int a, i
   return {most, sum / map.height()};
 }
 
-// The same picture with every compiler, lane width and processor.
-TEST(ProceduralEarth, BothMapsAtOnceAreThoseOneByOne) {
+TEST(ProceduralEarth, CombinedMapsMatchSeparateMaps) {
   for (const int width : {1, 37, 200}) {
     const EarthMaps maps = procedural_earth_maps(width, 50, Workers(2));
     EXPECT_TRUE(maps.color == procedural_earth(width, 50, Workers(1)));
@@ -39,14 +38,15 @@ TEST(ProceduralEarth, BothMapsAtOnceAreThoseOneByOne) {
   }
 }
 
-TEST(ProceduralEarth, SameBitsEverywhere) { expect_picture("earth", procedural_earth(512, 256, Workers(1))); }
+// The image is bit-identical for every compiler, SIMD width and processor.
+TEST(ProceduralEarth, MatchesTheStoredHash) { expect_picture("earth", procedural_earth(512, 256, Workers(1))); }
 
-TEST(ProceduralEarth, ThreadsChangeNothing) {
+TEST(ProceduralEarth, IsBitIdenticalForAnyThreadCount) {
   EXPECT_TRUE(procedural_earth(200, 100, Workers(1)) == procedural_earth(200, 100, Workers(7)));
 }
 
-// A width that is no multiple of the lanes, and the least sizes.
-TEST(ProceduralEarth, AnySizeIsFilled) {
+// The minimum sizes, and a width that is not a multiple of the SIMD width.
+TEST(ProceduralEarth, FillsImagesOfAnySize) {
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(37, 19), std::pair(2, 50)}) {
     const Image<glm::u8vec4> map = procedural_earth(width, height, Workers(1));
     ASSERT_EQ(map.width(), width);
@@ -58,7 +58,7 @@ TEST(ProceduralEarth, AnySizeIsFilled) {
   }
 }
 
-// The left and the right edge are neighbours on the sphere: they differ no more than neighbours elsewhere.
+// The left and right edges are adjacent on the sphere, so they must not differ more than adjacent columns do elsewhere.
 TEST(ProceduralEarth, HasNoSeam) {
   const Image<glm::u8vec4> map = procedural_earth(1024, 512, Workers(2));
   double elsewhere = 0;
@@ -66,7 +66,7 @@ TEST(ProceduralEarth, HasNoSeam) {
   EXPECT_LE(column_difference(map, map.width() - 1, 0).second, elsewhere);
 }
 
-// Near a pole all longitudes are one place.
+// All longitudes coincide at a pole.
 TEST(ProceduralEarth, PolesAreNotPinched) {
   const Image<glm::u8vec4> map = procedural_earth(512, 4096, Workers(2));
   for (const int row : {0, 4095}) {
@@ -74,8 +74,8 @@ TEST(ProceduralEarth, PolesAreNotPinched) {
   }
 }
 
-// What makes it Earth-like: most of it is sea, the caps are light, and there are green lands and deserts.
-TEST(ProceduralEarth, LooksLikeAnEarth) {
+// Most of the surface is sea, the caps are bright, and there are green areas and deserts.
+TEST(ProceduralEarth, HasPlausibleColors) {
   const Image<glm::u8vec4> map = procedural_earth(256, 128, Workers(2));
   int sea = 0, green = 0, sand = 0, all = 0;
   for (int y = 8; y < map.height() - 8; ++y) {

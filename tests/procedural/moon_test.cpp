@@ -32,18 +32,18 @@ const MoonMaps& moon_512() {
   return maps;
 }
 
-// The same maps with every compiler, lane width and processor.
-TEST(ProceduralMoon, SameBitsEverywhere) {
+// The maps are bit-identical for every compiler, SIMD width and processor.
+TEST(ProceduralMoon, MatchesTheStoredHash) {
   EXPECT_TRUE(expect_hash("moon", hash_of(moon_512()))) << write_failed_picture("moon", moon_512().color, {});
 }
 
-TEST(ProceduralMoon, ThreadsChangeNothing) {
+TEST(ProceduralMoon, IsBitIdenticalForAnyThreadCount) {
   const MoonMaps one = procedural_moon(202, Workers(1)), many = procedural_moon(202, Workers(7));
   EXPECT_TRUE(one.color == many.color);
   EXPECT_TRUE(one.height == many.height);
 }
 
-TEST(ProceduralMoon, AnySizeIsFilled) {
+TEST(ProceduralMoon, FillsImagesOfAnySize) {
   for (const int width : {2, 6, 38}) {
     const MoonMaps maps = procedural_moon(width, Workers(1));
     ASSERT_EQ(maps.color.width(), width);
@@ -58,7 +58,7 @@ TEST(ProceduralMoon, AnySizeIsFilled) {
   EXPECT_DEATH(procedural_moon(3, Workers(1)), "width % 2");
 }
 
-// The Moon's own heights are −9.1 to 10.8 km; means and shares by area, which a row has in proportion to sin πv.
+// The heights of the real Moon range from −9.1 to 10.8 km. Means and shares are weighted by area, which is proportional to sin πv.
 TEST(ProceduralMoon, HasPlausibleStatistics) {
   const MoonMaps& maps = moon_512();
   double area = 0, height = 0, square = 0, dark = 0, dark_near = 0, luminance = 0;
@@ -87,24 +87,24 @@ TEST(ProceduralMoon, HasPlausibleStatistics) {
   EXPECT_LT(km(highest), 9.5);
   EXPECT_NEAR(luminance / area, 145, 12);
   EXPECT_NEAR(dark / area, 0.17, 0.06);
-  EXPECT_GT(dark_near, 0.8 * dark) << "most seas are on the near side";
+  EXPECT_GT(dark_near, 0.8 * dark) << "most maria are on the near side";
 }
 
-// The mean difference of two columns' heights in km.
+// Returns the mean difference between the heights of two columns, in km.
 double column_difference(const MoonMaps& maps, int a, int b) {
   double sum = 0;
   for (int y = 0; y < maps.height.height(); ++y) sum += std::fabs(km(maps.height.at(a, y)) - km(maps.height.at(b, y)));
   return sum / maps.height.height();
 }
 
-// The left and the right edge are neighbours on the sphere: they differ no more than neighbours elsewhere.
+// The left and right edges are adjacent on the sphere, so they must not differ more than adjacent columns do elsewhere.
 TEST(ProceduralMoon, HasNoSeam) {
   double elsewhere = 0;
   for (int x = 0; x + 1 < 512; ++x) elsewhere = std::max(elsewhere, column_difference(moon_512(), x, x + 1));
   EXPECT_LE(column_difference(moon_512(), 511, 0), elsewhere);
 }
 
-// Half a texel from a pole, neighbours round it are a small part of a texel apart on the sphere.
+// In the row half a texel from a pole, adjacent texels are a small fraction of a texel apart on the sphere.
 TEST(ProceduralMoon, PolesAreNotPinched) {
   const MoonMaps maps = procedural_moon(1024, Workers(2));
   for (const int row : {0, 511}) {
@@ -130,7 +130,7 @@ CraterRow row_at(double pi_v, int width) {
   return row;
 }
 
-// As many craters larger than r as r^-2: halving the radius makes four times as many.
+// The number of craters larger than r is proportional to r^-2, so halving the radius gives four times as many.
 TEST(MoonCraters, SizesFollowAPowerLaw) {
   const Craters craters = moon_craters(2048);
   const auto larger_than = [&](float r) {
@@ -143,8 +143,8 @@ TEST(MoonCraters, SizesFollowAPowerLaw) {
   EXPECT_NEAR(larger_than(0.012f) / larger_than(0.024f), 4.0, 0.8);
 }
 
-// One crater without wobble has one profile everywhere: the relief depends on the distance on the sphere alone, also where
-// the seam or a pole cuts through it. Floats of distances carry 1e-7 of 1, slopes are up to 4 km over 0.02.
+// Without wobble, a crater has the same profile everywhere: the relief depends only on the distance on the sphere, even where the crater
+// crosses the seam or a pole. Distances have a float error of 1e-7, and slopes reach 4 km per 0.02.
 TEST(MoonCraters, AreRoundOnTheSphere) {
   Crater crater = moon_craters(2048).all.back();
   std::fill(std::begin(crater.wobble), std::end(crater.wobble), 0.0f);
@@ -153,7 +153,7 @@ TEST(MoonCraters, AreRoundOnTheSphere) {
     crater.center = glm::vec3(glm::dvec3(s, c, 0));  // on the seam
     crater.east = glm::vec3(0, 0, -1);
     crater.north = glm::vec3(glm::dvec3(-c, s, 0));
-    std::vector<std::pair<double, double>> reliefs;  // distance, km
+    std::vector<std::pair<double, double>> reliefs;  // distance, height in km
     for (double pi_v = 0.001; pi_v < std::numbers::pi; pi_v += 0.002) {
       CraterRow row = row_at(pi_v, 512);
       stamp(crater, row);
@@ -177,7 +177,7 @@ TEST(MoonCraters, AreRoundOnTheSphere) {
   }
 }
 
-TEST(MoonCraters, HaveAFloorARimAndABlanket) {
+TEST(MoonCraters, HaveValidProfilesAndRowRanges) {
   for (const Crater& crater : moon_craters(1024).all) {
     EXPECT_GT(crater.depth, 0.0f);
     EXPECT_GT(crater.rim, 0.0f);

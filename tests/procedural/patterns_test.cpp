@@ -45,17 +45,17 @@ uint64_t hash_of(const PatternMaps& m) {
   return hash.value();
 }
 
-// With every compiler, lane width and processor.
-TEST_P(Patterns, SameBitsEverywhere) {
+// The maps are bit-identical for every compiler, SIMD width and processor.
+TEST_P(Patterns, MatchTheStoredHash) {
   const PatternMaps maps = make(192);
   std::string name = GetParam().name;
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   EXPECT_TRUE(expect_hash("pattern-" + name, hash_of(maps))) << write_failed_picture("pattern-" + name, maps.color, {});
 }
 
-TEST_P(Patterns, ThreadsChangeNothing) { EXPECT_EQ(hash_of(make(130, 1)), hash_of(make(130, 7))); }
+TEST_P(Patterns, AreBitIdenticalForAnyThreadCount) { EXPECT_EQ(hash_of(make(130, 1)), hash_of(make(130, 7))); }
 
-TEST_P(Patterns, AnySizeIsFilled) {
+TEST_P(Patterns, FillImagesOfAnySize) {
   for (const int width : {1, 2, 37}) {
     const PatternMaps m = make(width);
     for (const auto* map : {&m.color, &m.specular, &m.emissive}) {
@@ -76,8 +76,8 @@ double difference(const PatternMaps& m, int x0, int y0, int x1, int y1) {
   return d;
 }
 
-// Opposite edges are neighbours: over them the map changes no more than over any other line between texels.
-TEST_P(Patterns, Tile) {
+// Opposite edges are adjacent when tiled, so the map must not change more across them than between adjacent texels elsewhere.
+TEST_P(Patterns, TileSeamlessly) {
   const int n = 256;
   const PatternMaps m = make(n);
   double across[2] = {}, elsewhere[2] = {};
@@ -93,8 +93,8 @@ TEST_P(Patterns, Tile) {
   for (int axis = 0; axis < 2; ++axis) EXPECT_LE(across[axis], elsewhere[axis]);
 }
 
-// The noise itself is periodic to the rounding of u + 1 (2^-24, of up to 64 cells).
-TEST(TiledNoise, RepeatsWithItsPeriod) {
+// The noise is periodic up to the rounding of u + 1 (2^-24, times up to 64 cells).
+TEST(TiledNoise, IsPeriodic) {
   using namespace procedural;
   for (float u = 0.003f; u < 1.0f; u += 0.0371f) {
     for (float v = 0.011f; v < 1.0f; v += 0.0913f) {
@@ -107,8 +107,8 @@ TEST(TiledNoise, RepeatsWithItsPeriod) {
   }
 }
 
-// Waves that two texels cannot show are left out.
-TEST(TiledNoise, IsNoFinerThanItsTexels) {
+// Octaves that are too fine to be represented by the texels are omitted.
+TEST(TiledNoise, OmitsOctavesFinerThanTheTexels) {
   using namespace procedural;
   const auto at = [](int octaves, int texels) { return lane(tiled_cloud(Real(0.31f), Real(0.77f), 8, 8, octaves, texels, 5), 0); };
   EXPECT_EQ(at(9, 64), at(3, 1 << 20));
@@ -129,14 +129,14 @@ TEST(Checkerboard, IsExact) {
   }
 }
 
-// Each looks like what it is called: means and shares of its colours.
+// Checks that each pattern looks like its name, by mean colors and shares.
 glm::dvec3 mean_of(const Image<glm::u8vec4>& map) {
   glm::dvec3 sum(0.0);
   for (const glm::u8vec4& t : map.texels()) sum += glm::dvec3(t.x, t.y, t.z);
   return sum / static_cast<double>(map.texels().size());
 }
 
-TEST(PatternsLook, LikeTheirNames) {
+TEST(PatternsLook, MatchesTheName) {
   const auto mean = [](Pattern p) { return mean_of(procedural_pattern(p, 128, Workers(2)).color); };
   const glm::dvec3 grass = mean(Pattern::grass), bark = mean(Pattern::bark), bricks = mean(Pattern::bricks), rock = mean(Pattern::rock);
   EXPECT_TRUE(grass.y > grass.x && grass.x > grass.z) << "green";
@@ -150,16 +150,16 @@ TEST(PatternsLook, LikeTheirNames) {
       const bool is_lit = facade.emissive.at(x, y).x > 60;
       lit += is_lit;
       shiny += facade.specular.at(x, y).x > 150;
-      both += is_lit && facade.specular.at(x, y).x > 41;  // a frame has 0.16 · 255
+      both += is_lit && facade.specular.at(x, y).x > 41;  // the value of a frame is 0.16 · 255
     }
   }
-  EXPECT_NEAR(shiny / 16384.0, 0.225 * 0.56 * 2, 0.02) << "the panes";
-  EXPECT_EQ(both, lit) << "light comes through glass alone";
+  EXPECT_NEAR(shiny / 16384.0, 0.225 * 0.56 * 2, 0.02) << "area of the panes";
+  EXPECT_EQ(both, lit) << "only glass emits light";
   EXPECT_GT(lit, shiny / 8);
   EXPECT_LT(lit, shiny * 2 / 3);
 }
 
-TEST(PatternsLook, HeightsUseTheirRange) {
+TEST(PatternsLook, HeightsUseTheFullRange) {
   for (const Pattern p : {Pattern::bark, Pattern::bricks, Pattern::rock, Pattern::hills}) {
     const PatternMaps m = procedural_pattern(p, 256, Workers(2));
     uint16_t low = 65535, high = 0;

@@ -27,7 +27,7 @@ uint64_t hash_of(const SkyFaces& faces) {
   return hash.value();
 }
 
-// The six faces side by side.
+// Returns the six faces side by side.
 Image<glm::u8vec4> codes_of(const SkyFaces& faces) {
   const int size = faces[0].width();
   Image<glm::u8vec4> codes(6 * size, size);
@@ -46,22 +46,22 @@ void expect_sky(const std::string& name, const SkyFaces& faces) {
 
 const DaySky kDay{.sun_ms = {0.6f, 0.64f, 0.48f}, .clouds = 0.4f};
 
-TEST(ProceduralSky, SameBitsEverywhere) {
+TEST(ProceduralSky, MatchesTheStoredHash) {
   expect_sky("day-sky", procedural_day_sky(48, kDay, Workers(1)));
   expect_sky("night-sky", procedural_night_sky(48, {}, Workers(1)));
 }
 
-TEST(ProceduralSky, ThreadsChangeNothing) {
+TEST(ProceduralSky, IsBitIdenticalForAnyThreadCount) {
   EXPECT_EQ(procedural_day_sky(37, kDay, Workers(1)), procedural_day_sky(37, kDay, Workers(7)));
   EXPECT_EQ(procedural_night_sky(37, {}, Workers(1)), procedural_night_sky(37, {}, Workers(7)));
 }
 
 struct Range {
   float low = 1e9f, high = 0.0f;
-  double mean = 0.0;  // over the sphere
+  double mean = 0.0;  // averaged over solid angle
 };
 
-// Over the sky's upper half; `away` keeps so far from the sun (its cosine).
+// Returns the luminances of the upper hemisphere, excluding directions whose cosine with the sun exceeds `away`.
 Range luminances(const SkyFaces& faces, const glm::vec3& sun, float away) {
   Range r;
   double weights = 0;
@@ -85,7 +85,7 @@ Range luminances(const SkyFaces& faces, const glm::vec3& sun, float away) {
   return r;
 }
 
-TEST(ProceduralSky, LuminancesAreThoseOfTheHeader) {
+TEST(ProceduralSky, LuminancesMatchTheDocumentedRanges) {
   for (const float clouds : {0.0f, 0.4f, 1.0f}) {
     const SkyFaces day = procedural_day_sky(64, {.sun_ms = kDay.sun_ms, .clouds = clouds}, Workers(2));
     const Range r = luminances(day, kDay.sun_ms, 0.97f);
@@ -97,7 +97,7 @@ TEST(ProceduralSky, LuminancesAreThoseOfTheHeader) {
   EXPECT_LT(night.high, 1.2e-2f);
 }
 
-TEST(ProceduralSky, IsBrightestAtTheSunAndDarkensWithIt) {
+TEST(ProceduralSky, IsBrightestAtTheSunAndDarkensAsItSets) {
   const SkyFaces day = procedural_day_sky(256, kDay, Workers(2));
   const EnvironmentMap map(day, TexelFormat::rgba16f);
   EXPECT_GT(luminance(map.sample<float>(kDay.sun_ms, {}, {})), 15.0f);
@@ -111,9 +111,9 @@ TEST(ProceduralSky, IsBrightestAtTheSunAndDarkensWithIt) {
   }
 }
 
-TEST(ProceduralSky, MoreCloudsCoverMore) {
+TEST(ProceduralSky, MoreCloudsReduceBlue) {
   double last = 2;
-  for (const float clouds : {0.0f, 0.3f, 0.6f, 1.0f}) {  // clouds are white: their share is what is less blue
+  for (const float clouds : {0.0f, 0.3f, 0.6f, 1.0f}) {  // clouds are white, so more clouds mean less blue
     const SkyFaces day = procedural_day_sky(64, {.clouds = clouds}, Workers(2));
     double blue = 0, all = 0;
     for (const glm::vec4& t : day[2].texels()) {

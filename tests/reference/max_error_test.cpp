@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cheapest model that is right enough: random views of the shipped scenes, their outlines held against those of the finest
-// meshes. HALFSPACE_VIEWS sets how many views (9: one of each); scripts/test_full.sh takes more.
+// Checks that the cheapest model for an allowed error is accurate enough: compares the outlines in random views of the shipped scenes with
+// those of the finest meshes. HALFSPACE_VIEWS sets the number of views (9 by default, one per scene); scripts/test_full.sh uses more.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr int kWidth = 160, kHeight = 90;
 
 double uniform(std::mt19937& random, double low, double high) { return low + (high - low) * static_cast<double>(random()) / 4294967296.0; }
 
-// The camera somewhere else on the way round its target, nearer or farther.
+// Returns the camera at another position around its target, nearer or farther.
 CameraDescription moved(CameraDescription c, std::mt19937& random) {
   const glm::dvec3 offset = c.position - c.target;
   const SinCosDouble yaw = sincos_turns(uniform(random, 0.0, 1.0));
@@ -35,7 +35,7 @@ CameraDescription moved(CameraDescription c, std::mt19937& random) {
 
 bool is_smooth(const ObjectDescription& o) { return o.surface.shading != ShadingRate::flat && o.surface.shading != ShadingRate::provoking; }
 
-// Every smooth object by as fine a mesh as there is room for, particles as spheres. Facets that are meant stay.
+// Replaces every smooth object by the finest possible mesh, and particles by exact spheres. Flat-shaded facets are kept.
 SceneDescription finest(SceneDescription scene) {
   for (auto& [name, o] : scene.objects) {
     if (!is_smooth(o) || ((o.shape == Shape::plane || o.shape == Shape::cube) && !is_map(o.height))) continue;
@@ -56,8 +56,8 @@ RandomView random_view(int seed) {
                                "shadow-knot", "shadow-contact", "day-night",    "particles"};
   const std::string name = kScenes[static_cast<std::size_t>(seed) % kScenes.size()];
   SceneFile file = SceneFile::open(name);
-  // Where two surfaces meet at a grazing angle, the line between them moves farther than either: it is no silhouette. So the knot is
-  // lifted off its floor.
+  // Where two surfaces intersect at a grazing angle, the intersection line moves more than the surfaces do, and it is not a silhouette.
+  // Therefore the knot is lifted off its floor.
   if (name == "shadow-knot") file.set("knot.position=0,1,0");
   SceneDescription scene = file.at(uniform(random, 0.0, 20.0));
   auto& camera = scene.cameras[random() % scene.cameras.size()];
@@ -72,7 +72,7 @@ int number_of_views(int usual) {
   return asked != nullptr ? std::atoi(asked) : usual;
 }
 
-// Of many views, some may lie beyond what was asked, and none beyond twice that.
+// Of many views, 1% may exceed the allowed error, but none may exceed twice that error.
 class Tally {
  public:
   Tally(double asked, double known) : asked_(asked), known_(known) {}
@@ -91,7 +91,7 @@ class Tally {
   }
 
  private:
-  double asked_, known_;  // known_: how finely it was measured
+  double asked_, known_;  // known_: resolution of the measurement
   std::size_t views_ = 0;
   std::vector<std::string> beyond_;
   double largest_ = 0.0;
@@ -99,7 +99,7 @@ class Tally {
 
 constexpr double kAskedPx = 0.5;
 
-TEST(MaxError, OutlinesOfRandomViewsLieWithinIt) {
+TEST(MaxError, OutlinesOfRandomViewsAreWithinTheLimit) {
   constexpr int kFiner = 8;
   Tally tally(kAskedPx, 1.0 / kFiner);
   for (int seed = 0; seed < number_of_views(9); ++seed) {
@@ -114,9 +114,9 @@ TEST(MaxError, OutlinesOfRandomViewsLieWithinIt) {
   tally.judge();
 }
 
-// Shadows' edges, against rays from the same meshes. Not where light only grazes the triangles: with
-// less than a tenth of the light there is no edge to be seen, and what rays say hangs on how the surface was cut into triangles.
-TEST(MaxError, ShadowEdgesOfRandomViewsLieWithinIt) {
+// Compares shadow edges with rays through the same meshes, except where light only grazes the triangles. With less than a tenth of the
+// light no edge is visible, and the result of rays depends on the triangulation of the surface.
+TEST(MaxError, ShadowEdgesOfRandomViewsAreWithinTheLimit) {
   constexpr int kFiner = 4;
   constexpr float kGrazing = 0.1f;
   Tally tally(kAskedPx, 1.0 / kFiner);
@@ -125,7 +125,7 @@ TEST(MaxError, ShadowEdgesOfRandomViewsLieWithinIt) {
     if (view.scene.shadow.method == ShadowMethod::none) continue;
     SceneAssets assets(two_workers());
     FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
-    fitted.scene.shadow.footprint *= kFiner;  // in pixels of the finer picture
+    fitted.scene.shadow.footprint *= kFiner;  // in pixels of the finer image
     const ValidationOptions options{kFiner * kWidth, kFiner * kHeight, 1};
     for (const ShadowComparison& light : validate(view.name, fitted.scene, options, assets, two_workers()).lights) {
       Image<uint8_t> wrong(light.map.width(), light.map.height());
@@ -139,9 +139,9 @@ TEST(MaxError, ShadowEdgesOfRandomViewsLieWithinIt) {
   tally.judge();
 }
 
-// Colours against those by the finest meshes and filters, in floats, lit by pixel: 99.9 % of the pixels.
-TEST(MaxError, ColorsOfRandomViewsLieWithinIt) {
-  constexpr int kLarger = 2;  // fewer of its pixels are edges
+// Compares colors with those of the finest meshes and filters, in floats and lit per pixel, for 99.9 % of the pixels.
+TEST(MaxError, ColorsOfRandomViewsAreWithinTheLimit) {
+  constexpr int kLarger = 2;  // a larger image has relatively fewer edge pixels
   constexpr double kAskedCodes = 8.0;
   Tally tally(kAskedCodes, 0.0);
   for (int seed = 0; seed < number_of_views(9); ++seed) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadow maps against rays on scenes that no tuning saw: boxes, displaced spheres and tori over a plane, by seed.
-// HALFSPACE_SHADOW_SEED=N looks at one seed, HALFSPACE_SHADOW_SEEDS=N at more than CI does.
+// Compares shadow maps with rays in random scenes that were not used for tuning: boxes, displaced spheres and tori over a plane.
+// HALFSPACE_SHADOW_SEED=N runs a single seed, and HALFSPACE_SHADOW_SEEDS=N runs more than CI does.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@
 namespace halfspace {
 namespace {
 
-constexpr uint64_t kSeeds = 36;  // each of the 18 angles twice
+constexpr uint64_t kSeeds = 36;  // each of the 18 angles occurs twice
 
-// Numbers are drawn one a statement or within braces, as random.h asks.
+// Draws one number per statement or inside braces, as random.h requires.
 std::string random_vector(Random& random, float low, float high) {
   const glm::vec3 v{random.real(low, high), random.real(low, high), random.real(low, high)};
   return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
@@ -54,7 +54,7 @@ std::string on_a_sphere(double radius, double degrees_from_up, double turns) {
                      radius * std::sin(a) * std::sin(b));
 }
 
-// Degrees from the vertical: 0, 5 … 85.
+// Degrees from the vertical: 0, 5, …, 85.
 double light_angle(uint64_t seed) { return 5.0 * static_cast<double>(seed % 18); }
 
 std::string random_scene(uint64_t seed) {
@@ -78,7 +78,7 @@ std::string random_scene(uint64_t seed) {
 
 int64_t beyond_a_texel(const DistanceShares& s, int64_t of) { return std::llround((s.from_1_to_3 + s.beyond_3) * static_cast<double>(of)); }
 
-TEST(RandomShadows, AutomaticBiasIsRightBeyondATexelOfTheEdge) {
+TEST(RandomShadows, AutomaticBiasIsCorrectBeyondATexelFromTheEdge) {
   const char* one = std::getenv("HALFSPACE_SHADOW_SEED");
   const char* many = std::getenv("HALFSPACE_SHADOW_SEEDS");
   const uint64_t first = one != nullptr ? std::strtoull(one, nullptr, 10) : 0;
@@ -91,7 +91,7 @@ TEST(RandomShadows, AutomaticBiasIsRightBeyondATexelOfTheEdge) {
     const SceneFile scene = SceneFile::parse(random_scene(seed), "random", ".");
     const ShadowScore s = validate("random", scene.at(0.0), {240, 135, 1}, assets, workers).lights.at(0).score;
     const int64_t dark = beyond_a_texel(s.false_shadow, s.lit), bright = beyond_a_texel(s.false_light, s.shadowed);
-    // The shares that every scene is promised. Fewer than 10,000 lit pixels or 1,000 shadowed ones have room for one false pixel.
+    // The shares guaranteed for every scene. With fewer than 10,000 lit or 1,000 shadowed pixels, one false pixel is allowed.
     EXPECT_LE(dark, std::max<int64_t>(1, s.lit / 10000)) << "seed " << seed << '\n' << random_scene(seed);
     EXPECT_LE(bright, std::max<int64_t>(1, s.shadowed / 1000)) << "seed " << seed << '\n' << random_scene(seed);
     lit += s.lit;
@@ -100,7 +100,7 @@ TEST(RandomShadows, AutomaticBiasIsRightBeyondATexelOfTheEdge) {
     falsely_lit += bright;
     error += s.error / static_cast<double>(count);
   }
-  // All scenes together: no room but the promise's.
+  // All scenes together must satisfy the guarantee without rounding up.
   EXPECT_LE(static_cast<double>(falsely_dark), 1e-4 * static_cast<double>(lit));
   EXPECT_LE(static_cast<double>(falsely_lit), 1e-3 * static_cast<double>(shadowed));
   EXPECT_GT(lit, 10000 * static_cast<int64_t>(count));

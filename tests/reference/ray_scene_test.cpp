@@ -20,14 +20,14 @@ struct World {
   }
 };
 
-TEST(RayScene, HitsWhatTheRayMeetsFirst) {
+TEST(RayScene, ReturnsTheNearestHit) {
   const World world;
   const glm::dvec3 eye(0, 10, 0);
   const RayScene rays(world.meshes, eye);
   const auto down = rays.nearest({0.01f, 0, 0.02f}, {0, -1, 0}, 0.0f, 100.0f);
   ASSERT_TRUE(down);
   EXPECT_EQ(down->mesh, 1);
-  // The sphere's facets lie at most 1 - cos(pi/128) = 3e-4 within it.
+  // The facets of the sphere are at most 1 - cos(pi/128) = 3e-4 below its surface.
   EXPECT_NEAR(down->position_rws.y, 1.5 - 10.0, 1e-3);
   EXPECT_NEAR(down->face_normal_ws.y, 1.0, 2e-3);
   const auto beside = rays.nearest({1.5f, 0, 1.5f}, {0, -1, 0}, 0.0f, 100.0f);
@@ -36,10 +36,10 @@ TEST(RayScene, HitsWhatTheRayMeetsFirst) {
   EXPECT_EQ(beside->position_rws.y, -11.5);
   EXPECT_NEAR(beside->weights[0] + beside->weights[1] + beside->weights[2], 1.0, 1e-15);
   EXPECT_FALSE(rays.nearest({3.0f, 0, 0}, {0, -1, 0}, 0.0f, 100.0f));
-  EXPECT_FALSE(rays.nearest({0, 0, 0}, {0, -1, 0}, 0.0f, 5.0f));  // ends before the sphere
+  EXPECT_FALSE(rays.nearest({0, 0, 0}, {0, -1, 0}, 0.0f, 5.0f));  // ends in front of the sphere
 }
 
-TEST(RayScene, PositionsByWeightsAreThoseOfTheTriangle) {
+TEST(RayScene, HitPositionsMatchTheirWeights) {
   const World world;
   const glm::dvec3 eye(3, 4, 5);
   const RayScene rays(world.meshes, eye);
@@ -52,11 +52,11 @@ TEST(RayScene, PositionsByWeightsAreThoseOfTheTriangle) {
     sum += hit->weights[k] * (glm::dvec3(placed.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye);
   }
   EXPECT_LT(glm::length(sum - hit->position_rws), 1e-14);
-  // Embree's float distance agrees to a few of its ulps.
+  // Embree's float distance is accurate to a few ulps.
   EXPECT_LT(glm::length(hit->position_rws - static_cast<double>(hit->distance) * glm::dvec3(-3, -3.5, -5)), 1e-5);
 }
 
-TEST(RayScene, OnlyCastersCast) {
+TEST(RayScene, OnlyCastersOccludeInACasterScene) {
   World world;
   world.meshes[1].casts_shadow = false;
   const RayScene all(world.meshes, glm::dvec3(0.0)), casters(world.meshes, glm::dvec3(0.0), true);

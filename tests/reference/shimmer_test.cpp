@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Edges of shadows in motion: what flickers, over 100 frames. Where the light moves, the edge of a shadow passes over a point once, by
-// rays; by a map it may go back and forth. Where the camera alone moves, nothing may change at all.
+// Flicker of shadow edges in motion, over 100 frames. If the light moves, the true edge of a shadow passes over a point once, but with a
+// shadow map it can move back and forth. If only the camera moves, nothing may change.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ SceneDescription contact_scene(const std::string& method, int resolution) {
 
 bool is_lit(const Image<float>& light, int x, int y) { return light.at(x, y) > 0.5f; }
 
-// Does the light pass 1/2 between a pixel and one of its eight neighbours?
+// Returns whether light crosses 1/2 between a pixel and one of its eight neighbors.
 bool is_edge(const Image<float>& light, int x, int y) {
   for (int j = std::max(0, y - 1); j <= std::min(kFrameHeight - 1, y + 1); ++j)
     for (int i = std::max(0, x - 1); i <= std::min(kFrameWidth - 1, x + 1); ++i)
@@ -35,12 +35,12 @@ bool is_edge(const Image<float>& light, int x, int y) {
 }
 
 struct Shimmer {
-  int64_t edges = 0;     // pixels at an edge by rays, of all frames together
-  int64_t at_edges = 0;  // how often a pixel passes 1/2 by the map, beyond how often it does so by rays
-  int64_t away = 0;      // how often a pixel does so by the map that is at no edge by rays, before or after
+  int64_t edges = 0;     // pixels at a true edge, summed over all frames
+  int64_t at_edges = 0;  // crossings of 1/2 with the map, in excess of the true crossings of each pixel
+  int64_t away = 0;      // crossings with the map at pixels that are not at a true edge in either frame
 };
 
-// The light turns about the vertical, a tenth of a degree a frame; the camera stands.
+// The light rotates about the vertical by a tenth of a degree per frame; the camera is fixed.
 Shimmer of_a_turning_light(const std::string& method, int resolution) {
   SceneDescription scene = contact_scene(method, resolution);
   SceneAssets assets(two_workers());
@@ -71,7 +71,7 @@ Shimmer of_a_turning_light(const std::string& method, int resolution) {
   return sum;
 }
 
-// Points of the scene that the picture shows, away from its border, and how often their light passes 1/2 by maps alone.
+// Visible points of the scene, away from the border of the image. Counts how often their light crosses 1/2 according to the maps.
 class WatchedPoints {
  public:
   explicit WatchedPoints(const PreparedScene& scene) {
@@ -86,7 +86,7 @@ class WatchedPoints {
     }
   }
 
-  // `shift` is where the scene was moved as a whole.
+  // `shift` is the translation of the whole scene.
   int64_t passes(const PreparedScene& scene, const glm::dvec3& shift, bool first) {
     const Shadow& shadow = *scene.lights.front().light.shadow;
     const glm::vec3 to_light_ws(to_light_of(scene));
@@ -110,12 +110,12 @@ class WatchedPoints {
   std::vector<Point> points_;
 };
 
-// The camera moves; with `scene_too` all objects with it, so that the scene slides over the map's grid as it would without snapping.
+// The camera moves. With `scene_too` all objects move with it, so that the scene slides over the texel grid as it would without snapping.
 int64_t passes_of_a_moving_camera(const std::string& method, bool scene_too) {
   SceneDescription scene = contact_scene(method, 2048);
   SceneAssets assets(two_workers());
   WatchedPoints points(assets.prepare(scene, kFrameWidth, kFrameHeight));
-  const glm::dvec3 step(0.0017, 0.0, 0.0011);  // units a frame; a texel is 0.004
+  const glm::dvec3 step(0.0017, 0.0, 0.0011);  // units per frame; a texel is 0.004
   int64_t count = 0;
   double texel = 0.0;
   for (int frame = 0; frame <= kFrames; ++frame) {
@@ -132,29 +132,28 @@ int64_t passes_of_a_moving_camera(const std::string& method, bool scene_too) {
   return count;
 }
 
-// Without snapping some 500 (pcf3) and 1000 (hard) passes are seen here.
-TEST(Shimmer, OfAMovingCamera) {
+// Without snapping, about 500 (pcf3) and 1000 (hard) crossings occur here.
+TEST(Shimmer, MovingCameraDoesNotChangeShadows) {
   for (const std::string method : {"hard", "pcf3"}) {
     const int64_t snapped = passes_of_a_moving_camera(method, false), sliding = passes_of_a_moving_camera(method, true);
     EXPECT_EQ(snapped, 0) << method;
     EXPECT_GT(sliding, 200) << method;
-    fmt::print("{}: {} of the points pass 1/2 while the camera moves; {} where the grid does not follow the scene\n", method, snapped,
-               sliding);
+    fmt::print("{}: {} crossings of 1/2 while the camera moves; {} if the grid does not follow the scene\n", method, snapped, sliding);
   }
 }
 
-// A light that turns turns the map's grid with it, so that edges are rounded to other texels: within half a texel. How many pixels that
-// is depends on what a texel spans, here a tenth of a pixel. Measured: 0.15 % of the pixels at edges in a frame, and a map of an eighth of
-// the texels a side, unfiltered, 0.70 %.
-TEST(Shimmer, OfATurningLight) {
+// A rotating light rotates the texel grid, so edges are rounded to different texels, within half a texel. The number of affected pixels
+// depends on the size of a texel, which is a tenth of a pixel here. Measured per frame: 0.15 % of the pixels at edges, and 0.70 % for an
+// unfiltered map with an eighth of the resolution.
+TEST(Shimmer, TurningLightCausesLittleFlicker) {
   const Shimmer coarse = of_a_turning_light("hard", 256), ours = of_a_turning_light("pcf3", 2048);
   for (const auto& [name, s] : {std::pair{"hard, 256", coarse}, {"pcf3, 2048", ours}})
-    fmt::print("{}: {} more passes than by rays at {} pixels at edges, {} away from them\n", name, s.at_edges, s.edges, s.away);
+    fmt::print("{}: {} excess crossings at {} edge pixels, {} crossings away from edges\n", name, s.at_edges, s.edges, s.away);
   const auto share = [](const Shimmer& s) { return static_cast<double>(s.at_edges) / static_cast<double>(s.edges); };
   EXPECT_GT(ours.edges, 100 * kFrames);
-  EXPECT_LT(share(ours), 0.003);    // twice what is measured
-  EXPECT_LE(ours.away, 2);          // of two million pixels; one goes and comes
-  EXPECT_GT(share(coarse), 0.005);  // the same can be seen to fail
+  EXPECT_LT(share(ours), 0.003);    // twice the measured value
+  EXPECT_LE(ours.away, 2);          // of two million pixels; back and forth counts twice
+  EXPECT_GT(share(coarse), 0.005);  // shows that the test can detect a failure
   EXPECT_GT(coarse.away, 50);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact spheres among meshes against Embree's: who is seen, and who is in shadow.
+// Compares exact spheres among meshes with Embree: visibility and shadows.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ PreparedScene prepared(const std::string& sections, const std::vector<std::strin
   return assets.prepare(file.description(), kSpheresWidth, kSpheresHeight);
 }
 
-// Each pixel's number: of a sphere its own from 1 on, of a mesh −1, −2, …; 0: nothing.
+// Returns an ID per pixel: 1, 2, … for spheres, −1, −2, … for meshes, 0 for the background.
 Image<glm::vec4> numbers_of(const PreparedScene& scene) {
   Image<glm::vec4> image(kSpheresWidth, kSpheresHeight);
   DepthTarget depth{.format = DepthFormat::d32f, .clear_value = 0.0f};
@@ -60,9 +60,9 @@ float number_of(const RayScene& rays, const View& v, double x, double row) {
   return !hit ? 0.0f : hit->mesh < 0 ? static_cast<float>(hit->triangle + 1) : -1.0f - static_cast<float>(hit->mesh);
 }
 
-// Balls among a thousand spheres that pierce them, the ground and each other. A pixel may differ only where a ray within 1/256 px of it
-// sees what the picture shows: beside a silhouette, or where two surfaces meet (their depths are then that of a slope over 1/256 px).
-TEST(Spheres, AreSeenWhereEmbreeSeesThem) {
+// Balls among a thousand spheres that intersect them, the ground and each other. A pixel may differ only if a ray within 1/256 px of its
+// center sees the object that the image shows. This happens next to silhouettes and where two surfaces intersect.
+TEST(Spheres, VisibilityMatchesEmbree) {
   const PreparedScene scene = prepared(R"("particles": { "sprite": "exact", "count": 1000, "arrangement": "ball", "radius": 0.15 },
       "objects": { "ball": { "shape": "uv_sphere", "position": [0.4, 0.2, 0.5], "scale": [0.8, 0.8, 0.8] },
                    "ground": { "shape": "plane", "position": [0, -0.7, 0], "scale": [8, 8, 8] } })");
@@ -120,8 +120,8 @@ struct ShadowErrors {
   int shadowed = 0, lit = 0, wrong = 0, on_spheres = 0;
 };
 
-// Where the picture with shadows is darker than that without, the ray to the light must meet something, and nowhere else. Pixels
-// whose neighbours' rays do not agree lie within a pixel of the shadow's edge, where the map's texels decide.
+// The ray to the light must be occluded exactly where the image with shadows is darker than the image without. Pixels whose neighbors
+// disagree are within a pixel of the edge of a shadow and are skipped, because the texels of the map decide there.
 ShadowErrors shadow_errors(const std::string& light) {
   const PreparedScene with = prepared(kShaded + light), without = prepared(kShaded + light, {"shadow.method=none"});
   const Image<glm::vec4> dark = rendered(with), bright = rendered(without);
@@ -134,7 +134,7 @@ ShadowErrors shadow_errors(const std::string& light) {
     sphere = hit->mesh < 0;
     const glm::dvec3 n = glm::dot(hit->face_normal_ws, hit->position_rws) < 0.0 ? hit->face_normal_ws : -hit->face_normal_ws;
     const glm::vec3 way = to_light(l, hit->position_rws + with.view.eye_ws);
-    if (glm::dot(n, glm::dvec3(way)) < 0.15 * static_cast<double>(glm::length(way))) return -1;  // dark or grazing anyway
+    if (glm::dot(n, glm::dvec3(way)) < 0.15 * static_cast<double>(glm::length(way))) return -1;  // facing away or at a grazing angle
     return rays.occluded(glm::vec3(hit->position_rws + 1e-3 * n), way, 0.0f, 1.0f) ? 1 : 0;
   };
   for (int row = 1; row < kSpheresHeight - 1; ++row) {
@@ -157,13 +157,13 @@ ShadowErrors shadow_errors(const std::string& light) {
   return e;
 }
 
-TEST(Spheres, CastAndReceiveShadowsOfEveryKindOfLight) {
+TEST(Spheres, CastAndReceiveShadowsOfEveryLightType) {
   for (const char* light : {kSun, kLamp, kSpot}) {
     const ShadowErrors e = shadow_errors(light);
     EXPECT_GT(e.lit, 3000) << light;
     EXPECT_GT(e.shadowed, 500) << light;
     EXPECT_GT(e.on_spheres, 20) << light;
-    // A texel is as wide as a pixel at the most; what is wrong further inside are a few pixels at the waist of two shadows.
+    // A texel is at most one pixel wide. A few pixels remain wrong where two shadows nearly touch.
     EXPECT_LE(e.wrong * 1000, e.lit + e.shadowed) << light;
   }
 }
@@ -174,19 +174,19 @@ int differs(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
   return n;
 }
 
-TEST(Spheres, ThatNeitherCastNorReceiveAreLeftOut) {
+TEST(Spheres, SkipsSpheresThatNeitherCastNorReceive) {
   const std::string scene = std::string(kShaded) + kSun;
   const Image<glm::vec4> none = rendered(prepared(scene, {"shadow.method=none"}));
   const Image<glm::vec4> neither = rendered(prepared(scene, {"particles.casts_shadow=false", "particles.receives_shadow=false"}));
   const Image<glm::vec4> casting = rendered(prepared(scene, {"particles.receives_shadow=false"}));
   const Image<glm::vec4> receiving = rendered(prepared(scene, {"particles.casts_shadow=false"}));
-  EXPECT_EQ(differs(none, neither), 0);  // the ground alone shades nothing
+  EXPECT_EQ(differs(none, neither), 0);  // the ground does not shadow itself
   EXPECT_GT(differs(none, casting), 500);
   EXPECT_EQ(differs(none, receiving), 0);
 }
 
-// The ground alone shades nothing, whichever of its faces cast; what is seen of shadows is the spheres'.
-TEST(Spheres, CastByTheirFrontWhateverFacesOfMeshesCast) {
+// The ground does not shadow itself for any choice of casting faces, so the visible shadows are those of spheres.
+TEST(Spheres, CastWithTheirFrontForAnyChoiceOfFaces) {
   const std::string scene = std::string(kShaded) + kSun;
   const Image<glm::vec4> none = rendered(prepared(scene, {"shadow.method=none"}));
   const Image<glm::vec4> front = rendered(prepared(scene, {"shadow.faces=front"}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadow maps against rays, on small pictures of the shipped scenes.
+// Compares shadow maps with rays, on small images of the shipped scenes.
 #include "halfspace/reference/validation.h"
 
 #include <gtest/gtest.h>
@@ -26,26 +26,27 @@ Validation validated(const std::string& name, const std::vector<std::string>& se
 
 ShadowScore score(const std::vector<std::string>& settings) { return validated("shadow-plane", settings).lights.at(0).score; }
 
-TEST(Validation, TrianglesSeenAreThoseThatRaysSee) {
+TEST(Validation, VisibleTrianglesMatchRays) {
   const VisibilityScore v = validated("shadow-plane", {}).visibility;
   EXPECT_GT(v.pixels, 10000);
   EXPECT_EQ(v.unexplained, 0);
   EXPECT_EQ(v.pixels, v.same + v.near_edge + v.depth_tie);
-  // Triangles of the sphere are some 2 px wide there: a point lies within 1/256 px of an edge with a probability of about 1 %.
+  // The triangles of the sphere are about 2 px wide, so a point is within 1/256 px of an edge with a probability of about 1 %.
   EXPECT_LT(static_cast<double>(v.near_edge + v.depth_tie), 0.01 * static_cast<double>(v.pixels));
 }
 
-TEST(Validation, AutomaticBiasIsRightBeyondATexelOfTheEdge) {
+TEST(Validation, AutomaticBiasIsCorrectBeyondATexelFromTheEdge) {
   const ShadowScore s = score({});
   EXPECT_GT(s.lit, 5000);
   EXPECT_GT(s.shadowed, 1000);
-  EXPECT_LE(s.false_shadow.from_1_to_3 + s.false_shadow.beyond_3, 1e-4);  // what the project promises of its scenes
+  EXPECT_LE(s.false_shadow.from_1_to_3 + s.false_shadow.beyond_3, 1e-4);  // guaranteed for the shipped scenes
   EXPECT_LE(s.false_light.from_1_to_3 + s.false_light.beyond_3, 1e-3);
   EXPECT_LT(s.edge_px.mean, 0.5);
 }
 
-// What the project promises: 0.01 % of the lit pixels and 0.1 % of the shadowed ones, 0 to 85 degrees. One pixel where that is less.
-TEST(Validation, AutomaticBiasIsRightOnTheTablesScenesAtEveryAngle) {
+// Guaranteed limits: 0.01 % of the lit and 0.1 % of the shadowed pixels, for angles from 0 to 85 degrees. One pixel is allowed if that is
+// less.
+TEST(Validation, AutomaticBiasIsCorrectInTheTablesScenesAtEveryAngle) {
   SceneAssets assets(two_workers());
   for_each_shadow_case(false, [&](const ShadowCase& c) {
     if (c.factor != "angle") return;
@@ -58,15 +59,15 @@ TEST(Validation, AutomaticBiasIsRightOnTheTablesScenesAtEveryAngle) {
   });
 }
 
-// The sphere and its shadow by every kind of light: what lies beyond a texel of the edge is right.
-TEST(Validation, EveryKindOfLightIsRightBeyondATexelOfTheEdge) {
+// The sphere and its shadow for every type of light: pixels more than a texel from the edge must be correct.
+TEST(Validation, EveryLightTypeIsCorrectBeyondATexelFromTheEdge) {
   const std::string spot = "lamp.type=spot", towards = "lamp.direction=-3.5,6.4,3.5", inner = "lamp.inner=10";
   const std::vector<std::vector<std::string>> kinds{{"lamp.type=directional", towards},
                                                     {"lamp.type=directional", towards, "shadow.cascades=4"},
-                                                    {"lamp.position=0.4,0.2,2.5"},  // the sphere beside it, over several faces of the cube
+                                                    {"lamp.position=0.4,0.2,2.5"},  // the sphere covers several cube faces
                                                     {spot, towards, inner, "lamp.outer=40"},
                                                     {spot, towards, inner, "lamp.outer=60"},
-                                                    {spot, towards, inner, "lamp.outer=95"},  // wider than any plane
+                                                    {spot, towards, inner, "lamp.outer=95"},  // wider than a single plane can cover
                                                     {spot, towards, inner, "lamp.outer=179"},
                                                     {"shadow.resolution=0"}};
   for (const auto& settings : kinds) {
@@ -74,12 +75,12 @@ TEST(Validation, EveryKindOfLightIsRightBeyondATexelOfTheEdge) {
     std::string name;
     for (const std::string& setting : settings) name += setting + " ";
     EXPECT_GT(s.shadowed, 300) << name;
-    EXPECT_LE(s.false_shadow.from_1_to_3 + s.false_shadow.beyond_3, 2e-4) << name;  // a pixel or two of some 10,000
+    EXPECT_LE(s.false_shadow.from_1_to_3 + s.false_shadow.beyond_3, 2e-4) << name;  // one or two of about 10,000 pixels
     EXPECT_LE(s.false_light.from_1_to_3 + s.false_light.beyond_3, 1e-3) << name;
   }
 }
 
-TEST(Validation, WithoutABiasItIsAcneAndTooMuchIsLeak) {
+TEST(Validation, DetectsAcneWithoutBiasAndLeaksWithTooMuch) {
   const ShadowScore none = score({"shadow.bias=none", "shadow.method=hard"});
   EXPECT_GT(none.false_shadow.beyond_3, 0.1);
   const ShadowScore much = score({"shadow.bias=constant", "shadow.constant=400", "shadow.method=hard"});
@@ -87,9 +88,9 @@ TEST(Validation, WithoutABiasItIsAcneAndTooMuchIsLeak) {
   EXPECT_LT(much.false_shadow.beyond_3, 1e-3);
 }
 
-// Edges of the fitted map lie within a texel of the true ones, in the mean; where no shadow is too small for it, within half a
-// texel, which is what it rounds by. (On the Moon, under a low Sun, some are too small.)
-TEST(Validation, HardEdgesLieWithinATexel) {
+// On average, the edges of the fitted map are within a texel of the true ones. Where no shadow is smaller than a texel, they are within
+// half a texel, the rounding of the map. (On the Moon some shadows are smaller, because the Sun is low.)
+TEST(Validation, HardEdgesAreWithinATexel) {
   for (const auto& [scene, camera, most] : {std::tuple{"shadow-plane", "main", 0.5},
                                             {"shadow-plane", "low", 0.5},
                                             {"shadow-contact", "main", 0.5},
@@ -102,19 +103,19 @@ TEST(Validation, HardEdgesLieWithinATexel) {
   }
 }
 
-// A light of 3 degrees. Of a disk of 128 texels a share is known to about a hundredth.
-TEST(Validation, SoftShadowsAreNearTheTruth) {
+// A light of 3 degrees. With a disk of 128 texels, the visible share is accurate to about a hundredth.
+TEST(Validation, SoftShadowsAreCloseToTheReference) {
   const ShadowScore s = validated("shadow-contact", {"shadow.method=pcss"}, 160, 90, 1024).lights.at(0).score;
   EXPECT_GT(s.penumbra_error, 0.0);
   EXPECT_LE(s.penumbra_error, 0.03);
   EXPECT_LE(s.error, 0.005);
-  EXPECT_LE(s.truth_error, 0.5 / 32.0 + 1e-6);  // of 1024 rays, were they independent
+  EXPECT_LE(s.truth_error, 0.5 / 32.0 + 1e-6);  // standard error of 1024 rays, if they were independent
   const ShadowScore hard = validated("shadow-contact", {"shadow.method=hard"}, 160, 90, 256).lights.at(0).score;
   EXPECT_GT(hard.penumbra_error, 0.1);
 }
 
-// Of the places that the picture shows, 95 % have texels of no more than the pixels that are asked for; half as many texels would not do.
-TEST(Validation, ResolutionIsAsFineAsTheFootprintAsks) {
+// For 95 % of the visible points, a texel spans at most the requested number of pixels; half the resolution would not be enough.
+TEST(Validation, ResolutionFollowsTheFootprint) {
   for (const double footprint : {0.5, 1.0, 3.0}) {
     SceneFile file = SceneFile::open("shadow-contact");
     file.set(std::vector<std::string>{"shadow.resolution=0", "shadow.footprint=" + std::to_string(footprint)});
@@ -128,22 +129,20 @@ TEST(Validation, ResolutionIsAsFineAsTheFootprintAsks) {
       if (hit) texels_px.push_back(static_cast<double>(view.texel_per_w) / pixel_width(scene.view, hit->position_rws));
     std::ranges::sort(texels_px);
     const double most = texels_px[texels_px.size() * 95 / 100];
-    EXPECT_LE(most, 1.02 * footprint);  // the program looks at fewer places
-    EXPECT_GT(most, 0.4 * footprint);   // twice the size halves a texel, give or take a step of 2^(1/4)
+    EXPECT_LE(most, 1.02 * footprint);  // the program examines fewer points
+    EXPECT_GT(most, 0.4 * footprint);   // doubling the size halves a texel, and sizes have steps of 2^(1/4)
   }
 }
 
-TEST(Validation, WithoutAMethodNothingIsShadedAndNoMapIsMade) {
+TEST(Validation, WithoutAMethodThereIsNoShadowAndNoMap) {
   const Validation v = validated("shadow-plane", {"shadow.method=none"});
   EXPECT_EQ(v.lights.at(0).score.resolution, 0);
   EXPECT_GT(v.lights[0].score.false_light.within_1 + v.lights[0].score.false_light.from_1_to_3 + v.lights[0].score.false_light.beyond_3,
             0.1);
 }
 
-// A ball of radius 1 high over a plane under a light straight above: the shadow is a disk, and of a light that spans an angle the
-// penumbra is a ring whose light follows from the areas of two disks.
-TEST(LightTruth, PenumbraOfAnEdgeIsTheAreaOfACutDisk) {
-  // A half plane at height 2 over the ground: light at x is the part of the disk beyond the edge.
+TEST(LightTruth, PenumbraOfAnEdgeMatchesTheAreaOfACutDisk) {
+  // A half plane at height 2 above the ground. The light at x is the share of the disk beyond the edge.
   Mesh edge;
   edge.positions = {{-50, 2, -50}, {0, 2, -50}, {0, 2, 50}, {-50, 2, 50}};
   edge.indices = {0, 2, 1, 0, 3, 2};
@@ -160,7 +159,7 @@ TEST(LightTruth, PenumbraOfAnEdgeIsTheAreaOfACutDisk) {
   }
 }
 
-TEST(Validation, ReportsAreWhatTheyShouldBe) {
+TEST(Validation, ReportsContainAllFields) {
   const Validation v = validated("shadow-plane", {}, 64, 36);
   const Json rows = Json::parse(json_report(v));
   ASSERT_EQ(rows.size(), 1u);

@@ -12,9 +12,9 @@
 namespace halfspace {
 namespace {
 
-constexpr double kRadius = 2.0, kTube = 0.375;  // floats hold them
+constexpr double kRadius = 2.0, kTube = 0.375;  // exactly representable as floats
 
-// How far the middles of the triangles' circumcircles lie below a sphere: the planes' distance from the centre.
+// Returns the maximum depth of the triangles' planes below the sphere: its radius minus the distance of a plane from the center.
 double deepest_plane(const Mesh& mesh, double radius) {
   double deepest = 0.0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -24,22 +24,22 @@ double deepest_plane(const Mesh& mesh, double radius) {
   return deepest;
 }
 
-// Floats hold positions to 2^-24 of the radius.
+// Allows for the rounding of positions to float, which is 2^-24 of the radius per coordinate.
 constexpr double kRounding = kRadius * 0x1p-22;
 
-TEST(ChordError, OfSpheresIsTheDepthOfTheirFlattestTriangles) {
+TEST(ChordError, BoundsTheDepthOfSphereTriangles) {
   for (const int bands : {8, 17, 64}) {
     ObjectDescription o;
     o.radius = kRadius;
     o = with_parts(o, bands, false);
     const double measured = deepest_plane(uv_sphere(o.latitudes, o.longitudes, kRadius), kRadius);
     EXPECT_LE(measured, chord_error(o) + kRounding) << bands;
-    // The widest quads lie at the equator, and there the bound is exact but for the half band's width between them and it.
+    // The widest quads are at the equator. The bound is exact there, except that their centers are half a band away from it.
     EXPECT_GE(measured, 0.95 * chord_error(o)) << bands;
   }
 }
 
-TEST(ChordError, OfIcospheresQuartersWithEachLevel) {
+TEST(ChordError, OfIcospheresIsQuarteredPerLevel) {
   for (const int level : {0, 1, 2, 3, 5}) {
     ObjectDescription o;
     o.shape = Shape::icosphere;
@@ -47,12 +47,12 @@ TEST(ChordError, OfIcospheresQuartersWithEachLevel) {
     o.level = level;
     const double measured = deepest_plane(icosphere(level, kRadius), kRadius);
     EXPECT_LE(measured, chord_error(o) + kRounding) << level;
-    EXPECT_GE(measured, 0.7 * chord_error(o)) << level;  // one constant for all levels
+    EXPECT_GE(measured, 0.7 * chord_error(o)) << level;  // one constant is used for all levels
   }
 }
 
-// A mesh beside one that is four times as fine both ways: the middles of its quads' diagonals against the finer one's vertices, along
-// their normals. Rows of columns + 1 vertices from `first` on.
+// Compares a mesh with one that has four times its resolution in both directions, and returns the largest distance, along the normal,
+// between the middle of a quad's diagonal and the corresponding vertex of the fine mesh. A row has columns + 1 vertices.
 double deepest_diagonal(const Mesh& mesh, const Mesh& fine, int rows, int columns) {
   constexpr int kFiner = 4;
   double deepest = 0.0;
@@ -69,7 +69,7 @@ double deepest_diagonal(const Mesh& mesh, const Mesh& fine, int rows, int column
   return deepest;
 }
 
-// What is measured lies between two parts of what chord_error says, whatever the counts.
+// Expects that the measured error is between `least` and `most` times chord_error, for several resolutions.
 void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displacement*), double least, double most) {
   for (const int parts : {8, 16, 48}) {
     ObjectDescription o;
@@ -85,12 +85,12 @@ void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displac
   }
 }
 
-TEST(ChordError, OfRingsIsTheSumOfBothWays) { expect_ring(Shape::torus, torus, 0.9, 1.001); }
+TEST(ChordError, OfTorusIsTheSumOverBothDirections) { expect_ring(Shape::torus, torus, 0.9, 1.001); }
 
-// The second derivative is taken at the outmost place, which is not quite the worst.
-TEST(ChordError, OfKnots) { expect_ring(Shape::torus_knot, torus_knot, 0.6, 1.05); }
+// The second derivative is evaluated at the outermost point, which is not quite the worst one.
+TEST(ChordError, OfTorusKnotsIsApproximate) { expect_ring(Shape::torus_knot, torus_knot, 0.6, 1.05); }
 
-TEST(ChordError, OfCylindersIsTheirCircles) {
+TEST(ChordError, OfCylindersIsThatOfTheirCircles) {
   ObjectDescription o;
   o.shape = Shape::cylinder;
   o.radius = kRadius;
@@ -101,7 +101,7 @@ TEST(ChordError, OfCylindersIsTheirCircles) {
   EXPECT_EQ(chord_error(o), 0.0);
 }
 
-// How far the side's maps lie from where they belong, along the circle, at the most.
+// Returns the largest texture displacement on the side of a cone, measured along the circle.
 double map_error_of_cone(const ObjectDescription& o) {
   const Mesh mesh = cone(static_cast<float>(o.radius), static_cast<float>(o.length), o.latitudes, o.longitudes);
   const int side = o.longitudes * (2 * o.latitudes - 1), steps = 8;
@@ -126,20 +126,21 @@ double map_error_of_cone(const ObjectDescription& o) {
   return worst;
 }
 
-TEST(ChordError, OfConesHoldsForTheirMapsToo) {
+TEST(ChordError, OfConesBoundsTheTextureDisplacement) {
   ObjectDescription o;
   o.shape = Shape::cone;
-  EXPECT_EQ(with_parts(o, 48, true).latitudes, 2) << "no map";
+  EXPECT_EQ(with_parts(o, 48, true).latitudes, 2) << "without a map";
   o.surface.color = TextureName{"squares"};
   for (const int parts : {12, 48, 96}) {
     const ObjectDescription placed = with_parts(o, parts, true), coarse = with_parts(o, parts, false);
     EXPECT_EQ(coarse.latitudes, 2);
-    EXPECT_LE(map_error_of_cone(placed), chord_error(placed) * 1.01) << parts;  // floats' uv
-    EXPECT_GT(map_error_of_cone(coarse), chord_error(coarse) * (parts / 12.0)) << parts << ": s/4n is 0.16 parts as long with two bands";
+    EXPECT_LE(map_error_of_cone(placed), chord_error(placed) * 1.01) << parts;  // uv are rounded to float
+    EXPECT_GT(map_error_of_cone(coarse), chord_error(coarse) * (parts / 12.0))
+        << parts << ": with two bands the displacement is about 0.16 parts times the chord error";
   }
 }
 
-TEST(ChordError, StepsAreFew) {
+TEST(ChordError, PartCountsAreRoundedUpToFewSteps) {
   EXPECT_EQ(part_step(1), 1);
   EXPECT_EQ(part_step(2), 2);
   EXPECT_EQ(part_step(3), 3);
@@ -149,8 +150,8 @@ TEST(ChordError, StepsAreFew) {
   EXPECT_EQ(part_step(96), 96);
 }
 
-// A sphere's outline moves in the picture as pixels_per_unit says: its rim in double, before and after its radius shrinks.
-TEST(PixelsPerUnit, AreWhatAnOutlineMovesBy) {
+// Compares with the motion of a sphere's outline in the image, computed in double, when its radius changes.
+TEST(PixelsPerUnit, MatchTheMotionOfAnOutline) {
   CameraDescription camera;
   camera.position = {0, 0, 5};
   const View view = make_view(camera, 1600, 900);
@@ -161,7 +162,7 @@ TEST(PixelsPerUnit, AreWhatAnOutlineMovesBy) {
     };
     constexpr double kStep = 1e-6;
     const double moved = (outer_px(1.0 + kStep) - outer_px(1.0)) / kStep;
-    EXPECT_NEAR(silhouette_pixels_per_unit(view, {x, 0, 0}, 1.0), moved, 1e-3 * moved) << x;  // first order in the step
+    EXPECT_NEAR(silhouette_pixels_per_unit(view, {x, 0, 0}, 1.0), moved, 1e-3 * moved) << x;  // forward difference, first order in the step
     EXPECT_GT(pixels_per_unit(view, {x, 0, 0}, 1.0), moved) << x;
   }
   EXPECT_FALSE(is_outside(view, {0, 0, 0}, 1.0));

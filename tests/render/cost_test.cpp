@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// No more than needed: what a scene's fragments cost, as a table, counted by a naive twin whose number type counts texture
-// look-ups and lights.
+// Checks that fragments do no unnecessary work. A naive twin, whose number type counts texture lookups and lights, measures the cost of
+// scenes; a table lists the expected costs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace halfspace {
 
-// What stands for R in the counting twin: a double.
+// The number type R of the counting twin. Wraps a double.
 struct Counted {
   double value;
 
@@ -42,7 +42,7 @@ struct Counted {
 };
 
 template <>
-inline constexpr bool kIsLanes<Counted> = true;  // "a type of its own that stands for R"
+inline constexpr bool kIsLanes<Counted> = true;  // R can be this type
 template <>
 struct LaneTraits<Counted> : LaneTraits<float> {};
 
@@ -69,7 +69,7 @@ namespace halfspace {
 
 namespace {
 
-// Of one stage: how often it ran, and what it did.
+// Number of runs of a stage, and the work done by all of them.
 struct Stage {
   int runs = 0, fetches = 0, lights = 0, shadows = 0;
   double lights_each() const { return static_cast<double>(lights) / runs; }
@@ -91,7 +91,7 @@ vec3<Counted> Texture2D::sample_rgb<Counted>(const Sampler& sampler, const vec2<
   return {c.x, c.y, c.z};
 }
 
-// An environment's look-up counts as one.
+// A lookup in an environment counts as one fetch.
 template <>
 vec3<Counted> EnvironmentMap::sample<Counted>(const vec3<Counted>& d_ms, const vec3<Counted>& dx_ms, const vec3<Counted>& dy_ms) const {
   ++counts.now->fetches;
@@ -115,7 +115,7 @@ IncidentLight<Counted> light_at<Counted>(const Light& light, const vec3<Counted>
 
 namespace {
 
-// S, telling what stage runs.
+// S, but it records which stage is running.
 template <class S>
 struct Counting : S {
   template <class R>
@@ -151,7 +151,7 @@ struct Counting : S {
   }
 };
 
-// Varyings that are interpolated: flat ones cost a fragment nothing.
+// Returns the number of interpolated varyings. Flat varyings cost a fragment nothing.
 template <class S>
 int interpolated() {
   int n = 0;
@@ -159,7 +159,7 @@ int interpolated() {
   return n;
 }
 
-// What a fragment of a draw costs.
+// Cost per fragment of a draw call.
 struct PerFragment {
   int fetches, varyings, lights;
   friend auto operator<=>(const PerFragment&, const PerFragment&) = default;
@@ -168,7 +168,7 @@ struct PerFragment {
   }
 };
 
-// The fragment in the middle of every point.
+// Shades the fragment at the center of every point.
 template <class S>
 void shade_points(const S& shader, const PreparedDraw& draw, const glm::dvec2& size_px) {
   const TriangleLanes<Counted> square{
@@ -188,7 +188,7 @@ void shade_points(const S& shader, const PreparedDraw& draw, const glm::dvec2& s
 }
 
 struct Cost {
-  std::set<PerFragment> draws;  // of those that are seen
+  std::set<PerFragment> draws;  // visible draws only
   double shadows, vertex_lights, face_lights;
 };
 
@@ -215,7 +215,7 @@ Cost cost_of(const char* scene_name, const std::vector<std::string>& settings) {
             const int runs = counts.fragment.runs - before.runs;
             if (runs == 0) return;
             const auto each = [&](int now, int then) {
-              EXPECT_EQ((now - then) % runs, 0) << "every fragment of a draw does the same";
+              EXPECT_EQ((now - then) % runs, 0) << "all fragments of a draw do the same work";
               return (now - then) / runs;
             };
             cost.draws.insert(
@@ -224,11 +224,11 @@ Cost cost_of(const char* scene_name, const std::vector<std::string>& settings) {
         },
         draw.shader);
   }
-  EXPECT_GE(counts.fragment.runs, 12) << "one for each of the particles; meshes have thousands";
+  EXPECT_GE(counts.fragment.runs, 12) << "at least one per particle; meshes have thousands";
   cost.vertex_lights = counts.vertex.lights_each();
   cost.face_lights = counts.primitive.runs == 0 ? 0 : counts.primitive.lights_each();
-  EXPECT_EQ(counts.vertex.fetches + counts.primitive.fetches, 0) << "maps are read by pixel";
-  EXPECT_EQ(counts.vertex.shadows, 0) << "shadows are looked up by pixel, or by triangle with its light";
+  EXPECT_EQ(counts.vertex.fetches + counts.primitive.fetches, 0) << "maps are sampled per pixel";
+  EXPECT_EQ(counts.vertex.shadows, 0) << "shadows are looked up per pixel, or per triangle together with its light";
   EXPECT_LE(counts.primitive.shadows, counts.primitive.lights);
   cost.shadows = static_cast<double>(counts.fragment.shadows) / counts.fragment.runs;
   return cost;
@@ -237,25 +237,25 @@ Cost cost_of(const char* scene_name, const std::vector<std::string>& settings) {
 struct Row {
   const char* scene;
   std::vector<std::string> settings;
-  std::set<PerFragment> draws;             // texture fetches, varyings and lights that a fragment of each needs
-  int shadows = 0;                         // at most: none where a light is behind the surface
-  int vertex_lights = 0, face_lights = 0;  // a vertex, a triangle
+  std::set<PerFragment> draws;             // texture fetches, varyings and lights per fragment, for each kind of draw
+  int shadows = 0;                         // upper bound; surfaces that face away from a light need no lookup
+  int vertex_lights = 0, face_lights = 0;  // per vertex, per triangle
 };
 
-// position 3, normal 3, tangent 3, uv 2; light by vertex: diffuse 3, specular 3
+// Components of varyings: position 3, normal 3, tangent 3, uv 2. Light per vertex: diffuse 3, specular 3.
 const std::vector<Row> kTable{
-    // the texture counts for colour and highlight, and is read once
+    // the texture scales both color and highlight, but is sampled once
     {"three-lights", {}, {{1, 8, 3}}, 3},
     {"three-lights", {"shadow.method=none"}, {{1, 8, 3}}},
     {"three-lights", {"red.shadow=false"}, {{1, 8, 3}}, 2},
     {"shadow-plane", {"ground.receives_shadow=false", "earth.receives_shadow=false", "ground.color=surface"}, {{1, 8, 1}}},
-    // colour and normal map
+    // color and normal map
     {"earth", {}, {{2, 11, 1}}},
-    // and what is mirrored
+    // plus the reflection
     {"earth", {"earth.reflection=0.5"}, {{3, 11, 1}}},
-    // colour and slopes
+    // color and slopes
     {"earth", {"earth.normal=bump"}, {{2, 8, 1}}},
-    // colour and three heights
+    // color and three heights
     {"earth", {"earth.normal=bump", "earth.bump_method=difference"}, {{4, 8, 1}}},
     {"earth", {"earth.normal=none"}, {{1, 8, 1}}},
     {"earth", {"earth.normal=none", "earth.textured=false"}, {{0, 6, 1}}},
@@ -267,27 +267,27 @@ const std::vector<Row> kTable{
     {"earth", {"earth.shading=none"}, {{1, 2, 0}}},
     {"earth", {"earth.shading=none", "earth.textured=false"}, {{0, 0, 0}}},
     {"earth", {"earth.shading=gouraud", "earth.textured=false"}, {{0, 3, 0}}, 0, 1},
-    // colour and slopes of a displaced sphere, by its position
+    // color, and slopes of a displaced sphere, which are looked up by position
     {"moon", {}, {{2, 5, 1}}, 1},
     {"moon-normals", {}, {{1, 8, 1}, {2, 5, 1}}},
     {"moon-tessellation", {}, {{1, 8, 1}}},
     {"shadow-plane", {}, {{0, 6, 1}, {1, 8, 1}}, 1},
     {"shadow-contact", {}, {{0, 6, 1}}, 1},
     {"shadow-knot", {}, {{0, 6, 1}}, 1},
-    // colour, and of the house where it shines
+    // color, and emission for the house
     {"shapes", {}, {{1, 8, 1}, {2, 8, 1}}},
-    // a map by direction
+    // a map indexed by direction
     {"environment", {}, {{1, 3, 0}}},
-    // a sphere is its own: nothing is interpolated
+    // an exact sphere interpolates nothing
     {"particles", {}, {{0, 0, 1}}},
     {"particles", {"particles.sprite=original"}, {{0, 0, 1}}},
-    // the sky, roofs by triangle, houses with their panes
+    // the sky, roofs lit per triangle, houses with window panes
     {"day-night", {}, {{0, 0, 0}, {1, 3, 0}, {1, 8, 1}, {2, 8, 1}}, 1, 0, 1},
-    // while one sky becomes the other
+    // while one sky fades into the other
     {"day-night", {"background.weight=0.5"}, {{0, 0, 0}, {2, 3, 0}, {1, 8, 1}, {2, 8, 1}}, 1, 0, 1},
 };
 
-TEST(Cost, IsWhatTheSceneNeeds) {
+TEST(Cost, MatchesTheTable) {
   for (const Row& row : kTable) {
     std::string name = row.scene;
     for (const std::string& s : row.settings) name += " " + s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shipped scene "day-night", and every shipped scene at any number of threads.
+// The shipped scene "day-night", and the thread count invariance of every shipped scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ SceneDescription at_hour(double hours, double seconds = 0.0) {
   return file.at(seconds);
 }
 
-// Mean luminance (Rec. 709) of the light before exposure.
+// Returns the mean luminance (Rec. 709) of the linear image before exposure.
 double mean_luminance(const SceneDescription& description) {
   const Image<glm::vec4> light = light_of(description, 160, 90);
   double sum = 0.0;
@@ -27,25 +27,25 @@ double mean_luminance(const SceneDescription& description) {
   return sum / static_cast<double>(light.texels().size());
 }
 
-TEST(DayNight, LightFallsFromNoonToDuskToMidnight) {
+TEST(DayNight, LightDecreasesFromNoonToMidnight) {
   const double noon = mean_luminance(at_hour(12)), dusk = mean_luminance(at_hour(17.5)), midnight = mean_luminance(at_hour(0));
   EXPECT_GT(noon, 2.0 * dusk);
   EXPECT_GT(dusk, 5.0 * midnight);
   EXPECT_GT(midnight, 0.0);
 }
 
-TEST(DayNight, TheSunRunsRoundAnEllipseOnceADay) {
+TEST(DayNight, SunFollowsAnEllipseOncePerDay) {
   for (double hours = 0.0; hours <= 24.0; hours += 1.0) {
     const glm::dvec3 sun = at_hour(hours).lights.front().second.direction;
     const double phi = 2.0 * std::numbers::pi * hours / 24.0;
     EXPECT_NEAR(sun.x, 0.1 * std::cos(phi) + 1.5 * std::sin(phi), 1e-12);
     EXPECT_NEAR(sun.y, -std::cos(phi), 1e-12);
   }
-  // 24 seconds to a day: an hour later is a second later.
+  // A day lasts 24 seconds, so one hour is one second.
   EXPECT_NEAR(at_hour(6).lights.front().second.direction.y, at_hour(0, 6.0).lights.front().second.direction.y, 1e-12);
 }
 
-TEST(DayNight, ExposureIsLowByDayAndHighByNightAndSkiesFade) {
+TEST(DayNight, ExposureRisesAtNightAndSkiesBlend) {
   const SceneDescription noon = at_hour(12), dusk = at_hour(18), midnight = at_hour(0);
   EXPECT_LT(noon.post.exposure, dusk.post.exposure);
   EXPECT_LT(dusk.post.exposure, midnight.post.exposure);
@@ -55,7 +55,7 @@ TEST(DayNight, ExposureIsLowByDayAndHighByNightAndSkiesFade) {
   EXPECT_LT(dusk.background.weight, 0.8);
 }
 
-TEST(DayNight, ALightThatGivesNoneIsLeftOut) {
+TEST(DayNight, OmitsLightsWithoutIntensity) {
   const Workers workers(1);
   SceneAssets assets(workers);
   const auto lights = [&](double hours) {
@@ -69,7 +69,7 @@ TEST(DayNight, ALightThatGivesNoneIsLeftOut) {
 
 class EveryPicture : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryPicture, HasTheSamePixelsForAnyThreads) {
+TEST_P(EveryPicture, IsBitIdenticalForAnyThreadCount) {
   const SceneDescription scene = SceneFile::open(GetParam()).at(0.5);
   const Image<glm::u8vec4> one = picture_of(scene, 96, 54, 1);
   EXPECT_EQ(picture_of(scene, 96, 54, 2), one);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The end of a picture: exposure measured, curves and encodings in the tile, and what HDR costs where it is off.
+// The final stage of rendering: measured exposure, tone curves and encodings applied per tile, and the memory that HDR needs.
 #include "halfspace/render/display.h"
 #include "halfspace/shading/tone.h"
 
@@ -20,7 +20,7 @@
 
 namespace {
 
-// Counts what is allocated while it is told to, from a size on.
+// Counts the allocations of at least `least` bytes while `counting` is set.
 std::atomic<bool> counting{false};
 std::atomic<std::size_t> least{0}, large{0};
 
@@ -39,7 +39,7 @@ void* counted_or_null(std::size_t size) {
 
 }  // namespace
 
-#if !HS_SANITIZED  // sanitizers bring their own
+#if !HS_SANITIZED  // sanitizers replace these themselves
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
@@ -62,7 +62,7 @@ void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
 namespace halfspace {
 namespace {
 
-// A panorama of light from 2^-10 to 2^10, fading across and upwards.
+// Returns a scene with values above 1: a ball under a bright sun, in front of a uniform sky.
 SceneDescription bright_scene(const std::vector<std::string>& settings = {}) {
   SceneFile scene = SceneFile::parse(R"({"version": 1, "ambient": 0.3,
     "lights": {"sun": {"direction": [1, 1, 1], "intensity": 20}},
@@ -74,11 +74,11 @@ SceneDescription bright_scene(const std::vector<std::string>& settings = {}) {
   return scene.description();
 }
 
-// ---- the average -------------------------------------------------------------------------------------------------------
+// ---- average luminance -------------------------------------------------------------------------------------------------
 
-TEST(AutoExposure, IsTheLogAverageSummedInDouble) {
+TEST(AutoExposure, MatchesTheLogAverageInDouble) {
   std::mt19937 random(1);
-  Image<glm::vec4> light(123, 77);  // whole tiles and cut ones
+  Image<glm::vec4> light(123, 77);  // full and partial tiles
   double sum = 0;
   for (int y = 0; y < 77; ++y) {
     for (int x = 0; x < 123; ++x) {
@@ -91,12 +91,12 @@ TEST(AutoExposure, IsTheLogAverageSummedInDouble) {
   const double want = std::exp(sum / (123 * 77));
   const Workers one(1), two(2), seven(7);
   const double got = log_average_luminance(light, one);
-  EXPECT_NEAR(got, want, 1e-6 * want) << "each logarithm errs by an ulp of at most 14, 1e-6, either way";
+  EXPECT_NEAR(got, want, 1e-6 * want) << "each logarithm is at most 14 and has an error of one ulp, 1e-6";
   EXPECT_EQ(log_average_luminance(light, two), got);
   EXPECT_EQ(log_average_luminance(light, seven), got);
 }
 
-TEST(AutoExposure, HalfsAreReadAsFloats) {
+TEST(AutoExposure, HalfFloatsGiveTheSameAverageAsFloats) {
   Image<U16Vec4> halfs(9, 5);
   Image<glm::vec4> floats(9, 5);
   for (int i = 0; i < 45; ++i) {
@@ -108,7 +108,7 @@ TEST(AutoExposure, HalfsAreReadAsFloats) {
   EXPECT_EQ(log_average_luminance(halfs, workers), log_average_luminance(floats, workers));
 }
 
-TEST(AutoExposure, WhatIsNoLightCountsAsBlack) {
+TEST(AutoExposure, InvalidValuesCountAsBlack) {
   const Workers workers(1);
   const auto average = [&](float x) {
     Image<glm::vec4> light(2, 2);
@@ -120,30 +120,31 @@ TEST(AutoExposure, WhatIsNoLightCountsAsBlack) {
   EXPECT_NEAR(average(0.18f), 0.18 + 1e-6, 1e-7);
 }
 
-TEST(AutoExposure, GivesTheAverageItsKeyValue) {
-  // A uniform sky of luminance y becomes key_value, whatever y: linear, for there is no curve.
+TEST(AutoExposure, MapsTheAverageToTheKeyValue) {
+  // A uniform sky of any luminance is displayed at key_value. The mapping is linear because there is no tone curve.
   for (const char* map : {"sky.map=0.004", "sky.map=3", "sky.map=900"}) {
     for (const char* format : {"post.format=rgba16f", "post.format=rgba32f"}) {
       const SceneDescription scene = bright_scene(
           {"ball.visible=false", map, format, "post.hdr=true", "post.tone=none", "post.auto_exposure=true", "post.key_value=0.3"});
       const Image<glm::u8vec4> picture = picture_of(scene, 16, 16);
-      // 1e-6 on 0.004 is 2.5e-4 of it, a half's last bit 5e-4: at 0.3 together a tenth of a code.
+      // The offset of 1e-6 changes 0.004 by 2.5e-4 of it, and a half float has a precision of 5e-4. Together that is a tenth of a code at
+      // 0.3.
       EXPECT_NEAR(picture.at(8, 8).x, linear_to_srgb(0.3f), 1) << map;
     }
   }
 }
 
-TEST(AutoExposure, SamePixelsForAnyThreads) {
+TEST(AutoExposure, IsBitIdenticalForAnyThreadCount) {
   const SceneDescription scene = bright_scene({"post.hdr=true", "post.auto_exposure=true"});
   const Image<glm::u8vec4> one = picture_of(scene, 200, 120, 1);
   EXPECT_EQ(picture_of(scene, 200, 120, 2), one);
   EXPECT_EQ(picture_of(scene, 200, 120, 7), one);
 }
 
-// ---- the picture -------------------------------------------------------------------------------------------------------
+// ---- image -------------------------------------------------------------------------------------------------------------
 
-// The linear picture sent through tone.h pixel by pixel is the picture in codes.
-TEST(Display, CodesAreThoseOfTheLinearPicture) {
+// The encoded image must equal the linear image with tone.h applied to each pixel.
+TEST(Display, CodesMatchTheToneMappedLinearImage) {
   constexpr int kSize = 96;
   const Image<glm::vec4> light = light_of(bright_scene(), kSize, kSize);
   for (const char* tone : {"none", "reinhard", "reinhard_extended", "exponential", "aces"}) {
@@ -175,25 +176,26 @@ TEST(Display, CodesAreThoseOfTheLinearPicture) {
   }
 }
 
-TEST(Display, WithoutHdrTheOtherKeysDoNotCount) {
+TEST(Display, PostKeysAreIgnoredWithoutHdr) {
   const Image<glm::u8vec4> plain = picture_of(bright_scene(), 64, 48);
   EXPECT_EQ(picture_of(bright_scene({"post.exposure=0.1", "post.tone=exponential", "post.encode=gamma", "post.dither=true",
                                      "post.auto_exposure=true"}),
                        64, 48),
             plain);
-  EXPECT_EQ(plain.at(1, 1), glm::u8vec4(255, 255, linear_to_srgb(0.5f), 255)) << "light beyond 1 is cut";
-  // HDR without a curve and exposure is the same picture, but for halfs: none here that is not exact or cut.
+  EXPECT_EQ(plain.at(1, 1), glm::u8vec4(255, 255, linear_to_srgb(0.5f), 255)) << "values above 1 are clamped";
+  // HDR without exposure and tone curve gives the same image. The format is rgba32f, so no value is rounded to half.
   EXPECT_EQ(picture_of(bright_scene({"post.hdr=true", "post.tone=none", "post.format=rgba32f"}), 64, 48), plain);
 }
 
-TEST(Display, LinearPicturesAreBeforeExposureAndCurve) {
+TEST(Display, LinearOutputPrecedesExposureAndToneCurve) {
   EXPECT_EQ(light_of(bright_scene({"post.hdr=true", "post.exposure=9", "post.tone=reinhard", "post.auto_exposure=true"}), 32, 32),
             light_of(bright_scene(), 32, 32));
 }
 
-// How often a block as large as all pixels in `bytes` each is allocated while rendering.
+// Returns how many allocations made during rendering have at least `bytes` bytes per pixel of the image.
 std::size_t large_blocks(const std::vector<std::string>& settings, std::size_t bytes) {
-  constexpr int kWidth = 480, kHeight = 360;  // of 16 bytes each less than 4 MB: from there on allocate_lines asks the system itself
+  // Less than 4 MB at 16 bytes per pixel, because allocate_lines requests larger blocks directly from the system.
+  constexpr int kWidth = 480, kHeight = 360;
   const Workers workers(2);
   SceneAssets assets(workers);
   const PreparedScene scene = assets.prepare(bright_scene(settings), kWidth, kHeight);
@@ -206,11 +208,11 @@ std::size_t large_blocks(const std::vector<std::string>& settings, std::size_t b
   return large;
 }
 
-TEST(Display, NoHdrMemoryWithoutNeed) {
-  if (kSanitized) GTEST_SKIP() << "allocations are the sanitizer's, and are not counted";
-  EXPECT_EQ(large_blocks({}, 4), 0u) << "straight to codes: nothing as large as the picture at all";
-  EXPECT_EQ(large_blocks({"post.hdr=true"}, 4), 0u) << "in tiles";
-  EXPECT_EQ(large_blocks({"post.hdr=true", "post.auto_exposure=true"}, 8), 1u) << "the picture's light, once";
+TEST(Display, AllocatesHdrMemoryOnlyIfNeeded) {
+  if (kSanitized) GTEST_SKIP() << "the sanitizer replaces the allocator, so allocations are not counted";
+  EXPECT_EQ(large_blocks({}, 4), 0u) << "without HDR, no block is as large as the image";
+  EXPECT_EQ(large_blocks({"post.hdr=true"}, 4), 0u) << "HDR without auto exposure needs only tile memory";
+  EXPECT_EQ(large_blocks({"post.hdr=true", "post.auto_exposure=true"}, 8), 1u) << "one block for the linear image";
   EXPECT_EQ(large_blocks({"post.hdr=true", "post.auto_exposure=true", "post.format=rgba32f"}, 16), 1u);
 }
 

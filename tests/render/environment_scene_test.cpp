@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Environments in scenes: the shipped scene "environment", files, backgrounds by direction, fading.
+// Environments in scenes: the shipped scene "environment", image files, backgrounds by direction, blending.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,20 +32,20 @@ const EnvironmentSky& sky_of(const PreparedScene& scene) { return std::get<Envir
 
 TEST(EnvironmentScene, IsWithinOneCodeOfDoublePrecision) {
   for (const char* camera : {"camera=front", "camera=up"}) {
-    // The picture has neither silhouettes nor triangles' edges: what differs are codes at a tie, by one.
+    // The image has no silhouettes or triangle edges. Only ties between codes differ, by one code.
     EXPECT_EQ(share_beyond_one_code<double>(environment_with({camera}), 320, 180), 0.0) << camera;
   }
 }
 
-TEST(EnvironmentScene, SamePixelsForAnyThreads) {
+TEST(EnvironmentScene, IsBitIdenticalForAnyThreadCount) {
   const SceneDescription scene = SceneFile::open("environment").at(1.0);
   const Image<glm::u8vec4> one = picture_of(scene, 160, 90, 1);
   EXPECT_EQ(picture_of(scene, 160, 90, 2), one);
   EXPECT_EQ(picture_of(scene, 160, 90, 7), one);
 }
 
-// Every pixel's ray, worked out here, gives the globe's (u, v) and so the map's value.
-TEST(EnvironmentScene, ShowsTheMapWhereItBelongs) {
+// Computes the ray of every pixel independently, converts it to the (u, v) of the globe and compares the pixel with the map.
+TEST(EnvironmentScene, MapIsPlacedCorrectly) {
   constexpr int kWidth = 160, kHeight = 90;
   const SceneDescription scene = environment_with({"surface.width=256"});
   const Image<glm::vec4> image = light_of(scene, kWidth, kHeight);
@@ -58,11 +58,12 @@ TEST(EnvironmentScene, ShowsTheMapWhereItBelongs) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const double a = ((x + 0.5) / kWidth * 2 - 1) * tangent * kWidth / kHeight, b = (1 - (y + 0.5) / kHeight * 2) * tangent;
-      // (a, b, −1), turned back about y; then u_v of uv_sphere, and a panorama's direction of it.
+      // (a, b, −1), rotated back about y. Its (u, v) are those of uv_sphere, and give a direction in the panorama.
       const glm::dvec3 d(a * std::cos(turn) + std::sin(turn), b, a * std::sin(turn) - std::cos(turn));
       const double u = std::atan2(-d.z, d.x), v = std::atan2(std::hypot(d.x, d.z), d.y);
       const glm::dvec3 on_map(-std::sin(v) * std::sin(u), std::cos(v), -std::sin(v) * std::cos(u));
-      const double step = 2 * tangent / kHeight / std::hypot(a, b, 1.0);  // one of the pixel's two steps is this long, across or not
+      // The distance to the next pixel. In general this direction is not perpendicular to the ray.
+      const double step = 2 * tangent / kHeight / std::hypot(a, b, 1.0);
       const double across = step * std::sqrt(1 - std::min(a * a, b * b) / (a * a + b * b + 1));
       const glm::dvec3 side = glm::normalize(glm::cross(on_map, glm::dvec3(0.1, 0.2, 1))) * across;
       const glm::dvec3 want = map.sample<double>(on_map, side, {});
@@ -70,22 +71,22 @@ TEST(EnvironmentScene, ShowsTheMapWhereItBelongs) {
     }
   }
   RecordProperty("worst", std::to_string(worst));
-  EXPECT_LT(worst, 1e-4) << "float against double, as EnvironmentMap.FloatMatchesDouble has it";
+  EXPECT_LT(worst, 1e-4) << "rounding error of float";
 }
 
-TEST(EnvironmentScene, MeanOfAUniformSkyIsItsValue) {
+TEST(EnvironmentScene, UniformSkyHasOneValue) {
   for (const char* type : {"globe.type=globe", "globe.type=equirect"}) {
     const Image<glm::vec4> image = light_of(environment_with({type, "globe.map=[0.25, 3, 0.001]", "globe.brightness=2"}), 64, 48);
     for (const glm::vec4& c : image.texels()) ASSERT_EQ(c, glm::vec4(0.5f, 6.0f, 0.002f, 1.0f));
   }
 }
 
-TEST(EnvironmentScene, FadesAndMakesOnlyWhatIsSeen) {
+TEST(EnvironmentScene, BlendsAndLoadsOnlyVisibleEnvironments) {
   const std::string text = R"({"version": 1,
     "environments": {"day": {"map": [1, 0.5, 0]}, "night": {"map": "/none.png"}, "dusk": {"map": 0.25}},
     "background": {"type": "environment", "environment": "day", "second": "night", "weight": 0}})";
   SceneFile scene = SceneFile::parse(text, "test.json", ".");
-  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(1, 0.5f, 0, 1)) << "night's file is not missed";
+  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(1, 0.5f, 0, 1)) << "the missing file of night is not loaded";
   scene.set("background.weight=0.001");
   EXPECT_TRUE(tells(input_error([&] { light_of(scene.description(), 4, 4); }), "environments.night.map: /none.png", {"no such file"}));
   scene.set("background.second=dusk");
@@ -93,13 +94,14 @@ TEST(EnvironmentScene, FadesAndMakesOnlyWhatIsSeen) {
   EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.625f, 0.375f, 0.125f, 1));
   scene.set("background.weight=1");
   scene.set("day.map=/none.png");
-  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "nor day's";
+  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "the missing file of day is not loaded";
   scene.set("background.second=");
   scene.set("background.environment=dusk");
-  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "without a second the weight is 0";
+  EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.25f, 0.25f, 0.25f, 1))
+      << "without a second environment the weight is 0";
 }
 
-TEST(EnvironmentScene, StandsBehindEverything) {
+TEST(EnvironmentScene, IsBehindAllObjects) {
   SceneFile scene = SceneFile::open("environment");
   SceneDescription d = scene.description();
   ObjectDescription ball;
@@ -112,10 +114,10 @@ TEST(EnvironmentScene, StandsBehindEverything) {
   EXPECT_EQ(image.at(2, 2), sky.at(2, 2));
 }
 
-// ---- mirrors -----------------------------------------------------------------------------------------------------------
+// ---- reflections -------------------------------------------------------------------------------------------------------
 
-// A ball that only mirrors, under a globe whose map is known; each pixel's ray is thrown back here.
-TEST(Reflections, ABallShowsTheSkyWhereTheLawOfReflectionSays) {
+// A purely reflective ball under a globe with a known map. The test reflects the ray of each pixel itself.
+TEST(Reflections, BallFollowsTheLawOfReflection) {
   constexpr int kSize = 200;
   SceneFile scene = SceneFile::parse(R"({"version": 1, "cameras": {"c": {"position": [0, 0, 4], "fov": 40}},
     "textures": {"surface": {"source": "earth_color", "width": 256}},
@@ -130,7 +132,7 @@ TEST(Reflections, ABallShowsTheSkyWhereTheLawOfReflectionSays) {
   render(prepared, image, workers);
   const Environment& sky = sky_of(prepared).environment.first;
   const double tangent = std::tan(20 * std::numbers::pi / 180);
-  // The ray of a place on the picture, and thrown back; zero where the ball is not met or nearly missed.
+  // Returns the reflected ray of an image position, or zero if the ray misses the ball or hits it close to the rim.
   const auto thrown_back = [&](double x, double y) {
     const glm::dvec3 eye(0, 0, 4), d = glm::normalize(glm::dvec3((x / kSize * 2 - 1) * tangent, (1 - y / kSize * 2) * tangent, -1));
     const double b = glm::dot(eye, d), disc = b * b - 15;
@@ -158,14 +160,14 @@ TEST(Reflections, ABallShowsTheSkyWhereTheLawOfReflectionSays) {
   ASSERT_GT(count, 20000);
   RecordProperty("mean", std::to_string(sum / count));
   RecordProperty("worst", std::to_string(worst));
-  // Half a facet's sagitta, (π/512)²/8 = 5e-6 of the radius, moves the point, the mesh's interpolated normals by as little: some
-  // 1e-4 of a texel. The derivative by differences errs by the square of a pixel's step over its distance to the rim: levels
-  // by some 1e-3. A step between texels is at most 0.3.
+  // Half the sagitta of a facet, (π/512)²/8 = 5e-6 of the radius, displaces the hit point, and the interpolated normals deviate by the same
+  // amount: about 1e-4 texel. Finite differences have an error quadratic in the pixel step divided by the distance to the rim, about 1e-3
+  // of a mip level. Adjacent texels differ by up to 0.3.
   EXPECT_LT(sum / count, 2e-4);
   EXPECT_LT(worst, 1e-2);
 }
 
-TEST(Reflections, AreOfWhatTheirKeysSay) {
+TEST(Reflections, UseTheSelectedEnvironment) {
   const auto middle = [](const std::vector<std::string>& settings) {
     SceneFile scene = SceneFile::parse(R"({"version": 1, "objects": {"ball": {"color": 0, "reflection": 0.5}},
       "environments": {"a": {"map": [1, 0.5, 0.25]}, "b": {"map": 3}},
@@ -174,22 +176,22 @@ TEST(Reflections, AreOfWhatTheirKeysSay) {
     scene.set(settings);
     return light_of(scene.description(), 9, 9).at(4, 4);
   };
-  EXPECT_EQ(middle({}), glm::vec4(0.5f, 0.25f, 0.125f, 1)) << "the background's";
-  EXPECT_EQ(middle({"background.weight=1"}), glm::vec4(1.5f, 1.5f, 1.5f, 1)) << "as it fades";
+  EXPECT_EQ(middle({}), glm::vec4(0.5f, 0.25f, 0.125f, 1)) << "the environment of the background";
+  EXPECT_EQ(middle({"background.weight=1"}), glm::vec4(1.5f, 1.5f, 1.5f, 1)) << "blended like the background";
   EXPECT_EQ(middle({"reflections.environment=b"}), glm::vec4(1.5f, 1.5f, 1.5f, 1));
-  EXPECT_EQ(middle({"background.type=color", "background.color=0.5"}), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "nothing but a colour";
+  EXPECT_EQ(middle({"background.type=color", "background.color=0.5"}), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "a uniform color";
   EXPECT_EQ(middle({"reflections.on=false"}), glm::vec4(0, 0, 0, 1));
   EXPECT_EQ(middle({"ball.reflection=0"}), glm::vec4(0, 0, 0, 1));
   EXPECT_TRUE(tells(input_error([&] { middle({"reflections.environment=c"}); }), "test.json: reflections.environment", {"'c'", "a, b"}));
 }
 
-TEST(Reflections, AreWithinOneCodeOfDoublePrecisionWithEveryKindOfNormal) {
+TEST(Reflections, AreWithinOneCodeOfDoubleForEveryNormalDetail) {
   for (const char* detail : {R"("normals": "pixel", "height": "relief")", R"("bump_map": "relief")", R"("normal": "none")"}) {
     const std::string text = std::string(R"({"version": 1, "textures": {"relief": {"source": "moon_height", "width": 256}},
       "environments": {"sky": {"type": "day_sky", "size": 64}}, "background": {"type": "environment"},
       "objects": {"ball": {"color": 0.2, "reflection": 0.7, )") +
                              detail + "}}}";
-    // Silhouettes, as everywhere.
+    // The exceptions are pixels on silhouettes.
     EXPECT_LE(share_beyond_one_code<double>(SceneFile::parse(text, "test.json", ".").description(), 160, 100), 3e-3) << detail;
   }
 }
@@ -216,7 +218,7 @@ class EnvironmentFiles : public FolderTest {
   }
 };
 
-TEST_F(EnvironmentFiles, SixFacesAreSeenWhereTheirNamesSay) {
+TEST_F(EnvironmentFiles, FacesAppearInTheDirectionOfTheirNames) {
   put_faces();
   const std::array<const char*, 6> targets{"1,0,0", "-1,0,0", "0,1,0", "0,-1,0", "0,0,-1", "0,0,1"};
   for (std::size_t f = 0; f < 6; ++f) {
@@ -224,20 +226,20 @@ TEST_F(EnvironmentFiles, SixFacesAreSeenWhereTheirNamesSay) {
         picture_of(environment_with(cube({std::string("front.target=") + targets[f], "front.up=0.1,0.3,0.5", "front.fov=20"})), 8, 8);
     EXPECT_EQ(image.at(4, 4), glm::u8vec4(kColors[f], 255)) << kNames[f];
   }
-  // and turned: what was ahead is then on the left
+  // After a rotation by 90°, the front face is on the left.
   const Image<glm::u8vec4> turned =
       picture_of(environment_with(cube({"globe.rotation=0,90,0", "front.target=-1,0,0", "front.fov=20"})), 8, 8);
   EXPECT_EQ(turned.at(4, 4), glm::u8vec4(kColors[4], 255));
 }
 
-TEST_F(EnvironmentFiles, AFaceOfItsOwnComesBeforeTheFolder) {
+TEST_F(EnvironmentFiles, FaceFilesTakePrecedenceOverTheFolder) {
   put_faces();
   std::filesystem::rename(directory / "front.png", directory / "other.png");
   EXPECT_TRUE(tells(error_of(cube()), "environments.globe: " + directory.string(), {"face front", "front.png"}));
   EXPECT_EQ(error_of(cube({"globe.front=" + (directory / "other.png").string()})), "(no error)");
 }
 
-TEST_F(EnvironmentFiles, MistakesAreToldInOneLine) {
+TEST_F(EnvironmentFiles, ReportsErrorsInOneLine) {
   EXPECT_TRUE(tells(error_of({"globe.type=cube"}), "environments.globe", {"face right", "folder"}));
   EXPECT_TRUE(
       tells(error_of({"globe.type=cube", "globe.folder=/none"}), "environments.globe: /none", {"No such file or directory", "six"}));
@@ -256,7 +258,7 @@ TEST_F(EnvironmentFiles, MistakesAreToldInOneLine) {
                     "t.json: background.type", {"environment"}));
 }
 
-TEST_F(EnvironmentFiles, LightBeyondOneIsKept) {
+TEST_F(EnvironmentFiles, PreservesValuesAboveOne) {
   Image<glm::vec4> bright(8, 4);
   std::fill_n(bright.data(), 32, glm::vec4(0.5f, 100.0f, 60000.0f, 1.0f));
   write_image(directory / "sky.exr", bright);
@@ -265,17 +267,17 @@ TEST_F(EnvironmentFiles, LightBeyondOneIsKept) {
   std::fill_n(bright.data(), 32, glm::vec4(0.0f, 0.0f, 1e6f, 1.0f));
   write_image(directory / "sky.hdr", bright);
   const float blue = light_of(environment_with({"globe.type=equirect", "globe.map=" + (directory / "sky.hdr").string()}), 4, 4).at(2, 2).z;
-  EXPECT_NEAR(blue, 1e6f, 1e6f / 256) << "beyond halfs, in floats";
+  EXPECT_NEAR(blue, 1e6f, 1e6f / 256) << "values beyond the range of half are stored as floats";
 }
 
-// Sky boxes as they are found: their faces join. Beside an edge the step from pixel to pixel is no larger than elsewhere.
-TEST(EnvironmentScene, SkyBoxesHaveNoEdges) {
+// The faces of a sky box join without visible edges: next to an edge, adjacent pixels differ at most twice as much as elsewhere.
+TEST(EnvironmentScene, SkyBoxesHaveNoVisibleEdges) {
   for (const char* name : {"skybox_day", "skybox_night"}) {
     const std::filesystem::path folder = shared_data("sky") / name;
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << absent(folder);
     const Workers workers(2);
-    SceneAssets assets(workers);              // reads the files once
-    const auto steps_of = [&](double turn) {  // from column to column in the picture's middle, summed over its rows
+    SceneAssets assets(workers);              // loads the files only once
+    const auto steps_of = [&](double turn) {  // differences between adjacent columns in the middle of the image, summed over its rows
       const SceneDescription scene = environment_with(
           {"globe.type=cube", "globe.folder=" + folder.string(), "globe.rotation=0," + std::to_string(turn) + ",0", "front.fov=40"});
       const Image<glm::vec4> image = light_of(scene, 256, 256, assets, workers);
@@ -286,7 +288,7 @@ TEST(EnvironmentScene, SkyBoxesHaveNoEdges) {
       }
       return steps;
     };
-    for (const double turn : {45.0, 135.0, 225.0, 315.0}) {  // an edge runs down the middle
+    for (const double turn : {45.0, 135.0, 225.0, 315.0}) {  // an edge runs down the middle of the image
       const std::vector<double> steps = steps_of(turn);
       const double elsewhere = *std::max_element(steps.begin(), steps.begin() + 25);
       for (std::size_t i = 27; i < 32; ++i) EXPECT_LE(steps[i], 2.0 * elsewhere) << name << " " << turn;

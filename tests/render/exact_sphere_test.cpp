@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Objects of the shape sphere: placed, lit and shadowed as meshes are, and what they cannot show.
+// Objects of shape "sphere": they are placed, lit and shadowed like meshes, and reject the keys that need a mesh.
 #include <gtest/gtest.h>
 
 #include "halfspace/core/check.h"
@@ -30,10 +30,11 @@ Image<glm::u8vec4> ball_picture(const std::string& sections) {
   return picture;
 }
 
-// Every factor, model and kind of place, on a floor that takes shadows. Of the finest mesh a band is 0.3 px high: its outline lies within
-// 1e-3 px, its normals turn by 2e-5. What may differ are the pixels that the outlines of sphere and shadow cross, some 1,000 px long: about
-// one (as many differ), and some codes by one where light lies between two.
-TEST(ExactSphere, IsWhatTheFinestMeshNears) {
+// Tests every factor, light model and kind of placement, on a floor that receives shadows. A band of the finest mesh is 0.3 px high, so its
+// outline is accurate to 1e-3 px and its normals to 2e-5. Only pixels on the outlines of the sphere and its shadow can differ. These are
+// about 1,000 px long, so one pixel is expected to differ, which agrees with the measurement. Some codes differ by one where a value is
+// between two codes.
+TEST(ExactSphere, MatchesTheFinestMesh) {
   const std::string floor = R"("floor": {"shape": "plane", "size": 12, "position": [0, -1, 0]})";
   for (const std::string look : {R"("specular": 0.6, "shininess": 12, "model": "phong")", R"("specular": [0.6, 0.2, 0], "shininess": 60)",
                                  R"("color": [0.2, 0.5, 0.9], "tint": 0.7, "diffuse": 0.8, "ambient": 2)", R"("emissive": [0.1, 0, 0.2])",
@@ -51,8 +52,8 @@ TEST(ExactSphere, IsWhatTheFinestMeshNears) {
   }
 }
 
-// A factor that is not passed on would hide where it has its default. A highlight is some hundred pixels.
-TEST(ExactSphere, HasEveryFactorOfItsMaterial) {
+// A factor that is ignored would go unnoticed at its default value. A highlight covers about a hundred pixels.
+TEST(ExactSphere, UsesEveryFactorOfItsMaterial) {
   const auto with = [](const std::string& look) { return ball_picture(R"("objects": {"ball": {"shape": "sphere")" + look + "}}"); };
   const auto is_other = [&](const std::string& a, const std::string& b) { return compare_images(with(a), with(b)).share_above > 0.001; };
   for (const std::string look : {R"(, "color": [1, 0.5, 0.5])", R"(, "tint": 0.5)", R"(, "ambient": 0)", R"(, "diffuse": 0.5)",
@@ -62,10 +63,10 @@ TEST(ExactSphere, HasEveryFactorOfItsMaterial) {
   const std::string shiny = R"(, "specular": 0.5)";
   EXPECT_TRUE(is_other(shiny, shiny + R"(, "shininess": 4)"));
   EXPECT_TRUE(is_other(shiny, shiny + R"(, "model": "phong")"));
-  EXPECT_FALSE(is_other("", R"(, "model": "phong", "shininess": 4)")) << "of no highlight";
+  EXPECT_FALSE(is_other("", R"(, "model": "phong", "shininess": 4)")) << "without a highlight, model and shininess have no effect";
 }
 
-TEST(ExactSphere, TellsWhatOnlyAMeshShows) {
+TEST(ExactSphere, RejectsKeysThatNeedAMesh) {
   const struct {
     const char *keys, *key;
   } cases[] = {{R"("color": "t")", "color"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What SceneAssets::fit chooses, rule by rule. How right the pictures are then: tests/reference/max_error_test.cpp.
+// Checks the choices of SceneAssets::fit rule by rule. tests/reference/max_error_test.cpp checks the accuracy of the resulting images.
 #include "halfspace/render/model/model_choice.h"
 
 #include <gtest/gtest.h>
@@ -35,13 +35,13 @@ std::map<std::string, std::string> choices(const std::string& sections, const Al
 
 const AllowedError kHalfPixel{0.5, std::nullopt};
 
-// A sphere that only a mesh can show.
+// Makes a sphere require a mesh.
 const std::string kMirror = R"("reflection": 0.1)";
 
 std::string objects(const std::string& keys) { return R"("objects": {"a": {)" + keys + "}}"; }
 
-// The fewest bands whose chord, at the pixels that a unit spans, is short enough: one step fewer is too long.
-TEST(ModelChoice, TakesTheFewestBandsThatAreEnough) {
+// The chord error of the chosen number of bands, in pixels, is below the limit, and that of the next smaller number is not.
+TEST(ModelChoice, UsesTheFewestSufficientBands) {
   const FittedScene f = fitted(objects(R"("latitudes": 4, "longitudes": 8, )" + kMirror), kHalfPixel);
   const ObjectDescription& o = f.scene.objects.front().second;
   const View view = make_view(f.scene.cameras.front().second, kViewWidth, kViewHeight);
@@ -49,45 +49,46 @@ TEST(ModelChoice, TakesTheFewestBandsThatAreEnough) {
   EXPECT_LE(chord_error(o) * per_unit, 0.5);
   const int fewer = o.latitudes == part_step(o.latitudes * 3 / 4) ? o.latitudes / 2 : o.latitudes * 3 / 4;
   EXPECT_GT(chord_error(with_parts(o, fewer, false)) * per_unit, 0.5) << o.latitudes;
-  EXPECT_EQ(f.choices.size(), 2u) << "latitudes and longitudes, and nothing that is as it was";
+  EXPECT_EQ(f.choices.size(), 2u) << "only latitudes and longitudes change";
 }
 
-TEST(ModelChoice, LeavesWhatIsMeant) {
-  EXPECT_TRUE(choices(objects(R"("shading": "flat", "latitudes": 5, "longitudes": 7)"), kHalfPixel).empty()) << "facets";
-  EXPECT_TRUE(choices(objects(R"("shading": "gouraud", "latitudes": 99, "longitudes": 200)"), kHalfPixel).empty()) << "light by vertex";
+TEST(ModelChoice, KeepsIntendedSettings) {
+  EXPECT_TRUE(choices(objects(R"("shading": "flat", "latitudes": 5, "longitudes": 7)"), kHalfPixel).empty()) << "facets are intended";
+  EXPECT_TRUE(choices(objects(R"("shading": "gouraud", "latitudes": 99, "longitudes": 200)"), kHalfPixel).empty())
+      << "per-vertex lighting depends on the mesh";
   const std::string hills = R"("textures": {"h": {"source": "hills_height"}}, )";
   EXPECT_TRUE(choices(hills + objects(R"("shape": "plane", "segments": 512, "height": "h", "height_scale": 0.1)"), kHalfPixel).empty())
-      << "normals of heights";
+      << "normals follow from the displacement";
 }
 
-TEST(ModelChoice, SpendsNothingOnWhatIsPlaneOrOutOfSight) {
+TEST(ModelChoice, UsesTheCoarsestMeshForFlatOrInvisibleObjects) {
   EXPECT_EQ(choices(objects(R"("shape": "cube", "segments": 9)"), kHalfPixel).at("objects.a.segments"), "1");
   EXPECT_EQ(choices(objects(R"("position": [90, 0, 0], )" + kMirror), kHalfPixel).at("objects.a.latitudes"), "8");
   EXPECT_EQ(
       choices(objects(R"("position": [90, 0, 0], )" + kMirror) + R"(, "shadow": {"method": "pcf3"})", kHalfPixel).at("objects.a.latitudes"),
       "8")
-      << "its shadow spans no pixel that is known";
+      << "the size of its shadow in pixels is unknown";
 }
 
-TEST(ModelChoice, SamplesPlaceEdgesToHalfTheirDistance) {
+TEST(ModelChoice, SampleCountFollowsTheAllowedEdgeError) {
   for (const auto& [px, samples] : {std::pair(1.0, 1), {0.5, 1}, {0.49, 2}, {0.3, 4}, {0.18, 8}, {0.05, 8}})
     EXPECT_EQ(fitted(objects(""), {px, std::nullopt}).scene.head.samples, samples) << px;
   EXPECT_EQ(fitted(R"("samples": 8, )" + objects(""), kHalfPixel).scene.head.samples, 1);
 }
 
-TEST(ModelChoice, SpritesAreExactWhereCirclesLieOff) {
+TEST(ModelChoice, SpritesAreExactWhereCirclesAreInaccurate) {
   const std::string sphere = R"("particles": {"count": 1, "arrangement": "grid", "radius": 0.5})";
-  EXPECT_TRUE(choices(sphere, {3.0, std::nullopt}).empty()) << "in the middle of the picture";
+  EXPECT_TRUE(choices(sphere, {3.0, std::nullopt}).empty()) << "circles are accurate near the center of the image";
   EXPECT_EQ(choices(sphere, {0.1, std::nullopt}).at("particles.sprite"), "exact");
 }
 
-TEST(ModelChoice, PlainSpheresAreRays) {
+TEST(ModelChoice, PlainSpheresAreRayTraced) {
   for (const AllowedError& allowed : {kHalfPixel, AllowedError{std::nullopt, 4.0}}) {
     const auto shape = [&](const std::string& keys) { return choices(objects(keys), allowed).contains("objects.a.shape"); };
     EXPECT_TRUE(shape(R"("color": [1, 0, 0], "specular": 0.5, "scale": [2, -2, 2])"));
     EXPECT_TRUE(shape(R"("shape": "icosphere", "instances": [{"scale": [2, 2, 2]}])"));
     EXPECT_FALSE(shape(R"("shape": "torus")"));
-    EXPECT_FALSE(shape(R"("shape": "sphere")")) << "is one";
+    EXPECT_FALSE(shape(R"("shape": "sphere")")) << "already a sphere";
     EXPECT_FALSE(shape(kMirror));
     EXPECT_FALSE(shape(R"("shading": "gouraud", "longitudes": 8)"));
     EXPECT_FALSE(shape(R"("scale": [1, 2, 1])"));
@@ -95,7 +96,7 @@ TEST(ModelChoice, PlainSpheresAreRays) {
   }
 }
 
-TEST(ModelChoice, LightByVertexIsForDiffuseLightFromFarAway) {
+TEST(ModelChoice, GouraudIsChosenForDiffuseDirectionalLight) {
   const AllowedError colors{std::nullopt, 16.0};
   const auto shading = [&](const std::string& keys) { return choices(objects(keys), colors).contains("objects.a.shading"); };
   EXPECT_TRUE(shading(R"("shape": "cube")"));
@@ -103,7 +104,7 @@ TEST(ModelChoice, LightByVertexIsForDiffuseLightFromFarAway) {
   EXPECT_FALSE(shading(R"("position": [0, 0, -300])")) << "more vertices than pixels";
 }
 
-TEST(ModelChoice, FiltersAndFormatsFollowTheCodesAllowed) {
+TEST(ModelChoice, FiltersAndFormatsFollowTheAllowedColorError) {
   const std::string scene =
       R"("textures": {"t": {"source": "checkerboard", "anisotropy": 4}}, "post": {"hdr": true, "format": "rgba32f"}, )" +
       objects(R"("shape": "plane", "color": "t")");
@@ -112,7 +113,7 @@ TEST(ModelChoice, FiltersAndFormatsFollowTheCodesAllowed) {
   EXPECT_EQ(choices(scene, {std::nullopt, 4.0}).at("post.format"), "rgba16f");
 }
 
-TEST(ModelChoice, MoreThanThereIsRoomForIsToldInOneLine) {
+TEST(ModelChoice, ReportsScenesThatAreTooLarge) {
   std::string copies;
   for (int i = 0; i < 3000; ++i) copies += R"({"position": [0, 0, 0]},)";
   copies.pop_back();

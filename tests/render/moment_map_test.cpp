@@ -20,11 +20,11 @@ ShadowView view_of(int size, bool perspective) {
   return view;
 }
 
-TEST(MomentMap, IsTheMeanOfThePowersOverASquare) {
+TEST(MomentMap, StoresMeanPowersOverASquare) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> any(0.0f, 1.0f);
-  for (const glm::ivec2& c :
-       {glm::ivec2(256, 2), glm::ivec2(301, 0), glm::ivec2(257, 5)}) {  // widths that end within a task's rows and a row's lanes
+  // The sizes include widths that are not multiples of a task's rows or of the SIMD width.
+  for (const glm::ivec2& c : {glm::ivec2(256, 2), glm::ivec2(301, 0), glm::ivec2(257, 5)}) {
     const int size = c.x, radius = c.y;
     for (const bool perspective : {false, true}) {
       const ShadowView view = view_of(size, perspective);
@@ -40,7 +40,7 @@ TEST(MomentMap, IsTheMeanOfThePowersOverASquare) {
         return (w - 0.5) / 7.5;
       };
       for (int k = 0; k < 500; ++k) {
-        // Borders among them.
+        // Includes texels at the borders.
         const int x = k % 3 == 0 ? k % 7 : static_cast<int>(random() % static_cast<unsigned>(size)),
                   y = k % 5 == 0 ? size - 1 - k % 4 : static_cast<int>(random() % static_cast<unsigned>(size));
         glm::dvec4 sum(0.0);
@@ -52,7 +52,7 @@ TEST(MomentMap, IsTheMeanOfThePowersOverASquare) {
         }
         sum /= (2 * radius + 1) * (2 * radius + 1);
         for (int n = 0; n < 4; ++n)
-          ASSERT_NEAR(map.at(x, y)[n], sum[n], 2e-6) << size << ' ' << radius << ' ' << x << ' ' << y;  // sums of up to 22 floats
+          ASSERT_NEAR(map.at(x, y)[n], sum[n], 2e-6) << size << ' ' << radius << ' ' << x << ' ' << y;  // sums of 22 floats
       }
     }
   }

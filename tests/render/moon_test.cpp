@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shipped scene "moon", and what preparing a scene does with displacement, placement and assets.
+// The shipped scene "moon", and how PreparedScene handles displacement, placement and assets.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,26 +28,26 @@ std::string error_of(const SceneDescription& scene) {
 }
 
 TEST(Moon, IsWithinOneCodeOfDoublePrecision) {
-  // 99.9% of pixels: the rest lie on silhouettes, where a position rounds to another 1/256 px, and on stars' rims.
+  // The remaining 0.1% of pixels are on silhouettes, where a position rounds to a different 1/256 px, and on the rims of stars.
   EXPECT_LE(share_beyond_one_code<double>(SceneFile::open("moon").description(), 320, 180), 1e-3);
 }
 
-TEST(Moon, SamePixelsForAnyThreads) {
+TEST(Moon, IsBitIdenticalForAnyThreadCount) {
   const SceneDescription scene = SceneFile::open("moon").at(1.0);
   const Image<glm::u8vec4> one = picture_of(scene, 160, 90, 1);
   EXPECT_EQ(picture_of(scene, 160, 90, 2), one);
   EXPECT_EQ(picture_of(scene, 160, 90, 7), one);
 }
 
-// How far the ray through a pixel passes from the origin, and whether the pixel shows something there.
+// The distance of the ray through a pixel from the origin, and whether the pixel is covered.
 struct Sighting {
   double distance;
   bool covered;
-  double pixel;  // what a pixel spans at the origin's distance
+  double pixel;  // size of a pixel at the distance of the origin
 };
 
 std::vector<Sighting> sightings(const SceneDescription& scene, int width, int height) {
-  SceneDescription white = scene;  // everything that is drawn is 1, everything else 0
+  SceneDescription white = scene;  // drawn pixels become 1, all others 0
   white.head.ambient.linear = glm::dvec3(1.0);
   white.lights.clear();
   white.background = {};
@@ -76,7 +76,7 @@ std::vector<Sighting> sightings(const SceneDescription& scene, int width, int he
   return list;
 }
 
-TEST(Moon, SilhouetteOfTheUndisplacedIsTheSphere) {
+TEST(Moon, SilhouetteWithoutDisplacementIsTheSphere) {
   for (const char* camera : {"cameras.whole.type=perspective", "cameras.whole.type=orthographic"}) {
     SceneFile scene = SceneFile::open("moon");
     scene.set(camera);
@@ -85,8 +85,8 @@ TEST(Moon, SilhouetteOfTheUndisplacedIsTheSphere) {
     int covered = 0;
     for (const Sighting& s : sightings(scene.description(), 400, 300)) {
       covered += s.covered;
-      // A chord of 1/256 half turn lies 1 − cos(π/512) = 1.9e-5 below the sphere, in both directions; snapping moves a
-      // vertex by 1/512 px, and the outline of a perspective sphere stretches that by less than 2.
+      // A chord of 1/256 of a half turn is 1 − cos(π/512) = 1.9e-5 below the sphere, in both directions of the grid. Snapping moves a
+      // vertex by 1/512 px, and perspective stretches that at the outline by a factor of less than 2.
       const double slack = 2 * 1.9e-5 + s.pixel / 256;
       if (s.distance < 1 - slack) {
         EXPECT_TRUE(s.covered) << s.distance;
@@ -99,9 +99,9 @@ TEST(Moon, SilhouetteOfTheUndisplacedIsTheSphere) {
   }
 }
 
-TEST(Moon, SilhouetteOfTheDisplacedLiesBetweenItsHeights) {
+TEST(Moon, DisplacedSilhouetteIsBetweenTheExtremeHeights) {
   const SceneDescription scene = moon_with({"moon.height_scale=0.2"});
-  const double low = 1 - 0.1 - 1e-3, high = 1 + 0.1 + 1e-3;  // the map's 0 and 1
+  const double low = 1 - 0.1 - 1e-3, high = 1 + 0.1 + 1e-3;  // for the map values 0 and 1
   int between = 0, inside = 0;
   for (const Sighting& s : sightings(scene, 400, 300)) {
     if (s.distance < low) {
@@ -114,12 +114,12 @@ TEST(Moon, SilhouetteOfTheDisplacedLiesBetweenItsHeights) {
     between += on_the_limb;
     inside += on_the_limb && s.covered;
   }
-  // The limb has mountains: neither all of that ring is covered nor none.
+  // The limb has mountains, so the ring is partially covered.
   EXPECT_GT(inside, between / 10);
   EXPECT_LT(inside, between * 9 / 10);
 }
 
-TEST(Moon, NormalsByPixelShowOnACoarseMeshWhatAFineMeshShows) {
+TEST(Moon, PixelNormalsOnACoarseMeshResembleAFineMesh) {
   const auto picture = [](int sectors, const char* normals) {
     return picture_of(moon_with({"moon.longitudes=" + std::to_string(sectors), "moon.latitudes=" + std::to_string(sectors / 2),
                                  "moon.color=#ffffff", std::string("moon.normals=") + normals}),
@@ -139,22 +139,22 @@ TEST(Moon, NormalsByPixelShowOnACoarseMeshWhatAFineMeshShows) {
   EXPECT_GT(by_vertex, 2 * by_pixel) << by_vertex << " and " << by_pixel << " codes";
 }
 
-// ---- preparing -------------------------------------------------------------------------------------------------
+// ---- prepared scenes -------------------------------------------------------------------------------------------
 
 SceneDescription parsed(const std::string& text) { return SceneFile::parse(text, "test.json", ".").description(); }
 
-TEST(PreparedScene, DrawsNoMoreThanAsked) {
+TEST(PreparedScene, SkipsInvisibleObjects) {
   const Workers workers(1);
   SceneAssets assets(workers);
   EXPECT_TRUE(assets.prepare(parsed(R"({"version": 1})"), 8, 8).draws.empty());
   EXPECT_TRUE(assets.prepare(parsed(R"({"version": 1, "objects": {"a": {"visible": false, "color": "none.png"}}})"), 8, 8).draws.empty())
-      << "what is not seen is not read";
+      << "the files of invisible objects are not loaded";
   const PreparedScene plain = assets.prepare(parsed(R"({"version": 1, "objects": {"a": {"color": 0.5}}})"), 8, 8);
   EXPECT_EQ(surface_of(plain.draws.at(0)).factors[kColor].map, nullptr);
   EXPECT_TRUE(surface_of(plain.draws.at(0)).lights.empty());
 }
 
-TEST(PreparedScene, AssetsAreKeptWhileTheyAreWanted) {
+TEST(PreparedScene, ReusesAssetsBetweenFrames) {
   const Workers workers(1);
   SceneAssets assets(workers);
   SceneDescription scene = moon_with({"textures.surface.width=64", "textures.relief.width=64"});
@@ -170,7 +170,7 @@ TEST(PreparedScene, AssetsAreKeptWhileTheyAreWanted) {
   EXPECT_NE(third.draws.front().vertices.streams[0].data, first.draws.front().vertices.streams[0].data);
 }
 
-// Copies share mesh and texture; each has a transform of its own.
+// Instances share mesh and texture; each has its own transform.
 TEST(PreparedScene, InstancesShareMeshAndTexture) {
   const Workers workers(1);
   SceneAssets assets(workers);
@@ -188,7 +188,8 @@ TEST(PreparedScene, InstancesShareMeshAndTexture) {
   }
 }
 
-// A camera that comes nearer: without a word on what is to come the map grows on the way, with it it does not.
+// The camera approaches the object. If later frames are not announced, the map grows on the way; with expect() it has its final width in
+// the first frame.
 TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
   const Workers workers(1);
   const SceneFile scene = SceneFile::parse(R"({"version": 1, "cameras": {"c": {"position": [0, 0, 9]}},
@@ -207,9 +208,9 @@ TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
   EXPECT_EQ(width_at(together, 1), width_at(alone, 1));
 }
 
-// Seen from 1 above it with a right angle of view, a plane's nearest point in the picture is 1 away along the view: 8 units are 8/2
-// pictures wide there, and a texel spans at most two pixels. What lies behind the eye, though nearer, does not count.
-TEST(PreparedScene, APlanesMapIsAsFineAsItsPartInViewNeeds) {
+// From 1 unit above a plane with a field of view of 90°, the nearest visible point of the plane is 1 unit away along the view axis. There,
+// 8 units are 8/2 image widths, and a texel may span at most two pixels. Points behind the eye are nearer, but do not count.
+TEST(PreparedScene, MapWidthOfAPlaneFollowsItsVisiblePart) {
   const Workers workers(1);
   const auto width_from = [&](const char* eye, const char* target, const std::string& plane, const std::string& more = "") {
     SceneAssets assets(workers);
@@ -224,21 +225,23 @@ TEST(PreparedScene, APlanesMapIsAsFineAsItsPartInViewNeeds) {
   const std::string plain = R"("size": 8)";
   EXPECT_EQ(width_from("[0, 1.05, 0]", "[0, 1.05, -1]", plain), 1024);  // 8/2.1 · 512 = 1950 px
   EXPECT_EQ(width_from("[0, 0.95, 0]", "[0, 0.95, -1]", plain), 2048);  // 2156 px
-  EXPECT_EQ(width_from("[0, 1.05, 0]", "[1, 3, -1]", plain), 256);      // the sky: the least
+  EXPECT_EQ(width_from("[0, 1.05, 0]", "[1, 3, -1]", plain), 256);      // only the sky is visible: minimum width
 
   const std::string placed = R"("size": 4, "scale": [2, 2, 2], "rotation": [0, 30, 0], "position": [0.5, 2, 0.5])";
   EXPECT_EQ(width_from("[0, 3.05, 0]", "[0, 3.05, -1]", placed), 1024);
   EXPECT_EQ(width_from("[0, 2.95, 0]", "[0, 2.95, -1]", placed), 2048);
 
-  const std::string relief = R"("size": 8, "segments": 4, "height": "h", "height_scale": 0.5, "height_zero": 0)";  // to 0.5 above it
+  // The relief rises up to 0.5 above the plane.
+  const std::string relief = R"("size": 8, "segments": 4, "height": "h", "height_scale": 0.5, "height_zero": 0)";
   EXPECT_EQ(width_from("[0, 1.55, 0]", "[0, 1.55, -1]", relief), 1024);
   EXPECT_EQ(width_from("[0, 1.45, 0]", "[0, 1.45, -1]", relief), 2048);
   const std::string shadow = R"(, "lights": {"l": {}}, "shadow": {"method": "pcf3"})";
   EXPECT_EQ(width_from("[0, 1.55, 0]", "[1, 3, -1]", relief), 256);
-  EXPECT_EQ(width_from("[0, 1.55, 0]", "[1, 3, -1]", relief, shadow), 2048);  // it may shade what is seen: as fine as a pattern can be
+  // The plane is not visible but may cast a shadow into the view, so its map has the maximum width of a pattern.
+  EXPECT_EQ(width_from("[0, 1.55, 0]", "[1, 3, -1]", relief, shadow), 2048);
 }
 
-// Every shape and every map that tiles can be drawn, displaced or not.
+// Draws every shape, with and without displacement, and every map that tiles.
 TEST(PreparedScene, EveryShapeAndPatternIsDrawn) {
   const Workers workers(2);
   SceneAssets assets(workers);
@@ -262,13 +265,13 @@ TEST(PreparedScene, EveryShapeAndPatternIsDrawn) {
   }
 }
 
-TEST(PreparedScene, InstancesAndMirrorsAreDrawnRight) {
-  // A cube three times: as it is, moved, and mirrored; light from the right. Each shows its front, lit by the same cosine.
+TEST(PreparedScene, InstancesAndMirrorsAreDrawnCorrectly) {
+  // A cube in three places, once mirrored, lit from the front. Each instance shows its front face, lit with the same cosine.
   const SceneDescription scene = parsed(R"({"version": 1,
     "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "height": 4}},
     "lights": {"l": {"direction": [0, 0, 1]}},
     "objects": {"a": {"shape": "cube", "size": 1, "instances": [{"position": [-2, 0, 0]}, {}, {"position": [2, 0, 0], "scale": [-1, 1, 1]}]}}})");
-  const Image<glm::u8vec4> p = picture_of(scene, 80, 40);  // 10 px a unit
+  const Image<glm::u8vec4> p = picture_of(scene, 80, 40);  // 10 px per unit
   for (const int x : {20, 40, 60}) {
     EXPECT_EQ(p.at(x, 20), glm::u8vec4(255)) << x;
     EXPECT_EQ(p.at(x - 4, 20), glm::u8vec4(255)) << x;
@@ -276,19 +279,19 @@ TEST(PreparedScene, InstancesAndMirrorsAreDrawnRight) {
   }
 }
 
-TEST(PreparedScene, CopiesAreRelativeToTheirObject) {
+TEST(PreparedScene, InstancesAreRelativeToTheirObject) {
   const SceneDescription scene = parsed(R"({"version": 1, "ambient": 1,
     "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "height": 4}},
     "objects": {"a": {"shape": "cube", "size": 0.4, "position": [0, 1, 0], "rotation": [0, 0, 90],
                       "instances": [{"position": [-2, 0, 0]}, {}]}}})");
-  const Image<glm::u8vec4> p = picture_of(scene, 40, 40);  // 10 px a unit
-  EXPECT_EQ(p.at(20, 10).x, 255) << "the copy in the object's place";
-  EXPECT_EQ(p.at(20, 30).x, 255) << "the object's x points up: the copy at -2 is below";
+  const Image<glm::u8vec4> p = picture_of(scene, 40, 40);  // 10 px per unit
+  EXPECT_EQ(p.at(20, 10).x, 255) << "the instance at the position of the object";
+  EXPECT_EQ(p.at(20, 30).x, 255) << "the x axis of the object points up, so the instance at -2 is below";
   EXPECT_EQ(p.at(20, 20).x, 0);
   EXPECT_EQ(p.at(10, 10).x, 0);
 }
 
-TEST(PreparedScene, APlaneIsLitOnTheSideThatIsSeen) {
+TEST(PreparedScene, PlanesAreLitOnTheVisibleSide) {
   const auto brightness = [](const char* light) {
     return picture_of(
                parsed(std::string(
@@ -303,8 +306,8 @@ TEST(PreparedScene, APlaneIsLitOnTheSideThatIsSeen) {
   EXPECT_EQ(brightness("[0, -1, 0]"), 255);
 }
 
-// World coordinates are subtracted in double: a scene and its camera far from the origin give the same picture.
-TEST(PreparedScene, FarFromTheOriginLooksTheSame) {
+// Positions relative to the camera are computed in double, so a scene and camera far from the origin give the same image.
+TEST(PreparedScene, ImageIsUnchangedFarFromTheOrigin) {
   const auto picture = [](double d) {
     SceneDescription scene = SceneFile::open("earth").description();
     scene.lights.front().second.position += glm::dvec3(d, -2 * d, d);
@@ -313,16 +316,16 @@ TEST(PreparedScene, FarFromTheOriginLooksTheSame) {
     scene.objects.front().second.placement.position += glm::dvec3(d, -2 * d, d);
     return picture_of(scene, 160, 100);
   };
-  const Image<glm::u8vec4> here = picture(0), there = picture(1048576);  // 2^20: doubles keep 32 bits behind the point
+  const Image<glm::u8vec4> here = picture(0), there = picture(1048576);  // 2^20: doubles keep 32 fractional bits
   int differing = 0;
   for (int y = 0; y < 100; ++y) {
     for (int x = 0; x < 160; ++x) differing += largest_difference(here.at(x, y), there.at(x, y)) > 1;
   }
-  EXPECT_LE(differing, 2) << "a sample on a silhouette may fall to the other side";
+  EXPECT_LE(differing, 2) << "a sample on a silhouette can change sides";
 }
 
 TEST(PreparedScene, RotationsAreDegreesAboutTheAxes) {
-  // A flat bar along x, turned: about z by 90° it stands upright; about x by 90° (z first) it still does, as seen along z.
+  // A bar along x. A rotation by 90° about z makes it upright; a subsequent rotation by 90° about x tips it towards the eye.
   const auto covers = [](const char* rotation, int x, int y) {
     const SceneDescription scene = parsed(std::string(R"({"version": 1, "ambient": 1,
       "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "height": 4}},
@@ -334,13 +337,13 @@ TEST(PreparedScene, RotationsAreDegreesAboutTheAxes) {
   EXPECT_FALSE(covers("[0, 0, 0]", 0, 12));
   EXPECT_TRUE(covers("[0, 0, 90]", 0, 12));
   EXPECT_FALSE(covers("[0, 0, 90]", 12, 0));
-  EXPECT_FALSE(covers("[0, 90, 0]", 12, 0)) << "along z, seen from its end";
+  EXPECT_FALSE(covers("[0, 90, 0]", 12, 0)) << "along z, seen from the end";
   EXPECT_TRUE(covers("[0, 0, 45]", 8, 8)) << "counter-clockwise, as seen from +z";
   EXPECT_FALSE(covers("[0, 0, 45]", 8, -8));
-  EXPECT_FALSE(covers("[90, 0, 90]", 0, 12)) << "z first: upright; then x tips it towards the eye";
+  EXPECT_FALSE(covers("[90, 0, 90]", 0, 12)) << "z is applied first, then x tips the bar towards the eye";
 }
 
-TEST(PreparedScene, WhatCannotBeUsedIsToldInOneLine) {
+TEST(PreparedScene, ReportsUnusableSettingsInOneLine) {
   EXPECT_THROW(moon_with({"moon.height_scale=2.5"}), InputError) << "2.5 can turn the sphere inside out";
   EXPECT_TRUE(tells(error_of(moon_with({"moon.height=surface"})), "objects.moon.height", {"color map", "height map"}));
   EXPECT_TRUE(tells(error_of(moon_with({"moon.color=relief"})), "objects.moon.color", {"height map", "color map"}));

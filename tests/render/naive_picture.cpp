@@ -7,7 +7,7 @@ namespace halfspace {
 
 namespace {
 
-// S, but with vertices where float arithmetic puts them.
+// S, optionally with the vertex positions that float arithmetic gives.
 template <class S>
 struct Placed : S {
   Positions positions;
@@ -33,7 +33,7 @@ Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height, 
     std::visit(
         [&]<class S>(const S& shader) {
           if constexpr (kGivesPointSprite<S> || kGivesPointSize<S>) {
-            HS_CHECK(false);  // the naive pipeline has no points
+            HS_CHECK(false);  // the naive pipeline does not support points
           } else {
             draw_naive(target, Placed<S>{shader, positions}, draw.vertices, *draw.indices, draw.state);
           }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene's picture by the renderer, and by the naive pipeline in float or double, to hold against each other.
+// Renders a scene with the renderer and with the naive pipeline, in float or double, for comparison.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline Image<glm::u8vec4> picture_of(const SceneDescription& scene, int width, i
   return picture;
 }
 
-/// The same as linear numbers, before exposure.
+/// Renders the same image in linear color, before exposure.
 inline Image<glm::vec4> light_of(const SceneDescription& scene, int width, int height, SceneAssets& assets, const Workers& workers) {
   Image<glm::vec4> picture(width, height);
   render(assets.prepare(scene, width, height), picture, workers);
@@ -32,12 +32,12 @@ inline Image<glm::vec4> light_of(const SceneDescription& scene, int width, int h
   return light_of(scene, width, height, assets, workers);
 }
 
-/// Where the double twin has its vertices: by its own double computation, or where float arithmetic puts them, so that all fall
-/// on the same 1/256 px and what is compared is shading alone.
+/// Vertex positions of the double twin: computed in double, or as float arithmetic gives them. With the latter, all vertices snap to the
+/// same 1/256 px as in the renderer, and only shading is compared.
 enum class Positions { in_r, as_rendered };
 
-/// The scene by the naive pipeline in R, float or double: linear colour, top row first. In naive_picture.cpp, for all
-/// shaders of scenes are compiled there.
+/// Renders the scene with the naive pipeline in R, float or double. The result is linear color, top row first. Defined in
+/// naive_picture.cpp, so that the shaders of all scenes are compiled only there.
 template <class R>
 Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height, Positions positions = Positions::in_r);
 
@@ -48,7 +48,7 @@ Image<vec4<R>> naive_picture(const SceneDescription& scene, int width, int heigh
   return naive_picture<R>(assets.prepare(scene, width, height), width, height);
 }
 
-/// What the draw's shader knows of its surface; of a draw that is one.
+/// Returns the surface parameters of the draw's shader, which must be derived from LitSurface.
 inline const LitSurface& surface_of(const PreparedDraw& draw) {
   const LitSurface* surface = nullptr;
   std::visit(
@@ -74,7 +74,7 @@ glm::u8vec4 encode(const vec4<R>& c) {
   return out;
 }
 
-/// Share of the picture's pixels that differ by more than one code from the naive pipeline in R.
+/// Returns the share of pixels that differ by more than one code from the naive pipeline in R.
 template <class R>
 double share_beyond_one_code(const SceneDescription& scene, int width, int height) {
   const Image<glm::u8vec4> image = picture_of(scene, width, height);

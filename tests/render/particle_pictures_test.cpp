@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of particles against spheres, cones and Phong's formula in double.
+// Compares images of particles with spheres, cones and Phong's formula, computed in double.
 #include <cmath>
 
 #include "halfspace/render/prepared_scene.h"
@@ -14,7 +14,8 @@ namespace {
 constexpr int kParticlesWidth = 640, kParticlesHeight = 360;
 const double kTanY = std::tan(50.0 * std::acos(-1.0) / 180.0), kTanX = kTanY * kParticlesWidth / kParticlesHeight;
 
-// Spheres in a scene whose camera is at the origin and looks along -z, 100 degrees high. Their light is ambient alone.
+// Returns a scene of spheres with ambient light only. The camera is at the origin, looks along -z and has a vertical field of view of 100
+// degrees.
 SceneDescription scene_of(const std::filesystem::path& csv, const std::string& sprite, const std::string& more = "") {
   return SceneFile::parse(R"({ "version": 1, "ambient": 1,
       "cameras": { "main": { "position": [0, 0, 0], "target": [0, 0, -1], "fov": 100, "near": 0.1, "far": 100 } },
@@ -33,7 +34,8 @@ Image<glm::vec4> linear_picture_of(const SceneDescription& scene, int threads = 
   return image;
 }
 
-// The depth along z at which the ray of a pixel enters a sphere, in double, or 0. squared: of the half chord, in radii.
+// Returns the depth along z at which the ray of a pixel enters a sphere, in double, or 0 if it misses. `squared` receives the square of the
+// half chord, in radii.
 double entry(const glm::dvec3& c, double r, int x, int row, double& squared) {
   const glm::dvec3 d((2 * (x + 0.5) / kParticlesWidth - 1) * kTanX, (1 - 2 * (row + 0.5) / kParticlesHeight) * kTanY, -1.0);
   const double a = glm::dot(d, d), b = glm::dot(d, c), discriminant = b * b - a * (glm::dot(c, c) - r * r);
@@ -43,11 +45,12 @@ double entry(const glm::dvec3& c, double r, int x, int row, double& squared) {
 
 class ParticlePictures : public FolderTest {};
 
-// The flaw of a size from the centre alone: far off, an ellipse is longer than the circle by 1/cos of the angle, so that the circle
-// misses 1 − cos of it; and a near sphere's ellipse lies farther out than its centre, so that the circle is too much elsewhere.
-TEST_F(ParticlePictures, SilhouetteByOffAxisAngle) {
+// The original sprite derives its size from the center only. A distant sphere projects to an ellipse that is longer than the circle by
+// 1/cos of the off-axis angle, so the circle misses a share of 1 − cos. The ellipse of a near sphere is also farther from the axis than its
+// center, so the circle covers pixels outside it.
+TEST_F(ParticlePictures, SilhouetteErrorGrowsWithTheOffAxisAngle) {
   const struct {
-    double degrees, least, most;  // the original's wrong pixels, in parts of the sphere's
+    double degrees, least, most;  // wrong pixels of the original sprite, as a share of the sphere's pixels
   } cases[] = {{0, 0.0, 0.03}, {15, 0.034, 0.08}, {30, 0.134, 0.19}, {45, 0.293, 0.37}};
   for (const auto& c : cases) {
     const double angle = c.degrees * std::acos(-1.0) / 180.0, r = 0.5;
@@ -63,7 +66,7 @@ TEST_F(ParticlePictures, SilhouetteByOffAxisAngle) {
         const bool truth = entry(center, r, x, y, squared) > 0.0;
         inside += truth ? 1 : 0;
         original_wrong += (original.at(x, y).x > 0.0f) != truth ? 1 : 0;
-        // The centre is rounded to float, so that a rim moves by some 1e-7 of the distance: 1e-5 of the squared chord.
+        // The center is rounded to float, which moves the rim by about 1e-7 of the distance, or 1e-5 of the squared chord.
         if (std::fabs(squared) > 1e-5) exact_wrong += (exact.at(x, y).x > 0.0f) != truth ? 1 : 0;
       }
     }
@@ -76,8 +79,8 @@ TEST_F(ParticlePictures, SilhouetteByOffAxisAngle) {
   }
 }
 
-// Spheres that pierce each other, some of them cut by the near plane: each pixel shows the one that is nearest in double.
-TEST_F(ParticlePictures, ExactSpheresMeetWhereTheyShould) {
+// Intersecting spheres, some of them cut by the near plane. Each pixel must show the sphere that is nearest in double.
+TEST_F(ParticlePictures, ExactSpheresIntersectCorrectly) {
   std::vector<std::pair<glm::dvec3, double>> spheres;
   std::string rows;
   for (int i = 0; i < 40; ++i) {
@@ -108,7 +111,7 @@ TEST_F(ParticlePictures, ExactSpheresMeetWhereTheyShould) {
           id = static_cast<int>(i) + 1;
         }
       }
-      if (close_call || (id != 0 && second - best < 1e-5)) continue;  // depths of 4 with float centres
+      if (close_call || (id != 0 && second - best < 1e-5)) continue;  // float rounding of depths up to 4
       ++compared;
       shown += id != 0 ? 1 : 0;
       ASSERT_EQ(image.at(x, y).x, static_cast<float>(id)) << x << ' ' << y;
@@ -118,8 +121,8 @@ TEST_F(ParticlePictures, ExactSpheresMeetWhereTheyShould) {
   EXPECT_GT(shown, kParticlesWidth * kParticlesHeight / 4);
 }
 
-// A wall at z = -3 stands before the middle of a sphere, which shows where its surface is nearer.
-TEST_F(ParticlePictures, SpheresPierceMeshes) {
+// A wall at z = -3 is in front of the center of a sphere, which is visible where its surface is nearer.
+TEST_F(ParticlePictures, SpheresIntersectMeshes) {
   const glm::dvec3 center(0.7, 0.2, -3.4);
   const std::filesystem::path csv = put("one.csv", "0.7,0.2,-3.4,0.9,1,0,0\n");
   const Image<glm::vec4> image = linear_picture_of(scene_of(csv, "exact", R"(, "objects": { "wall": { "shape": "plane", "size": 60,
@@ -129,7 +132,7 @@ TEST_F(ParticlePictures, SpheresPierceMeshes) {
     for (int x = 0; x < kParticlesWidth; ++x) {
       double squared = 0.0;
       const double t = entry(center, 0.9, x, y, squared);
-      if (std::fabs(t - 3.0) < 1e-5) continue;  // roundings of depths at 3 with a float centre
+      if (std::fabs(t - 3.0) < 1e-5) continue;  // float rounding of depths near 3
       const bool sphere = t > 0.0 && t < 3.0;
       red += sphere ? 1 : 0;
       ASSERT_EQ(image.at(x, y), sphere ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1)) << x << ' ' << y;
@@ -138,7 +141,7 @@ TEST_F(ParticlePictures, SpheresPierceMeshes) {
   EXPECT_GT(red, 1000);
 }
 
-TEST(ParticlePicture, SamePixelsForAnyNumberOfThreads) {
+TEST(ParticlePicture, IsBitIdenticalForAnyThreadCount) {
   for (const char* sprite : {"original", "exact"}) {
     SceneFile file = SceneFile::open("particles");
     file.set(std::vector<std::string>{"particles.count=3000", "particles.arrangement=ball", std::string("particles.sprite=") + sprite});
@@ -150,8 +153,9 @@ TEST(ParticlePicture, SamePixelsForAnyNumberOfThreads) {
   }
 }
 
-// The classic sprite's depth is a cone's: a wall half a unit behind the centre cuts its circle at half the radius, whatever that is.
-TEST_F(ParticlePictures, OriginalsAreAsDeepAsACone) {
+// The original sprite has the depth of a cone, so a wall half a unit behind the center cuts the circle at half its radius, regardless of
+// the radius.
+TEST_F(ParticlePictures, OriginalSpritesHaveTheDepthOfACone) {
   const std::filesystem::path csv = put("one.csv", "0,0,-3,1.4,1,0,0\n");
   const Image<glm::vec4> image = linear_picture_of(scene_of(csv, "original", R"(, "objects": { "wall": { "shape": "plane", "size": 60,
       "position": [0, 0, -3.5], "rotation": [90, 0, 0], "shading": "none", "color": [0, 1, 0] } })"));
@@ -160,7 +164,7 @@ TEST_F(ParticlePictures, OriginalsAreAsDeepAsACone) {
   for (int y = 0; y < kParticlesHeight; ++y) {
     for (int x = 0; x < kParticlesWidth; ++x) {
       const double from_middle = std::hypot(x + 0.5 - kParticlesWidth / 2, y + 0.5 - kParticlesHeight / 2) / radius;
-      if (std::fabs(from_middle - 0.5) < 1e-3) continue;  // the square is placed to 1/256 px, and 70 px wide either way
+      if (std::fabs(from_middle - 0.5) < 1e-3) continue;  // the square is snapped to 1/256 px and extends 70 px to each side
       red += from_middle < 0.5 ? 1 : 0;
       ASSERT_EQ(image.at(x, y), from_middle < 0.5 ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1)) << x << ' ' << y;
     }
@@ -168,12 +172,14 @@ TEST_F(ParticlePictures, OriginalsAreAsDeepAsACone) {
   EXPECT_GT(red, 1000);
 }
 
-// Phong's formula in double, for a light beside and above the eye: at the middle of a sphere, and to the right and below of it.
-TEST_F(ParticlePictures, AreLitByPhong) {
+// Compares with Phong's formula in double, for a light to the right of and above the eye, at the center of a sphere and at two other
+// points.
+TEST_F(ParticlePictures, MatchPhongsFormula) {
   const std::filesystem::path csv = put("one.csv", "0,0,-3,1,0.5,0.25,1\n");
   const std::string light = R"(, "lights": { "lamp": { "type": "point", "position": [2, 1, 0], "color": [0.9, 0.8, 0.7] } })";
   const glm::dvec3 center(0, 0, -3), lamp(0.9, 0.8, 0.7), lamp_ws(2, 1, 0), own(0.5, 0.25, 1);
-  const double radius_px = 0.5 * 361 / kTanY / 3.0;  // of the original's circle; 641 px wide, so that a pixel is in the middle
+  // Radius of the original sprite. The image is 641 px wide so that a pixel is at the center.
+  const double radius_px = 0.5 * 361 / kTanY / 3.0;
   for (const char* sprite : {"original", "exact"}) {
     const bool exact = std::string(sprite) == "exact";
     SceneDescription scene = scene_of(csv, sprite, light);
@@ -181,8 +187,8 @@ TEST_F(ParticlePictures, AreLitByPhong) {
     scene.particles.specular = Color{glm::dvec3(0.4)};
     scene.particles.shininess = 5.0;
     const Image<glm::vec4> image = linear_picture_of(scene, 1, 641, 361);
-    for (const glm::ivec2 px : {glm::ivec2(0, 0), glm::ivec2(12, 7), glm::ivec2(-20, -15)}) {  // from the middle, down
-      // The original takes light and eye from the centre.
+    for (const glm::ivec2 px : {glm::ivec2(0, 0), glm::ivec2(12, 7), glm::ivec2(-20, -15)}) {  // offset from the center, y down
+      // The original sprite evaluates light and view directions at its center.
       glm::dvec3 n(px.x / radius_px, -px.y / radius_px, 0), point = center;
       n.z = std::sqrt(1.0 - glm::dot(n, n));
       if (exact) {
@@ -196,8 +202,8 @@ TEST_F(ParticlePictures, AreLitByPhong) {
       const glm::dvec3 expected =
           own * (0.1 + std::max(n_l, 0.0) * lamp) + (n_l > 0 ? 0.4 * std::pow(std::max(r_v, 0.0), 5.0) : 0.0) * lamp;
       const glm::vec4 seen = image.at(320 + px.x, 180 + px.y);
-      // Some float roundings; the original's square is placed to 1/512 px, and its normals are off by twice that part of its
-      // radius, its highlight by five times that.
+      // Float rounding. The square of the original sprite is snapped to 1/512 px, so its normals are off by twice that divided by its
+      // radius, and its highlight by five times as much.
       const double most = exact ? 5e-6 : 2.0 / 512 / radius_px * 7;
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(seen[k]), expected[k], most) << sprite << ' ' << px.x;
     }

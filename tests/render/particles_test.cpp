@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The particles of a scene: where they are, and their file.
+// Positions of a scene's particles, and particle files.
 #include "halfspace/render/particles.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ ParticlesDescription some(int count, ParticleArrangement arrangement) {
   return p;
 }
 
-TEST(Particles, HelixByFormula) {
+TEST(Particles, HelixMatchesTheFormula) {
   for (const double seconds : {0.0, 1.0, 7.3}) {
     const SceneDescription scene = SceneFile::open("particles").at(seconds);
     const ParticlesDescription& p = scene.particles;
@@ -29,7 +29,7 @@ TEST(Particles, HelixByFormula) {
     for (int i = 0; i < 12; ++i) {
       const double frame = 30.0 * seconds, y = -3.0 + 6.0 * i / 11.0, angle = frame / 30.0 + y;
       const glm::dvec3& c = made.centers_ws[static_cast<std::size_t>(i)];
-      EXPECT_NEAR(c.x, 1.5 * std::cos(angle), 1e-14);  // some ulp of angles to 10
+      EXPECT_NEAR(c.x, 1.5 * std::cos(angle), 1e-14);  // a few ulp of angles up to 10
       EXPECT_NEAR(c.y, y, 1e-15 * 4);
       EXPECT_NEAR(c.z, 1.5 * std::sin(angle), 1e-14);
       EXPECT_FLOAT_EQ(made.radii[static_cast<std::size_t>(i)], 0.3f);
@@ -37,7 +37,7 @@ TEST(Particles, HelixByFormula) {
   }
 }
 
-TEST(Particles, FillTheirSpace) {
+TEST(Particles, FillTheirVolume) {
   constexpr int kCount = 20000;
   const Particles grid = make_particles(some(1000, ParticleArrangement::grid));
   EXPECT_EQ(grid.centers_ws.front(), glm::dvec3(-1.5));
@@ -51,7 +51,7 @@ TEST(Particles, FillTheirSpace) {
     inner += glm::dot(c, c) < 0.75 * 0.75 ? 1 : 0;
     upper += c.y > 0.0 ? 1 : 0;
   }
-  // Binomial: an eighth and a half of all, within five standard deviations.
+  // Binomially distributed with probabilities 1/8 and 1/2. The tolerance is five standard deviations.
   EXPECT_NEAR(inner, kCount / 8.0, 5 * std::sqrt(kCount * 7.0 / 64));
   EXPECT_NEAR(upper, kCount / 2.0, 5 * std::sqrt(kCount / 4.0));
 
@@ -63,10 +63,10 @@ TEST(Particles, FillTheirSpace) {
   EXPECT_TRUE(make_particles(some(1, ParticleArrangement::helix)).centers_ws[0] == glm::dvec3(1.5, 0, 0));
 }
 
-TEST(Particles, RadiusKeepsTheVolumeOfAll) {
+TEST(Particles, DefaultRadiusPreservesTheTotalVolume) {
   for (const int count : {1, 12, 1000, 1000000}) {
     const double r = particle_radius(some(count, ParticleArrangement::ball));
-    EXPECT_NEAR(r * r * r * count, 0.3 * 0.3 * 0.3 * 12, 1e-13) << count;  // relative 3e-13: roundings of a cube root and a cube
+    EXPECT_NEAR(r * r * r * count, 0.3 * 0.3 * 0.3 * 12, 1e-13) << count;  // a relative error of 3e-13 from rounding a cube root and a cube
   }
   ParticlesDescription told = some(1000, ParticleArrangement::ball);
   told.radius = 0.7;
@@ -75,7 +75,7 @@ TEST(Particles, RadiusKeepsTheVolumeOfAll) {
 
 class ParticleFiles : public FolderTest {};
 
-TEST_F(ParticleFiles, AreRead) {
+TEST_F(ParticleFiles, AreParsed) {
   ParticlesDescription p;
   p.radius = 0.25;
   const Particles s = read_particles(put("a.csv", "# x,y,z\n1,2,3\r\n\n -1.5e0 , 0 ,\t4,0.5\n7,8,9,1,0.1,0.2,0.3"), p);
@@ -87,7 +87,7 @@ TEST_F(ParticleFiles, AreRead) {
   EXPECT_EQ(s.colors[2], glm::vec3(0.1f, 0.2f, 0.3f));
 }
 
-TEST_F(ParticleFiles, ErrorsTellFileLineAndWhatWouldBeRight) {
+TEST_F(ParticleFiles, ErrorsNameFileLineAndExpectedValue) {
   const struct {
     const char *text, *line;
     std::vector<std::string> keywords;
@@ -118,7 +118,7 @@ TEST_F(ParticleFiles, ErrorsTellFileLineAndWhatWouldBeRight) {
   EXPECT_TRUE(tells(input_error([&] { read_particles(directory, {}); }), directory.string(), {"regular file", ".csv"}));
 }
 
-TEST(Particles, KeysOfTheOtherSpriteAreRefused) {
+TEST(Particles, RejectsKeysOfTheOtherSprite) {
   SceneFile file = SceneFile::open("particles");
   file.set(std::vector<std::string>{"particles.point_scale=900"});
   EXPECT_EQ(file.description().particles.point_scale, 900.0);

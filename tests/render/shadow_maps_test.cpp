@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is drawn into a scene's shadow maps, and at what cost.
+// Contents of a scene's shadow maps, and the cost of rendering them.
 #include <gtest/gtest.h>
 
 #include "halfspace/render/prepared_scene.h"
@@ -10,7 +10,7 @@
 namespace halfspace {
 namespace {
 
-// A cube from y = 1 to 2 over a plane at 0, under a light straight above.
+// A cube from y = 1 to y = 2 above a plane at y = 0, lit from straight above.
 PreparedScene prepared(const std::vector<std::string>& settings) {
   SceneFile file = SceneFile::parse(R"({ "version": 1,
     "cameras": { "main": { "position": [0, 4, 8], "target": [0, 0, 0] } },
@@ -24,7 +24,7 @@ PreparedScene prepared(const std::vector<std::string>& settings) {
   return assets.prepare(file.at(0.0), 160, 90);
 }
 
-// The height of what the light sees over the middle of the ground.
+// Returns the height of the surface that the light sees near the middle of the ground.
 double height_seen(const PreparedScene& scene) {
   const ShadowView& view = scene.lights.front().light.shadow->views.front();
   const auto depth_at = [&](double y) { return place_on(view, vec3<float>(glm::vec3(glm::dvec3(0.1, y, 0.1) - scene.view.eye_ws))); };
@@ -33,25 +33,25 @@ double height_seen(const PreparedScene& scene) {
   return 2.0 * static_cast<double>((seen - low.depth) / (high.depth - low.depth));
 }
 
-TEST(ShadowMaps, HoldTheFacesThatAreChosen) {
-  EXPECT_NEAR(height_seen(prepared({})), 2.0, 1e-4);  // of float depths over some 4 units
+TEST(ShadowMaps, ContainTheSelectedFaces) {
+  EXPECT_NEAR(height_seen(prepared({})), 2.0, 1e-4);  // float depths over a range of about 4 units
   EXPECT_NEAR(height_seen(prepared({"shadow.faces=back"})), 1.0, 1e-4);
   EXPECT_NEAR(height_seen(prepared({"shadow.faces=both"})), 2.0, 1e-4);
 }
 
-TEST(ShadowMaps, HoldCastersAlone) {
+TEST(ShadowMaps, ContainOnlyCasters) {
   EXPECT_NEAR(height_seen(prepared({"cube.casts_shadow=false"})), 0.0, 1e-4);
   EXPECT_NEAR(height_seen(prepared({"cube.visible=false"})), 0.0, 1e-4);
   EXPECT_EQ(prepared({"sun.shadow=false"}).lights.front().light.shadow, nullptr);
 }
 
-TEST(ShadowMaps, AreMadeWithoutFragmentWork) {
+TEST(ShadowMaps, ShadeNoFragments) {
   const PassStatistics made = prepared({}).shadow_statistics;
   EXPECT_GT(made.triangles_binned, 0u);
-  EXPECT_GT(made.samples_passed, 10000u);  // the plane's and the cube's
+  EXPECT_GT(made.samples_passed, 10000u);  // samples of the plane and the cube
   EXPECT_EQ(made.fragments_shaded, 0u);
   const PassStatistics none = prepared({"shadow.method=none"}).shadow_statistics;
-  EXPECT_EQ(none, PassStatistics{});  // no pass at all
+  EXPECT_EQ(none, PassStatistics{});  // no shadow pass runs
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The procedural skies as environments of scenes.
+// The procedural skies, used as environments of scenes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,15 +23,15 @@ SceneDescription sky_with(const std::vector<std::string>& settings) {
   return scene.description();
 }
 
-TEST(SkyScene, TheSunStandsWhereItsKeySays) {
+TEST(SkyScene, SunIsInTheGivenDirection) {
   for (const char* rotation : {"day.rotation=0,0,0", "day.rotation=0,70,0"}) {
     const Image<glm::vec4> image = light_of(sky_with({rotation}), 65, 65);
-    EXPECT_GT(luminance(vec3<float>(glm::vec3(image.at(32, 32)))), 10.0f) << "in the middle, however the clouds are turned";
+    EXPECT_GT(luminance(vec3<float>(glm::vec3(image.at(32, 32)))), 10.0f) << "the sun is at the center for any rotation of the clouds";
     EXPECT_LT(luminance(vec3<float>(glm::vec3(image.at(8, 8)))), 3.0f);
   }
 }
 
-TEST(SkyScene, StarsAreTheNightsAndFadeWithIt) {
+TEST(SkyScene, StarsFadeWithTheNightSky) {
   const auto brightest = [](const std::vector<std::string>& settings) {
     const Image<glm::vec4> image = light_of(sky_with(settings), 320, 200);
     float most = 0;
@@ -42,30 +42,31 @@ TEST(SkyScene, StarsAreTheNightsAndFadeWithIt) {
   EXPECT_LT(brightest({"background.weight=1", "night.stars=0"}), 0.02f);
   const float half = brightest({"background.weight=0.5", "day.brightness=0", "night.star_brightness=50"});
   EXPECT_NEAR(half, 0.5f * brightest({"background.weight=1", "night.star_brightness=50"}), 0.01f * half);
-  EXPECT_GT(brightest({"background.environment=night", "background.weight=0", "night.star_brightness=50"}), 5.0f) << "as the first too";
+  EXPECT_GT(brightest({"background.environment=night", "background.weight=0", "night.star_brightness=50"}), 5.0f)
+      << "also as the first environment";
 }
 
 TEST(SkyScene, IsWithinOneCodeOfDoublePrecision) {
   for (const char* weight : {"background.weight=0", "background.weight=0.6", "background.weight=1"}) {
-    // On stars' rims and where a code ties; no more than the Moon's stars have.
+    // The exceptions are rims of stars and ties between codes. The limit is that of the scene "moon".
     EXPECT_LE(share_beyond_one_code<double>(sky_with({weight}), 160, 90), 1e-3) << weight;
   }
 }
 
-TEST(SkyScene, IsNoFinerThanTheViewNeeds) {
+TEST(SkyScene, ResolutionFollowsTheView) {
   const auto size_of = [](int height) {
     const Workers workers(2);
     SceneAssets assets(workers);
     const PreparedScene scene = assets.prepare(sky_with({"day.size=0", "day.clouds=0"}), height, height);
     return std::get<EnvironmentSky>(scene.draws.back().shader).environment.first.map->width();
   };
-  // A pixel of the middle spans 2 tan 30° / height; a face's texel there 2 / size, at most two pixels.
+  // A pixel at the center spans 2 tan 30° / height. A texel at the center of a face spans 2 / size, and may span at most two pixels.
   EXPECT_EQ(size_of(50), 64);
   EXPECT_EQ(size_of(100), 128);
   EXPECT_EQ(size_of(200), 256);
 }
 
-TEST(SkyScene, ExpectedFramesShareItsSize) {
+TEST(SkyScene, ExpectedFramesShareOneResolution) {
   const Workers workers(2);
   SceneAssets assets(workers);
   const auto size_of = [&](const char* fov) {
@@ -73,7 +74,7 @@ TEST(SkyScene, ExpectedFramesShareItsSize) {
     return std::get<EnvironmentSky>(scene.draws.back().shader).environment.first.map->width();
   };
   EXPECT_EQ(size_of("c.fov=60"), 128);
-  assets.expect(sky_with({"c.fov=30"}), 100, 100);  // a pixel spans half as much
+  assets.expect(sky_with({"c.fov=30"}), 100, 100);  // a pixel spans half the angle
   EXPECT_EQ(size_of("c.fov=60"), 256);
   EXPECT_EQ(size_of("c.fov=30"), 256);
 }

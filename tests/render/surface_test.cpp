@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Surfaces in pictures against closed forms: light at every rate, transforms, sides, factors and their maps.
+// Compares rendered surfaces with closed forms: lighting at every shading rate, transforms, sides, factors and their maps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +16,9 @@ namespace halfspace {
 namespace {
 
 constexpr int kSize = 160;
-constexpr double kHalf = 1.1;  // of the view's height, in units
+constexpr double kHalf = 1.1;  // half the height of the view, in units
 
-// Looks along -z at a square of 2.2 units.
+// The camera looks along -z at a square of 2.2 units.
 std::string scene_text(const std::string& rest) {
   return R"({"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "height": 2.2, "far": 30}}, )" + rest + "}";
 }
@@ -37,7 +37,7 @@ Image<glm::vec4> linear_picture(const std::string& rest, int size = kSize) {
 }
 
 struct Spot {
-  double x, y;  // of a pixel's centre, in units
+  double x, y;  // center of a pixel, in units
 };
 Spot spot_of(int x, int row, int size = kSize) { return {((x + 0.5) / size * 2 - 1) * kHalf, (1 - (row + 0.5) / size * 2) * kHalf}; }
 
@@ -50,7 +50,7 @@ void for_each_pixel(const std::function<void(int, int)>& f, int size = kSize) {
 const glm::dvec3 kSun = glm::normalize(glm::dvec3(0.6, 0.5, 0.8));
 const std::string kSunText = R"("lights": {"sun": {"direction": [0.6, 0.5, 0.8]}})";
 
-TEST(Surface, LambertSphereAtEveryPixel) {
+TEST(Surface, LambertSphereMatchesAtEveryPixel) {
   const Image<glm::vec4> p = linear_picture(kSunText + R"(, "objects": {"a": {"latitudes": 256, "longitudes": 512}})");
   int checked = 0;
   for_each_pixel([&](int x, int row) {
@@ -58,8 +58,8 @@ TEST(Surface, LambertSphereAtEveryPixel) {
     const double r2 = s.x * s.x + s.y * s.y;
     if (r2 > 0.995) return;
     const glm::dvec3 n(s.x, s.y, std::sqrt(1 - r2));
-    // A facet lies up to (π/256)²/8 below the sphere, both ways, and its corners are snapped to 1/512 px of 2.2/160 units: its
-    // point at the pixel is off by that over n.z, and so is the interpolated normal.
+    // A facet is up to (π/256)²/8 below the sphere in both directions of the grid, and its corners are snapped to 1/512 px of 2.2/160
+    // units. The surface point at a pixel is off by the sum of these divided by n.z, and so is the interpolated normal.
     const double slack = (3.8e-5 + 2.7e-5) / n.z + 1e-6;
     EXPECT_NEAR(p.at(x, row).x, std::max(glm::dot(n, kSun), 0.0), slack) << x << " " << row;
     ++checked;
@@ -67,8 +67,8 @@ TEST(Surface, LambertSphereAtEveryPixel) {
   EXPECT_GT(checked, 15000);
 }
 
-TEST(Surface, FalloffOnAPlane) {
-  // A lamp 0.7 above a plane that faces the eye: 0.7/d, and what arrives at the distance d.
+TEST(Surface, FalloffMatchesOnAPlane) {
+  // A lamp 0.7 above a plane that faces the eye: the cosine 0.7/d times the falloff at distance d.
   for (const bool physical : {true, false}) {
     const std::string fall = physical ? R"("falloff": "physical")" : R"("attenuation": [0.2, 0.1, 0.1])";
     const Image<glm::vec4> p = linear_picture(R"("lights": {"lamp": {"type": "point", "position": [0.3, -0.2, 0.7], )" + fall +
@@ -77,27 +77,29 @@ TEST(Surface, FalloffOnAPlane) {
       const Spot s = spot_of(x, row);
       const double d = std::sqrt((s.x - 0.3) * (s.x - 0.3) + (s.y + 0.2) * (s.y + 0.2) + 0.49);
       const double want = 0.7 / d / (physical ? d * d : 0.2 + 0.1 * d + 0.1 * d * d);
-      // The corners lie on whole pixels. Positions are floats 10 units from the eye: 1e-6 of up to 1 / 0.7, three powers of d.
+      // The corners are at integer pixel positions. Positions are floats about 10 units from the eye, with an error of 1e-6 relative to
+      // distances of at least 0.7, in three powers of d.
       EXPECT_NEAR(p.at(x, row).x, want, 6e-6 * want) << x << " " << row;
     });
   }
 }
 
-TEST(Surface, SpotDrawsADisc) {
+TEST(Surface, SpotLightMatchesOnAPlane) {
   const Image<glm::vec4> p = linear_picture(R"("lights": {"lamp": {"type": "spot", "position": [0, 0, 1], "direction": [0, 0, 1],
     "inner": 20, "outer": 30}}, "objects": {"a": {"shape": "plane", "size": 4.4, "rotation": [90, 0, 0]}})");
   const double degree = std::numbers::pi / 180, inner = std::cos(20 * degree), outer = std::cos(30 * degree);
   for_each_pixel([&](int x, int row) {
     const Spot s = spot_of(x, row);
-    const double cosine = 1 / std::sqrt(1 + s.x * s.x + s.y * s.y);  // to the normal and to the axis
+    const double cosine = 1 / std::sqrt(1 + s.x * s.x + s.y * s.y);  // cosine of the angle to the normal and to the spot axis
     const double t = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
-    EXPECT_NEAR(p.at(x, row).x, cosine * t * t * (3 - 2 * t), 1e-5) << x << " " << row;  // cosines are floats: 1e-6 of t, 1.5 times
+    // Cosines are floats; the error of t is 1e-6, times a slope of 1.5.
+    EXPECT_NEAR(p.at(x, row).x, cosine * t * t * (3 - 2 * t), 1e-5) << x << " " << row;
   });
 }
 
-TEST(Surface, HighlightsPeakAtTheMirrorPoint) {
+TEST(Surface, HighlightsPeakAtTheMirrorDirection) {
   for (const char* model : {"phong", "blinn_phong"}) {
-    // The eye and the lamp mirror each other in the plane x = 0 over the floor: the middle of the picture reflects the lamp.
+    // Eye and lamp are mirror images in the plane x = 0 above the floor, so the center of the image reflects the lamp.
     const std::string text = std::string(R"({"version": 1, "cameras": {"c": {"position": [1, 1, 0], "target": [0, 0, 0]}},
       "lights": {"lamp": {"type": "point", "position": [-1, 1, 0], "intensity": 0.5}},
       "objects": {"a": {"shape": "plane", "size": 9, "diffuse": 0, "specular": 0.8, "shininess": 200, "model": ")") +
@@ -110,14 +112,14 @@ TEST(Surface, HighlightsPeakAtTheMirrorPoint) {
   }
 }
 
-// ---- rates -------------------------------------------------------------------------------------------------------
+// ---- shading rates -----------------------------------------------------------------------------------------------
 
 std::string ball(const char* rate, int latitudes, const std::string& more = "") {
   return R"("objects": {"a": {"latitudes": )" + std::to_string(latitudes) + R"(, "longitudes": )" + std::to_string(2 * latitudes) +
          R"(, "specular": 0.5, "shininess": 10, "shading": ")" + rate + "\"" + more + "}}";
 }
 
-// Mean difference from Phong on the same mesh, away from the rim.
+// Returns the mean difference from Phong shading on the same mesh, away from the rim.
 double distance_from_phong(const char* rate, int latitudes) {
   const Image<glm::vec4> a = linear_picture(kSunText + ", " + ball(rate, latitudes)),
                          b = linear_picture(kSunText + ", " + ball("phong", latitudes));
@@ -133,9 +135,9 @@ double distance_from_phong(const char* rate, int latitudes) {
 }
 
 TEST(Rates, GouraudAndFlatConvergeToPhong) {
-  // Linear interpolation of a smooth function errs by the square of the facet's size, and where light ends (a kink) by the
-  // size itself on a strip of that width: order 2 in the mean. A constant errs by the size: order 1. The band allows for how
-  // facets happen to lie to pixels: 10% of an order over two doublings.
+  // Linear interpolation of a smooth function has an error quadratic in the facet size. At the terminator, where the function has a kink,
+  // the error is linear but confined to a strip of that width, so the mean is of order 2 everywhere. A constant per facet has an error of
+  // order 1. The tolerance of 10% of an order, over two doublings, allows for the alignment of facets and pixels.
   const auto order = [](const char* rate) {
     const double coarse = distance_from_phong(rate, 16), fine = distance_from_phong(rate, 64);
     EXPECT_GT(coarse, fine);
@@ -150,8 +152,8 @@ TEST(Rates, GouraudAndFlatConvergeToPhong) {
   EXPECT_NEAR(provoking, 1.0, 0.1);
 }
 
-TEST(Rates, EachTakesItsLightWhereItShould) {
-  // A plane of two triangles that faces the eye, corners at ±1, and a lamp above one corner.
+TEST(Rates, EachRateEvaluatesLightAtItsOwnPoints) {
+  // A plane of two triangles that faces the eye, with corners at ±1, and a lamp above one corner.
   const auto light_at = [](double x, double y) {
     const double d = std::sqrt((x - 1) * (x - 1) + (y - 1) * (y - 1) + 0.25);
     return 0.5 / d;
@@ -163,25 +165,26 @@ TEST(Rates, EachTakesItsLightWhereItShould) {
   };
   const Image<glm::vec4> none = picture("none"), flat = picture("flat"), provoking = picture("provoking"), gouraud = picture("gouraud"),
                          phong = picture("phong");
-  // The diagonal runs from upper left to lower right. Triangles: upper left, lower left, lower right; upper left, lower right, upper right.
+  // The diagonal runs from the upper left to the lower right. The triangles are (upper left, lower left, lower right) and (upper left,
+  // lower right, upper right).
   for_each_pixel([&](int x, int row) {
     const Spot s = spot_of(x, row);
     if (std::max(std::abs(s.x), std::abs(s.y)) > 0.99 || std::abs(s.x + s.y) < 0.02) return;
     const bool upper = s.x + s.y > 0;
     EXPECT_EQ(none.at(x, row).x, 1.0f);
     EXPECT_NEAR(flat.at(x, row).x, upper ? light_at(1.0 / 3, 1.0 / 3) : light_at(-1.0 / 3, -1.0 / 3), 2e-6);
-    EXPECT_NEAR(provoking.at(x, row).x, upper ? light_at(1, 1) : light_at(1, -1), 2e-6) << "the last vertex";
+    EXPECT_NEAR(provoking.at(x, row).x, upper ? light_at(1, 1) : light_at(1, -1), 2e-6) << "light at the last vertex";
     const double across = std::abs(s.x + s.y) / 2, corner = upper ? light_at(1, 1) : light_at(-1, -1);
-    const double along = (1 - across) / 2 + (s.x - s.y) / 4;  // weight of lower right among the rest
+    const double along = (1 - across) / 2 + (s.x - s.y) / 4;  // weight of the lower right corner
     const double mixed = across * corner + along * light_at(1, -1) + (1 - across - along) * light_at(-1, 1);
-    // Corners are snapped to 1/512 px, 2.7e-5 units, and light falls by up to 0.6 a unit.
+    // Corners are snapped to 1/512 px, which is 2.7e-5 units, and light changes by up to 0.6 per unit.
     EXPECT_NEAR(gouraud.at(x, row).x, mixed, 1.6e-5);
     EXPECT_NEAR(phong.at(x, row).x, light_at(s.x, s.y), 1.6e-5);
   });
 }
 
-TEST(Rates, MapsAreReadByPixelAtEveryRate) {
-  // With equal ambient light everywhere, a map looks the same at any rate.
+TEST(Rates, MapsAreSampledPerPixelAtEveryRate) {
+  // Under uniform ambient light, a map looks the same at every rate.
   const auto picture = [](const char* rate) {
     return linear_picture(std::string(R"("ambient": 1, "textures": {"t": {"source": "earth_color", "width": 64}},
       "objects": {"a": {"latitudes": 8, "longitudes": 16, "color": "t", "shading": ")") +
@@ -191,8 +194,8 @@ TEST(Rates, MapsAreReadByPixelAtEveryRate) {
   for (const char* rate : {"none", "flat", "provoking", "gouraud"}) EXPECT_EQ(picture(rate), phong) << rate;
 }
 
-TEST(Rates, TransformsKeepNormalsRight) {
-  // An ellipsoid, once mirrored, against its own normals: (x/a², y/b², z/c²).
+TEST(Rates, NonUniformScaleTransformsNormalsCorrectly) {
+  // An ellipsoid, with and without mirroring, compared with its analytic normals (x/a², y/b², z/c²).
   for (const char* scale : {"[1, 0.6, 0.5]", "[-1, 0.6, 0.5]"}) {
     const auto errors = [&](const char* rate) {
       const Image<glm::vec4> p = linear_picture(kSunText + R"(, "objects": {"a": {"latitudes": 128, "longitudes": 256, "shading": ")" +
@@ -207,15 +210,16 @@ TEST(Rates, TransformsKeepNormalsRight) {
       });
       return worst;
     };
-    // Facets are π/128 = 0.025 wide. Normals by pixel and light by vertex err by about the square of that, stretched up to (1/0.5)²;
-    // where light ends, by the slope times a share of the facet; the light of a face by half of its width, stretched alike.
+    // Facets are π/128 = 0.025 wide. Normals per pixel and light per vertex have errors of about the square of that, stretched by up to
+    // (1/0.5)². At the terminator the error is the slope times a fraction of the facet. Light per face has an error of half the facet
+    // width, stretched by the same factor.
     EXPECT_LT(errors("phong"), 2e-3) << scale;
     EXPECT_LT(errors("gouraud"), 1e-2) << scale;
     EXPECT_LT(errors("flat"), 5e-2) << scale;
   }
 }
 
-TEST(Rates, ATwoSidedSurfaceIsLitOnTheSideThatIsSeen) {
+TEST(Rates, TwoSidedSurfacesAreLitOnTheVisibleSide) {
   for (const char* rate : {"flat", "provoking", "gouraud", "phong"}) {
     const auto middle = [&](const char* turn, const char* sun) {
       return linear_picture(std::string(R"("lights": {"sun": {"direction": )") + sun +
@@ -230,7 +234,7 @@ TEST(Rates, ATwoSidedSurfaceIsLitOnTheSideThatIsSeen) {
     EXPECT_EQ(middle("-90", "[0, 0, 1]"), 1.0f) << rate << " from behind";
     EXPECT_EQ(middle("-90", "[0, 0, -1]"), 0.0f) << rate << " from behind";
   }
-  // A closed mesh with its front cut off by the near plane: one-sided its inside is not seen, two-sided it is lit.
+  // A closed mesh whose front is cut off by the near plane. Its inside is invisible if the mesh is one-sided, and lit if it is two-sided.
   const auto inside = [](const char* sides) {
     return linear_picture(
                parsed_at_root(std::string(R"({"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 1], "near": 0.9,
@@ -246,7 +250,7 @@ TEST(Rates, ATwoSidedSurfaceIsLitOnTheSideThatIsSeen) {
 
 // ---- factors -----------------------------------------------------------------------------------------------------
 
-// A plane that fills the view, lit and seen straight on.
+// Returns the value at the center of a plane that fills the view and is lit and seen at normal incidence.
 float shade_of(const std::string& surface, const std::string& light = "", const std::string& head = "") {
   return linear_picture(head + R"("lights": {"sun": {)" + light +
                             R"(}}, "objects": {"a": {"shape": "plane", "size": 4, "rotation": [90, 0, 0])" + surface + "}}",
@@ -255,23 +259,23 @@ float shade_of(const std::string& surface, const std::string& light = "", const 
       .x;
 }
 
-TEST(Factors, MakeUpTheColour) {
+TEST(Factors, CombineToTheColor) {
   EXPECT_EQ(shade_of(""), 1.0f);
   EXPECT_EQ(shade_of(R"(, "color": 0.5, "tint": 0.5)"), 0.25f);
   EXPECT_EQ(shade_of(R"(, "color": 0.5, "diffuse": 0.5)"), 0.25f);
-  EXPECT_EQ(shade_of(R"(, "color": 0.5, "diffuse": 0, "specular": 0.75)"), 0.75f) << "a highlight has its own colour";
+  EXPECT_EQ(shade_of(R"(, "color": 0.5, "diffuse": 0, "specular": 0.75)"), 0.75f) << "the highlight does not depend on the color";
   EXPECT_EQ(shade_of(R"(, "diffuse": 0, "specular": 0.75, "model": "lambert")"), 0.0f);
   EXPECT_EQ(shade_of(R"(, "diffuse": 0, "emissive": 3)"), 3.0f);
   EXPECT_EQ(shade_of(R"(, "color": 0.5, "ambient": 0.5)", R"("diffuse": 0, "ambient": 0.25, "intensity": 2)", R"("ambient": 0.5, )"), 0.25f)
       << "0.5 · 0.5 · (0.5 + 2 · 0.25)";
   EXPECT_EQ(shade_of(R"(, "specular": 1)", R"("diffuse": 0.25, "specular": 0.5)"), 0.75f);
-  EXPECT_EQ(shade_of(R"(, "color": 0.5, "emissive": 0.25, "specular": 1, "shading": "none")"), 0.75f) << "colour and emission";
+  EXPECT_EQ(shade_of(R"(, "color": 0.5, "emissive": 0.25, "specular": 1, "shading": "none")"), 0.75f) << "color plus emission";
   EXPECT_EQ(shade_of(R"(, "specular": 0.5, "specular_map": 0.5)"), 1.25f) << "a map of one colour is a constant";
 }
 
 class FactorMaps : public FolderTest {
  protected:
-  // A file of one texel.
+  // Writes an image file of one texel and returns its quoted path.
   std::string texel(int code) const {
     Image<glm::u8vec4> image(1, 1);
     image.at(0, 0) = glm::u8vec4(code, code, code, 255);
@@ -293,12 +297,12 @@ TEST_F(FactorMaps, MultiplyTheirConstants) {
   EXPECT_FLOAT_EQ(shade_of(R"(, "diffuse": 0, "ambient": 0.5)" + maps("ambient"), "", R"("ambient": 1, )"), 0.5f * half);
   EXPECT_FLOAT_EQ(shade_of(R"(, "specular": 0.5, "specular_map": )" + texel(188) + R"(, "color": )" + texel(128)), third + 0.5f * half);
   EXPECT_FLOAT_EQ(shade_of(R"(, "specular": 0.5, "specular_map": )" + texel(128) + R"(, "color": )" + texel(128)), 1.5f * third)
-      << "one map for both";
+      << "color and highlight share one map";
   EXPECT_FLOAT_EQ(shade_of(R"(, "textured": false, "tint": 0.5, "color": )" + texel(188)), 0.5f);
 }
 
-TEST_F(FactorMaps, ShininessIsNotDecoded) {
-  // Light from 60°: h is 30° off. The code 128 stands for 128/255 of the exponent, at every rate.
+TEST_F(FactorMaps, ShininessIsNotDecodedFromSrgb) {
+  // The light is 60° off the normal, so the half vector is 30° off. The code 128 scales the exponent by 128/255 at every rate.
   for (const char* rate : {"flat", "gouraud", "phong"}) {
     const float c = shade_of(std::string(R"(, "diffuse": 0, "specular": 1, "shininess": 20, "shininess_map": )") + texel(128) +
                                  R"(, "shading": ")" + rate + "\"",
@@ -307,7 +311,7 @@ TEST_F(FactorMaps, ShininessIsNotDecoded) {
   }
 }
 
-TEST_F(FactorMaps, AreReadOnlyWhereTheyCount) {
+TEST_F(FactorMaps, AreLoadedOnlyIfTheyHaveAnEffect) {
   const auto uses = [&](const std::string& surface) {
     const Workers workers(1);
     SceneAssets assets(workers);
@@ -316,7 +320,7 @@ TEST_F(FactorMaps, AreReadOnlyWhereTheyCount) {
     for (const Factor& f : surface_of(scene.draws.front()).factors) maps += f.map != nullptr;
     return maps;
   };
-  const std::string none = "\"/none.png\"";  // reading it would throw
+  const std::string none = "\"/none.png\"";  // loading it would throw
   EXPECT_EQ(uses(""), 0);
   EXPECT_EQ(uses(R"(, "color": )" + texel(128)), 1);
   EXPECT_EQ(uses(R"(, "specular_map": )" + none + R"(, "emissive_map": )" + none + R"(, "shininess_map": )" + none), 0)
@@ -324,7 +328,7 @@ TEST_F(FactorMaps, AreReadOnlyWhereTheyCount) {
   EXPECT_EQ(uses(R"(, "ambient_map": )" + none), 0) << "there is no ambient light";
   EXPECT_EQ(uses(R"(, "shading": "none", "diffuse_map": )" + none), 0);
   EXPECT_EQ(uses(R"(, "textured": false, "color": )" + none), 0);
-  EXPECT_EQ(uses(R"(, "shading": "gouraud", "normal_map": )" + none), 0) << "by vertex no normal map counts";
+  EXPECT_EQ(uses(R"(, "shading": "gouraud", "normal_map": )" + none), 0) << "per-vertex lighting ignores normal maps";
 }
 
 }  // namespace

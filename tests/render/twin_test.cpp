@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scenes' shaders in double precision against the renderer's floats, and the same pixels for any number of threads.
+// Compares the renderer's floats with the same shaders in double precision, and checks that images do not depend on the thread count.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 namespace halfspace {
 namespace {
 
-// The largest difference of a pixel, and the root mean square of all, in linear light.
+// Difference of two images in linear light: the maximum over all pixels and channels, and the RMS.
 struct Difference {
   double most = 0, rmse = 0;
   double beyond = 0;       ///< share of pixels that differ by more than 1/255
-  double rmse_within = 0;  ///< of the others
+  double rmse_within = 0;  ///< RMS over the other pixels
 };
 
 Difference difference_from_double(const SceneDescription& description, int width, int height) {
@@ -54,7 +54,7 @@ Difference difference_from_double(const SceneDescription& description, int width
   return d;
 }
 
-// A scene, and what is set in it.
+// A scene name and its settings.
 using Case = std::pair<const char*, std::vector<std::string>>;
 const std::vector<Case> kCases{{"three-lights", {"shadow.method=none"}},
                                {"three-lights", {"shadow.method=none", "camera=green_light"}},
@@ -79,11 +79,11 @@ class Twin : public testing::TestWithParam<Case> {
   SceneDescription scene() const { return scene_of(GetParam()); }
 };
 
-TEST_P(Twin, AgreesInDouble) {
+TEST_P(Twin, MatchesDoublePrecision) {
   const Difference d = difference_from_double(scene(), 480, 270);
   RecordProperty("most", std::to_string(d.most));
   RecordProperty("rmse", std::to_string(d.rmse * 1e6) + "e-6");
-  EXPECT_LE(d.most, 1.0 / 255) << "no exception: with equal positions, no decision falls differently";
+  EXPECT_LE(d.most, 1.0 / 255) << "positions are equal, so every pixel must match";
   EXPECT_LE(d.rmse, 1e-5);
 }
 
@@ -94,7 +94,8 @@ std::string name_of(const Case& c) {
   return name;
 }
 
-// The pixels of every compiler, lane width and processor. Where they differ, the differences are those from the naive pipeline.
+// Checks that the pixels are the same for every compiler, SIMD width and processor. If they differ, the failure report shows the
+// differences from the naive pipeline.
 void expect_pixels(const Case& c) {
   const SceneDescription scene = scene_of(c);
   expect_picture(name_of(c), picture_of(scene, 160, 90, 2), [&] {
@@ -105,18 +106,18 @@ void expect_pixels(const Case& c) {
   });
 }
 
-TEST(Twins, SameBitsEverywhere) {
+TEST(Twins, MatchTheStoredHashes) {
   for (const Case& c : kCases) expect_pixels(c);
 }
 
-TEST(Twins, EveryShippedSceneHasTheSameBitsEverywhere) {
+TEST(Twins, ShippedScenesMatchTheStoredHashes) {
   for (const ShippedScene& shipped : shipped_scenes()) {
     const std::string name(shipped.name);
     expect_picture("shipped-" + name, picture_of(SceneFile::open(name).at(0.5), 160, 90, 2));
   }
 }
 
-TEST_P(Twin, SamePixelsForAnyThreads) {
+TEST_P(Twin, IsBitIdenticalForAnyThreadCount) {
   const Image<glm::u8vec4> one = picture_of(scene(), 160, 90, 1);
   EXPECT_EQ(picture_of(scene(), 160, 90, 2), one);
   EXPECT_EQ(picture_of(scene(), 160, 90, 7), one);
@@ -124,8 +125,8 @@ TEST_P(Twin, SamePixelsForAnyThreads) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Twin, testing::ValuesIn(kCases));
 
-// With shadows there are decisions: a depth compare may fall differently in float, where the two depths differ by less than
-// rounding does. Both twins read the same maps. A texel of a 3x3 filter is a ninth of the light.
+// Shadows involve discrete decisions: a depth comparison can have a different result in float if the two depths differ by less than the
+// rounding error. Both twins read the same shadow maps. One texel of a 3x3 filter changes the light by a ninth.
 class ShadowedTwin : public testing::TestWithParam<Case> {
  protected:
   SceneDescription scene() const { return scene_of(GetParam()); }
@@ -139,7 +140,7 @@ const std::vector<Case> kShadowed{{"three-lights", {}},
                                   {"shadow-knot", {"shadow.method=moments"}},
                                   {"day-night", {"time.hours=16"}}};
 
-TEST_P(ShadowedTwin, DiffersOnlyAtDepthCompares) {
+TEST_P(ShadowedTwin, DiffersOnlyAtDepthComparisons) {
   const Difference d = difference_from_double(scene(), 480, 270);
   RecordProperty("beyond", std::to_string(d.beyond * 1e6) + "e-6");
   RecordProperty("rmse", std::to_string(d.rmse_within * 1e6) + "e-6");
@@ -147,17 +148,17 @@ TEST_P(ShadowedTwin, DiffersOnlyAtDepthCompares) {
   SceneDescription without = scene();
   without.shadow.method = ShadowMethod::none;
   const Difference unshaded = difference_from_double(without, 480, 270);
-  EXPECT_LE(unshaded.most, 1.0 / 255) << "the same scene without shadows has no exception";
+  EXPECT_LE(unshaded.most, 1.0 / 255) << "without shadows, every pixel must match";
   EXPECT_LE(unshaded.rmse, 1e-5);
 }
 
-TEST_P(ShadowedTwin, SamePixelsForAnyThreads) {
+TEST_P(ShadowedTwin, IsBitIdenticalForAnyThreadCount) {
   const Image<glm::u8vec4> one = picture_of(scene(), 160, 90, 1);
   EXPECT_EQ(picture_of(scene(), 160, 90, 2), one);
   EXPECT_EQ(picture_of(scene(), 160, 90, 7), one);
 }
 
-TEST(Twins, ShadowsHaveTheSameBitsEverywhere) {
+TEST(Twins, ShadowsMatchTheStoredHashes) {
   for (const Case& c : kShadowed) expect_pixels(c);
 }
 

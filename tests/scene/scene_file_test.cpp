@@ -39,20 +39,20 @@ INSTANTIATE_TEST_SUITE_P(Shipped, EveryScene, testing::ValuesIn(scene_names()), 
   return name;
 });
 
-TEST_P(EveryScene, PrintsWhatReadsBackTheSame) {
+TEST_P(EveryScene, PrintedSceneReadsBackUnchanged) {
   const std::string printed = SceneFile::open(GetParam()).print();
   EXPECT_EQ(scene_of(printed).print(), printed);
   EXPECT_NE(SceneFile::open(GetParam()).description().head.title, "");
 }
 
-// Another value of the key's type, in its range.
+// Returns another value of the type and range of the key.
 std::string another_value(const Field& field) {
   const Key& key = *field.key;
   const Json now = value_of(field);
   const auto number = [&](double x) {
     const double low = key.limits.low, high = key.limits.high;
     const double up = key.type == KeyType::integer ? x + 1 : x + 0.125 * std::max(1.0, std::abs(x));
-    const double step = key.name == std::string("width") ? 2 : 1;  // widths are even
+    const double step = key.name == std::string("width") ? 2 : 1;  // widths must be even
     return number_text(up + step - 1 <= high ? up + step - 1 : std::max(low, x - step));
   };
   const auto vector = [&](const Json& v) {
@@ -81,8 +81,9 @@ TEST_P(EveryScene, EveryKeyCanBeSetPrintedAndReadBack) {
     for (const Field& field : fields_of(s.section)) {
       const std::string name = field.key->name;
       const std::string path = s.path.empty() ? name : s.path + "." + name;
-      if (name == "target" && s.path.starts_with("animations.")) continue;                               // names another key: see Animation
-      if (field.key == &s.section.front().keys.front() && field.key->type == KeyType::choice) continue;  // see KindsHaveTheirOwnKeys
+      // Targets of animations are tested by Animation, and the keys that select a kind by KindsHaveTheirOwnKeys.
+      if (name == "target" && s.path.starts_with("animations.")) continue;
+      if (field.key == &s.section.front().keys.front() && field.key->type == KeyType::choice) continue;
       SceneFile scene = SceneFile::open(GetParam());
       const std::string value = name == "title" ? "Another" : another_value(field);
       ASSERT_EQ(input_error([&] { scene.set(path + "=" + value); }), "(no error)") << path << "=" << value;
@@ -103,16 +104,16 @@ TEST_P(EveryScene, EveryKeyCanBeSetPrintedAndReadBack) {
 
 // ---- reading ---------------------------------------------------------------------------------------------------
 
-TEST(SceneFile, CommentsAndDefaults) {
+TEST(SceneFile, AcceptsCommentsAndAppliesDefaults) {
   const SceneFile scene = scene_of("// a comment\n{ \"version\": 1, /* another */ \"objects\": { \"ball\": { \"radius\": 2 } } }");
   const SceneDescription& d = scene.description();
   ASSERT_EQ(d.objects.size(), 1u);
   EXPECT_EQ(d.objects[0].second.radius, 2.0);
   EXPECT_EQ(d.objects[0].second.latitudes, ObjectDescription{}.latitudes);
-  ASSERT_EQ(d.cameras.size(), 1u) << "a scene without a camera gets one";
+  ASSERT_EQ(d.cameras.size(), 1u) << "a scene without cameras gets a default one";
 }
 
-TEST(SceneFile, ColoursInThreeWays) {
+TEST(SceneFile, AcceptsColorsInThreeForms) {
   const auto ambient = [](const char* value) {
     return scene_of(std::string("{\"version\": 1, \"ambient\": ") + value + "}").description().head.ambient.linear;
   };
@@ -130,7 +131,7 @@ TEST(SceneFile, PathsAreRelativeToTheFileAndInSetToTheWorkingDirectory) {
   EXPECT_EQ(std::get<FilePath>(scene.description().objects[0].second.surface.color).path, fs::current_path() / "maps/b.png");
 }
 
-TEST(SceneFile, MapsAreColoursTexturesOrFiles) {
+TEST(SceneFile, MapsAreColorsTexturesOrFiles) {
   const SceneFile scene = scene_of(R"({"version": 1, "textures": {"stone": {"file": "s.png"}}, "objects": {
     "a": {"color": "#000000"}, "b": {"color": "stone"}, "c": {"color": "stone.png"}}})");
   const auto& o = scene.description().objects;
@@ -146,18 +147,18 @@ TEST(SceneFile, ObjectsOverrideTheirMaterial) {
   EXPECT_EQ(scene.description().objects[0].second.surface.diffuse.linear, glm::dvec3(0.5));
 }
 
-// A printed scene leaves to a material what is the material's: set there, it reaches the object.
+// A printed scene does not repeat values that come from a material, so that changes to the material still reach the object.
 TEST(SceneFile, PrintedObjectsFollowTheirMaterial) {
   const SceneFile scene = scene_of(R"({"version": 1, "materials": {"m": {"shininess": 7, "diffuse": 0.5}},
     "objects": {"a": {"material": "m", "shininess": 9, "specular": 0.25}, "b": {}}})");
   SceneFile again = scene_of(scene.print());
   again.set(std::vector<std::string>{"m.diffuse=0.75", "m.shininess=3", "m.specular=1"});
   const SurfaceDescription& a = again.description().objects[0].second.surface;
-  EXPECT_EQ(a.diffuse.linear, glm::dvec3(0.75)) << "the material's";
-  EXPECT_EQ(a.shininess, 9.0) << "the object's own";
-  EXPECT_EQ(a.specular.linear, glm::dvec3(0.25)) << "the object's own";
+  EXPECT_EQ(a.diffuse.linear, glm::dvec3(0.75)) << "from the material";
+  EXPECT_EQ(a.shininess, 9.0) << "set on the object";
+  EXPECT_EQ(a.specular.linear, glm::dvec3(0.25)) << "set on the object";
   EXPECT_NE(scene.print().find("\"b\": {\n      \"shape\": \"uv_sphere\""), std::string::npos);
-  EXPECT_EQ(again.description().objects[1].second.surface.shininess, 32.0) << "without a material every key is told";
+  EXPECT_EQ(again.description().objects[1].second.surface.shininess, 32.0) << "an object without a material prints every key";
 }
 
 TEST(SceneFile, KindsHaveTheirOwnKeys) {
@@ -166,26 +167,26 @@ TEST(SceneFile, KindsHaveTheirOwnKeys) {
   EXPECT_TRUE(tells(input_error([&] { scene.set("floor.latitudes=8"); }), "--set: floor.latitudes", {"unknown key 'latitudes'", "size"}));
 }
 
-TEST(SceneFile, AnotherKindDropsTheKeysItHasNot) {
+TEST(SceneFile, ChangingTheKindDropsInapplicableKeys) {
   SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {"latitudes": 8, "specular": 0.5, "instances": [{}]}}})");
   scene.set("a.shape=cube");
   scene.set("a.size=3");
   EXPECT_EQ(scene.description().objects[0].second.size, 3.0);
-  EXPECT_EQ(scene.description().objects[0].second.surface.specular.linear, glm::dvec3(0.5)) << "what both have stays";
+  EXPECT_EQ(scene.description().objects[0].second.surface.specular.linear, glm::dvec3(0.5)) << "keys that both kinds have are kept";
   EXPECT_EQ(scene.description().objects[0].second.instances.size(), 1u);
   scene.set("a.shape=uv_sphere");
   EXPECT_EQ(scene.description().objects[0].second.latitudes, ObjectDescription{}.latitudes);
 }
 
-TEST(SceneFile, InstancesAreSetByNumber) {
+TEST(SceneFile, InstancesAreSetByIndex) {
   SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {"instances": [{"position": [1, 2, 3]}, {}]}}})");
   scene.set("a.instances.1.scale=2,2,2");
   EXPECT_EQ(scene.description().objects[0].second.instances[1].scale, glm::dvec3(2.0));
   EXPECT_EQ(scene.description().objects[0].second.instances[0].position, glm::dvec3(1, 2, 3));
 }
 
-// Each instance has a transform of its own, and each key of it an animation of its own.
-TEST(SceneFile, InstancesMoveByThemselves) {
+// Each instance has its own transform, and each key of it can be animated separately.
+TEST(SceneFile, InstancesAreAnimatedSeparately) {
   const SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {"instances": [{}, {"rotation": [0, 10, 0]}]}}, "animations": {
     "first": {"target": "objects.a.instances.0.position", "rate": [1, 0, 0]},
     "second": {"target": "a.instances.1.rotation", "rate": [0, 90, 0]},
@@ -196,11 +197,11 @@ TEST(SceneFile, InstancesMoveByThemselves) {
   EXPECT_EQ(a.instances[0].rotation, glm::dvec3(0));
   EXPECT_EQ(a.instances[1].rotation, glm::dvec3(0, 190, 0));
   EXPECT_EQ(a.placement.rotation, glm::dvec3(0, 0, 10));
-  EXPECT_EQ(scene.description().objects[0].second.instances[1].rotation, glm::dvec3(0, 10, 0)) << "the start stays";
+  EXPECT_EQ(scene.description().objects[0].second.instances[1].rotation, glm::dvec3(0, 10, 0)) << "the description at time 0 is unchanged";
 }
 
-// What many copies together ask for is refused before memory is asked for it.
-TEST(SceneFile, TooMuchInAllIsRefused) {
+// The total size over all instances is checked before any memory is allocated.
+TEST(SceneFile, RejectsScenesThatAreTooLarge) {
   const auto scene_with = [](const std::string& object, int copies) {
     std::string text = R"({"version": 1, "objects": {"a": {)" + object + R"("instances": [{})";
     for (int i = 1; i < copies; ++i) text += ", {}";
@@ -219,7 +220,7 @@ TEST(SceneFile, TooMuchInAllIsRefused) {
   EXPECT_TRUE(tells(input_error([&] { scene_of(text + "}}"); }), "test.json: objects", {"69632", "65536"}));
 }
 
-// ---- errors: file and key, what is wrong, what would be right ----------------------------------------------------
+// ---- errors: file and key, the problem, the expected value --------------------------------------------------------
 
 struct Wrong {
   const char* name;
@@ -334,12 +335,12 @@ const Wrong kWrong[] = {
 
 class SceneFileError : public testing::TestWithParam<Wrong> {};
 
-TEST_P(SceneFileError, IsOneClearLine) {
+TEST_P(SceneFileError, IsOneLineWithPlaceAndKeywords) {
   EXPECT_TRUE(tells(input_error([&] { scene_of(GetParam().text); }), GetParam().place, GetParam().keywords));
 }
 
-// A few messages as they are read.
-TEST(SceneFile, ErrorsInFullSentences) {
+// Checks the complete text of some messages.
+TEST(SceneFile, ErrorMessagesAreExact) {
   const auto error = [](const char* text) { return input_error([&] { scene_of(text); }); };
   EXPECT_EQ(error("{\n \"version\": 1,\n}"),
             "test.json:3:1: invalid JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
@@ -351,7 +352,7 @@ TEST(SceneFile, ErrorsInFullSentences) {
 
 INSTANTIATE_TEST_SUITE_P(Table, SceneFileError, testing::ValuesIn(kWrong), [](const auto& p) { return p.param.name; });
 
-TEST(SceneFile, SettingsAreJudgedTogether) {
+TEST(SceneFile, SettingsAreValidatedTogether) {
   SceneFile scene = SceneFile::open("earth");
   EXPECT_TRUE(tells(input_error([&] { scene.set("equator.near=200"); }), "scene earth: cameras.equator.far", {"near"}));
   const std::vector<std::string> both{"equator.near=200", "equator.far=300"};
@@ -365,10 +366,10 @@ TEST(SceneFile, SettingsAreJudgedTogether) {
   EXPECT_EQ(scene.at(1).cameras[0].second.fov, 50.0);
   const std::string before = scene.print();
   EXPECT_NE(input_error([&] { scene.set(std::vector<std::string>{"earth.radius=2", "earth.radius=x"}); }), "(no error)");
-  EXPECT_EQ(scene.print(), before) << "an error changes nothing";
+  EXPECT_EQ(scene.print(), before) << "an error leaves the scene unchanged";
 }
 
-TEST(SceneFile, HostileTextIsRefused) {
+TEST(SceneFile, RejectsControlCharacters) {
   SceneFile scene = SceneFile::open("earth");
   for (const std::string& bad : {std::string("\xff"), std::string("a\nb"), std::string("a\0b", 3), std::string("\x1b[31m")}) {
     EXPECT_TRUE(tells(input_error([&] { scene.set("title=" + bad); }), "--set: title", {"control character"}));
@@ -378,31 +379,31 @@ TEST(SceneFile, HostileTextIsRefused) {
   EXPECT_NE(scene.print().find("月"), std::string::npos);
 }
 
-TEST(SceneFile, ManyNamesAreRefusedAtOnce) {
+TEST(SceneFile, RejectsTooManyNames) {
   std::string text = "{\"version\": 1";
   for (int i = 0; i < 100000; ++i) text += ", \"a" + std::to_string(i) + "\": 0";
   EXPECT_TRUE(tells(input_error([&] { scene_of(text + "}"); }), "test.json", {"4096 names"}));
 }
 
-TEST(SceneFile, TinyDirectionsAreDirections) {
+TEST(SceneFile, AcceptsTinyDirections) {
   SceneFile scene = SceneFile::open("moon");
   scene.set("whole.up=0,1e-300,0");
   scene.set("sun.direction=1e-300,0,1e-300");
   EXPECT_EQ(scene.description().cameras[0].second.up.y, 1e-300);
 }
 
-TEST(SceneFile, DeepNestingIsRefused) {
+TEST(SceneFile, RejectsDeepNesting) {
   EXPECT_TRUE(tells(input_error([] { scene_of("{\"version\": " + std::string(100000, '[')); }), "test.json", {"nested", "32"}));
 }
 
-TEST(SceneFile, NamesInTwoCollectionsMustBeToldApart) {
+TEST(SceneFile, AmbiguousNamesNeedTheCollection) {
   SceneFile scene = scene_of(R"({"version": 1, "lights": {"sun": {}}, "objects": {"sun": {}}})");
   EXPECT_TRUE(tells(input_error([&] { scene.set("sun.intensity=2"); }), "--set: sun.intensity", {"'sun'", "lights", "objects"}));
   scene.set("lights.sun.intensity=2");
   EXPECT_EQ(scene.description().lights[0].second.intensity, 2.0);
 }
 
-TEST(SceneFile, PathsOfSectionsAreToldFromKeys) {
+TEST(SceneFile, RejectsPathsOfSections) {
   SceneFile scene = SceneFile::open("earth");
   EXPECT_TRUE(tells(input_error([&] { scene.set("earth=1"); }), "--set: earth", {"section", "objects.earth.KEY"}));
   EXPECT_TRUE(tells(input_error([&] { scene.set("background=1"); }), "--set: background", {"section", "background.KEY"}));
@@ -411,14 +412,14 @@ TEST(SceneFile, PathsOfSectionsAreToldFromKeys) {
   EXPECT_TRUE(tells(input_error([&] { scene.set("objects.erth.radius=1"); }), "--set: objects.erth.radius", {"'erth'", "'earth'"}));
 }
 
-TEST(SceneFile, UnknownScenesSuggestTheNearest) {
+TEST(SceneFile, UnknownScenesSuggestTheClosestName) {
   EXPECT_TRUE(tells(input_error([] { SceneFile::open("mooon"); }), "unknown scene", {"'mooon'", "'moon'"}));
   EXPECT_TRUE(tells(input_error([] { SceneFile::open("none.json"); }), "none.json", {"no such"}));
 }
 
 // ---- time ------------------------------------------------------------------------------------------------------
 
-TEST(Animation, RateOrbitAndKeyframes) {
+TEST(Animation, RateOrbitAndKeyframesFollowTheirFormulas) {
   const SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {"rotation": [0, 10, 0]}, "b": {}, "c": {"radius": 1}},
     "animations": {
       "turn": {"type": "rate", "target": "a.rotation", "rate": [0, 5, 0]},
@@ -429,7 +430,7 @@ TEST(Animation, RateOrbitAndKeyframes) {
   EXPECT_EQ(scene.at(0).objects[1].second.placement.position, glm::dvec3(3, 0, 0));
   EXPECT_EQ(scene.at(2).objects[1].second.placement.position, glm::dvec3(1, 0, -3)) << "quarter turns are exact";
   EXPECT_EQ(scene.at(0).objects[2].second.radius, 1.0);
-  EXPECT_EQ(scene.at(1.5).objects[2].second.radius, 1.0 + 0.25 * 0.25 * 2.5) << "3x^2 - 2x^3 at 1/4";
+  EXPECT_EQ(scene.at(1.5).objects[2].second.radius, 1.0 + 0.25 * 0.25 * 2.5) << "3x^2 - 2x^3 at x = 1/4";
   EXPECT_EQ(scene.at(2).objects[2].second.radius, 1.5);
   EXPECT_EQ(scene.at(9).objects[2].second.radius, 2.0);
 }
@@ -438,7 +439,7 @@ TEST(Animation, KeyframesLoopAndStep) {
   const SceneFile scene = scene_of(R"({"version": 1, "objects": {"a": {}, "b": {}}, "animations": {
       "l": {"type": "keyframes", "target": "a.radius", "keys": [[0, 1], [2, 3]], "easing": "linear"},
       "s": {"type": "keyframes", "target": "b.radius", "keys": [[0, 1], [1, 2], [2, 3]], "easing": "step"}}})");
-  EXPECT_EQ(scene.at(5).objects[0].second.radius, 2.0) << "5 s of a loop of 2 s is its second 1";
+  EXPECT_EQ(scene.at(5).objects[0].second.radius, 2.0) << "5 s into a loop of 2 s is the time 1 s";
   EXPECT_EQ(scene.at(0.99).objects[1].second.radius, 1.0);
   EXPECT_EQ(scene.at(1).objects[1].second.radius, 2.0);
 }
@@ -450,7 +451,7 @@ TEST(Animation, SpeedScalesTime) {
   EXPECT_EQ(scene.at(6).objects[0].second.placement.rotation, then);
 }
 
-TEST(Animation, LeavingTheRangeIsTold) {
+TEST(Animation, ReportsValuesThatLeaveTheirRange) {
   const SceneFile scene =
       scene_of(R"({"version": 1, "objects": {"a": {"radius": 1}}, "animations": {"t": {"target": "a.radius", "rate": -1}}})");
   EXPECT_TRUE(tells(input_error([&] { scene.at(2); }), "test.json: animations.t: a.radius", {"1e-06", "got -1"}));
@@ -458,13 +459,13 @@ TEST(Animation, LeavingTheRangeIsTold) {
 
 // ---- schema ----------------------------------------------------------------------------------------------------
 
-TEST(Schema, InDocsIsTheProgramsOwn) {
+TEST(Schema, FileInDocsIsUpToDate) {
   EXPECT_TRUE(read_bytes("docs/reference/scene.schema.json") == scene_schema())
-      << "renew it: halfspace list --schema > docs/reference/scene.schema.json";
+      << "to update it, run: halfspace list --schema > docs/reference/scene.schema.json";
 }
 
-// An independent validator (Python's jsonschema) accepts what the program accepts, and refuses what it refuses.
-TEST(Schema, JudgesAsTheProgramDoes) {
+// Checks that an independent validator (Python's jsonschema) accepts and rejects the same scenes as the program.
+TEST(Schema, AcceptsAndRejectsTheSameScenesAsTheProgram) {
   if (!command_works("python3 -c 'import jsonschema'")) GTEST_SKIP() << "python3-jsonschema is absent";
   const TemporaryFolder folder;
   const fs::path& directory = folder.path();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where methods fail: each test holds the plain method, in the regime where it is known to fail, beside ours. The numbers go into
-// the test's report, from which scripts/stability_table.py makes docs/explanation/stability.md.
+// Known failures of renderers. Each test runs the plain method in a regime in which it is known to fail, and ours next to it. The results
+// are recorded in the test report, from which scripts/stability_table.py generates docs/explanation/stability.md.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,16 +11,16 @@
 
 namespace halfspace::stability {
 
-/// What a test is about. Rows are those of the table, 1 to 28; a row may have several tests.
+/// Subject of a test. Rows are numbered as in the table, 1 to 28; a row can have several tests.
 struct Regime {
   int row;
   const char* failure;  ///< what goes wrong
-  const char* regime;   ///< where, and which the two methods are
-  const char* number;   ///< what is counted; 0 is right
+  const char* regime;   ///< where it goes wrong, and the two methods that are compared
+  const char* number;   ///< what is measured; 0 is correct
 };
 
-/// Notes the numbers, and asserts that the plain method is at least as wrong as `bad` (so the test looks in the right place) and
-/// ours at most `bound`.
+/// Records the results. Asserts that the error of the plain method is at least `bad`, which shows that the regime is the right one, and
+/// that ours is at most `bound`.
 inline void judge(const Regime& r, double plain, double bad, double ours, double bound) {
   const auto text = [](double x) {
     char out[32];
@@ -35,7 +35,7 @@ inline void judge(const Regime& r, double plain, double bad, double ours, double
   Test::RecordProperty("plain", text(plain));
   Test::RecordProperty("ours", text(ours));
   Test::RecordProperty("bound", text(bound));
-  EXPECT_GE(plain, bad) << "the plain method is not wrong here: this is not the regime";
+  EXPECT_GE(plain, bad) << "the plain method does not fail here, so the test uses the wrong regime";
   EXPECT_LE(ours, bound) << r.failure << ": " << r.regime;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A hash of what lanes of any width compute: elementary functions, interpolation, encoding. Header only, so that a program of one
-// file can be compiled for an instruction set of its own (isa_hash.cpp).
+// Hash of results computed at any SIMD width: elementary functions, interpolation, encoding. Header-only, so that a single-file program can
+// be compiled for a different instruction set (isa_hash.cpp).
 #pragma once
 
 #include <cstring>
@@ -14,7 +14,7 @@
 
 namespace halfspace::stability {
 
-/// 4,096 floats from 2^-20 to 2^7 by whole-number arithmetic.
+/// Returns 4,096 floats from 2^-20 to 2^7, generated in integer arithmetic.
 inline std::vector<float> hash_inputs() {
   std::vector<float> in;
   uint32_t state = 1;
@@ -25,7 +25,7 @@ inline std::vector<float> hash_inputs() {
   return in;
 }
 
-/// The hash of the bytes of all results, lane by lane.
+/// Returns the hash of the bytes of all results, lane by lane.
 template <class R>
 uint64_t lane_hash(const std::vector<float>& in) {
   constexpr std::size_t width = sizeof(R) / sizeof(float);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers that plain formulas cannot take: no length, no light, too much of it, huge exponents; and the same bits at every width.
+// Inputs that plain formulas cannot handle: zero-length vectors, invalid and extreme light values, huge exponents. Also checks that results
+// are bit-identical at every SIMD width.
 #include <immintrin.h>
 
 #include <cmath>
@@ -22,11 +23,11 @@ namespace {
 
 // ---- normal maps --------------------------------------------------------------------------------------------------------
 
-TEST(Stability, NormalMapsWithoutFrames) {
+TEST(Stability, NormalMapsWithoutValidFramesGiveFiniteNormals) {
   Image<glm::u8vec4> codes(3, 1);
   codes.at(0, 0) = {128, 128, 255, 255};
-  codes.at(1, 0) = {0, 0, 0, 255};        // no normal at all
-  codes.at(2, 0) = {255, 128, 128, 255};  // along the tangent
+  codes.at(1, 0) = {0, 0, 0, 255};        // not a valid normal
+  codes.at(2, 0) = {255, 128, 128, 255};  // parallel to the tangent
   const Texture2D map(codes, TexelFormat::rgba8);
   const DetailMap detail{.map = &map, .sampler = {.mag = Filter::nearest, .min = Filter::nearest}};
   const glm::vec3 vectors[] = {{0, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {1e-30f, 0, 0}, {0, 1e-25f, 0}};
@@ -38,7 +39,7 @@ TEST(Stability, NormalMapsWithoutFrames) {
         const MapCoordinates<float> at{uv, vec2<float>(0.0f), vec2<float>(0.0f)};
         const vec3<float> m = normalize_or_zero(normal_from_map(detail, at, vec3<float>(n), vec3<float>(tangent), 1.0f));
         ours += !(std::isfinite(m.x) && std::isfinite(m.y) && std::isfinite(m.z));
-        // The textbook's frame: every axis made a unit vector.
+        // The usual orthonormal frame, with every axis normalized.
         const glm::vec3 t = glm::normalize(tangent - n * glm::dot(n, tangent)), b = glm::cross(glm::normalize(n), t);
         const glm::vec3 code = glm::vec3(codes.at(texel, 0)) / 255.0f * 2.0f - 1.0f,
                         p = glm::normalize(t * code.x + b * code.y + n * code.z);
@@ -47,14 +48,14 @@ TEST(Stability, NormalMapsWithoutFrames) {
     }
   }
   judge({13, "normal maps at poles, seams, without tangents",
-         "normals and tangents of no length, parallel or tiny; an orthonormal frame against the frame as it is",
-         "normals that are NaN or infinite, of 108"},
+         "zero-length, parallel and tiny normals and tangents; an orthonormalized frame against the unmodified frame",
+         "non-finite normals, of 108"},
         plain, 50, ours, 0);
 }
 
 // ---- tone ---------------------------------------------------------------------------------------------------------------
 
-TEST(Stability, WildLight) {
+TEST(Stability, ToneMappingHandlesNonFiniteAndNegativeLight) {
   int plain = 0, ours = 0;
   for (const float x : {kNaN, kInf, -kInf, -1.0f, -0.0f, 0.0f, 1e-40f, 0.5f, 1e20f, 3.4e38f}) {
     for (const float exposure : {0.0f, 1.0f, 1e9f}) {
@@ -64,7 +65,7 @@ TEST(Stability, WildLight) {
           const auto rgb = tone_map(SceneLight<float>{{x, 0.2f, x}}, {exposure, curve, on, 4.0f}).rgb;
           for (int k = 0; k < 3; ++k) ours += !(rgb[k] >= 0.0f && rgb[k] <= 1.0f);
           if (on == ToneOn::luminance) continue;
-          // NaN and negative light are dark, infinite light is as bright as the curve goes, unless nothing is exposed.
+          // NaN and negative light map to black, infinite light to the maximum of the curve, unless the exposure is 0.
           if (!(x > 0.0f)) ours += rgb.x != 0.0f;
           if (x == kInf) ours += rgb.x != (exposure > 0.0f ? 1.0f : 0.0f);
         }
@@ -74,12 +75,12 @@ TEST(Stability, WildLight) {
     }
   }
   judge({20, "tone mapping of NaN, infinite and negative light",
-         "NaN, ±infinity, −1, 3e38 at exposures 0 to 1e9, five curves; the curve alone against tone_map",
-         "results outside of [0, 1]; ours: also NaN that is not 0, infinity that is not 1"},
+         "NaN, ±infinity, −1, 3e38 at exposures 0 to 1e9, five curves; the bare curve against tone_map",
+         "results outside [0, 1]; ours: also NaN not mapped to 0 and infinity not mapped to 1"},
         plain, 50, ours, 0);
 }
 
-TEST(Stability, DoubleGamma) {
+TEST(Stability, SrgbIsEncodedOnlyOnce) {
   double twice = 0.0, power = 0.0, ours = 0.0;
   for (int i = 0; i <= 100000; ++i) {
     const double x = i / 100000.0;
@@ -89,16 +90,16 @@ TEST(Stability, DoubleGamma) {
     power = std::max(power, std::abs(255.0 * std::pow(x, 1.0 / 2.2) - exact));
     ours = std::max(ours, std::abs(static_cast<double>(linear_to_srgb(static_cast<float>(x))) - exact));
   }
-  EXPECT_GE(power, 8.0) << "pow(1/2.2) is no sRGB";
-  // Half a code is what rounding costs; 1e-4 the float that x is.
-  judge({21, "double gamma", "light from 0 to 1; encoded twice against once, by types that allow no second time",
+  EXPECT_GE(power, 8.0) << "pow(1/2.2) is not the sRGB curve";
+  // Rounding costs half a code; 1e-4 allows for x being a float.
+  judge({21, "double gamma", "light from 0 to 1; encoded twice against once, using types that prevent a second encoding",
          "largest error in 8-bit codes"},
         twice, 70.0, ours, 0.5001);
 }
 
 // ---- highlights ---------------------------------------------------------------------------------------------------------
 
-TEST(Stability, PowersAndNormals) {
+TEST(Stability, HighlightsAreBoundedForDegenerateInputs) {
   int plain = 0, ours = 0;
   double worst = 0.0;
   const Light light{};
@@ -109,9 +110,9 @@ TEST(Stability, PowersAndNormals) {
         for (const LightModel model : {LightModel::phong, LightModel::blinn_phong}) {
           const auto lit = illuminate<float>(std::span(&light, 1), model, shininess, {{0, 0, 0}, n, v});
           ours += !(lit.specular.x >= 0.0f && lit.specular.x <= 1.0f && lit.diffuse.x >= 0.0f);
-          if (!(n.z > 0.0f)) ours += lit.specular.x != 0.0f;  // the light stands behind, or the normal says nothing
+          if (!(n.z > 0.0f)) ours += lit.specular.x != 0.0f;  // the light is behind the surface, or the normal is invalid
         }
-        // The usual shader: half vector and normal made unit vectors, the power by exp2 and log2.
+        // The usual shader: normalized half vector and normal, and the power computed with exp2 and log2.
         const glm::vec3 h = glm::normalize(glm::vec3(0, 0, 1) + v);
         const float c = std::max(glm::dot(glm::normalize(n), h), 0.0f), s = std::exp2(shininess * std::log2(c));
         plain += !(s >= 0.0f && s <= 1.0f);
@@ -123,37 +124,37 @@ TEST(Stability, PowersAndNormals) {
       if (exact > 1e-37) worst = std::max(worst, std::abs(static_cast<double>(halfspace::pow(c, shininess)) / exact - 1.0));
     }
   }
-  EXPECT_LE(worst, 1.2 * 0x1p-23) << "1.2 ulp, at exponents to 1e5";
+  EXPECT_LE(worst, 1.2 * 0x1p-23) << "1.2 ulp, at exponents up to 1e5";
   judge({23, "specular pow(0, 0), huge exponents, NaN normals",
-         "exponents 0 to 1e5, normals and directions of no length and NaN; unit vectors and exp2(n log2 c) against illuminate",
-         "highlights outside of [0, 1]; ours: also those of light from behind"},
+         "exponents from 0 to 1e5, zero-length and NaN normals and directions; normalized vectors and exp2(n log2 c) against illuminate",
+         "highlights outside [0, 1]; ours: also highlights from lights behind the surface"},
         plain, 30, ours, 0);
 }
 
-// ---- the same bits ------------------------------------------------------------------------------------------------------
+// ---- bit-identical results ---------------------------------------------------------------------------------------------
 
-TEST(Stability, SameBitsAtEveryWidth) {
+TEST(Stability, IsBitIdenticalAtEverySimdWidth) {
   const std::vector<float> in = hash_inputs();
   const uint64_t one = lane_hash<float>(in);
   int ours = 0;
   ours += lane_hash<RealN<4>>(in) != one;
   ours += lane_hash<RealN<8>>(in) != one;
   ours += lane_hash<RealN<16>>(in) != one;
-  // What processors differ in: the estimate of 1/x, even after a step of Newton's.
+  // Processors differ in their estimate of 1/x, even after a Newton step.
   int plain = 0;
   for (const float x : in) {
     const float r = _mm_cvtss_f32(_mm_rcp_ss(_mm_set_ss(x))), refined = r * (2.0f - x * r);
     plain += std::isnormal(1.0f / x) && refined != 1.0f / x;
   }
-  judge({26, "different bits by threads, lanes, processors",
-         "elementary functions, interpolation and encoding at 1, 4, 8 and 16 lanes; rcp with one step of Newton's against division",
-         "plain: values that are not 1/x rounded, of 4,096; ours: widths that differ"},
+  judge({26, "results that depend on threads, SIMD width or processor",
+         "elementary functions, interpolation and encoding at 1, 4, 8 and 16 lanes; rcp with one Newton step against division",
+         "plain: values that are not correctly rounded 1/x, of 4,096; ours: widths that differ"},
         plain, 500, ours, 0);
 }
 
 #ifdef HALFSPACE_ISA_PROGRAMS
-// The same functions in programs of their own, compiled for one instruction set each.
-TEST(Stability, SameBitsForEveryInstructionSet) {
+// Evaluates the same functions in separate programs, each compiled for one instruction set.
+TEST(Stability, IsBitIdenticalForEveryInstructionSet) {
   const std::vector<float> in = hash_inputs();
   char want[32];
   std::snprintf(want, sizeof want, "%016llx\n", static_cast<unsigned long long>(lane_hash<float>(in)));
@@ -168,13 +169,13 @@ TEST(Stability, SameBitsForEveryInstructionSet) {
     ours += run_command(program).text != want;
   }
   if (ran == 0) GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
-  // What a library chooses by processor: its functions differ from ours in last bits, and from version to version among themselves.
+  // The C library selects implementations by processor. Its results differ from ours in the last bits, and between versions.
   int plain = 0;
   for (const float x : in) plain += std::exp2(x) != halfspace::exp2(x);
-  judge(
-      {26, "different bits by threads, lanes, processors", "the same in programs for x86-64-v3 and -v4; the C library's exp2 against ours",
-       "plain: values that differ, of 4,096; ours: programs that differ"},
-      plain, 1, ours, 0);
+  judge({26, "results that depend on threads, SIMD width or processor",
+         "the same in programs for x86-64-v3 and x86-64-v4; exp2 of the C library against ours",
+         "plain: values that differ, of 4,096; ours: programs that differ"},
+        plain, 1, ours, 0);
 }
 #endif
 

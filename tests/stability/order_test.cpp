@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What targets store, and in which order: light beyond a half, blending on several threads.
+// Values stored in render targets and their order: light beyond the range of half, and blending on several threads.
 #include <limits>
 
 #include "halfspace/core/half.h"
@@ -12,7 +12,7 @@ namespace {
 
 using namespace raster_test;
 
-TEST(Stability, HalfOverflow) {
+TEST(Stability, HalfFloatTargetsDoNotStoreInfinity) {
   int plain = 0, ours = 0;
   for (const float light : {65504.0f, 65519.0f, 65520.0f, 1e5f, 1e9f, 3e38f, std::numeric_limits<float>::infinity()}) {
     const uint16_t half = float_to_half(light);
@@ -24,8 +24,9 @@ TEST(Stability, HalfOverflow) {
     pass.run(one_worker());
     for (const U16Vec4& p : picture.texels()) ours += (p.x & 0x7fffu) >= 0x7c00u;
   }
-  judge({22, "fp16 overflow", "light from 65504 to infinity; IEEE conversion against the target's store", "infinities stored"}, plain, 4,
-        ours, 0);
+  judge({22, "fp16 overflow", "light from 65504 to infinity; IEEE conversion against the conversion of the render target",
+         "infinities stored"},
+        plain, 4, ours, 0);
 }
 
 Image<glm::vec4> blended(const std::vector<PointTriangle>& triangles, const std::vector<glm::vec4>& colors, int threads) {
@@ -45,7 +46,7 @@ Image<glm::vec4> blended(const std::vector<PointTriangle>& triangles, const std:
   return image;
 }
 
-TEST(Stability, OrderOfBlending) {
+TEST(Stability, BlendingFollowsSubmissionOrder) {
   Random r(11);
   std::vector<PointTriangle> triangles(300);
   std::vector<glm::vec4> colors;
@@ -54,7 +55,7 @@ TEST(Stability, OrderOfBlending) {
     colors.emplace_back(r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.2f, 0.9f));
   }
   const Image<glm::vec4> one = blended(triangles, colors, 1);
-  // The plain method deals triangles to n threads, which draw at the same time: here one after the other.
+  // The plain method distributes triangles to n threads that draw concurrently; here the threads run one after the other.
   int plain = 0;
   for (std::size_t n = 2; n <= 8; ++n) {
     std::vector<PointTriangle> dealt;
@@ -69,8 +70,9 @@ TEST(Stability, OrderOfBlending) {
   }
   int ours = 0;
   for (int run = 0; run < 100; ++run) ours += !(blended(triangles, colors, 1 + run % 8) == one);
-  judge({25, "order-dependent blending", "300 blended triangles; dealt to 2 to 8 threads, against 100 runs of a pass with 1 to 8 threads",
-         "pictures that differ from one thread's"},
+  judge({25, "order-dependent blending",
+         "300 blended triangles; distributed to 2 to 8 threads, against 100 runs of a pass with 1 to 8 threads",
+         "images that differ from the single-threaded one"},
         plain, 7, ours, 0);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values of pixels where plain shaders fail: faces, bumps, seams, derivatives at edges.
+// Pixel values where plain shaders fail: faces, bumps, seams, derivatives at edges.
 #include <cmath>
 
 #include "halfspace/geometry/camera.h"
@@ -31,7 +31,7 @@ Image<glm::vec4> drawn(const S& shader, const VertexView& view, const std::vecto
 
 // ---- flat shading -------------------------------------------------------------------------------------------------------
 
-// Light by the face's normal, or by the provoking vertex's.
+// Lit by the normal of the face, or by that of the provoking vertex.
 struct FlatLight {
   bool by_face = true;
   template <class R>
@@ -64,8 +64,8 @@ struct FlatLight {
   }
 };
 
-TEST(Stability, FlatShadingOfNonPlanarQuads) {
-  // A saddle of 8 x 8 quads, each split by the same diagonal; then the same triangles told from another corner on.
+TEST(Stability, FlatShadingDoesNotDependOnVertexOrder) {
+  // A saddle of 8 x 8 quads, each split along the same diagonal; then the same triangles, each starting at another vertex.
   constexpr int kQuads = 8;
   std::vector<glm::vec3> positions, normals;
   std::vector<uint32_t> list, turned;
@@ -92,9 +92,10 @@ TEST(Stability, FlatShadingOfNonPlanarQuads) {
       most = std::max(most, std::abs(static_cast<double>(one.data()[i].x) - static_cast<double>(other.data()[i].x)));
     return most;
   };
-  // The face's normal is a product of differences of the same corners: its rounding changes with their order.
+  // The face normal is a cross product of differences of the same vertices, whose rounding depends on their order.
   judge({12, "flat shading of non-planar quads",
-         "a saddle, its triangles told from another corner on; the provoking vertex's light against the face's", "largest change of light"},
+         "a saddle whose triangles start at another vertex; light of the provoking vertex against light of the face",
+         "largest change in light"},
         change(false), 0.05, change(true), 1e-5);
 }
 
@@ -128,7 +129,7 @@ struct BumpSlope {
   }
 };
 
-TEST(Stability, BumpsByDerivatives) {
+TEST(Stability, BumpMapsMatchTheAnalyticSlope) {
   Image<float> heights(kMap, kMap);
   for (int y = 0; y < kMap; ++y)
     for (int x = 0; x < kMap; ++x)
@@ -150,14 +151,15 @@ TEST(Stability, BumpsByDerivatives) {
     double squares = 0.0, truth_squares = 0.0;
     for (const glm::vec4& p : picture.texels()) {
       const double u = static_cast<double>(p.z), v = static_cast<double>(p.w), k = 2 * kPi * kWaves;
-      const double du = 0.45 / 64, dv = 0.15 / 64;  // of one pixel to the right
+      const double du = 0.45 / 64, dv = 0.15 / 64;  // change per pixel to the right
       const double truth = 0.5 * k * (std::cos(k * u) * std::cos(k * v) * du - std::sin(k * u) * std::sin(k * v) * dv);
       squares += (static_cast<double>(p.x) - truth) * (static_cast<double>(p.x) - truth);
       truth_squares += truth * truth;
     }
     return std::sqrt(squares / truth_squares);
   };
-  // A wave of 21 texels: the slope of the parabola keeps sin(x)/x of it, x = 2 pi/21, and linear filtering as much: 3% are lost.
+  // A wave of 21 texels. The slope of the parabola is scaled by sin(x)/x with x = 2 pi/21, and linear filtering scales it by the same
+  // factor, a loss of 3%.
   judge({14, "bumps from derivatives of the height",
          "waves of 21 texels and 9 px; differences in the 2x2 quad against the slope of filtered heights",
          "RMS error of the slope, relative"},
@@ -166,7 +168,8 @@ TEST(Stability, BumpsByDerivatives) {
 
 // ---- seams --------------------------------------------------------------------------------------------------------------
 
-// The level of detail that a look-up takes; u from the mesh, or from the direction by pixel with differences in the quad.
+// Outputs the level of detail of a texture lookup. u comes from the mesh, or is computed per pixel from the direction and differentiated in
+// the quad.
 struct LevelSeen {
   glm::mat4 clip_from_world;
   bool by_direction = false;
@@ -202,9 +205,9 @@ struct LevelSeen {
   }
 };
 
-TEST(Stability, SeamOfLongitude) {
-  // atan2 steps from half a turn to minus half of one at −x, in the picture's middle; the mesh's own seam is at +x: seen from there
-  // in turn. (Of 202 px the middle lies within a quad.)
+TEST(Stability, LevelOfDetailIsUnaffectedByTheSeam) {
+  // atan2 jumps from half a turn to minus half a turn at −x, in the middle of the image. The seam of the mesh is at +x. The globe is viewed
+  // from both sides. (At 202 px, the middle of the image is inside a quad.)
   const Mesh ball = uv_sphere(64, 128, 1.0f);
   const auto most = [&](bool by_direction, double side) {
     const glm::dmat4 clip = perspective_gl(40.0 * kPi / 180.0, 1.0, 0.1, 10.0) * look_at({side * 3.0, 0, 0}, {0, 0, 0}, {0, 1, 0});
@@ -213,20 +216,20 @@ TEST(Stability, SeamOfLongitude) {
               ball.positions.size());
     double level = -1e9;
     for (const glm::vec4& p : picture.texels())
-      if (std::abs(p.y) > 0.8f) level = std::max(level, static_cast<double>(p.x));  // faces the eye: a texel is about a pixel
+      if (std::abs(p.y) > 0.8f) level = std::max(level, static_cast<double>(p.x));  // faces the eye, so a texel is about a pixel
     return level;
   };
   const double ours = std::max(most(false, 1.0), most(false, -1.0));
-  // In the middle a pixel is some 1.1 texels; at 0.8 it is leant by 37 degrees: level log2(1.1 / 0.8) = 0.5.
-  judge(
-      {15, "seam where u wraps", "a globe's seam in the picture's middle; atan2 and differences in the quad against the mesh's derivatives",
-       "largest level of detail taken where a pixel is a texel"},
-      most(true, -1.0), 6.0, ours, 0.7);
+  // At the center a pixel is about 1.1 texels. At 0.8 the surface is inclined by 37 degrees, and the level is log2(1.1 / 0.8) = 0.5.
+  judge({15, "seam where u wraps",
+         "seam of a globe in the middle of the image; atan2 with differences in the quad against derivatives of mesh coordinates",
+         "largest level of detail where a pixel is a texel"},
+        most(true, -1.0), 6.0, ours, 0.7);
 }
 
 // ---- derivatives at edges -----------------------------------------------------------------------------------------------
 
-// log2 of |du/dx|: exact, or by differences in the quad with values held to what the triangle has.
+// Outputs du/dx: analytically, or from differences in the quad with values clamped to the range of the triangle.
 struct StepSeen {
   bool held = false;
   template <class R>
@@ -254,12 +257,12 @@ struct StepSeen {
   }
 };
 
-TEST(Stability, DerivativesAtSilhouettes) {
-  // A triangle in perspective (w from 1 to 5), u = 0, 1, 0 at its corners.
+TEST(Stability, DerivativesAreExactAtSilhouettes) {
+  // A triangle in perspective (w from 1 to 5) with u = 0, 1, 0 at its vertices.
   const std::array<glm::vec4, 3> corners{{{-0.9f, -0.8f, 0, 1}, {0.8f * 5, -0.3f * 5, 0, 5}, {-0.2f * 3, 0.9f * 3, 0, 3}}};
   const std::vector<glm::vec4> positions(corners.begin(), corners.end());
   const std::vector<float> us{0.0f, 1.0f, 0.0f};
-  const auto u_at = [&](double x, double y) {  // by the edges in clip space, in double
+  const auto u_at = [&](double x, double y) {  // from the edges in clip space, in double
     const glm::dvec3 p(2 * x / 128 - 1, 2 * y / 128 - 1, 1);
     const auto row = [&](std::size_t i) { return glm::dvec3(corners[i].x, corners[i].y, corners[i].w); };
     const double e0 = glm::dot(glm::cross(row(1), row(2)), p), e1 = glm::dot(glm::cross(row(2), row(0)), p),
@@ -277,11 +280,12 @@ TEST(Stability, DerivativesAtSilhouettes) {
     }
     return most;
   };
-  // Corners are snapped to 1/256 px, of some 100 px: the slope moves by 1e-4 of itself, the level by 2e-4; near the far corner more.
-  judge(
-      {17, "levels at silhouettes", "a triangle in perspective; differences of values held to the triangle against its plane's derivative",
-       "largest error of the level of detail at its edges"},
-      error(true), 1.0, error(false), 2e-3);
+  // Vertices are snapped to 1/256 px and edges are about 100 px long, so the slope changes by a factor of 1e-4 and the level by 2e-4, or
+  // more near the far vertex.
+  judge({17, "level of detail at silhouettes",
+         "a triangle in perspective; differences of values clamped to the triangle against the derivative of its plane",
+         "largest error of the level of detail at its edges"},
+        error(true), 1.0, error(false), 2e-3);
 }
 
 }  // namespace

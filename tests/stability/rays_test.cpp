@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference itself: rays that slip between triangles, and points that shade themselves.
+// Robustness of the reference: rays that slip between triangles, and points that shadow themselves.
 #include <algorithm>
 #include <array>
 
@@ -20,10 +20,11 @@ struct World {
   }
 };
 
-// Along a ray that ends on the side that faces the eye: 0.4 units farther, which is the back.
+// Upper limit for the distance of a hit, relative to that of the target point on the front of the ball. The margin of 0.4 units excludes
+// hits on the back.
 constexpr float kBack = 1.00003f;
 
-// The textbook's way, in floats: where the ray meets the plane, and on which side of each edge that is.
+// The usual method in floats: intersects the ray with the plane and tests the side of each edge.
 bool meets(const glm::vec3& d, const std::array<glm::vec3, 3>& t) {
   const glm::vec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
   const float along = glm::dot(n, t[0]) / glm::dot(n, d);
@@ -34,8 +35,8 @@ bool meets(const glm::vec3& d, const std::array<glm::vec3, 3>& t) {
   return true;
 }
 
-TEST(Stability, RaysAtSharedEdges) {
-  // From far off, where a float of the way is coarse beside the mesh, at places on edges that face the eye.
+TEST(Stability, RaysDoNotSlipThroughSharedEdges) {
+  // From a distance at which the float spacing along the ray is coarse compared with the mesh, towards points on edges that face the eye.
   const World world;
   const glm::dvec3 eye(7000.0, 5000.0, 9000.0);
   const RayScene rays(world.meshes, eye);
@@ -61,16 +62,17 @@ TEST(Stability, RaysAtSharedEdges) {
     (at_vertex ? at_vertices : at_edges) += slipped;
   }
   ASSERT_GT(aimed, raster_test::effort(4000) / 10);
-  // Embree's robust mode is watertight along edges; exactly through a vertex, where no picture's ray goes but by chance, it may slip.
+  // Embree's robust mode is watertight along edges. Rays that pass exactly through a vertex may slip through, but rarely occur in images.
   EXPECT_LE(at_vertices, aimed / 20);
   judge({28, "robustness of the reference",
-         "rays at edges of a closed mesh from 12,000 radii; plane and sides in floats against the reference's rays",
+         "rays towards edges of a closed mesh from a distance of 12,000 radii; plane and edge tests in floats against the rays of the "
+         "reference",
          "rays that slip through"},
         plain, 1, at_edges, 0);
 }
 
-TEST(Stability, PointsThatShadeThemselves) {
-  // Every point faces the light and nothing stands between.
+TEST(Stability, ReferencePointsDoNotShadowThemselves) {
+  // Every point faces the light and is unoccluded.
   const World world;
   const glm::dvec3 eye(300.0, 200.0, -100.0);
   const RayScene casters(world.meshes, eye, true);
@@ -84,7 +86,7 @@ TEST(Stability, PointsThatShadeThemselves) {
     const auto at = [&](std::size_t k) { return glm::dvec3(world.ball.positions[list[i + k]]); };
     const double u = random.real(0.0, 0.5), v = random.real(0.0, 0.5);
     const glm::dvec3 face = glm::normalize(glm::cross(at(1) - at(0), at(2) - at(0)));
-    // Neighbours lean by up to 5 degrees: beyond 0.2 no one shades another.
+    // Adjacent faces differ by up to 5 degrees, so above a cosine of 0.2 none of them shadows another.
     if (glm::dot(face, glm::dvec3(light.light.place_rws)) < 0.2) continue;
     ++points;
     const glm::dvec3 p = at(0) + (at(1) - at(0)) * u + (at(2) - at(0)) * v - eye;
@@ -93,8 +95,9 @@ TEST(Stability, PointsThatShadeThemselves) {
   }
   ASSERT_GT(points, raster_test::effort(20000) / 10);
   judge({28, "robustness of the reference",
-         "points of a lit sphere 370 radii from the eye; rays from the point itself against rays from 2^-20 of its coordinates above",
-         "points that shade themselves"},
+         "points of a lit sphere at a distance of 370 radii from the eye; rays from the point itself against rays offset by 2^-20 of its "
+         "coordinates",
+         "points that shadow themselves"},
         plain, 50, ours, 0);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table is whole: docs/explanation/stability.md has each row 1 to 28, and every test that it names is there, and every test is in it.
+// Checks that docs/explanation/stability.md is complete: it contains the rows 1 to 28, every test that it names exists, and every test is
+// listed.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -12,7 +13,7 @@ namespace {
 
 TEST(StabilityTable, HasEveryRowAndTest) {
   std::ifstream file("docs/explanation/stability.md");  // tests run from the source tree
-  ASSERT_TRUE(file) << "docs/explanation/stability.md is missing; scripts/stability_table.py makes it";
+  ASSERT_TRUE(file) << "docs/explanation/stability.md is missing; scripts/stability_table.py generates it";
   std::set<int> rows;
   std::set<std::string> named;
   for (std::string line; std::getline(file, line);) {
@@ -29,7 +30,7 @@ TEST(StabilityTable, HasEveryRowAndTest) {
     for (int t = 0; std::string(suite.name()) == "Stability" && t < suite.total_test_count(); ++t)
       tests.insert(suite.GetTestInfo(t)->name());
   }
-  EXPECT_EQ(named, tests) << "renew the table: scripts/stability_table.py build/release/bin/test-stability";
+  EXPECT_EQ(named, tests) << "to update the table, run: scripts/stability_table.py build/release/bin/test-stability";
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whole scenes and studies where plain methods fail.
+// Complete scenes and studies where plain methods fail.
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -31,8 +31,8 @@ const Variant& variant(const Study& study, const std::string& name) {
 
 // ---- far from the origin ------------------------------------------------------------------------------------------------
 
-// The largest distance in px between a sphere's vertices by float matrices and in double, the sphere standing `away` from the origin
-// and the camera 4 units from it.
+// Largest distance in px between the vertices of a sphere transformed by float matrices and in double. The sphere is `away` from the origin
+// and the camera 4 units from the sphere.
 struct Distances {
   double plain, ours;
 };
@@ -69,18 +69,19 @@ Distances far_from_the_origin(double away) {
   return out;
 }
 
-TEST(Stability, FarFromTheOrigin) {
+TEST(Stability, PositionsAreAccurateFarFromTheOrigin) {
   const Distances d = far_from_the_origin(1e6);
-  // The product of the matrices is made in double and rounded once: 2^-24 of 1,024 px for each of some products.
+  // The product of the matrices is computed in double and rounded once: 2^-24 of 1,024 px for each of a few products.
   judge({6, "huge coordinates, guard band",
-         "a sphere 1,000,000 units from the origin, the camera 4 from it; world positions in float against one matrix made in double",
+         "a sphere 1,000,000 units from the origin, 4 units from the camera; world positions in float against a single matrix computed in "
+         "double",
          "largest error of a vertex, px at 1024"},
         d.plain, 5.0, d.ours, 1e-3);
 }
 
 // ---- depth --------------------------------------------------------------------------------------------------------------
 
-TEST(Stability, DepthOrder) {
+TEST(Stability, ReversedDepthKeepsTheOrder) {
   const Study study = study_depth({.quick = true}, Workers(2));
   double plain = 0.0, ours = 0.0;
   for (const Variant& v : study.variants) {
@@ -89,21 +90,21 @@ TEST(Stability, DepthOrder) {
   }
   judge({10, "z-fighting",
          "pairs of surfaces 1/10,000 of the distance apart, far/near 1e2 to 1e9; OpenGL's depth in float32 against reversed Z",
-         "worst share of pairs in wrong order"},
+         "worst share of pairs in the wrong order"},
         plain, 0.3, ours, 0.0);
 }
 
-TEST(Stability, DepthOrderOfWholeNumbers) {
+TEST(Stability, ReversedDepthKeepsTheOrderWhere24BitsFail) {
   const Study study = study_depth({.quick = true}, Workers(2));
-  // Of float32 with reversed Z a step is 2^-24 of the distance anywhere, 1,600 times finer than the gap.
-  judge({10, "z-fighting", "the same at far/near 1e6; 24 bits against reversed Z", "share of pairs in wrong order"},
+  // The step of float32 with reversed Z is 2^-24 of the distance everywhere, 1,600 times finer than the gap.
+  judge({10, "z-fighting", "the same at far/near 1e6; 24 bits against reversed Z", "share of pairs in the wrong order"},
         variant(study, "d24 1e6").error, 0.15, variant(study, "d32f reversed 1e6").error, 0.0);
 }
 
 // ---- highlights ---------------------------------------------------------------------------------------------------------
 
-TEST(Stability, GouraudHighlights) {
-  // Facets of 10 degrees; light and eye face the middle of one.
+TEST(Stability, PhongShadingKeepsHighlightsInsideFacets) {
+  // Facets span 10 degrees; light and eye face the center of a facet.
   const auto missing = [](const char* shading) {
     const SceneDescription scene = parsed(std::string(R"({ "version": 1,
       "cameras": { "main": { "position": [0, 0, 400], "fov": 0.35, "near": 1, "far": 1000 } },
@@ -116,26 +117,27 @@ TEST(Stability, GouraudHighlights) {
     for (const glm::vec4& p : light.texels()) peak = std::max(peak, p.x);
     return 1.0 - static_cast<double>(peak);
   };
-  // A pixel is 0.5 degrees at most from the middle: cos(0.25 degrees)^200 is 1 − 0.002; interpolated normals are as near.
-  judge({11, "Gouraud shading misses highlights", "exponent 200 in the middle of a facet of 10 degrees; light by vertex against by pixel",
-         "what the peak lacks of 1"},
+  // A pixel is at most 0.5 degrees from the center: cos(0.25 degrees)^200 is 1 − 0.002, and interpolated normals are equally accurate.
+  judge({11, "Gouraud shading misses highlights",
+         "exponent 200 at the center of a facet of 10 degrees; lighting per vertex against per pixel", "difference of the peak from 1"},
         missing("gouraud"), 0.4, missing("phong"), 0.01);
 }
 
 // ---- textures -----------------------------------------------------------------------------------------------------------
 
-TEST(Stability, MinificationOfAChequer) {
+TEST(Stability, AnisotropicFilteringReducesAliasing) {
   const Study study = study_texture_filter({.quick = true}, Workers(2));
-  // A probe is a trilinear look-up, wider than the box that it stands for: at each edge of a square it errs by some tenth of the
-  // contrast over a pixel. (docs/results/accuracy.md has every filter, at 960x540.)
+  // A probe is a trilinear lookup, which is wider than the box it represents. At each edge of a square its error is about a tenth of the
+  // contrast over one pixel. (docs/results/accuracy.md lists every filter, at 960x540.)
   judge({16, "minification aliasing",
-         "a chequered plane to the horizon; nearest texel against 16x anisotropic, truth of 1,024 look-ups a pixel", "RMS error of light"},
+         "a checkerboard plane up to the horizon; nearest texel against 16x anisotropic, reference of 1,024 lookups per pixel",
+         "RMS error of light"},
         variant(study, "nearest").error, 0.15, variant(study, "16x").error, 0.02);
 }
 
 // ---- spheres as points --------------------------------------------------------------------------------------------------
 
-// One sphere of radius 1 at the origin as a sprite; the camera looks past it. Light is ambient alone.
+// A sphere of radius 1 at the origin, drawn as a sprite, with a camera that looks past it. All light is ambient.
 constexpr int kWidth = 320, kHeight = 180;
 SceneDescription one_sphere(const char* sprite, double distance, double degrees) {
   const double a = degrees * std::numbers::pi / 180.0;
@@ -147,8 +149,8 @@ SceneDescription one_sphere(const char* sprite, double distance, double degrees)
   return parsed(text);
 }
 
-// What coverage lacks of, or has beyond, the sphere's, over what either covers: 1 − IoU. seen(x, y) tells it. Pixels within 1e-4 of
-// the rim (of the squared half chord) may be either.
+// Returns 1 − IoU of the coverage given by seen(x, y) and that of the sphere. Pixels within 1e-4 of the rim (in terms of the squared half
+// chord) are ignored.
 template <class Seen>
 double coverage_error(const SceneDescription& scene, const Seen& seen) {
   const View view = make_view(scene.cameras.front().second, kWidth, kHeight);
@@ -172,44 +174,45 @@ double coverage_error(const SceneDescription& scene) {
   return coverage_error(scene, [&](int x, int y) { return picture.at(x, y).x > 0.0f; });
 }
 
-TEST(Stability, SpritesWhoseCentreIsOutside) {
-  // The picture is 91.5 degrees wide; the centre stands at 50 and 60 degrees, the sphere spans 19 to either side.
+TEST(Stability, SpritesWithTheirCenterOutsideAreDrawn) {
+  // The image is 91.5 degrees wide. The center is at 50 or 60 degrees, and the sphere extends 19 degrees to either side.
   double plain = 1.0, ours = 0.0;
   for (const double degrees : {50.0, 60.0, -50.0, -60.0}) {
     const SceneDescription scene = one_sphere("exact", 3.0, degrees);
-    plain = std::min(plain,
-                     coverage_error(scene, [](int, int) { return false; }));  // OpenGL 4.6 clips points by their centre: nothing is drawn
+    // OpenGL 4.6 clips points by their center, so it draws nothing.
+    plain = std::min(plain, coverage_error(scene, [](int, int) { return false; }));
     ours = std::max(ours, coverage_error(scene));
   }
-  judge({18, "sphere sprites cut when the centre leaves the picture",
-         "centre 5 and 15 degrees outside of the picture; clipped by centre against by footprint", "1 − IoU with the sphere"},
+  judge({18, "sphere sprites vanish when their center leaves the image",
+         "center 5 and 15 degrees outside the image; clipping by center against clipping by footprint", "1 − IoU with the sphere"},
         plain, 0.99, ours, 0.0);
 }
 
-TEST(Stability, SpritesOffTheAxis) {
-  judge({19, "point size limits, perspective ellipse", "30 degrees off the axis; a circle sized by the centre against the exact sprite",
+TEST(Stability, SpritesOffTheAxisAreAccurate) {
+  judge({19, "point size limits, perspective ellipse", "30 degrees off the axis; a circle sized by its center against the exact sprite",
          "1 − IoU with the sphere"},
         coverage_error(one_sphere("original", 3.0, 30.0)), 0.1, coverage_error(one_sphere("exact", 3.0, 30.0)), 0.0);
 }
 
-TEST(Stability, SpritesOfAnySize) {
-  // From 1.02 radii the sphere spans 157 degrees: its sprite is 1,553 px high in a picture of 180; from 1.0005 it is 10,000.
+TEST(Stability, SpritesHaveNoSizeLimit) {
+  // From 1.02 radii the sphere spans 157 degrees, and its sprite is 1,553 px high in an image of 180 px; from 1.0005 radii it is 10,000 px
+  // high.
   double ours = 0.0;
   for (const double distance : {1.02, 1.005, 1.0005}) ours = std::max(ours, coverage_error(one_sphere("exact", distance, 75.0)));
-  // A limit of 255 px, as hardware has it: a square round the centre's place, which is far left of the picture.
+  // A limit of 255 px, as in hardware: a square around the position of the center, which is far to the left of the image.
   const SceneDescription near = one_sphere("exact", 1.0005, 75.0);
   const double px_per_tan = kHeight / (2.0 * make_view(near.cameras.front().second, kWidth, kHeight).tan_y);
   const double centre = 0.5 * kWidth - px_per_tan * std::tan(75.0 * std::numbers::pi / 180.0);
   const double limited =
       coverage_error(near, [&](int x, int y) { return std::abs(x + 0.5 - centre) < 127.5 && std::abs(y + 0.5 - 0.5 * kHeight) < 127.5; });
-  judge({19, "point size limits, perspective ellipse", "1.0005 radii from a sphere of 10,000 px; a limit of 255 px against none",
+  judge({19, "point size limits, perspective ellipse", "1.0005 radii from a sphere of 10,000 px; a limit of 255 px against no limit",
          "1 − IoU with the sphere"},
         limited, 0.9, ours, 0.0);
 }
 
 // ---- transforms ---------------------------------------------------------------------------------------------------------
 
-TEST(Stability, NormalsUnderStretching) {
+TEST(Stability, NormalsAreCorrectUnderNonUniformScale) {
   const SceneDescription scene = parsed(R"({ "version": 1, "cameras": { "main": {} }, "lights": { "sun": {} },
       "objects": { "ball": { "latitudes": 32, "longitudes": 64, "scale": [1, 4, -0.25], "rotation": [20, 30, 40] } } })");
   const Workers workers(1);
@@ -225,7 +228,7 @@ TEST(Stability, NormalsUnderStretching) {
         }
       },
       prepared.draws.front().shader);
-  // The stretched sphere's own normal: the gradient of |M⁻¹ p|², with M turned and mirrored as well.
+  // The normal of the stretched sphere is the gradient of |M⁻¹ p|². M also rotates and mirrors.
   const glm::dmat3 m(placed.world_from_object), inverse = glm::inverse(m);
   double plain = 0.0, ours = 0.0;
   for (std::size_t i = 0; i < placed.mesh->positions.size(); ++i) {
@@ -234,16 +237,15 @@ TEST(Stability, NormalsUnderStretching) {
     plain = std::max(plain, angle(m * glm::dvec3(placed.mesh->normals[i])));
     ours = std::max(ours, angle(glm::dvec3(by_shader * placed.mesh->normals[i])));
   }
-  // A float matrix over a ratio of 16 : 1, and normals of 2^-24.
-  judge({24, "normals under non-uniform scale",
-         "a sphere stretched by 1, 4 and −1/4, and turned; the matrix itself against its inverse transpose",
+  // The matrix is in float and has a scale ratio of 16 : 1; normals have an error of 2^-24.
+  judge({24, "normals under non-uniform scale", "a rotated sphere scaled by 1, 4 and −1/4; the matrix itself against its inverse transpose",
          "largest angle to the ellipsoid's normal, radians"},
         plain, 1.0, ours, 1e-5);
 }
 
-// ---- the same bits ------------------------------------------------------------------------------------------------------
+// ---- bit-identical results ---------------------------------------------------------------------------------------------
 
-TEST(Stability, SamePixelsForAnyThreads) {
+TEST(Stability, IsBitIdenticalForAnyThreadCount) {
   SceneFile file = SceneFile::open("shadow-contact");
   int ours = 0;
   std::vector<Image<glm::vec4>> pictures;
@@ -251,7 +253,7 @@ TEST(Stability, SamePixelsForAnyThreads) {
     pictures.push_back(light_of(file.description(), 160, 90, Workers(threads)));
     ours += !(pictures.back() == pictures.front());
   }
-  // The plain method: a sum of floats, each thread its part, the parts added.
+  // The plain method sums floats per thread and then adds the partial sums.
   std::set<float> sums;
   for (const std::size_t threads : {1u, 2u, 3u, 5u, 7u, 16u}) {
     std::vector<float> parts(threads, 0.0f);
@@ -262,8 +264,8 @@ TEST(Stability, SamePixelsForAnyThreads) {
     for (const float part : parts) sum += part;
     sums.insert(sum);
   }
-  judge({26, "different bits by threads, lanes, processors", "shadow-contact with 1 to 16 threads; sums of floats by thread against a pass",
-         "results that differ from one thread's"},
+  judge({26, "results that depend on threads, SIMD width or processor",
+         "shadow-contact with 1 to 16 threads; float sums per thread against a pass", "results that differ from the single-threaded one"},
         static_cast<double>(sums.size() - 1), 1, ours, 0);
 }
 

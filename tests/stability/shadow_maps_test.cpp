@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadow maps where they fail, held against rays.
+// Known failures of shadow maps, compared with rays.
 #include <cmath>
 #include <numbers>
 
@@ -25,7 +25,7 @@ ShadowComparison compared(const std::string& name, const std::vector<std::string
 
 double beyond_a_texel(const DistanceShares& s) { return s.from_1_to_3 + s.beyond_3; }
 
-// A ball over a plane under a directional light that leans so far from the vertical.
+// A ball over a plane under a directional light at the given angle from the vertical.
 std::vector<std::string> sun_at(double degrees) {
   const double a = degrees * std::numbers::pi / 180.0;
   char direction[100];
@@ -33,7 +33,7 @@ std::vector<std::string> sun_at(double degrees) {
   return {"lamp.type=directional", direction};
 }
 
-TEST(Stability, AcneByAngle) {
+TEST(Stability, ShadowsHaveNoAcneAtAnyLightAngle) {
   double plain = 0.0, ours = 0.0;
   for (const double degrees : {0.0, 30.0, 60.0, 80.0, 85.0, 88.0, 89.0, 89.5, 89.9}) {
     std::vector<std::string> settings = sun_at(degrees);
@@ -41,24 +41,25 @@ TEST(Stability, AcneByAngle) {
     settings.insert(settings.end(), {"shadow.bias=none", "shadow.method=hard"});
     plain = std::max(plain, beyond_a_texel(compared("shadow-plane", settings).score.false_shadow));
   }
-  // One pixel of some 10,000 lit ones: at 89.9 degrees a texel's depths span 570 texels, and the automatic bias follows the plane.
+  // One pixel of about 10,000 lit ones: at 89.9 degrees the depths within a texel span 570 texels, and the automatic bias follows the
+  // plane.
   judge({1, "shadow acne", "ball over a plane, light 0 to 89.9 degrees from the vertical; no bias against auto",
-         "worst share of lit pixels falsely dark beyond a texel of the edge"},
+         "largest share of lit pixels that are falsely dark more than a texel from the edge"},
         plain, 0.3, ours, 1.5e-4);
 }
 
-TEST(Stability, PeterPanning) {
+TEST(Stability, ContactShadowsAreNotDetached) {
   const auto leak = [](const std::vector<std::string>& settings) {
     return beyond_a_texel(compared("shadow-contact", settings).score.false_light);
   };
-  // The bias in texels is the promise: no more than a pixel in a thousand of the shadow is lit beyond one texel of its edge.
-  judge({2, "peter-panning", "things that stand on a plane; a constant bias of 100 texels against auto",
-         "share of shadowed pixels falsely lit beyond a texel of the edge"},
+  // The project guarantees that at most one shadowed pixel in a thousand is lit more than one texel from the edge.
+  judge({2, "peter-panning", "objects on a plane; a constant bias of 100 texels against auto",
+         "share of shadowed pixels that are falsely lit more than a texel from the edge"},
         leak({"shadow.bias=constant", "shadow.constant=100", "shadow.method=hard"}), 0.01, leak({}), 1e-3);
 }
 
-// A small plate high above a large one, close over the ground: at the small one's outline two depths meet in one texel, while all of
-// the ground below the large one is dark. Seen from beside, below the plates.
+// A small plate high above a large one that is close to the ground. At the outline of the small plate two depths meet in one texel,
+// although all of the ground below the large plate is dark. The camera looks from the side, below the plates.
 SceneFile two_plates(const char* method) {
   SceneFile scene = SceneFile::parse(R"({ "version": 1,
     "cameras": { "main": { "position": [0, 0.5, 5], "target": [0, 0, 0], "fov": 50, "near": 0.1, "far": 100 } },
@@ -72,7 +73,8 @@ SceneFile two_plates(const char* method) {
   return scene;
 }
 
-// The most light that reaches a pixel by the map where by rays all pixels within 6 px are dark: that is beyond the filter.
+// Returns the maximum light according to the map at pixels that rays find dark together with all pixels within 6 px, which is beyond the
+// filter.
 double most_light_in_shadow(const ShadowComparison& c) {
   constexpr int kRadius = 6;
   double most = 0.0;
@@ -87,21 +89,23 @@ double most_light_in_shadow(const ShadowComparison& c) {
   return most;
 }
 
-TEST(Stability, LightLeaks) {
+TEST(Stability, PcfHasNoLightLeaks) {
   const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), pcf = most_light_in_shadow(compared(two_plates("pcf3")));
-  // Comparisons of depths know no leak: every texel over the large plate says dark.
-  judge({3, "light leaks", "under two plates one over the other; variance shadow maps against pcf3 (the scenes' own)",
-         "most light in full shadow"},
+  // Depth comparisons cannot leak: every texel over the large plate is dark.
+  judge({3, "light leaks", "below two plates, one above the other; variance shadow maps against pcf3 (the default of the scenes)",
+         "maximum light in full shadow"},
         vsm, 0.02, pcf, 0.0);
 }
 
-TEST(Stability, LightLeaksOfMoments) {
+TEST(Stability, FourMomentsHaveNoLightLeaks) {
   const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), moments = most_light_in_shadow(compared(two_plates("moments")));
-  // Four moments hold two depths exactly (Peters and Klein 2015); what is left is what keeps their equations solvable, some 1e-5.
-  judge({3, "light leaks", "the same; variance (two moments) against four moments", "most light in full shadow"}, vsm, 0.02, moments, 1e-4);
+  // Four moments represent two depths exactly (Peters and Klein 2015). The remaining light, about 1e-5, comes from the bias that keeps
+  // their equations solvable.
+  judge({3, "light leaks", "the same; variance (two moments) against four moments", "maximum light in full shadow"}, vsm, 0.02, moments,
+        1e-4);
 }
 
-TEST(Stability, PerspectiveAliasing) {
+TEST(Stability, CascadesReducePerspectiveAliasing) {
   const auto error = [](const std::string& cascades) {
     SceneFile scene = SceneFile::parse(R"({ "version": 1,
       "cameras": { "main": { "position": [0, 1.2, 0], "target": [0, 0.9, -10], "fov": 50, "near": 0.1, "far": 400 } },
@@ -114,18 +118,20 @@ TEST(Stability, PerspectiveAliasing) {
     scene.set("shadow.cascades=" + cascades);
     return compared(scene).score.error;
   };
-  // Edges are some 600 px long in this picture of 32,400 px, and err by up to half a texel, which is some 0.2 px by cascades.
-  judge({4, "perspective aliasing", "poles on a plane of 400 units, seen from 1.2 above it; one map of 1024 against four cascades of it",
-         "mean error of the light's share over the picture"},
+  // The edges are about 600 px long in an image of 32,400 px and are off by up to half a texel, which is about 0.2 px with cascades.
+  judge({4, "perspective aliasing",
+         "poles on a plane of 400 units, seen from a height of 1.2; a single map of 1024 texels against four cascades of that size",
+         "mean error of the light over the image"},
         error("1"), 0.005, error("4"), 0.004);
 }
 
-TEST(Stability, ShadowTerminator) {
-  // Few triangles: the shading normal and the triangle's differ by up to 15 degrees.
+TEST(Stability, ShadowTerminatorIsClassifiedSeparately) {
+  // With few triangles, the shading normal and the face normal differ by up to 15 degrees.
   const ShadowScore s = compared("shadow-plane", {"earth.latitudes=12", "earth.longitudes=24"}).score;
-  // Apart from these pixels the map is right: a pixel or two of 10,000.
-  judge({27, "shadow terminator", "a ball of 24 sectors; pixels where face and shading normal disagree counted as the map's, against apart",
-         "share of pixels that no map can get right; ours: falsely dark beyond a texel of the edge"},
+  // Apart from these pixels, all but one or two of 10,000 pixels are correct.
+  judge({27, "shadow terminator",
+         "a ball of 24 sectors; pixels where face and shading normals disagree counted as errors of the map against counted separately",
+         "share of pixels that no map can shade correctly; ours: falsely dark more than a texel from the edge"},
         s.sides_differ, 0.002, beyond_a_texel(s.false_shadow), 2e-4);
 }
 

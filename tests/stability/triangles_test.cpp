@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage where plain rasterizers fail. Positions are given in 1/256 px (tests/raster/raster_test.h), so the truth is
-// that of whole numbers.
+// Coverage where plain rasterizers fail. Positions are given in 1/256 px (tests/raster/raster_test.h), so the reference can be computed in
+// integer arithmetic.
 #include <cmath>
 #include <limits>
 
@@ -16,11 +16,11 @@ __extension__ using Wide = __int128;
 
 constexpr int kSize = 64;
 
-// Edge functions in T at a pixel's centre; `inclusive`: a centre on an edge is in, whatever the edge.
+// Returns whether a triangle covers the center of a pixel, by edge functions in T. With `inclusive`, centers on any edge count as covered.
 template <class T>
 bool covers(const PointTriangle& triangle, int px, int py, bool inclusive = false) {
   PointTriangle t = triangle;
-  // By unsigned arithmetic, whose overflow is defined to wrap: what 32 bits do.
+  // Unsigned arithmetic wraps on overflow, like 32-bit edge functions in hardware.
   using U = std::conditional_t<std::is_same_v<T, int32_t>, uint32_t, T>;
   const auto cross = [](const Point& a, const Point& b, int32_t x, int32_t y) {
     return static_cast<T>((U(b.x) - U(a.x)) * (U(y) - U(a.y)) - (U(b.y) - U(a.y)) * (U(x) - U(a.x)));
@@ -37,7 +37,8 @@ bool covers(const PointTriangle& triangle, int px, int py, bool inclusive = fals
   return true;
 }
 
-// By floats as in a small rasterizer: area in px², triangles below 1 dropped, weights above −1e-4 kept.
+// The method of a small rasterizer, in floats: the area is in px², triangles below an area of 1 are dropped, and weights above −1e-4 count
+// as inside.
 bool covers_in_floats(const PointTriangle& t, int px, int py) {
   const auto f = [](int32_t v) { return static_cast<float>(v) / 256.0f; };
   const float ax = f(t[0].x), ay = f(t[0].y), bx = f(t[1].x), by = f(t[1].y), cx = f(t[2].x), cy = f(t[2].y);
@@ -52,7 +53,7 @@ struct Wrong {
   int64_t plain = 0, ours = 0;
 };
 
-// Pixels in which the plain method and a pass differ from whole numbers of 128 bits, over triangles of every size.
+// Counts the pixels in which the plain method and a pass differ from 128-bit integer arithmetic.
 template <class Plain, class Make>
 Wrong wrong_pixels(int triangles, const Make& make, const Plain& plain) {
   Wrong wrong;
@@ -73,8 +74,8 @@ Wrong wrong_pixels(int triangles, const Make& make, const Plain& plain) {
   return wrong;
 }
 
-TEST(Stability, HugeCoordinates) {
-  // From 2^-8 px to the guard band, ±16384 px: every power of two.
+TEST(Stability, CoverageIsExactForHugeCoordinates) {
+  // Sizes from 2^-8 px to the guard band, ±16384 px: every power of two.
   const auto make = [](Random& r, int i) {
     const int size = 1 << (i % 23);  // in 1/256 px
     PointTriangle t;
@@ -82,34 +83,35 @@ TEST(Stability, HugeCoordinates) {
     return t;
   };
   const Wrong w = wrong_pixels(effort(1150), make, [](const PointTriangle& t, int x, int y) { return covers<int32_t>(t, x, y); });
-  // Whole numbers have no tolerance.
-  judge({6, "huge coordinates, guard band", "triangles from 2^-8 px to 16384 px; edge functions of 32 bits at 1/256 px against a pass",
-         "pixels wrong against 128 bits"},
+  // Integer arithmetic is exact, so there is no tolerance.
+  judge({6, "huge coordinates, guard band", "triangles from 2^-8 px to 16384 px; 32-bit edge functions at 1/256 px against a pass",
+         "pixels that differ from 128-bit arithmetic"},
         static_cast<double>(w.plain), 1000, static_cast<double>(w.ours), 0);
 }
 
-TEST(Stability, Slivers) {
-  // Up to 60 px long and below a pixel high, down to no area at all.
+TEST(Stability, CoverageIsExactForSlivers) {
+  // Up to 60 px long and less than a pixel high, including triangles without area.
   const auto make = [](Random& r, int) {
     const Point a{r.integer(0, 1024), r.integer(0, 16383)}, b{a.x + r.integer(8192, 15360), r.integer(0, 16383)};
     const Point c{(a.x + b.x) / 2, (a.y + b.y) / 2 + r.integer(-10, 10)};
     return PointTriangle{a, b, c};
   };
   const Wrong w = wrong_pixels(effort(4000), make, covers_in_floats);
-  judge({7, "slivers", "triangles 32 to 60 px long and 0 to 0.04 px high; floats with a cut at an area of 1 px² against a pass",
-         "pixels wrong against 128 bits"},
+  judge({7, "slivers", "triangles 32 to 60 px long and 0 to 0.04 px high; floats that drop areas below 1 px² against a pass",
+         "pixels that differ from 128-bit arithmetic"},
         static_cast<double>(w.plain), effort(100), static_cast<double>(w.ours), 0);
 }
 
-// A square of 64 px as two triangles to the left of a line and, to its right, one (conforming) or two whose common vertex lies on
-// the line as nearly as 1/256 px allows.
+// Draws a square of 64 px as triangles to the left and right of a line. The triangles on the right share a vertex that is on the line, as
+// close as 1/256 px allows. The mesh on the left also uses that vertex if it is conforming, and skips it if t_junction is set. Returns the
+// number of pixels not drawn exactly once.
 int64_t holes(Random& random, bool t_junction) {
   constexpr int kEdge = kSize * 256;
   const Point top{random.integer(6000, 10000), kEdge}, bottom{random.integer(6000, 10000), 0};
   const int y = random.integer(2000, 14000);
   const auto x = static_cast<int32_t>(std::lround(bottom.x + (top.x - bottom.x) * (static_cast<double>(y) / kEdge)));
   const Point m{x, y}, l0{0, 0}, l1{0, kEdge}, r0{kEdge, 0}, r1{kEdge, kEdge};
-  // Left of the line: a fan at the lower left corner that has m as a vertex in the conforming mesh alone.
+  // Left of the line: a fan at the lower left corner, which contains m as a vertex only in the conforming mesh.
   std::vector<PointTriangle> mesh{{l0, top, l1}};
   if (t_junction) {
     mesh.push_back({l0, bottom, top});
@@ -124,24 +126,24 @@ int64_t holes(Random& random, bool t_junction) {
   return wrong;
 }
 
-TEST(Stability, TJunctions) {
+TEST(Stability, ConformingMeshesHaveNoHoles) {
   int64_t plain = 0, ours = 0;
   for (int seed = 0; seed < effort(1500); ++seed) {
     Random a(static_cast<uint64_t>(seed)), b(static_cast<uint64_t>(seed));
     plain += holes(a, true);
     ours += holes(b, false);
   }
-  // No fill rule can close a mesh whose edges are not the same; one whose are is closed by the rule alone.
-  judge(
-      {8, "T-junctions", "1,500 squares with a vertex on a line: only one side knows of it, against both", "pixels not drawn exactly once"},
-      static_cast<double>(plain), effort(20), static_cast<double>(ours), 0);
+  // No fill rule can close a mesh whose edges do not match. A mesh whose edges match is closed by the fill rule alone.
+  judge({8, "T-junctions", "1,500 squares with a vertex on a line; used by only one side against used by both sides",
+         "pixels not drawn exactly once"},
+        static_cast<double>(plain), effort(20), static_cast<double>(ours), 0);
 }
 
-TEST(Stability, SharedEdges) {
+TEST(Stability, SharedEdgesAreDrawnOnce) {
   int64_t plain = 0, ours = 0;
   for (int seed = 0; seed < effort(2000); ++seed) {
     Random r(static_cast<uint64_t>(seed) + 1);
-    // A fan over the whole target round a vertex at a pixel's centre; its spokes pass through many centres.
+    // A fan over the whole target around a vertex at a pixel center. Its inner edges pass through many pixel centers.
     const Point center{r.integer(8, 55) * 256 + 128, r.integer(8, 55) * 256 + 128};
     constexpr int kFar = kSize * 256 + 128;
     std::vector<Point> ring;
@@ -165,8 +167,7 @@ TEST(Stability, SharedEdges) {
       }
     }
   }
-  judge({9, "shared edges drawn twice",
-         "fans through pixel centres; edges that own all their samples (100 fans) against the fill rule (2,000)",
+  judge({9, "shared edges drawn twice", "fans through pixel centers; inclusive edges (100 fans) against the fill rule (2,000 fans)",
          "pixels not drawn exactly once"},
         static_cast<double>(plain), 500, static_cast<double>(ours), 0);
 }
@@ -175,8 +176,8 @@ TEST(Stability, SharedEdges) {
 
 using ClipTriangle = std::array<glm::vec4, 3>;
 
-// Homogeneous edge functions (Olano and Greer 1997) at a place of the window, in long double: > 0 inside, < 0 outside, and |·| is
-// at least the distance from every edge in px. Nothing is divided and nothing clipped.
+// Homogeneous edge functions (Olano and Greer 1997) at a window position, in long double. The result is positive inside and negative
+// outside, and its magnitude is at least the distance to every edge in px. There is no division by w and no clipping.
 long double inside_by(const ClipTriangle& t, double x_px, double y_px) {
   using V = glm::vec<3, long double>;
   const V p(2.0L * x_px / kSize - 1, 2.0L * y_px / kSize - 1, 1);
@@ -190,7 +191,7 @@ long double inside_by(const ClipTriangle& t, double x_px, double y_px) {
     sum += e;
     least = std::min(least, e / (std::hypot(edge.x, edge.y) * 2 / kSize));
   }
-  return sum > 0 ? least : -1e30L;  // 1/w, which is positive before the eye
+  return sum > 0 ? least : -1e30L;  // 1/w, positive in front of the eye
 }
 
 ClipTriangle random_across_the_eye(Random& r) {
@@ -200,7 +201,7 @@ ClipTriangle random_across_the_eye(Random& r) {
   return t;
 }
 
-TEST(Stability, TrianglesThroughTheEye) {
+TEST(Stability, ClippingHandlesVerticesBehindTheEye) {
   Wrong wrong;
   Random random(3);
   for (int i = 0; i < effort(1500); ++i) {
@@ -222,12 +223,12 @@ TEST(Stability, TrianglesThroughTheEye) {
       }
     }
   }
-  judge({5, "near clip, w <= 0", "1,500 triangles with a vertex behind the eye; divided by w as they are, against clipping first",
-         "pixels wrong, 1/128 px off the edges"},
+  judge({5, "near clip, w <= 0", "1,500 triangles with a vertex behind the eye; division by w without clipping against clipping first",
+         "wrong pixels more than 1/128 px from the edges"},
         static_cast<double>(wrong.plain), 10000, static_cast<double>(wrong.ours), 0);
 }
 
-TEST(Stability, NonFiniteVertices) {
+TEST(Stability, NonFiniteVerticesAreCulled) {
   const float wild[] = {std::numeric_limits<float>::quiet_NaN(),
                         std::numeric_limits<float>::infinity(),
                         -std::numeric_limits<float>::infinity(),
@@ -246,14 +247,15 @@ TEST(Stability, NonFiniteVertices) {
         if (!std::isfinite(x)) {
           EXPECT_EQ(s.culled_non_finite, 1u) << x << " in component " << c;
         }
-        const float window = (t[k].x / t[k].w + 1.0f) * 32.0f;  // what a plain rasterizer goes on with
+        const float window = (t[k].x / t[k].w + 1.0f) * 32.0f;  // input to the next stage of a plain rasterizer
         plain += !(std::abs(window) < 2147483648.0f);
       }
     }
   }
-  judge({5, "near clip, w <= 0", "NaN, infinities, 3e38 and 1e-40 in each component; window positions by the plain divide, against a pass",
-         "values that are no positions; ours: pixels that are neither drawn nor left"},
-        static_cast<double>(plain), 10, static_cast<double>(ours), 0);
+  judge(
+      {5, "near clip, w <= 0", "NaN, infinities, 3e38 and 1e-40 in each component; window positions after a plain division against a pass",
+       "values that are not valid positions; ours: pixels that are neither drawn nor unchanged"},
+      static_cast<double>(plain), 10, static_cast<double>(ours), 0);
 }
 
 }  // namespace

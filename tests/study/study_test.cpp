@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pieces that studies share, against what follows by hand.
+// Compares the components shared by the studies with values known in closed form.
 #include "halfspace/study/study.h"
 
 #include <gtest/gtest.h>
@@ -19,10 +19,11 @@ namespace {
 
 Variant variant(double error, double ms) { return {.name = "v", .group = "g", .error = error, .time = {ms, ms, ms, 1}}; }
 
-TEST(ParetoFront, KeepsWhatNothingBeats) {
+TEST(ParetoFront, KeepsNonDominatedVariants) {
   const std::vector<Variant> variants{variant(1, 1), variant(2, 2), variant(0.5, 3), variant(0.5, 4), variant(3, 0.5), variant(1, 1)};
-  EXPECT_EQ(pareto_front(variants, 0.0), (std::vector<bool>{true, false, true, false, true, true})) << "equals do not beat each other";
-  // Below the truth's own error all are equal, and time decides.
+  EXPECT_EQ(pareto_front(variants, 0.0), (std::vector<bool>{true, false, true, false, true, true}))
+      << "equal variants do not dominate each other";
+  // Errors below that of the reference count as equal, so time decides.
   EXPECT_EQ(pareto_front(variants, 1.0), (std::vector<bool>{true, false, false, false, true, true}));
 }
 
@@ -30,13 +31,13 @@ TEST(Timing, QuartilesEncloseTheMedian) {
   int calls = 0;
   const Timing t = time_of([&] { ++calls; }, {.quick = true});
   EXPECT_EQ(t.runs, 3);
-  EXPECT_EQ(calls, 4) << "once to warm up";
+  EXPECT_EQ(calls, 4) << "one call is the warm-up";
   EXPECT_LE(t.low_ms, t.median_ms);
   EXPECT_LE(t.median_ms, t.high_ms);
   EXPECT_GE(time_of([] {}, {}).runs, 9);
 }
 
-TEST(Labels, StayInTheRoomAndClearOfEachOther) {
+TEST(Labels, StayInsideTheChartAndDoNotOverlap) {
   const ChartBox room{0, 0, 400, 300};
   std::vector<glm::dvec2> points;
   std::vector<double> widths;
@@ -62,23 +63,23 @@ TEST(Labels, StayInTheRoomAndClearOfEachOther) {
   }
 }
 
-TEST(FileWord, IsSmallLettersDigitsAndDashes) {
+TEST(FileWord, IsLowercaseLettersDigitsAndDashes) {
   EXPECT_EQ(file_word("Gouraud 16"), "gouraud-16");
   EXPECT_EQ(file_word("curve, encoder's table (used here)"), "curve-encoder-s-table-used-here");
   EXPECT_EQ(file_word("2x2 larger"), "2x2-larger");
 }
 
-TEST(AreaCoverage, OfTrianglesInClosedForm) {
-  // Half of a pixel, a quarter of its neighbour's … : the triangle below the diagonal of a 4 x 4 square.
+TEST(AreaCoverage, MatchesClosedFormForTriangles) {
+  // The triangle below the diagonal of a 4x4 square covers half of each pixel on the diagonal.
   const std::vector<TrianglePx> half{{glm::dvec2(0, 0), glm::dvec2(4, 0), glm::dvec2(4, 4)}};
   const Image<double> share = area_coverage<double>(half, 5, 5);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x) {
       const double want = x == 4 || y == 4 ? 0.0 : x > y ? 1.0 : x == y ? 0.5 : 0.0;
-      EXPECT_DOUBLE_EQ(share.at(x, 4 - y), want) << x << ' ' << y;  // row 0 is on top
+      EXPECT_DOUBLE_EQ(share.at(x, 4 - y), want) << x << ' ' << y;  // row 0 is the top row
     }
   }
-  // The sum is the triangle's area, whatever its place; a part beyond the picture does not count.
+  // The sum equals the area of the triangle at any position; parts outside the image do not count.
   const std::vector<TrianglePx> thin{{glm::dvec2(1.1, 7.3), glm::dvec2(30.7, 8.9), glm::dvec2(2.2, 7.9)}};
   const auto total = [](const Image<double>& shares) {
     double sum = 0.0;
@@ -87,16 +88,17 @@ TEST(AreaCoverage, OfTrianglesInClosedForm) {
   };
   const glm::dvec2 a = thin[0][1] - thin[0][0], b = thin[0][2] - thin[0][0];
   EXPECT_NEAR(total(area_coverage<double>(thin, 64, 64)), 0.5 * std::abs(a.x * b.y - a.y * b.x), 1e-12);
-  // A disk of 4,096 wedges, half of it outside.
+  // A disk of 4,096 wedges, half of which is outside the image.
   std::vector<TrianglePx> disk;
   const auto at = [](int i) {
     return 8.0 * glm::dvec2(std::cos(i * std::numbers::pi / 2048), std::sin(i * std::numbers::pi / 2048)) + glm::dvec2(0, 10);
   };
   for (int i = 0; i < 4096; ++i) disk.push_back({glm::dvec2(0, 10), at(i), at(i + 1)});
-  EXPECT_NEAR(total(area_coverage<double>(disk, 20, 20)), 0.5 * std::numbers::pi * 64.0, 1e-3);  // the polygon's: 4e-7 of the area less
+  // The area of the polygon is smaller than that of the disk by a factor of 4e-7.
+  EXPECT_NEAR(total(area_coverage<double>(disk, 20, 20)), 0.5 * std::numbers::pi * 64.0, 1e-3);
 }
 
-TEST(ChartScript, HasEveryPointLabelAndTheFront) {
+TEST(ChartScript, ContainsEveryPointLabelAndTheFront) {
   Study study{.name = "s", .title = "It's one", .setting = "x", .error_name = "e", .time_name = "t", .truth = {"m", 1e-9, "n"}};
   study.variants = {variant(0.1, 2.0), variant(0.0, 3.0), variant(0.2, 9.0)};
   for (std::size_t i = 0; i < 3; ++i) study.variants[i].name = "name " + std::to_string(i);
@@ -106,7 +108,7 @@ TEST(ChartScript, HasEveryPointLabelAndTheFront) {
     EXPECT_NE(script.find(part), std::string::npos) << part << '\n' << script;
 }
 
-// One row of `halfspace validate --table`.
+// Returns a row as printed by `halfspace validate --table`.
 TableRow table_row(const char* factor, const char* scene, const char* method, const char* bias, int resolution, double error) {
   TableRow row{factor, 45.0, {}};
   row.score.scene = scene;
@@ -119,7 +121,7 @@ TableRow table_row(const char* factor, const char* scene, const char* method, co
   return row;
 }
 
-TEST(ShadowTable, BecomesAChartOfMeansOverItsScenes) {
+TEST(ShadowTable, GivesAChartOfMeansOverScenes) {
   const Study study =
       shadow_table_study({table_row("bias", "a", "pcf3", "slope", 2048, 0.1), table_row("bias", "a", "pcf3", "auto", 2048, 0.7),
                           table_row("filter", "a", "hard", "auto", 2048, 0.3), table_row("filter", "a", "pcf3", "auto", 2048, 0.7),
@@ -129,11 +131,11 @@ TEST(ShadowTable, BecomesAChartOfMeansOverItsScenes) {
   std::vector<std::string> names;
   for (const Variant& v : study.variants) names.push_back(v.name);
   EXPECT_EQ(names, (std::vector<std::string>{"slope", "hard", "512"}))
-      << "what stands among the resolutions stands once, angles not at all";
+      << "variants listed among the resolutions occur once, and angles are omitted";
   EXPECT_DOUBLE_EQ(study.variants[0].error, 0.2);
-  EXPECT_DOUBLE_EQ(study.variants[0].time.median_ms, 3.0) << "map and look-up";
+  EXPECT_DOUBLE_EQ(study.variants[0].time.median_ms, 3.0) << "sum of map and lookup";
   EXPECT_GT(study.truth.error, 0.0);
-  // Of a full table every filter with every bias, at 2048 texels a side.
+  // For a full table, the chart has every filter with every bias, at a resolution of 2048.
   const Study full =
       shadow_table_study({table_row("all", "a", "hard", "slope", 2048, 0.1), table_row("all", "a", "hard", "slope", 512, 0.9)}, 480, 270);
   ASSERT_EQ(full.variants.size(), 1u);
@@ -141,19 +143,19 @@ TEST(ShadowTable, BecomesAChartOfMeansOverItsScenes) {
   EXPECT_DOUBLE_EQ(full.variants[0].error, 0.1);
 }
 
-// Every study, small: its data are complete, its truth is better than its best variant.
+// Runs every study at reduced size. Its data must be complete, and its reference more accurate than its best variant.
 class Studies : public testing::TestWithParam<StudyEntry> {};
 
-TEST_P(Studies, TellCompleteData) {
+TEST_P(Studies, ProduceCompleteData) {
   const Workers workers(2);
   const Study study = GetParam().run({.quick = true}, workers);
   EXPECT_EQ(study.name, GetParam().name);
   ASSERT_GE(study.variants.size(), 3u);
-  EXPECT_GT(study.truth.error, 0.0) << "no truth is free of error";
+  EXPECT_GT(study.truth.error, 0.0) << "every reference has an error";
   std::set<std::string> names;
   double least = 1e300, most = 0.0;
   for (const Variant& v : study.variants) {
-    EXPECT_TRUE(names.insert(v.name).second) << v.name << " stands twice";
+    EXPECT_TRUE(names.insert(v.name).second) << v.name << " occurs twice";
     EXPECT_EQ(v.parameters.size(), study.variants[0].parameters.size()) << v.name;
     EXPECT_EQ(v.measures.size(), study.variants[0].measures.size()) << v.name;
     EXPECT_GT(v.time.median_ms, 0.0) << v.name;
@@ -161,10 +163,10 @@ TEST_P(Studies, TellCompleteData) {
     most = std::max(most, v.error);
     if (v.error > study.truth.error) least = std::min(least, v.error);
   }
-  // The displaced surfaces' truths are twice less fine here than in a whole run.
+  // In quick mode the references of the displaced surfaces are only half as fine.
   const double times = study.name == "displacement" || study.name == "normals" ? 3.0 : 9.99;
   EXPECT_GE(least, times * study.truth.error);
-  EXPECT_GE(most, 2.0 * least) << "variants that are alike show nothing";
+  EXPECT_GE(most, 2.0 * least) << "the variants must differ noticeably";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Studies, testing::ValuesIn(studies()), [](const auto& s) { return std::string(s.param.name); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Prints the hash of what this program's own instruction set and lane width compute; it is compiled once for each.
+// Prints the hash of results computed with the instruction set and SIMD width that this program is compiled for. It is compiled once per
+// instruction set.
 #include <cstdio>
 
 #include "stability/lane_hash.h"
