@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Constant-colour tiles: tiles that nothing is drawn in, or that one or two triangles of a constant shader cover. Their colour goes
-// straight into the images, many tiles at a time.
+// Constant-color tiles: tiles without geometry, or tiles that one or two triangles of a constant shader cover completely. Their color is
+// written directly to the images, many tiles at a time, without going through tile memory.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace halfspace {
 
-/// The pixels of tiles [tile_x0, tile_x1) of a row of tiles, inside the target.
+/// Returns the pixels of tiles [tile_x0, tile_x1) in a row of tiles, clipped to the render target.
 PixelBounds tile_pixels(const PassContext& context, int tile_x0, int tile_x1, int tile_y);
 
-/// Decides whether tiles [tile_x0, tile_x1) of a row get one colour: that of the returned draw, or, where it is null, the clear value
-/// together with the clear depth. Nothing is returned where they need rasterizing. Counts what the draw draws. The round must be the
-/// only one.
+/// Checks whether tiles [tile_x0, tile_x1) of a row have a single color. Returns the draw that provides the color, null if the tiles only
+/// contain the clear color and clear depth, or nullopt if they have to be rasterized. If a draw is returned, its samples and fragments are
+/// added to statistics. The pass must have a single round and no post step.
 std::optional<const Draw*> constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
                                           PassStatistics& statistics);
 
-/// Pixels of one colour: that of a draw whose shader is constant, or (null) the clear values.
+/// Area with a single color: that of a draw with a constant shader, or the clear values if draw is null.
 struct ConstantArea {
   PixelBounds pixels;
   const Draw* draw;
 };
 
-/// Writes the area's colour into the images. An empty area is left out.
+/// Writes the color of the area to the images, and the clear depth if draw is null. Does nothing if the area is empty.
 void fill_images(const PassContext& context, const Attachments& attachments, const ConstantArea& area);
 
 }  // namespace halfspace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of a draw: plain values with OpenGL's names and, as defaults, OpenGL's initial values (but for the depth
-// test, which is on). Nothing here is global; every draw carries its own.
+// State of a draw call. Names follow OpenGL. Defaults are OpenGL's initial values with two exceptions: the depth test is enabled, and a
+// BlendState is set up for straight alpha blending. There is no global state; every draw has its own copy.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace halfspace {
 
-/// A rectangle of pixels in window coordinates (origin lower left): [x, x + width) × [y, y + height).
+/// A rectangle of pixels in window coordinates (origin at the lower left): [x, x + width) × [y, y + height).
 struct Rect {
   int x = 0, y = 0, width = 0, height = 0;
   friend bool operator==(const Rect&, const Rect&) = default;
 };
 
-/// The pixels in both; width or height <= 0 where there are none.
+/// Returns the intersection of two rectangles. Its width or height is <= 0 if they do not overlap.
 constexpr Rect intersect(const Rect& a, const Rect& b) {
   const int x0 = a.x > b.x ? a.x : b.x, y0 = a.y > b.y ? a.y : b.y;
   const int x1 = a.x + a.width < b.x + b.width ? a.x + a.width : b.x + b.width;
@@ -26,16 +26,16 @@ constexpr Rect intersect(const Rect& a, const Rect& b) {
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
-/// How indices make primitives (OpenGL 4.6, section 10.1). Of a strip every other triangle has its first two vertices swapped,
-/// so that all face one way.
+/// Primitive topology (OpenGL 4.6, section 10.1). In a strip, every other triangle has two of its vertices swapped so that all triangles
+/// have the same winding.
 enum class Topology : uint8_t { triangles, triangle_strip, triangle_fan, points, lines, line_strip, line_loop };
 constexpr bool is_lines(Topology t) { return t == Topology::lines || t == Topology::line_strip || t == Topology::line_loop; }
 
-/// What is drawn of a triangle: its inside, its outline or its vertices (glPolygonMode). The outline of a triangle that is clipped is
-/// that of what is left of it.
+/// How triangles are rasterized: filled, as outlines, or as points at their vertices (glPolygonMode). The outline of a clipped triangle is
+/// the outline of the polygon that remains.
 enum class PolygonMode : uint8_t { fill, line, point };
 
-/// Where a point's coordinate (0, 0) lies (GL_POINT_SPRITE_COORD_ORIGIN).
+/// Corner of a point at which its point coordinate is (0, 0) (GL_POINT_SPRITE_COORD_ORIGIN).
 enum class PointOrigin : uint8_t { upper_left, lower_left };
 
 enum class CompareOp : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
@@ -46,31 +46,32 @@ constexpr bool is_culled(CullMode mode, bool front_facing) {
 enum class Winding : uint8_t { counter_clockwise, clockwise };
 enum class ProvokingVertex : uint8_t { last, first };
 
-/// Where clip-space z lies before the divide.
+/// Depth range of the view volume in clip space.
 enum class ClipDepth : uint8_t {
   negative_one_to_one,  ///< OpenGL: −w ≤ z ≤ w, window depth 0.5·z/w + 0.5
   zero_to_one           ///< D3D, Vulkan, reversed Z: 0 ≤ z ≤ w, window depth z/w
 };
 
-/// Depth test and write. Reversed Z is ClipDepth::zero_to_one, a projection that maps near to 1, and greater.
+/// Depth test and depth writes. For reversed Z, use ClipDepth::zero_to_one, CompareOp::greater and a projection that maps the near plane to
+/// 1; see kReversedZ.
 struct DepthState {
   bool test = true;
   bool write = true;
   CompareOp compare = CompareOp::less;
   ClipDepth clip = ClipDepth::negative_one_to_one;
-  bool clamp = false;       ///< GL_DEPTH_CLAMP: no clipping at near and far, depth held to the range instead
-  float range_near = 0.0f;  ///< glDepthRange, both in [0, 1]
+  bool clamp = false;       ///< GL_DEPTH_CLAMP: no clipping at the near and far planes, depth is clamped to the depth range instead
+  float range_near = 0.0f;  ///< glDepthRange; both values must be in [0, 1]
   float range_far = 1.0f;
 };
 
-/// Polygon offset, added to a filled triangle's window depth: o = slope·m + constant·r, then clamped (OpenGL 4.6, section
-/// 14.6.5), with m = max(|dz/dx|, |dz/dy|) and r the smallest step of the depth format (for D32F 2^(e−23), e the
-/// exponent of the largest |z| of the triangle). Positive moves away from the eye under the OpenGL convention and
-/// towards it under reversed Z.
+/// Polygon offset for filled triangles (OpenGL 4.6, section 14.6.5). The offset slope·m + constant·r is clamped and then added to the
+/// window depth. Here m = max(|dz/dx|, |dz/dy|), and r is the smallest resolvable difference of the depth format. For 32-bit float depth,
+/// r = 2^(e−23), where e is the exponent of the largest |z| of the triangle. A positive offset moves the triangle away from the eye, or
+/// towards it with reversed Z.
 struct DepthOffset {
   float slope = 0.0f;
   float constant = 0.0f;
-  float clamp = 0.0f;  ///< > 0: at most this; < 0: at least this; 0: no clamp
+  float clamp = 0.0f;  ///< > 0: upper limit of the offset; < 0: lower limit; 0: no limit
 };
 
 enum class BlendFactor : uint8_t {
@@ -89,15 +90,16 @@ enum class BlendFactor : uint8_t {
   constant_alpha,
   one_minus_constant_alpha,
   src_alpha_saturate,
-  src1_color,  ///< this and the next three: of the fragment function's second colour (dual source blending)
+  src1_color,  ///< src1 factors refer to the second color of the fragment function (dual source blending)
   one_minus_src1_color,
   src1_alpha,
   one_minus_src1_alpha
 };
 enum class BlendEquation : uint8_t { add, subtract, reverse_subtract, min, max };
 
-/// result = src·source + dst·destination, channel by channel (OpenGL 4.6, section 17.3.6). Alpha has its own factors. Colours
-/// are linear: what is stored as sRGB is decoded first.
+/// Blending: result = src·source + dst·destination for each channel (OpenGL 4.6, section 17.3.6). Alpha has its own equation and factors.
+/// Blending is linear: colors stored as sRGB are decoded first. The src1 factors require a single color attachment and a fragment function
+/// that returns at least two colors.
 struct BlendState {
   BlendEquation color_equation = BlendEquation::add;
   BlendFactor source_color = BlendFactor::src_alpha, destination_color = BlendFactor::one_minus_src_alpha;
@@ -106,48 +108,47 @@ struct BlendState {
   glm::vec4 constant = glm::vec4(0.0f);  ///< glBlendColor
 };
 
-/// Which channels are written.
+/// Color channels that are written (glColorMask).
 struct ColorMask {
   bool r = true, g = true, b = true, a = true;
   bool all() const { return r && g && b && a; }
   bool operator[](int k) const { return k == 0 ? r : k == 1 ? g : k == 2 ? b : a; }
 };
 
-/// Colour attachments of a pass, at the most.
+/// Maximum number of color attachments of a pass.
 inline constexpr int kMaxColorTargets = 4;
 
-/// How one colour attachment takes a fragment's colour.
+/// Blending and color mask of one color attachment.
 struct AttachmentState {
-  std::optional<BlendState> blend{};  ///< default: replace
+  std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask mask{};
 };
 
 enum class StencilOp : uint8_t { keep, zero, replace, increment_clamp, decrement_clamp, invert, increment_wrap, decrement_wrap };
 
-/// The stencil test of one face (OpenGL 4.6, section 17.3.3): passes where (reference & read_mask) compares as asked with
-/// (stored & read_mask).
+/// Stencil test of one face (OpenGL 4.6, section 17.3.3). Compares (reference & read_mask) with (stored & read_mask).
 struct StencilFace {
   CompareOp compare = CompareOp::always;
-  StencilOp fail = StencilOp::keep;        ///< done where the stencil test fails
-  StencilOp depth_fail = StencilOp::keep;  ///< where it passes and the depth test fails
-  StencilOp pass = StencilOp::keep;        ///< where both pass
+  StencilOp fail = StencilOp::keep;        ///< applied if the stencil test fails
+  StencilOp depth_fail = StencilOp::keep;  ///< applied if the stencil test passes and the depth test fails
+  StencilOp pass = StencilOp::keep;        ///< applied if both tests pass
   uint8_t reference = 0;
   uint8_t read_mask = 0xff;
   uint8_t write_mask = 0xff;
 };
-/// Points and lines are front faces.
+/// Stencil test for front and back faces. Points and lines are front-facing.
 struct StencilState {
   StencilFace front{}, back{};
 };
 
-/// Everything that a draw sets besides its shader and vertices.
+/// Complete state of a draw call, apart from the shader, vertices and indices.
 struct DrawState {
   Topology topology = Topology::triangles;
   int32_t base_vertex = 0;  ///< added to every index
-  uint32_t instances = 1;   ///< the draw is repeated this many times; see VertexId and per_instance()
-  float point_size = 1.0f;  ///< px, where the vertex function gives none: the side of the square that a point covers
+  uint32_t instances = 1;   ///< number of instances; see VertexId and per_instance()
+  float point_size = 1.0f;  ///< side length of a point in pixels, unless the vertex function sets it
   PointOrigin point_origin = PointOrigin::upper_left;
-  float line_width = 1.0f;  ///< px, at most 4096; with one sample a pixel the nearest whole number, with several a rectangle
+  float line_width = 1.0f;  ///< in pixels, at most 4096; rounded to an integer if there is one sample per pixel
   PolygonMode polygon_mode = PolygonMode::fill;
   std::optional<Rect> viewport{};  ///< default: the whole target
   std::optional<Rect> scissor{};   ///< default: no scissor test
@@ -157,41 +158,42 @@ struct DrawState {
   DepthState depth{};
   DepthOffset offset{};
   std::optional<StencilState> stencil{};  ///< default: no stencil test
-  bool sample_shading = false;            ///< the fragment function runs for every sample, at its place, not for every pixel
-  bool alpha_to_coverage = false;         ///< with several samples: the first colour's alpha says how many of them are drawn
-  uint32_t sample_mask = 0xffffffffu;     ///< with several samples: those that may be drawn, as bits
-  std::optional<BlendState> blend{};      ///< default: replace
+  bool sample_shading = false;            ///< run the fragment function once per sample, at the sample position
+  bool alpha_to_coverage = false;         ///< multisampling only: the alpha of the first color determines how many samples are drawn
+  uint32_t sample_mask = 0xffffffffu;     ///< multisampling only: bit s enables sample s
+  std::optional<BlendState> blend{};      ///< default: no blending, the color is replaced
   ColorMask color_mask{};
-  std::array<std::optional<AttachmentState>, kMaxColorTargets> attachments{};  ///< where given, instead of blend and color_mask
-  std::optional<uint32_t> query{};  ///< an occlusion query: samples that pass are counted in PassStatistics::queries[query]
+  std::array<std::optional<AttachmentState>, kMaxColorTargets> attachments{};  ///< override blend and color_mask per attachment
+  std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]
 };
 
-/// Blend equations in common use, for DrawState::blend.
-inline constexpr BlendState kAlphaBlend{};  ///< straight alpha, back to front: src·a + dst·(1 − a)
+/// Common blend states, for DrawState::blend.
+inline constexpr BlendState kAlphaBlend{};  ///< straight alpha, drawn back to front: src·a + dst·(1 − a)
 inline constexpr BlendState kAdditiveBlend{
     .source_color = BlendFactor::src_alpha, .destination_color = BlendFactor::one, .destination_alpha = BlendFactor::one};
 
-/// Reversed Z: for projections that map the near plane to depth 1 and the far plane to 0 (perspective_reversed in geometry/camera.h), with
-/// depth cleared to 0.
+/// Depth state for reversed Z: the projection maps the near plane to depth 1 and the far plane to 0 (perspective_reversed in
+/// geometry/camera.h). Depth must be cleared to 0.
 inline constexpr DepthState kReversedZ{.compare = CompareOp::greater, .clip = ClipDepth::zero_to_one};
 
-/// Draw states in common use. A draw that needs more starts from one of them: DrawState state = kOpaqueState; state.cull = CullMode::back.
-inline constexpr DrawState kOpaqueState{};                                                      ///< replaces colour; depth test less
-inline constexpr DrawState kAlphaBlendState{.depth = {.write = false}, .blend = kAlphaBlend};   ///< tests depth, does not write it
-inline constexpr DrawState kAdditiveState{.depth = {.write = false}, .blend = kAdditiveBlend};  ///< tests depth, does not write it
-inline constexpr DrawState kDepthOnlyState{.color_mask = {false, false, false, false}};         ///< writes no colour
+/// Common draw states. To change one, make a copy: DrawState state = kOpaqueState; state.cull = CullMode::back.
+inline constexpr DrawState kOpaqueState{};                                                      ///< replaces the color; depth test less
+inline constexpr DrawState kAlphaBlendState{.depth = {.write = false}, .blend = kAlphaBlend};   ///< tests depth but does not write it
+inline constexpr DrawState kAdditiveState{.depth = {.write = false}, .blend = kAdditiveBlend};  ///< tests depth but does not write it
+inline constexpr DrawState kDepthOnlyState{.color_mask = {false, false, false, false}};         ///< writes no color
 inline constexpr DrawState kReversedZState{.depth = kReversedZ};
-inline constexpr DrawState kWireframeState{.polygon_mode = PolygonMode::line};  ///< the outlines of triangles
+inline constexpr DrawState kWireframeState{.polygon_mode = PolygonMode::line};  ///< triangle outlines
 
-/// How colour attachment i takes what is drawn.
+/// Returns the blend state of color attachment i.
 constexpr const std::optional<BlendState>& blend_of(const DrawState& s, std::size_t i) {
   return s.attachments[i] ? s.attachments[i]->blend : s.blend;
 }
+/// Returns the color mask of color attachment i.
 constexpr const ColorMask& color_mask_of(const DrawState& s, std::size_t i) {
   return s.attachments[i] ? s.attachments[i]->mask : s.color_mask;
 }
 
-/// Are there points among what is drawn?
+/// Returns true if the draw produces points.
 constexpr bool draws_points(const DrawState& s) {
   return s.topology == Topology::points || (!is_lines(s.topology) && s.polygon_mode == PolygonMode::point);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 0: the opaque pipeline by the plainest loop, in the order in which OpenGL describes it. For each triangle:
-// shade three vertices, clip, divide by w, look at every pixel of the bounding box, interpolate, shade, test depth.
+// Reference implementation of the opaque pipeline as a plain loop, in the order used by the OpenGL specification. For each triangle: shade
+// three vertices, clip, divide by w, visit every pixel of the bounding box, interpolate, shade, test depth.
 //
-// R = float is the textbook and the slow twin of the tile path; R = double is the accuracy reference: vertex positions,
-// interpolation, texture filtering and shading in double, coverage on the same 1/256 px grid.
+// With R = float, this is a slow but readable equivalent of the tile-based pipeline. With R = double, it is the accuracy reference: vertex
+// positions, interpolation, texture filtering and shading use double precision. Coverage is computed on the same 1/256 px grid.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace halfspace {
 
-/// What the naive pipeline draws into: linear colour and window depth, row 0 on top.
+/// Render target of the naive pipeline: linear color and window depth, top row first.
 template <class R>
 struct NaiveTarget {
   Image<vec4<R>> color;
@@ -39,7 +39,7 @@ struct Vertex {
   V varyings;
 };
 
-// Step 1: the attributes read from the streams, and the vertex function.
+// Step 1: fetch the attributes from the vertex streams and run the vertex function.
 template <class A, class R>
 A attributes_of(const VertexView& view, std::size_t index) {
   std::array<R, kComponents<A>> in{};
@@ -67,7 +67,7 @@ Vertex<R, V> mix(const Vertex<R, V>& a, const Vertex<R, V>& b, R t) {
   return {a.pos_clip + (b.pos_clip - a.pos_clip) * t, from_components<V, R>(x)};
 }
 
-// Step 2: clip a convex polygon by the plane where distance(pos_clip) = 0, keeping distance >= 0.
+// Step 2: clip a convex polygon against the plane distance(pos_clip) = 0, keeping the side where distance >= 0.
 template <class R, class V, class Distance>
 std::vector<Vertex<R, V>> clip(const std::vector<Vertex<R, V>>& polygon, Distance distance) {
   std::vector<Vertex<R, V>> kept;
@@ -81,7 +81,7 @@ std::vector<Vertex<R, V>> clip(const std::vector<Vertex<R, V>>& polygon, Distanc
   return kept;
 }
 
-// Step 3: divide by w and go to the window; positions on the grid of 1/256 px.
+// Step 3: divide by w and transform to window coordinates. Positions are snapped to the 1/256 px grid.
 template <class R>
 struct ScreenPoint {
   int64_t x, y;
@@ -100,7 +100,7 @@ ScreenPoint<R> to_window(const vec4<R>& p, const Rect& viewport, const DepthStat
   return {snap(p.x * inv_w, viewport.x, viewport.width), snap(p.y * inv_w, viewport.y, viewport.height), z, inv_w};
 }
 
-// Step 4: every pixel of the bounding box whose centre lies inside, or on an edge that the triangle owns.
+// Step 4: visit every pixel whose center is inside the triangle, or on an edge whose samples belong to it.
 template <class F>
 void for_each_covered(std::array<std::array<int64_t, 2>, 3> p, const Rect& bounds, F pixel) {
   const auto edge = [&](std::size_t a, std::size_t b, int64_t x, int64_t y) {
@@ -121,7 +121,7 @@ void for_each_covered(std::array<std::array<int64_t, 2>, 3> p, const Rect& bound
   }
 }
 
-// Step 5: interpolate, shade and test the pixels of one triangle (see shading/pixel.h for the formulas).
+// Step 5: interpolate, shade and depth-test the pixels of one triangle. See shading/pixel.h for the formulas.
 template <class R, class S, class V>
 void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const Vertex<R, V>*, 3>& in, const PrimitiveOf<S, R>& face,
                const std::array<ScreenPoint<R>, 3>& p, const Rect& bounds, const DrawState& state, const V& provoking) {
@@ -129,7 +129,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
   if (area == 0) return;
   const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
   if (is_culled(state.cull, front)) return;
-  std::array<std::size_t, 3> o{0, 1, 2};  // counter-clockwise, the smallest 1/w first
+  std::array<std::size_t, 3> o{0, 1, 2};  // counter-clockwise, smallest 1/w first
   if (area < 0) std::swap(o[1], o[2]);
   while (p[o[0]].inv_w > std::min(p[o[1]].inv_w, p[o[2]].inv_w)) std::rotate(o.begin(), o.begin() + 1, o.end());
   const ScreenPoint<R>&a = p[o[0]], &b = p[o[1]], &c = p[o[2]];
@@ -175,7 +175,10 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 
 }  // namespace naive
 
-/// Draws a triangle list. Opaque (no blending, no polygon offset, no depth clamp); everything else of the state counts.
+/// Draws an indexed triangle list. The vertex function must return a vec4<R>, and the fragment function must return a single color.
+///
+/// Only these parts of the state are used: viewport, scissor, cull, front, provoking, and depth except for clamp. In particular, there is
+/// no blending, no stencil test, no polygon offset and no instancing.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
   using V = typename S::template Varyings<R>;

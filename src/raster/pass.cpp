@@ -19,13 +19,13 @@ namespace {
 
 constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
 constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
-// Primitives of a chunk: few at first, so that every thread has work in a small pass, then a share of those before it, so that a large
-// one has few chunks (each tile looks into all of them).
+// Number of primitives per chunk. The first chunks are small, so that all threads have work in a small pass. Later chunks grow with the
+// number of preceding primitives, so that a large pass has few chunks: each tile has to visit all of them.
 constexpr uint64_t kSmallestChunk = 2048;
 constexpr uint64_t kChunkShare = 8;
-// Bytes of a tile's memory, so that it stays in the cache next to the core (L2).
+// Memory limit of a tile in bytes, chosen so that it stays in the L2 cache.
 constexpr int kTileBudget = 160 << 10;
-// Chunks that go through setup between two looks at the budget.
+// Number of chunks that are set up between checks of the bin budget.
 constexpr std::size_t kChunksPerSet = 32;
 
 Chunk take_or_make(std::vector<Chunk>& from) {
@@ -34,7 +34,8 @@ Chunk take_or_make(std::vector<Chunk>& from) {
   from.pop_back();
   return c;
 }
-// Moves all chunks, emptied. Those that were taken first are taken first again: they have the memory that fits.
+// Clears all chunks and moves them to `to`, in reverse order. take_or_make() then returns them in the original order, so that each chunk is
+// reused with memory of about the right size.
 void put_aside(std::vector<Chunk>& chunks, std::vector<Chunk>& to) {
   for (auto c = chunks.rbegin(); c != chunks.rend(); ++c) {
     c->clear();
@@ -75,32 +76,33 @@ class PassState {
   PassStatistics run(const Workers& workers);
 
  private:
-  // Work for one thread: some of a large draw's vertices, or all of the small draws [draw, end_draw).
+  // Work for one thread: part of the vertices of a large draw, or all vertices of the small draws [draw, end_draw).
   struct VertexTask {
     std::size_t draw, end_draw;
-    std::size_t begin, end;  // of the vertices that the draw's indices use; of small draws all together
+    std::size_t begin, end;  // range of the vertices used by the draw; for small draws, end is their total number
     bool is_part;
-    Outcode any = 0;  // the union of a part's outcodes
+    Outcode any = 0;  // union of the outcodes, for parts of large draws
   };
-  // What is to be done for the draws, kept up as they come.
+  // The work of the pass. Updated whenever a draw is added.
   struct Plan {
     std::vector<VertexTask> vertex_tasks;
     std::vector<std::vector<DrawRange>> chunks;
     uint64_t primitives = 0;  // in all chunks
-    uint32_t room = 0;        // for primitives in the last chunk
-    uint32_t records = 0;     // for what they may become
+    uint32_t room = 0;        // primitives that still fit in the last chunk
+    uint32_t records = 0;     // triangles that still fit in the last chunk
     PassStatistics submitted;
   };
 
   void add_vertex_tasks(std::size_t draw);
   void run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers);
   void add_draw_ranges(uint32_t draw);
-  // Sets up chunks of the plan from `next` on, until the budget or the ids are used up or all is set up. Returns the next chunk.
+  // Sets up chunks of the plan starting at `next`, until the budget is reached, the chunk ids are used up or no chunks are left. Returns
+  // the next chunk.
   std::size_t set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics);
   int tile_size() const;
   // Sets the draw's viewport, bounds and depth range.
   void place_draw(Draw& d) const;
-  // Sets d.writes_color. Does the draw replace all colours of a pixel?
+  // Sets d.writes_color. Returns true if the draw replaces all colors of a pixel.
   bool look_at_attachments(Draw& d) const;
 
   PassContext context_;
@@ -135,7 +137,7 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
 }
 
 int PassState::tile_size() const {
-  int sample_bytes = 9;  // depth, triangle, stencil
+  int sample_bytes = 9;  // depth, triangle id, stencil
   for (const ColorTarget& c : attachments_.colors) sample_bytes += bytes_per_pixel(c.format);
   int size = std::min(options_.tile_size, largest_tile(options_.samples));
   while (size > kBlockSize && sample_bytes * options_.samples * size * size > kTileBudget) size /= 2;
@@ -160,7 +162,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
   const bool covers_by_alpha = state.alpha_to_coverage && context_.samples > 1;
   const bool defers = options_.defer && replaces && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
-  d.deferred = defers || !attachments_.has_color;  // without colour there is nothing to blend or to shade at once
+  d.deferred = defers || !attachments_.has_color;  // without color attachments there is nothing to blend or to shade immediately
   std::vector<uint64_t>& queries = plan_.submitted.queries;
   if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));
   add_vertex_tasks(context_.draws.size() - 1);
@@ -215,7 +217,7 @@ void PassState::add_vertex_tasks(std::size_t draw) {
 }
 
 void PassState::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers) {
-  const FloatMode mode;  // large draws are placed here, not in a task
+  const FloatMode mode;  // needed for place_draw() of large draws, which runs outside of tasks
   context_.shaded.resize(context_.draws.size());
   const auto begin_draw = [this](std::size_t draw) {
     place_draw(context_.draws[draw]);

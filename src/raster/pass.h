@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pass: colour and depth attachments, what happens to them at start and end, and draws in order. Start here to draw with shaders of your
-// own; shading/contract.h says what a shader is, and apps/examples has complete programs.
+// A pass: color and depth attachments, load and store operations for them, and a list of draws that are executed in order. To draw with
+// your own shaders, start with this header. shading/contract.h describes shaders; apps/examples contains complete programs.
 //
 //   Image<glm::u8vec4> image(640, 480);
 //   Pass pass(640, 480, srgb8a8_target(image), {.format = DepthFormat::d32f});
@@ -25,73 +25,89 @@
 
 namespace halfspace {
 
-/// Samples per pixel, and how a pass does its work. Only `samples` and `supersample` change pixels.
+/// Options of a pass. Only `samples` and `supersample` affect the rendered image; the others affect speed and memory use.
 struct PassOptions {
-  int samples = 1;                   ///< 1, 2, 4 or 8, at the standard positions. Stored are their mean, of depth and stencil sample 0
-  bool supersample = false;          ///< every draw is shaded per sample, as by DrawState::sample_shading
-  int tile_size = 64;                ///< 8, 16, 32 or 64 px; less is taken where samples and attachments need the memory
-  uint32_t chunk_triangles = 8192;   ///< submitted primitives per setup task, at most; 1 … 8192
-  std::size_t bin_budget = 1 << 28;  ///< bytes of set-up triangles and bins before the tiles are flushed
-  bool defer = true;                 ///< false: every fragment is shaded at once, in submission order
+  /// Samples per pixel: 1, 2, 4 or 8, at the standard positions. Colors are resolved to the mean of the samples; depth and stencil are
+  /// taken from sample 0.
+  int samples = 1;
+  /// Run all fragment functions once per sample, as if every draw had DrawState::sample_shading.
+  bool supersample = false;
+  /// Maximum tile size: 8, 16, 32 or 64 pixels. Smaller tiles are used if multiple samples or attachments need the memory.
+  int tile_size = 64;
+  /// Maximum number of primitives per setup task: 1 to 8192.
+  uint32_t chunk_triangles = 8192;
+  /// Size limit for triangles and bins, in bytes. When it is reached, the tiles are rendered before more triangles are set up.
+  std::size_t bin_budget = 1 << 28;
+  /// If false, all fragments are shaded immediately, in submission order.
+  bool defer = true;
 };
 
+/// A list of draws that render to the same attachments. draw() and draw_depth() record draws, run() executes them. A Pass must only be used
+/// by one thread at a time.
 class Pass {
  public:
-  /// A pass over images of width x height px, each 1 … 16384. The images of all targets must outlive the pass.
+  /// Creates a pass for images of width x height pixels, each 1 to 16384. The images of all targets must outlive the pass.
   Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {})
       : Pass(std::span(&color, 1), width, height, depth, options) {}
-  /// The same with a range of up to kMaxColorTargets colour attachments. Fragment output n is written to attachment n; attachments without
-  /// an output are left unchanged.
+  /// Creates a pass with up to kMaxColorTargets color attachments. Fragment output n is written to attachment n; attachments without an
+  /// output are left unchanged.
   template <class Colors>
   requires std::convertible_to<const Colors&, std::span<const ColorTarget>> Pass(int width, int height, const Colors& colors,
                                                                                  const DepthTarget& depth, const PassOptions& options = {})
       : Pass(std::span<const ColorTarget>(colors), width, height, depth, options) {}
-  Pass(Pass&&) noexcept;  ///< a moved-from pass may only be destroyed
+  Pass(Pass&&) noexcept;  ///< a moved-from pass can only be destroyed
   Pass& operator=(Pass&&) = delete;
   ~Pass();
 
-  /// Adds an indexed draw. The shader is copied. Vertices, indices and what the shader points to are not: they must exist and stay
-  /// unchanged until run() returns. indices is an Indices, or a vector, array or span of uint32_t or uint16_t, which is scanned at each
-  /// call: make an Indices once for lists that are drawn often. Every index plus DrawState::base_vertex must be a vertex of the view.
-  /// Trailing indices that complete no primitive are ignored, as in OpenGL. The view's streams must match the members of the shader's
-  /// Attributes.
+  /// Adds an indexed draw. The shader is copied. The vertices, the indices and all data that the shader points to are not copied; they must
+  /// stay valid and unchanged until run() returns.
+  ///
+  /// indices is an Indices object or a raw list: a vector, array or span of uint32_t or uint16_t. Raw lists are scanned on every call, so
+  /// create an Indices object once for a list that is drawn repeatedly. Incomplete primitives at the end of a list are ignored, as in
+  /// OpenGL.
+  ///
+  /// Every index plus DrawState::base_vertex must be a valid vertex of the view, and per-instance streams must have rows for all instances.
+  /// The streams must match the members of the shader's Attributes; this is checked at compile time where the vertex type is known. Other
+  /// violations fail an HS_CHECK (core/check.h).
   template <class S, class V, detail::IndexList I>
   void draw(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();
     if constexpr (detail::require_draw<S, V>())
       detail::draw<detail::DrawKind::color>(*state_, shader, vertices, detail::view_indices(indices, vertices.vertex_count), state);
   }
-  /// Adds a draw without an index list: vertices 0, 1, 2, ... of the view.
+  /// Adds a draw without indices: vertices 0, 1, 2, ... of the view.
   template <class S, class V>
   void draw(const S& shader, const V& vertices, const DrawState& state = {}) {
     if constexpr (detail::require_draw<S, V>())
       detail::draw<detail::DrawKind::color>(*state_, shader, vertices, sequential(vertices), state);
   }
 
-  /// Adds a draw of depth and stencil only. The shader's fragment function, if it has one, is not run; a visibility function is.
+  /// Adds a draw that only writes depth and stencil. The shader's fragment function, if any, is ignored. Its visibility function is only
+  /// run if the pass has no color attachment.
   template <class S, class V, detail::IndexList I>
   void draw_depth(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();
     if constexpr (detail::require_depth_draw<S, V>())
       detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, detail::view_indices(indices, vertices.vertex_count), state);
   }
+  /// Adds a depth-only draw without indices.
   template <class S, class V>
   void draw_depth(const S& shader, const V& vertices, const DrawState& state = {}) {
     if constexpr (detail::require_depth_draw<S, V>())
       detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, sequential(vertices), state);
   }
 
-  /// Sends the finished first colour of every pixel through a functor into another target of the pass's size, while the tile is in cache:
-  /// for tone mapping and encoding. The functor has template <class R> vec4<R> operator()(vec4<R> color) const, from the pass's colour to
-  /// that of the target, or the same with the pixel's window coordinates: operator()(vec4<R> color, IntOf<R> x, IntOf<R> y). It is copied.
-  /// The pass must have a colour attachment with a format.
+  /// Passes the final color of each pixel in the first attachment through a functor and stores the result in another target of the same
+  /// size. This happens while the tile is in cache and is intended for tone mapping and encoding. The functor is copied. It must have
+  /// template <class R> vec4<R> operator()(vec4<R> color) const, or the same with window coordinates: operator()(vec4<R> color, IntOf<R> x,
+  /// IntOf<R> y). The format of the first color attachment must not be none.
   template <class F>
   void post(const F& function, const ColorTarget& target) {
     detail::set_post_step(*state_, {std::make_shared<const F>(function), detail::post_kernel<F>, target});
   }
 
-  /// Runs the draws and returns what was done. The pass is then empty and may be filled again. If run() throws (no memory, or a check
-  /// handler that throws), the pass may only be destroyed.
+  /// Executes all draws, removes them from the pass and returns statistics. The pass can then be reused with the same attachments and post
+  /// step. If run() throws (out of memory, or an exception from the check handler), the pass can only be destroyed.
   PassStatistics run(const Workers& workers);
 
  private:
@@ -100,7 +116,7 @@ class Pass {
   template <class I>
   static constexpr void check_lifetime() {
     static_assert(std::is_lvalue_reference_v<I> || std::ranges::borrowed_range<I>,
-                  "the index list is a temporary; it must exist until Pass::run() returns");
+                  "the index list is a temporary; it must stay valid until Pass::run() returns");
   }
   static std::shared_ptr<const Indices> sequential(const VertexView& vertices) {
     return std::make_shared<const Indices>(Indices::sequential(vertices.vertex_count));

@@ -6,29 +6,33 @@
 
 namespace halfspace {
 
-/// What a pass did. Every count is exact, and the same for any number of threads and any lane width.
+/// Counters of a pass. They do not depend on the number of threads. samples_tested can vary with the SIMD width, because it depends on
+/// which blocks are rejected by hierarchical Z.
 struct PassStatistics {
-  uint64_t vertices_in = 0;        ///< indices submitted, in all instances; restarts are none
-  uint64_t vertices_shaded = 0;    ///< distinct vertices referenced, per draw
-  uint64_t primitives_in = 0;      ///< triangles submitted
-  uint64_t culled_non_finite = 0;  ///< a position with NaN or Inf
-  uint64_t culled_outside = 0;     ///< wholly beyond one plane of the view volume, or nothing left after clipping
+  uint64_t vertices_in = 0;        ///< submitted indices, for all instances, without restarts
+  uint64_t vertices_shaded = 0;    ///< distinct vertices used by each draw, for all instances
+  uint64_t primitives_in = 0;      ///< submitted primitives
+  uint64_t culled_non_finite = 0;  ///< a position contains NaN or Inf
+  uint64_t culled_outside = 0;     ///< completely outside one plane of the view volume, or nothing left after clipping
   uint64_t culled_face = 0;        ///< by CullMode
-  uint64_t culled_degenerate = 0;  ///< zero area after snapping
-  uint64_t culled_no_sample =
-      0;                 ///< no sample inside its bounds, viewport and scissor; of one sample a pixel and at most 4 x 4: none covered
-  uint64_t clipped = 0;  ///< triangles that a clip plane cut
-  uint64_t triangles_binned = 0;  ///< triangles that reached the tiles (a clipped one may count several times)
-  uint64_t bin_entries = 0;       ///< triangle-tile pairs
-  uint64_t samples_tested = 0;    ///< covered samples tested one by one (8x8 blocks rejected whole are not in it)
-  uint64_t samples_passed = 0;    ///< of these, those that passed (with discard: were kept and passed)
-  uint64_t fragments_shaded = 0;  ///< runs of the fragment function, masked lanes not counted
-  uint64_t tiles_touched = 0;     ///< tiles that any triangle reached
-  uint64_t flushes = 0;           ///< times the bins outgrew their budget before the end of the pass
+  uint64_t culled_degenerate = 0;  ///< zero area or length after snapping
+  /// No sample inside the bounding box, viewport and scissor. With one sample per pixel, triangles of at most 4 x 4 pixels are also counted
+  /// here if they cover no sample.
+  uint64_t culled_no_sample = 0;
+  uint64_t clipped = 0;           ///< primitives that were cut by a clip plane
+  uint64_t triangles_binned = 0;  ///< primitives added to bins; a clipped triangle may count several times
+  uint64_t bin_entries = 0;       ///< primitive-tile pairs
+  uint64_t samples_tested = 0;    ///< covered samples that were tested individually, not as part of a rejected 8x8 block
+  uint64_t samples_passed = 0;    ///< samples that passed all tests and were not discarded
+  uint64_t fragments_shaded = 0;  ///< fragment function invocations, excluding masked lanes
+  uint64_t tiles_touched = 0;     ///< tiles with at least one primitive, counted again after each flush
+  uint64_t flushes = 0;           ///< number of times the bins exceeded their budget before the end of the pass
 
-  /// Occlusion queries: the samples that passed all tests, of the draws whose DrawState::query was this number.
+  /// Results of occlusion queries: queries[i] is the number of samples that passed all tests in draws with DrawState::query = i.
   std::vector<uint64_t> queries;
+  /// Returns true if any sample of the query passed. query must be less than queries.size().
   bool any_passed(std::size_t query) const { return queries[query] != 0; }
+  /// Adds to the result of a query; resizes queries if needed.
   void add_to_query(std::size_t query, uint64_t samples);
 
   PassStatistics& operator+=(const PassStatistics& o);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pass draws into: views of images that the caller owns, and what happens to them at the pass's start and end.
+// Attachments of a pass: views of images that the caller owns, and what happens to them at the start and end of the pass.
 #pragma once
 
 #include <array>
@@ -18,22 +18,22 @@ using U16Vec4 = glm::vec<4, uint16_t>;
 enum class ColorFormat : uint8_t {
   none,
   rgba8,    ///< linear values, 8-bit unsigned normalized
-  srgb8a8,  ///< linear colour encoded to sRGB on write and decoded on load; alpha linear
-  rgba16f,  ///< IEEE half; finite values beyond ±65504 and infinities are held to ±65504
+  srgb8a8,  ///< linear colors that are encoded to sRGB on write and decoded on read; alpha is linear
+  rgba16f,  ///< IEEE half; values beyond ±65504 and infinities are clamped to ±65504
   rgba32f
 };
 
-/// d24s8 and d32fs8 hold 8 bits of stencil too.
+/// Depth formats. d24s8 and d32fs8 also have 8 bits of stencil.
 enum class DepthFormat : uint8_t { none, d16, d24, d32f, d24s8, d32fs8 };
 
-/// A pixel of d32fs8 (GL_FLOAT_32_UNSIGNED_INT_24_8_REV).
+/// Pixel of a d32fs8 image (GL_FLOAT_32_UNSIGNED_INT_24_8_REV).
 struct DepthStencil {
   float depth = 0.0f;
-  uint32_t stencil = 0;  ///< in the low 8 bits; the others are 0
+  uint32_t stencil = 0;  ///< in the low 8 bits; all other bits are 0
   friend bool operator==(const DepthStencil&, const DepthStencil&) = default;
 };
 
-/// Bytes of one pixel; 0 for none.
+/// Returns the size of a pixel in bytes, or 0 for none.
 constexpr int bytes_per_pixel(ColorFormat f) {
   return f == ColorFormat::rgba32f ? 16 : f == ColorFormat::rgba16f ? 8 : f == ColorFormat::none ? 0 : 4;
 }
@@ -42,25 +42,28 @@ constexpr int bytes_per_pixel(DepthFormat f) {
   return f == DepthFormat::none ? 0 : f == DepthFormat::d16 ? 2 : f == DepthFormat::d32fs8 ? 8 : 4;
 }
 constexpr bool has_stencil(DepthFormat f) { return f == DepthFormat::d24s8 || f == DepthFormat::d32fs8; }
-/// The format without its stencil.
+/// Returns the depth format without stencil.
 constexpr DepthFormat depth_part(DepthFormat f) {
   return f == DepthFormat::d24s8 ? DepthFormat::d24 : f == DepthFormat::d32fs8 ? DepthFormat::d32f : f;
 }
 
+/// Contents of an attachment at the start of a pass: the clear value, the contents of the image, or undefined.
 enum class LoadOp : uint8_t { clear, load, dont_care };
+/// Whether an attachment is written to its image at the end of a pass.
 enum class StoreOp : uint8_t { store, dont_care };
 
-/// A colour attachment. data is null where the pass's colour is only an intermediate (StoreOp::dont_care).
+/// Color attachment. data can be null if the pass does not load the image and StoreOp is dont_care, so that the color is only an
+/// intermediate result.
 struct ColorTarget {
   ColorFormat format = ColorFormat::none;
-  std::byte* data = nullptr;  ///< not owned; rows from the top, tightly packed, width × height pixels
+  std::byte* data = nullptr;  ///< not owned; width × height pixels, tightly packed, top row first
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::store;
   glm::vec4 clear_value = glm::vec4(0.0f);  ///< linear, straight alpha
 };
 
-/// A depth attachment; values in [0, 1]. Images hold d16 as uint16_t, d24 as uint32_t (0 … 2^24 − 1), d32f as float, d24s8 as
-/// uint32_t (depth · 2^8 + stencil), d32fs8 as DepthStencil.
+/// Depth attachment with values in [0, 1]. Pixels are uint16_t for d16, uint32_t for d24 (0 to 2^24 − 1), float for d32f, uint32_t for
+/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data is the same as in ColorTarget.
 struct DepthTarget {
   DepthFormat format = DepthFormat::none;
   std::byte* data = nullptr;
@@ -70,7 +73,7 @@ struct DepthTarget {
   uint8_t stencil_clear_value = 0;
 };
 
-// Views of images as targets; the image must outlive the pass.
+// Each of these functions returns a target that refers to the image. The image must outlive the pass.
 inline ColorTarget rgba8_target(Image<glm::u8vec4>& image) {
   return {.format = ColorFormat::rgba8, .data = reinterpret_cast<std::byte*>(image.data())};
 }
@@ -98,7 +101,7 @@ inline DepthTarget d32fs8_target(Image<DepthStencil>& image) {
 inline DepthTarget d32f_target(Image<float>& image) {
   return {.format = DepthFormat::d32f, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};
 }
-/// The same, cleared to another depth than 1: to 0 for reversed Z.
+/// The same with a clear depth other than 1, such as 0 for reversed Z.
 inline DepthTarget d32f_target(Image<float>& image, float clear_value) {
   DepthTarget target = d32f_target(image);
   target.clear_value = clear_value;

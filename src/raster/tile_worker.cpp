@@ -18,7 +18,7 @@ namespace halfspace {
 
 namespace {
 
-// A target between flushes: in its image, or in the spill where it has none or holds several samples.
+// Returns where a target is stored between flushes: in its image, or in the spill buffer if it has no image or multiple samples.
 template <class Target>
 Target between_flushes(Target target, const std::vector<std::byte>& spill) {
   if (!spill.empty()) target.data = const_cast<std::byte*>(spill.data());
@@ -27,15 +27,15 @@ Target between_flushes(Target target, const std::vector<std::byte>& spill) {
   return target;
 }
 
-// A tile's triangles lie scattered in their chunk, and their vertices too: so many are fetched ahead.
+// The triangles of a tile and their vertices are scattered in memory. Prefetch distances, in triangles:
 constexpr std::size_t kTrianglesAhead = 16, kVerticesAhead = 3;
 
 HS_INLINE void prefetch(const Triangle& t) {
   __builtin_prefetch(&t);
-  __builtin_prefetch(&t.flags);  // which may lie in the next cache line
+  __builtin_prefetch(&t.flags);  // may be in the next cache line
 }
 
-// What shading, or a shader that decides on visibility, reads of a triangle's first vertex.
+// Prefetches the data of a triangle's first vertex, for shading or for a visibility function.
 void prefetch_vertex(const PassContext& context, const Chunk& chunk, const Triangle& t) {
   if (t.is(kClipped)) return;
   const ShadedVertices& shaded = context.shaded[chunk.ranges[t.range()].draw];
@@ -46,7 +46,7 @@ void prefetch_vertex(const PassContext& context, const Chunk& chunk, const Trian
   __builtin_prefetch(row + count);
 }
 
-// How many of a list's first triangles are small and of one draw, W at the most.
+// Returns the number of small triangles at the start of a bin that belong to the same draw, at most W.
 std::size_t small_run(const Chunk& chunk, std::span<const uint16_t> bin) {
   const std::size_t max_count = std::min(bin.size(), static_cast<std::size_t>(kLanes));
   const uint32_t range = chunk.triangles[bin[0]].range();
@@ -77,14 +77,14 @@ class TileWorker {
   }
 
  private:
-  // A task takes some neighbouring tiles of a row, so that those of one colour are filled together: writes of a few hundred bytes
-  // each reach two thirds of memory's speed. But there must be tasks enough for all threads.
+  // A task processes several adjacent tiles of a row, so that tiles with the same color are filled together: writing a few hundred bytes at
+  // a time only reaches two thirds of the memory bandwidth. There must still be enough tasks for all threads.
   static constexpr int kMaxTilesPerTask = 8, kTasksPerThread = 8;
 
-  // Is this round the only one, so that constant colours may go straight into the images?
+  // Returns true if this is the only round and there is no post step, so that constant colors can be written directly to the images.
   bool is_alone() const { return round_.first && round_.last && attachments_.post.kernel == nullptr; }
 
-  // Fills the rows of tiles that get one colour, each in one go, which is faster than tile by tile. Returns the rows that are left.
+  // Fills all rows of tiles with a constant color. This is faster than filling them tile by tile. Returns the remaining rows.
   std::vector<int> fill_constant_rows(const Workers& workers, PassStatistics& statistics) const {
     std::vector<PassStatistics> by_row(static_cast<std::size_t>(context_.tiles_y));
     std::vector<uint8_t> filled(by_row.size());
@@ -106,11 +106,11 @@ class TileWorker {
     return rest;
   }
 
-  // The tiles [tile_x0, tile_x1) of a row of tiles.
+  // Processes tiles [tile_x0, tile_x1) of a row.
   void run_strip(int tile_x0, int tile_x1, int tile_y, PassStatistics& statistics) const {
     const TileMemoryLease memory;
     const bool alone = is_alone();
-    ConstantArea area{};  // of the tiles before this one
+    ConstantArea area{};  // area of the preceding tiles that is not filled yet
     for (int x = tile_x0; x < tile_x1; ++x) {
       const std::optional<const Draw*> constant =
           alone ? constant_tiles(context_, attachments_, x, x + 1, tile_y, statistics) : std::nullopt;
@@ -122,7 +122,7 @@ class TileWorker {
       }
       fill_images(context_, attachments_, area);
       area = constant ? ConstantArea{pixels, draw} : ConstantArea{};
-      // A tile of the only round that is not drawn in has a constant colour.
+      // If this is the only round, a tile without geometry has a constant color and does not get here.
       if (!constant) run_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics);
     }
     fill_images(context_, attachments_, area);
@@ -135,8 +135,9 @@ class TileWorker {
   void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, PassStatistics& statistics) const {
     if (drawn) ++statistics.tiles_touched;
     const std::vector<ColorTarget>& colors = attachments_.colors;
-    // What was neither cleared nor drawn stays as it is in its image (several samples go through the spill and back); under
-    // LoadOp::dont_care the tile does not know it.
+    // If nothing is drawn in a tile, its attachments are only stored if they are cleared. Otherwise the image already has the correct
+    // contents, which the tile may not even hold (LoadOp::dont_care). With several rounds, multisampled attachments are always stored,
+    // because they are kept in the spill buffer.
     const bool spills = context_.samples > 1 && !(round_.first && round_.last);
     const auto changes = [&](const auto& target) {
       return drawn || spills || (round_.first && target.load == LoadOp::clear && bytes_per_pixel(target.format) != 0);
@@ -196,7 +197,7 @@ class TileWorker {
     if (!round_.last) store_depth(between_flushes(attachments_.depth, attachments_.depth_spill), width, height, spilled_samples(), tile);
   }
 
-  // pending: there are visible pixels of the tile that are not shaded yet.
+  // pending is true if the tile has visible pixels that have not been shaded yet.
   void draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index, bool& pending, TileMemory& memory,
                      PassStatistics& statistics) const {
     if (d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only) {
@@ -204,7 +205,7 @@ class TileWorker {
       pending |= d.mode == VisibilityMode::deferred;
       return;
     }
-    // A draw that writes no colour leaves pending pixels as they are.
+    // A draw that does not write color does not affect pending pixels.
     const bool shades = d.mode != VisibilityMode::early || d.draw.writes_color;
     if (shades && pending && attachments_.has_color) shade_deferred(context_, d.tile, memory.shading, statistics);
     if (shades) pending = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tile worker: everything that a pass does tile by tile. In: the set-up triangles of a pass and its attachments. Out: the images: for each
-// tile load or clear, draw, resolve, post step, store.
+// Tile worker: all per-tile work of a pass. Input: the triangles of the pass after setup, and its attachments. Output: the images. Each
+// tile is loaded or cleared, drawn, resolved, stored, and passed to the post step.
 #pragma once
 
 #include "halfspace/core/parallel.h"
@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// Makes the spills that hold the attachments from one round to the next.
+/// Allocates the buffers that hold the attachments between rounds.
 void keep_between_flushes(const PassContext& context, Attachments& attachments);
 
 /// Runs all tiles of one round.

@@ -9,7 +9,7 @@ namespace detail {
 
 VertexView bind_streams(std::span<const VertexStream> streams) {
   const auto per_vertex = std::ranges::find(streams, 0u, &VertexStream::divisor);
-  HS_CHECK(per_vertex != streams.end());  // else give the number of vertices
+  HS_CHECK(per_vertex != streams.end());  // without a per-vertex stream, the vertex count must be given
   return bind_streams(streams, per_vertex->count);
 }
 
@@ -18,7 +18,7 @@ VertexView bind_streams(std::span<const VertexStream> streams, std::size_t verte
   VertexView v{.streams = {}, .stream_count = static_cast<int>(streams.size()), .vertex_count = vertex_count};
   std::ranges::copy(streams, v.streams.begin());
   for (const VertexStream& s : streams) {
-    HS_CHECK_OP(s.count * static_cast<std::size_t>(s.stride), <, std::size_t{1} << 31);  // 32-bit gather indices
+    HS_CHECK_OP(s.count * static_cast<std::size_t>(s.stride), <, std::size_t{1} << 31);  // gather uses 32-bit indices
     v.components += s.components;
     if (s.divisor != 0) {
       v.has_instance_streams = true;

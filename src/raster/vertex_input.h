@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a draw's vertices and indices lie: typed, bounds-checked views of the caller's memory.
+// Vertices and indices of a draw: typed, bounds-checked views of memory that the caller owns.
 #pragma once
 
 #include <algorithm>
@@ -16,22 +16,22 @@
 
 namespace halfspace {
 
-/// Floats of one attribute (or of several that lie side by side), one row a vertex.
+/// Array of floats with one row per vertex or group of instances. A row contains one attribute, or several consecutive ones.
 struct VertexStream {
   const float* data = nullptr;
-  int32_t stride = 0;      ///< from one vertex to the next, in floats
-  int32_t components = 0;  ///< floats read per vertex
-  std::size_t count = 0;   ///< vertices, or rows for instances
-  uint32_t divisor = 0;    ///< 0: one row a vertex; n: one row for n instances (glVertexAttribDivisor)
+  int32_t stride = 0;      ///< distance between rows, in floats
+  int32_t components = 0;  ///< floats read per row
+  std::size_t count = 0;   ///< number of rows
+  uint32_t divisor = 0;    ///< 0: one row per vertex; n: one row per n instances (glVertexAttribDivisor)
 };
 
-/// A VertexStream of elements of type T, which Pass::draw compares with the shader's Attributes at compile time.
+/// A VertexStream with elements of type T. Pass::draw compares T with the shader's Attributes at compile time.
 template <class T>
 struct StreamOf : VertexStream {
   using Element = T;
 };
 
-/// A stream of tightly packed float, glm::vec2/3/4, or structs of floats such as Attributes<float>.
+/// Creates a stream of tightly packed float, glm::vec2/3/4, or structs of floats such as Attributes<float>.
 template <class T>
 StreamOf<T> stream(std::span<const T> values) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(float) == 0 && alignof(T) == alignof(float));
@@ -43,11 +43,11 @@ StreamOf<T> stream(const std::vector<T>& values) {
   return stream(std::span<const T>(values));
 }
 
-/// A stream of one member of an interleaved vertex struct: stream(vertices, &MyVertex::normal).
+/// Creates a stream of one member of an interleaved vertex struct: stream(vertices, &MyVertex::normal).
 template <class V, class F>
 StreamOf<F> stream(std::span<const V> vertices, F V::*member) {
   static_assert(std::is_trivially_copyable_v<V> && sizeof(V) % sizeof(float) == 0 && sizeof(F) % sizeof(float) == 0);
-  static_assert(std::is_same_v<F, float> || std::is_same_v<typename F::value_type, float>, "vertex attributes are made of float");
+  static_assert(std::is_same_v<F, float> || std::is_same_v<typename F::value_type, float>, "vertex attributes must consist of floats");
   StreamOf<F> s{{nullptr, sizeof(V) / sizeof(float), sizeof(F) / sizeof(float), vertices.size()}};
   if (!vertices.empty()) s.data = reinterpret_cast<const float*>(&(vertices.front().*member));
   return s;
@@ -57,7 +57,7 @@ StreamOf<F> stream(const std::vector<V>& vertices, F V::*member) {
   return stream(std::span<const V>(vertices), member);
 }
 
-/// The stream with one row per `divisor` instances (≥ 1) instead of one per vertex.
+/// Returns the stream with one row per `divisor` instances instead of one row per vertex. divisor must be at least 1.
 template <std::derived_from<VertexStream> S>
 S per_instance(S stream, uint32_t divisor = 1) {
   HS_CHECK_OP(divisor, >=, 1u);
@@ -67,42 +67,43 @@ S per_instance(S stream, uint32_t divisor = 1) {
 
 inline constexpr std::size_t kMaxStreams = kMaxFields;
 
-/// The streams of a draw, in the order of the members of the shader's Attributes.
+/// Vertex streams of a draw, in the order of the members of the shader's Attributes.
 struct VertexView {
   std::array<VertexStream, kMaxStreams> streams;
   int stream_count = 0;
   std::size_t vertex_count = 0;
-  std::size_t instance_count = std::size_t{1} << 31;  ///< for how many instances the per-instance streams have rows
+  std::size_t instance_count = std::size_t{1} << 31;  ///< number of instances for which the per-instance streams have rows
   bool has_instance_streams = false;
-  int components = 0;  ///< floats per vertex, of all streams
+  int components = 0;  ///< floats per vertex in all streams
 };
 
-/// A VertexView whose streams' element types are known.
+/// A VertexView that stores the element types of its streams at compile time.
 template <class... T>
 struct VertexViewOf : VertexView {};
 
-/// The streams of a view, wherever they are kept.
+/// Non-owning reference to the streams of a view.
 struct VertexStreams {
   std::span<const VertexStream> streams{};
   bool has_instance_streams = false;
 };
 
-/// The streams as the vertices of one instance see them: those of one row for several instances stand still. Where there are such, the
-/// answer lies in `room`.
+/// Storage for the result of at_instance().
 using StreamRoom = std::array<VertexStream, kMaxStreams>;
+/// Returns the streams for the vertices of one instance. Per-instance streams point to the row of the instance and have a stride of 0; if
+/// there are any, the result is stored in `room`.
 std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room);
 
 namespace detail {
-/// streams: at most kMaxStreams.
+/// Implementation of make_vertex_view(). There must be at most kMaxStreams streams.
 VertexView bind_streams(std::span<const VertexStream> streams);
 VertexView bind_streams(std::span<const VertexStream> streams, std::size_t vertex_count);
 }  // namespace detail
 
-/// Binds streams to the members of Attributes, in order. All streams with one row per vertex hold the same number of vertices, and there is
-/// at least one such stream; each has at most 2^31 floats.
+/// Binds streams to the members of Attributes, in order. At least one stream must have one row per vertex, and all such streams must have
+/// the same number of rows. Each stream must have fewer than 2^31 floats.
 template <std::derived_from<VertexStream>... S>
 auto make_vertex_view(const S&... streams) {
-  static_assert(sizeof...(S) >= 1, "make_vertex_view() of no streams needs the number of vertices");
+  static_assert(sizeof...(S) >= 1, "make_vertex_view() without streams needs the number of vertices");
   const std::array<VertexStream, sizeof...(S)> list{streams...};
   if constexpr ((requires { typename S::Element; } && ...)) {
     return VertexViewOf<typename S::Element...>{detail::bind_streams(list)};
@@ -111,8 +112,8 @@ auto make_vertex_view(const S&... streams) {
   }
 }
 
-/// The same with an explicit number of vertices: for shaders without per-vertex streams, which compute their vertices from VertexId.
-/// vertex_count: at most 2^32 − 1.
+/// The same with an explicit vertex count, for shaders without per-vertex streams that compute their vertices from VertexId. vertex_count
+/// must be less than 2^32.
 template <std::derived_from<VertexStream>... S>
 auto make_vertex_view(std::size_t vertex_count, const S&... streams) {
   const std::array<VertexStream, sizeof...(S)> list{streams...};
@@ -123,16 +124,16 @@ auto make_vertex_view(std::size_t vertex_count, const S&... streams) {
   }
 }
 
-/// GL_PRIMITIVE_RESTART_FIXED_INDEX: the largest index of its type ends a strip, fan or list and begins the next.
+/// GL_PRIMITIVE_RESTART_FIXED_INDEX: the largest value of the index type ends the current strip, fan or list and starts a new one.
 enum class PrimitiveRestart : bool { off, on };
 
-/// The index list of a draw, checked once when made: build it once for a mesh and use it in every frame. Views the
-/// caller's memory, which must stay unchanged as long as the Indices are used. Without a list: 0, 1, 2, …
+/// Index list of a draw. The list is validated on construction, so create it once per mesh and use it in every frame. It references the
+/// caller's memory, which must stay valid and unchanged while the Indices object is used.
 class Indices {
  public:
-  /// vertex_count consecutive vertices.
+  /// Returns the indices 0, 1, ..., vertex_count − 1, without a list. vertex_count must be less than 2^32.
   static Indices sequential(std::size_t vertex_count);
-  /// Every index must be below vertex_count; one beyond it is the caller's bug (HS_CHECK).
+  /// Every index except for restarts must be less than vertex_count; otherwise an HS_CHECK fails.
   Indices(std::span<const uint32_t> list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off);
   Indices(std::span<const uint16_t> list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off);
   Indices(const std::vector<uint32_t>& list, std::size_t vertex_count) : Indices(std::span<const uint32_t>(list), vertex_count) {}
@@ -140,17 +141,17 @@ class Indices {
 
   std::size_t size() const { return size_; }
   uint32_t operator[](std::size_t i) const { return wide_ ? wide_[i] : narrow_ ? narrow_[i] : static_cast<uint32_t>(i); }
-  /// The list from place i on where it is one of 32-bit indices, else null.
+  /// Returns a pointer to index i if the list has 32-bit indices, otherwise null.
   const uint32_t* words(std::size_t i) const { return wide_ ? wide_ + i : nullptr; }
-  /// Is index i simply i?
+  /// Returns true if there is no list: index i is i.
   bool is_sequential() const { return wide_ == nullptr && narrow_ == nullptr; }
-  /// The smallest and one past the largest index used.
+  /// All indices are in [first_vertex(), end_vertex()).
   uint32_t first_vertex() const { return first_; }
   uint32_t end_vertex() const { return end_; }
-  /// The distinct indices in rising order, or empty where every vertex of [first, end) is used.
+  /// Returns the distinct indices in ascending order. Empty if all indices in [first_vertex(), end_vertex()) are used.
   std::span<const uint32_t> used() const { return used_; }
   std::size_t used_count() const { return used_.empty() ? end_ - first_ : used_.size(); }
-  /// The places in the list that hold no index but a restart, in rising order.
+  /// Returns the positions of restarts in the list, in ascending order.
   std::span<const uint32_t> restarts() const { return restarts_; }
 
  private:

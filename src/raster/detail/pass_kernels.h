@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From the templates of Pass to the pipeline: the kernels of a shader type, and how a pass takes a draw. Private, but installed, since
-// pass.h includes it.
+// Connects the templates of Pass to the pipeline: creates the kernels of a shader type and adds draws to a pass. Private, but installed
+// because pass.h includes it.
 #pragma once
 
 #include <array>
@@ -19,17 +19,17 @@ namespace halfspace {
 
 namespace detail {
 
-/// What a draw takes of a shader.
+/// Parts of a shader that a draw uses.
 enum class DrawKind : uint8_t {
   color,
-  depth_only  ///< the fragment function is ignored; a visibility function still counts
+  depth_only  ///< ignores the fragment function but not the visibility function
 };
 
-/// The kernels of a shader. Those of functions that it lacks, or that the draw ignores, are null.
+/// Returns the kernels of a shader. Kernels for functions that do not exist, or that the draw ignores, are null.
 template <class S, DrawKind kind>
 constexpr ShaderKernels kernels_of() {
   using V = typename S::template Varyings<float>;
-  // Varyings that nobody reads are not computed.
+  // Do not compute varyings that no function reads.
   constexpr bool has_varyings = kind == DrawKind::color || HasVisibilityFunction<S>;
   ShaderKernels k;
   k.vertex = vertex_kernel<S, has_varyings, true>;
@@ -48,7 +48,7 @@ constexpr ShaderKernels kernels_of() {
       k.primitive = primitive_kernel<S>;
       k.primitive_count = static_cast<int>(kComponents<typename S::template Primitive<float>>);
     }
-    static_assert(kColors<S> <= kMaxColorTargets, "a fragment function returns at most 4 colours");
+    static_assert(kColors<S> <= kMaxColorTargets, "a fragment function returns at most 4 colors");
     k.fragment = fragment_kernel<S>;
     k.color_count = static_cast<int>(kColors<S>);
     k.discards = kDiscards<S>;
@@ -61,13 +61,13 @@ constexpr ShaderKernels kernels_of() {
 template <class S, DrawKind kind>
 inline constexpr ShaderKernels kKernels = kernels_of<S, kind>();
 
-/// A copy of the shader in memory that outlives it.
+/// Copies the shader to memory that outlives the call.
 template <class S>
 KeptShader keep_shader(const S& shader, std::pmr::memory_resource& memory) {
   return {::new (memory.allocate(sizeof(S), alignof(S))) S(shader), [](const void* kept) { static_cast<const S*>(kept)->~S(); }};
 }
 
-/// Floats of each member of a struct of attributes, in order; 0 for a member that is absent.
+/// Number of floats of each member of an attribute struct, in order; 0 for absent members.
 template <class Tuple>
 struct MemberSizes;
 template <class... F>
@@ -75,8 +75,8 @@ struct MemberSizes<std::tuple<F&...>> {
   static constexpr std::array<std::size_t, sizeof...(F)> value{FieldTraits<std::remove_const_t<F>>::components...};
 };
 
-/// Do streams of elements T... give each member of the attributes A its floats? An element is one attribute, or, where it is a struct, some
-/// successive ones.
+/// Returns true if streams with elements T... provide the floats for each member of the attributes A. An element is one attribute, or
+/// several consecutive ones if it is a struct.
 template <class A, class... T>
 constexpr bool streams_match() {
   constexpr auto members = MemberSizes<FieldsOf<A>>::value;
@@ -99,20 +99,20 @@ constexpr bool streams_match() {
 }
 
 template <class A, class V>
-inline constexpr bool kStreamsMatch = true;  // of a VertexView the pass checks the number of floats
+inline constexpr bool kStreamsMatch = true;  // for a plain VertexView, the pass checks the number of floats at run time
 template <class A, class... T>
 inline constexpr bool kStreamsMatch<A, VertexViewOf<T...>> = streams_match<A, T...>();
 
-/// True if the view's streams match the shader's Attributes, else a compile-time error that names both types.
+/// Returns true if the view's streams match the shader's Attributes. Otherwise, compilation fails with a message that names both types.
 template <class S, class V>
 consteval bool require_streams() {
-  static_assert(std::derived_from<V, VertexView>, "the vertices are a VertexView; see make_vertex_view()");
+  static_assert(std::derived_from<V, VertexView>, "the vertices must be a VertexView; see make_vertex_view()");
   using A = typename S::template Attributes<float>;
-  static_assert(kStreamsMatch<A, V>, "the streams do not match the members of the shader's Attributes, one after the other");
+  static_assert(kStreamsMatch<A, V>, "the streams do not match the members of the shader's Attributes in order");
   return kStreamsMatch<A, V>;
 }
 
-/// True if the pass can draw the view with the shader, else a compile-time error that says why not.
+/// Returns true if the pass can draw the view with the shader. Otherwise, compilation fails with a message that states the reason.
 template <class S, class V>
 consteval bool require_draw() {
   if constexpr (require_shader<S>()) return require_streams<S, V>();
@@ -124,19 +124,19 @@ consteval bool require_depth_draw() {
   return false;
 }
 
-/// The state of a Pass: its attachments, draws and plan. Pass holds one and sees nothing of it.
+/// State of a Pass: its attachments, draws and work. Pass only stores a pointer to it.
 class PassState;
 std::pmr::memory_resource& memory_of(PassState& state);
 void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
               std::shared_ptr<const Indices> indices, const DrawState& draw_state);
 void set_post_step(PassState& state, PostStep post);
 
-/// An index list that a draw takes: Indices, or a contiguous range of uint32_t or uint16_t.
+/// Index list that can be drawn: Indices, or a contiguous range of uint32_t or uint16_t.
 template <class T>
 concept IndexList = std::same_as<std::remove_cvref_t<T>, Indices> || std::convertible_to<T, std::span<const uint32_t>> ||
     std::convertible_to<T, std::span<const uint16_t>>;
 
-/// Views the indices, which stay the caller's, or scans a raw list.
+/// Returns a non-owning pointer to an Indices object, or creates one from a raw list.
 template <IndexList I>
 std::shared_ptr<const Indices> view_indices(I& indices, std::size_t vertex_count) {
   if constexpr (std::same_as<std::remove_const_t<I>, Indices>) {

@@ -11,17 +11,17 @@ namespace {
 constexpr int kHalf = kSubPixels / 2;
 constexpr int kLastPixel = 1 << 15;
 
-// The first pixel along an axis whose centre is not before x.
+// Returns the first pixel along an axis whose center is not before x.
 int first_center(int64_t x) { return static_cast<int>((x - kHalf + kSubPixels - 1) >> kSubPixelBits); }
 
-// Does the pixel's diamond, |x − cx| + |y − cy| < 1/2 px, hold the point, moved by (−ε, −ε²)?
+// Returns true if the pixel's diamond, |x − cx| + |y − cy| < 1/2 px, contains the point moved by (−ε, −ε²).
 bool diamond_holds(int64_t px, int64_t py, int64_t x, int64_t y) {
   const int64_t u = x - (px * kSubPixels + kHalf), v = y - (py * kSubPixels + kHalf);
   const int64_t sum = std::abs(u) + std::abs(v);
   return sum < kHalf || (sum == kHalf && u > 0);
 }
 
-// The pixel along an axis in which x − ε lies.
+// Returns the pixel along an axis that contains x − ε.
 int64_t pixel_before(int64_t x) { return (x - 1) >> kSubPixelBits; }
 
 }  // namespace
@@ -31,15 +31,15 @@ int line_pixels(float width) { return static_cast<int>(std::nearbyint(std::clamp
 LineRange line_range(const ScreenVertex& a, const ScreenVertex& b, int pixels) {
   const bool y_major = is_y_major(int64_t{b.x} - a.x, int64_t{b.y} - a.y);
   const auto major = [&](const ScreenVertex& v) { return y_major ? v.y : v.x; };
-  // Does the diamond of pixel i along the longer axis hold the end?
-  const int64_t shift = int64_t{kHalf} * (pixels - 1);  // to the lowest of the lines, one pixel wide, that a wide one is made of
+  // Returns true if the diamond of pixel i along the major axis contains the end point.
+  const int64_t shift = int64_t{kHalf} * (pixels - 1);  // a wide line consists of one-pixel lines; offset to the lowest one
   const auto holds = [&](const ScreenVertex& v, int i) {
     const int64_t x = y_major ? v.x - shift : v.x, y = y_major ? v.y : v.y - shift;
     return y_major ? diamond_holds(pixel_before(x), i, x, y) : diamond_holds(i, pixel_before(y), x, y);
   };
   const int from = first_center(major(a)), to = first_center(major(b));
-  // Centres between the ends are crossed. The first diamond also counts if the line starts in its farther half, the last does
-  // not if the line ends in it.
+  // Pixels whose centers are between the end points are covered. The first diamond also counts if the line starts in its far half. The last
+  // one does not count if the line ends in it.
   int first = 0, end = 0;
   if (major(a) < major(b)) {
     first = from - (holds(a, from - 1) ? 1 : 0);
@@ -60,9 +60,9 @@ std::array<BandEdge, 2> band_edges(const Triangle& t, int pixels) {
     dy = -dy;
   }
   const int64_t offset = int64_t{y_major ? dy : dx} * kHalf * pixels;
-  const Edge forward{t.x[0], t.y[0], dx, dy};  // > 0 above an x-major line, left of a y-major one
+  const Edge forward{t.x[0], t.y[0], dx, dy};  // > 0 above an x-major line, to the left of a y-major one
   const Edge backward{t.x[0], t.y[0], -dx, -dy};
-  // Moved by (−ε, −ε²) an x-major line rises if its slope is positive, else it falls; a y-major one goes to the left.
+  // Moving an x-major line by (−ε, −ε²) raises it if its slope is positive and lowers it otherwise. A y-major line moves to the left.
   const bool raised = y_major || dy > 0;
   return {BandEdge{forward, offset, raised ? 1 : 0}, {backward, offset, raised ? 0 : 1}};
 }
@@ -71,7 +71,7 @@ PixelBounds line_bounds(const Triangle& t, int pixels, const PixelBounds& b) {
   const bool y_major = is_y_major(t.x[1] - t.x[0], t.y[1] - t.y[0]);
   const LineRange range = LineRange::unpack(t.vertex[2]);
   const auto [low, high] = y_major ? std::minmax(t.x[0], t.x[1]) : std::minmax(t.y[0], t.y[1]);
-  // Beyond its ends a line at 45° or less goes on for a pixel at most.
+  // Beyond its end points, a line with a slope of at most 45° extends by at most one pixel.
   const int across0 = (low >> kSubPixelBits) - pixels / 2 - 2, across1 = (high >> kSubPixelBits) + pixels / 2 + 3;
   if (y_major) return {std::max(b.x0, across0), std::max(b.y0, range.first), std::min(b.x1, across1), std::min(b.y1, range.end)};
   return {std::max(b.x0, range.first), std::max(b.y0, across0), std::min(b.x1, range.end), std::min(b.y1, across1)};

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lines with one sample a pixel, not smoothed (OpenGL 4.6, section 14.5). In: their ends in the window. Out: what they cover.
+// Aliased lines for passes with one sample per pixel (OpenGL 4.6, section 14.5). Input: end points in window coordinates. Output: the
+// covered pixels.
 //
-// A line is x-major where |dx| ≥ |dy|, else y-major. In each column (row) it covers the `width` pixels whose centres lie
-// within width/2 of it along the shorter axis; which columns is decided by the diamond-exit rule. Where a line or an end lies
-// exactly between pixels both ends are taken to be moved by (−ε, −ε²), as the specification has it.
+// A line is x-major if |dx| ≥ |dy|, otherwise y-major. In each column (y-major: row), it covers the `width` pixels whose centers are within
+// width/2 of the line along the minor axis. The diamond-exit rule determines the columns. If a line or an end point is exactly between
+// pixels, both end points are treated as if moved by (−ε, −ε²), as in the specification.
 #pragma once
 
 #include "halfspace/raster/pipeline/edge.h"
@@ -12,16 +13,16 @@
 
 namespace halfspace {
 
-/// A line's width in whole pixels.
+/// Returns the width of a line, rounded to an integer number of pixels from 1 to 4096.
 int line_pixels(float width);
 
-/// Is the line steeper than the diagonal?
+/// Returns true if the line is y-major.
 inline bool is_y_major(int64_t dx, int64_t dy) { return (dx < 0 ? -dx : dx) < (dy < 0 ? -dy : dy); }
 
-/// The columns (y-major: rows) that a line from a to b covers.
+/// Returns the columns (y-major: rows) that a line from a to b covers. `pixels` is its width from line_pixels().
 LineRange line_range(const ScreenVertex& a, const ScreenVertex& b, int pixels);
 
-/// One of the two long sides of a line's band: inside where E + offset − bias ≥ 0.
+/// One of the two long sides of a line. A sample is inside if E + offset − bias ≥ 0.
 struct BandEdge {
   Edge edge;
   int64_t offset;
@@ -29,7 +30,7 @@ struct BandEdge {
 };
 std::array<BandEdge, 2> band_edges(const Triangle& line, int pixels);
 
-/// The pixels that may be covered, cut to bounds.
+/// Returns a conservative bounding box of the covered pixels, clipped to bounds.
 PixelBounds line_bounds(const Triangle& line, int pixels, const PixelBounds& bounds);
 
 }  // namespace halfspace

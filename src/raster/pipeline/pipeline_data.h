@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the stages hand to each other, in the order of the pipeline; each struct says who writes it and who reads it.
+// Data that the pipeline stages exchange, in pipeline order. The section headings name the stages that write and read it.
 //
 //   vertex_stage → clip → setup → bin → (per tile) visibility → shade → blend → tile store
 #pragma once
@@ -22,55 +22,55 @@ namespace halfspace {
 
 // ---- window coordinates ----------------------------------------------------------------------------------------
 
-/// Sub-pixel grid: positions are snapped to 1/256 px (D3D11.3, section 3.2.4.1; also llvmpipe's).
+/// Sub-pixel grid. Positions are snapped to 1/256 px, as in D3D11.3 (section 3.2.4.1) and llvmpipe.
 inline constexpr int kSubPixelBits = 8;
 inline constexpr int kSubPixels = 1 << kSubPixelBits;
 
-/// Positions reach the rasterizer within ±16384 px (2^22 sub-pixels); what goes beyond is clipped. Then edge vectors
-/// have 24 bits with their sign and are exact in float and edge functions fit in 48 bits. After the shift by
-/// kSubPixelBits, what an edge crossing a tile reaches inside it is below 64·2·2^23 = 2^30, so it fits in int32.
+/// Positions reach the rasterizer within ±16384 px (2^22 sub-pixels); primitives beyond are clipped. Edge vectors then have 24 bits with
+/// their sign and are exact in float, and edge functions fit in 48 bits. If an edge crosses a tile, its edge function in the tile, shifted
+/// right by kSubPixelBits, is below 64·2·2^23 = 2^30 and fits in int32.
 inline constexpr float kGuardBand = 16384.0f;
 
-/// Pixels a side of a tile, at the most: what the bit budget above allows.
+/// Maximum tile size in pixels; larger tiles would exceed the bit budget above.
 inline constexpr int kMaxTileSize = 64;
 inline constexpr int kMaxTilePixels = kMaxTileSize * kMaxTileSize;
 
 // ---- vertex stage → clip, setup, shade -------------------------------------------------------------------------
 
-/// A vertex in window coordinates (origin lower left). Undefined where the outcode has kOutNeedsClip or kOutNonFinite.
+/// Vertex in window coordinates (origin at the lower left). Do not use the position if the outcode has kOutNeedsClip or kOutNonFinite.
 struct ScreenVertex {
   int32_t x, y;  ///< 24.8 fixed point
-  float z;       ///< window depth, before offset and clamp
+  float z;       ///< window depth, before polygon offset and clamping
   float inv_w;   ///< 1 / w_clip
 };
 
-/// The pixels of a line along its longer axis, half open, cut to 0 … 2^15.
+/// Half-open range of pixels that a line covers along its major axis, clamped to 0 … 2^15.
 struct LineRange {
   int first, end;
   uint32_t packed() const { return static_cast<uint32_t>(first) | static_cast<uint32_t>(end) << 16; }
   static LineRange unpack(uint32_t p) { return {static_cast<int>(p & 0xffff), static_cast<int>(p >> 16)}; }
 };
 
-/// What a point covers: samples with x0 ≤ x < x1 and y0 ≤ y < y1, in 24.8 fixed point, held to ±2^28.
+/// Samples covered by a point: x0 ≤ x < x1 and y0 ≤ y < y1, in 24.8 fixed point.
 struct PointSpriteRect {
   int32_t x0, y0, x1, y1;
 };
 
 using Outcode = uint8_t;
 inline constexpr Outcode kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 8, kOutNear = 16, kOutFar = 32;
-inline constexpr Outcode kOutGuard = 64;       ///< beyond the guard band, or w too small: no window position
-inline constexpr Outcode kOutNonFinite = 128;  ///< a NaN or Inf among x, y, z, w
+inline constexpr Outcode kOutGuard = 64;       ///< outside the guard band, or w too small: no window position
+inline constexpr Outcode kOutNonFinite = 128;  ///< x, y, z or w is NaN or Inf
 inline constexpr Outcode kOutNeedsClip = kOutNear | kOutFar | kOutGuard;
 inline constexpr Outcode kOutView = 63;  ///< the six planes of the view volume
 
-/// An array that starts uninitialized and keeps its memory when it is asked for less.
+/// An uninitialized array that does not shrink: it keeps its memory when a smaller size is requested.
 template <class T>
 class Buffer {
  public:
-  /// Room for n values, whatever they are.
+  /// Makes room for n values. The contents are unspecified.
   void reset(std::size_t n) {
     if (n <= capacity_) return;
-    data_.reset(new T[n]);  // not make_unique: rows that no index uses need no initialization
+    data_.reset(new T[n]);  // not make_unique: rows that no index uses need not be initialized
     capacity_ = n;
   }
   T* get() const { return data_.get(); }
@@ -82,16 +82,16 @@ class Buffer {
   std::size_t capacity_ = 0;
 };
 
-/// The vertices of one draw. A vertex's slot, by which all later stages know it, is (index − first) + instance · count.
+/// Shaded vertices of one draw. All later stages refer to a vertex by its slot: (index − first) + instance · count.
 struct ShadedVertices {
   uint32_t first = 0;
-  uint32_t count = 0;           ///< slots of an instance
+  uint32_t count = 0;           ///< slots per instance
   int varying_count = 0;        ///< floats per vertex in varyings
-  Buffer<ScreenVertex> screen;  ///< uninitialized where no index refers to it
+  Buffer<ScreenVertex> screen;  ///< uninitialized for slots that no index refers to
   Buffer<Outcode> outcodes;
-  Outcode any_outcode = 0;                     ///< their union: 0 where the whole draw is in view
-  Buffer<float> varyings;                      ///< behind the last row are kRowSlack more (core/transpose.h), of any value
-  std::unique_ptr<PointSpriteRect[]> sprites;  ///< of points alone
+  Outcode any_outcode = 0;                     ///< union of all outcodes; 0 if the whole draw is in view
+  Buffer<float> varyings;                      ///< followed by kRowSlack floats of padding (core/transpose.h)
+  std::unique_ptr<PointSpriteRect[]> sprites;  ///< only for points
   int clip_distance_count = 0;                 ///< floats per vertex in clip_distances
   std::unique_ptr<float[]> clip_distances;
 
@@ -100,39 +100,41 @@ struct ShadedVertices {
 
 // ---- vertex stage → vertex kernels ------------------------------------------------------------------------------
 
-/// Up to kVertexBatch vertices for a vertex kernel.
+/// Maximum number of vertices per call of a vertex kernel.
 inline constexpr int kVertexBatch = 256;
+/// Vertices for a vertex kernel.
 struct VertexBatch {
   std::span<const VertexStream> streams;
-  const uint32_t* ids;  ///< indices of the vertices, or null: first, first + 1, …
+  const uint32_t* ids;  ///< vertex indices, or null: first, first + 1, …
   uint32_t first;
   int count;
-  uint32_t slot_base;   ///< varyings of vertex i go to row i − slot_base (modulo 2^32)
-  int32_t base_vertex;  ///< index + base_vertex is the row of the streams
-  int32_t instance;     ///< all vertices are of this one
+  uint32_t slot_base;   ///< the varyings of vertex i are written to row i − slot_base (modulo 2^32)
+  int32_t base_vertex;  ///< index + base_vertex is the row in the streams
+  int32_t instance;     ///< the same for all vertices
   float* varyings;      ///< null for the position kernel
-  float* clip;          ///< out: x, y, z, w of clip space as four rows of kVertexBatch
-  float* extra;         ///< out, or null: rows of the point size and the clip distances, or a sprite's low x, low y, high x, high y
+  float* clip;          ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats
+  /// Output rows, or null: the point size and clip distances, or the low x, low y, high x and high y of a point sprite.
+  float* extra;
 };
 inline constexpr int kMaxClipDistances = 8;
 inline constexpr int kMaxExtraRows = 1 + kMaxClipDistances;
 
 // ---- the viewport transform ------------------------------------------------------------------------------------
 
-/// Clip space → window: x_px = x/w · half_width + center_x, and so on.
+/// Transform from clip space to window coordinates: x_px = x/w · half_width + center_x, and the same for y.
 struct Viewport {
   float half_width, half_height;                           ///< px
   float center_x, center_y;                                ///< px
   float depth_scale, depth_bias;                           ///< window depth = z/w · scale + bias
-  float guard_left, guard_right, guard_bottom, guard_top;  ///< x ≥ guard_left·w, x ≤ guard_right·w, …
+  float guard_left, guard_right, guard_bottom, guard_top;  ///< x ≥ guard_left·w, x ≤ guard_right·w, and the same for y
 };
 
-/// The least and the largest coordinate, x or y, of any sample in its pixel, in 1/256 px.
+/// Minimum and maximum of the x and y coordinates of all samples within their pixel, in 1/256 px.
 struct SampleSpan {
   int low = kSubPixels / 2, high = kSubPixels / 2;
 };
 
-/// Pixels, half open. I: int32_t, or Int for as many boxes as there are lanes.
+/// Half-open box of pixels. I is int32_t, or Int for one box per lane.
 template <class I>
 struct PixelBox {
   I x0, y0, x1, y1;
@@ -145,87 +147,93 @@ using PixelBounds = PixelBox<int32_t>;
 
 // ---- clip and setup → bin, visibility, shade -------------------------------------------------------------------
 
-inline constexpr uint32_t kFrontFacing = 1;     ///< the triangle faces front
-inline constexpr uint32_t kClipped = 2;         ///< vertex[] index the chunk's clip vertices
-inline constexpr uint32_t kSmall = 4;           ///< every edge function fits in int32 without a shift
-inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: which of vertex[] is the provoking vertex
-inline constexpr uint32_t kPointSprite = 32;    ///< a point: see Triangle
-inline constexpr uint32_t kLine = 64;           ///< a line: see Triangle
-inline constexpr uint32_t kCoveredShift = 7;    ///< twelve bits: see Triangle::covered
+inline constexpr uint32_t kFrontFacing = 1;     ///< the triangle is front-facing
+inline constexpr uint32_t kClipped = 2;         ///< vertex[] contains indices of the chunk's clip vertices
+inline constexpr uint32_t kSmall = 4;           ///< all edge functions fit in int32 without a shift
+inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: index of the provoking vertex in vertex[]
+inline constexpr uint32_t kPointSprite = 32;    ///< a point; see Triangle
+inline constexpr uint32_t kLine = 64;           ///< a line; see Triangle
+inline constexpr uint32_t kCoveredShift = 7;    ///< twelve bits; see Triangle::covered
 inline constexpr uint32_t kCoveredBits = 0xfff;
-inline constexpr uint32_t kDrawRangeShift = 19;  ///< thirteen bits: which segment of the chunk
+inline constexpr uint32_t kDrawRangeShift = 19;  ///< thirteen bits: index of the draw range in the chunk
 
-/// A triangle ready to be rasterized. Vertices are counter-clockwise (y up), vertex 0 the one with the smallest depth.
-/// A point (kPointSprite) is one too: x[0] … x[1] and y[0] … y[1] are its first and last 1/256 px, all vertices the one it has.
-/// A line (kLine, with one sample a pixel) has its ends as vertices 0 and 1, that of smaller depth first, and a third corner beside
-/// the first so that E1 and the area are the products along the line that interpolation needs; vertex[2] is its LineRange.
+/// A primitive that is ready to be rasterized. The vertices of a triangle are in counter-clockwise order (y up), starting with the one with
+/// the smallest depth.
+///
+/// For a point (kPointSprite), x[0] … x[1] and y[0] … y[1] are the first and last covered positions in 1/256 px. All three elements of
+/// vertex are the same.
+///
+/// For a line (kLine, with one sample per pixel), vertices 0 and 1 are the end points, the one with the smaller depth first. The third
+/// corner is perpendicular to the line at vertex 0. E1 is then the dot product with the line vector, and the area is its squared length, as
+/// needed for interpolation along the line. vertex[2] is the LineRange.
 struct Triangle {
   std::array<int32_t, 3> x, y;  ///< snapped, 24.8
-  float z0;                     ///< depth at vertex 0, offset included
+  float z0;                     ///< depth at vertex 0, including polygon offset
   float z_edge1, z_edge2;       ///< depth = z0 + E1·z_edge1 + E2·z_edge2, both ≥ 0 (E as in shading/pixel.h)
-  float z_max;                  ///< the largest depth of the three vertices, offset included
+  float z_max;                  ///< largest depth of the three vertices, including polygon offset
   std::array<uint32_t, 3> vertex;
   uint32_t flags;
 
   uint32_t range() const { return flags >> kDrawRangeShift; }
   uint32_t provoking() const { return (flags >> kProvokingShift) & 3; }
   bool is(uint32_t flag) const { return (flags & flag) != 0; }
-  /// Of a small triangle in few pixels (one sample a pixel) those that it covers: bit 4r + c is pixel c of row r of its box within the
-  /// draw's bounds. 0: not said here.
+  /// Covered pixels of a small triangle, or 0 if they are not known. They are only known with one sample per pixel, and for a bounding box
+  /// of at most 4 x 3 pixels. Bit 4r + c is pixel c of row r of the bounding box, clipped to the bounds of the draw.
   uint32_t covered() const { return flags >> kCoveredShift & kCoveredBits; }
 };
 
-/// A vertex made or copied by the clipper. Its flat varyings are those of its triangle's provoking vertex.
+/// Vertex created or copied by the clipper. Its flat varyings are those of the provoking vertex.
 struct ClipVertex {
   ScreenVertex screen;
-  uint32_t first_varying;  ///< into Chunk::clip_varyings
+  uint32_t first_varying;  ///< index into Chunk::clip_varyings
 };
 
-/// Where a clipped triangle came from, for the primitive stage: the vertices of the triangle that was submitted.
+/// Vertices of the primitive that a clipped triangle was created from, for the primitive stage.
 struct ClipSource {
-  uint32_t triangle;  ///< index into Chunk::triangles of the first piece
+  uint32_t triangle;  ///< index of the first piece in Chunk::triangles
   std::array<uint32_t, 3> vertex;
 };
 
-/// A run of consecutive primitives of one instance of a draw.
+/// Range of consecutive primitives of one instance of a draw.
 struct DrawRange {
   uint32_t draw, instance;
-  uint32_t first, count;         ///< primitives of the draw's index list
-  uint32_t first_triangle = 0;   ///< written by setup: where its triangles start in Chunk::triangles
-  uint32_t first_primitive = 0;  ///< written by the primitive stage: where its values start in Chunk::primitives
+  uint32_t first, count;         ///< range in the draw's list of primitives
+  uint32_t first_triangle = 0;   ///< written by setup: index of the first triangle in Chunk::triangles
+  uint32_t first_primitive = 0;  ///< written by the primitive stage: index of the first value in Chunk::primitives
 };
 
-/// Up to some thousand submitted triangles, through clip, setup and bin: written by one task, then only read.
+/// Up to a few thousand submitted primitives on their way through clipping, setup and binning. Written by one task, then only read.
 struct Chunk {
   std::vector<DrawRange> ranges;
   std::vector<Triangle, DefaultInitAllocator<Triangle>> triangles;
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
   std::vector<ClipSource> clip_sources;
-  std::vector<float> primitives;  ///< primitive stage's floats, one row a triangle
+  std::vector<float> primitives;  ///< output of the primitive stage, one row per triangle
 
-  // Bins: triangle indices by tile, each list in submission order.
-  int tile_x0 = 0, tile_y0 = 0, tile_x1 = 0, tile_y1 = 0;  ///< the tiles that have a list, half open
+  // Bins: triangle indices per tile, in submission order.
+  int tile_x0 = 0, tile_y0 = 0, tile_x1 = 0, tile_y1 = 0;  ///< half-open range of tiles that have a bin
   std::vector<uint32_t> bin_start;                         ///< (tiles + 1) offsets into bin_triangles
   std::vector<uint16_t> bin_triangles;
 
   PassStatistics statistics;
 
-  /// Empty, but with its memory.
+  /// Clears all contents but keeps the memory.
   void clear();
-  /// What its larger arrays take.
+  /// Returns the size of the larger arrays in bytes.
   std::size_t bytes() const;
 };
 
-/// A triangle as a pixel remembers it: chunk and index in the chunk.
+/// Identifies a triangle: index of the chunk and index in the chunk. Stored for each pixel.
 using TriangleId = uint32_t;
 inline constexpr TriangleId kNoTriangle = 0xffffffffu;
 inline constexpr uint32_t kMaxChunks = 0xffff;
 inline constexpr uint32_t kMaxTrianglesPerChunk = 0xffff;
-/// Submitted, one a segment at the least. Filled triangles end a chunk at 4369: clipping may make 15 of one.
+/// Maximum number of submitted primitives per chunk; each of them may have its own draw range. A chunk has at most 4369 filled triangles,
+/// because clipping can turn each into 15.
 inline constexpr uint32_t kMaxPrimitivesPerChunk = 1u << (32 - kDrawRangeShift);
 constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chunk << 16 | triangle; }
-/// The parts of an id other than kNoTriangle: the chunk, and the index into its triangles.
+/// These return the two parts of an id other than kNoTriangle: the chunk, and the index into its triangles.
 constexpr uint32_t chunk_of(TriangleId id) { return id >> 16; }
 constexpr uint32_t index_in_chunk(TriangleId id) { return id & 0xffff; }
 

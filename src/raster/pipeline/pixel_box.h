@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which pixels have a sample in the box of three corners: of one triangle, or lane by lane.
+// Bounding boxes in pixels, of one primitive or of one primitive per lane.
 #pragma once
 
 #include <array>
@@ -20,25 +20,26 @@ HS_INLINE T max_of(const std::array<T, 3>& v) {
   return max(v[0], max(v[1], v[2]));
 }
 
-/// The pixels that may have a sample in the box of the corners (x, y), in 1/256 px. Samples lie at at_x and at_y in their pixel.
+/// Returns the pixels that may have a sample in the bounding box of three corners. x and y are in 1/256 px. at_x and at_y are the ranges of
+/// sample positions within a pixel.
 template <class I>
 HS_INLINE PixelBox<I> pixel_box(const std::array<I, 3>& x, const std::array<I, 3>& y, const SampleSpan& at_x, const SampleSpan& at_y) {
   constexpr int32_t last = kSubPixels - 1;
-  // the first pixel with a sample at or right of the least corner; one past the last with a sample at or left of the largest
+  // The first pixel with a sample at or after the smallest corner, and one past the last pixel with a sample at or before the largest one.
   const auto first = [](const std::array<I, 3>& v, const SampleSpan& at) { return (min_of(v) + (last - at.high)) >> kSubPixelBits; };
   const auto end = [](const std::array<I, 3>& v, const SampleSpan& at) { return ((max_of(v) - at.low) >> kSubPixelBits) + 1; };
   return {first(x, at_x), first(y, at_y), end(x, at_x), end(y, at_y)};
 }
 
-/// The part of a box in bounds.
+/// Returns the intersection of a box and bounds.
 template <class I>
 HS_INLINE PixelBox<I> intersect(const PixelBox<I>& box, const PixelBounds& b) {
   return {max(box.x0, I(b.x0)), max(box.y0, I(b.y0)), min(box.x1, I(b.x1)), min(box.y1, I(b.y1))};
 }
 
-/// The pixels that may have a sample in the primitive's box, cut to bounds.
+/// Returns the pixels that may have a sample in the bounding box of a primitive, clipped to bounds.
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SampleSpan& span);
-/// Those whose sample at a position lies in it.
+/// Returns the pixels whose sample at position `at` is in the bounding box of a primitive, clipped to bounds.
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SamplePosition& at);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the samples of a pixel lie, and where they are kept in a tile.
+// Sample positions within a pixel, and the storage of samples in a tile.
 #pragma once
 
 #include <array>
@@ -12,35 +12,35 @@ namespace halfspace {
 
 inline constexpr int kMaxSamples = 8;
 
-/// A sample's place in its pixel, from the lower left corner, in 1/256 px.
+/// Position of a sample relative to the lower left corner of its pixel, in 1/256 px.
 struct SamplePosition {
   int x, y;
 };
 
-/// The standard sample positions of 1, 2, 4 and 8 samples (Vulkan 1.3, "Multisampling": in 1/16 px, as Mesa has them too;
-/// here y is up).
+/// Standard sample positions for 1, 2, 4 and 8 samples, as in Vulkan 1.3 ("Multisampling", in units of 1/16 px) and Mesa, but with y up.
 inline constexpr std::array<SamplePosition, 15> kSamplePositions{{
-    {128, 128},  // 1
-    {192, 192},
-    {64, 64},  // 2
-    {96, 32},
+    {128, 128},  // 1 sample
+    {192, 192},  // 2 samples
+    {64, 64},
+    {96, 32},  // 4 samples
     {224, 96},
     {32, 160},
-    {160, 224},  // 4
-    {144, 80},
+    {160, 224},
+    {144, 80},  // 8 samples
     {112, 176},
     {208, 144},
     {80, 48},
     {48, 208},
     {16, 112},
     {176, 240},
-    {240, 16},  // 8
+    {240, 16},
 }};
-/// samples: 1, 2, 4 or 8.
+/// Returns the position of a sample. samples must be 1, 2, 4 or 8.
 constexpr SamplePosition sample_position(int samples, int sample) {
   return kSamplePositions[static_cast<std::size_t>(samples - 1 + sample)];
 }
 
+/// Returns the range of sample positions for 1, 2, 4 or 8 samples.
 constexpr SampleSpan sample_span(int samples) {
   SampleSpan span;
   for (int s = 0; s < samples; ++s) {
@@ -53,8 +53,8 @@ constexpr SampleSpan sample_span(int samples) {
   return span;
 }
 
-/// A tile of several samples is smaller, and its samples lie side by side in the room of a whole tile: sample s of pixel
-/// (x, y) where pixel (x + cell.x, y + cell.y) of a whole tile lies. So all that works on one sample works on any.
+/// Multisampled tiles have fewer pixels. All samples of such a tile share the storage of a single-sampled tile: sample s of pixel (x, y) is
+/// stored where that tile stores pixel (x + plane.x, y + plane.y). Code for one sample per pixel can therefore process any sample.
 struct SamplePlane {
   int x, y;
 };
@@ -63,7 +63,7 @@ constexpr SamplePlane sample_plane(int samples, int sample, int tile_size) {
   return {sample % columns * tile_size, sample / columns * tile_size};
 }
 
-/// The largest tile in whose room `samples` cells fit.
+/// Returns the maximum tile size for which all samples fit into the storage of a tile.
 constexpr int largest_tile(int samples) { return samples == 1 ? kMaxTileSize : samples == 8 ? kMaxTileSize / 4 : kMaxTileSize / 2; }
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// W triangles at once: read out of their records, and their vertices put in order lane by lane.
+// W triangles at a time: loads their data and reorders their vertices in each lane.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ HS_INLINE void swap_lanes(Mask m, T& a, T& b) {
   b = select(m, from, b);
 }
 
-/// Moves v[1] (where one) or v[2] (where two) to the front, going round. No lane is set in both.
+/// Rotates the elements so that v[1] (in lanes of `one`) or v[2] (in lanes of `two`) becomes the first. No lane can be set in both masks.
 template <class T>
 HS_INLINE void rotate_lanes(Mask one, Mask two, std::array<T, 3>& v) {
   const std::array<T, 3> from = v;
@@ -29,7 +29,7 @@ struct CornerLanes {
   std::array<Int, 3> x, y;
 };
 
-/// The corners of each lane's triangle. triangle(k): lane k's, a const Triangle*.
+/// Loads the corners of the triangle in each lane. triangle(k) returns a const Triangle* for lane k.
 template <class F>
 HS_INLINE CornerLanes load_corners(const F& triangle) {
   static_assert(offsetof(Triangle, x) == 0 && offsetof(Triangle, y) == 3 * sizeof(int32_t));
@@ -40,7 +40,7 @@ HS_INLINE CornerLanes load_corners(const F& triangle) {
   return {{start[0], start[1], start[2]}, {start[3], rest[2], rest[3]}};
 }
 
-/// The vertices and the flags of each lane's triangle.
+/// Loads the vertices and flags of the triangle in each lane.
 template <class F>
 HS_INLINE std::array<Int, 4> load_vertices_and_flags(const F& triangle) {
   static_assert(offsetof(Triangle, flags) == offsetof(Triangle, vertex) + 3 * sizeof(int32_t));

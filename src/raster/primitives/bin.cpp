@@ -13,7 +13,8 @@ namespace halfspace {
 
 namespace {
 
-// Which tile which triangle lies in, in the order of triangles. Neighbours mostly lie in one tile: such runs are kept and sorted as one.
+// List of (tile, triangle) pairs, ordered by triangle. Consecutive triangles are usually in the same tile, so the list is stored as runs of
+// triangles with the same tile.
 class TileRuns {
  public:
   explicit TileRuns(std::size_t triangles) { triangles_.reserve(triangles + triangles / 2); }
@@ -25,7 +26,7 @@ class TileRuns {
     triangles_.push_back(triangle);
   }
   std::size_t size() const { return triangles_.size(); }
-  // f(tile's x and y, the triangles of a run) for each.
+  // Calls f(tile_x, tile_y, triangles) for each run.
   template <class F>
   void for_each(const F& f) const {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -37,25 +38,25 @@ class TileRuns {
  private:
   struct Run {
     uint16_t tile_x, tile_y;
-    uint32_t first;  // of triangles_
+    uint32_t first;  // index into triangles_
   };
   std::vector<Run> runs_;
   std::vector<uint16_t> triangles_;
 };
 
-// The tiles that pixels lie in, half open. T: PixelBounds, or a PixelBox of lanes.
+// Returns the half-open range of tiles that contains the pixels. T: PixelBounds, or a PixelBox of lanes.
 template <class T>
 T tiles_of(const PassContext& context, const T& pixels) {
   const int shift = std::countr_zero(static_cast<unsigned>(context.tile_size));
   return {pixels.x0 >> shift, pixels.y0 >> shift, ((pixels.x1 - 1) >> shift) + 1, ((pixels.y1 - 1) >> shift) + 1};
 }
 
-// Tiles of W triangles.
+// Tile ranges of W triangles.
 struct TileRows {
   alignas(64) std::array<int32_t, kLanes> x0, y0, x1, y1;
 };
 
-// Those of `count` triangles of one draw from `first` on; of lines nothing is said.
+// Returns the tile ranges of `count` triangles of one draw, starting with `first`. The results are invalid for lines.
 TileRows tile_rows(const PassContext& context, const Draw& draw, const Triangle* first, std::size_t count) {
   const auto [x, y] = load_corners([&](int k) { return first + std::min(static_cast<std::size_t>(k), count - 1); });
   const PixelBox<Int> tiles = tiles_of(context, intersect(pixel_box(x, y, context.samples_at, context.samples_at), draw.bounds));
@@ -67,7 +68,7 @@ TileRows tile_rows(const PassContext& context, const Draw& draw, const Triangle*
   return rows;
 }
 
-// The largest E in the box of a tile's samples.
+// Returns the maximum of E over the bounding box of a tile's samples.
 int64_t max_in_tile(const Edge& e, int tile_x, int tile_y, int size, const SampleSpan& span) {
   const int px = tile_x * size + (e.ey < 0 ? size - 1 : 0);
   const int py = tile_y * size + (e.ex > 0 ? size - 1 : 0);
@@ -81,7 +82,7 @@ void list_tiles(const PassContext& context, const Triangle& t, const PixelBounds
   const std::array<Edge, 3> edges{edge_of(t, 0), edge_of(t, 1), edge_of(t, 2)};
   for (int y = tiles.y0; y < tiles.y1; ++y) {
     for (int x = tiles.x0; x < tiles.x1; ++x) {
-      // The box of a triangle within one row or column of tiles is near enough.
+      // The bounding box is accurate enough if it is only one tile wide or high.
       const auto inside = [&](const Edge& e) { return max_in_tile(e, x, y, size, context.samples_at) - fill_bias(e) >= 0; };
       if (!one_row && !(inside(edges[0]) && inside(edges[1]) && inside(edges[2]))) continue;
       runs.put(x, y, index);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bin. In: a chunk's triangles. Out: for each tile of the chunk the triangles that may touch it, in submission order.
+// Binning. Input: the triangles of a chunk. Output: for each tile, the triangles that may touch it, in submission order.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace halfspace {
 
-/// Fills the bins of a chunk: list (tile, triangle) pairs, count them by tile, prefix sum, fill.
+/// Fills the bins of a chunk: lists (tile, triangle) pairs, counts them per tile, computes a prefix sum and copies the triangles.
 void bin_chunk(const PassContext& context, Chunk& chunk);
 
-/// The triangles of one tile, empty where the chunk has none there.
+/// Returns the triangles of one tile, or an empty span if the chunk has none there.
 std::span<const uint16_t> bin_of(const Chunk& chunk, int tile_x, int tile_y);
 
 }  // namespace halfspace

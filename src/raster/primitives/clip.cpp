@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// Distance-like value of a point to each plane: inside where ≥ 0. In the order in which planes are met.
+// Returns a value proportional to the distance of a corner from a plane, ≥ 0 on the inside. Planes are numbered in clipping order.
 double plane_distance(int plane, const Viewport& v, const DepthState& depth, const ClipDistances& user, const ClipCorner& corner) {
   const glm::dvec4& p = corner.pos_clip;
   if (plane >= kFixedPlanes) {
@@ -29,15 +29,15 @@ double plane_distance(int plane, const Viewport& v, const DepthState& depth, con
   }
 }
 
-// Where the edge meets the plane. Products of d and a vertex's coordinates are exact (two floats each), so every
-// coordinate of the corner keeps its relative accuracy however small it is beside the edge's ends.
+// Returns the intersection of an edge with a plane. If the distances are floats, their products with float coordinates are exact in
+// double. The coordinates of the corner then keep their relative accuracy even if they are much smaller than those of the end points.
 ClipCorner cut(const ClipCorner& inside, double d_in, const ClipCorner& outside, double d_out) {
   const double length = d_in - d_out;
   return {(d_in * outside.pos_clip - d_out * inside.pos_clip) / length, (d_in * outside.weights - d_out * inside.weights) / length};
 }
 
-// Where the edge meets w = kMinW: the point where w = 0, and the little way back from it towards the inside end. An edge
-// that leads straight into the eye, where x = y = w = 0, so keeps its direction.
+// Returns the intersection of an edge with w = kMinW: finds the point with w = 0 and moves back slightly towards the inside end. This
+// preserves the direction of an edge that goes straight through the eye, where x = y = w = 0.
 ClipCorner cut_at_min_w(const ClipCorner& inside, const ClipCorner& outside) {
   const double w_in = inside.pos_clip.w, w_out = outside.pos_clip.w;
   ClipCorner c = cut(inside, w_in, outside, w_out);
@@ -86,7 +86,7 @@ ClipPolygon whole_polygon(const std::array<glm::vec4, 3>& pos_clip, int count) {
   return polygon;
 }
 
-// Calls f for every plane that counts.
+// Calls f for every enabled plane.
 template <class F>
 void for_each_plane(const DepthState& depth, const ClipDistances& distances, F f) {
   for (int plane = 0; plane < kFixedPlanes + distances.count; ++plane) {
@@ -136,7 +136,7 @@ ScreenVertex project_corner(const Viewport& v, const glm::dvec4& p) {
 void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, const std::array<const float*, 3>& rows, int provoking,
                         const ShaderKernels& kernels, float* out) {
   const glm::dvec3& smooth = c.weights;
-  // Linear in the window: the weight of a vertex there is its clip-space weight times w over the corner's w.
+  // Linear in window space. The weight of a vertex is its clip-space weight times its w, divided by the w of the corner.
   const glm::dvec3 linear = glm::dvec3(smooth.x * w[0], smooth.y * w[1], smooth.z * w[2]) / c.pos_clip.w;
   for (int i = 0; i < kernels.varying_count; ++i) {
     if (kernels.interpolations[i] == Interpolation::flat) {

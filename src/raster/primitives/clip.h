@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clip. In: a triangle in clip space. Out: the convex polygon left of it inside w > 0, near, far and the guard band,
-// each corner as weights of the three vertices. Rare: only triangles that cross near, far or the guard band come here;
-// what crosses the sides of the view alone is cut by its pixel bounds.
+// Clipping. Input: a triangle or line in clip space. Output: the part inside w > 0, the near and far planes, the guard band and the clip
+// distances, as a convex polygon. Each corner is a weighted sum of the three vertices. Most triangles are not clipped: those that only
+// cross the sides of the view volume are clipped to their pixel bounds by the rasterizer.
 //
-// Sutherland and Hodgman, "Reentrant polygon clipping" (CACM 17, 1974), in double. A new corner is computed from the
-// inside end of its edge, and every triangle meets the planes in the same order, so two triangles that share an edge
-// get the same bits on it.
+// Uses the algorithm of Sutherland and Hodgman, "Reentrant polygon clipping" (CACM 17, 1974), in double precision. A new corner is always
+// computed from the inside end of its edge, and planes are processed in the same order for all triangles. Two triangles that share an edge
+// therefore get bit-identical corners on it.
 #pragma once
 
 #include <array>
@@ -15,17 +15,18 @@
 
 namespace halfspace {
 
-/// A triangle cut by n planes has at most 3 + n corners in exact arithmetic; rounding can bend an edge, and cut it twice.
+/// In exact arithmetic, clipping a triangle by n planes results in at most 3 + n corners. With rounding, an edge can be bent so that a
+/// plane cuts it twice.
 inline constexpr int kFixedPlanes = 7;
 inline constexpr int kClipPlanes = kFixedPlanes + 8;
 inline constexpr int kMaxCorners = 3 + 2 * kClipPlanes;
-/// Corners of what is left of a triangle cut by the fixed planes and that many clip distances.
+/// Returns the maximum number of corners of a triangle that is clipped by the fixed planes and by `clip_distances` other planes.
 constexpr int max_corners(int clip_distances) { return 3 + 2 * (kFixedPlanes + clip_distances); }
 
 struct ClipCorner {
   glm::dvec4 pos_clip;
-  glm::dvec3 weights;  ///< of the triangle's vertices: linear in clip space, summing to 1
-  int vertex = -1;     ///< the triangle's vertex that this corner is, or −1 where a plane cut an edge
+  glm::dvec3 weights;  ///< weights of the triangle's vertices: linear in clip space, with a sum of 1
+  int vertex = -1;     ///< the triangle's vertex at this corner, or −1 if the corner is on a plane
 };
 
 struct ClipPolygon {
@@ -33,44 +34,45 @@ struct ClipPolygon {
   int count = 0;  ///< 0: nothing is left
 };
 
-/// The clip distances of a primitive's vertices: `count` of each.
+/// Clip distances of a primitive's vertices, `count` per vertex.
 struct ClipDistances {
   std::array<const float*, 3> vertex{};
   int count = 0;
 };
 
-/// pos_clip finite. The polygon keeps the triangle's orientation.
+/// Clips a triangle. pos_clip must be finite. The polygon has the same orientation as the triangle.
 ClipPolygon clip_triangle(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip,
                           const ClipDistances& distances = {});
 
-/// The same of a line between the first two vertices: two corners, or none.
+/// Clips the line between the first two vertices. The result has two corners, or none.
 ClipPolygon clip_line(const Viewport& viewport, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip,
                       const ClipDistances& distances);
 
-/// The corner in window coordinates, snapped. Like a vertex's, its depth (and its varyings) stay those of the place before
-/// snapping, at most 1/512 px away in x and in y.
+/// Returns the snapped window position of a corner. As for other vertices, depth and varyings are not adjusted to the snapped position,
+/// which differs by at most 1/512 px in x and y.
 ScreenVertex project_corner(const Viewport& viewport, const glm::dvec4& pos_clip);
 
-/// Corner c's varyings: smooth and linear ones interpolated, flat ones the provoking vertex's. rows are the varyings
-/// of the three vertices, w their clip-space w.
+/// Writes the varyings of corner c to out. Smooth and linear varyings are interpolated, flat ones are taken from the provoking vertex.
+/// rows: varyings of the three vertices; w: their clip-space w.
 void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, const std::array<const float*, 3>& rows, int provoking,
                         const ShaderKernels& kernels, float* out);
 
-/// Twice the area of three corners: > 0 where they turn left.
+/// Returns twice the signed area of a triangle; it is positive for counter-clockwise triangles.
 inline int64_t orient2d(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
   return int64_t{b.x - a.x} * (c.y - a.y) - int64_t{b.y - a.y} * (c.x - a.x);
 }
 
-/// How a clipped polygon becomes a fan of triangles.
+/// Triangle fan of a clipped polygon.
 ///
-/// Snapping can bend a nearly straight corner inwards; a fan from elsewhere would turn a piece over and draw its samples
-/// twice. From `apex` all pieces turn one way. Where the outline of a sliver crosses itself there is no such corner; then
-/// pieces that turn against the whole are left out, and their samples remain drawn by the others.
+/// Snapping can bend a nearly straight corner inwards. A fan from the wrong corner would then contain triangles with the opposite winding,
+/// and some samples would be drawn twice. All triangles of a fan from `apex` have the same winding. If the outline of a sliver intersects
+/// itself, there is no such corner. Triangles with the opposite winding are then skipped; their samples are covered by the others.
 struct Fan {
   uint32_t apex = 0;
   bool counter_clockwise = false;
 };
 
+/// Finds the best fan for a polygon with `count` vertices.
 inline Fan fan_of(const ClipVertex* v, uint32_t count) {
   Fan fan;
   for (uint32_t apex = 0; apex < count; ++apex) {

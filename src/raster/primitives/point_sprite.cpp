@@ -20,7 +20,7 @@ void make_point_sprites(const Draw& draw, const float* clip, const float* extra,
     const double size = draw.kernels.gives_point_size ? row(extra, 0, i) : static_cast<double>(draw.state.point_size);
     const auto side = static_cast<int32_t>(std::nearbyint(std::fmin(std::fmax(size * kSubPixels, 0.0), 0x1p28)));
     int32_t x = screen[i].x, y = screen[i].y;
-    if ((outcodes[i] & kOutGuard) != 0) {  // the vertex stage gives no place to a centre so far out
+    if ((outcodes[i] & kOutGuard) != 0) {  // outside the guard band, the vertex stage does not compute a position
       x = snap(row(clip, 0, i) / row(clip, 3, i), v.half_width, v.center_x);
       y = snap(row(clip, 1, i) / row(clip, 3, i), v.half_height, v.center_y);
     }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points. In: their positions and sizes, or bounds, from the vertex function. Out: the rectangles that they cover.
+// Points. Input: positions and sizes, or bounds, from the vertex function. Output: the rectangles that the points cover.
 #pragma once
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 
-/// The rectangles of `count` points. clip and extra as in VertexBatch (extra is read where the kernels give a size or bounds).
+/// Computes the rectangles of `count` points. clip and extra have the layout of VertexBatch; extra is only read if the vertex function sets
+/// the size or bounds.
 void make_point_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen,
                         const Outcode* outcodes, PointSpriteRect* out);
 

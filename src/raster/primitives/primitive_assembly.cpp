@@ -7,7 +7,7 @@ namespace halfspace {
 
 namespace {
 
-// Primitives that n indices make.
+// Returns the number of primitives that n indices form.
 std::size_t primitives_of(Topology topology, std::size_t n) {
   switch (topology) {
     case Topology::points: return n;

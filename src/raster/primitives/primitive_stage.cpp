@@ -5,8 +5,8 @@ namespace halfspace {
 
 namespace {
 
-// The vertices of an unclipped triangle in the order in which they were submitted: setup turned them round so that they
-// are counter-clockwise from the smallest depth, and left a note of where the provoking vertex went.
+// Returns the vertices of an unclipped triangle in submission order. Setup has reordered them to be counter-clockwise from the smallest
+// depth, and has stored the position of the provoking vertex.
 std::array<uint32_t, 3> submitted_order(const Triangle& t, const DrawState& state) {
   const uint32_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   const bool kept_winding = t.is(kFrontFacing) == (state.front == Winding::counter_clockwise);
@@ -23,7 +23,7 @@ class DrawRangePrimitives {
   DrawRangePrimitives(const PassContext& context, const Chunk& chunk, const DrawRange& range)
       : chunk_(chunk), draw_(context.draws[range.draw]), shaded_(context.shaded[range.draw]) {}
 
-  // Rows of the varyings of triangle i's vertices as submitted; call for rising i.
+  // Returns the varyings of the submitted vertices of triangle i.
   std::array<const float*, 3> rows(uint32_t i) {
     const Triangle& t = chunk_.triangles[i];
     const bool is_piece = t.is(kClipped | kLine);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Primitive stage, for shaders that have one. In: a chunk's triangles. Out: Chunk::primitives, one row a triangle:
-// what the shader's primitive function makes of the varyings of the three vertices as submitted, a clipped triangle's
-// pieces sharing that of the whole.
+// Primitive stage, for shaders with a primitive function. Input: the triangles of a chunk. Output: Chunk::primitives, with one row per
+// triangle. The primitive function is called with the varyings of the three submitted vertices, so all pieces of a clipped triangle have
+// the same result.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace halfspace {
 
-/// Triangles for a primitive kernel: rows of varyings of the three vertices, in order of submission.
+/// Triangles for a primitive kernel: varyings of the three vertices, in submission order.
 struct PrimitiveBatch {
   const std::array<const float*, 3>* rows;
   int count;
-  float* out;  ///< count rows of primitive_count floats
+  float* out;  ///< output: count rows of primitive_count floats
 };
 
-/// Fills chunk.primitives for the segments whose draws have a primitive stage.
+/// Fills chunk.primitives for the draw ranges whose shader has a primitive function.
 void run_primitive_stage(const PassContext& context, Chunk& chunk);
 
 namespace detail {

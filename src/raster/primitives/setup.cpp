@@ -16,7 +16,7 @@ namespace halfspace {
 
 namespace {
 
-// Sets up the primitives of one segment.
+// Sets up the primitives of one draw range.
 class DrawRangeSetup {
  public:
   DrawRangeSetup(const PassContext& context, Chunk& chunk, uint32_t range)
@@ -64,18 +64,18 @@ class DrawRangeSetup {
 
   void submit_triangle() { submit_triangle(next_slots()); }
 
-  // The next W triangles, or what is left of them.
+  // Submits the next `count` triangles, at most W.
   void submit_triangles(int count) {
     const uint32_t unclipped = put_triangles(count);
     batch_.set_up(context_, draw_, shaded_, unclipped, provoking_, range_, chunk_.statistics);
-    const uint32_t single = (bits(first_lanes<Mask>(count)) & ~unclipped) | batch_.large();  // to be set up one by one
+    const uint32_t single = (bits(first_lanes<Mask>(count)) & ~unclipped) | batch_.large();  // lanes that are set up individually
     if (single == 0 && batch_.kept() == 0) return;
     if (single == 0) {
       const std::size_t first = chunk_.triangles.size();
       chunk_.triangles.resize(first + static_cast<std::size_t>(std::popcount(batch_.kept())));
       return batch_.write(&chunk_.triangles[first]);
     }
-    std::array<Triangle, kLanes> triangles;  // the kept ones
+    std::array<Triangle, kLanes> triangles;  // those that the batch has kept
     if (batch_.kept() != 0) batch_.write(triangles.data());
     const Triangle* next = triangles.data();
     for (uint32_t rest = single | batch_.kept(); rest != 0; rest &= rest - 1) {
@@ -91,7 +91,7 @@ class DrawRangeSetup {
  private:
   using ClipFunction = ClipPolygon (*)(const Viewport&, const DepthState&, const std::array<glm::vec4, 3>&, const ClipDistances&);
 
-  // Gives the next triangles to the batch. Which of them need no clipping?
+  // Adds the next triangles to the batch. Returns the lanes that need no clipping.
   uint32_t put_triangles(int count) {
     if (shaded_.any_outcode == 0 && put_at_once(count)) return bits(first_lanes<Mask>(count));
     uint32_t unclipped = 0;
@@ -107,7 +107,7 @@ class DrawRangeSetup {
     return unclipped;
   }
 
-  // Where the list lets them be found so; false if it does not.
+  // Adds the next triangles to the batch without looking up each index. Returns false if the index list does not allow this.
   bool put_at_once(int count) {
     if (const uint32_t* list = assembly_.next_list(static_cast<uint32_t>(count))) {
       batch_.put_list(list, count, slot_base_);
@@ -149,7 +149,7 @@ class DrawRangeSetup {
     if (why == Cull::no_sample) s.culled_no_sample += n;
   }
 
-  // The user's planes that a vertex lies beyond, as bits.
+  // Returns a bit mask of the clip distances for which a vertex is outside.
   uint32_t beyond_distances(uint32_t id) const {
     uint32_t beyond = 0;
     for (int k = 0; k < shaded_.clip_distance_count; ++k) {
@@ -214,12 +214,12 @@ class DrawRangeSetup {
     return Cull::none;
   }
 
-  // What the primitive stage needs to know of pieces from `before` on.
+  // Stores the source of the pieces from index `before` to the end, for the primitive stage.
   void note_source(std::size_t before, const std::array<uint32_t, 3>& id) {
     if (chunk_.triangles.size() != before) chunk_.clip_sources.push_back({static_cast<uint32_t>(before), id});
   }
 
-  // Clips a triangle or line, where it needs to be, and appends what is left of it.
+  // Clips a triangle or line if needed, and appends the pieces.
   void clip(const std::array<uint32_t, 3>& id, ClipFunction clip_primitive, bool needed) {
     alignas(64) std::array<float, 4 * kVertexBatch> rows;
     const std::array<uint32_t, 3> index{id[0] + slot_base_, id[1] + slot_base_, id[2] + slot_base_};
@@ -242,14 +242,15 @@ class DrawRangeSetup {
         polygon, id, {static_cast<double>(pos_clip[0].w), static_cast<double>(pos_clip[1].w), static_cast<double>(pos_clip[2].w)});
     const std::size_t before = chunk_.triangles.size();
     const Cull why = append_pieces(polygon, first, id);
-    if (chunk_.triangles.size() == before) count(why, 1);  // counted as culled only if no piece is left
+    if (chunk_.triangles.size() == before) count(why, 1);  // counts as culled only if no piece is left
     note_source(before, id);
   }
 
-  // The corners become clip vertices of the chunk; the first one's place. All carry the provoking vertex's flat values.
+  // Adds the corners to the chunk's clip vertices and returns the index of the first one. All of them get the flat varyings of the
+  // provoking vertex.
   uint32_t add_corners(const ClipPolygon& polygon, const std::array<uint32_t, 3>& id, const std::array<double, 3>& w) {
     const auto n = static_cast<std::size_t>(shaded_.varying_count);
-    const float* rows = shaded_.varyings.get();  // null where there are none
+    const float* rows = shaded_.varyings.get();  // null if there are no varyings
     const std::array<const float*, 3> varyings{rows + id[0] * n, rows + id[1] * n, rows + id[2] * n};
     const auto first = static_cast<uint32_t>(chunk_.clip_vertices.size());
     for (int i = 0; i < polygon.count; ++i) {
@@ -257,7 +258,7 @@ class DrawRangeSetup {
       const auto first_varying = static_cast<uint32_t>(chunk_.clip_varyings.size());
       chunk_.clip_varyings.resize(first_varying + n);
       interpolate_corner(c, w, varyings, static_cast<int>(provoking_), draw_.kernels, chunk_.clip_varyings.data() + first_varying);
-      // A corner of the triangle itself keeps the vertex stage's bits.
+      // Corners that are vertices of the triangle have exactly the result of the vertex stage.
       const bool cut = c.vertex < 0;
       const ScreenVertex screen = cut ? project_corner(draw_.viewport, c.pos_clip) : shaded_.screen[id[static_cast<std::size_t>(c.vertex)]];
       chunk_.clip_vertices.push_back({screen, first_varying});
@@ -279,7 +280,7 @@ class DrawRangeSetup {
     for (uint32_t i = 0; i < corners; ++i) {
       if (draw_.state.polygon_mode == PolygonMode::line) {
         why = append_clipped_line(first + i, first + (i + 1) % corners, facing);
-      } else if (const int vertex = polygon.corners[i].vertex; vertex >= 0) {  // corners that clipping made are no points
+      } else if (const int vertex = polygon.corners[i].vertex; vertex >= 0) {  // corners created by clipping are not drawn as points
         why = append_point(shaded_.sprites[id[static_cast<std::size_t>(vertex)]], screen_of(first + i), first + i, kClipped, facing);
       }
     }
@@ -300,7 +301,7 @@ class DrawRangeSetup {
     return why;
   }
 
-  // A line between two clip vertices; with several samples a pixel the two triangles of a rectangle.
+  // Appends a line between two clip vertices. If the pass is multisampled, the line is a rectangle of two triangles.
   Cull append_clipped_line(uint32_t a, uint32_t b, Facing facing) {
     if (context_.samples == 1) return append_line({&screen_of(a), &screen_of(b)}, {a, b}, kClipped, 0, facing);
     const ClipVertex from = chunk_.clip_vertices[a], to = chunk_.clip_vertices[b];
@@ -326,9 +327,9 @@ class DrawRangeSetup {
   const ShadedVertices& shaded_;
   Assembly assembly_;
   uint32_t instance_;
-  uint32_t slot_base_;  ///< a vertex's slot is its index less this (modulo 2^32)
+  uint32_t slot_base_;  ///< slot of a vertex = its index − slot_base_ (modulo 2^32)
   TriangleBatch batch_;
-  uint32_t provoking_;  ///< the provoking vertex's place among a primitive's three (of a line the second stands twice)
+  uint32_t provoking_;  ///< position of the provoking vertex among a primitive's three indices (a line repeats its second index)
 };
 
 }  // namespace

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Setup. In: a chunk's segments of index lists, and the shaded vertices. Out: Chunk::triangles (culled, clipped where
-// needed, wound counter-clockwise, with their depth coefficients; points and lines too), clip vertices and statistics.
+// Setup. Input: the draw ranges of a chunk and the shaded vertices. Output: Chunk::triangles, clip vertices and statistics. Triangles are
+// culled, clipped if necessary, and put in counter-clockwise order; then their depth coefficients are computed. Points and lines are
+// handled here as well.
 #pragma once
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 
-/// Fills chunk.triangles from chunk.segments.
+/// Fills chunk.triangles from chunk.ranges.
 void set_up_chunk(const PassContext& context, Chunk& chunk);
 
-/// Entries of Chunk::triangles that one primitive of a draw becomes, at the most.
+/// Returns the maximum number of elements of Chunk::triangles that one primitive of a draw can become.
 uint32_t max_triangles_per_primitive(const Draw& draw, int samples);
 
 }  // namespace halfspace

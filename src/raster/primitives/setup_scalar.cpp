@@ -12,7 +12,7 @@ namespace halfspace {
 
 namespace {
 
-// The smallest depth step that makes a difference: OpenGL 4.6, section 14.6.5.
+// Returns the smallest resolvable depth difference (OpenGL 4.6, section 14.6.5).
 double smallest_depth_step(DepthFormat format, float largest_z) {
   switch (format) {
     case DepthFormat::d16: return 1.0 / 65535.0;
@@ -22,14 +22,14 @@ double smallest_depth_step(DepthFormat format, float largest_z) {
 }
 
 struct DepthPlane {
-  double dz1, dz2;  // depth differences of vertices 1, 2 to vertex 0
+  double dz1, dz2;  // depth of vertices 1 and 2 relative to vertex 0
   double area;      // in (1/256 px)²
 };
 
 float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, const DepthPlane& p, float largest_z) {
   if (o.slope == 0.0f && o.constant == 0.0f) return 0.0f;
   double offset = 0.0;
-  if (o.slope != 0.0f) {  // 0·Inf is not NaN here: no slope term where none is asked for
+  if (o.slope != 0.0f) {  // skipped for a slope factor of 0, because 0·Inf would be NaN
     const double e1x = t.x[1] - t.x[0], e1y = t.y[1] - t.y[0], e2x = t.x[2] - t.x[0], e2y = t.y[2] - t.y[0];
     const double dz_dx = (e2y * p.dz1 - e1y * p.dz2) / p.area * kSubPixels;
     const double dz_dy = (e1x * p.dz2 - e2x * p.dz1) / p.area * kSubPixels;
@@ -57,7 +57,7 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
     if (is_culled(draw.state.cull, front)) return Cull::face;
   }
 
-  // Order: counter-clockwise, starting at the smallest depth; among equals at the first submitted.
+  // Put the vertices in counter-clockwise order, starting with the smallest depth.
   std::array<std::size_t, 3> order{0, 1, 2};
   if (area < 0) std::swap(order[1], order[2]);
   const float z_min = std::min({v[0]->z, v[1]->z, v[2]->z});

@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace {
 
-// Fetches the indices of a batch some batches on, which the list may not have: an address, never looked at.
+// Prefetches the indices of a later batch. The address may be past the end of the list, but it is never dereferenced.
 void prefetch_indices(const uint32_t* list) {
   constexpr std::size_t batch = 3 * kLanes * sizeof(uint32_t), line = 64;
   const auto ahead = reinterpret_cast<std::uintptr_t>(list) + 8 * batch;
@@ -63,7 +63,7 @@ void TriangleBatch::set_up(const PassContext& context, const Draw& draw, const S
   const uint32_t small = bits(max_of(x) - min_of(x) <= Int(kSmallExtent) && max_of(y) - min_of(y) <= Int(kSmallExtent));
   large_ = lanes & ~small;
   lanes &= small;
-  // Below 2·kSmallExtent² < 2^29.
+  // |area| is at most 2·kSmallExtent² < 2^29.
   const Int area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
   const Mask counter_clockwise = area > Int(0);
   const Mask clockwise = !counter_clockwise;
@@ -88,7 +88,7 @@ void TriangleBatch::set_up(const PassContext& context, const Draw& draw, const S
   kept_ = lanes;
   if (lanes == 0) return;
 
-  // Order: counter-clockwise, starting at the smallest depth; among equals at the first submitted.
+  // Put the vertices in counter-clockwise order, starting with the smallest depth.
   std::array<Int, 3> order{Int(0), Int(1), Int(2)};
   swap_lanes(clockwise, z[1], z[2]);
   swap_lanes(clockwise, v[1], v[2]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which pixels small triangles cover, and which triangles fall between the samples. Of small triangles many do (of half a pixel's area more
-// than half), and what is dropped in setup costs no bin and no tile anything.
+// Coverage of small triangles, to find their pixels and to cull those that cover no sample. Many small triangles fall between the samples:
+// more than half of those with an area of half a pixel. Culling them in setup saves the cost of binning and rasterization.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace halfspace {
 
-/// Boxes of at most so many pixels a side are asked sample by sample.
+/// Coverage is tested sample by sample for boxes of at most this many pixels per side.
 inline constexpr int kCoverSide = 4;
 
-/// Whose centres a triangle covers of the pixels of the box: bit kCoverSide·r + c for pixel c of row r. Lane by lane; R: float or Real. x,
-/// y: its corners in 1/256 px, counter-clockwise, at most kSmallExtent from each other. Of a box of more than kCoverSide pixels a side only
-/// the first ones are told.
+/// Returns the pixels of the box whose centers are covered by the triangle: bit kCoverSide·r + c is pixel c of row r. If the box has more
+/// than kCoverSide rows or columns, only the first kCoverSide are tested. R: float, or Real for one triangle per lane. x, y: corners in
+/// 1/256 px, counter-clockwise, with an extent of at most kSmallExtent.
 template <class R>
 HS_INLINE IntOf<R> covered_centers(const std::array<IntOf<R>, 3>& x, const std::array<IntOf<R>, 3>& y, const PixelBox<IntOf<R>>& box) {
   using I = IntOf<R>;
   constexpr int32_t center = kSubPixels / 2;
-  std::array<I, 3> row, step_x, step_y;  // the edge functions less the fill rule's bias (raster/pipeline/edge.h)
+  std::array<I, 3> row, step_x, step_y;  // edge functions minus the bias of the fill rule (raster/pipeline/edge.h)
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
     const I ex = x[b] - x[a], ey = y[b] - y[a];
@@ -44,7 +44,7 @@ HS_INLINE IntOf<R> covered_centers(const std::array<IntOf<R>, 3>& x, const std::
   return covered;
 }
 
-/// Those of a triangle as its flags hold them (Triangle::covered). centers: its covered_centers.
+/// Returns the flags of a triangle for Triangle::covered, or 0 if the box is too large. centers: result of covered_centers().
 template <class I>
 HS_INLINE I covered_flags(const PixelBox<I>& box, I centers) {
   constexpr int32_t rows = std::popcount(kCoveredBits) / kCoverSide;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A shader's vertex function on W vertices at a time.
+// Runs a shader's vertex function on W vertices at a time.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace detail {
 
-/// The attributes of W vertices; lanes beyond the batch repeat its last vertex.
+/// Loads the attributes of W vertices. ids: rows in the streams.
 template <class A>
 HS_INLINE A load_attributes(std::span<const VertexStream> streams, Int ids) {
   std::array<Real, kComponents<A>> components;
@@ -34,12 +34,12 @@ HS_INLINE A load_attributes(std::span<const VertexStream> streams, Int ids) {
   return from_components<A, Real>(components);
 }
 
-/// Writes varyings to the rows of `count` vertices.
+/// Writes the varyings of `count` vertices to their rows.
 template <std::size_t N>
 HS_INLINE void store_varyings(const std::array<Real, N>& components, float* const (&row)[kLanes], int count) {
   if constexpr (N >= 4) {
     alignas(64) std::array<float, 4> spare;
-    // The last four may hold some of the four before once more.
+    // The last group of four may overlap the previous one.
     for (std::size_t c = 0; c < N; c += 4) {
       const std::size_t first = std::min(c, N - 4);
       store_aos4<Int>(
@@ -65,7 +65,7 @@ HS_INLINE void store_extra(const PointSpriteVertex<Real>& v, float* rows) {
   store(rows + 3 * kVertexBatch, v.high.y);
 }
 
-/// with_extra: the point size, clip distances or point sprite that the vertex function gives are stored too.
+/// with_extra: also store the point size, clip distances or point sprite that the vertex function returns.
 template <class S, bool with_varyings, bool with_extra>
 HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
   using Attributes = typename S::template Attributes<Real>;

@@ -18,8 +18,8 @@ HS_INLINE Int outcode(const Viewport& v, const DepthState& depth, Real x, Real y
   const Real zero(0.0f);
   const Mask finite = (x - x == zero) & (y - y == zero) & (z - z == zero) & (w - w == zero);
   const Real z_low = depth.clip == ClipDepth::negative_one_to_one ? -w : zero;
-  // fma: the sign of x − guard·w must be the exact one, which the clip stage sees too. Were a vertex inside here and
-  // outside there, one of two neighbours would be cut at it and the other not.
+  // fma gives the exact sign of x − guard·w, which the clip stage also computes. If a vertex were inside here and outside there, one of two
+  // adjacent triangles would be clipped at the vertex and the other one would not.
   const Mask inside_guard = (fma(w, Real(-v.guard_left), x) >= zero) && (fma(w, Real(-v.guard_right), x) <= zero) &&
                             (fma(w, Real(-v.guard_bottom), y) >= zero) && (fma(w, Real(-v.guard_top), y) <= zero) && (w >= Real(kMinW));
   Int code = bit(x < -w, kOutLeft) | bit(x > w, kOutRight) | bit(y < -w, kOutBottom) | bit(y > w, kOutTop);
@@ -27,7 +27,8 @@ HS_INLINE Int outcode(const Viewport& v, const DepthState& depth, Real x, Real y
   return code | bit(!inside_guard, kOutGuard) | bit(!finite, kOutNonFinite);
 }
 
-// Clip space → window and outcodes, for the vertices whose clip positions are in the rows of `clip`. Gives the outcodes' union.
+// Transforms clip-space positions to window coordinates and outcodes. clip: four rows with x, y, z and w. Returns the union of the
+// outcodes.
 Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* screen, Outcode* outcodes) {
   const Viewport& v = draw.viewport;
   Int any(0);
@@ -40,7 +41,7 @@ Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* sc
     const Real inv_w = Real(1.0f) / w;
     const Int x_fixed = snap(x, w, inv_w, v.half_width, v.center_x);
     const Int y_fixed = snap(y, w, inv_w, v.half_height, v.center_y);
-    // The bound only matters with depth clamp, where z/w may overflow.
+    // The clamp only matters with depth clamp, where z/w can overflow.
     const Real z_window = clamp(fma(z * inv_w, Real(v.depth_scale), Real(v.depth_bias)), Real(-1e30f), Real(1e30f));
     const int rest = std::min(kLanes, count - begin);
     static_assert(sizeof(ScreenVertex) == 16 && offsetof(ScreenVertex, z) == 8);

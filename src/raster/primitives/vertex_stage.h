@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vertex stage. In: a draw's streams and the indices it uses. Out: ShadedVertices: window positions snapped to
-// 1/256 px, outcodes and varyings, each used vertex once.
+// Vertex stage. Input: the streams of a draw and the indices that it uses. Output: ShadedVertices with window positions snapped to
+// 1/256 px, outcodes and varyings. Each vertex that an instance uses is shaded once.
 #pragma once
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace {
 
-/// The transform of a draw's clip space to the window. viewport in pixels; depth range as in DepthState.
+/// Returns the transform from clip space to window coordinates. The viewport is in pixels.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
 
-/// Shades vertices [begin, end) of the list of vertices that the draw's indices use, instance after instance. Gives the union of
-/// their outcodes.
+/// Shades vertices [begin, end) in the list of vertices that the draw's indices use, with one instance after the other. Returns the union
+/// of their outcodes.
 Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out);
 
-/// Allocates out for all the vertices that the draw uses.
+/// Allocates memory for all vertices that the draw uses.
 void allocate_vertices(const Draw& draw, ShadedVertices& out);
 
 }  // namespace halfspace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Packets for a fragment kernel, each lane with the triangle it shows, and what the kernel returns: linear colours, and for shaders that
-// decide them keep masks and depths.
+// Input and output of fragment kernels. Input: packets of pixels, with a triangle for each lane. Output: linear colors, plus keep masks and
+// depths if the shader returns them.
 #pragma once
 
 #include <span>
@@ -13,37 +13,38 @@
 
 namespace halfspace {
 
-/// Packets that a fragment kernel shades in one call.
+/// Maximum number of packets per call of a fragment kernel.
 inline constexpr int kFragmentBatch = 16;
-static_assert(kFragmentBatch % 2 == 0, "two are shaded at a time");
+static_assert(kFragmentBatch % 2 == 0, "packets are shaded in pairs");
 
-/// Colours, and where the shader decides them keep masks and depths, of a batch.
+/// Colors of a batch, and keep masks and depths if the shader returns them.
 struct FragmentOutput {
   alignas(64) std::array<PacketColor, kFragmentBatch * kMaxColorTargets> color;  ///< see packet_color()
   alignas(64) std::array<Real, kFragmentBatch> depth;                            ///< if the shader writes depth
-  std::array<uint16_t, kFragmentBatch> keep;                                     ///< bit a lane; if the shader discards
+  std::array<uint16_t, kFragmentBatch> keep;                                     ///< one bit per lane; if the shader discards
 
-  /// The n-th colour of packet i.
+  /// Returns color n of packet i.
   PacketColor& packet_color(std::size_t n, std::size_t i) { return color[n * kFragmentBatch + i]; }
   const PacketColor& packet_color(std::size_t n, std::size_t i) const { return color[n * kFragmentBatch + i]; }
 };
 
+/// Packets for a fragment kernel.
 struct FragmentBatch {
   const PassContext* context;
-  int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's room
-  SamplePosition position;  ///< where in their pixels the shader looks
-  const TriangleId* ids;    ///< the tile's triangle of each pixel, or null: uniform_id everywhere
+  int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's storage
+  SamplePosition position;  ///< position within the pixel at which the shader is evaluated
+  const TriangleId* ids;    ///< triangle of each pixel of the tile; null if all pixels show uniform_id
   TriangleId uniform_id;
   const PacketMask* packets;
   int count;                        ///< ≤ kFragmentBatch
-  const SamplePosition* centroids;  ///< where centroid varyings are looked up, a row of W for each packet; or null: at position
+  const SamplePosition* centroids;  ///< positions of centroid varyings, W for each packet; null if the same as position
   FragmentOutput* out;
 };
 
-/// The colours of a draw whose shader is constant.
+/// Computes the colors of a draw with a constant shader and stores them as packet 0 of out.
 void constant_colors(const Draw& draw, FragmentOutput& out);
 
-/// Writes all colours of a batch, from its packet i on, to packets of the tile.
+/// Writes all colors of a batch, starting with its packet i, to packets of the tile.
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile);
 
 }  // namespace halfspace

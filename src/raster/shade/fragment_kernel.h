@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A shader's fragment and visibility functions on the packets of a batch, two side by side.
+// Runs a shader's fragment or visibility function on the packets of a batch, two packets at a time.
 #pragma once
 
 #include <algorithm>
@@ -9,19 +9,19 @@
 
 namespace halfspace::detail {
 
-/// A packet's pixels in the window, and where its shader looks.
+/// Window position of a packet, and the positions of its centroid varyings.
 struct PacketOrigin {
-  int x, y;                         ///< of its first pixel
-  const SamplePosition* centroids;  ///< where centroid varyings are looked up, one a lane; or null: where all are
+  int x, y;                         ///< of the first pixel
+  const SamplePosition* centroids;  ///< one per lane; null if the same as for all other varyings
 };
-/// The place of a batch's n-th packet, which is the tile's `packet`.
+/// Returns the origin of packet n of the batch, where `packet` is its index in the tile.
 template <class Batch>
 HS_INLINE PacketOrigin origin_of(const Batch& batch, int n, int packet) {
   return {batch.tile_x0 + packet_x(packet), batch.tile_y0 + packet_y(packet),
           batch.centroids == nullptr ? nullptr : batch.centroids + n * kLanes};
 }
 
-/// Sets up the Pixel of two packets and interpolates their varyings. at: where in their pixels; ids: what Pixel::z() reads.
+/// Sets up the Pixel of two packets and interpolates their varyings. at: position within the pixels; ids: triangles for Pixel::z().
 template <class S, std::size_t N, std::size_t P>
 HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::array<PacketOrigin, 2>& origins, const SamplePosition& at,
                                                                     const PacketTriangles<N, P>& t,
@@ -85,7 +85,7 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
   PacketTriangles<n, p> triangles;
   RecentTriangles<F> recent;
   for (int first = 0; first < batch.count; first += 2) {
-    const int second = std::min(first + 1, batch.count - 1);  // the last of an odd number is shaded twice
+    const int second = std::min(first + 1, batch.count - 1);  // if the count is odd, the last packet is shaded twice
     const PacketMask a = batch.packets[first], b = batch.packets[second];
     find_triangles<0>(batch, a, recent, triangles);
     find_triangles<1>(batch, b, recent, triangles);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The triangles of packets. A packet may show one triangle, a few, or a different one in every lane: the values of each are merged into the
-// lanes that show it, or gathered, so that a shader runs once.
+// Triangle data for packets. A packet can show one triangle, several, or a different one in each lane. The values of all triangles are
+// merged or gathered into the lanes that show them, so that the shader runs only once.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@ namespace halfspace {
 
 namespace detail {
 
-/// The scalars of the triangles that were asked for last: neighbouring packets show the same ones.
+/// Cache of recently used triangles. Adjacent packets usually show the same ones.
 template <class V>
 class RecentTriangles {
  public:
-  /// What the call before gave is left as it is.
+  /// Returns the values of a triangle. The result of the previous call remains valid.
   HS_INLINE const TriangleScalars<kComponents<V>>& of(const PassContext& context, TriangleId id) {
     uint32_t same = 0;
     for (std::size_t i = 0; i < kMaxCount; i += kLanes) same |= bits(load<Int>(&ids_[i]) == Int(std::bit_cast<int32_t>(id))) << i;
-    same &= ~(1u << next_);  // the call before may have given that
+    same &= ~(1u << next_);  // this entry is replaced next, so it must not be returned
     return same != 0 ? scalars_[static_cast<std::size_t>(std::countr_zero(same))] : add(context, id);
   }
 
@@ -44,20 +44,20 @@ class RecentTriangles {
 
   std::array<TriangleId, kMaxCount> ids_ = kNone;
   std::array<TriangleScalars<kComponents<V>>, kMaxCount> scalars_;
-  std::size_t next_ = 0;  ///< place of the next to be added
+  std::size_t next_ = 0;  ///< the entry that is replaced next
 };
 
-/// Everything two packets need of their triangles, lane by lane. P: components of the primitive stage's struct.
+/// Triangle values for two packets, per lane. P: number of components of the primitive stage's struct.
 template <std::size_t N, std::size_t P>
 struct PacketTriangles {
-  std::array<TriangleId, 2> only{kNoTriangle, kNoTriangle};  ///< where all lanes of a packet show one triangle, that
+  std::array<TriangleId, 2> only{kNoTriangle, kNoTriangle};  ///< the triangle, if all lanes of a packet show the same one
   TriangleLanes<FragmentReal> lanes;
   ComponentLanes<FragmentReal, N> components;
   std::array<FragmentReal, P> primitive;
   MaskOf<FragmentReal> front;
 };
 
-/// Calls put(lanes of packet i, which member of a struct with the same members they come from) for all.
+/// Calls put(value, member) for each value of packet i. member reads the same value from another struct.
 template <int i, class F>
 HS_INLINE void for_each_corner_value(TriangleLanes<FragmentReal>& t, F put) {
   put(half<i>(t.x0), [](const auto& s) { return s.x0; });
@@ -73,7 +73,7 @@ HS_INLINE void for_each_corner_value(TriangleLanes<FragmentReal>& t, F put) {
   put(half<i>(t.q_unscale), [](const auto& s) { return s.q_unscale; });
 }
 
-/// The same for all of a TriangleScalars.
+/// The same for all values in a TriangleScalars.
 template <int i, std::size_t N, std::size_t P, class F>
 HS_INLINE void for_each_value(PacketTriangles<N, P>& t, F put) {
   using S = TriangleScalars<N>;
@@ -86,22 +86,22 @@ HS_INLINE void for_each_value(PacketTriangles<N, P>& t, F put) {
   for (std::size_t k = 0; k < P; ++k) put(half<i>(t.primitive[k]), [k](const S& s) { return s.primitive[k]; });
 }
 
-/// One triangle's values to all lanes of packet i.
+/// Copies the values of one triangle to all lanes of packet i.
 template <int i, std::size_t N, std::size_t P>
 HS_INLINE void spread_triangle(const TriangleScalars<N>& s, PacketTriangles<N, P>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = Real(value(s)); });
   half<i>(out.front) = Mask(s.front);
 }
 
-/// Two triangles' values to packet i: the second's to the lanes that show it, the first's to all others, so that lanes without a triangle
-/// compute with finite values.
+/// Merges the values of two triangles into packet i. Lanes that show the second triangle get its values. All others get those of the first,
+/// so that lanes without a triangle compute with finite values.
 template <int i, std::size_t N, std::size_t P>
 HS_INLINE void merge_two(const TriangleScalars<N>& first, const TriangleScalars<N>& second, Mask shows_second, PacketTriangles<N, P>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows_second, Real(value(second)), Real(value(first))); });
   half<i>(out.front) = select(shows_second, Mask(second.front), Mask(first.front));
 }
 
-/// One more triangle's values to the lanes of packet i that show it.
+/// Copies the values of another triangle to the lanes of packet i that show it.
 template <int i, std::size_t N, std::size_t P>
 HS_INLINE void add_triangle(const TriangleScalars<N>& s, Mask shows, PacketTriangles<N, P>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows, Real(value(s)), lanes); });
@@ -109,7 +109,8 @@ HS_INLINE void add_triangle(const TriangleScalars<N>& s, Mask shows, PacketTrian
   front = select(shows, Mask(s.front), front);
 }
 
-/// Of up to four components of the rows that begin at `at`, from k on, those that are flat, or those that are not. The others mean nothing.
+/// Loads up to four consecutive components of the rows at `at`, starting with component k: the flat ones or all others. The remaining
+/// elements are unspecified.
 template <class V, std::size_t k, bool flat>
 HS_INLINE std::array<Real, 4> row_components(const float* varyings, Int at) {
   constexpr std::size_t count = std::min<std::size_t>(4, kComponents<V> - k);
@@ -130,7 +131,7 @@ HS_INLINE std::array<Real, 4> row_components(const float* varyings, Int at) {
   return row;
 }
 
-/// The components of rows, gathered into packet i.
+/// Gathers the components of the rows into packet i.
 template <int i, class V, std::size_t N, std::size_t P>
 HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>& out) {
   const auto gather_four = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
@@ -153,7 +154,7 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
   }
 }
 
-/// Of the lanes (a bit each) those whose triangle no lower one shows; beyond `most` of them any may be left out.
+/// Returns the first lane of each distinct triangle in `lanes`, as a bit mask. If there are more than max_triangles, some may be missing.
 template <class I>
 HS_INLINE uint32_t first_lane_of_each(I packet_ids, const TriangleId* ids, uint32_t lanes, int max_triangles) {
 #ifdef __AVX512CD__
@@ -171,10 +172,10 @@ HS_INLINE uint32_t first_lane_of_each(I packet_ids, const TriangleId* ids, uint3
   return firsts;
 }
 
-/// Triangles of a packet from which on they are gathered, not merged.
+/// Minimum number of triangles in a packet for which values are gathered instead of merged.
 inline constexpr int kGatherFrom = 3;
 
-/// The triangles of packet i one after the other, where gather_rows refuses them. firsts: a lane of each.
+/// Merges the triangles of packet i one by one. Used where gather_rows() fails. firsts: one lane of each triangle.
 template <int i, class V, std::size_t N, std::size_t P>
 __attribute__((noinline)) void merge_many(const PassContext& context, const TriangleId* ids, uint32_t firsts, RecentTriangles<V>& recent,
                                           PacketTriangles<N, P>& t) {
@@ -186,7 +187,8 @@ __attribute__((noinline)) void merge_many(const PassContext& context, const Tria
   }
 }
 
-/// The triangles of a packet, the i-th of t: one, two or many. t.only[i] is the one that t holds already, if it holds one alone.
+/// Finds the triangles of a packet and stores their values as packet i of t. Does nothing if t already contains the only triangle, as
+/// recorded in t.only[i].
 template <int i, class V, std::size_t N, std::size_t P>
 HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V>& recent, PacketTriangles<N, P>& t) {
   TriangleId& only = t.only[i];

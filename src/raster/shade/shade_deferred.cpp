@@ -10,12 +10,12 @@ namespace halfspace {
 
 namespace {
 
-// Which of the pixels that wait are shaded: those of draws that are shaded for each sample, or the others.
+// Selects the pending pixels to shade: those of draws that are shaded per pixel or per sample.
 enum class Share : uint8_t { per_pixel, per_sample };
 
-// The triangles of a cell of pixels that wait, and where they go.
+// One run over the pending pixels of a tile: the triangle of each pixel, and the samples that are written.
 struct Job {
-  const TriangleId* ids;  // by packet of the tile's room
+  const TriangleId* ids;  // indexed like the pixels of the tile's storage
   SamplePlane plane;
   SamplePosition position;
   Share share;
@@ -23,7 +23,7 @@ struct Job {
 
 bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
 
-// The pixels that wait, packet by packet; a packet that shows several draws appears once for each.
+// Lists the pending pixels by packet. A packet that shows several draws has an entry for each. Returns the number of entries.
 int list_work(const PassContext& context, const Tile& tile, const Job& job, std::array<ShadingWork, kMaxTilePixels>& work) {
   int count = 0;
   const bool whole = tile.size == kMaxTileSize;
@@ -57,7 +57,7 @@ int list_work(const PassContext& context, const Tile& tile, const Job& job, std:
   return count;
 }
 
-// Writes what was shaded once for a pixel to all its samples that show the triangle it was shaded for.
+// Writes the color of a pixel to all its samples that show the shaded triangle.
 void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, const PacketMask& packet, const TriangleId* ids,
                    Tile& tile) {
   const Int shaded = load<Int>(ids + static_cast<std::size_t>(packet.packet) * kLanes);
@@ -74,7 +74,7 @@ void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, c
 void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredShading& memory, PassStatistics& statistics) {
   std::array<ShadingWork, kMaxTilePixels>& work = memory.work;
   const int count = list_work(context, tile, job, work);
-  // By draw, so that each shader runs on full batches; pixels are independent, so the order makes no difference.
+  // Sort by draw, so that each shader runs on full batches. The order does not affect the result, because pixels are independent.
   const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   if (!std::is_sorted(work.begin(), work.begin() + count, by_draw)) std::stable_sort(work.begin(), work.begin() + count, by_draw);
   FragmentOutput out;
@@ -106,8 +106,8 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredSha
 
 constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
 
-// Takes from the samples of each pixel one triangle that is still to be shaded, by its first sample; false if there is none.
-// taken: the samples whose triangle has had its turn, as bits.
+// Selects one unshaded triangle of each pixel, in the order of its samples. Returns false if there is none left. taken: bit mask of the
+// samples whose triangle was selected before.
 bool next_layer(const PassContext& context, const Tile& tile, std::array<uint8_t, kMaxTilePixels>& taken,
                 std::array<TriangleId, kMaxTilePixels>& layer) {
   bool found = false;

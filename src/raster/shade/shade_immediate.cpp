@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// What the samples of one primitive share.
+// Data that all samples of a primitive share.
 struct ImmediateShading {
   const PassContext& context;
   const Draw& draw;
@@ -22,12 +22,12 @@ struct ImmediateShading {
   PassStatistics& statistics;
 };
 
-// OpenGL 4.6, section 17.3.1: the larger alpha, the more samples: the first round(alpha · samples).
+// OpenGL 4.6, section 17.3.1: alpha to coverage enables the first round(alpha · samples) samples.
 Mask alpha_covers(Real alpha, int samples, int sample) {
   return alpha * Real(static_cast<float>(samples)) >= Real(static_cast<float>(sample) + 0.5f);
 }
 
-// The tests that wait for the shader: which lanes of mask are drawn. Writes depth and stencil.
+// Runs the tests that come after the shader. Returns the lanes to draw; writes depth and stencil.
 Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask) {
   const DepthState& state = c.draw.state.depth;
   Real z(0.0f);
@@ -50,7 +50,7 @@ Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_
   return mask;
 }
 
-// Sample s of what was shaded as packet i of a batch.
+// Tests and writes sample s of packet i of a batch.
 void finish_sample(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
   Mask mask = mask_from_bits<Mask>(packet.lanes);
   if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
@@ -59,7 +59,7 @@ void finish_sample(const ImmediateShading& c, const FragmentOutput& out, std::si
   write_colors(c.draw, out, i, std::span(&drawn, 1), c.tile);
 }
 
-// Runs the fragment function over packets and hands each to finish(out, its place in the batch, packet).
+// Runs the fragment function on packets, and calls finish(out, index in the batch, packet) for each of them.
 template <class F>
 void shade_packets(const ImmediateShading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at,
                    F finish) {
@@ -83,7 +83,7 @@ void shade_packets(const ImmediateShading& c, const PacketMask* packets, int cou
   }
 }
 
-// Each sample by itself.
+// Shades each sample separately.
 void shade_samples(const ImmediateShading& c) {
   int begin = 0;
   for (int s = 0; s < c.tile.samples; ++s) {
@@ -95,9 +95,9 @@ void shade_samples(const ImmediateShading& c) {
   }
 }
 
-// Each pixel with a covered sample once.
+// Shades each pixel that has a covered sample once.
 void shade_pixels(const ImmediateShading& c) {
-  std::array<uint16_t, kPackets> covered{};  // by packet of the room
+  std::array<uint16_t, kPackets> covered{};  // per packet of the tile's storage
   std::array<uint16_t, kPackets> any_sample{};
   int begin = 0;
   for (int s = 0; s < c.tile.samples; ++s) {

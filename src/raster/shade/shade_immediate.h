@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Immediate shading, in submission order: what blends, and what only its fragment function can decide.
+// Immediate shading in submission order, for draws that blend or whose visibility is decided by the fragment function.
 #pragma once
 
 #include "halfspace/raster/shade/fragment_batch.h"
 
 namespace halfspace {
 
-/// Shades one triangle's packets now: late tests where needed, blending, colour write.
+/// Shades the packets of one triangle: runs the remaining tests, blends and writes colors.
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      PassStatistics& statistics);
 

@@ -27,7 +27,7 @@ std::unique_ptr<TileMemory> take() {
 
 }  // namespace
 
-// Not make_unique, which would clear what every tile sets itself.
+// make_unique would clear memory that is initialized for each tile anyway.
 TileMemoryLease::TileMemoryLease() : memory_(take()) {
   if (memory_ == nullptr) memory_.reset(new TileMemory);
 }

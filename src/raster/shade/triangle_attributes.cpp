@@ -10,8 +10,8 @@ namespace halfspace {
 
 namespace {
 
-// The triangle that interpolates over a sprite: its corners in the window, all as deep and as far as the point. From the first
-// corner to the second the point coordinate's s grows from 0 to 1, from the first to the third t.
+// Returns the triangle that is used for interpolation on a point sprite, with the depth and w of the point at all corners. The point
+// coordinate s increases from 0 to 1 between the first and second corner, t between the first and third.
 std::array<ScreenVertex, 3> point_sprite_corners(const Triangle& t, const ScreenVertex& point, PointOrigin origin) {
   const int32_t x0 = t.x[0], x1 = t.x[1] + 1;
   const bool upper = origin == PointOrigin::upper_left;
@@ -19,7 +19,7 @@ std::array<ScreenVertex, 3> point_sprite_corners(const Triangle& t, const Screen
   return {ScreenVertex{x0, first_y, point.z, point.inv_w}, {x1, first_y, point.z, point.inv_w}, {x0, other_y, point.z, point.inv_w}};
 }
 
-// The vertices of what is clipped, a point or a line.
+// Finds the vertices of a clipped triangle, a point or a line.
 void find_slow_vertices(const PassContext& context, const Chunk& chunk, const DrawRange& range, const Draw& draw, TriangleSource& s) {
   const Triangle& t = *s.triangle;
   for (std::size_t i = 0; i < (t.is(kLine) ? 2u : 3u); ++i) {
@@ -37,7 +37,7 @@ void find_slow_vertices(const PassContext& context, const Chunk& chunk, const Dr
     s.corners = point_sprite_corners(t, *s.vertex[0], draw.state.point_origin);
     for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
   }
-  if (t.is(kLine)) {  // the third corner lies beside the first and has its values
+  if (t.is(kLine)) {  // the third corner is next to the first and has the same values
     s.corners[2] = {t.x[2], t.y[2], s.vertex[0]->z, s.vertex[0]->inv_w};
     s.vertex[2] = &s.corners[2];
     s.varyings[2] = s.varyings[0];
@@ -45,7 +45,7 @@ void find_slow_vertices(const PassContext& context, const Chunk& chunk, const Dr
   }
 }
 
-// Lane by lane the triangle of ids; where `lanes` has none, the first that there is.
+// Returns the triangle of each lane. Lanes that are not in `lanes` repeat the first one.
 std::array<const Triangle*, kLanes> triangles_of(const PassContext& context, const TriangleId* ids, uint32_t lanes) {
   const TriangleId first = ids[std::countr_zero(lanes)];
   std::array<const Triangle*, kLanes> triangles;
@@ -143,7 +143,7 @@ bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lan
     y[k] = words[1];
     q[k] = as_real(words[3]);
   }
-  // Vertex 0 is the one with the smallest 1/w, the first of equals, as in triangle_scalars.
+  // Vertex 0 is the one with the smallest 1/w, or the first of several, as in triangle_scalars().
   const Mask two = (q[2] < q[0]) & (q[2] < q[1]), one = (q[1] < q[0]) & !two;
   rotate_lanes(one, two, x);
   rotate_lanes(one, two, y);

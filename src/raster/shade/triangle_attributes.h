@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the shader kernels read of a triangle: its vertices, varyings and primitive values, of one triangle or of a different one in every
-// lane.
+// Triangle data for the shader kernels (vertices, varyings, primitive values), for one triangle or for a different one in each lane.
 #pragma once
 
 #include "halfspace/raster/shade/fragment_batch.h"
@@ -9,43 +8,46 @@
 
 namespace halfspace {
 
-/// What the kernels read of one triangle, wherever it is kept.
+/// Data of one triangle, independent of how it is stored.
 struct TriangleSource {
   const Triangle* triangle;
   std::array<const ScreenVertex*, 3> vertex;
-  std::array<ScreenVertex, 3> corners;  ///< what vertex points to, of points and lines
+  std::array<ScreenVertex, 3> corners;  ///< for points and lines: the elements of vertex point here
   std::array<const float*, 3> varyings;
-  const float* flat_varyings;  ///< the provoking vertex's row
-  const float* primitive;      ///< the primitive stage's row, or null
-  float z_low;                 ///< the least depth in the window
+  const float* flat_varyings;  ///< row of the provoking vertex
+  const float* primitive;      ///< row of the primitive stage, or null
+  float z_low;                 ///< minimum depth in the window
 };
+/// Finds the data of a triangle.
 void find_triangle(const PassContext& context, TriangleId id, TriangleSource& out);
 
-/// What the kernels read where each lane may show another triangle: which rows of the draw's varyings.
+/// Varyings of a different triangle in each lane, as rows of the draw's varyings.
 struct TriangleRows {
   const float* varyings;
-  std::array<Int, 3> row;  ///< of the vertices, in the order of TriangleLanes
+  std::array<Int, 3> row;  ///< rows of the vertices, in the order of TriangleLanes
   Int provoking_row;
-  std::array<const float*, kLanes> primitive;  ///< the primitive stage's rows
+  std::array<const float*, kLanes> primitive;  ///< rows of the primitive stage
 };
-/// Gathers the triangles of `lanes` (not empty; all of one draw); other lanes repeat the first. False, and nothing is said, if
-/// one of them is clipped, a point or a line, or the draw has too many vertices for gathers.
+/// Gathers the triangles of `lanes`. lanes must not be empty, and all triangles must belong to the same draw. Other lanes repeat the first
+/// triangle. Returns false if a triangle is clipped, a point or a line, or if the draw has too many vertices; outputs are then unspecified.
 bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
                  TriangleRows& rows);
 
-/// Where Pixel::z() of a packet looks: the triangles of `lanes`.
+/// Triangles of a packet's lanes, for Pixel::z().
 struct PacketTriangleIds {
   const PassContext* context;
-  const TriangleId* ids;  ///< or null: uniform_id everywhere
+  const TriangleId* ids;  ///< null if all lanes show uniform_id
   TriangleId uniform_id;
   uint32_t lanes;
 };
-/// The window depth of a packet's pixels, at x and y px in the window, within an ulp of what the visibility stage tested.
+/// Returns the depth of a packet's pixels. x and y are window coordinates in pixels. The depth differs from the value used in the depth
+/// test by at most one ulp.
 Real packet_depth(Real x, Real y, const PacketTriangleIds& ids);
 
 namespace detail {
 
-/// 1/w of three vertices over a power of two near the largest: products with areas up to 2^47 then neither overflow nor underflow.
+/// 1/w of three vertices, divided by a power of two close to the largest value. This prevents overflow and underflow in products with areas
+/// of up to 2^47.
 template <class R>
 struct ScaledInverseW {
   R q0, q1, q2, unscale;
@@ -53,20 +55,20 @@ struct ScaledInverseW {
 template <class R>
 HS_INLINE ScaledInverseW<R> scaled(R q0, R q1, R q2) {
   const IntOf<R> exponent = as_int(max(q0, max(q1, q2))) & 0x7f800000;
-  const R scale = as_real(IntOf<R>(0x7f000000) - exponent);  // 2^(127 − e) for the largest in [2^(e−127), 2^(e−126))
+  const R scale = as_real(IntOf<R>(0x7f000000) - exponent);  // 2^(127 − e) if the largest is in [2^(e−127), 2^(e−126))
   return {q0 * scale, q1 * scale, q2 * scale, as_real(exponent)};
 }
 
-/// What interpolation needs of one triangle, before it is spread to lanes. Vertex 0 is the one with the smallest 1/w.
+/// Interpolation data of one triangle, before it is copied to lanes. Vertex 0 is the one with the smallest 1/w.
 template <std::size_t N>
 struct TriangleScalars {
   float x0, y0, e1x, e1y, e2x, e2y, area, q0, q1, q2, q_unscale;
   std::array<float, N> value0, delta1, delta2;
-  const float* primitive;  ///< the primitive stage's row, or null
+  const float* primitive;  ///< row of the primitive stage, or null
   bool front;
 };
 
-/// V is the Varyings struct with R = float, which tells how each component is interpolated.
+/// Computes the interpolation data of a triangle. V is the Varyings struct with R = float; it determines how components are interpolated.
 template <class V, std::size_t N = kComponents<V>>
 HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
   std::size_t a = 0;
@@ -99,6 +101,7 @@ HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
   return r;
 }
 
+/// The same for a triangle id.
 template <class V>
 HS_INLINE TriangleScalars<kComponents<V>> scalars_of(const PassContext& context, TriangleId id) {
   TriangleSource source;

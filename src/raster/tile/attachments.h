@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pass draws into, and what holds its values when the bins are flushed before the end of the pass.
+// Attachments of a pass, and the buffers that hold their values if the bins are flushed before the end of the pass.
 #pragma once
 
 #include <vector>
@@ -13,14 +13,14 @@ namespace halfspace {
 struct Attachments {
   std::vector<ColorTarget> colors;
   DepthTarget depth;
-  bool has_color = false;  ///< some colour attachment has a format
+  bool has_color = false;  ///< at least one color attachment has a format
   PostStep post;
-  // From flush to flush these hold what no image can: a target without one, or several samples per pixel.
+  // Values between flushes that images cannot hold: of attachments without an image or with several samples per pixel.
   std::vector<std::vector<std::byte>> color_spills;
   std::vector<std::byte> depth_spill;
 };
 
-/// One run over all tiles. There are several where the bins outgrow their budget.
+/// One run over all tiles. A pass has several rounds if the bins exceed their budget.
 struct Round {
   bool first, last;
 };

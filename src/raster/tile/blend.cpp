@@ -7,7 +7,7 @@ namespace halfspace {
 
 namespace {
 
-// What the factors are made of. Of fixed-point targets the last two are still to be clamped.
+// Values that blend factors refer to. With a fixed-point attachment, src1 and constant must be clamped before use.
 struct BlendSources {
   const PacketColor &src, &dst, &src1;
   const glm::vec4& constant;

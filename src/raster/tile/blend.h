@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Output merger. In: linear colours of packets. Out: the tile's colour memory: blended, converted to the target's
-// format and written where the mask says.
+// Output merger. Input: linear colors of packets. Output: the tile's color buffers. Colors are blended, converted to the format of the
+// attachment and written where the mask is set.
 #pragma once
 
 #include <span>
@@ -10,21 +10,21 @@
 
 namespace halfspace {
 
-/// The packet's colours, decoded to linear floats. The buffer's format is not none.
+/// Returns the colors of a packet as linear floats. The format of the buffer must not be none.
 PacketColor read_color(const ColorBuffer& buffer, int packet);
 
-/// The same for several packets, one of out each.
+/// The same for several packets. out has one element for each.
 void read_batch(const ColorBuffer& buffer, std::span<const PacketMask> packets, PacketColor* out);
 
-/// Writes the channels that the state names of src where mask says: blended with what is there if the state blends, else
-/// replacing it. src1 is the second colour of dual source blending (any, where no factor asks for it).
+/// Writes the channels of src that the state enables to the lanes in mask. Colors are blended with the existing ones if the state has a
+/// BlendState; otherwise they replace them. src1 is the second color for dual source blending; it is only read by src1 factors.
 void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1, const AttachmentState& state);
 
-/// The same for several packets, of which each has one of src and src1.
+/// The same for several packets. src and src1 have one element for each.
 void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                  const AttachmentState& state);
 
-/// Does a factor ask for the second colour?
+/// Returns true if a blend factor refers to the second color.
 bool uses_second_source(const BlendState& blend);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Post step: a functor on the finished colours of a tile while it is in cache, for tone mapping and encoding.
+// Post step: applies a functor to the final colors of a tile while it is in cache, for tone mapping and encoding.
 #pragma once
 
 #include <concepts>
@@ -13,7 +13,7 @@
 
 namespace halfspace {
 
-/// Packets of a tile at the end of the pass, and their colours, which the kernel replaces.
+/// Packets of a tile at the end of the pass, and their colors, which the kernel replaces.
 struct PostBatch {
   int tile_x0, tile_y0;  ///< window coordinates of the tile's pixel (0, 0)
   std::span<const PacketMask> packets;
@@ -22,14 +22,14 @@ struct PostBatch {
 
 using PostKernel = void (*)(const void* function, const PostBatch& batch);
 
-/// What Pass::post() asked for.
+/// Post step set by Pass::post().
 struct PostStep {
   std::shared_ptr<const void> function;
   PostKernel kernel = nullptr;  ///< null: the pass has no post step
-  ColorTarget target;           ///< the images' rows have target_width pixels
+  ColorTarget target;           ///< its image has the size of the pass
 };
 
-/// Sends the colours of the tile's first attachment through the functor and stores the result in the post target.
+/// Applies the functor to the colors of the tile's first attachment and stores the result in the post step's target.
 void run_post_step(const PostStep& post, int target_width, int target_height, const Tile& tile, ColorBuffer& scratch);
 
 namespace detail {

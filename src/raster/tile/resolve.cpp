@@ -12,7 +12,7 @@ void resolve_color(const Tile& tile, ColorBuffer& color) {
     for (int s = 0; s < tile.samples; ++s) {
       sums[static_cast<std::size_t>(s)] = read_color(color, p + packet_shift(sample_plane(tile.samples, s, tile.size)));
     }
-    // Two by two, so that samples of one colour have exactly that mean.
+    // Samples are added pairwise. If all have the same color, the mean is exactly that color.
     for (auto n = static_cast<std::size_t>(tile.samples); n > 1; n /= 2) {
       for (std::size_t i = 0; i < n / 2; ++i) {
         for (std::size_t k = 0; k < 4; ++k) sums[i][k] = sums[2 * i][k] + sums[2 * i + 1][k];

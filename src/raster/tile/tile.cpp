@@ -11,7 +11,7 @@ void refresh_hiz(Tile& tile, int block) {
     low = min(low, z);
     high = max(high, z);
   }
-  // Minimum and maximum are exact, so their order makes no difference: halves against halves.
+  // Reduce by halves: minimum and maximum do not depend on the order.
   alignas(64) std::array<float, kLanes> lows, highs;
   store(lows.data(), low);
   store(highs.data(), high);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sets pixels of images that get one colour, or the depth that the target is cleared to, without a tile.
+// Fills pixels of images with one color, or with the clear depth of the target, without using a tile.
 #include <algorithm>
 #include <bit>
 
@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// Fills bytes, a multiple of 64, with a line of 64.
+// Fills memory with a 64-byte line, using streaming stores. bytes must be a multiple of 64.
 void stream_lines(const std::byte* line, std::byte* out, std::size_t bytes) {
   const __m128i a = load<__m128i>(line), b = load<__m128i>(line + 16), c = load<__m128i>(line + 32), d = load<__m128i>(line + 48);
   for (std::size_t i = 0; i < bytes; i += 64) {
@@ -23,23 +23,23 @@ void stream_lines(const std::byte* line, std::byte* out, std::size_t bytes) {
   }
 }
 
-// Fills a long run of words. The processor's own loop writes whole cache lines without reading them first, and leaves them in the cache:
-// where it has some hundred KB before it, it is faster than stores past the caches.
+// Fills a long run of words. rep stos writes complete cache lines without reading them first, and keeps them in the cache. For runs of some
+// hundred KB or more, it is faster than streaming stores.
 void fill_words(std::byte* out, uint32_t word, std::size_t words) {
   asm volatile("rep stosl" : "+D"(out), "+c"(words) : "a"(word) : "memory");
 }
-constexpr std::size_t kLongRun = std::size_t{64} << 10;  // bytes
+constexpr std::size_t kLongRun = std::size_t{64} << 10;  // in bytes
 
-// Sets pixels of an image to one value.
+// Sets pixels of an image to the same value.
 template <class T>
 void fill_rows(T value, std::byte* data, int width, int height, const PixelBounds& pixels) {
   const auto at = [&](int y) {
     return data +
            (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixels.x0)) * sizeof(T);
   };
-  auto bytes = static_cast<std::size_t>(pixels.x1 - pixels.x0) * sizeof(T);  // of a run
+  auto bytes = static_cast<std::size_t>(pixels.x1 - pixels.x0) * sizeof(T);  // per run
   int runs = pixels.y1 - pixels.y0;
-  if (pixels.x1 - pixels.x0 == width) {  // rows that follow each other
+  if (pixels.x1 - pixels.x0 == width) {  // complete rows are contiguous
     bytes *= static_cast<std::size_t>(runs);
     runs = 1;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the formats of colour and depth targets look like in a tile and in an image: the codecs of all of them.
+// Codecs of the color and depth formats. Tiles and images store some formats differently.
 #pragma once
 
 #include <cstring>
@@ -11,11 +11,11 @@
 
 namespace halfspace {
 
-// ---- colour ----------------------------------------------------------------------------------------------------
+// ---- color -----------------------------------------------------------------------------------------------------
 
 constexpr bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
 
-/// Plane k of a buffer of planes, or plane 0 of one of 8-bit codes.
+/// Returns plane k of a planar buffer, or plane 0 for 8-bit formats.
 template <class T>
 T* plane(ColorBuffer& b, int k) {
   return reinterpret_cast<T*>(b.bytes.data()) + k * kMaxTilePixels;
@@ -60,14 +60,14 @@ HS_INLINE void store_halves(uint16_t* p, I h, M mask) {
   }
 }
 
-/// A colour's four codes, red lowest.
+/// Returns the 8-bit codes of the four channels in one word, with red in the lowest byte.
 template <ColorFormat format>
 HS_INLINE Int packed_codes(const PacketColor& c) {
   return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
          encode8(format, c[3], true) << 24;
 }
 
-/// Channel k of the packet at `first`, decoded to linear floats.
+/// Returns channel k of the packet that starts with pixel `first`, as linear floats.
 template <ColorFormat format>
 HS_INLINE Real read_channel(const ColorBuffer& buffer, std::size_t first, int k) {
   if constexpr (format == ColorFormat::rgba32f) {
@@ -79,17 +79,18 @@ HS_INLINE Real read_channel(const ColorBuffer& buffer, std::size_t first, int k)
   }
 }
 
-/// One pixel of a colour target, as an image holds it: bytes_per_pixel(format) bytes.
+/// A color as stored in an image. Only bytes_per_pixel(format) bytes are used.
 using PixelBytes = std::array<std::byte, 16>;
 PixelBytes encode_pixel(ColorFormat format, const PacketColor& color);
 
-/// Sets every pixel of the buffer, whose format is not none, to one colour.
+/// Fills the buffer with one color.
 void fill_buffer(ColorBuffer& buffer, const PacketColor& color);
 
 // ---- depth -----------------------------------------------------------------------------------------------------
 
-/// A depth in [0, 1] as the format's value (see Tile::depth): unorm codes rounded to the nearest, once. Beside 2^23 the
-/// last bit of a float weighs 1, so that the fma's own rounding gives whole numbers; from there on the product's does.
+/// Returns a depth in [0, 1] as represented by the format (see Tile::depth). unorm codes are rounded to nearest with a single rounding. The
+/// sum of a code below 2^23 and 2^23 has no fraction bits, so the rounding of the fma produces an integer. For larger codes, the rounding
+/// of the product does the same.
 template <Number R>
 HS_INLINE R depth_value(DepthFormat format, R z) {
   const R beside(0x1p23f);
@@ -101,7 +102,7 @@ HS_INLINE R depth_value(DepthFormat format, R z) {
   return z;
 }
 
-// One pixel's depth and stencil, as an image holds them and as a tile does.
+// Depth and stencil of one pixel, converted between image and tile.
 struct Depth16 {
   using Image = uint16_t;
   static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the pixels of a tile lie in an image.
+// Mapping between the pixels of a tile and the pixels of an image.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@ constexpr std::array<uint8_t, kPixelsPerBlock> make_z_order() {
   for (int i = 0; i < kPixelsPerBlock; ++i) place[static_cast<std::size_t>(block_y(i) * kBlockSize + block_x(i))] = static_cast<uint8_t>(i);
   return place;
 }
-// Where pixel (x, y) of a block lies: [8·y + x].
+// Index of pixel (x, y) in a block: kZOrder[8·y + x].
 inline constexpr std::array<uint8_t, kPixelsPerBlock> kZOrder = make_z_order();
 
-// Calls f(pixel of the tile, pixel of the image, count) for every row of every block, cut to the target: count pixels, whose
-// places in the tile are the first one's plus kZOrder[0 … count − 1]. So for every sample; images of one sample give and
-// take the first one's.
+// Calls f(pixel of the tile, pixel of the image, count) for each row of each block, clipped to the target. The row has `count` pixels; in
+// the tile, they are at the first one's index plus kZOrder[0 … count − 1]. This is done for each sample. With ImageSamples::one, all
+// samples use the same pixels of the image.
 template <class F>
 HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_height, ImageSamples stored, int samples, F f) {
   for (int s = 0; s < samples; ++s) {
@@ -40,11 +40,11 @@ HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_heigh
   }
 }
 
-// Calls f(pixel of the tile, pixel of the image) for each.
+// Calls f(pixel of the tile, pixel of the image) for each pixel.
 template <class F>
 HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_height, ImageSamples stored, int samples, F f) {
   for_each_row(tile, target_width, target_height, stored, samples, [&](std::size_t first, std::size_t out, int pixels) {
-    if (pixels == kBlockSize) {  // places known when compiling
+    if (pixels == kBlockSize) {  // offsets are compile-time constants
       for (std::size_t i = 0; i < kBlockSize; ++i) f(first + kZOrder[i], out + i);
     } else {
       for (std::size_t i = 0; i < static_cast<std::size_t>(pixels); ++i) f(first + kZOrder[i], out + i);
@@ -52,8 +52,8 @@ HS_INLINE void for_each_pixel(const Tile& tile, int target_width, int target_hei
   });
 }
 
-// for_each_pixel for images of 32 bits a pixel: two neighbours, which lie side by side in both, at a time. load: image to
-// tile, else tile to image.
+// The same as for_each_pixel() for images with 32 bits per pixel. Copies two horizontal neighbors at a time, which are adjacent in both
+// tile and image. load: copy from the image to the tile, otherwise from the tile to the image.
 template <bool load, class TileBytes, class ImageBytes>
 void copy_words(const Tile& tile, int target_width, int target_height, ImageSamples stored, int samples, TileBytes* in_tile,
                 ImageBytes* in_image) {
@@ -75,23 +75,25 @@ void copy_words(const Tile& tile, int target_width, int target_height, ImageSamp
   });
 }
 
-// An image that a tile is loaded from or stored to.
+// Layout of an image that a tile is loaded from or stored to.
 struct ImageLayout {
   int width, height;
   ImageSamples stored;
 };
 
-// Images from this size on are larger than the caches next to a core. What is written to them goes past these caches, which saves reading
+// Images of at least this size are larger than the L2 cache. They are written with streaming stores, which bypass the cache and do not read
 // each line first.
 inline constexpr std::size_t kStreamBytes = std::size_t{4} << 20;
 
+// Returns true if the image is large and suitably aligned for streaming stores.
 inline bool streams(const std::byte* data, int width, int height, int bytes) {
   const auto row = static_cast<std::size_t>(width) * static_cast<std::size_t>(bytes);
   return row * static_cast<std::size_t>(height) >= kStreamBytes && row % 64 == 0 && reinterpret_cast<uintptr_t>(data) % 64 == 0;
 }
 
-// Calls f(first pixel in the tile, and of its two rows in the image) for each two rows of `columns` pixels, 2 or 4, which lie side by
-// side in the tile, quad by quad; images of one sample, the first one's. False, and nothing is done, if the tile has a part of such.
+// Calls f(t, i0, i1) for each group of `columns` (2 or 4) pixels in two rows. The pixels are adjacent in the tile, quad by quad. t is the
+// first pixel in the tile; i0 and i1 are the offsets of its lower and upper row in the image, in channels (four per pixel). Returns false
+// and does nothing if the tile is multisampled or contains incomplete groups.
 template <int columns, class F>
 HS_INLINE bool for_each_two_rows(const Tile& tile, const ImageLayout& place, F f) {
   if (tile.samples != 1 || tile.width % columns != 0 || tile.height % 2 != 0) return false;

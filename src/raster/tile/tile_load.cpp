@@ -22,7 +22,7 @@ void load_planes(const std::byte* data, const ImageLayout& place, const Tile& ti
   });
 }
 
-// Pixels of four 16-bit values, a quad at a time: two pixels of a row above two of the next, side by side in the tile.
+// Loads a quad of pixels with four 16-bit channels: two pixels of each row, adjacent in the tile.
 HS_INLINE void split_quad(const uint16_t* row0, const uint16_t* row1, uint16_t* to) {
   const __m128i a = load<__m128i>(row0), b = load<__m128i>(row1);
   const __m128i even = _mm_unpacklo_epi16(a, b), odd = _mm_unpackhi_epi16(a, b);  // r0 r2 g0 g2 …, r1 r3 g1 g3 …
@@ -34,7 +34,7 @@ HS_INLINE void split_quad(const uint16_t* row0, const uint16_t* row1, uint16_t* 
 }
 
 #ifdef __AVX2__
-// Two quads at once.
+// Loads two quads.
 HS_INLINE void split_two_quads(const uint16_t* row0, const uint16_t* row1, uint16_t* to) {
   const __m256i a = load<__m256i>(row0), b = load<__m256i>(row1);
   const __m256i even = _mm256_unpacklo_epi16(a, b), odd = _mm256_unpackhi_epi16(a, b);
@@ -63,7 +63,7 @@ void load_half_planes(const std::byte* data, const ImageLayout& place, const Til
 void load_color(const ColorTarget& target, int width, int height, ImageSamples stored, const Tile& tile, ColorBuffer& color) {
   color.format = target.format;
   if (target.format == ColorFormat::none) return;
-  if (target.load == LoadOp::dont_care) {  // zeros, so that even pixels that nothing draws are the same in every run
+  if (target.load == LoadOp::dont_care) {  // zeros, so that undrawn pixels are deterministic
     std::fill_n(color.bytes.data(), kMaxTilePixels * bytes_per_pixel(target.format), std::byte{0});
     return;
   }
@@ -93,7 +93,7 @@ void load_depth(const DepthTarget& target, int width, int height, ImageSamples s
     if (tile.has_stencil) tile.stencil.fill(target.stencil_clear_value);
     return;
   }
-  tile.depth.fill(0.0f);  // pixels beyond the target
+  tile.depth.fill(0.0f);  // for pixels outside the target
   if (tile.has_stencil) tile.stencil.fill(0);
   with_codec(target.format, [&]<class C>(C) {
     const auto* image = reinterpret_cast<const typename C::Image*>(target.data);

@@ -10,9 +10,10 @@ namespace halfspace {
 namespace {
 
 #ifdef __AVX2__
-// copy_words to a large image, of a whole tile of one sample: two rows of eight pixels at a time.
+// The same as copy_words() for a full-size tile with one sample and a large image. Writes two rows of eight pixels at a time, with
+// streaming stores.
 void stream_words(const Tile& tile, int target_width, int target_height, const std::byte* in_tile, std::byte* in_image) {
-  const __m256i rows = _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7);  // Z order to one row of four and the next
+  const __m256i rows = _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7);  // Z-order to two rows of four pixels
   const std::size_t pitch = static_cast<std::size_t>(target_width) * 4;
   for (int y = 0; y < kMaxTileSize; y += 2) {
     std::byte* out = in_image + static_cast<std::size_t>(target_height - 1 - (tile.y0 + y)) * pitch + static_cast<std::size_t>(tile.x0) * 4;
@@ -25,11 +26,11 @@ void stream_words(const Tile& tile, int target_width, int target_height, const s
       _mm256_stream_si256(reinterpret_cast<__m256i*>(out - pitch), _mm256_permute2x128_si256(left, right, 0x31));
     }
   }
-  _mm_sfence();  // streamed stores are not ordered before the end of the task by anything else
+  _mm_sfence();  // otherwise streaming stores may not be visible at the end of the task
 }
 #endif
 
-// Tile to image, 32 bits a pixel.
+// Copies a tile to an image with 32 bits per pixel.
 void store_words(const Tile& tile, int width, int height, ImageSamples stored, int samples, const std::byte* in_tile, std::byte* in_image) {
 #ifdef __AVX2__
   const bool whole = tile.samples == 1 && tile.width == kMaxTileSize && tile.height == kMaxTileSize;
@@ -62,9 +63,9 @@ HS_INLINE void join_quad(const uint16_t* from, uint16_t* row0, uint16_t* row1) {
 }
 
 #ifdef __AVX2__
-// Two quads at once.
+// Stores two quads.
 HS_INLINE void join_two_quads(const uint16_t* from, uint16_t* row0, uint16_t* row1) {
-  // of a plane: the first quad in the low half, the second in the high one
+  // In each plane, the first quad is in the low half and the second one in the high half.
   const auto plane = [&](int k) {
     return _mm256_permute4x64_epi64(_mm256_castsi128_si256(load<__m128i>(from + k * kMaxTilePixels)), 0b11011000);
   };
@@ -99,7 +100,7 @@ void store_color(const ColorTarget& target, int width, int height, ImageSamples 
 
 void store_depth(const DepthTarget& target, int width, int height, ImageSamples stored, const Tile& tile) {
   if (target.format == DepthFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
-  if (target.format == DepthFormat::d32f) {  // as the tile holds it
+  if (target.format == DepthFormat::d32f) {  // stored as in the tile
     store_words(tile, width, height, stored, stored_samples(tile, stored), reinterpret_cast<const std::byte*>(tile.depth.data()),
                 target.data);
     return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A primitive's edge functions in the blocks and packets of a tile.
+// Edge functions of a primitive in the blocks and packets of a tile.
 #pragma once
 
 #include <algorithm>
@@ -23,13 +23,14 @@ constexpr std::array<std::array<uint16_t, kPacketColumns>, kPacketRows> make_pac
 inline constexpr auto kPacketPlaces = make_packet_places();
 }  // namespace detail
 
-/// The packet that holds pixel (x, y) of the tile's room.
+/// Returns the packet that contains pixel (x, y) of the tile's storage.
 HS_INLINE int packet_at(int x, int y) {
   return detail::kPacketPlaces[static_cast<std::size_t>(y / kPacketHeight)][static_cast<std::size_t>(x / kPacketWidth)];
 }
 
 enum class BlockCoverage : uint8_t { none, some, whole };
 
+/// Edge functions of a primitive, evaluated for pixels, packets and blocks of the tile's storage.
 struct BlockEdges {
   explicit BlockEdges(const TileEdges& edges) : at(edges) {
     constexpr int32_t last = kBlockSize - 1;
@@ -39,7 +40,7 @@ struct BlockEdges {
       fall[i] = std::min(0, at.step_x[i] * last) + std::min(0, at.step_y[i] * last);
     }
   }
-  /// Edge i at pixel (x, y) of the tile's room; and at a packet's pixels.
+  /// value() returns edge i at pixel (x, y); values() returns it for all pixels of a packet.
   int32_t value(std::size_t i, int x, int y) const { return at.e[i] + at.step_x[i] * x + at.step_y[i] * y; }
   HS_INLINE Int values(std::size_t i, int packet_x, int packet_y) const { return lanes[i] + value(i, packet_x, packet_y); }
   HS_INLINE Mask inside(int packet_x, int packet_y) const {
@@ -47,10 +48,11 @@ struct BlockEdges {
   }
 
   const TileEdges& at;
-  std::array<Int, 3> lanes;           ///< what is added from a packet's corner to its pixels
-  std::array<int32_t, 3> rise, fall;  ///< from a block's corner to the largest and the least value in it
+  std::array<Int, 3> lanes;           ///< offsets from the corner of a packet to its pixels
+  std::array<int32_t, 3> rise, fall;  ///< offsets from the corner of a block to the largest and smallest value in it
 };
 
+/// Returns how much of the block with corner (x, y) is inside all edges.
 inline BlockCoverage block_coverage(const BlockEdges& edges, int x, int y) {
   bool whole = true;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -61,7 +63,7 @@ inline BlockCoverage block_coverage(const BlockEdges& edges, int x, int y) {
   return whole ? BlockCoverage::whole : BlockCoverage::some;
 }
 
-/// Pixels of the tile's room, half open.
+/// Half-open rectangle of pixels in the tile's storage.
 struct TileRect {
   int x0, y0, x1, y1;
 };

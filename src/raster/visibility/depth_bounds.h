@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hierarchical depth: what the bounds of the depths stored in a block or a tile say of a triangle's depths.
+// Hierarchical Z: compares the depth range of a triangle with the bounds of the depth stored in a block or tile.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 
 namespace halfspace {
 
-/// Writes after which a block's bounds are made exact again before they are asked: a refresh costs about one packet.
+/// Number of writes after which the bounds of a block are recomputed before the next test. This costs about as much as one packet.
 inline constexpr uint8_t kRefreshAfter = 8;
 
 enum class BlockTest : uint8_t { none_passes, some_may, all_pass };
 
-/// What bounds of stored depths say of values in [low, high].
+/// Compares depths in [low, high] with the bounds of stored depths.
 inline BlockTest test_bounds(CompareOp op, float low, float high, float hiz_min, float hiz_max) {
   const auto say = [](bool none, bool all) { return none ? BlockTest::none_passes : all ? BlockTest::all_pass : BlockTest::some_may; };
   switch (op) {
@@ -30,9 +30,9 @@ inline BlockTest test_bounds(CompareOp op, float low, float high, float hiz_min,
   return BlockTest::some_may;
 }
 
-/// Remembers that values in [low, high] that passed the test were written to a block.
+/// Updates the bounds of a block after depths in [low, high] passed the test and were written.
 HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, float low, float high) {
-  // What passes LESS only lowers the values, what passes GREATER only raises them.
+  // LESS can only lower the stored depth, GREATER can only raise it.
   const bool lowers = op == CompareOp::less || op == CompareOp::less_equal;
   const bool raises = op == CompareOp::greater || op == CompareOp::greater_equal;
   const auto b = static_cast<std::size_t>(block);
@@ -41,13 +41,14 @@ HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, float low, float h
   if (tile.hiz_writes[b] < kRefreshAfter) ++tile.hiz_writes[b];
 }
 
+/// Compares depths in [low, high] with the depth of a block. Recomputes its bounds if necessary.
 inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high) {
   const auto b = static_cast<std::size_t>(block);
   if (tile.hiz_writes[b] >= kRefreshAfter) refresh_hiz(tile, block);
   return test_bounds(op, low, high, tile.hiz_min[b], tile.hiz_max[b]);
 }
 
-/// The same of all blocks together.
+/// Compares depths in [low, high] with the depth of the whole tile.
 inline BlockTest test_tile(CompareOp op, const Tile& tile, float low, float high) {
   Real low_lanes = load<Real>(tile.hiz_min.data()), high_lanes = load<Real>(tile.hiz_max.data());
   for (int b = kLanes; b < kBlocks; b += kLanes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The depth of a triangle at the samples of a tile.
+// Depth of a triangle at the samples of a tile.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// Bounds of a triangle's depths, as Tile::depth holds them.
+/// Bounds of a triangle's depth, represented as in Tile::depth.
 struct DepthBounds {
   float low, high;
 };
@@ -19,7 +19,7 @@ inline DepthBounds depth_bounds(const Triangle& t, const Draw& draw, DepthFormat
   return {depth_value(format, std::clamp(t.z0, draw.depth_low, high)), depth_value(format, high)};
 }
 
-/// The depth of a triangle at the samples of packets.
+/// Computes the depth of a triangle at the samples of packets. `small` is true for triangles with kSmall.
 template <bool small>
 class DepthPlane {
  public:
@@ -43,7 +43,7 @@ class DepthPlane {
     }
   }
 
-  // x, y: the packet's place in the tile's room; edges: its BlockEdges.
+  // x, y: position of the packet in the tile's storage; edges: BlockEdges of the triangle.
   template <class E>
   HS_INLINE Real at(const E& edges, int x, int y) const {
     Real w1, w2;

@@ -31,7 +31,7 @@ Int apply(StencilOp op, Int value, Int reference) {
 
 Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask) {
   const Int read(face.read_mask);
-  const Real reference = to_real<Real>(Int(face.reference) & read);  // whole numbers to 255 are exact
+  const Real reference = to_real<Real>(Int(face.reference) & read);  // integers up to 255 are exact in float
   return mask & compare(face.compare, reference, to_real<Real>(load_values(tile, packet) & read));
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stencil. In: a packet's samples. Out: those that pass the stencil test, and the tile's stencil values after what became of
-// each sample (OpenGL 4.6, section 17.3.3).
+// Depth comparison and stencil test. Input: the samples of a packet. Output: the samples that pass the stencil test, and the updated
+// stencil values of the tile (OpenGL 4.6, section 17.3.3).
 #pragma once
 
 #include "halfspace/raster/tile/tile.h"
 
 namespace halfspace {
 
-/// z against the stored value, lane by lane (OpenGL 4.6, section 17.3.4). NaN passes not_equal and always only.
+/// Compares z with the stored depth in each lane (OpenGL 4.6, section 17.3.4). NaN only passes not_equal and always.
 template <Number R>
 HS_INLINE MaskOf<R> compare(CompareOp op, R z, R stored) {
   switch (op) {
@@ -24,13 +24,13 @@ HS_INLINE MaskOf<R> compare(CompareOp op, R z, R stored) {
   return false;
 }
 
-/// Which lanes of mask pass the test.
+/// Returns the lanes of mask that pass the stencil test.
 Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask);
 
-/// Changes the stencil values of the lanes that failed the stencil test, failed the depth test after it, or passed both.
+/// Updates the stencil values of lanes that failed the stencil test, that failed the depth test, and that passed both.
 void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed, Mask depth_failed, Mask passed);
 
-/// The face's state where a draw tests the stencil of this tile, else null.
+/// Returns the stencil state of a face, or null if the draw has no stencil test in this tile.
 inline const StencilFace* stencil_face(const DrawState& state, const Tile& tile, bool front_facing) {
   if (!state.stencil || !tile.has_stencil) return nullptr;
   return front_facing ? &state.stencil->front : &state.stencil->back;

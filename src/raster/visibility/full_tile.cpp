@@ -18,7 +18,7 @@ bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, Tri
     if (covers && test == BlockTest::all_pass) {
       statistics.samples_tested += kMaxTilePixels;
       statistics.samples_passed += kMaxTilePixels;
-      if (is_visible() && d.mode != VisibilityMode::deferred) write();  // its colours stay
+      if (is_visible() && d.mode != VisibilityMode::deferred) write();  // the new occluder does not replace its color
       pending_.emplace(Pending{d, &t, id, depth});
       return true;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles that every pixel of a tile shows. The last one hides all before it, so nothing is written of any until something else comes
-// to the tile: what lies behind costs no more than its test, in whatever order it comes.
+// Triangles that cover a complete tile. Such a triangle hides all previous ones, so it is not written until something else is drawn in the
+// tile. Triangles behind it then only cost a depth test, in any drawing order.
 #pragma once
 
 #include <algorithm>
@@ -12,26 +12,28 @@
 
 namespace halfspace {
 
-/// What waits to be written to one tile: the triangle that all its pixels show, or of a draw without colours its depth, if there is one.
+/// The pending occluder of a tile, if any: a triangle that all pixels show but that has not been written yet. For draws without color, only
+/// its depth is pending.
 class FullTileOccluder {
  public:
-  /// The triangle `index` of chunk `chunk`, which comes next in the tile. True if nothing is left to do: it passes everywhere, and waits
-  /// now itself, or nowhere. Else it is still to be rasterized; what waited has been written.
+  /// Processes the next triangle of the tile, which is `index` of chunk `chunk`. Returns true if nothing remains to be done, because the
+  /// triangle passes everywhere and has become the pending occluder, or because it passes nowhere. Otherwise, the triangle must be
+  /// rasterized, and any pending occluder has been written.
   bool draw(const DrawInTile& d, uint32_t chunk, uint32_t index, PassStatistics& statistics) {
     const Triangle& t = d.context.chunks[chunk].triangles[index];
-    if (!pending_ && !may_cover(t)) return false;  // as a rule
+    if (!pending_ && !may_cover(t)) return false;  // the common case
     return test_or_write(d, t, triangle_id(chunk, index), statistics);
   }
 
-  /// Does a triangle wait?
+  /// Returns true if there is a pending occluder.
   bool is_pending() const { return pending_.has_value(); }
-  /// Does one wait that is still to be shaded?
+  /// Returns true if there is a pending occluder that needs to be shaded.
   bool is_visible() const { return pending_ && pending_->draw.mode == VisibilityMode::deferred; }
-  /// Writes depth and id of what waits, if something does.
+  /// Writes the depth and id of the pending occluder, if there is one.
   void write();
-  /// The triangle that waits; shows() is true.
+  /// Returns the pending occluder. There must be one.
   TriangleId triangle() const { return pending_->id; }
-  /// Writes the depth of what waits, which has been shaded, and no id.
+  /// Writes only the depth of the pending occluder, which must have been shaded. There must be one.
   void write_depth();
 
  private:
@@ -47,15 +49,15 @@ class FullTileOccluder {
   std::optional<Pending> pending_;
 };
 
-// ---- which triangles cover an area, alone or as the two halves of a quad ---------------------------------------
+// ---- triangles that cover an area, individually or as the two halves of a quad ---------------------------------
 
-/// Is the centre of every pixel of the area inside of the edge?
+/// Returns true if the center of every pixel of the area is inside the edge.
 inline bool contains(const Edge& e, const PixelBounds& area) {
-  const int x = e.ey > 0 ? area.x1 - 1 : area.x0, y = e.ex > 0 ? area.y0 : area.y1 - 1;  // where the edge function is least
+  const int x = e.ey > 0 ? area.x1 - 1 : area.x0, y = e.ex > 0 ? area.y0 : area.y1 - 1;  // where the edge function is smallest
   return e.at(x * kSubPixels + kSubPixels / 2, y * kSubPixels + kSubPixels / 2) >= fill_bias(e);
 }
 
-/// The one edge of a triangle that does not contain the area, if it is one alone.
+/// Returns the edge of a triangle that does not contain the area, if there is exactly one.
 inline std::optional<Edge> crossing_edge(const Triangle& t, const PixelBounds& area) {
   std::optional<Edge> crossing;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -67,13 +69,13 @@ inline std::optional<Edge> crossing_edge(const Triangle& t, const PixelBounds& a
   return crossing;
 }
 
-/// Does a triangle cover the centre of every pixel of the area?
+/// Returns true if a triangle covers the center of every pixel of the area.
 inline bool covers(const Triangle& t, const PixelBounds& area) {
   return contains(edge_of(t, 0), area) && contains(edge_of(t, 1), area) && contains(edge_of(t, 2), area);
 }
 
-/// Do two triangles share an edge and cover together the centre of every pixel of the area, each once? The fill rule gives what lies
-/// on the shared edge to one of them.
+/// Returns true if two triangles share an edge and together cover the center of every pixel of the area exactly once. The fill rule assigns
+/// centers on the shared edge to one of them.
 inline bool cover_together(const Triangle& t, const Triangle& u, const PixelBounds& area) {
   const std::optional<Edge> a = crossing_edge(t, area), b = crossing_edge(u, area);
   return a && b && a->ex == -b->ex && a->ey == -b->ey && a->x0 + a->ex == b->x0 && a->y0 + a->ey == b->y0;

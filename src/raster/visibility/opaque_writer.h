@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth test and writes of plain draws, which most are: one sample a pixel, and only coverage and depth decide.
+// Depth test and writes for opaque draws (the common case): one sample per pixel, and only coverage and depth determine visibility.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@
 
 namespace halfspace {
 
-/// What the triangles of a plain draw do to the tile.
+/// Tests and writes the triangles of an opaque draw in a tile.
 class OpaqueWriter {
  public:
   OpaqueWriter(const DrawInTile& d, PassStatistics& statistics)
@@ -27,7 +27,8 @@ class OpaqueWriter {
   bool writes_depth() const { return writes_depth_; }
   CompareOp compare_op() const { return compare_; }
 
-  /// Covered lanes of a packet, a bit each, at the depths z_at(), asked for where there is a test; true if one passed.
+  /// Tests and writes lanes of a packet. covered: bit mask of the lanes; z_at(): returns their depth, called only if there is a depth test.
+  /// Returns true if a lane passed.
   template <class Z>
   HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
@@ -46,7 +47,7 @@ class OpaqueWriter {
     return passed != 0;
   }
 
-  /// One covered pixel of the tile; keeps the block's bounds true.
+  /// Tests and writes one covered pixel of the tile, and updates the depth bounds of its block.
   HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
     ++statistics_.samples_tested;
     if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
@@ -57,7 +58,7 @@ class OpaqueWriter {
     widen_hiz(compare_, tile_, static_cast<int>(pixel / kPixelsPerBlock), z, z);
   }
 
-  /// A packet that is covered wholly and passes wholly.
+  /// Writes a packet in which all lanes are covered and pass the depth test.
   template <class Z>
   HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) {
     statistics_.samples_tested += kLanes;

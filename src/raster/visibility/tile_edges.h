@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A primitive's edge functions at the samples of one tile, ready to be stepped from pixel to pixel.
+// Edge functions of a primitive at the samples of one tile, prepared for stepping from pixel to pixel.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace halfspace {
 
-/// One sample of every pixel of a tile. Pixels count from the corner of the tile's room, so that those of a cell
-/// (raster/pipeline/sample_pattern.h) are the packets that hold it.
+/// One sample of every pixel of a tile. Pixels are counted from the start of the tile's storage, so the pixels of a sample plane
+/// (raster/pipeline/sample_pattern.h) are those of the packets that store it.
 struct SampleGrid {
   SampleGrid(const Tile& tile, int s)
       : plane(s == 0 ? SamplePlane{0, 0} : sample_plane(tile.samples, s, tile.size)),
@@ -31,16 +31,16 @@ struct SampleGrid {
   int y_sub() const { return y0 * kSubPixels + position.y; }
 };
 
-/// A triangle's edge functions at the grid's first sample and their steps from pixel to pixel. For a small triangle in
-/// full (1/256 px)²; for others shifted down by kSubPixelBits, which keeps their sign and makes the steps whole numbers.
-/// The fill rule's bias is taken off. An edge that the whole tile is inside of is zero throughout.
+/// Edge functions of a triangle at the first sample of the grid, and their steps from pixel to pixel. For small triangles, they are in
+/// (1/256 px)². For others, they are shifted right by kSubPixelBits, which preserves the sign, and all steps are integers. The bias of the
+/// fill rule is subtracted. If the whole tile is inside an edge of a larger triangle, all values of that edge are 0.
 struct TileEdges {
   std::array<int32_t, 3> e, step_x, step_y;
   std::array<int32_t, 3> bias;
   bool outside = false;  ///< no sample of the tile is inside
 };
 
-/// Edge i of r, with `offset` added to its function; shift: kSubPixelBits or, where all is small, 0.
+/// Computes edge i of r, with `offset` added to its function. shift is 0 for small triangles, otherwise kSubPixelBits.
 HS_INLINE void put_edge(const Edge& edge, int64_t offset, int32_t bias, int shift, const SampleGrid& grid, int tile_size, std::size_t i,
                         TileEdges& r) {
   const int64_t last = tile_size - 1;
@@ -59,7 +59,7 @@ HS_INLINE void put_edge(const Edge& edge, int64_t offset, int32_t bias, int shif
   r.step_y[i] = drop || high < 0 ? 0 : static_cast<int32_t>(step_y);
 }
 
-/// Of a point, whose bounds say all, or of a line.
+/// Computes the edges of a line. A point has no edges, because its bounds are exact.
 __attribute__((noinline)) inline TileEdges point_or_line_edges(const Draw& draw, const Triangle& t, const SampleGrid& grid, int tile_size) {
   TileEdges r{};
   if (t.is(kPointSprite)) return r;

@@ -17,7 +17,7 @@ namespace {
 
 bool tests_depth(const DepthState& state, const Tile& tile) { return state.test && tile.depth_format != DepthFormat::none; }
 
-// What the packets of one triangle share on the slow path.
+// Values that all packets of a triangle share, for draws that are not opaque.
 struct TriangleVisit {
   const PassContext& context;
   const Draw& draw;
@@ -29,17 +29,17 @@ struct TriangleVisit {
   PassStatistics& statistics;
   const StencilFace* stencil;     // null: no stencil test before shading
   bool tests;                     // there is a depth test before shading
-  bool writes;                    // and it writes depth
-  bool asks_shader;               // the shader's visibility function decides
-  bool rejects_blocks;            // blocks in which no depth can pass are skipped
-  bool is_slow;                   // the shader or the stencil takes part in the test
-  bool needs_bounds_test;         // a covered pixel may lie outside of the primitive's bounds
-  VisibilityBatch& pending;       // packets for the shader's visibility function
-  SampleGrid grid;                // the sample that is visited
+  bool writes;                    // the depth test writes depth
+  bool asks_shader;               // the shader's visibility function must be called
+  bool rejects_blocks;            // skip blocks in which no depth can pass
+  bool is_slow;                   // the shader or the stencil test determines visibility
+  bool needs_bounds_test;         // covered pixels can be outside the bounds of the primitive
+  VisibilityBatch& pending;       // packets for the visibility function
+  SampleGrid grid;                // the current sample
   float low = 0.0f, high = 1.0f;  // bounds of the triangle's depth
 };
 
-// Both tests; the stencil remembers what became of each sample.
+// Runs the stencil test and the depth test, and updates the stencil values.
 Mask test_with_stencil(const TriangleVisit& c, int packet, Real z, Mask mask) {
   const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
   Mask passed = stencil_passed;
@@ -50,7 +50,7 @@ Mask test_with_stencil(const TriangleVisit& c, int packet, Real z, Mask mask) {
   return passed;
 }
 
-// What becomes of the lanes that passed.
+// Writes or lists the lanes that passed, depending on the mode.
 HS_INLINE void finish_packet(const TriangleVisit& c, int packet, Mask mask, Real z) {
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
@@ -81,7 +81,7 @@ void test_and_finish(const TriangleVisit& c, int packet, Mask mask, Real z) {
   finish_packet(c, packet, mask, z);
 }
 
-// The shader's say on the packets that wait for it: narrows masks, replaces depths.
+// Calls the visibility function for the pending packets, which narrows their masks and may replace their depth, and finishes them.
 void ask_shader(const TriangleVisit& c) {
   VisibilityBatch& batch = c.pending;
   if (batch.count == 0) return;
@@ -106,14 +106,14 @@ void ask_shader(const TriangleVisit& c) {
   batch.count = 0;
 }
 
-// Where the shader or the stencil has a say.
+// Processes a packet if the shader or the stencil test determines visibility.
 __attribute__((noinline)) void visit_packet_slowly(const TriangleVisit& c, int packet, Mask mask, Real z) {
   if (c.mode == VisibilityMode::cover_only) {
     c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
     return;
   }
   if (!c.asks_shader) return test_and_finish(c, packet, mask, z);
-  // Where the shader leaves the depth alone, what fails the test need not be asked for (a stencil counts what fails).
+  // If the shader does not change depth, lanes that fail the depth test can be skipped. With a stencil test, they update the stencil.
   if (!c.draw.kernels.writes_depth && c.stencil == nullptr) mask = test_depth(c, packet, z, mask);
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
@@ -131,10 +131,11 @@ void visit_packet(const TriangleVisit& c, int packet, Mask mask, Real z) {
   finish_packet(c, packet, test_depth(c, packet, z, mask), z);
 }
 
-// What is before and after the packets of a block: false if none of its pixels can pass.
+// Called before the packets of a block. Returns false if none of its pixels can pass.
 bool enters_block(const TriangleVisit& c, int block) {
   return !c.rejects_blocks || test_block(c.draw.state.depth.compare, c.tile, block, c.low, c.high) != BlockTest::none_passes;
 }
+// Called after the packets of a block.
 void leave_block(const TriangleVisit& c, int block) {
   if (!c.writes || c.mode == VisibilityMode::cover_only) return;
   widen_hiz(c.draw.kernels.writes_depth ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
@@ -156,7 +157,7 @@ void visit_block(const TriangleVisit& c, const BlockEdges& edges, const DepthPla
 
 constexpr int kBlockMask = ~(kBlockSize - 1);
 
-// Bounds of the depths that may be written: the primitive's, or any.
+// Finds the bounds of all depths that may be written: those of the primitive, or the whole range if the shader writes depth.
 void find_depth_bounds(TriangleVisit& c) {
   const DepthBounds bounds = depth_bounds(c.triangle, c.draw, c.tile.depth_format);
   const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
@@ -178,7 +179,7 @@ void visit_triangle(TriangleVisit& c, const TileEdges& tile_edges, const TileRec
   }
 }
 
-// A point is its rectangle, at one depth.
+// A point covers a rectangle and has a constant depth.
 void visit_point_sprite(TriangleVisit& c, const TileRect& rect) {
   find_depth_bounds(c);
   const Real z(depth_value(c.tile.depth_format, std::clamp(c.triangle.z0, c.draw.depth_low, c.draw.depth_high)));
@@ -209,8 +210,8 @@ VisibilityMode visibility_mode(const Draw& draw) {
 
 namespace {
 
-// Are the vertices of what a deferred draw shows worth fetching ahead? Those of triangles are where several share each, so that it is
-// fetched once for all; a point's are few and far between.
+// Returns true if prefetching vertices is worthwhile for a deferred draw. It is for triangles that share vertices, because each vertex is
+// used several times, and for points, because they are sparse.
 bool fetches_vertices_ahead(const Draw& draw) {
   if (draw.kernels.fragment == nullptr || draw.kernels.varying_count == 0) return false;
   return draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
@@ -258,12 +259,12 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
   }
   if (d.is_opaque) return rasterize_opaque(d, t, triangle_id(chunk, index), statistics);
   const StencilFace* stencil = stencil_face(d.draw.state, d.tile, t.is(kFrontFacing));
-  // A stencil value changes with what becomes of the sample: where the shader speaks later, so do both tests.
+  // If the shader determines visibility later, both tests are postponed as well, because stencil updates depend on the final result.
   const bool late = d.mode == VisibilityMode::test_only && stencil != nullptr;
   const bool tests = !late && d.tests;
   const bool counts_failures = stencil != nullptr && (stencil->fail != StencilOp::keep || stencil->depth_fail != StencilOp::keep);
   const bool shader_writes_depth = d.asks_shader && d.draw.kernels.writes_depth;
-  VisibilityBatch pending;  // not initialized except for its count
+  VisibilityBatch pending;  // only the count is initialized
   TriangleVisit c{
       .context = d.context,
       .draw = d.draw,
@@ -304,7 +305,7 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
   float* stored = &tile.depth[static_cast<std::size_t>(packet) * kLanes];
   store(stored, select(mask, z, load<Real>(stored)));
   const auto block = static_cast<std::size_t>(packet / kPacketsPerBlock);
-  // The shader may have written anything: bounds are made exact when next asked for.
+  // The shader may have written any depth. The bounds are recomputed before the next test.
   tile.hiz_min[block] = std::numeric_limits<float>::lowest();
   tile.hiz_max[block] = std::numeric_limits<float>::max();
   tile.hiz_writes[block] = kRefreshAfter;

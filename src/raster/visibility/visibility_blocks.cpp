@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of plain draws, which most are: one sample a pixel, and only coverage and depth decide. The same results as
-// visibility.cpp's, with what those draws do not need left out. Small triangles: visibility_small.cpp.
+// Visibility of opaque draws (the common case): one sample per pixel, and only coverage and depth determine visibility. The results are the
+// same as those of visibility.cpp, which supports all draws. Small triangles are drawn by visibility_small.cpp.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// Remembers that every value of a block was replaced by one in [low, high].
+// Sets the bounds of a block after all its depth values were replaced by values in [low, high].
 void set_hiz(Tile& tile, int block, float low, float high) {
   const auto b = static_cast<std::size_t>(block);
   tile.hiz_min[b] = low;

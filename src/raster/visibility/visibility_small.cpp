@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of small triangles of plain draws: W triangles of a tile's list at once, in int32. What each of them needs is computed by
-// lanes; then they are written one after the other, in their order.
+// Visibility of small triangles in opaque draws. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then they are
+// written one by one, in submission order.
 #include <algorithm>
 #include <bit>
 
@@ -14,20 +14,20 @@ namespace halfspace {
 
 namespace {
 
-// Larger ones are better asked by blocks.
+// Larger triangles are rasterized by blocks.
 constexpr int kMaxSpan = 48;  // px
 constexpr int kMaxCovered = std::popcount(kCoveredBits);
 
 template <class T>
 using PerTriangle = std::array<T, static_cast<std::size_t>(kLanes)>;
 
-// An edge function of one triangle: its value at the tile's first sample, and its steps from pixel to pixel.
+// Edge function of a triangle: its value at the first sample of the tile, and its steps from pixel to pixel.
 struct SmallEdge {
   int32_t e, step_x, step_y;
 };
 
-// The planes of depths: z0 + e1·z_edge1 + e2·z_edge2 of edges 1 and 2 without their biases, held to [low, high]. Lanes are triangles, or
-// pixels of one.
+// Depth planes: z0 + e1·z_edge1 + e2·z_edge2, clamped to [low, high]. e1 and e2 are the values of edges 1 and 2 without bias. Lanes are
+// triangles, or pixels of one triangle.
 struct SmallDepth {
   Real z0, z_edge1, z_edge2, low, high;
 
@@ -36,10 +36,10 @@ struct SmallDepth {
   }
 };
 
-// What writing W small triangles needs, computed for all at once.
+// Data for writing up to W small triangles, computed for all of them at once.
 class SmallTriangles {
  public:
-  // indices: at most W, of the chunk's triangles, not none.
+  // indices: 1 to W triangles of the chunk.
   SmallTriangles(const DrawInTile& d, const Chunk& chunk, std::span<const uint16_t> indices) {
     const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
     static_assert(offsetof(Triangle, z_edge1) == offsetof(Triangle, z0) + sizeof(float) &&
@@ -61,7 +61,7 @@ class SmallTriangles {
     store(rect_y0_.data(), seen.y0 - d.tile.y0);
     store(rect_x1_.data(), seen.x1 - d.tile.x0);
     store(rect_y1_.data(), seen.y1 - d.tile.y0);
-    // Everything from the tile's first sample; a triangle meets the tile and is small, so all fits in 16 bits.
+    // Coordinates are relative to the first sample of the tile. They fit in 16 bits, because the triangles are small and touch the tile.
     const Int x_first(d.tile.x0 * kSubPixels + kSubPixels / 2), y_first(d.tile.y0 * kSubPixels + kSubPixels / 2);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
@@ -77,7 +77,7 @@ class SmallTriangles {
   bool is_wide(std::size_t k) const { return (wide_ >> k & 1) != 0; }
   bool is_known(std::size_t k) const { return (known_ >> k & 1) != 0; }
 
-  // Of a triangle whose pixels are known from setup: f(pixel of the tile, depth) for each that lies in the draw's bounds.
+  // For a triangle whose pixels were found in setup: calls f(pixel of the tile, depth) for each pixel within the bounds.
   template <class F>
   HS_INLINE void for_each_pixel(std::size_t k, const F& f) const {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count_[k]); ++i) {
@@ -85,19 +85,19 @@ class SmallTriangles {
     }
   }
 
-  // Of the others.
+  // For all other triangles.
   TileRect rect(std::size_t k) const { return {rect_x0_[k], rect_y0_[k], rect_x1_[k], rect_y1_[k]}; }
   SmallEdge edge(std::size_t i, std::size_t k) const { return {e_[i][k], step_x_[i][k], step_y_[i][k]}; }
-  int32_t bias(std::size_t i, std::size_t k) const { return bias_[i - 1][k]; }  // of edge 1 or 2
+  int32_t bias(std::size_t i, std::size_t k) const { return bias_[i - 1][k]; }  // edge 1 or 2
 
  private:
-  // box: of the triangles within the draw's bounds, from which `covered` counts.
+  // box: bounding boxes clipped to the bounds of the draw, as used for the bits of `covered`.
   void find_pixels(const DrawInTile& d, const std::array<Int, 3>& x, const std::array<Int, 3>& y, const PixelBox<Int>& box, Int covered,
                    const SmallDepth& depth) {
     Int count(0);
     for (std::size_t i = 0; any(covered != Int(0)); ++i) {
       count = count + select(covered != Int(0), Int(1), Int(0));
-      const Int bit = (as_int(to_real<Real>(covered & -covered)) >> 23) - 127;  // the exponent of a power of two
+      const Int bit = (as_int(to_real<Real>(covered & -covered)) >> 23) - 127;  // exponent of the lowest set bit
       covered = covered & (covered - 1);
       const Int px = box.x0 + (bit & (kCoverSide - 1)), py = box.y0 + (bit >> std::countr_zero(unsigned{kCoverSide}));
       const Int x_sub = (px << kSubPixelBits) + kSubPixels / 2, y_sub = (py << kSubPixelBits) + kSubPixels / 2;
@@ -118,10 +118,10 @@ class SmallTriangles {
   uint32_t known_, wide_;
 };
 
-// The packets of one of them.
+// Finds and writes the packets of one of the triangles.
 class TrianglePackets {
  public:
-  // t: the k-th of triangles.
+  // t: triangle k of `triangles`.
   TrianglePackets(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, const Triangle& t, TriangleId id,
                   OpaqueWriter& writer)
       : d_(d),
@@ -159,7 +159,7 @@ class TrianglePackets {
   struct Covered {
     int packet;
     uint32_t lanes;
-    int32_t e1, e2;  // edges 1 and 2: by how much they differ from the tile's first packet
+    int32_t e1, e2;  // offsets of edges 1 and 2 from their values in the first packet of the tile
   };
 
   void list_each(int column0, int column1, int row0, int row1) {
@@ -179,9 +179,9 @@ class TrianglePackets {
     }
   }
 
-  // Row by row of packets: W columns at once are asked whether a packet can hold a covered pixel.
+  // Processes one row of packets at a time. Tests for W columns at once whether their packets can have covered pixels.
   void list_rows(int column0, int column1, int row0, int row1) {
-    std::array<Int, 3> best;  // the edges' largest values in the packets of row 0
+    std::array<Int, 3> best;  // largest edge values in the packets of row 0
     for (std::size_t i = 0; i < 3; ++i) {
       const SmallEdge& e = edge_[i];
       const int32_t rise = std::max(0, e.step_x * (kPacketWidth - 1)) + std::max(0, e.step_y * (kPacketHeight - 1));
@@ -204,8 +204,9 @@ class TrianglePackets {
     }
   }
 
-  // Lists a packet, at whose pixels the edges differ by `at` from the tile's first packet, if it has covered pixels. Whether it has is as
-  // good as random, so there is no branch on it: it would often be foretold wrongly. All are listed before any is written.
+  // Lists a packet if it has covered pixels. at: offsets of the edges from their values in the first packet of the tile. The result is
+  // nearly random and would often be mispredicted, so the code has no branch for it. All packets are listed before the first one is
+  // written.
   HS_INLINE void list(const std::array<int32_t, 3>& at, int column, int row) {
     uint32_t lanes = kAllBits<Mask> & ~negative_bits((first_[0] + at[0]) | (first_[1] + at[1]) | (first_[2] + at[2]));
     if (d_.needs_bounds_test) lanes &= bits(inside(rect_, column * kPacketWidth, row * kPacketHeight));
@@ -225,11 +226,11 @@ class TrianglePackets {
   TileRect rect_;
   std::array<SmallEdge, 3> edge_;
   int32_t bias1_, bias2_;
-  std::array<Int, 3> first_;  // the edges in the tile's first packet
+  std::array<Int, 3> first_;  // edge values in the first packet of the tile
   SmallDepth depth_;
   DepthBounds bounds_;
   std::size_t listed_ = 0;
-  std::array<Covered, kMaxPackets + 1> list_;  // one beyond may be written
+  std::array<Covered, kMaxPackets + 1> list_;  // the element after the last one may be written
 };
 
 }  // namespace
