@@ -122,7 +122,7 @@ class Copy:
     def __init__(self, root):
         self.root, self.build, self.log = root, root / "build", ""
         # Lets ccache share objects between copies with different paths.
-        self.environment = dict(os.environ, CCACHE_BASEDIR=str(root))
+        self.environment = dict(os.environ, CCACHE_BASEDIR=str(root), HALFSPACE_LONG_TESTS="1")
         listed = self.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], ROOT).stdout
         for name in filter(None, listed.split("\0")):
             if (ROOT / name).is_file():  # a deleted file is still listed

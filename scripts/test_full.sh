@@ -8,6 +8,7 @@ cd "$(dirname "$0")/.."
 scripts/install_deps.sh --tests
 command -v clang++ > /dev/null || { echo "test_full.sh: clang++ is missing; install clang" >&2; exit 1; }
 
+export HALFSPACE_LONG_TESTS=1
 jobs=$(nproc)
 # build_and_test NAME CMAKE_ARGUMENTS...
 build_and_test() {

@@ -499,7 +499,7 @@ TEST_F(Cli, ReportsAPipeWithoutReader) {
   ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0666), 0);
   const Outcome o = run({"render", "earth", "--size", "8x8", "-o", "pipe"});
   EXPECT_EQ(o.exit_code, 4);
-  EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: pipe", {"reads"}));
+  EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: pipe", {"reading"}));
 }
 
 // The image is larger than a pipe buffer, so the program has to wait for the reader.

@@ -64,7 +64,7 @@ TEST_F(CheckHandlerTest, HandlerReceivesLocationAndMessage) {
   const CheckFailed f = failure_of([&] { HS_CHECK_OP(width % 2, ==, 0); });
   EXPECT_EQ(f.line, __LINE__ - 1);
   EXPECT_EQ(f.file, __FILE__);
-  EXPECT_STREQ(f.what(), "width % 2 == 0 (1 against 0)");
+  EXPECT_STREQ(f.what(), "width % 2 == 0 (1 vs 0)");
   EXPECT_STREQ(failure_of([&] { HS_CHECK(width > 3); }).what(), "width > 3");
   EXPECT_EQ(f.thread, std::this_thread::get_id());
   HS_CHECK(width == 3);
@@ -74,14 +74,14 @@ TEST_F(CheckHandlerTest, HandlerReceivesLocationAndMessage) {
 
 TEST_F(CheckHandlerTest, MessageShowsValuesOfEveryArithmeticType) {
   const std::string prefix = "left == right ";
-  EXPECT_EQ(message_of(-7, 8), prefix + "(-7 against 8)");
-  EXPECT_EQ(message_of(std::numeric_limits<int64_t>::min(), int64_t{0}), prefix + "(-9223372036854775808 against 0)");
-  EXPECT_EQ(message_of(std::numeric_limits<uint64_t>::max(), std::size_t{0}), prefix + "(18446744073709551615 against 0)");
-  EXPECT_EQ(message_of(uint8_t{65}, uint8_t{66}), prefix + "(65 against 66)");
-  EXPECT_EQ(message_of(true, false), prefix + "(1 against 0)");
-  EXPECT_EQ(message_of(0.1f, 2.5), prefix + "(0.1 against 2.5)");
-  EXPECT_EQ(message_of(3.14159265, 1e20), prefix + "(3.14159 against 1e+20)");
-  EXPECT_EQ(message_of(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()), prefix + "(-inf against nan)");
+  EXPECT_EQ(message_of(-7, 8), prefix + "(-7 vs 8)");
+  EXPECT_EQ(message_of(std::numeric_limits<int64_t>::min(), int64_t{0}), prefix + "(-9223372036854775808 vs 0)");
+  EXPECT_EQ(message_of(std::numeric_limits<uint64_t>::max(), std::size_t{0}), prefix + "(18446744073709551615 vs 0)");
+  EXPECT_EQ(message_of(uint8_t{65}, uint8_t{66}), prefix + "(65 vs 66)");
+  EXPECT_EQ(message_of(true, false), prefix + "(1 vs 0)");
+  EXPECT_EQ(message_of(0.1f, 2.5), prefix + "(0.1 vs 2.5)");
+  EXPECT_EQ(message_of(3.14159265, 1e20), prefix + "(3.14159 vs 1e+20)");
+  EXPECT_EQ(message_of(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()), prefix + "(-inf vs nan)");
 }
 
 TEST_F(CheckHandlerTest, SetReturnsThePreviousHandler) {
@@ -164,7 +164,7 @@ class CheckDeathTest : public CheckHandlerTest {
 TEST_F(CheckDeathTest, PrintsAndAbortsWithoutAHandler) {
   set_check_handler(nullptr);
   const int width = 3;
-  EXPECT_DEATH(HS_CHECK_OP(width, <, 2), "check_test.cpp:[0-9]+: check failed: width < 2 \\(3 against 2\\)\n");
+  EXPECT_DEATH(HS_CHECK_OP(width, <, 2), "check_test.cpp:[0-9]+: check failed: width < 2 \\(3 vs 2\\)\n");
   EXPECT_DEATH(HS_CHECK(width < 2), "check_test.cpp:[0-9]+: check failed: width < 2\n");
   for (const int threads : {1, 2, 7}) {
     const auto task = [](int i) {

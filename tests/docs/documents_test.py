@@ -5,7 +5,8 @@
     documents_test.py PROGRAM_DIR
 
 Every command in an indented or "sh" block is run, at a reduced size, in one temporary folder per document. A block after the line
-`<!-- not run: REASON -->` is not run; its paths, presets, targets and options must exist.
+`<!-- not run: REASON -->` is not run; its paths, presets, targets and options must exist. A block after `<!-- slow: REASON -->` runs only
+if HALFSPACE_LONG_TESTS is set, as scripts/test_full.sh does; otherwise it is checked in the same way.
 """
 import json
 import os
@@ -19,7 +20,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = Path()
-MARK = re.compile(r"<!-- not run: (.+) -->")
+MARK = re.compile(r"<!-- (not run|slow): (.+) -->")
+LONG_TESTS = "HALFSPACE_LONG_TESTS" in os.environ
 PROGRAM_NAMES = ("halfspace", "halfspace-bench")
 
 
@@ -47,7 +49,7 @@ def blocks(document, text=None):
     while i < len(lines):
         begin = i
         if match := MARK.fullmatch(lines[i].strip()):
-            reason = match[1]
+            reason = None if match[1] == "slow" and LONG_TESTS else match[2]
             i += 1
             continue
         if lines[i].startswith("```"):

@@ -5,19 +5,20 @@
 //
 // HALFSPACE_SEED=n   runs only scene n of each theme and prints it (select the theme with --gtest_filter)
 // HALFSPACE_DRAW=k   in addition, runs only draw k of the scene
-// HALFSPACE_STATES=n runs n scenes of each theme instead of kScenes
+// HALFSPACE_STATES=n runs n scenes of each theme
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <string>
 
 #include "property/random_scene.h"
+#include "support/long_tests.h"
 
 namespace halfspace {
 
 namespace {
 
-constexpr uint64_t kScenes = 350;
+constexpr uint64_t kScenes = 120, kScenesOfLongTests = 350;
 
 struct Variant {
   PassOptions options;
@@ -93,7 +94,7 @@ TEST_P(RandomScenes, MatchTheOracleForAnyThreadsTilesChunksAndFlushes) {
   const char* one = std::getenv("HALFSPACE_SEED");
   const char* many = std::getenv("HALFSPACE_STATES");
   const uint64_t first = one != nullptr ? std::strtoull(one, nullptr, 10) : 0;
-  const uint64_t count = one != nullptr ? 1 : many != nullptr ? std::strtoull(many, nullptr, 10) : kScenes;
+  const uint64_t count = one != nullptr ? 1 : many != nullptr ? std::strtoull(many, nullptr, 10) : runs_long_tests() ? kScenesOfLongTests : kScenes;
   uint64_t draws = 0, pixels = 0, passed = 0, triangles = 0;
   for (uint64_t seed = first; seed < first + count; ++seed) {
     Scene scene = random_scene(theme, seed);

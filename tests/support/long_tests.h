@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The amount of work of tests that draw random cases or read many files. scripts/test_full.sh sets HALFSPACE_LONG_TESTS.
+#pragma once
+
+#include <cstdlib>
+
+namespace halfspace {
+
+/// Returns whether tests run in full length.
+inline bool runs_long_tests() { return std::getenv("HALFSPACE_LONG_TESTS") != nullptr; }
+
+}  // namespace halfspace
