@@ -14,7 +14,7 @@ jobs=$(nproc)
 build_and_test() {
   local dir=build/full/$1
   shift
-  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF "$@" > /dev/null
+  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_OPTIMIZE_TESTS=ON "$@" > /dev/null
   cmake --build "$dir" -- -j "$jobs" > "$dir/build.log" 2>&1 || { grep -E 'error|FAILED' "$dir/build.log" | head -20; return 1; }
   run_tests "$dir"
 }
