@@ -702,12 +702,12 @@ bool stop_while_writing(pid_t child, OpenFiles& files) {
 // it leaves must be complete images. Each has more than a megabyte, and signals are handled between the chunks in which a file is written.
 TEST_F(Cli, InterruptsLeaveNoPartialFiles) {
   const auto render = [&](const std::string& frames) {
-    return start({"render", "earth", "--size", "1920x1080", "--frames", frames, "-o", "earth.exr"});
+    return start({"render", "particles", "--size", "1920x1080", "--frames", frames, "-o", "particles.exr"});
   };
   std::map<std::string, std::string> whole;
   const auto check_whole = [&](const std::string& name, const std::string& bytes) {
     if (!whole.contains(name)) {
-      const std::string frame = name.substr(6, 4);
+      const std::string frame = name.substr(10, 4);
       EXPECT_EQ(finish(render(frame + ".." + frame)).exit_code, 0) << name;
       whole[name] = read_bytes(directory / name);
     }
@@ -718,8 +718,8 @@ TEST_F(Cli, InterruptsLeaveNoPartialFiles) {
     ::kill(child, SIGCONT);
     EXPECT_EQ(finish(child).signal, signal);
     for (const std::string& name : files()) {
-      EXPECT_TRUE(name.starts_with("earth_")) << name;
-      if (name.starts_with("earth_")) check_whole(name, read_bytes(directory / name));
+      EXPECT_TRUE(name.starts_with("particles_")) << name;
+      if (name.starts_with("particles_")) check_whole(name, read_bytes(directory / name));
       fs::remove(directory / name);
     }
   };

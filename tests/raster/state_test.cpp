@@ -674,6 +674,31 @@ TEST(Indices, ReportTheirRange) {
   EXPECT_EQ(Indices(dense, 7).used_count(), 3u);
 }
 
+// ---- depth-only draws ------------------------------------------------------------------------------------------
+
+template <class S>
+Image<float> depth_of(const S& shader, bool with_color) {
+  Image<glm::vec4> color(64, 64);
+  Image<float> depth(64, 64);
+  const std::vector<ColorTarget> colors(with_color ? 1 : 0, rgba32f_target(color));
+  DrawState state;
+  state.depth.compare = CompareOp::always;
+  Pass pass(64, 64, colors, d32f_target(depth));
+  pass.draw_depth(shader, make_vertex_view(stream(kFullScreen)), state);
+  pass.run(one_worker());
+  return depth;
+}
+
+TEST(DepthOnlyDraw, RunsTheVisibilityFunctionInAnyPass) {
+  for (const bool with_color : {false, true}) {
+    const Image<float> half = depth_of(HalfShader<true>{}, with_color), own = depth_of(DepthShader<true>{}, with_color);
+    for (int x = 0; x < 64; ++x) {
+      EXPECT_EQ(half.at(x, 20), x < 32 ? 0.5f : 1.0f) << x << ' ' << with_color;
+      EXPECT_EQ(own.at(x, 20), (static_cast<float>(x) + 0.5f) / 64) << x << ' ' << with_color;
+    }
+  }
+}
+
 // ---- incorrect use ---------------------------------------------------------------------------------------------
 
 TEST(StateDeathTest, ChecksVerticesAndIndices) {

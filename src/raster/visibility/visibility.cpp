@@ -229,7 +229,7 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       needs_bounds_test(t.size != kMaxTileSize || bounds.x0 > t.x0 || bounds.y0 > t.y0 || d.bounds.x1 < t.x0 + t.size ||
                         d.bounds.y1 < t.y0 + t.size),
       tests(tests_depth(d.state.depth, t)),
-      asks_shader(m == VisibilityMode::deferred && d.kernels.visibility != nullptr),
+      asks_shader((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && d.kernels.visibility != nullptr),
       fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
       is_opaque((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && t.samples == 1 && (d.sample_mask & 1) != 0 &&
                 !asks_shader && !(d.state.stencil && t.has_stencil)) {}
