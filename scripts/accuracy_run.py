@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs all studies and updates the generated parts of docs/results/accuracy.md (the run and the tables) and docs/results/charts.
 
-    scripts/accuracy_run.py build/release/bin/halfspace [FOLDER]      run from the root of the tree; takes some minutes
+    scripts/accuracy_run.py build/release/bin/halfspace [FOLDER]      run from the root of the tree; takes several minutes
 
 With FOLDER, uses the files that an earlier `halfspace chart all -o FOLDER` has written there.
 """

@@ -48,7 +48,7 @@ build_target example-triangle
 "$build/bin/example-triangle" out/triangle.png
 echo "  $PWD/out/triangle.png"
 
-echo "Building the program (some minutes the first time)"
+echo "Building the program (several minutes the first time)"
 build_target halfspace
 
 # Image names, each followed by the arguments that render it.

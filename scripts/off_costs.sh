@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Checks that unused features have no cost. For each feature, counts the instructions of a scene that does not use it with callgrind in
-# the x86-64-v3 build, and compares them with a build without the code path of the feature (removed by a patch in tests/off). The
-# difference must be at most 1 %.
+# Checks that unused features have no cost. For each feature, callgrind counts the instructions of a scene that does not use the feature.
+# The x86-64-v3 build is compared with a build from which a patch in tests/off has removed the code path of the feature. The difference
+# must be at most 1 %.
 #
-#   scripts/off_costs.sh [FEATURE...]     default: all of tests/off; takes some minutes
+#   scripts/off_costs.sh [FEATURE...]     default: all patches in tests/off, which takes several minutes
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v valgrind > /dev/null || { echo "off_costs.sh: valgrind is missing (Debian and Ubuntu: valgrind)" >&2; exit 1; }

@@ -118,7 +118,7 @@ Kernel capped_gaussian(double sigma, int width) { return gaussian(std::min(sigma
 
 // ---- resampling ------------------------------------------------------------------------------------------------
 
-// Returns the weights for averaging a row of `from` texels to texel `i` of a row of `to` ≤ from texels.
+// Returns the box filter weights of texel `i` when a row of `from` texels is reduced to `to` ≤ from texels.
 Kernel overlap(int i, int from, int to) {
   // In units of 1/(from·to) of the map, all texel edges are integers.
   const int64_t begin = static_cast<int64_t>(i) * from, end = begin + from;

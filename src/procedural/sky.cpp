@@ -34,7 +34,7 @@ constexpr glm::vec3 kCloud(0.92f, 0.94f, 0.98f), kDuskCloud(0.95f, 0.55f, 0.38f)
 
 // Effects of the sun's elevation, constant over the sky.
 struct Daylight {
-  Real low;     // 1 with the sun near or below the horizon, 0 with a high sun
+  Real low;     // 1 if the sun is near or below the horizon, 0 if it is high in the sky
   Real bright;  // factor of all light
   Real disc;    // factor of the sun's disk
 };

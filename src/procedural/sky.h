@@ -22,8 +22,8 @@ struct NightSky {
   float milky_way = 1.0f;  ///< brightness factor
 };
 
-/// Returns a blue sky that pales towards the horizon, with glow and disk of the sun, clouds, and hazy ground below. Away from the
-/// sun its luminance is 0.2 to 2. The result depends only on the arguments, bit for bit. size ≥ 1 is the width of a face in texels.
+/// Returns a blue sky that pales towards the horizon, with the sun and its glow, clouds, and a hazy ground. Away from the sun its
+/// luminance is 0.2 to 2. The result depends only on the arguments, bit for bit. size ≥ 1 is the width of a face in texels.
 SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers);
 
 /// Returns a dark blue sky with the Milky Way and ground. It has no stars; StarSky draws sharper ones. Its luminance is 1e-3 to

@@ -140,7 +140,7 @@ std::string frame_lines(const Plot& plot) {
          fmt::format(" at screen {:.5f}, screen 0.963 font ',16' textcolor rgb ink noenhanced\n", kLeft / kWidth) +  //
          "set label " + quoted(s.setting) +
          fmt::format(" at screen {:.5f}, screen 0.927 font ',11' textcolor rgb ink noenhanced\n", kLeft / kWidth) +  //
-         "set label " + quoted(fmt::format("truth: {}; its own error {:.1e} ({})", s.truth.method, s.truth.error, s.truth.error_method)) +
+         "set label " + quoted(fmt::format("reference: {}; error {:.1e} ({})", s.truth.method, s.truth.error, s.truth.error_method)) +
          fmt::format(" at screen {:.5f}, screen 0.900 font ',11' textcolor rgb ink noenhanced\n", kLeft / kWidth) +
          "set key at screen 0.5, screen 0.055 center center horizontal textcolor rgb ink\n";
 }

@@ -24,8 +24,8 @@ struct LabelPlace {
   int anchor;        ///< which part of the text is at x: −1 the right end, 0 the center, 1 the left end
   bool far = false;  ///< the label is so far from its point that it needs a leader line
 };
-/// Places labels that are `widths` pixels wide next to their points. Greedy: labels are placed in order, each where it overlaps the points
-/// and the labels placed before it the least. Overlap with the outside of `room` costs three times as much.
+/// Places labels that are `widths` pixels wide next to their points. The algorithm is greedy: each label in turn is placed where
+/// it overlaps the points and the labels already placed the least. Any part of a label outside `room` counts three times.
 std::vector<LabelPlace> place_labels(const std::vector<glm::dvec2>& points, const std::vector<double>& widths, const ChartBox& room);
 
 }  // namespace halfspace

@@ -96,11 +96,10 @@ Study study_max_error(const StudyOptions& options, const Workers& workers) {
   Study study{
       .name = "max_error",
       .title = "The cheapest model: --max-error and fixed models",
-      .setting =
-          fmt::format("Moon and Earth, {}x{}; labels: maximum error in px, or bands of latitude and samples per pixel", width, height),
+      .setting = fmt::format("Moon and Earth, {}x{}; labels: maximum error in px, or latitude bands and samples per pixel", width, height),
       .error_name = "largest error of the outline, in pixels",
       .time_name = "frame with its shadow maps; textures and meshes are cached",
-      .truth = {fmt::format("the same with {} bands", finest), 0.0, "a third of the difference from half as many bands"},
+      .truth = {fmt::format("the same scene with {} bands", finest), 0.0, "a third of the difference from an image with half the bands"},
   };
   for (const std::string name : {"moon", "earth"}) {
     SceneFile file = SceneFile::open(name);

@@ -25,7 +25,7 @@ enum class PictureError : uint8_t {
 void judge_picture(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind);
 
 /// Sets the picture of a truth that converges with the number of bands. Its error is estimated as a third of its difference from `half`,
-/// the image with half as many bands.
+/// an image with half the number of bands.
 void set_truth(Truth& truth, const Image<glm::vec4>& light, const Image<glm::vec4>& half, PictureError kind);
 
 /// Encodes linear light as 8-bit sRGB.

@@ -79,7 +79,7 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers) 
   Study study{
       .name = "raster_vs_rays",
       .title = "Visible triangles: rasterizer and rays",
-      .setting = fmt::format("A sphere without shading, {}x{}; labels are bands of latitude", width, height),
+      .setting = fmt::format("A sphere without shading, {}x{}; labels give the number of latitude bands", width, height),
       .error_name = fmt::format("fraction of pixels that show another triangle (zero is drawn at {:.0e})", 0.1 / pixels),
       .time_name = "frame",
       .truth = {"edge tests of every triangle in double, without snapping", 0.1 / pixels, "a tenth of one pixel"},

@@ -44,7 +44,7 @@ Study study_shading_rate(const StudyOptions& options, const Workers& workers) {
   Study study{
       .name = "shading_rate",
       .title = "Shading rate: flat, Gouraud or Phong",
-      .setting = fmt::format("A shiny sphere (Blinn-Phong, exponent 40), {}x{}; labels are bands of latitude", size, size),
+      .setting = fmt::format("A shiny sphere (Blinn-Phong, exponent 40), {}x{}; labels give the number of latitude bands", size, size),
       .error_name = "RMS error of linear light over the image, without the silhouette",
       .time_name = "frame",
       .truth = {"the sphere by one ray per pixel, in double", 0.0, "largest difference from long double"},

@@ -79,7 +79,7 @@ std::string section(const Json& study, bool has_chart) {
             ".svg\" alt=\"" + text_at(study, "title") + "\"></picture>\n";
   const Json &run = study.at("run"), &truth = study.at("truth");
   html += "<p>" + text_at(study, "setting") + ". Error: " + text_at(study, "error_name") + ". Time: " + text_at(study, "time_name") +
-          ". Truth: " + text_at(truth, "method") + "; its own error " + number_of(truth.at("error")) + " (" +
+          ". Reference: " + text_at(truth, "method") + ". Its error is " + number_of(truth.at("error")) + " (" +
           text_at(truth, "error_method") + "). <code>" + text_at(run, "command") + "</code>, " + text_at(run, "date") + ", " +
           text_at(run, "processor") + ", " + std::to_string(run.at("threads").get<int>()) + " threads, " + text_at(run, "version") +
           (run.at("quick").get<bool>() ? ", <b>quick run: the figures are not meaningful</b>" : "") + ". Data: <a href=\"" + name +

@@ -139,9 +139,9 @@ TEST(WorkloadFormulas, ShadowMatches) {
   EXPECT_GT(dark_side, 3000);
 }
 
-// A million adjacent triangles of 1 px² cover a million pixels. On the 1/256 px grid, two inclusive edges against one exclusive edge add
-// half an edge of 362 steps to an area of 362²/2, or 0.3%. In addition, the positions of 1357 columns within a pixel are not perfectly
-// uniform.
+// A million triangles of 1 px² that do not overlap cover about a million pixels. On the 1/256 px grid, a triangle has legs of 362 steps and
+// an area of 362²/2. Two of its edges are inclusive and one is exclusive, which adds half an edge, or 0.3% of the area. In addition, the
+// positions of the 1357 columns relative to the pixel grid are not perfectly uniform.
 TEST(WorkloadFormulas, TinyCoversTheExpectedArea) {
   const Image<glm::u8vec4> image = drawn("tiny_1m", {1920, 1080});
   const auto covered = std::ranges::count(image.texels(), glm::u8vec4(229, 153, 26, 255));  // the float 0.9 is less than 229.5/255

@@ -157,7 +157,7 @@ void add_filters(Cases& cases) {
     for (int min = 0; min < 3; ++min) {
       for (const bool minified : {false, true}) {
         const Sampler s{.mag = min == 0 ? Filter::nearest : Filter::bilinear, .min = static_cast<Filter>(min), .wrap_t = Wrap::clamp};
-        // Three and two texels per pixel, or about two texels in total.
+        // Minified: three texels per pixel horizontally and about two vertically. Magnified: about two texels across the whole image.
         const glm::vec2 texels = minified ? glm::vec2(96.0f, 70.0f) : glm::vec2(2.3f, 1.7f);
         const glm::vec2 reach = texels / glm::vec2(size);
         add_filter(cases,

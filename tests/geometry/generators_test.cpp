@@ -168,7 +168,8 @@ TEST_P(Generator, MatchesTheFormula) {
   }
 }
 
-// Central differences with h = 1e-5 have a relative error of (2πh)²/6 and a rounding error of 1e-16/h; the rest is rounding to float.
+// Central differences with h = 1e-5 have a relative error of (2πh)²/6 and a rounding error of 1e-16/h. The remaining tolerance
+// is for rounding to float.
 TEST_P(Generator, TangentsFollowTheTextureCoordinates) {
   const ShapeCase& s = GetParam();
   const Mesh m = s.make(8, nullptr);

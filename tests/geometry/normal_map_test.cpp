@@ -26,7 +26,7 @@ glm::dvec3 decoded(const glm::u8vec4& t) { return glm::dvec3(t.x, t.y, t.z) / 25
 constexpr double kHalfCode = 1.0 / 255.0;
 
 // h = 1/2 + A·sin φ with φ = a·x + b·y in texels. The difference over two texels is A·cos φ·sin a, and averaging across the other axis
-// multiplies it by (4 + 2·cos b)/6. Heights are rounded to float: 3e-8 of a height, 1e-6 of a slope at strength 30.
+// multiplies it by (4 + 2·cos b)/6. Rounding to float changes a height by up to 3e-8, which changes a slope by up to 1e-6 at strength 30.
 TEST(NormalMap, WavesMatchTheClosedForm) {
   const int width = 48, height = 32;
   for (const auto& [along_x, along_y] : {std::pair(1, 0), std::pair(0, 3), std::pair(2, 1), std::pair(-5, 4)}) {

@@ -86,7 +86,7 @@ void lay_out_vertices(const float* rows, std::size_t count, int components, Vert
   view.vertex_count = count;
   view.components = components;
   const auto n = static_cast<std::size_t>(components);
-  // A stream is a sequence of components. There is either a single stream or two, which need not be split between members.
+  // A stream is a sequence of components. With two streams, the split may be in the middle of a member.
   const std::size_t first_part = layout == VertexLayout::tight || n < 2 ? n : std::min(n - 1, std::size_t{3});
   const std::size_t gap = layout == VertexLayout::padded ? 3 : 0;
   if (layout == VertexLayout::separate) {

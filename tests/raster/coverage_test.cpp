@@ -36,7 +36,7 @@ int64_t brute_force(const PointTriangle& t, int x0, int y0, int x1, int y1, F co
       const Point &a = v[i], &b = v[(i + 1) % 3];
       e[i] = cross(a, b, Wide{x0} * 256 + 128, Wide{y} * 256 + 128);
       step[i] = (Wide{a.y} - b.y) * 256;
-      // The change of the edge function for the small step to the right; if it is 0, for the step up.
+      // An edge owns the centers on it if its edge function increases to the right or, if it is horizontal, upwards.
       owns[i] = step[i] != 0 ? step[i] > 0 : b.x > a.x;
     }
     for (int x = x0; x < x1; ++x) {
@@ -210,7 +210,7 @@ TEST(Coverage, TinyTrianglesAreExact) {
 }
 
 // The sizes are near the limit at which setup switches from full 32-bit edge functions to shifted ones (63 px), and near the tile size.
-TEST(Coverage, TrianglesOfAboutATileAreExact) {
+TEST(Coverage, TileSizedTrianglesAreExact) {
   Comparison c(256, 256, 5);
   for (int batch = 0; batch < effort(40); ++batch) {
     std::vector<PointTriangle> triangles(16);
@@ -252,7 +252,7 @@ TEST(Coverage, HugeTrianglesAreExact) {
   c.report();
 }
 
-// The far end of the largest render target has sample positions of 22 bits.
+// At the far end of the largest render target, sample positions need 22 bits.
 TEST(Coverage, WideTargetsAreExact) {
   constexpr int kWidth = 16384, kHeight = 32;
   Comparison c(kWidth, kHeight, 7);

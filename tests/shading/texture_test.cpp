@@ -174,8 +174,8 @@ TEST(Texture, ConstantsStayExact) {
 }
 
 TEST(Texture, TexelCentersReturnTheTexel) {
-  // For sizes that are not powers of two, (i + 1/2)/size has an error of up to 2^-25, and times the size of up to 200·2^-25 < 2^-16.
-  // Rounding the fraction to 2^-15 removes this error.
+  // For sizes that are not powers of two, (i + 1/2)/size has a rounding error of up to 2^-25. After multiplication by the size, the error
+  // is up to 200·2^-25 < 2^-16 texels. Rounding the fraction to 2^-15 removes it.
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
     for (const glm::ivec2 size : {glm::ivec2(8, 4), glm::ivec2(7, 5), glm::ivec2(200, 3), glm::ivec2(1, 1), glm::ivec2(64, 1)}) {
       const Texture2D texture(noise(size.x, size.y, 5), format);

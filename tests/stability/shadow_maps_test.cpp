@@ -41,8 +41,8 @@ TEST(Stability, ShadowsHaveNoAcneAtAnyLightAngle) {
     settings.insert(settings.end(), {"shadow.bias=none", "shadow.method=hard"});
     plain = std::max(plain, beyond_a_texel(compared("shadow-plane", settings).score.false_shadow));
   }
-  // One pixel of about 10,000 lit ones: at 89.9 degrees the depths within a texel span 570 texels, and the automatic bias follows the
-  // plane.
+  // At 89.9 degrees, the depth changes by 570 texel widths across one texel, and the automatic bias follows the plane. One pixel out of
+  // about 10,000 lit ones remains wrong.
   judge({1, "shadow acne", "ball over a plane, light 0 to 89.9 degrees from the vertical; no bias against auto",
          "largest share of lit pixels that are falsely dark more than a texel from the edge"},
         plain, 0.3, ours, 1.5e-4);
@@ -73,8 +73,8 @@ SceneFile two_plates(const char* method) {
   return scene;
 }
 
-// Returns the maximum light according to the map at pixels that rays find dark together with all pixels within 6 px, which is beyond the
-// filter.
+// Returns the maximum light of the shadow map at pixels in full shadow. According to the rays, these pixels and all pixels within 6 px,
+// which is more than the filter radius, are dark.
 double most_light_in_shadow(const ShadowComparison& c) {
   constexpr int kRadius = 6;
   double most = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// sphere_phong, sphere_gouraud, sphere_flat, near_clip, msaa4_200k; also hdr_200k and tonemap, which draw the sphere to half floats.
+// sphere_phong, sphere_gouraud, sphere_flat, near_clip, msaa4_200k, and hdr_200k and tonemap, which draw to half-float targets.
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"

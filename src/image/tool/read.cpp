@@ -81,8 +81,8 @@ std::vector<std::byte> opaque(Sample sample) {
   return bytes;
 }
 
-// Writes RGBA row by row, to avoid a second copy of the image. Fewer than three color channels are replicated from the first,
-// and missing alpha is opaque.
+// Writes RGBA row by row, which avoids a second copy of the image. If there are fewer than three color channels, the first one is
+// written as gray. If there is no alpha channel, alpha is opaque.
 void put_rgba(const Picture& p) {
   const int colors = p.channels - (p.alpha_channel >= 0 ? 1 : 0);
   const int from[4] = {0, colors >= 3 ? 1 : 0, colors >= 3 ? 2 : 0, p.alpha_channel};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage of small triangles, to find their pixels and to cull those that cover no sample. Many small triangles fall between the samples:
-// more than half of those with an area of half a pixel. Culling them in setup saves the cost of binning and rasterization.
+// Coverage of small triangles. Setup uses it to find the pixels of a triangle and to cull triangles that cover no sample, which saves the
+// cost of binning and rasterizing them. Of the triangles with an area of half a pixel, more than half cover no sample.
 #pragma once
 
 #include <array>

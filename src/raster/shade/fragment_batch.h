@@ -44,7 +44,7 @@ struct FragmentBatch {
 /// Computes the colors of a draw with a constant shader and stores them as packet 0 of out.
 void constant_colors(const Draw& draw, FragmentOutput& out);
 
-/// Writes all colors of a batch, starting with its packet i, to packets of the tile.
+/// Writes the colors in out to the tile. packets[k] receives all colors of packet i + k of the batch.
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile);
 
 }  // namespace halfspace

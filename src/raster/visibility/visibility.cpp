@@ -210,8 +210,8 @@ VisibilityMode visibility_mode(const Draw& draw) {
 
 namespace {
 
-// Returns true if prefetching vertices is worthwhile for a deferred draw. It is for triangles that share vertices, because each vertex is
-// used several times, and for points, because they are sparse.
+// Returns true if a deferred draw benefits from prefetching its vertices. Triangles that share vertices do, because each vertex is used
+// several times. Points do, because the points of a tile are scattered in memory.
 bool fetches_vertices_ahead(const Draw& draw) {
   if (draw.kernels.fragment == nullptr || draw.kernels.varying_count == 0) return false;
   return draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
