@@ -25,7 +25,7 @@ HS_INLINE IntOf<R> float_to_half_by_bits(R x) {
   // are clamped to 2^16, which becomes infinity; 65520 … 2^16 becomes infinity through the carry of the rounding.
   const I clamped = min(i, I(0x47800000));
   const I normal = (clamped - 0x38000000 + 0xfff + ((clamped >> 13) & 1)) >> 13;
-  // Smaller values: the ulp of a float near 0.5 is 2^-24, the same as that of a subnormal half, so the addition rounds.
+  // Smaller values: the ulp of a float near 0.5 is 2^-24, which is also the ulp of a subnormal half, so the addition rounds.
   const I subnormal = as_int(abs(x) + R(0.5f)) - 0x3f000000;
   const I nan = ((i >> 13) & 0x3ff) | 0x7e00;
   const I finite = select(i < I(0x38800000), subnormal, normal);

@@ -22,7 +22,7 @@ glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far);
 glm::dmat4 perspective_reversed(double fovy, double aspect, double near, double far);
 
 /// Orthographic projections of a box centered on the view axis, `height` high and height · aspect wide. near and far are distances
-/// along −z; near < far, and near may be negative. The depth ranges are those of perspective_gl and perspective_reversed.
+/// along −z; near < far, and near may be negative. The depth ranges match perspective_gl and perspective_reversed.
 glm::dmat4 orthographic_gl(double height, double aspect, double near, double far);
 glm::dmat4 orthographic_reversed(double height, double aspect, double near, double far);
 

@@ -25,11 +25,11 @@
 
 namespace halfspace {
 
-/// The vertex normals of a displaced sphere: those of the displaced surface, or those of the undisplaced sphere for comparison.
+/// Whether the vertex normals of a displaced sphere are computed from the displaced surface or, for comparison, the undisplaced sphere.
 enum class ReliefNormals { displaced, undisplaced };
 
 /// Returns the mesh of uv_sphere, with the same vertices, texture coordinates and triangles in the same order, displaced by g. g
-/// has the unit of `radius`, and r + g must stay positive. Normals are those of the smooth surface; tangents point along P'u. Each
+/// has the unit of `radius`, and r + g must stay positive. Normals are computed from the smooth surface; tangents point along P'u. Each
 /// pole has a single height, the mean over its vertices, and keeps the tangent frame of the sphere. Positions and normals on both
 /// sides of the seam are bit-identical. Pass a field filtered to `longitudes`.
 Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const HeightField& field, double height_scale, double zero_level,
@@ -48,7 +48,7 @@ class SlopeRows {
   const HeightField& field_;
   int height_;
   double radius_, height_scale_, zero_level_;
-  bool at_texels_;                ///< the texels of the map coincide with those of the field
+  bool at_texels_;                ///< the map and the field have the same texel grid
   std::vector<HeightTaps> taps_;  ///< one per column; empty if at_texels_
 };
 /// Returns all rows as an image.

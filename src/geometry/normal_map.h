@@ -14,7 +14,7 @@ namespace halfspace {
 ///
 ///   n = normalize(−strength · ∂h/∂x, strength · ∂h/∂y, 1)      code = (n/2 + 1/2) · 255, rounded
 ///
-/// The slopes are those of HeightField at the texel centers: central differences, averaged across with weights 1/6, 4/6, 1/6. So
+/// The slopes equal HeightField's at the texel centers: central differences, averaged across with weights 1/6, 4/6, 1/6. So
 /// ∂h/∂x = Σ w_k · (h(x + 1, y + k) − h(x − 1, y + k)) / 2, and likewise for y. `edges` selects the continuation beyond the edges.
 /// `heights` must be at least two texels wide and one high.
 Image<glm::u8vec4> normal_map(const Image<float>& heights, double strength, MapEdges edges, const Workers& workers);

@@ -44,8 +44,8 @@ struct SphereFrame {
 SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v);
 
 /// A sphere around the origin, subdivided from an icosahedron with corners at the poles: 20 · 4^level triangles of nearly equal
-/// size; level ≥ 0. Formula and texture coordinates are those of uv_sphere. u exceeds 1 in triangles that cross the seam, so it
-/// never jumps back. Each triangle at a pole has a separate vertex there, with u between those of its other two vertices. Field
+/// size; level ≥ 0. Formula and texture coordinates are the same as for uv_sphere. u exceeds 1 in triangles that cross the seam, so it
+/// never jumps back. Each triangle at a pole has a separate vertex there, with u between the values at its other two vertices. Field
 /// edges: sphere. A pole has a single height, the mean over its vertices.
 Mesh icosphere(int level, float radius, const Displacement* displacement = nullptr);
 

@@ -16,7 +16,7 @@ Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& worker
 /// Returns the matching heights, from 0 at sea level to 1 for the highest mountains. They depend only on the size, bit for bit.
 Image<float> procedural_earth_heights(int width, int height, const Workers& workers);
 
-/// Both maps, bit-identical to those of the functions above. Computing them together costs little more than computing one.
+/// Both maps, bit-identical to the results of the functions above. Computing them together costs little more than computing one.
 struct EarthMaps {
   Image<glm::u8vec4> color;
   Image<float> height;

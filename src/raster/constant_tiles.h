@@ -20,7 +20,7 @@ PixelBounds tile_pixels(const PassContext& context, int tile_x0, int tile_x1, in
 std::optional<const Draw*> constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
                                           PassStatistics& statistics);
 
-/// Area with a single color: that of a draw with a constant shader, or the clear values if draw is null.
+/// Area with a single color. It is covered by a draw with a constant shader or, if draw is null, has the clear values.
 struct ConstantArea {
   PixelBounds pixels;
   const Draw* draw;

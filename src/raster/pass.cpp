@@ -79,7 +79,7 @@ class PassState {
   // Work for one thread: part of the vertices of a large draw, or all vertices of the small draws [draw, end_draw).
   struct VertexTask {
     std::size_t draw, end_draw;
-    std::size_t begin, end;  // range of the vertices used by the draw; for small draws, end is their total number
+    std::size_t begin, end;  // range of the vertices used by the draw; for small draws, end is the total number of vertices
     bool is_part;
     Outcode any = 0;  // union of the outcodes, for parts of large draws
   };

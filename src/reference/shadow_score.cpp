@@ -75,7 +75,7 @@ bool is_continuous(const RayHit& a, const RayHit& b) {
   return std::abs(glm::dot(way, a.face_normal_ws)) <= 0.3 * length && std::abs(glm::dot(way, b.face_normal_ws)) <= 0.3 * length;
 }
 
-// Returns the pixels whose light is on the other side of 1/2 than that of their right or lower neighbor on the same surface.
+// Returns the pixels at which light crosses 1/2 between the pixel and its right or lower neighbor on the same surface.
 std::vector<glm::ivec2> edge_pixels(const Image<float>& light, const Pixels& pixels) {
   std::vector<glm::ivec2> edges;
   const auto differ = [&](int x, int y, int x1, int y1) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Measures how far the outlines of objects are from those of another model of the same scene.
+// Measures the distance between the outlines of objects in two models of the same scene.
 #pragma once
 
 #include "halfspace/core/image.h"

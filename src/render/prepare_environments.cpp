@@ -187,7 +187,7 @@ const std::pair<std::string, EnvironmentDescription>& ScenePreparation::environm
   return found == scene_.environments.end() ? scene_.environments.front() : *found;
 }
 
-// Prepares only those of the two environments that are visible.
+// Prepares the two environments, or only one if the other is not visible.
 EnvironmentBlend ScenePreparation::background_light() {
   const BackgroundDescription& b = scene_.background;
   const auto make = [&](const std::string& name) {

@@ -168,7 +168,7 @@ struct EnvironmentDescription {
   glm::dvec3 sun{0.5, 0.6, -0.6};  ///< direction towards the sun, any length
   double clouds = 0.4;
   double milky_way = 1.0;
-  double stars = 0.3;             ///< density, like that of the background
+  double stars = 0.3;             ///< density, in the same unit as the background's
   double star_brightness = 0.05;  ///< linear
   glm::dvec3 rotation{0.0};       ///< degrees, like Placement::rotation
   double brightness = 1.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Keys of scene files. A table of keys is bound to the members of a struct. Reading, printing, help, the JSON Schema and --set all
-// use the same table; default values are those of a default-constructed struct.
+// use the same table. Default values come from a default-constructed struct.
 #pragma once
 
 #include <array>

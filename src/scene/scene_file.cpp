@@ -181,7 +181,7 @@ SceneDescription read_scene(const Json& json, const std::string& source, const s
   return Reader(json, {source, directory, {}}).read();
 }
 
-// Removes keys of an object that equal those of its material, so that later changes of the material still apply to the object.
+// Removes keys of an object that have the same values as in its material, so that later changes of the material still apply to the object.
 void drop_keys_of_material(Json& json, SurfaceDescription& surface, SurfaceDescription& material) {
   const Section own = section_of(surface), shared = section_of(material);
   for (const Field& field : fields_of(own)) {

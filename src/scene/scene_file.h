@@ -47,8 +47,8 @@ class SceneFile {
   /// Returns the start of error messages about the scene: its file, or "scene NAME".
   const std::string& source() const { return source_; }
 
-  /// Returns the scene as a scene file with every key and absolute paths. Keys of an object that equal those of its material are
-  /// omitted.
+  /// Returns the scene as a scene file with every key and absolute paths. Keys of an object that have the same values as in its
+  /// material are omitted.
   std::string print() const;
 
  private:

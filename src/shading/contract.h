@@ -71,7 +71,7 @@ struct DiscardingFragment {
   MaskOf<R> keep;
 };
 
-/// A color, the keep mask, and a window depth in [0, 1] that replaces that of the triangle.
+/// A color, the keep mask, and a window depth in [0, 1] that replaces the depth of the triangle.
 template <class R>
 struct DepthFragment {
   vec4<R> color;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The lookup of EnvironmentMap, compiled once for all shaders. Lanes are independent: if they need different images, the images
-// are sampled one after the other, and each lane keeps the result of its own.
+// are sampled one after the other, and each lane keeps the result from its own image.
 #include "halfspace/shading/environment.h"
 
 #include <algorithm>

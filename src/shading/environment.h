@@ -29,7 +29,7 @@ enum class EnvironmentLayout : uint8_t { panorama, cube };
 
 /// Rotates right-handed world space (x right, y up, −z forward) to map space.
 inline const glm::mat3 kMapFromWorld{1, 0, 0, 0, 1, 0, 0, 0, -1};
-/// Rotates world space to a map of a globe seen from its center, where u and v match those of uv_sphere. East is on the left.
+/// Rotates world space to a map of a globe seen from its center, with the same u and v as on uv_sphere. East is on the left.
 inline const glm::mat3 kMapFromGlobe{0, 0, -1, 0, 1, 0, 1, 0, 0};
 
 /// An immutable environment map. It owns its texels. Any number of threads may read it concurrently.
@@ -51,7 +51,7 @@ class EnvironmentMap {
   int height(int level = 0) const { return image(level, 0).height() - 2; }
 
   /// Returns the trilinearly filtered linear light from direction d_ms, which may have any length except 0. dx_ms and dy_ms are the
-  /// changes of the direction from this pixel to the next one to the right and up. All inputs are safe: if the direction is 0 or
+  /// changes in the direction to the next pixel to the right and to the next pixel up. All inputs are safe: if the direction is 0 or
   /// not finite, the result is the light of an arbitrary direction.
   template <Number R>
   vec3<R> sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const;

@@ -43,8 +43,8 @@ struct Footprint {
   vec2<R> span;     ///< vector from the first probe to the last, in (s, t); 0 for a single one
 };
 
-/// Returns the footprint of a pixel in a level 0 of width x height. duv_dx and duv_dy are the changes of (s, t) from this pixel to
-/// the next one to the right and up. max_probes must be at least 1.
+/// Returns the footprint of a pixel in a level 0 of width x height. duv_dx and duv_dy are the changes in (s, t) to the next
+/// pixel to the right and to the next pixel up. max_probes must be at least 1.
 ///
 /// A ratio of the axes that exceeds an integer by at most 1/1024 of it counts as that integer, since even the ratio of a circle is
 /// 1 only up to rounding. A major axis that is longer than 2^30 texels, infinite or NaN gives one probe at level_of_detail.

@@ -88,7 +88,7 @@ HS_INLINE IncidentLight<R> light_at(const Light& light, const vec3<R>& position_
   return {l_ws, strength};
 }
 
-/// Returns the cosine, clamped to [0, 1], that the specular highlight raises to the power of the shininess.
+/// Returns the cosine that is raised to the power of the shininess for the specular highlight, clamped to [0, 1].
 template <class R>
 HS_INLINE R highlight_cosine(LightModel model, const SurfacePoint<R>& p, const vec3<R>& l_ws, R n_l) {
   const R c = model == LightModel::phong ? fma(R(2) * n_l, dot(p.n_ws, p.v_ws), -dot(l_ws, p.v_ws))  // r·v

@@ -31,7 +31,7 @@ struct Factor {
 template <class R>
 using Material = std::array<vec3<R>, kMaterialFactors>;
 
-/// Texture coordinates of a pixel. duv_dx and duv_dy are the changes of uv from this pixel to the next one to the right and up.
+/// Texture coordinates of a pixel. duv_dx and duv_dy are the changes in uv to the next pixel to the right and to the next pixel up.
 template <class R>
 struct MapCoordinates {
   vec2<R> uv, duv_dx, duv_dy;

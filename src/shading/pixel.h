@@ -43,8 +43,8 @@ struct Weights {
 };
 
 /// n1 and n2 divided by the sum of n0, n1 and n2. Because the sum and the quotients are rounded, the three weights do not add up to
-/// exactly 1. The difference is distributed in proportion to the weights. It is computed from 1 − max(p1, p2), which is exact where
-/// it matters: if the maximum is at least 1/2.
+/// exactly 1. The difference is distributed in proportion to the weights. It is computed from 1 − max(p1, p2), which is exact if
+/// the maximum is at least 1/2. This is the case in which the accuracy of the difference matters.
 template <class R>
 struct Normalized {
   R p1, p2, sum, inverse;

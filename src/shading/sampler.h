@@ -22,8 +22,8 @@ struct Sampler {
   Wrap wrap_t = Wrap::repeat;
   /// Maximum number of probes along an elongated footprint (footprint.h): 1 (isotropic) … 16. Ignored by sample_level.
   int anisotropy = 1;
-  /// Linear color outside the image for axes with Wrap::border. It is clamped to what the texture format can store, to [0, 1] for
-  /// formats of codes. Formats with one channel use only red.
+  /// Linear color outside the image for axes with Wrap::border. It is clamped to the range of the texture format, which is [0, 1]
+  /// for 8-bit and 16-bit codes. Formats with one channel use only red.
   glm::vec4 border_color{0.0f};
 };
 

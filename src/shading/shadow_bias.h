@@ -38,7 +38,7 @@ HS_INLINE R tangent_of(R cosine, float limit) {
 
 /// Returns the offset in texels that ShadowBias::automatic applies. On the triangle itself its plane is sufficient. Neighboring
 /// triangles are tilted away from that plane, by an amount that grows with the radius of the filter and with the light's angle.
-/// Half a texel is added for the rounding of depths within a texel. The radius is capped at that of pcf7: pcss reaches
+/// Half a texel is added for the rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches
 /// farther, but only for occluders that are far away.
 template <class R>
 HS_INLINE R automatic_lift(const ShadowSettings& s, R tangent) {

@@ -50,7 +50,7 @@ HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowCoordinates<R>&
 /// section 3 (Hamburger, four moments).
 template <class R>
 HS_INLINE R four_moment_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
-  // Biases the moments slightly towards those of a spread-out distribution, to make up for rounding errors.
+  // Biases the moments slightly towards the moments of a spread-out distribution, to compensate for rounding errors.
   constexpr float kSpread = 1e-5f;
   const vec4<R> m = moments_at(view, p) * (1.0f - kSpread) + vec4<R>(R(0.5f * kSpread));
   const R z0 = linear_depth(view, p.depth, p.w);

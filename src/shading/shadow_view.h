@@ -15,7 +15,7 @@ struct ShadowCoordinates {
   R x, y;                ///< in texels
   R depth;               ///< reversed window depth
   R w;                   ///< clip w: distance along the axis, or 1
-  R depth_dx, depth_dy;  ///< change of depth per texel, on the plane that texels are compared with; 0: no plane
+  R depth_dx, depth_dy;  ///< change in depth per texel on the plane that texels are compared with; 0: no plane
 };
 
 /// Returns the difference in window depth, at clip w, between two points whose distance along the view axis is the width of one texel. In
@@ -40,7 +40,7 @@ HS_INLINE MaskOf<R> holds(const ShadowView& view, const ShadowCoordinates<R>& p,
   return p.w > R(0) && p.x >= low && p.x <= high && p.y >= low && p.y <= high && p.depth >= R(0) && p.depth <= R(1);
 }
 
-/// Sets the depth slopes to those of the plane through position_rws with the given normal. A plane in world space is also a plane in
+/// Sets the depth slopes of p from the plane through position_rws with the given normal. A plane in world space is also a plane in
 /// window space, so the slopes are the same at every texel. They are limited to max_slope times the depth of a texel.
 template <class R>
 HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_rws, const vec3<R>& normal_ws, float max_slope,

@@ -93,7 +93,7 @@ struct SphereImpostor : SphereImpostors {
     return {vec4<R>(c.x / R(lens.half.x), c.y / R(lens.half.y), z, w), point_size(c, in.radius), {}};
   }
 
-  // For the classic sprite: a hemisphere over the circle of the point. The depth is that of the center plus the distance from the
+  // For the classic sprite: a hemisphere over the circle of the point. The depth is the depth of the center plus the distance from the
   // middle of the circle, where one radius counts as one world unit.
   template <class R>
   HS_INLINE SphereHit<R> hit(const Varyings<R>& in, const Pixel<R>& px) const {

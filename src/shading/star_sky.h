@@ -70,7 +70,8 @@ struct StarSky {
     const R cb = (to_real<R>(j) + R(0.3f) + R(0.4f) * unit_fraction<R>(seed3)) * R(kCell) - R(1);
     const R da = a - ca, db = b - cb;
     const R radius(std::min(std::max(1.3f * pixel, 0.0008f), 0.25f * kCell));
-    // Away from the center of the face, a step on the face is longer than the angle by about 1/size; this is used for both directions.
+    // Away from the center of the face, a step on the face is longer than the angle by a factor of about 1/size. The factor is used for
+    // both directions.
     const R off = (da * da + db * db) * (size * size) / (radius * radius);
     const R disc = max(R(1) - off, R(0));
     // The eighth power makes bright stars rare.

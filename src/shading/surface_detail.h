@@ -22,7 +22,7 @@ HS_INLINE vec3<R> normal_from_map(const DetailMap& detail, const MapCoordinates<
   return select(dot(n, n) > R(0), n, n_ws);
 }
 
-/// The change of height from this pixel to the next one to the right and up.
+/// The changes in height to the next pixel to the right and to the next pixel up.
 template <class R>
 struct HeightSteps {
   R right, up;
@@ -49,8 +49,8 @@ HS_INLINE HeightSteps<R> height_differences(const DetailMap& detail, const Pixel
   return {s * (h[1] - h[0]), s * (h[2] - h[0])};
 }
 
-/// Returns the normal of a surface that is displaced by h along its unit normal n. dp_dx and dp_dy are the changes of the position
-/// from this pixel to the next one to the right and up. The result is n − ∇h with the surface gradient
+/// Returns the normal of a surface that is displaced by h along its unit normal n. dp_dx and dp_dy are the changes in the position
+/// to the next pixel to the right and to the next pixel up. The result is n − ∇h with the surface gradient
 ///
 ///   ∇h = (h_x · (p_y × n) + h_y · (n × p_x)) / (p_x · (p_y × n))
 ///

@@ -109,7 +109,7 @@ HS_INLINE vec4<R> to_rgba(const vec4<R>& v) {
 /// Four channels, processed at once.
 using Channels = RealN<4>;
 
-/// Clamps a linear value to what an rgba32f texel may contain.
+/// Clamps a linear value to the range of rgba32f texels.
 inline Channels clamped_texel(const glm::vec4& v) {
   const auto x = load<Channels>(&v.x);
   return select(x == x, clamp(x, Channels(-kMaxTexel), Channels(kMaxTexel)), Channels(0.0f));

@@ -158,7 +158,7 @@ int32_t packed(glm::u8vec4 t) {
   return static_cast<int32_t>(bits);
 }
 
-// Stores texel i; r8 and r16 need words that are still 0.
+// Stores texel i. For r8 and r16, the word must still be 0.
 void put(int32_t* words, std::size_t i, uint8_t t, TexelFormat) {
   words[i / 4] |= static_cast<int32_t>(static_cast<uint32_t>(t) << (i % 4 * 8));
 }

@@ -61,8 +61,8 @@ class Texture2D {
   /// Returns the linear color of a texel of any format. level, x and row must be valid.
   glm::vec4 value(int level, int x, int row) const;
 
-  /// Returns the filtered linear color at uv. duv_dx and duv_dy are the changes of uv from this pixel to the next one to the right
-  /// and up.
+  /// Returns the filtered linear color at uv. duv_dx and duv_dy are the changes in uv to the next pixel to the right and to the
+  /// next pixel up.
   ///
   /// All inputs are safe. A NaN coordinate is treated as 0 or as the border. An infinite one is treated as the edge (clamp), the border,
   /// or 0 (repeat, mirrored). A level of detail that is NaN means level 0, and NaN derivatives mean one probe. With repeat,

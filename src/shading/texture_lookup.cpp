@@ -35,7 +35,7 @@ HS_INLINE Wrapped<R> wrapped_mirrored(R coordinate) {
   return {clamp(min(m, R(2.0f) - m), 0.0f, 1.0f), select(coordinate < R(0.0f), !back, back)};
 }
 
-/// Clamps the border color to what the texels of the format can store (OpenGL 4.6, section 8.14.2).
+/// Clamps the border color to the range of the format (OpenGL 4.6, section 8.14.2).
 glm::vec4 clamped_border(const glm::vec4& color, TexelFormat format) {
   glm::vec4 v;
   store(&v.x, detail::clamped_texel(color));

@@ -26,7 +26,8 @@ struct NoPerspective {
   T value;
 };
 
-/// An absent member. It has no components and, if declared [[no_unique_address]], no size. Two in one struct need different tags.
+/// An absent member. It has no components and, if declared [[no_unique_address]], no size. Absent members of the same struct need
+/// different tags.
 template <int tag>
 struct Absent {};
 /// T, or an absent member. Used by shaders whose variants have different members.

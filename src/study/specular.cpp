@@ -88,7 +88,7 @@ Study study_specular(const StudyOptions& options, const Workers&) {
     // C. Schlick, "A fast alternative to Phong's specular model", Graphics Gems IV, 1994.
     study.variants.push_back(judged(
         "Schlick", n, [&](Real c) { return c / (Real(y) - Real(y) * c + c); }, options));
-    // A spherical Gaussian. Value and derivative at c = 1 are those of c^n.
+    // A spherical Gaussian. It has the same value and derivative as c^n at c = 1.
     study.variants.push_back(judged(
         "Gaussian", n, [&](Real c) { return exp(Real(y) * (c - Real(1.0f))); }, options));
   }

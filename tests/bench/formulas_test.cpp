@@ -83,7 +83,7 @@ std::optional<dvec3> checker(const dvec3& p) {
   return light ? dvec3(230.0 / 255) : dvec3(40.0 / 255, 90.0 / 255, 160.0 / 255);
 }
 
-// The mesh of two million triangles is within 5e-6 of the sphere, and that of 200,000 within 4e-5, which is far less than a code.
+// The mesh of two million triangles is within 5e-6 of the sphere, and the mesh of 200,000 is within 4e-5. Both are far less than a code.
 TEST(WorkloadFormulas, SpherePhongAndHdrMatch) {
   const Image<glm::u8vec4> phong = drawn("sphere_phong_2m", kSize), hdr = drawn("hdr_200k", kSize);
   const auto tone = [](const dvec3& c) { return glm::pow(0.8 * c / (1.0 + 0.8 * c), dvec3(1 / 2.2)); };

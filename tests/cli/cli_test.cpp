@@ -562,8 +562,8 @@ TEST_F(Cli, CompareReportsNumbersAndChecksTheTolerance) {
 TEST_F(Cli, CompareUsesLinearValuesForLinearFiles) {
   for (const char* name : {"a.exr", "a.png"}) EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", name}).exit_code, 0);
   EXPECT_EQ(nlohmann::json::parse(run({"compare", "a.exr", "a.exr", "--json"}).out).at("values"), "linear");
-  // A linear file is compared with an 8-bit file by its codes. They are those of the same scene, except where rounding to half (2^-11 of
-  // the value) moves a value from one code to the next.
+  // A linear file is encoded to codes for the comparison with an 8-bit file. Both show the same scene, so codes differ only where rounding
+  // to half (2^-11 of the value) moves a value from one code to the next.
   const auto mixed = nlohmann::json::parse(run({"compare", "a.exr", "a.png", "--json"}).out);
   EXPECT_EQ(mixed.at("values"), "codes");
   EXPECT_LE(mixed.at("max").get<double>(), 1.0 / 255.0);

@@ -72,8 +72,8 @@ std::string as_if_unclipped(const Picture& p, const Seen& seen) {
       if (w == Where::unsure) return {};
       if (w == Where::inside) expected = triangle.color(colors, at);
     }
-    // Snapping moves a vertex by 1/512 px and the colors by their slope times that distance: two codes for triangles that are almost
-    // edge-on.
+    // Snapping moves a vertex by up to 1/512 px and changes the colors by their slope times that distance. For triangles that are almost
+    // edge-on, this is up to two codes.
     return expect_near(expected, seen.color(x, y), 2.0 / 255.0);
   });
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kCompareNames[] = {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
 constexpr const char* kOpNames[] = {"keep",   "zero",           "replace",       "increment_clamp", "decrement_clamp",
                                     "invert", "increment_wrap", "decrement_wrap"};
-// The initial stencil value of each strip and the initial depth of each row. The depth of the tested draw equals that of row 2.
+// The initial stencil value of each strip and the initial depth of each row. The tested draw has the depth of row 2.
 constexpr std::array<uint8_t, 8> kStencils{0, 1, 5, 0x7f, 0x80, 0xa5, 0xfe, 0xff};
 constexpr std::array<float, 4> kDepths{0.25f, 0.5f, 0.625f, 0.75f};
 constexpr float kDrawn = 0.625f;

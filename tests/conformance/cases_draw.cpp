@@ -182,7 +182,7 @@ Picture restarted(Topology topology, int place, bool narrow, uint32_t instances)
   return p;
 }
 
-// The picture must equal that of a separate draw for each run of indices between restarts, instance by instance.
+// The picture must equal the picture of separate draws, one for each run of indices between restarts and each instance.
 std::string as_single_draws(const Picture& p, const Seen& seen) {
   Picture single = p;
   single.draws.clear();

@@ -54,8 +54,8 @@ Where where(const Region& region, const glm::dvec2& point, double margin = kMarg
 
 /// Returns a convex polygon of the window, whose corners can have either orientation.
 Region polygon(std::span<const glm::dvec2> corners);
-/// Computes the visible part of a clip-space triangle, with w of any sign, between near and far (unless clamped), from the planes of its
-/// homogeneous weights. Returns nothing if the triangle is seen edge-on.
+/// Computes the visible part of a clip-space triangle from the planes of its homogeneous weights. w may have any sign. The part is limited
+/// by the near and far planes unless depth is clamped. Returns nothing if the triangle is seen edge-on.
 struct Weighed {
   Region region;
   std::array<HalfPlane, 3> weight;  ///< of the vertices, for a point scaled to w = 1

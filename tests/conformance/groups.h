@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The groups of cases, named like those of VK-GL-CTS.
+// The groups of cases, named after the groups of VK-GL-CTS.
 #pragma once
 
 #include <ostream>

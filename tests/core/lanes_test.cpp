@@ -240,7 +240,7 @@ TEST(Lanes, GathersLoadsAndStoresAccessTheCorrectElements) {
   });
 }
 
-/// Returns the mask whose bits equal those of pattern.
+/// Returns the mask whose bits equal the bits of pattern.
 template <class R>
 MaskOf<R> mask_of(uint64_t pattern) {
   IntOf<R> number(0);

@@ -114,7 +114,7 @@ TEST(Examples, ReadDepthShowsDistances) {
   const Picture p = run_example("read_depth");
   EXPECT_EQ(p.at(2, 2).x, 0);        // the far plane
   EXPECT_EQ(p.at(128, 128).x, 255);  // the front of the sphere, 3 units away
-  // At the silhouette the distance is slightly less than that of the center: between 3.5 and 4 units.
+  // At the silhouette the distance is between 3.5 and 4 units, slightly less than at the center of the sphere.
   EXPECT_NEAR(p.at(128, 66).x, 255.0 * (4.0 - 3.33), 40.0);
 }
 

@@ -119,7 +119,7 @@ TEST(Plane, FacesUpAndItsTextureReadsFromAbove) {
 
 // ---- tangents --------------------------------------------------------------------------------------------------
 
-// On flat faces the position is linear in (u, v), so ∂P/∂u and ∂P/∂v of a triangle are those of its face, except for the rounding of
+// On flat faces the position is linear in (u, v), so a triangle has the same ∂P/∂u and ∂P/∂v as its face, except for the rounding of
 // positions and coordinates to float (about 1e-7 of an edge).
 void expect_tangents_of_flat_faces(const Mesh& m) {
   for (std::size_t i = 0; i < m.indices.size(); i += 3) {
@@ -140,8 +140,8 @@ TEST(Tangents, OfFlatFacesFollowTheTextureCoordinates) {
   expect_tangents_of_flat_faces(cube(3.0f));
 }
 
-// Central differences with h = 1e-6 have errors of (2πh)²/6 and 1e-16/h; a vertex is rounded to float. ∂P/∂u is zero at the poles; the
-// tangent of a pole vertex is that of its longitude, a unit vector (see IsValidClosedAndFacesOutward).
+// Central differences with h = 1e-6 have errors of (2πh)²/6 and 1e-16/h, and vertices are rounded to float. ∂P/∂u is zero at the poles, so
+// a pole vertex has the tangent of its longitude, which is a unit vector (see IsValidClosedAndFacesOutward).
 TEST(Tangents, OfUvSphereFollowTheTextureCoordinates) {
   const Mesh m = uv_sphere(12, 24, 2.0f);
   const auto sphere = [](double u, double v) {

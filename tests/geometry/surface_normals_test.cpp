@@ -297,7 +297,8 @@ TEST(PlaneBumps, HeightsAreInWorldUnits) {
     const double u = (spot_of(x, 0).x + 2) / 4;
     const double slope = 0.1 * 0.5 * 2 * kPi * 3 * std::cos(2 * kPi * 3 * u) / 4;
     const glm::dvec3 want = glm::normalize(glm::dvec3(-slope, 0, 1));
-    // (2π·3/512)²/6 = 0.02% of a slope of 0.24, and the same again for linear filtering.
+    // The slope is at most 0.24. The differences in the map have a relative error of (2π·3/512)²/6 = 0.02%, and linear filtering adds as
+    // much.
     EXPECT_LT(glm::length(seen.at(x, kSize / 2) - want), 1.2e-4) << x;
   }
 }

@@ -174,8 +174,8 @@ TEST_F(ToolFormats, SamePixelsGiveIdenticalFiles) {
   }
 }
 
-// RGBE stores 8 bits per channel and a shared exponent, which is that of the largest channel. A step is between 1/256 and 1/128 of the
-// largest channel; the error is at most half a step.
+// RGBE stores 8 bits per channel and the exponent of the largest channel. A step is between 1/256 and 1/128 of the largest channel; the
+// error is at most half a step.
 TEST_F(ToolFormats, HdrErrorIsBoundedByTheLargestChannel) {
   const Image<glm::vec4> light = test_light(false);
   const Image<glm::vec4> again = write_and_read("a.hdr", light);

@@ -167,7 +167,7 @@ TEST_F(ImageIo, ReportsWhatIsWrongWithAnInput) {
   EXPECT_TRUE(tells(input_error([&] { read_image("/dev/zero"); }), "/dev/zero", {"regular file"}));
 }
 
-// A truncated PNG is either rejected or decodes completely, if only trailing chunks are missing. A PNG with one changed byte is either
+// A truncated PNG is rejected, or decodes completely if only trailing chunks are missing. A PNG with one changed byte is either
 // rejected or decodes to an image of the right size. Neither crashes.
 TEST_F(ImageIo, DamagedPngNeverCrashes) {
   const std::vector<std::byte> whole = encode_png(test_picture(false));
@@ -217,7 +217,7 @@ TEST_F(ImageIo, RejectsDamagedFilesOfOtherFormatsWithOneLine) {
   }
 }
 
-// Compares our decoding of PngSuite with that of stb_image, which is included with the files.
+// Compares our decoding of PngSuite with the images decoded by stb_image, which are included with the files.
 TEST_F(ImageIo, PngSuiteMatchesAnotherDecoder) {
   const fs::path primary = shared_data("pngsuite/primary"), expected = shared_data("pngsuite/primary_check");
   if (!fs::exists(primary)) GTEST_SKIP() << absent(primary);

@@ -39,7 +39,8 @@ TEST(ImageToolCopy, DISABLED_WritesAndReads) {
 
 class ImageTool : public FolderTest {
  protected:
-  // Returns the lines written by a copy of this program that runs next to the script, or without a tool if the script is empty.
+  // Runs a copy of this program in a folder in which the script is the image tool, and returns the lines that it writes. If the script is
+  // empty, there is no tool.
   std::string lines_beside(const std::string& script) const {
     const fs::path copy = directory / "test";
     fs::copy_file("/proc/self/exe", copy);

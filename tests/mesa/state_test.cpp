@@ -201,7 +201,7 @@ TEST_P(BlendOf, OneLayerOverAnImage) {
   expect_agreement(figures);
 }
 
-// About twenty layers, each rounded to 8 bits. Halfspace computes a layer in float, Mesa from 8-bit colors and factors.
+// About twenty layers, each rounded to 8 bits. Halfspace blends a layer in float. Mesa uses 8-bit colors and factors.
 TEST_P(BlendOf, ManyLayers) {
   ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   for (std::size_t i = 0; i < mesh.colors.size(); ++i) mesh.colors[i].w = 0.2f + 0.1f * static_cast<float>(i % 6);

@@ -89,7 +89,7 @@ DrawState state_with(const Change& change) {
   return state;
 }
 
-/// Returns the name of a parameterized test, which is that of its parameter.
+/// Returns the name of a parameterized test, which is the name of its parameter.
 inline const auto case_name = [](const auto& test) { return std::string(test.param.name); };
 
 /// Prints the figures and records them as properties of the running test.
@@ -99,8 +99,8 @@ void report(const Figures& figures);
 inline constexpr double kCoverageBound = 1e-4, kColorBound = 1e-3;
 /// Expects that the two images agree within the bounds.
 void expect_agreement(const Figures& figures);
-/// Expects that Halfspace agrees with the reference for vertices on the 1/256 px grid within the bounds, extrapolated from the checked
-/// pixels. Used for features that Mesa is known to draw less accurately; what_mesa_does is the reason.
+/// Expects that Halfspace agrees with the reference within the bounds, for vertices on the 1/256 px grid. The number of differing pixels is
+/// extrapolated from the checked ones. Used for features that Mesa is known to draw less accurately; what_mesa_does is the reason.
 void expect_halfspace_right(const Figures& figures, const char* what_mesa_does);
 /// Calls expect_agreement if what_mesa_does is null, and expect_halfspace_right otherwise.
 inline void expect_verdict(const Figures& figures, const char* what_mesa_does) {

@@ -606,7 +606,7 @@ bool covers(const WindowTriangle& t, const Point& at) {
     const Corner& a = t.corner[i];
     const Corner& b = t.corner[(i + 1) % 3];
     const int64_t e = cross(b.x - a.x, b.y - a.y, at.x - a.x, at.y - a.y);
-    const int64_t to_right = -(b.y - a.y), upwards = b.x - a.x;  // changes of e for these steps
+    const int64_t to_right = -(b.y - a.y), upwards = b.x - a.x;  // change in e per step in this direction
     const bool inside = e != 0 ? e > 0 : to_right != 0 ? to_right > 0 : upwards > 0;
     if (!inside) return false;
   }
@@ -620,7 +620,7 @@ float determinant(float a, float b, float c, float d) {
   return std::fma(a, b, -product) + lost;
 }
 
-// Maximum extent of triangles whose edge functions are exact integers in the depth sum.
+// Maximum extent of triangles for which the depth is computed from exact integer edge functions.
 constexpr int64_t kExactExtent = 63 * 256;
 
 bool is_small(const WindowTriangle& t) {
@@ -817,8 +817,8 @@ Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> int
 
 namespace {
 
-// Returns the sum of three numbers and the fractions of the second and the third. The error by which the rounded fractions do not add up to
-// 1 is distributed proportionally.
+// Returns the sum of three numbers, and the fractions of the second and the third. Rounding can keep the three fractions from adding up to
+// 1; the difference is distributed in proportion to the fractions.
 std::array<float, 3> share(const std::array<float, 3>& n) {
   const float sum = n[0] + (n[1] + n[2]);
   const float inverse = 1.0f / sum;

@@ -34,7 +34,7 @@ struct Counts {
   uint64_t clipped = 0;
   uint64_t triangles = 0;  ///< triangles that may cover a sample
   uint64_t samples_passed = 0;
-  bool has_lines = false;  ///< if set, primitives without samples are counted differently from a pass
+  bool has_lines = false;  ///< if set, the oracle counts primitives without samples differently from a pass
   std::map<uint32_t, uint64_t> queries;
 };
 

@@ -82,7 +82,7 @@ std::string check_scene(const Scene& scene, uint64_t seed) {
     if (!wrong.empty()) return describe(v.options, v.threads) + ": " + wrong;
     if (v.threads == 1 || seed % 4 != 0) continue;
     if (run_pass(scene, v.options, 1).statistics != other.statistics)
-      return describe(v.options, v.threads) + ": statistics differ from those of one thread";
+      return describe(v.options, v.threads) + ": statistics differ from the run with one thread";
   }
   return {};
 }

@@ -431,7 +431,7 @@ struct ClipShader {
   }
 };
 
-/// Draws only depth; its positions equal those of ColorShader.
+/// Draws only depth. Computes the same positions as ColorShader.
 using DepthShader = MatrixShader;
 
 /// A post step: a tone curve that uses only addition, subtraction, multiplication and division.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shaders that are constant by their type can fill tiles without using tile memory. The result must equal that of an equivalent shader that
-// is not constant by its type.
+// Shaders that are constant by their type can fill tiles without using tile memory. The result must be the same as with an equivalent
+// shader that is not constant by its type.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,7 +93,7 @@ TEST(CoveredArea, PairsCoverEveryPixelExactlyOnce) {
     };
     const Triangle t = triangle({at(), at(), at()}, {at(), at(), at()});
     const std::size_t k = static_cast<std::size_t>(random.integer(0, 2)), n = (k + 1) % 3;
-    // The shared edge or, in two of three cases, the same edge moved or with one end moved.
+    // A third of the triangles have the edge in common. In another third one end of the edge is moved, and in the last third both ends.
     std::array<int32_t, 3> ux{t.x[n], t.x[k], at()}, uy{t.y[n], t.y[k], at()};
     std::array<int32_t, 3>& moved = i % 6 < 3 ? ux : uy;
     const int by = random.integer(-300, 300);

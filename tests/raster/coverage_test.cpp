@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage is exact: the samples that a pass covers must equal those of edge functions evaluated in 128-bit integers at every pixel. There
-// is no tolerance, because all positions are multiples of 1/256 px that the vertex stage does not round.
+// Coverage is exact: a pass must cover the same samples as edge functions that are evaluated in 128-bit integers at every pixel. There is
+// no tolerance, because all positions are multiples of 1/256 px that the vertex stage does not round.
 //
 // Each triangle has a random weight in each channel. In the blended (immediate) draw, a pixel must contain the sum of the weights of all
 // triangles that cover it, so that errors cannot cancel. In the replacing (deferred) draw, it must contain the weight of the last one. All

@@ -138,8 +138,8 @@ double wrong_orders(Random& r, bool reversed, double far_over_near, double gap, 
 }
 
 // Vertices that the clipper creates are snapped but keep the depth of their exact position, like original vertices. Each is moved by at
-// most half a grid step, 1/512 px, in x and in y. Depth is affine in the window, so the error at an inside sample is at most that of the
-// vertices, (|dz/dx| + |dz/dy|) / 512, plus float rounding.
+// most half a grid step, 1/512 px, in x and in y. Depth is affine in the window, so the error at an inside sample is at most the
+// error at the vertices, (|dz/dx| + |dz/dy|) / 512, plus float rounding.
 TEST(Depth, ClippedTrianglesStayWithinHalfAGridStepOfTheirPlane) {
   constexpr int kSize = 64;
   Random r(11);
@@ -499,7 +499,7 @@ TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
       const float value = z[static_cast<std::size_t>(i)];
       const int x = i % kSide, y = i / kSide;
       ASSERT_EQ(pixel(d32f, x, y), value);
-      // 24 + 24 bits are exact in double.
+      // The product of two 24-bit numbers is exact in double.
       ASSERT_EQ(pixel(d24, x, y), static_cast<uint32_t>(std::nearbyint(static_cast<double>(value) * 16777215.0))) << value;
       ASSERT_EQ(pixel(d16, x, y), static_cast<uint16_t>(std::nearbyint(static_cast<double>(value) * 65535.0))) << value;
     }

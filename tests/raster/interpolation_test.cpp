@@ -218,8 +218,8 @@ Error measure(uint64_t seed, int triangles, Shape shape, Values values, double w
   return e;
 }
 
-// Relative to the largest |value|, with u = 2^-24: a weight near 1 has an error of u (from its own rounding and that of its complement),
-// and a weight near 1/2 of up to 2u (from the rounding of the three terms). The difference to the value of v0 can be twice the largest
+// Errors are relative to the largest |value|, with u = 2^-24. A weight near 1 has an error of u, because it and its complement are rounded.
+// A weight near 1/2 has an error of up to 2u, because three terms are rounded. The difference from the value of v0 can be twice the largest
 // value and is itself rounded (u). The result is also rounded (u/2). The total is 5u = 3e-7.
 constexpr Exact kTolerance = 3e-7L;
 

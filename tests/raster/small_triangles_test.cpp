@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small triangles are rasterized in groups of W. The result must equal that of drawing each triangle in a pass of its own: all pixels and
-// depths, and the number of passing samples. The test mixes draws, uses equal depths, and varies the extents from one pixel to beyond the
+// Small triangles are rasterized in groups of W. All pixels, depths and the number of passing samples must be the same as if each
+// triangle were drawn in a separate pass. The test mixes draws, uses equal depths, and varies the extents from one pixel to beyond the
 // limit for small triangles.
 #include <algorithm>
 

@@ -479,8 +479,8 @@ TEST(Statistics, DeferredDrawsShadeOnlyVisibleFragments) {
 }
 
 TEST(Statistics, BlocksBehindAreNotTested) {
-  // Draws eight layers from far to near, after which the bounds of each block are made exact, and then eight layers behind them, which are
-  // rejected by block.
+  // Draws eight layers from far to near. The bounds of each block are then made exact, so that the eight layers behind them are rejected
+  // block by block.
   std::vector<glm::vec4> positions;
   for (int layer = 0; layer < 16; ++layer) {
     const auto p = full_screen(layer < 8 ? 0.5f - 0.1f * static_cast<float>(layer) : 0.6f);
@@ -709,7 +709,7 @@ TEST(StateDeathTest, ChecksVerticesAndIndices) {
   const std::vector<uint16_t> narrow{0, 1, 9};
   EXPECT_DEATH(Indices(narrow, 9), "check failed");
   EXPECT_DEATH(Indices::sequential(std::size_t{1} << 32), "check failed");
-  // Longer than 32-bit gather indices can address. Only a view is created; nothing is read.
+  // This stream is longer than 32-bit gather indices can address. Only a view is created; nothing is read.
   const VertexStream huge{four[0].x == 0 ? &four[0].x : nullptr, 4, 4, std::size_t{1} << 29};
   EXPECT_DEATH(make_vertex_view(huge), "check failed");
 }

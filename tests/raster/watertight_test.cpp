@@ -32,7 +32,7 @@ std::vector<bool> inside_outline(const std::vector<Point>& outline, int y, int w
     Point a = outline[i], b = outline[(i + 1) % outline.size()];
     if ((a.y > sy) == (b.y > sy)) continue;
     if (a.y > b.y) std::swap(a, b);
-    // Centers x with (256·x + 128 − a.x)·(b.y − a.y) < (b.x − a.x)·(sy − a.y), which are all x below a bound.
+    // Toggles the centers x with (256·x + 128 − a.x)·(b.y − a.y) < (b.x − a.x)·(sy − a.y). These are all x below a bound.
     const int64_t dy = int64_t{b.y} - a.y, divisor = 256 * dy;
     const int64_t bound = (int64_t{b.x} - a.x) * (sy - a.y) + (int64_t{a.x} - 128) * dy;
     const int64_t below = bound / divisor + (bound % divisor > 0 ? 1 : 0);  // rounded up
@@ -228,8 +228,9 @@ TEST(Watertight, QuadOfDrtkIssue9IsWatertight) {
   }
 }
 
-// All spokes of the fan pass through pixel centers: they lead from a center along multiples of small integer steps. With distant ends, the
-// barycentric coordinates of samples on a spoke are quotients of large products, which float arithmetic may round to either side.
+// All spokes of the fan pass through pixel centers, because they start at a center and extend along multiples of small integer steps. With
+// distant ends, the barycentric coordinates of samples on a spoke are quotients of large products, which float arithmetic may round to
+// either side.
 TEST(Watertight, SpokesThroughPixelCentersAreWatertight) {
   Random r(4);
   WatertightCheck check;
@@ -247,8 +248,8 @@ TEST(Watertight, SpokesThroughPixelCentersAreWatertight) {
   EXPECT_GT(check.inside(), effort(1500) * 1000);
 }
 
-// The same for edges that are not between pixel centers: the ends are far outside of the target, at different distances from the samples on
-// the edge.
+// These edges also pass through pixel centers, but do not end at them. The ends are far outside the target, at different distances from the
+// samples on the edge.
 TEST(Watertight, DistantEdgesThroughPixelCentersAreWatertight) {
   Random r(5);
   WatertightCheck check;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Checks that the cheapest model for an allowed error is accurate enough: compares the outlines in random views of the shipped scenes with
-// those of the finest meshes. HALFSPACE_VIEWS sets the number of views (9 by default, one per scene); scripts/test_full.sh uses more.
+// the outlines of the finest meshes. HALFSPACE_VIEWS sets the number of views (9 by default, one per scene); scripts/test_full.sh uses
+// more.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -139,7 +140,7 @@ TEST(MaxError, ShadowEdgesOfRandomViewsAreWithinTheLimit) {
   tally.judge();
 }
 
-// Compares colors with those of the finest meshes and filters, in floats and lit per pixel, for 99.9 % of the pixels.
+// Compares the colors of 99.9 % of the pixels with an image in float that is lit per pixel, with the finest meshes and filters.
 TEST(MaxError, ColorsOfRandomViewsAreWithinTheLimit) {
   constexpr int kLarger = 2;  // a larger image has relatively fewer edge pixels
   constexpr double kAskedCodes = 8.0;

@@ -37,7 +37,7 @@ bool is_edge(const Image<float>& light, int x, int y) {
 struct Shimmer {
   int64_t edges = 0;     // pixels at a true edge, summed over all frames
   int64_t at_edges = 0;  // crossings of 1/2 with the map, in excess of the true crossings of each pixel
-  int64_t away = 0;      // crossings with the map at pixels that are not at a true edge in either frame
+  int64_t away = 0;      // crossings of 1/2 with the map at pixels that are not at a true edge in either frame
 };
 
 // The light rotates about the vertical by a tenth of a degree per frame; the camera is fixed.

@@ -185,7 +185,7 @@ TEST(Spheres, SkipsSpheresThatNeitherCastNorReceive) {
   EXPECT_EQ(differs(none, receiving), 0);
 }
 
-// The ground does not shadow itself for any choice of casting faces, so the visible shadows are those of spheres.
+// The ground does not shadow itself for any choice of casting faces, so all visible shadows are cast by spheres.
 TEST(Spheres, CastWithTheirFrontForAnyChoiceOfFaces) {
   const std::string scene = std::string(kShaded) + kSun;
   const Image<glm::vec4> none = rendered(prepared(scene, {"shadow.method=none"}));

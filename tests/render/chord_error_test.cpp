@@ -69,7 +69,7 @@ double deepest_diagonal(const Mesh& mesh, const Mesh& fine, int rows, int column
   return deepest;
 }
 
-// Expects that the measured error is between `least` and `most` times chord_error, for several resolutions.
+// Expects that the measured error is between `least` and `most` times chord_error at several resolutions.
 void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displacement*), double least, double most) {
   for (const int parts : {8, 16, 48}) {
     ObjectDescription o;

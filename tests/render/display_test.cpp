@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The final stage of rendering: measured exposure, tone curves and encodings applied per tile, and the memory that HDR needs.
+// Tests the final stage of rendering: automatic exposure, tone curves and encodings applied per tile, and the memory use of HDR.
 #include "halfspace/render/display.h"
 #include "halfspace/shading/tone.h"
 
@@ -127,8 +127,8 @@ TEST(AutoExposure, MapsTheAverageToTheKeyValue) {
       const SceneDescription scene = bright_scene(
           {"ball.visible=false", map, format, "post.hdr=true", "post.tone=none", "post.auto_exposure=true", "post.key_value=0.3"});
       const Image<glm::u8vec4> picture = picture_of(scene, 16, 16);
-      // The offset of 1e-6 changes 0.004 by 2.5e-4 of it, and a half float has a precision of 5e-4. Together that is a tenth of a code at
-      // 0.3.
+      // The offset of 1e-6 is a relative change of 2.5e-4 at 0.004, and a half float has a relative precision of 5e-4. Together that is a
+      // tenth of a code at 0.3.
       EXPECT_NEAR(picture.at(8, 8).x, linear_to_srgb(0.3f), 1) << map;
     }
   }

@@ -30,7 +30,7 @@ TEST(Earth, MatchesTheNaivePipelineInFloat) {
 TEST(Earth, IsWithinOneCodeOfDoublePrecision) {
   const double share = share_beyond_one_code<double>(SceneFile::open("earth").description(), 480, 300);
   RecordProperty("share_beyond_one_code", std::to_string(share));
-  // The remaining 0.1% of pixels are on silhouettes, where a position rounds to a different 1/256 px.
+  // The remaining 0.1% of pixels are on silhouettes, where a position is snapped to a different multiple of 1/256 px.
   EXPECT_LE(share, 1e-3);
 }
 
@@ -93,8 +93,8 @@ INSTANTIATE_TEST_SUITE_P(Views, EarthAgainstRays,
                                          std::pair{glm::dvec3(0, 2.8, 0), 0.0}, std::pair{glm::dvec3(0.3, -2.7, 0.2), 77.0}));
 
 TEST(Earth, SeamIsNotVisible) {
-  // Seen from above 180°, the seam runs down the middle of the image. If the level of detail were computed from u jumping between 0 and 1,
-  // the seam would show as a line of the smallest mip level, the mean color of the map.
+  // The camera is above 180° of longitude, so the seam runs down the middle of the image. If the level of detail were computed from u
+  // jumping between 0 and 1, the seam would show as a line of the smallest mip level, the mean color of the map.
   const SceneDescription scene = earth_from({0, 0, 2.8}, 180.0);
   const Image<vec4<double>> truth = naive_picture<double>(scene, 301, 301);
   const Image<glm::u8vec4> image = picture_of(scene, 301, 301);

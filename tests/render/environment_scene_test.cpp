@@ -58,7 +58,7 @@ TEST(EnvironmentScene, MapIsPlacedCorrectly) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const double a = ((x + 0.5) / kWidth * 2 - 1) * tangent * kWidth / kHeight, b = (1 - (y + 0.5) / kHeight * 2) * tangent;
-      // (a, b, −1), rotated back about y. Its (u, v) are those of uv_sphere, and give a direction in the panorama.
+      // (a, b, −1), rotated back about y. Its (u, v) on uv_sphere give a direction in the panorama.
       const glm::dvec3 d(a * std::cos(turn) + std::sin(turn), b, a * std::sin(turn) - std::cos(turn));
       const double u = std::atan2(-d.z, d.x), v = std::atan2(std::hypot(d.x, d.z), d.y);
       const glm::dvec3 on_map(-std::sin(v) * std::sin(u), std::cos(v), -std::sin(v) * std::cos(u));

@@ -40,7 +40,7 @@ const std::string kMirror = R"("reflection": 0.1)";
 
 std::string objects(const std::string& keys) { return R"("objects": {"a": {)" + keys + "}}"; }
 
-// The chord error of the chosen number of bands, in pixels, is below the limit, and that of the next smaller number is not.
+// The chosen number of bands must have a chord error, in pixels, below the limit. The next smaller number must not.
 TEST(ModelChoice, UsesTheFewestSufficientBands) {
   const FittedScene f = fitted(objects(R"("latitudes": 4, "longitudes": 8, )" + kMirror), kHalfPixel);
   const ObjectDescription& o = f.scene.objects.front().second;

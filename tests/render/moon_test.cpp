@@ -43,7 +43,7 @@ TEST(Moon, IsBitIdenticalForAnyThreadCount) {
 struct Sighting {
   double distance;
   bool covered;
-  double pixel;  // size of a pixel at the distance of the origin
+  double pixel;  // size of a pixel in world units at the distance of the origin
 };
 
 std::vector<Sighting> sightings(const SceneDescription& scene, int width, int height) {

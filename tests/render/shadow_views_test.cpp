@@ -136,8 +136,8 @@ TEST(ShadowViews, CommonCornersAreThoseOfTheIntersection) {
   const auto frustum = frustum_corners(clip);
   EXPECT_NEAR(frustum[0].z, 9.0, 1e-9);
   EXPECT_NEAR(frustum[4].z, -40.0, 1e-9);
-  // A small box inside the frustum gives its own corners, a box around the frustum gives those of the frustum, and a box behind the eye
-  // gives none.
+  // A small box inside the frustum gives its own corners, a box around the frustum gives the corners of the frustum, and a box behind the
+  // eye gives none.
   const auto span_of = [](const std::vector<glm::dvec3>& corners) {
     Box b;
     for (const glm::dvec3& p : corners) b.add(p);

@@ -88,7 +88,7 @@ TEST(ShadowFilter, PcfIsTheLitAreaOfTheBoxFilter) {
         for (int i = 0; i < 32; ++i)
           if ((p.z + 1.0f) / 2.0f >= map.at(i, j)) expected += overlap(i, x - r, x + r) * overlap(j, y - r, y + r);
       expected /= width * width;
-      // Texel coordinates up to 32 in float have fractions with an error of 2e-6, as does each of up to 64 terms.
+      // The fractions of float texel coordinates up to 32 have an error of 2e-6, and each of the up to 64 terms has the same error.
       EXPECT_NEAR(shadow_factor(shadow_of(map.view, filter, ShadowBias::none), receiver(p)), expected, 2e-5);
     }
   }
@@ -288,8 +288,8 @@ TEST(ShadowBias, SteepPlanesAreLitWhereTheMapIsEmpty) {
 }
 
 TEST(ShadowBias, ReceiverPlanesAreLinearInSpotLightWindows) {
-  // A tilted wall in front of a spot light: the depth that the plane predicts at a texel center must equal that of the ray through the
-  // center.
+  // A tilted wall in front of a spot light. The depth that the plane predicts at a texel center must equal the depth at which the ray
+  // through the center hits the wall.
   const float near = 0.5f, far = 20.0f, a = near * far / (far - near), b = -near / (far - near);
   ShadowView view;
   view.size = 128;

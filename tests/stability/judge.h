@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Known failures of renderers. Each test runs the plain method in a regime in which it is known to fail, and ours next to it. The results
-// are recorded in the test report, from which scripts/stability_table.py generates docs/explanation/stability.md.
+// Known failures of renderers. Each test runs the plain method in a regime in which it is known to fail, and our method for comparison. The
+// results are recorded in the test report, from which scripts/stability_table.py generates docs/explanation/stability.md.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ struct Regime {
   const char* number;   ///< what is measured; 0 is correct
 };
 
-/// Records the results. Asserts that the error of the plain method is at least `bad`, which shows that the regime is the right one, and
-/// that ours is at most `bound`.
+/// Records the results. Asserts that the error of the plain method is at least `bad`, so that the test really covers a failure, and that
+/// the error of our method is at most `bound`.
 inline void judge(const Regime& r, double plain, double bad, double ours, double bound) {
   const auto text = [](double x) {
     char out[32];
@@ -35,7 +35,7 @@ inline void judge(const Regime& r, double plain, double bad, double ours, double
   Test::RecordProperty("plain", text(plain));
   Test::RecordProperty("ours", text(ours));
   Test::RecordProperty("bound", text(bound));
-  EXPECT_GE(plain, bad) << "the plain method does not fail here, so the test uses the wrong regime";
+  EXPECT_GE(plain, bad) << "the plain method does not fail here, so the test does not cover the failure";
   EXPECT_LE(ours, bound) << r.failure << ": " << r.regime;
 }
 

@@ -31,7 +31,7 @@ Image<glm::vec4> drawn(const S& shader, const VertexView& view, const std::vecto
 
 // ---- flat shading -------------------------------------------------------------------------------------------------------
 
-// Lit by the normal of the face, or by that of the provoking vertex.
+// Lit with the face normal or with the normal of the provoking vertex.
 struct FlatLight {
   bool by_face = true;
   template <class R>

@@ -20,8 +20,8 @@ struct World {
   }
 };
 
-// Upper limit for the distance of a hit, relative to that of the target point on the front of the ball. The margin of 0.4 units excludes
-// hits on the back.
+// Upper limit for the distance of a hit, relative to the distance of the target point on the front of the ball. The margin of 0.4 units
+// excludes hits on the back.
 constexpr float kBack = 1.00003f;
 
 // The usual method in floats: intersects the ray with the plane and tests the side of each edge.

@@ -117,7 +117,8 @@ TEST(Stability, PhongShadingKeepsHighlightsInsideFacets) {
     for (const glm::vec4& p : light.texels()) peak = std::max(peak, p.x);
     return 1.0 - static_cast<double>(peak);
   };
-  // A pixel is at most 0.5 degrees from the center: cos(0.25 degrees)^200 is 1 − 0.002, and interpolated normals are equally accurate.
+  // Pixels are 0.5 degrees apart, so one is within about 0.25 degrees of the peak: cos(0.25 degrees)^200 is 1 − 0.002. Interpolated normals
+  // have an error of similar size.
   judge({11, "Gouraud shading misses highlights",
          "exponent 200 at the center of a facet of 10 degrees; lighting per vertex against per pixel", "difference of the peak from 1"},
         missing("gouraud"), 0.4, missing("phong"), 0.01);
@@ -149,8 +150,8 @@ SceneDescription one_sphere(const char* sprite, double distance, double degrees)
   return parsed(text);
 }
 
-// Returns 1 − IoU of the coverage given by seen(x, y) and that of the sphere. Pixels within 1e-4 of the rim (in terms of the squared half
-// chord) are ignored.
+// Returns 1 − IoU of the coverage given by seen(x, y) and the coverage of the sphere. Pixels within 1e-4 of the rim (in terms of the
+// squared half chord) are ignored.
 template <class Seen>
 double coverage_error(const SceneDescription& scene, const Seen& seen) {
   const View view = make_view(scene.cameras.front().second, kWidth, kHeight);

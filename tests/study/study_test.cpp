@@ -23,7 +23,7 @@ TEST(ParetoFront, KeepsNonDominatedVariants) {
   const std::vector<Variant> variants{variant(1, 1), variant(2, 2), variant(0.5, 3), variant(0.5, 4), variant(3, 0.5), variant(1, 1)};
   EXPECT_EQ(pareto_front(variants, 0.0), (std::vector<bool>{true, false, true, false, true, true}))
       << "equal variants do not dominate each other";
-  // Errors below that of the reference count as equal, so time decides.
+  // Errors below the error of the reference count as equal, so time decides.
   EXPECT_EQ(pareto_front(variants, 1.0), (std::vector<bool>{true, false, false, false, true, true}));
 }
 
@@ -94,7 +94,7 @@ TEST(AreaCoverage, MatchesClosedFormForTriangles) {
     return 8.0 * glm::dvec2(std::cos(i * std::numbers::pi / 2048), std::sin(i * std::numbers::pi / 2048)) + glm::dvec2(0, 10);
   };
   for (int i = 0; i < 4096; ++i) disk.push_back({glm::dvec2(0, 10), at(i), at(i + 1)});
-  // The area of the polygon is smaller than that of the disk by a factor of 4e-7.
+  // The area of the polygon is smaller than the area of the disk by 4e-7 of it.
   EXPECT_NEAR(total(area_coverage<double>(disk, 20, 20)), 0.5 * std::numbers::pi * 64.0, 1e-3);
 }
 

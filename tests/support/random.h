@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random numbers that are identical on every machine, unlike those of the distributions in the standard library, which are
+// Random numbers that are identical on every machine. The distributions of the standard library are not, because their algorithms are
 // implementation-defined.
 #pragma once
 
@@ -25,7 +25,7 @@ class Random {
   int below(int n) { return static_cast<int>((uint64_t{bits()} * static_cast<uint64_t>(n)) >> 32); }
   /// Returns an integer in [low, high].
   int between(int low, int high) { return low + below(high - low + 1); }
-  /// Returns an integer in [low, high] as a remainder of 64 bits. The sequence differs from that of between().
+  /// Returns an integer in [low, high] as a remainder of 64 bits. The sequence differs from the sequence of between().
   int integer(int low, int high) {
     return static_cast<int>(low + static_cast<int64_t>(next() % static_cast<uint64_t>(int64_t{high} - low + 1)));
   }

@@ -182,7 +182,7 @@ struct Triangle {
   uint32_t covered() const { return flags >> kCoveredShift & kCoveredBits; }
 };
 
-/// Vertex created or copied by the clipper. Its flat varyings are those of the provoking vertex.
+/// Vertex created or copied by the clipper. Its flat varyings are copied from the provoking vertex.
 struct ClipVertex {
   ScreenVertex screen;
   uint32_t first_varying;  ///< index into Chunk::clip_varyings

@@ -18,7 +18,8 @@ HS_INLINE void swap_lanes(Mask m, T& a, T& b) {
   b = select(m, from, b);
 }
 
-/// Rotates the elements so that v[1] (in lanes of `one`) or v[2] (in lanes of `two`) becomes the first. No lane can be set in both masks.
+/// Rotates the elements so that v[1] (in lanes of `one`) or v[2] (in lanes of `two`) becomes the first. A lane must not be set in both
+/// masks.
 template <class T>
 HS_INLINE void rotate_lanes(Mask one, Mask two, std::array<T, 3>& v) {
   const std::array<T, 3> from = v;

@@ -30,7 +30,8 @@ double plane_distance(int plane, const Viewport& v, const DepthState& depth, con
 }
 
 // Returns the intersection of an edge with a plane. If the distances are floats, their products with float coordinates are exact in
-// double. The coordinates of the corner then keep their relative accuracy even if they are much smaller than those of the end points.
+// double. The coordinates of the corner then keep their relative accuracy even if they are much smaller than the coordinates of
+// the end points.
 ClipCorner cut(const ClipCorner& inside, double d_in, const ClipCorner& outside, double d_out) {
   const double length = d_in - d_out;
   return {(d_in * outside.pos_clip - d_out * inside.pos_clip) / length, (d_in * outside.weights - d_out * inside.weights) / length};

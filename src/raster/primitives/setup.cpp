@@ -75,7 +75,7 @@ class DrawRangeSetup {
       chunk_.triangles.resize(first + static_cast<std::size_t>(std::popcount(batch_.kept())));
       return batch_.write(&chunk_.triangles[first]);
     }
-    std::array<Triangle, kLanes> triangles;  // those that the batch has kept
+    std::array<Triangle, kLanes> triangles;  // triangles kept by the batch
     if (batch_.kept() != 0) batch_.write(triangles.data());
     const Triangle* next = triangles.data();
     for (uint32_t rest = single | batch_.kept(); rest != 0; rest &= rest - 1) {

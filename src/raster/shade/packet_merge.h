@@ -93,8 +93,8 @@ HS_INLINE void spread_triangle(const TriangleScalars<N>& s, PacketTriangles<N, P
   half<i>(out.front) = Mask(s.front);
 }
 
-/// Merges the values of two triangles into packet i. Lanes that show the second triangle get its values. All others get those of the first,
-/// so that lanes without a triangle compute with finite values.
+/// Merges the values of two triangles into packet i. Lanes that show the second triangle get its values. All other lanes get the values of
+/// the first, so that lanes without a triangle compute with finite values.
 template <int i, std::size_t N, std::size_t P>
 HS_INLINE void merge_two(const TriangleScalars<N>& first, const TriangleScalars<N>& second, Mask shows_second, PacketTriangles<N, P>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows_second, Real(value(second)), Real(value(first))); });

@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// Selects the pending pixels to shade: those of draws that are shaded per pixel or per sample.
+// Selects the pending pixels to shade, by whether their draw is shaded per pixel or per sample.
 enum class Share : uint8_t { per_pixel, per_sample };
 
 // One run over the pending pixels of a tile: the triangle of each pixel, and the samples that are written.

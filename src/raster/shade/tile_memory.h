@@ -22,7 +22,7 @@ struct alignas(4096) TileMemory {
 };
 
 /// Takes a TileMemory from the pool, or allocates one, and returns it in the destructor. Its contents are undefined. The pool never
-/// shrinks: it has as many elements as were ever used at the same time. Thread-safe.
+/// shrinks. Its size is the maximum number of elements that were in use at the same time. Thread-safe.
 class TileMemoryLease {
  public:
   TileMemoryLease();

@@ -15,7 +15,7 @@ struct Attachments {
   DepthTarget depth;
   bool has_color = false;  ///< at least one color attachment has a format
   PostStep post;
-  // Values between flushes that images cannot hold: of attachments without an image or with several samples per pixel.
+  // Values that images cannot hold between flushes, for attachments without an image or with several samples per pixel.
   std::vector<std::vector<std::byte>> color_spills;
   std::vector<std::byte> depth_spill;
 };

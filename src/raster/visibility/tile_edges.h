@@ -14,8 +14,8 @@
 
 namespace halfspace {
 
-/// One sample of every pixel of a tile. Pixels are counted from the start of the tile's storage, so the pixels of a sample plane
-/// (raster/pipeline/sample_pattern.h) are those of the packets that store it.
+/// One sample of every pixel of a tile. Pixels are numbered by their position in the tile's storage, so the number of a pixel also selects
+/// the packet that stores the sample (raster/pipeline/sample_pattern.h).
 struct SampleGrid {
   SampleGrid(const Tile& tile, int s)
       : plane(s == 0 ? SamplePlane{0, 0} : sample_plane(tile.samples, s, tile.size)),

@@ -81,7 +81,7 @@ void test_and_finish(const TriangleVisit& c, int packet, Mask mask, Real z) {
   finish_packet(c, packet, mask, z);
 }
 
-// Calls the visibility function for the pending packets, which narrows their masks and may replace their depth, and finishes them.
+// Calls the visibility function for the pending packets, and finishes them. The function narrows their masks and may replace their depth.
 void ask_shader(const TriangleVisit& c) {
   VisibilityBatch& batch = c.pending;
   if (batch.count == 0) return;
@@ -157,7 +157,7 @@ void visit_block(const TriangleVisit& c, const BlockEdges& edges, const DepthPla
 
 constexpr int kBlockMask = ~(kBlockSize - 1);
 
-// Finds the bounds of all depths that may be written: those of the primitive, or the whole range if the shader writes depth.
+// Finds the bounds of all depths that may be written: the bounds of the primitive, or the whole range if the shader writes depth.
 void find_depth_bounds(TriangleVisit& c) {
   const DepthBounds bounds = depth_bounds(c.triangle, c.draw, c.tile.depth_format);
   const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;

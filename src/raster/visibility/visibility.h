@@ -44,7 +44,7 @@ struct DrawInTile {
   const Draw& draw;
   VisibilityMode mode;
   Tile& tile;
-  PixelBounds bounds;      ///< of the draw in the tile
+  PixelBounds bounds;      ///< bounds of the draw in the tile
   bool needs_bounds_test;  ///< covered pixels of the tile can be outside bounds
   bool tests;              ///< there is a depth test in this stage, unless it is postponed because of the stencil test
   bool asks_shader;        ///< the shader's visibility function must be called

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Visibility of opaque draws (the common case): one sample per pixel, and only coverage and depth determine visibility. The results are the
-// same as those of visibility.cpp, which supports all draws. Small triangles are drawn by visibility_small.cpp.
+// same as with visibility.cpp, which supports all draws. Small triangles are drawn by visibility_small.cpp.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chooses the cheapest models whose image differs from that of the finest models by at most the allowed error. The result is the
+// Chooses the cheapest models whose image differs from the image of the finest models by at most the allowed error. The result is the
 // scene with other mesh resolutions, maps, filters and sample counts, and the reasons for them. Constants are fitted to the
 // measurements in docs/results/accuracy.md; nothing is timed.
 #include <algorithm>
@@ -118,7 +118,7 @@ double vertices_of(const ObjectDescription& o) {
 // Size and visibility of an object in the image.
 struct Presence {
   double px_per_unit = 0.0;  // maximum, for units of the object
-  double pixels = 0.0;       // covered by its bounding spheres, at most those of the image
+  double pixels = 0.0;       // covered by its bounding spheres, at most all pixels of the image
   bool is_seen = false;      // or may cast a visible shadow
 };
 

@@ -17,7 +17,7 @@
 namespace halfspace {
 namespace {
 
-// Never update the hash file of this program, even while those of other programs are updated.
+// Never update the hash file of this program, even when the hash files of other programs are updated.
 [[maybe_unused]] const int kNotRenewed = ::unsetenv("HALFSPACE_RENEW_HASHES");
 
 class Hashes : public testing::Test {
