@@ -3,8 +3,8 @@
 // SIMD lanes: W pixels, vertices or triangles processed at once.
 //
 // RealN<W>, IntN<W> and MaskN<W> wrap the vector extension of GCC and Clang. Every operation works lane by lane and is
-// correctly rounded (IEEE 754 binary32), so each lane holds exactly the bits that scalar code would compute: the same function
-// template instantiated with R = float, RealN<8> or RealN<16> gives the same results. There are no horizontal sums. A mask does
+// correctly rounded (IEEE 754 binary32), so each lane holds exactly the bits that scalar code would compute. A function template
+// gives the same results with R = float, RealN<8> and RealN<16>. There are no horizontal sums. A mask does
 // not convert to bool implicitly; use any(m), all(m), none(m) or select(m, a, b).
 //
 // At width 1 the types are float, int32_t and bool. All functions below are overloaded for them.

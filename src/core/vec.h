@@ -8,11 +8,11 @@
 // the same component type.
 //
 // All functions (dot, length, normalize, …) are found by argument-dependent lookup, from any namespace. Each has a fixed order
-// of operations, so that float and lanes give the same bits. The dot product of three components rounds once per component,
-// which GLM's does not: the two differ in the last bit.
+// of operations, so that float and lanes give the same bits. The dot product of three components rounds once per component.
+// GLM's dot product does not, so the two differ in the last bit.
 //
 // An expression of two uniforms is a uniform and is computed once, by GLM. The product of a uniform vector and a varying scalar
-// is a vec3<R> for lanes but a glm::vec3 for float; store it in a vec3<R> before passing it to dot, length, normalize or reflect.
+// is a vec3<R> for lanes but a glm::vec3 for float. Store it in a vec3<R> before passing it to dot, length, normalize or reflect.
 #pragma once
 
 #ifdef GLM_FORCE_DEFAULT_ALIGNED_GENTYPES

@@ -30,7 +30,7 @@ struct Crater {
 /// Outer radius of the ejecta blanket, in crater radii.
 inline constexpr float kBlanketEnd = 2.1f;
 
-/// Craters from old to young. Those with an index ≥ `first_young` are younger than the lava of the maria.
+/// Craters from old to young. Craters with an index ≥ `first_young` are younger than the lava of the maria.
 struct Craters {
   std::vector<Crater> all;
   std::size_t first_young;

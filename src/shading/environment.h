@@ -4,7 +4,7 @@
 //
 // Map space (suffix _ms) is left-handed, with x right, y up and z forward, as seen from inside the map. It is the space of OpenGL
 // cube maps (OpenGL 4.6, section 8.13, table 8.19).
-//   panorama  u = 1/2 + atan2(x, z)/2π, v = angle from +y divided by π; the center shows +z, the left and right edges −z
+//   panorama  u = 1/2 + atan2(x, z)/2π, v = angle from +y divided by π; the center shows +z, and the edges on the left and right show −z
 //   cube      faces +x −x +y −y +z −z (right, left, top, bottom, front, back), row 0 at the top, as in OpenGL
 //
 // Filtering is seamless. Each level of a panorama has an additional row beyond either pole: the row next to the pole, rotated by

@@ -105,11 +105,11 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
   Study study{
       .name = "depth",
       .title = "Depth formats: surfaces in the wrong order",
-      .setting =
-          fmt::format("{:.0f} pairs of quads, one 1/10,000 behind the other, near 0.1, {}x{}; labels: format, far/near", cells, size, size),
-      .error_name = fmt::format("fraction of pairs in the wrong order (zero is drawn at {:.0e})", 0.1 / cells),
+      .setting = fmt::format("{:.0f} pairs of quads, 1/10,000 of the distance apart, near plane at 0.1, {}x{}; labels: format, far/near",
+                             cells, size, size),
+      .error_name = fmt::format("fraction of pairs in the wrong order (zero is plotted at {:.0e})", 0.1 / cells),
       .time_name = "frame",
-      .truth = {"known by construction: the nearer quad is white", 0.1 / cells, "a tenth of one pair"},
+      .truth = {"known by construction (the nearer quad is white)", 0.1 / cells, "a tenth of one pair"},
   };
   Depths depths(size);
   Image<glm::vec4> white(size, size);

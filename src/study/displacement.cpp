@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Displacement mapping: how fine a mesh the relief of the Moon needs, depending on where the normals come from.
+// Displacement mapping: the mesh resolution that the relief of the Moon needs, depending on the source of the normals.
 #include <fmt/format.h>
 
 #include "halfspace/scene/scene_file.h"

@@ -80,7 +80,7 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers) 
       .name = "raster_vs_rays",
       .title = "Visible triangles: rasterizer and rays",
       .setting = fmt::format("A sphere without shading, {}x{}; labels give the number of latitude bands", width, height),
-      .error_name = fmt::format("fraction of pixels that show another triangle (zero is drawn at {:.0e})", 0.1 / pixels),
+      .error_name = fmt::format("fraction of pixels that show the wrong triangle (zero is plotted at {:.0e})", 0.1 / pixels),
       .time_name = "frame",
       .truth = {"edge tests of every triangle in double, without snapping", 0.1 / pixels, "a tenth of one pixel"},
   };

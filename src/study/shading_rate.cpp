@@ -47,7 +47,7 @@ Study study_shading_rate(const StudyOptions& options, const Workers& workers) {
       .setting = fmt::format("A shiny sphere (Blinn-Phong, exponent 40), {}x{}; labels give the number of latitude bands", size, size),
       .error_name = "RMS error of linear light over the image, without the silhouette",
       .time_name = "frame",
-      .truth = {"the sphere by one ray per pixel, in double", 0.0, "largest difference from long double"},
+      .truth = {"the sphere with one ray per pixel, in double", 0.0, "largest difference from long double"},
   };
   SphereTruth truth{};
   for (const auto& [rate, group] : {std::pair("flat", "flat"), std::pair("gouraud", "Gouraud"), std::pair("phong", "Phong")}) {

@@ -102,10 +102,11 @@ Study study_on(const std::string& name, int width, int height) {
   return {
       .name = name,
       .title = "Shadow maps: biases, filters, resolutions",
-      .setting = fmt::format("Means over shadow-plane, moon (terminator), shadow-contact and shadow-knot, {}x{}", width, height),
-      .error_name = "mean error of the fraction of light that arrives",
-      .time_name = "shadow maps and lookups of a frame, mean over the scenes",
-      .truth = {"one ray per pixel from the surface to the light", 0.0, "share of rays that change when moved by 2^-22 of the distance"},
+      .setting = fmt::format("Averages over shadow-plane, moon (terminator), shadow-contact and shadow-knot, {}x{}", width, height),
+      .error_name = "mean error of the fraction of light that reaches the surface",
+      .time_name = "shadow maps and lookups of a frame, averaged over the scenes",
+      .truth = {"one ray per pixel from the surface to the light", 0.0,
+                "share of rays whose result changes when they are moved by 2^-22 of the distance"},
   };
 }
 

@@ -62,7 +62,7 @@ Study study_sphere_model(const StudyOptions& options, const Workers& workers) {
           size, size),
       .error_name = "RMS error of linear light over the image",
       .time_name = "frame",
-      .truth = {"the sphere by one ray per pixel, in double", 0.0, "largest difference from long double"},
+      .truth = {"the sphere with one ray per pixel, in double", 0.0, "largest difference from long double"},
   };
   SphereTruth truth{};
   for (const Model& model : models(options.quick)) {

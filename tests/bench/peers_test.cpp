@@ -34,10 +34,10 @@ std::string all_but_2m() {
 }
 
 // Returns the allowed RMS error in codes. Rounding to codes alone gives 0.29. llvmpipe computes the level of detail from differences
-// between pixels with an approximate logarithm; at this small size up to a tenth of the textured pixels is off by more than one code, but
-// none by many. It snaps points to a grid that is coarse for disks this small, and uses a different anisotropic footprint. Where alpha
-// testing decides the edge of a hole differently, another layer is visible. A wrong light, matrix, state or mesh gives an error of tens of
-// codes.
+// between pixels with an approximate logarithm. At this small size, up to a tenth of the textured pixels are off by more than one code, but
+// no pixel is off by many. llvmpipe also snaps points to a grid that is coarse for disks this small, and uses a different anisotropic
+// footprint. Where alpha testing decides the edge of a hole differently, another layer is visible. A wrong light, matrix, state or mesh
+// gives an error of tens of codes.
 double allowed_rms(const std::string& workload) {
   if (workload == "aniso_floor") return 10.0;
   if (workload == "points_100k") return 5.0;

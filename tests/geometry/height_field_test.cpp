@@ -82,8 +82,8 @@ TEST(HeightField, RowSamplesMatchSingleSamples) {
   }
 }
 
-// For power-of-two sizes the texel centers are exact in double, and the results are bit-identical. For other sizes at() samples about 1e-16
-// of the map away from the center.
+// For power-of-two sizes the texel centers are exact in double, and the results are bit-identical. For other sizes, at() samples about
+// 1e-16 of the map size away from the center.
 TEST(HeightField, TexelSamplesMatchSingleSamples) {
   for (const MapEdges edges : {MapEdges::sphere, MapEdges::torus, MapEdges::cylinder, MapEdges::sheet}) {
     for (const auto& [width, height] : {std::pair(32, 16), std::pair(2, 1), std::pair(30, 11)}) {
@@ -187,8 +187,9 @@ TEST(HeightField, FilteringKeepsCoarseDetail) {
   }
 }
 
-// Near a pole the texels of a row are close together, and noise in them must not turn into slope. In a smoothed field the slope to the east
-// (du / sin πv) of the rows next to the pole is similar to that at the equator; in an unsmoothed field it is many times larger.
+// Near a pole the texels of a row are close together, and noise in them must not turn into slope. In a smoothed field, the slope to the
+// east (du / sin πv) is similar in the rows next to the pole and at the equator. In an unsmoothed field, it is many times larger near the
+// pole.
 TEST(HeightField, PolesAreNotNoisy) {
   const Image<float> map = rough_map(256, 128, 12345);
   const auto mean_square_slope = [](const HeightField& f, double v) {

@@ -757,7 +757,7 @@ uint8_t stencil_result(const StencilFace& f, StencilOp op, uint8_t stored) {
 
 namespace {
 
-// Returns a plane in which corner 1 is one step in s and corner 2 one step in t away from the origin of the point coordinate.
+// Returns a plane in which corner 1 is one step in s, and corner 2 is one step in t, from the origin of the point coordinate.
 Surface point_surface(const WindowTriangle& t) {
   const auto f = [](int64_t v) { return static_cast<float>(v); };
   const bool from_top = t.origin == PointOrigin::upper_left;

@@ -112,7 +112,7 @@ TEST(Operations, EachAttachmentHasItsOwnFormatBlendingAndMask) {
   EXPECT_EQ(d.at(19, 8), (glm::u8vec4{255, 255, 255, 255}));  // the shader has no fourth output
 }
 
-// Uses the stencil operations to mark samples: those that fail the stencil test, fail the depth test, or pass end up with three different
+// Uses the stencil operations to mark samples. Samples that fail the stencil test, fail the depth test, or pass both get three different
 // values.
 TEST(Operations, StencilDistinguishesFailDepthFailAndPass) {
   Image<uint32_t> depth(8, 8);

@@ -156,7 +156,8 @@ TEST(ShadowFilter, PenumbraWidthMatchesTheLightSize) {
 }
 
 TEST(ShadowFilter, FourMomentsSeparateTwoDepthsAndTwoMomentsLeak) {
-  // Half of the texels have depth 0.2, half 0.6. A receiver at 0.9 is behind both, a receiver at 0.4 only behind the nearer half.
+  // Half of the texels have depth 0.2, and the other half have 0.6. A receiver at 0.9 is behind both. A receiver at 0.4 is only behind the
+  // nearer half.
   Map map(8);
   map.make_moments();
   const auto power = [](double d, int n) { return std::pow(d, n); };

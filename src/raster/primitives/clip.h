@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Clipping. Input: a triangle or line in clip space. Output: the part inside w > 0, the near and far planes, the guard band and the clip
-// distances, as a convex polygon. Each corner is a weighted sum of the three vertices. Most triangles are not clipped: those that only
-// cross the sides of the view volume are clipped to their pixel bounds by the rasterizer.
+// distances, as a convex polygon. Each corner is a weighted sum of the three vertices. Most triangles are not clipped, because
+// the rasterizer limits triangles that only cross the sides of the view volume to the pixels of the target.
 //
 // Uses the algorithm of Sutherland and Hodgman, "Reentrant polygon clipping" (CACM 17, 1974), in double precision. A new corner is always
 // computed from the inside end of its edge, and planes are processed in the same order for all triangles. Two triangles that share an edge

@@ -26,8 +26,8 @@ constexpr int kMinParts = 8;
 constexpr double kCodesPerSquaredAngle = 1700.0;
 
 // Number of pixels per thousand that may show a different surface, so that edges do not determine the 99.9th percentile. (Of 208
-// random views with 8 codes allowed, three exceeded the limit with 0.5, and two with this value. Those show bricks in relief at a
-// grazing angle, with 11 codes.)
+// random views with 8 codes allowed, three exceeded the limit with 0.5, and two exceed it with this value. These two show bricks in
+// relief at a grazing angle and have an error of 11 codes.)
 constexpr double kEdgePixels = 0.35;
 
 // With bilinear comparison, shadow edges are accurate to this many texels, except where light grazes the surface. (With 0.5, 14 of
