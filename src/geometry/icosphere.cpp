@@ -17,7 +17,7 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-// Directions from the origin, not normalized, and the triangles between them. Corner 0 is the north pole, corner 1 the south pole.
+// Directions from the origin, not normalized, and the triangles between them. Corner 0 is the north pole, and corner 1 is the south pole.
 struct Polyhedron {
   std::vector<glm::dvec3> corners;
   std::vector<Triangle> triangles;

@@ -42,8 +42,8 @@ struct PassOptions {
   bool defer = true;
 };
 
-/// A list of draws that render to the same attachments. draw() and draw_depth() record draws, run() executes them. A Pass must only be used
-/// by one thread at a time.
+/// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be
+/// used by one thread at a time.
 class Pass {
  public:
   /// Creates a pass for images of width x height pixels, each 1 to 16384. The images of all targets must outlive the pass.

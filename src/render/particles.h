@@ -30,7 +30,7 @@ double particle_radius(const ParticlesDescription& p);
 Particles make_particles(const ParticlesDescription& p);
 
 /// Reads rows x,y,z[,radius[,r,g,b]] of numbers. Empty lines and lines that begin with # are ignored. The default radius is
-/// particle_radius(p), the default color is white. Throws InputError with the file, the line, the problem and what was expected.
+/// particle_radius(p), and the default color is white. Throws InputError with the file, the line, the problem and what was expected.
 Particles read_particles(const std::filesystem::path& path, const ParticlesDescription& p);
 
 }  // namespace halfspace

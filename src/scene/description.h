@@ -260,7 +260,7 @@ struct ParticlesDescription {
 enum class AnimationType : uint8_t { rate, orbit, wave, keyframes };
 enum class Easing : uint8_t { linear, smooth, step };
 
-/// The change of one key over time. `rate` is added to the key's value in the scene; the other types replace it.
+/// The change in one key over time. `rate` is added to the key's value in the scene; the other types replace it.
 struct AnimationDescription {
   AnimationType type = AnimationType::rate;
   std::string target;      ///< dotted path of a number or vector
@@ -341,7 +341,7 @@ void for_each_collection(Scene& scene, F&& visit) {
   visit("environments", "Distant light as a function of direction", scene.environments);
   visit("materials", "Surface properties that objects can share", scene.materials);
   visit("objects", "A shape with its surface and placement", scene.objects);
-  visit("animations", "A change of a key over time", scene.animations);
+  visit("animations", "The change in a key over time", scene.animations);
 }
 
 /// Calls visit(name, help, struct) for each section that occurs once.

@@ -79,7 +79,7 @@ Section section_of(EnvironmentDescription& e) {
       key<&T::back>("back", "Face at +z; empty: from the folder", {.only = "cube"}),
       key<&T::size>("size", "Width of a generated face; 0: chosen for the view",
                     {.unit = "texels", .low = 0, .high = 4096, .only = "day_sky night_sky"}),
-      key<&T::sun>("sun", "Direction towards the sun, any length; low: dusk", {.only = "day_sky"}),
+      key<&T::sun>("sun", "Direction towards the sun, any length; near the horizon: dusk", {.only = "day_sky"}),
       key<&T::clouds>("clouds", "Fraction of the sky covered by clouds", {.low = 0, .high = 1, .only = "day_sky"}),
       key<&T::milky_way>("milky_way", "Brightness factor of the Milky Way", {.low = 0, .high = 1e3, .only = "night_sky"}),
       key<&T::stars>("stars", "Density of stars; 1: about 25,000 in the whole sky", {.low = 0, .high = 1, .only = "night_sky"}),

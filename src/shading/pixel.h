@@ -162,7 +162,7 @@ struct Pixel {
   // Along x, dp1 = q1·(E1'·D − E1·D') / D². The terms with q1 cancel. E1 and E2 both vanish at v0, so E1'·E2 − E1·E2' is
   // A·(y − y0), and likewise at v2 for E0. With r = y − y0, and r1 and r2 the y components of the edges,
   //   dp1 = q1·A·(q2·r − q0·(r − r2)) / D²,  dp2 = q2·A·(q0·(r − r1) − q1·r) / D².
-  // The derivatives along y have x in place of y and the opposite sign. Nothing is lost if w differs strongly between vertices.
+  // The derivatives along y have x in place of y and the opposite sign. No accuracy is lost if w differs strongly between vertices.
   template <class V, class F>
   HS_INLINE F derivative(F V::*member, R r, R r1, R r2, R sub_pixels) const {
     using Traits = detail::FieldTraits<F>;

@@ -108,7 +108,7 @@ HS_INLINE R penumbra_texels(const ShadowView& view, float light_radius, const Sh
 
 /// Returns the visible fraction of an area light. As in percentage-closer soft shadows, a blocker search determines the maximum
 /// width of the penumbra. Then each texel within that width is projected back from the point onto the light. It occludes the light
-/// if it is inside the cone of the light at the depth of the texel. The closer it is to the point, the larger is the area that it
+/// if it is inside the cone of the light at the depth of the texel. The closer it is to the point, the larger the area that it
 /// occludes (Guennebaud, Barthe and Paulin, "Real-time soft shadow mapping by backprojection", EGSR 2006). Texels that overlap as seen
 /// from the point are counted separately.
 template <class R>

@@ -229,7 +229,7 @@ TEST(EnvironmentMap, PanoramaIsContinuousAcrossThePoles) {
   RecordProperty("worst", std::to_string(worst));
   RecordProperty("at_pole", std::to_string(at_pole));
   // The bilinear error of a function with second derivative |a| = 0.5 is h²/8 per axis. With h = π/32, that is 2 · 0.5 · 0.0096/8 = 1.2e-3.
-  // Clamping at the pole would err by the slope over half a texel, 0.46 · π/64 = 0.02.
+  // Clamping at the pole would have an error of the slope over half a texel, 0.46 · π/64 = 0.02.
   EXPECT_LT(worst, 1.3e-3);
   EXPECT_LT(at_pole, 1.3e-3);
 }

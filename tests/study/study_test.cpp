@@ -143,7 +143,7 @@ TEST(ShadowTable, GivesAChartOfMeansOverScenes) {
   EXPECT_DOUBLE_EQ(full.variants[0].error, 0.1);
 }
 
-// Runs every study at reduced size. Its data must be complete, and its reference more accurate than its best variant.
+// Runs every study at reduced size. Its data must be complete, and its reference must be more accurate than its best variant.
 class Studies : public testing::TestWithParam<StudyEntry> {};
 
 TEST_P(Studies, ProduceCompleteData) {

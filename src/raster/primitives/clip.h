@@ -52,7 +52,7 @@ ClipPolygon clip_line(const Viewport& viewport, const DepthState& depth, const s
 /// which differs by at most 1/512 px in x and y.
 ScreenVertex project_corner(const Viewport& viewport, const glm::dvec4& pos_clip);
 
-/// Writes the varyings of corner c to out. Smooth and linear varyings are interpolated, flat ones are taken from the provoking vertex.
+/// Writes the varyings of corner c to out. Smooth and linear varyings are interpolated. Flat ones are taken from the provoking vertex.
 /// rows: varyings of the three vertices; w: their clip-space w.
 void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, const std::array<const float*, 3>& rows, int provoking,
                         const ShaderKernels& kernels, float* out);

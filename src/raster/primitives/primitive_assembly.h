@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Primitive assembly. Input: the index list of a draw. Output: the three indices of each triangle in the order of OpenGL 4.6, table 13.2.
-// The provoking vertex is the first or the last of them, depending on the state. A point has the same index three times, a line has its
+// The provoking vertex is the first or the last of them, depending on the state. A point has the same index three times, and a line has its
 // second index twice.
 #pragma once
 

@@ -32,7 +32,7 @@ inline BlockTest test_bounds(CompareOp op, float low, float high, float hiz_min,
 
 /// Updates the bounds of a block after depths in [low, high] passed the test and were written.
 HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, float low, float high) {
-  // LESS can only lower the stored depth, GREATER can only raise it.
+  // LESS can only lower the stored depth, and GREATER can only raise it.
   const bool lowers = op == CompareOp::less || op == CompareOp::less_equal;
   const bool raises = op == CompareOp::greater || op == CompareOp::greater_equal;
   const auto b = static_cast<std::size_t>(block);

@@ -32,8 +32,8 @@ struct SampleGrid {
 };
 
 /// Edge functions of a triangle at the first sample of the grid, and their steps from pixel to pixel. For small triangles, they are in
-/// (1/256 px)². For others, they are shifted right by kSubPixelBits, which preserves the sign, and all steps are integers. The bias of the
-/// fill rule is subtracted. If the whole tile is inside an edge of a larger triangle, all values of that edge are 0.
+/// (1/256 px)². For other triangles, they are shifted right by kSubPixelBits, which preserves the sign, and all steps are integers. The
+/// bias of the fill rule is subtracted. If the whole tile is inside an edge of a larger triangle, all values of that edge are 0.
 struct TileEdges {
   std::array<int32_t, 3> e, step_x, step_y;
   std::array<int32_t, 3> bias;
