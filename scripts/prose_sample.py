@@ -96,12 +96,17 @@ def candidates():
     return found
 
 
+def without_names(text):
+    """Hides which project an item is from."""
+    return re.sub(r"(?i)meshopt(imizer)?|halfspace", "lib", text).replace("HS_", "LIB_")
+
+
 def draw(seed, sample_path, key_path):
     generator = random.Random(seed)
     found = candidates()
     items = [(kind, *item) for kind, count in COUNTS.items() for item in generator.sample(found[kind], min(count, len(found[kind])))]
     generator.shuffle(items)
-    sample_path.write_text("".join(f"===== {i}\n{text}\n\n" for i, (_, _, text) in enumerate(items, 1)))
+    sample_path.write_text("".join(f"===== {i}\n{without_names(text)}\n\n" for i, (_, _, text) in enumerate(items, 1)))
     key_path.write_text(json.dumps([{"item": i, "kind": kind, "place": place} for i, (kind, place, _) in enumerate(items, 1)], indent=1))
 
 
