@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
-"""Runs all studies and updates the generated parts of docs/results/accuracy.md (the run and the tables) and docs/results/charts.
+"""Runs all studies and shadow comparisons, and updates the generated parts of docs/results/accuracy.md and docs/results/charts.
 
     scripts/accuracy_run.py build/release/bin/halfspace [FOLDER]      run from the root of the tree; takes several minutes
 
-With FOLDER, uses the files that an earlier `halfspace chart all -o FOLDER` has written there.
+With FOLDER, uses the files that an earlier run has written to that folder. The default folder is build/charts.
 """
+import csv
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
+
+import generated_sections
+import shadow_tables
 
 DOC = "docs/results/accuracy.md"
 
@@ -35,11 +39,16 @@ def table(study):
     return text + "<details><summary>Table</summary>\n\n" + "\n".join(rows) + "\n\n</details>\n"
 
 
-def replaced(text, name, content):
-    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.S)
-    if not pattern.search(text):
-        sys.exit(f"{DOC}: the marker <!-- {name} --> is missing")
-    return pattern.sub(lambda m: m.group(1) + content + m.group(2), text)
+def commit():
+    return subprocess.run(["git", "describe", "--always", "--dirty", "--exclude=*"], check=True, capture_output=True, text=True).stdout.strip()
+
+
+def measure(program, folder):
+    subprocess.run([program, "chart", "all", "-o", folder], check=True)
+    with open(os.path.join(folder, "shadows_table.csv"), "w", encoding="utf-8") as file:
+        subprocess.run([program, "validate", "--table", "--size", "480x270"], check=True, stdout=file)
+    with open(os.path.join(folder, "commit.txt"), "w", encoding="utf-8") as file:
+        file.write(commit())
 
 
 def main():
@@ -47,21 +56,23 @@ def main():
         sys.exit("usage: scripts/accuracy_run.py PROGRAM [FOLDER], for example build/release/bin/halfspace")
     folder = sys.argv[2] if len(sys.argv) == 3 else "build/charts"
     if len(sys.argv) == 2:
-        subprocess.run([sys.argv[1], "chart", "all", "-o", folder], check=True)
+        measure(sys.argv[1], folder)
     os.makedirs("docs/results/charts", exist_ok=True)
-    with open(DOC, encoding="utf-8") as file:
-        text = file.read()
-    for name in re.findall(r"<!-- study (\w+) -->", text):
-        with open(os.path.join(folder, name + ".json"), encoding="utf-8") as file:
-            study = json.load(file)
-        text = replaced(text, f"study {name}", table(study))
+    sections = {}
+    for section in generated_sections.names(Path(DOC).read_text(encoding="utf-8")):
+        if not section.startswith("study-"):
+            continue
+        name = section.removeprefix("study-")
+        study = json.loads(Path(folder, name + ".json").read_text(encoding="utf-8"))
+        sections[section] = table(study)
         for suffix in (".svg", "-dark.svg"):
             shutil.copy(os.path.join(folder, name + suffix), "docs/results/charts")
         run = study["run"]
-    text = replaced(text, "run", f"`{run['command']}`, {run['date']}, {run['processor']}, {run['cores']} cores, {run['threads']} threads, "
-                    f"{run['version']}.\n")
-    with open(DOC, "w", encoding="utf-8") as file:
-        file.write(text)
+    with open(os.path.join(folder, "shadows_table.csv"), newline="", encoding="utf-8") as file:
+        sections["shadow-tables"] = shadow_tables.markdown(csv.DictReader(file))
+    sections["run"] = (f"Measured on {run['date']} at commit {Path(folder, 'commit.txt').read_text()} on {run['processor']}, {run['cores']} cores, "
+                       f"with {run['threads']} threads: `{run['command']}` and `halfspace validate --table --size 480x270`, {run['version']}.")
+    generated_sections.update(DOC, sections)
 
 
 if __name__ == "__main__":

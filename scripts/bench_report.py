@@ -3,27 +3,15 @@
 """Writes the tables and charts of a benchmark run (the JSON file of bench_measure.py) to a folder, and with --docs to the documents."""
 import argparse
 import json
-import re
 import shutil
 import sys
 from pathlib import Path
 
 import bench_tables
+import generated_sections
 
 DOCUMENTS = ["README.md", "docs/results/performance.md"]
 CHARTS = Path("docs/results/benchmark")
-
-
-MARKED = re.compile(r"<!-- benchmark: (\w+) -->\n.*?<!-- /benchmark -->", flags=re.DOTALL)
-
-
-def marked_sections(text):
-    return MARKED.findall(text)
-
-
-def renewed(text, sections):
-    """Replaces the text between <!-- benchmark: NAME --> and <!-- /benchmark --> by sections[NAME]."""
-    return MARKED.sub(lambda m: f"<!-- benchmark: {m.group(1)} -->\n{sections[m.group(1)]}\n<!-- /benchmark -->", text)
 
 
 def main():
@@ -40,7 +28,8 @@ def main():
     (args.out / "tables.md").write_text("\n\n".join(sections[name] for name in shown) + "\n")
     if args.docs:
         for name in DOCUMENTS:
-            Path(name).write_text(renewed(Path(name).read_text(), sections))
+            text = Path(name).read_text(encoding="utf-8")
+            generated_sections.update(name, {key: sections[key] for key in generated_sections.names(text)})
     try:
         import bench_charts
     except ImportError:

@@ -1,13 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Rewrites the shadow tables of docs/results/accuracy.md, between their two markers, from the CSV of `halfspace validate --table`.
+"""The shadow tables of docs/results/accuracy.md, from the CSV of `halfspace validate --table`. See accuracy_run.py."""
 
-    halfspace validate --table --size 480x270 > table.csv && scripts/shadow_tables.py table.csv docs/results/accuracy.md
-"""
-import csv
-import sys
-
-BEGIN, END = "<!-- tables: begin -->\n", "<!-- tables: end -->\n"
 TITLES = {
     "bias": ("bias (pcf3, 2048)", "bias"),
     "filter": ("filter (auto, 2048)", "method"),
@@ -38,17 +31,5 @@ def tables(rows):
         yield "\n"
 
 
-def main():
-    table, document = sys.argv[1:3]
-    with open(table, newline="") as file:
-        rows = list(csv.DictReader(file))
-    with open(document) as file:
-        text = file.read()
-    before, rest = text.split(BEGIN)
-    after = rest.split(END)[1]
-    with open(document, "w") as file:
-        file.write(before + BEGIN + "".join(tables(rows)).rstrip("\n") + "\n" + END + after)
-
-
-if __name__ == "__main__":
-    main()
+def markdown(rows):
+    return "".join(tables(list(rows)))

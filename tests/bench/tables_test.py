@@ -10,6 +10,7 @@ sys.dont_write_bytecode = True
 import bench_measure  # noqa: E402
 import bench_report  # noqa: E402
 import bench_tables  # noqa: E402
+import generated_sections  # noqa: E402
 
 SIZE = "512x512"
 
@@ -91,12 +92,12 @@ class Tables(unittest.TestCase):
         root = Path(__file__).resolve().parents[2]
         for name in bench_report.DOCUMENTS:
             text = (root / name).read_text()
-            found = bench_report.marked_sections(text)
+            found = generated_sections.names(text)
             self.assertTrue(found, name)
             self.assertLessEqual(set(found), set(sections), name)
-            renewed = bench_report.renewed(text, sections)
-            self.assertEqual(bench_report.marked_sections(renewed), found)
-            self.assertEqual(renewed.count("\nnew\n"), len(found))
+            updated = generated_sections.replaced(text, sections)
+            self.assertEqual(generated_sections.names(updated), found)
+            self.assertEqual(updated.count("\nnew\n"), len(found))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Generated sections of documents. A section NAME is the text between these two lines:
+
+    <!-- generated: NAME -->
+    <!-- /generated -->
+"""
+import re
+import sys
+from pathlib import Path
+
+SECTION = re.compile(r"(<!-- generated: ([\w-]+) -->\n).*?(<!-- /generated -->)", re.DOTALL)
+
+
+def names(text):
+    """The names of the sections of a text, in order."""
+    return [match[2] for match in SECTION.finditer(text)]
+
+
+def replaced(text, sections):
+    """The text with new contents of its sections. A section that `sections` does not contain stays as it is."""
+    return SECTION.sub(lambda m: m[1] + sections[m[2]].rstrip("\n") + "\n" + m[3] if m[2] in sections else m[0], text)
+
+
+def update(path, sections):
+    """Writes new contents into the sections of a file. The file must contain all of them."""
+    text = Path(path).read_text(encoding="utf-8")
+    missing = sorted(set(sections) - set(names(text)))
+    if missing:
+        sys.exit(f"{path}: missing sections {', '.join(missing)}; expected lines such as <!-- generated: {missing[0]} -->")
+    Path(path).write_text(replaced(text, sections), encoding="utf-8")
