@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares methods of interpolating a varying in perspective, on triangles of different shapes and sizes.
+// Compares methods of perspective-correct interpolation of a varying, on triangles of different shapes and sizes.
 #include <fmt/format.h>
 
 #include <array>
@@ -173,7 +173,7 @@ Variant judged(const std::string& name, const std::string& group, const Case& c,
 Study study_interpolation(const StudyOptions& options, const Workers&) {
   Study study{
       .name = "interpolation",
-      .title = "Interpolation over a triangle in perspective",
+      .title = "Perspective-correct interpolation over a triangle",
       .setting = fmt::format("1/w varies by a factor of 5; {} lanes, double is scalar; labels: method, length x height in px", kLanes),
       .error_name = "largest error over the triangle, relative to the largest value",
       .time_name = "a million values on one thread, without setup",

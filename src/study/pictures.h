@@ -51,7 +51,7 @@ SphereTruth sphere_truth(const LitSphere& sphere, const View& view);
 /// Returns the RMS error of the red channel.
 double rms_error(const Image<glm::vec4>& light, const Image<double>& truth);
 
-/// Returns the largest distance between the sphere and the plane of a triangle of its mesh, in units.
+/// Returns the largest distance between the sphere and the plane of a triangle of its mesh, in world units.
 double deepest_chord(const Mesh& mesh, double radius);
 
 }  // namespace halfspace

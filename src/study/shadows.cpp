@@ -12,7 +12,7 @@ namespace halfspace {
 
 namespace {
 
-// Estimates the error of the ray-cast reference: the share of pixels whose result changes when the surface point is moved by about a
+// Estimates the error of the ray-cast reference: the fraction of pixels whose result changes when the surface point is moved by about a
 // float rounding error.
 double share_in_doubt(const PreparedScene& scene, int width, int height, const Workers& workers) {
   const RayScene rays(scene.meshes, scene.view.eye_ws), casters(scene.meshes, scene.view.eye_ws, true);
@@ -106,7 +106,7 @@ Study study_on(const std::string& name, int width, int height) {
       .error_name = "mean error of the fraction of light that reaches the surface",
       .time_name = "shadow maps and lookups of a frame, averaged over the scenes",
       .truth = {"one ray per pixel from the surface to the light", 0.0,
-                "share of rays whose result changes when they are moved by 2^-22 of the distance"},
+                "fraction of rays whose result changes when they are moved by 2^-22 of the distance"},
   };
 }
 
@@ -152,7 +152,7 @@ Study shadow_table_study(const std::vector<TableRow>& rows, int width, int heigh
     if (!name.empty()) sums.add(name, row.factor, row.score, {ms, ms, ms, 1});
   }
   set_truth_error(study, 0.0, width, height);
-  study.truth.error_method = "a tenth of a pixel";
+  study.truth.error_method = "a tenth of one pixel, as a fraction of all pixels";
   study.variants = sums.variants();
   return study;
 }

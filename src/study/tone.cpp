@@ -89,7 +89,7 @@ Study study_tone(const StudyOptions& options, const Workers&) {
       .setting = fmt::format("{} channels of light from 0 to 8, ACES curve, 8-bit sRGB codes, {} lanes", count, kLanes),
       .error_name = fmt::format("mean error in codes (zero is plotted at {:.0e})", 0.1 / count),
       .time_name = fmt::format("{} channels on one thread", count),
-      .truth = {"curve and power in long double, rounded", 0.1 / count, "a tenth of one wrong code"},
+      .truth = {"curve and power in long double, rounded", 0.1 / count, "one channel wrong by a tenth of a code"},
   };
   study.variants.push_back(judged(
       "double pow", "scalar", lights,
