@@ -144,7 +144,7 @@ void render_picture(const RenderJob& job, double seconds, const std::filesystem:
   }
 }
 
-// Returns true if the file of an earlier run holds a complete image of the requested size.
+// Returns true if the file from an earlier run contains a complete image of the requested size.
 bool is_whole(const std::filesystem::path& path, const RenderJob& job) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return false;

@@ -3,8 +3,8 @@
 // Closed-form shapes, computed in double without libm and rounded to float once, so they have the same bits on every machine. All
 // shapes are y up and wound counter-clockwise seen from outside, with outward unit normals, texture coordinates and tangents. On
 // closed shapes, positions are bit-identical where two faces, or opposite edges of the map, meet. `displacement`, if given,
-// displaces the surface (geometry/surface_mesh.h); its field must have the MapEdges given below as "Field edges". A closed shape
-// stays closed for any height map.
+// displaces the surface (geometry/surface_mesh.h); its field must use the MapEdges value given for each shape. A closed shape stays
+// closed for any height map.
 #pragma once
 
 #include "halfspace/core/trig_double.h"
@@ -45,8 +45,8 @@ SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v)
 
 /// A sphere around the origin, subdivided from an icosahedron with corners at the poles: 20 · 4^level triangles of nearly equal
 /// size; level ≥ 0. Formula and texture coordinates are the same as for uv_sphere. u exceeds 1 in triangles that cross the seam, so it
-/// never jumps back. Each triangle at a pole has a separate vertex there, with u between the values at its other two vertices. Field
-/// edges: sphere. A pole has a single height, the mean over its vertices.
+/// never jumps back. Each triangle at a pole has a separate vertex there, with u between the values at its other two vertices. All
+/// vertices at a pole get the same height, the mean of their heights. A displacement field must use MapEdges::sphere.
 Mesh icosphere(int level, float radius, const Displacement* displacement = nullptr);
 
 /// A closed cylinder around the y axis, with y from −length/2 to length/2. The side has `bands` ≥ 1 rows and `sectors` ≥ 3 columns:
@@ -54,15 +54,16 @@ Mesh icosphere(int level, float radius, const Displacement* displacement = nullp
 ///   P(u, v) = (r cos 2πu, length · (1/2 − v), −r sin 2πu)
 ///
 /// The caps show the disk inscribed in the map and have `bands` rings. u grows along +x; v grows along +z on the upper cap and
-/// along −z on the lower cap. Field edges: cylinder. Heights fade to zero at the rims, within kFadeWidth of v and of the radius.
+/// along −z on the lower cap. A displacement field must use MapEdges::cylinder. Heights fade to
+/// zero towards the rims: over a range of kFadeWidth in v on the side, and over the outer kFadeWidth · radius of the caps.
 Mesh cylinder(float radius, float length, int bands, int sectors, const Displacement* displacement = nullptr);
 
 /// A closed cone around the y axis with its apex at y = length/2 and its base at −length/2, capped like the bottom of the cylinder:
 ///
 ///   P(u, v) = (v r cos 2πu, length · (1/2 − v), −v r sin 2πu)
 ///
-/// The apex has one vertex per sector, with u at the middle of the sector. Field edges: cylinder. Heights fade to zero at apex and
-/// rim.
+/// The apex has one vertex per sector, with u at the middle of the sector. A displacement field must use MapEdges::cylinder.
+/// Heights fade to zero towards the apex and the rim.
 Mesh cone(float radius, float length, int bands, int sectors, const Displacement* displacement = nullptr);
 
 /// A torus around the y axis with `bands` ≥ 3 rows around the tube and `sectors` ≥ 3 columns around the axis. The center line of
@@ -70,20 +71,21 @@ Mesh cone(float radius, float length, int bands, int sectors, const Displacement
 ///
 ///   P(u, v) = ((R − t cos 2πv) cos 2πu, t sin 2πv, −(R − t cos 2πv) sin 2πu)
 ///
-/// v = 0 is the innermost circle, 1/4 the uppermost, 1/2 the outermost. Field edges: torus.
+/// v = 0 is the innermost circle, 1/4 the uppermost, 1/2 the outermost. A displacement field must use MapEdges::torus.
 Mesh torus(float radius, float tube, int bands, int sectors, const Displacement* displacement = nullptr);
 
 /// A tube along a trefoil knot on a torus around the y axis, with `bands` ≥ 3 rows around the tube and `sectors` ≥ 3 columns along
 /// the knot. The knot winds around the axis twice, at a mean distance of `radius`. It does not intersect itself if tube < radius /
-/// 4. The formula is in torus_knot.cpp. Field edges: torus.
+/// 4. The formula is in torus_knot.cpp. A displacement field must use MapEdges::torus.
 Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displacement* displacement = nullptr);
 
 /// A square in the plane y = 0 with corners at ±size/2, facing up, divided into segments² squares. u grows along +x, v along +z.
-/// Field edges: sheet.
+/// A displacement field must use MapEdges::sheet.
 Mesh plane(float size, int segments = 1, const Displacement* displacement = nullptr);
 
 /// An axis-aligned cube around the origin with edges of length `size`. Each face is divided into segments² squares, and its texture
-/// coordinates cover [0, 1]². Field edges: sheet. Heights fade to zero at the edges, within kFadeWidth of the face.
+/// coordinates cover [0, 1]². A displacement field must use MapEdges::sheet. Heights fade to zero towards the
+/// edges of each face, over a fraction kFadeWidth of its width.
 Mesh cube(float size, int segments = 1, const Displacement* displacement = nullptr);
 
 }  // namespace halfspace

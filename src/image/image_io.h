@@ -7,7 +7,7 @@
 //   codes          PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS: 8 or 16 bits per channel, sRGB for colors
 //   linear values  OpenEXR, Radiance HDR, PFM, and floating-point TIFF, PSD or DDS
 // Readers detect the format by the content of a file, writers by its name. Readers throw InputError ("PATH: problem; expected
-// what would be right") for files that are missing, damaged or too large (more than 2^28 pixels or 32768 pixels per side).
+// ...") for files that are missing, damaged or too large (more than 2^28 pixels or 32768 pixels per side).
 // Writers throw OutputError; an output file is either complete or not created. All functions are thread-safe.
 #pragma once
 
@@ -32,9 +32,9 @@ bool is_linear(ImageFile file);
 /// Returns whether the format of the file implies linear values (OpenEXR, Radiance HDR, PFM). Throws InputError like the readers.
 bool holds_linear_numbers(const std::filesystem::path& path);
 
-/// Reads a file of codes as 8-bit RGBA. Gray is replicated to all color channels, missing alpha becomes 255, and 16-bit codes are
-/// rounded to 8 bits. Color profiles and EXIF orientation are ignored; only the first image of a file is read. Throws InputError
-/// for files of linear values.
+/// Reads an image with 8-bit or 16-bit codes as 8-bit RGBA. Gray is replicated to all color channels, missing alpha becomes 255, and
+/// 16-bit codes are rounded to 8 bits. Color profiles and EXIF orientation are ignored; only the first image of a file is read.
+/// Throws InputError if the format implies linear values.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
 
 /// Reads the first channel (gray or red) of any file, such as a height map. 8-bit codes are divided by 255 and 16-bit codes by

@@ -15,7 +15,7 @@
 
 namespace halfspace {
 
-/// Decodes the file. format is OpenImageIO's name of the format, and file_bytes is the size of the file. Throws InputError if the
+/// Decodes the file. format is OpenImageIO's name for the format, and file_bytes is the size of the file. Throws InputError if the
 /// file is damaged or crashes the decoder, or if the program is not installed.
 ColorPicture read_color_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes);
 /// The same, for the first channel only.

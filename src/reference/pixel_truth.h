@@ -22,7 +22,7 @@ struct LightChoice {
 
 /// One light's shadow as drawn by the rasterizer with reference/shadow_mask.h, top row first.
 struct ShadowPicture {
-  Image<glm::vec4> mask;  ///< (share of the light that arrives, n·l, 1 + mesh or 0 for background, triangle)
+  Image<glm::vec4> mask;  ///< (fraction of the light that arrives, n·l, 1 + mesh or 0 for background, triangle)
   Image<float> depth;     ///< reversed window depth
   double draw_ms;         ///< time of the pass in milliseconds
 };
@@ -60,7 +60,7 @@ struct LightTruth {
 /// A light source for shadow rays.
 struct RayLight {
   Light light;
-  double size;  ///< radius in units; for a directional light, the tangent of half its angular diameter
+  double size;  ///< radius in world units; for a directional light, the tangent of half its angular diameter
   int rays;     ///< rays per surface point of a light with size, a square number; otherwise one ray is cast
 };
 /// Casts shadow rays from a surface point to the light. The rays start on the lit side of the surface, at a distance of 2^-20 times the

@@ -112,7 +112,7 @@ void divide(DistanceShares& s, int64_t count) {
   for (double* share : {&s.within_1, &s.from_1_to_3, &s.beyond_3}) *share /= static_cast<double>(std::max<int64_t>(count, 1));
 }
 
-// Computes the shares of wrong pixels. If there are more than kMaxCount, every n-th is examined and counts n times.
+// Computes the fractions of wrong pixels. If there are more than kMaxCount, every n-th is examined and counts n times.
 void score_false_pixels(ShadowComparison& c, const Pixels& pixels, const Shadow& shadow, const EdgeFinder& edges, const Workers& workers) {
   constexpr std::size_t kMaxCount = 4000;
   std::vector<glm::ivec2> wrong;

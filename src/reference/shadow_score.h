@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Measures the accuracy of a shadow map: compares the light computed from the map with the light computed by rays.
+// Measures the accuracy of a shadow map: compares the light computed from the map with ray-traced light.
 #pragma once
 
 #include <string>
@@ -35,7 +35,7 @@ struct ShadowScore {
 
 /// Per-pixel results of a comparison, top row first.
 struct ShadowComparison {
-  Image<float> map, truth;  ///< fraction of the light that arrives, by map and by rays; negative for pixels that are not compared
+  Image<float> map, truth;  ///< fraction of the light that arrives, from map and rays; negative for pixels that are not compared
   Image<float> facing;      ///< cosine of the angle between face normal and light; 0 for surfaces that face away
   ShadowScore score;
 };

@@ -69,10 +69,10 @@ MapEdges edges_of(Shape shape);
 /// Returns the sampler for a texture.
 Sampler make_sampler(const TextureDescription& t);
 
-/// Returns the radius of a ball around the origin that contains the undisplaced shape, in units of the object.
+/// Returns the radius of a ball around the origin that contains the undisplaced shape, in object space.
 double ball_radius(const ObjectDescription& o);
 
-/// Returns the maximum displacement of the shape by its heights, in units of the object.
+/// Returns the maximum displacement of the shape by its heights, in object space.
 double relief_height(const ObjectDescription& o);
 
 /// Returns the number of columns of the mesh along u.

@@ -27,7 +27,7 @@ Sampler make_sampler(const TextureDescription& t) {
 
 namespace {
 
-// Width of the map on the object, and radius of a ball that contains the object; in units of the object.
+// Width of the map on the object, and radius of a ball that contains the object; in object space.
 struct MapExtent {
   double map_width, radius;
 };
@@ -64,12 +64,12 @@ double relief_height(const ObjectDescription& o) {
 
 namespace {
 
-// Returns the distance from the eye to the bounding sphere of the object, in units.
+// Returns the distance from the eye to the bounding sphere of the object, in world units.
 double distance_of_ball(const ObjectDescription& o, const glm::dmat4& world_from_object, double scale, const View& view) {
   return glm::distance(glm::dvec3(world_from_object[3]), view.eye_ws) - ball_radius(o) * scale;
 }
 
-// Returns the depth of the nearest visible part of a plane, in units, or infinity if no part is visible. The bounding sphere of a
+// Returns the depth of the nearest visible part of a plane, in world units, or infinity if no part is visible. The bounding sphere of a
 // plane cannot be used here, because it often contains the eye.
 double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_object, const View& view) {
   const glm::dvec3 corner(0.5 * o.size, relief_height(o), 0.5 * o.size);

@@ -21,8 +21,8 @@ struct View {
 /// Returns the view of a camera for an image of width x height pixels, with reversed Z.
 View make_view(const CameraDescription& camera, int width, int height);
 
-/// Returns the width of a pixel at a point, perpendicular to the view axis, in units. The position is relative to the eye, in world
-/// axes.
+/// Returns the size, in world units, that one pixel covers at the depth of a point. The position is relative to the eye, with the axes of
+/// world space.
 double pixel_width(const View& view, const glm::dvec3& position_rws);
 
 /// Upper bounds on how far a projected point moves, in pixels, per world unit that the point moves inside a ball. The second

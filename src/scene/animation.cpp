@@ -62,7 +62,7 @@ Numbers rate_at(const AnimationDescription& a, const Json& start, double seconds
 }  // namespace
 
 void check_animation(SceneDescription& scene, const AnimationDescription& a, const std::string& path, const std::string& source) {
-  if (a.target.empty()) throw InputError(source + ": " + path + ".target: missing; expected the path of a number or vector");
+  if (a.target.empty()) throw InputError(source + ": " + path + ".target: missing; expected the path to a number or vector");
   const FoundKey found = find_key(scene, a.target, source + ": " + path + ".target");
   const Key& key = *found.field.key;
   for (const char* fixed : {"materials", "animations", "animation", "time"}) {
@@ -71,7 +71,8 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
                      " cannot be animated; expected a key of an object, a light, a camera or the background");
   }
   if (key.type != KeyType::number && !is_vector(key)) {
-    throw InputError(source + ": " + path + ".target: " + a.target + " is neither a number nor a vector; expected the path of one");
+    throw InputError(source + ": " + path + ".target: " + a.target +
+                     " is neither a number nor a vector; expected the path to a number or vector");
   }
   const std::size_t size = is_vector(key) ? 3 : 1;
   const auto check_size = [&](const char* name, std::size_t got) {
@@ -87,7 +88,7 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
   }
   if (a.type == AnimationType::orbit && size != 3) {
     throw InputError(source + ": " + path + ".target: " + a.target +
-                     " is a number, but an orbit animates a vector; expected the path of one");
+                     " is a number, but an orbit animates a vector; expected the path to a vector");
   }
   if (a.type == AnimationType::keyframes && a.keys.empty())
     throw InputError(source + ": " + path + ".keys: empty; expected rows [seconds, value]");

@@ -28,7 +28,7 @@ struct CameraDescription {
   glm::dvec3 target{0, 0, 0};    ///< world space
   glm::dvec3 up{0, 1, 0};
   double fov = 45.0;    ///< vertical, in degrees
-  double height = 2.0;  ///< height of the view volume, in units
+  double height = 2.0;  ///< height of the view volume, in scene units
   double near = 0.1, far = 1000.0;
 };
 
@@ -46,7 +46,7 @@ struct LightDescription {
   glm::dvec3 attenuation{1, 0, 0};
   double inner = 20.0, outer = 30.0;  ///< degrees from the axis
   bool shadow = true;
-  double size = 0.0;  ///< radius in units; for directional lights, half the angle subtended, in degrees
+  double size = 0.0;  ///< radius in scene units; for directional lights, half the angle subtended, in degrees
 };
 
 enum class TextureSource : uint8_t {
@@ -145,7 +145,7 @@ struct ObjectDescription {
   bool casts_shadow = true, receives_shadow = true;
 
   MapValue height = Color{glm::dvec3(0.0)};  ///< a constant means no map
-  double height_scale = 0.02;                ///< height difference between map values 0 and 1, in units
+  double height_scale = 0.02;                ///< height difference between map values 0 and 1, in scene units
   double height_zero = 0.5;                  ///< map value that leaves the surface undisplaced
   double height_smoothing = 1.0;             ///< standard deviation in texels
   NormalSource normals = NormalSource::pixel;
@@ -263,7 +263,7 @@ enum class Easing : uint8_t { linear, smooth, step };
 /// The change in one key over time. `rate` is added to the key's value in the scene; the other types replace it.
 struct AnimationDescription {
   AnimationType type = AnimationType::rate;
-  std::string target;      ///< dotted path of a number or vector
+  std::string target;      ///< dotted path to a number or vector
   Numbers rate{0.0};       ///< per second
   glm::dvec3 center{0.0};  ///< orbit: center + a·cos φ + b·sin φ, φ = 2π(t / period + phase)
   glm::dvec3 a{1, 0, 0};
@@ -341,7 +341,7 @@ void for_each_collection(Scene& scene, F&& visit) {
   visit("environments", "Distant light as a function of direction", scene.environments);
   visit("materials", "Surface properties that objects can share", scene.materials);
   visit("objects", "A shape with its surface and placement", scene.objects);
-  visit("animations", "The change in a key over time", scene.animations);
+  visit("animations", "Change to a key over time", scene.animations);
 }
 
 /// Calls visit(name, help, struct) for each section that occurs once.

@@ -54,10 +54,10 @@ Section section_of(ParticlesDescription& p) {
       key<&T::angle>("angle", "Rotation of generated spheres around the y axis, from x to z", {.unit = "radians"}),
       key<&T::point_scale>("point_scale", "Factor from radius / distance to point size; 0: the image width",
                            {.unit = "px", .low = 0, .high = 1e6, .only = "original"}),
-      key<&T::color>("color", "Factor of the spheres' colors", {.low = 0}),
-      key<&T::ambient>("ambient", "Factor of the ambient light", {.low = 0}),
-      key<&T::diffuse>("diffuse", "Factor of diffuse reflection", {.low = 0}),
-      key<&T::specular>("specular", "Factor of the specular highlight, from the reflected ray", {.low = 0}),
+      key<&T::color>("color", "Multiplier for the spheres' colors", {.low = 0}),
+      key<&T::ambient>("ambient", "Multiplier for the ambient light", {.low = 0}),
+      key<&T::diffuse>("diffuse", "Diffuse reflection factor", {.low = 0}),
+      key<&T::specular>("specular", "Specular highlight factor, from the reflected ray", {.low = 0}),
       key<&T::shininess>("shininess", "Specular exponent; larger values give smaller and sharper highlights", {.low = 0, .high = 1e5}),
       key<&T::casts_shadow>("casts_shadow", "Whether exact spheres cast shadows"),
       key<&T::receives_shadow>("receives_shadow", "Whether exact spheres receive shadows, including those of each other"),
@@ -85,7 +85,7 @@ Section section_of(EnvironmentDescription& e) {
       key<&T::stars>("stars", "Density of stars; 1: about 25,000 in the whole sky", {.low = 0, .high = 1, .only = "night_sky"}),
       key<&T::star_brightness>("star_brightness", "Brightness of the brightest star, linear", {.low = 0, .only = "night_sky"}),
       key<&T::rotation>("rotation", "Rotation around x, y and z; applied in the order z, x, y", {.unit = "degrees"}),
-      key<&T::brightness>("brightness", "Factor of the environment's light", {.low = 0, .high = 1e6}),
+      key<&T::brightness>("brightness", "Multiplier for the environment's light", {.low = 0, .high = 1e6}),
   };
   return {{keys, &e}};
 }
@@ -118,7 +118,7 @@ Section section_of(PostDescription& p) {
   static const std::vector<Key> keys{
       key<&T::hdr>("hdr", "Keep light above 1 for exposure and tone mapping; off: the other keys of post are ignored"),
       key<&T::format>("format", "Format in which light is stored; half floats end at 65504"),
-      key<&T::exposure>("exposure", "Factor of the light", {.low = 0, .high = 1e9}),
+      key<&T::exposure>("exposure", "Multiplier for the light", {.low = 0, .high = 1e9}),
       key<&T::auto_exposure>("auto_exposure", "Whether to also multiply by key_value / log-average luminance of the image"),
       key<&T::key_value>("key_value", "Value to which auto_exposure maps the log-average luminance", {.low = 0, .high = 1e3}),
       key<&T::tone>("tone", "Tone curve that maps light to [0, 1]; none: clamp to 1"),

@@ -26,7 +26,7 @@ class SceneFile {
  public:
   static constexpr int kVersion = 1;
 
-  /// Opens a shipped scene by name, or else a file. Throws InputError ("FILE: PATH: problem; expected what would be right").
+  /// Opens a shipped scene by name, or else a file. Throws InputError ("FILE: PATH: problem; expected ...").
   static SceneFile open(const std::string& name_or_file);
   /// Parses a text. `source` is the start of error messages; `directory` is the base directory of relative paths.
   static SceneFile parse(std::string_view text, const std::string& source, const std::filesystem::path& directory);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shadows from the moments of a filtered depth distribution. The map stores the means of d, d², d³ and d⁴ over a neighborhood,
-// where d is the linear depth from 0 (near) to 1 (far). They give an upper bound of the light that reaches a given depth.
+// where d is the linear depth from 0 (near) to 1 (far). They give an upper bound on the light that reaches a given depth.
 #pragma once
 
 #include "halfspace/shading/shadow_view.h"
@@ -34,7 +34,7 @@ HS_INLINE vec4<R> moments_at(const ShadowView& view, const ShadowCoordinates<R>&
   return lower * (R(1) - fy) + upper * fy;
 }
 
-/// Returns the upper bound of the light given by mean and variance (Chebyshev's inequality). Light leaks where occluders at two
+/// Returns the upper bound on the light given by mean and variance (Chebyshev's inequality). Light leaks where occluders at two
 /// different depths overlap.
 template <class R>
 HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
@@ -45,7 +45,7 @@ HS_INLINE R chebyshev_shadow(const ShadowView& view, const ShadowCoordinates<R>&
   return select(beyond <= R(0), R(1), variance / (variance + beyond * beyond));
 }
 
-/// Returns the upper bound of the light given by four moments. It is attained by the distribution with these moments that is
+/// Returns the upper bound on the light given by four moments. It is attained by the distribution with these moments that is
 /// concentrated at the depth of the receiver and two other depths. C. Peters and R. Klein, "Moment shadow mapping", I3D 2015,
 /// section 3 (Hamburger, four moments).
 template <class R>

@@ -18,8 +18,8 @@ struct ShadowCoordinates {
   R depth_dx, depth_dy;  ///< change in depth per texel on the plane that texels are compared with; 0: no plane
 };
 
-/// Returns the difference in window depth, at clip w, between two points whose distance along the view axis is the width of one texel. In
-/// a perspective view, z = a/w + b.
+/// Returns the change in window depth, at clip w, when a point moves along the view axis by the width of a texel. In a perspective view,
+/// the window depth is a/w + b.
 template <class R>
 HS_INLINE R depth_of_texel(const ShadowView& view, R w) {
   return R(view.texel_per_w * view.depth_per_unit) / w;

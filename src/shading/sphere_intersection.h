@@ -143,7 +143,7 @@ struct SphereIntersection {
   }
 
   /// Returns the interval that the part of the sphere beyond the near plane covers along an axis (0: x, 1: y), extended on both
-  /// sides by an eighth of a pixel and a bound of the rounding error.
+  /// sides by an eighth of a pixel and a bound on the rounding error.
   template <class R>
   HS_INLINE SphereSpan<R> span(const vec3<R>& center_cs, R radius, int axis) const {
     const R scale(1.0f / half[axis]);

@@ -12,7 +12,7 @@
 // reads a PictureHeader and its pixels from standard input. It writes a FileHeader to standard output, followed by the bytes of
 // the file or, if file_bytes is 0, by a message of message_bytes bytes.
 //
-// FORMAT is OpenImageIO's name of the format, for example "jpeg". Pixels are stored in rows without padding, top row first, with
+// FORMAT is OpenImageIO's name for the format, for example "jpeg". Pixels are stored in rows without padding, top row first, with
 // interleaved channels in native byte order. A message is one line: the problem; what was expected.
 #pragma once
 

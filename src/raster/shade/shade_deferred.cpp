@@ -57,7 +57,7 @@ int list_work(const PassContext& context, const Tile& tile, const Job& job, std:
   return count;
 }
 
-// Writes the color of a pixel to all its samples that show the shaded triangle.
+// Writes the color of a pixel to all its samples in which the shaded triangle is visible.
 void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, const PacketMask& packet, const TriangleId* ids,
                    Tile& tile) {
   const Int shaded = load<Int>(ids + static_cast<std::size_t>(packet.packet) * kLanes);

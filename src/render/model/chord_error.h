@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// Returns the maximum distance between the shape's triangles and its smooth surface, without heights, in units of the object.
+/// Returns the maximum distance between the shape's triangles and its smooth surface, without heights, in object space.
 ///
 /// The chord of an arc of 2π/n is r·(1 − cos(π/n)) below the arc. On a surface curved in both directions, the diagonal of a quad is
 /// below the surface by the sum for both of its sides. (This is exact for the sphere, where the circumcenter of the triangle is the
