@@ -139,9 +139,9 @@ TEST(WorkloadFormulas, ShadowMatches) {
   EXPECT_GT(dark_side, 3000);
 }
 
-// A million triangles of 1 px² that do not overlap cover about a million pixels. On the 1/256 px grid, a triangle has legs of 362 steps and
-// an area of 362²/2. Two of its edges are inclusive and one is exclusive, which adds half an edge, or 0.3% of the area. In addition, the
-// positions of the 1357 columns relative to the pixel grid are not perfectly uniform.
+// A million triangles of 1 px² that do not overlap cover about a million pixels. On the 1/256 px grid, a triangle has legs of n = 362
+// steps and an area of n²/2. The fill rule includes two of its edges and excludes one, so it contains about n(n + 1)/2 grid points,
+// 0.3% more than its area. In addition, the positions of the 1357 columns relative to the pixel grid are not perfectly uniform.
 TEST(WorkloadFormulas, TinyCoversTheExpectedArea) {
   const Image<glm::u8vec4> image = drawn("tiny_1m", {1920, 1080});
   const auto covered = std::ranges::count(image.texels(), glm::u8vec4(229, 153, 26, 255));  // the float 0.9 is less than 229.5/255

@@ -698,8 +698,9 @@ bool stop_while_writing(pid_t child, OpenFiles& files) {
   return false;
 }
 
-// Interrupts a long animation at many moments, including while a file is being written. The program must die from the signal, and the files
-// it leaves must be complete images. Each has more than a megabyte, and signals are handled between the chunks in which a file is written.
+// Interrupts a long animation at many different times, including while a file is being written. The signal must terminate the program, and
+// the remaining files must be complete images. Each file is larger than a megabyte and is written in chunks; signals are handled between
+// chunks.
 TEST_F(Cli, InterruptsLeaveNoPartialFiles) {
   const auto render = [&](const std::string& frames) {
     return start({"render", "particles", "--size", "1920x1080", "--frames", frames, "-o", "particles.exr"});

@@ -95,7 +95,7 @@ void add_triangles(Cases& cases) {
 
 // ---- polygons and their edges --------------------------------------------------------------------------------------
 
-// A fan of n corners around the center, with a radius of `radius` half windows, depths from −z to z, and varying w.
+// A fan of n corners at about `radius` from the center of the window, in NDC, with depths from −z to z and different values of w.
 Picture polygon_picture(int corners, float radius, float z, bool behind) {
   Picture p;
   p.colors = {ColorFormat::rgba32f};

@@ -57,8 +57,8 @@ std::string derivative_formula(const Picture& p, const Seen& seen) {
       dy = glm::dvec2(-0.25, 0.75) / q;
     }
     const glm::dvec2 of = d.mode % 3 == kDdx ? dx : d.mode % 3 == kDdy ? dy : glm::abs(dx) + glm::abs(dy);
-    // u and w are floats at the vertices, with a relative error of 2^-22 of the largest u (70) and its slopes. Quad differences subtract
-    // numbers of this magnitude.
+    // u, v and w are rounded to float at the vertices. The tolerance allows a relative error of 2^-22 for values of magnitude 70. A quad
+    // difference subtracts two such values, so its tolerance is twice as large.
     const double tolerance = by_quad ? 70.0 * 4 * 0x1p-23 : 70.0 * 0x1p-22;
     return expect_near(glm::dvec4(of, 0.0, 1.0), seen.color(x, y), tolerance);
   });

@@ -65,13 +65,13 @@ struct Weighed {
 };
 std::optional<Weighed> weigh(const Picture& picture, const DepthState& depth, const std::array<glm::vec4, 3>& pos_clip);
 
-/// Lower and upper bounds for the fraction of a pixel's samples inside of regions. A sample counts once for each region that contains it.
+/// Bounds on the fraction of a pixel's samples that are inside the regions. A sample counts once for each region that contains it.
 struct Share {
   double low = 0.0, high = 0.0;
 };
 Share share_of(const std::vector<Region>& regions, int x, int y, int samples);
-/// Checks that the red of every pixel is between the bounds times the weight of a fragment. Returns a message about the first pixel that is
-/// not; empty if there is none.
+/// Checks that the red channel of every pixel is within the bounds of share_of times `weight`, the red value that one fragment adds.
+/// Returns a message about the first wrong pixel, or an empty string.
 std::string expect_red(const Picture& picture, const Seen& seen, const std::vector<Region>& regions, double weight = 1.0);
 
 /// The same for the quads of the first drawing, with four vertices each.

@@ -23,8 +23,8 @@ TEST(FixedPower, IsWithinErrorBound) {
       const double want = std::pow(static_cast<double>(x), static_cast<double>(y));
       worst = std::max(worst, std::fabs(static_cast<double>(power(x)) - want) / want);
     }
-    // The error is that of two products, two table entries and the last step of the polynomial, each rounded to 2^-24, plus the remaining
-    // error of the polynomial.
+    // Two products, two table entries and the last step of the polynomial are each rounded to 2^-24. The error is the sum of these
+    // roundings and the remaining error of the polynomial.
     EXPECT_LE(worst, 3e-7) << y;
   }
 }

@@ -157,7 +157,7 @@ TEST(DisplacedSphere, ConstantHeightGivesALargerSphere) {
   }
 }
 
-TEST(DisplacedSphere, PolesHaveOneHeightAndTheFrameOfTheSphere) {
+TEST(DisplacedSphere, PolesHaveASingleHeightAndUndisplacedNormals) {
   const Mesh m = displaced_uv_sphere(24, 48, kRadius, rough_field(), kScale, kZero, two_workers());
   const Mesh sphere = uv_sphere(24, 48, kRadius);
   for (const float pole : {0.0f, 1.0f}) {

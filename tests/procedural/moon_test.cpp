@@ -58,7 +58,7 @@ TEST(ProceduralMoon, FillsImagesOfAnySize) {
   EXPECT_DEATH(procedural_moon(3, Workers(1)), "width % 2");
 }
 
-// The heights of the real Moon range from −9.1 to 10.8 km. Means and shares are weighted by area, which is proportional to sin πv.
+// The heights of the real Moon range from −9.1 to 10.8 km. Means and fractions are weighted by area, which is proportional to sin πv.
 TEST(ProceduralMoon, HasPlausibleStatistics) {
   const MoonMaps& maps = moon_512();
   double area = 0, height = 0, square = 0, dark = 0, dark_near = 0, luminance = 0;

@@ -129,7 +129,7 @@ TEST(Checkerboard, IsExact) {
   }
 }
 
-// Checks that each pattern looks like its name, by mean colors and shares.
+// Checks mean colors and the fractions of certain colors, to verify that each pattern looks like its name.
 glm::dvec3 mean_of(const Image<glm::u8vec4>& map) {
   glm::dvec3 sum(0.0);
   for (const glm::u8vec4& t : map.texels()) sum += glm::dvec3(t.x, t.y, t.z);

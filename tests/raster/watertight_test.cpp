@@ -429,7 +429,7 @@ class PlaneFan {
     const int n = spokes;
     const double start = r.real(0.0, 6.0);
     for (int i = 0; i < n; ++i) {
-      // The rim is so far away that its outline is beyond the far plane or is the horizon of the plane.
+      // The rim is so far away that it is either beyond the far plane or practically on the horizon of the plane.
       const double angle = start + (i + r.real(0.0, 0.8)) * 2 * 3.14159265358979 / n;
       points_.push_back(middle * depth + r.magnitude(1e7, 1e9) * (std::cos(angle) * turn[0] + std::sin(angle) * turn[1]));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares exact spheres among meshes with Embree: visibility and shadows.
+// Compares visibility and shadows with Embree in scenes that contain both exact spheres and meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -103,7 +103,7 @@ TEST(Validation, HardEdgesAreWithinATexel) {
   }
 }
 
-// A light of 3 degrees. With a disk of 128 texels, the visible share is accurate to about a hundredth.
+// A light of 3 degrees. With a disk of 128 texels, the visible fraction is accurate to about a hundredth.
 TEST(Validation, SoftShadowsAreCloseToTheReference) {
   const ShadowScore s = validated("shadow-contact", {"shadow.method=pcss"}, 160, 90, 1024).lights.at(0).score;
   EXPECT_GT(s.penumbra_error, 0.0);
@@ -142,7 +142,7 @@ TEST(Validation, WithoutAMethodThereIsNoShadowAndNoMap) {
 }
 
 TEST(LightTruth, PenumbraOfAnEdgeMatchesTheAreaOfACutDisk) {
-  // A half plane at height 2 above the ground. The light at x is the share of the disk beyond the edge.
+  // A half plane at height 2 above the ground. The light at x is the fraction of the disk beyond the edge.
   Mesh edge;
   edge.positions = {{-50, 2, -50}, {0, 2, -50}, {0, 2, 50}, {-50, 2, 50}};
   edge.indices = {0, 2, 1, 0, 3, 2};

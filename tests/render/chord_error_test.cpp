@@ -85,12 +85,12 @@ void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displac
   }
 }
 
-TEST(ChordError, OfTorusIsTheSumOverBothDirections) { expect_ring(Shape::torus, torus, 0.9, 1.001); }
+TEST(ChordError, SumsBothDirectionsForATorus) { expect_ring(Shape::torus, torus, 0.9, 1.001); }
 
 // The second derivative is evaluated at the outermost point, which is not quite the worst one.
-TEST(ChordError, OfTorusKnotsIsApproximate) { expect_ring(Shape::torus_knot, torus_knot, 0.6, 1.05); }
+TEST(ChordError, IsApproximateForTorusKnots) { expect_ring(Shape::torus_knot, torus_knot, 0.6, 1.05); }
 
-TEST(ChordError, OfCylindersIsThatOfTheirCircles) {
+TEST(ChordError, MatchesACircleForCylinders) {
   ObjectDescription o;
   o.shape = Shape::cylinder;
   o.radius = kRadius;

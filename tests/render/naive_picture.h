@@ -74,7 +74,7 @@ glm::u8vec4 encode(const vec4<R>& c) {
   return out;
 }
 
-/// Returns the share of pixels that differ by more than one code from the naive pipeline in R.
+/// Returns the fraction of pixels that differ by more than one code from the naive pipeline in R.
 template <class R>
 double share_beyond_one_code(const SceneDescription& scene, int width, int height) {
   const Image<glm::u8vec4> image = picture_of(scene, width, height);

@@ -46,11 +46,11 @@ double entry(const glm::dvec3& c, double r, int x, int row, double& squared) {
 class ParticlePictures : public FolderTest {};
 
 // The original sprite derives its size from the center only. A distant sphere projects to an ellipse that is longer than the circle by
-// 1/cos of the off-axis angle, so the circle misses a share of 1 − cos. The ellipse of a near sphere is also farther from the axis than its
-// center, so the circle covers pixels outside it.
+// 1/cos of the off-axis angle, so the circle misses a fraction of 1 − cos. The ellipse of a near sphere is also farther from the axis than
+// its center, so the circle covers pixels outside it.
 TEST_F(ParticlePictures, SilhouetteErrorGrowsWithTheOffAxisAngle) {
   const struct {
-    double degrees, least, most;  // wrong pixels of the original sprite, as a share of the sphere's pixels
+    double degrees, least, most;  // wrong pixels of the original sprite, as a fraction of the sphere's pixels
   } cases[] = {{0, 0.0, 0.03}, {15, 0.034, 0.08}, {30, 0.134, 0.19}, {45, 0.293, 0.37}};
   for (const auto& c : cases) {
     const double angle = c.degrees * std::acos(-1.0) / 180.0, r = 0.5;

@@ -16,7 +16,7 @@ namespace {
 // Difference of two images in linear light: the maximum over all pixels and channels, and the RMS.
 struct Difference {
   double most = 0, rmse = 0;
-  double beyond = 0;       ///< share of pixels that differ by more than 1/255
+  double beyond = 0;       ///< fraction of pixels that differ by more than 1/255
   double rmse_within = 0;  ///< RMS over the other pixels
 };
 

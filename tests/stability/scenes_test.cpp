@@ -90,14 +90,14 @@ TEST(Stability, ReversedDepthKeepsTheOrder) {
   }
   judge({10, "z-fighting",
          "pairs of surfaces 1/10,000 of the distance apart, far/near 1e2 to 1e9; OpenGL's depth in float32 against reversed Z",
-         "worst share of pairs in the wrong order"},
+         "worst fraction of pairs in the wrong order"},
         plain, 0.3, ours, 0.0);
 }
 
 TEST(Stability, ReversedDepthKeepsTheOrderWhere24BitsFail) {
   const Study study = study_depth({.quick = true}, Workers(2));
   // The step of float32 with reversed Z is 2^-24 of the distance everywhere, 1,600 times finer than the gap.
-  judge({10, "z-fighting", "the same at far/near 1e6; 24 bits against reversed Z", "share of pairs in the wrong order"},
+  judge({10, "z-fighting", "the same at far/near 1e6; 24 bits against reversed Z", "fraction of pairs in the wrong order"},
         variant(study, "d24 1e6").error, 0.15, variant(study, "d32f reversed 1e6").error, 0.0);
 }
 

@@ -44,7 +44,7 @@ TEST(Stability, ShadowsHaveNoAcneAtAnyLightAngle) {
   // At 89.9 degrees, the depth changes by 570 texel widths across one texel, and the automatic bias follows the plane. One pixel out of
   // about 10,000 lit ones remains wrong.
   judge({1, "shadow acne", "ball over a plane, light 0 to 89.9 degrees from the vertical; no bias against auto",
-         "largest share of lit pixels that are falsely dark more than a texel from the edge"},
+         "largest fraction of lit pixels that are falsely dark more than a texel from the edge"},
         plain, 0.3, ours, 1.5e-4);
 }
 
@@ -54,7 +54,7 @@ TEST(Stability, ContactShadowsAreNotDetached) {
   };
   // The project guarantees that at most one shadowed pixel in a thousand is lit more than one texel from the edge.
   judge({2, "peter-panning", "objects on a plane; a constant bias of 100 texels against auto",
-         "share of shadowed pixels that are falsely lit more than a texel from the edge"},
+         "fraction of shadowed pixels that are falsely lit more than a texel from the edge"},
         leak({"shadow.bias=constant", "shadow.constant=100", "shadow.method=hard"}), 0.01, leak({}), 1e-3);
 }
 
@@ -131,7 +131,7 @@ TEST(Stability, ShadowTerminatorIsClassifiedSeparately) {
   // Apart from these pixels, all but one or two of 10,000 pixels are correct.
   judge({27, "shadow terminator",
          "a ball of 24 sectors; pixels where face and shading normals disagree counted as errors of the map against counted separately",
-         "share of pixels that no map can shade correctly; ours: falsely dark more than a texel from the edge"},
+         "fraction of pixels that no map can shade correctly; ours: falsely dark more than a texel from the edge"},
         s.sides_differ, 0.002, beyond_a_texel(s.false_shadow), 2e-4);
 }
 
