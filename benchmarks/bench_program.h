@@ -26,7 +26,7 @@ struct BenchProgram {
   std::string what;  ///< description, one line
   std::vector<BenchOption> options;
   std::function<void(int threads)> start;  ///< called once, before any workload is prepared; can be empty
-  /// The workloads that the program draws, and its series of workloads.
+  /// The workloads and sweeps that the program can draw.
   std::function<std::span<const WorkloadKind>()> kinds;
   std::function<std::span<const Sweep>()> sweeps;
   /// The first fields of each line of --json output, which identify the renderer.

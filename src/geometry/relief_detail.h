@@ -12,7 +12,7 @@ namespace halfspace {
 /// between the map and the map averaged to fewer columns.
 class ReliefDetail {
  public:
-  /// `smoothing` is the smoothing of HeightField, in texels. Detail removed by smoothing does not count as an error.
+  /// `smoothing` is the value passed to HeightField, in texels. Detail removed by smoothing does not count as an error.
   ReliefDetail(const Image<float>& map, double smoothing, const Workers& workers);
 
   /// Returns the error in the unit of the map, for `columns` ≥ 1 along u. The error is interpolated linearly between successive

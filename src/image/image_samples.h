@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The output of image decoders, and conversions of it. Functions that throw InputError begin the message with `name`.
+// The output of image decoders, and its conversions. Functions that throw InputError begin the message with `name`.
 #pragma once
 
 #include <cstdint>

@@ -68,7 +68,7 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture,
   for (std::size_t f = 0; f < 6; ++f) {
     auto* face = std::get_if<Image<Texel>>(&pictures[f]);
     if (face == nullptr)
-      throw InputError(files[f].string() + ": its format differs from the first face (linear or 8-bit); expected six of one kind");
+      throw InputError(files[f].string() + ": its format differs from the first face (linear or 8-bit); expected six of the same kind");
     faces[f] = std::move(*face);
     const int size = faces[0].width();
     if (faces[f].width() != size || faces[f].height() != size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares methods of perspective-correct interpolation of a varying, on triangles of different shapes and sizes.
+// Compares methods for perspective-correct interpolation of varyings, on triangles of different shapes and sizes.
 #include <fmt/format.h>
 
 #include <array>

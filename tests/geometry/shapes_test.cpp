@@ -135,14 +135,14 @@ void expect_tangents_of_flat_faces(const Mesh& m) {
   }
 }
 
-TEST(Tangents, OfFlatFacesFollowTheTextureCoordinates) {
+TEST(Tangents, FollowTheTextureCoordinatesOnFlatFaces) {
   expect_tangents_of_flat_faces(plane(4.0f));
   expect_tangents_of_flat_faces(cube(3.0f));
 }
 
 // Central differences with h = 1e-6 have errors of (2πh)²/6 and 1e-16/h, and vertices are rounded to float. ∂P/∂u is zero at the poles, so
 // a pole vertex has the tangent of its longitude, which is a unit vector (see IsValidClosedAndFacesOutward).
-TEST(Tangents, OfUvSphereFollowTheTextureCoordinates) {
+TEST(Tangents, FollowTheTextureCoordinatesOnUvSpheres) {
   const Mesh m = uv_sphere(12, 24, 2.0f);
   const auto sphere = [](double u, double v) {
     const double a = 2 * std::numbers::pi * u, b = std::numbers::pi * v;

@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
 using Coverage = MesaTest;
 
 // Every pixel of a mesh of shared vertices that covers the window must be drawn exactly once by both renderers.
-TEST_F(Coverage, OfMeshesWithSharedVerticesIsOneEverywhere) {
+TEST_F(Coverage, IsOneEverywhereForMeshesWithSharedVertices) {
   for (const float jitter : {0.0f, 0.1f, 0.3f}) {
     const ColoredMesh mesh = make_sheet(150, 90, jitter, 7);
     TwinPass pass({.width = 640, .height = 360});
@@ -102,7 +102,7 @@ TEST_F(Coverage, OfMeshesWithSharedVerticesIsOneEverywhere) {
   }
 }
 
-TEST_F(Coverage, OfAdjacentTinyTrianglesAgrees) {
+TEST_F(Coverage, AgreesForAdjacentTinyTriangles) {
   const Figures figures = count_fragments(make_tiny(640, 360), {.width = 640, .height = 360});
   EXPECT_LE(figures.coverage_share(), 1e-4);
 }

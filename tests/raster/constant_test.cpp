@@ -46,7 +46,7 @@ ConstantPicture drawn(const Shader& shader, std::span<const glm::vec4> positions
   return out;
 }
 
-TEST(ConstantShaders, FillTilesOnlyWhereTheyCoverThem) {
+TEST(ConstantShaders, FillOnlyTilesThatTheyCover) {
   Random random(11);
   const glm::vec4 color(0.2f, 0.6f, 1.0f, 1.0f);
   for (int i = 0; i < effort(400); ++i) {

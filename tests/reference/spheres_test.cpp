@@ -186,7 +186,7 @@ TEST(Spheres, SkipsSpheresThatNeitherCastNorReceive) {
 }
 
 // The ground does not shadow itself for any choice of casting faces, so all visible shadows are cast by spheres.
-TEST(Spheres, CastWithTheirFrontForAnyChoiceOfFaces) {
+TEST(Spheres, CastShadowsFromTheirFrontForAnyFaces) {
   const std::string scene = std::string(kShaded) + kSun;
   const Image<glm::vec4> none = rendered(prepared(scene, {"shadow.method=none"}));
   const Image<glm::vec4> front = rendered(prepared(scene, {"shadow.faces=front"}));

@@ -39,7 +39,7 @@ TEST(ChordError, BoundsTheDepthOfSphereTriangles) {
   }
 }
 
-TEST(ChordError, OfIcospheresIsQuarteredPerLevel) {
+TEST(ChordError, IsQuarteredPerIcosphereLevel) {
   for (const int level : {0, 1, 2, 3, 5}) {
     ObjectDescription o;
     o.shape = Shape::icosphere;
@@ -126,7 +126,7 @@ double map_error_of_cone(const ObjectDescription& o) {
   return worst;
 }
 
-TEST(ChordError, OfConesBoundsTheTextureDisplacement) {
+TEST(ChordError, BoundsTheTextureDisplacementOnCones) {
   ObjectDescription o;
   o.shape = Shape::cone;
   EXPECT_EQ(with_parts(o, 48, true).latitudes, 2) << "without a map";

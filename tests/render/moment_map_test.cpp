@@ -23,7 +23,7 @@ ShadowView view_of(int size, bool perspective) {
 TEST(MomentMap, StoresMeanPowersOverASquare) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> any(0.0f, 1.0f);
-  // The sizes include widths that are not multiples of a task's rows or of the SIMD width.
+  // Some sizes are not multiples of the rows per task or of the SIMD width.
   for (const glm::ivec2& c : {glm::ivec2(256, 2), glm::ivec2(301, 0), glm::ivec2(257, 5)}) {
     const int size = c.x, radius = c.y;
     for (const bool perspective : {false, true}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks that docs/explanation/stability.md is complete: it contains the rows 1 to 28, every test that it names exists, and every test is
+// Checks that docs/explanation/stability.md is complete: it contains rows 1 to 28, every test that it names exists, and every test is
 // listed.
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-// Larger triangles are rasterized by blocks.
+// Larger triangles are rasterized in blocks.
 constexpr int kMaxSpan = 48;  // px
 constexpr int kMaxCovered = std::popcount(kCoveredBits);
 
