@@ -88,7 +88,7 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
   const Integrated truth = integrate(texture, width, height, workers);
   Study study{
       .name = "texture_filter",
-      .title = "Texture filters on a plane to the horizon",
+      .title = "Texture filters on a plane that reaches the horizon",
       .setting = fmt::format("A checkered plane seen from 1 unit above, {}x{}; 512x512 texels per tile, sRGB", width, height),
       .error_name = "RMS error of linear light over the image",
       .time_name = "frame",

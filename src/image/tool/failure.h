@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// The reason why halfspace-image-tool cannot fulfill a request. The text is one line: the problem; what was expected.
+/// The reason why halfspace-image-tool cannot fulfill a request. The text is one line of the form "problem; what was expected".
 struct Failure {
   std::string text;
 };

@@ -15,7 +15,7 @@ namespace halfspace {
 /// lowest point.) The result is 0 for shapes with flat faces.
 double chord_error(const ObjectDescription& o);
 
-/// Rounds up to a number of parts that is used for meshes: 1, 2, 3, 4, 6, 8, 12, 16, … There are few such numbers, so that a moving
+/// Rounds up to one of the part counts used for meshes: 1, 2, 3, 4, 6, 8, 12, 16, … There are only a few, so that a moving
 /// camera rarely changes a mesh.
 int part_step(int minimum);
 
