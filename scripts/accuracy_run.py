@@ -39,16 +39,11 @@ def table(study):
     return text + "<details><summary>Table</summary>\n\n" + "\n".join(rows) + "\n\n</details>\n"
 
 
-def commit():
-    return subprocess.run(["git", "describe", "--always", "--dirty", "--exclude=*"], check=True, capture_output=True, text=True).stdout.strip()
-
-
 def measure(program, folder):
     subprocess.run([program, "chart", "all", "-o", folder], check=True)
     with open(os.path.join(folder, "shadows_table.csv"), "w", encoding="utf-8") as file:
         subprocess.run([program, "validate", "--table", "--size", "480x270"], check=True, stdout=file)
-    with open(os.path.join(folder, "commit.txt"), "w", encoding="utf-8") as file:
-        file.write(commit())
+    Path(folder, "origin.txt").write_text(generated_sections.origin(), encoding="utf-8")
 
 
 def main():
@@ -70,8 +65,8 @@ def main():
         run = study["run"]
     with open(os.path.join(folder, "shadows_table.csv"), newline="", encoding="utf-8") as file:
         sections["shadow-tables"] = shadow_tables.markdown(csv.DictReader(file))
-    sections["run"] = (f"Measured on {run['date']} at commit {Path(folder, 'commit.txt').read_text()} on {run['processor']}, {run['cores']} cores, "
-                       f"with {run['threads']} threads: `{run['command']}` and `halfspace validate --table --size 480x270`, {run['version']}.")
+    sections["run"] = (f"{Path(folder, 'origin.txt').read_text(encoding='utf-8')}, with {run['threads']} threads: `{run['command']}` and "
+                       f"`halfspace validate --table --size 480x270`, {run['version']}.")
     generated_sections.update(DOC, sections)
 
 
