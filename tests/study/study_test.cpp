@@ -104,7 +104,7 @@ TEST(ChartScript, ContainsEveryPointLabelAndTheFront) {
   for (std::size_t i = 0; i < 3; ++i) study.variants[i].name = "name " + std::to_string(i);
   const std::string script = chart_script(study, pareto_front(study.variants, study.truth.error));
   for (const char* part : {"'name 0'", "'name 1'", "'name 2'", "'It''s one'", "'s.svg'", "'s-dark.svg'", "'s.png'", "set logscale xy",
-                           "$front << EOD\n1e-09 3\n0.1 2\nEOD", "own error 1.0e-09"})
+                           "$front << EOD\n1e-09 3\n0.1 2\nEOD", "error 1.0e-09"})
     EXPECT_NE(script.find(part), std::string::npos) << part << '\n' << script;
 }
 
