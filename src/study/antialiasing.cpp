@@ -99,8 +99,7 @@ Study study_antialiasing(const StudyOptions& options, const Workers& workers) {
       .setting = fmt::format("{} white wedges around the center, {}x{}", triangles.size(), size, size),
       .error_name = "RMS error of coverage over the image",
       .time_name = "frame, including the resolve",
-      .truth = {"area coverage by polygon clipping, in double", truth_error, "difference from long double, and rounding to float",
-                codes_of(truth)},
+      .truth = {"polygon clipping, in double", truth_error, "difference from long double, and rounding to float", codes_of(truth)},
   };
   const Edges edges(triangles, size);
   const auto add = [&](const std::string& name, const std::string& group, int samples, int shaded, const auto& draw) {

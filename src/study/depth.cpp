@@ -109,7 +109,7 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
                              cells, size, size),
       .error_name = fmt::format("fraction of pairs in the wrong order (zero is plotted at {:.0e})", 0.1 / cells),
       .time_name = "frame",
-      .truth = {"known by construction (the nearer quad is white)", 0.1 / cells, "a tenth of one pair, as a fraction of all pairs"},
+      .truth = {"by construction (the nearer quad is white)", 0.1 / cells, "a tenth of one pair, as a fraction of all pairs"},
   };
   Depths depths(size);
   Image<glm::vec4> white(size, size);

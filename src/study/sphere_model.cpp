@@ -57,9 +57,8 @@ Study study_sphere_model(const StudyOptions& options, const Workers& workers) {
   Study study{
       .name = "sphere_model",
       .title = "Models of a sphere: meshes and sprites",
-      .setting = fmt::format(
-          "A shiny sphere 22 degrees off the axis, {}x{}; labels give the number of latitude bands (UV) or the subdivision level (ico)",
-          size, size),
+      .setting =
+          fmt::format("A shiny sphere 22 degrees off the axis, {}x{}; labels: latitude bands (UV) or subdivision level (ico)", size, size),
       .error_name = "RMS error of linear light over the image",
       .time_name = "frame",
       .truth = {"the sphere with one ray per pixel, in double", 0.0, "largest difference from long double"},
