@@ -11,6 +11,7 @@
 
 #include "halfspace/reference/validation.h"
 #include "halfspace/scene/scene_file.h"
+#include "support/long_tests.h"
 #include "support/random.h"
 
 namespace halfspace {
@@ -82,7 +83,7 @@ TEST(RandomShadows, AutomaticBiasIsCorrectBeyondATexelFromTheEdge) {
   const char* one = std::getenv("HALFSPACE_SHADOW_SEED");
   const char* many = std::getenv("HALFSPACE_SHADOW_SEEDS");
   const uint64_t first = one != nullptr ? std::strtoull(one, nullptr, 10) : 0;
-  const uint64_t count = one != nullptr ? 1 : many != nullptr ? std::strtoull(many, nullptr, 10) : kSeeds;
+  const uint64_t count = one != nullptr ? 1 : many != nullptr ? std::strtoull(many, nullptr, 10) : runs_long_tests() ? kSeeds : kSeeds / 2;
   const Workers workers(2);
   SceneAssets assets(workers);
   int64_t lit = 0, shadowed = 0, falsely_dark = 0, falsely_lit = 0;
