@@ -24,7 +24,8 @@ struct PictureErrors {
 
 PictureErrors picture_errors(const WorkloadPicture& picture, const WorkloadTruth& truth, double depth_tolerance);
 
-/// Returns the truth of a workload. It is slow to compute, so it is cached in directory/NAME.WxH.truth, rounded to float.
+/// Returns the reference image of a workload, rendered in double precision. Rendering it is slow, so the result is cached in
+/// directory/NAME.WxH.truth, rounded to float.
 WorkloadTruth kept_truth(const std::filesystem::path& directory, std::string_view name, const Workload& workload, WorkloadSize size);
 
 }  // namespace halfspace

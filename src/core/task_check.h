@@ -13,7 +13,7 @@ struct TaskCheckFailure {
   CheckFailure failure;
 };
 
-/// Marks that a task runs on this thread. Scopes can be nested.
+/// While a TaskScope exists, its thread is marked as running a task. Scopes can be nested.
 class TaskScope {
  public:
   TaskScope();

@@ -33,9 +33,9 @@ struct ShadowScore {
   double map_ms = 0.0, lookup_ms = 0.0;
 };
 
-/// Per-pixel results of a comparison, top row first.
+/// Per-pixel results of a comparison, top row first. `map` is computed with the shadow map, `truth` with rays.
 struct ShadowComparison {
-  Image<float> map, truth;  ///< fraction of the light that arrives, from map and rays; negative for pixels that are not compared
+  Image<float> map, truth;  ///< fraction of the light that reaches the pixel; negative for pixels that are not compared
   Image<float> facing;      ///< cosine of the angle between face normal and light; 0 for surfaces that face away
   ShadowScore score;
 };

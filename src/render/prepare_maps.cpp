@@ -82,8 +82,8 @@ double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_o
 
 }  // namespace
 
-// Returns the map width that the object needs along u: where it is nearest to the eye, a texel spans at most two pixels, up to a
-// width of 4096.
+// Returns the map width, in texels along u, that the object needs. At the point nearest to the eye, a texel then spans at most two pixels,
+// unless that would require a width above 4096.
 int ScenePreparation::width_for(const ObjectDescription& o) const {
   // Displaced parts outside the view can cast shadows into it.
   const bool shades = is_map(o.height) && o.casts_shadow && scene_.shadow.method != ShadowMethod::none;

@@ -120,7 +120,8 @@ std::vector<SeenPlace> seen_places(const View& view, const Placed& placed, const
   return places;
 }
 
-// Returns the 95th percentile of the texel size in pixels, over the places that are inside a view; 0 if there are none.
+// Returns the 95th percentile of the shadow map texel size, in pixels, over the visible points that are inside a shadow view. Returns 0 if
+// there are no such points.
 double footprint_of(const std::vector<ShadowView>& views, const std::vector<SeenPlace>& places, float margin) {
   std::vector<double> footprints;
   for (const SeenPlace& place : places) {

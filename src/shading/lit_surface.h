@@ -41,7 +41,7 @@ struct MapCoordinates {
 struct DetailMap {
   const Texture2D* map = nullptr;  ///< not owned
   Sampler sampler{};
-  float strength = 1.0f;    ///< normal map: factor of the tilt; bump map: height of the value 1, in world units
+  float strength = 1.0f;    ///< normal map: scale of the x and y components; bump map: height of map value 1, in world units
   bool flip_green = false;  ///< normal map: green points down
   bool difference = false;  ///< bump map: it stores heights, which are differenced within the 2x2 quad; otherwise it stores slopes
 };

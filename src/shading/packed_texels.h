@@ -21,7 +21,7 @@ enum class TexelFormat : uint8_t {
 
 namespace detail {
 
-/// Unpacks the first N channels of an 8-bit texel to the numbers that are filtered: linear values for sRGB colors, otherwise codes.
+/// Unpacks the first N channels of an 8-bit texel for filtering. sRGB colors become linear values; other channels remain codes, 0 to 255.
 template <int N, TexelFormat format, class R>
 HS_INLINE VecN<N, R> decode_rgba8(IntOf<R> texel) {
   const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255;
@@ -37,7 +37,7 @@ HS_INLINE VecN<N, R> decode_rgba8(IntOf<R> texel) {
     return {color, to_real<R>((texel >> 24) & 255)};
   }
 }
-/// Converts filtered numbers to linear values.
+/// Converts filtered channels to linear values.
 template <TexelFormat format, class R>
 HS_INLINE vec3<R> rgba8_to_linear(const vec3<R>& c) {
   if constexpr (format == TexelFormat::srgb8a8) return c;

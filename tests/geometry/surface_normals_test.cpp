@@ -206,7 +206,7 @@ TEST_F(SphereBumps, NormalMapMatchesTheBumps) {
 }
 
 TEST_F(SphereBumps, MirroringTheObjectMirrorsTheBumps) {
-  // Mirrored in x, the sphere shows at (x, y) the point that was at (−x, y), and the x component of the normal changes sign.
+  // Mirroring in x moves the point at (−x, y) to (x, y) and flips the sign of the x component of its normal.
   const Texture2D slopes(height_slopes(map, Wrap::repeat, Wrap::clamp), TexelFormat::rgba16f);
   const Texture2D normals(coded_normals(bumps, 1024, 512), TexelFormat::rgba16f);
   glm::dmat4 mirror(1.0);

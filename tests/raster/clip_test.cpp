@@ -119,8 +119,8 @@ TEST(Clip, NegativeWIsCutAway) {
 }
 
 TEST(Clip, InterpolatesVaryingsOfNewVertices) {
-  // The new vertex is in the middle (in clip space) of an edge with w = 1 and w = 3. Smooth varyings are interpolated at 1/2. For linear
-  // varyings, a vertex has the weight t·w_i / w in the window and w = 2 at the new vertex, so the weights are 1/4 and 3/4.
+  // The new vertex is the clip-space midpoint of an edge from w = 1 to w = 3, so its own w is 2. Smooth varyings use the clip-space
+  // weights, 1/2 each. Linear varyings are interpolated in window space, where the weights are 1/2 · 1/2 = 1/4 and 1/2 · 3/2 = 3/4.
   const std::array<Interpolation, 3> modes{Interpolation::smooth, Interpolation::linear, Interpolation::flat};
   ShaderKernels kernels;
   kernels.varying_count = 3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Flicker of shadow edges in motion, over 100 frames. If the light moves, the true edge of a shadow passes over a point once, but with a
-// shadow map it can move back and forth. If only the camera moves, nothing may change.
+// shadow map it can move back and forth. If only the camera moves, the shadow at every point of the scene must stay the same.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

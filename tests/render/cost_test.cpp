@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks that fragments do no unnecessary work. A naive twin, whose number type counts texture lookups and lights, measures the cost of
-// scenes; a table lists the expected costs.
+// Checks that fragments do no unnecessary work. Scenes are drawn by the naive pipeline with a number type that counts texture lookups and
+// lights. A table lists the expected costs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace halfspace {
 
-// The number type R of the counting twin. Wraps a double.
+// A wrapper around double. Shaders instantiated with this type count their texture lookups and lights.
 struct Counted {
   double value;
 

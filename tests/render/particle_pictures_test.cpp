@@ -45,9 +45,10 @@ double entry(const glm::dvec3& c, double r, int x, int row, double& squared) {
 
 class ParticlePictures : public FolderTest {};
 
-// The original sprite derives its size from the center only. A distant sphere projects to an ellipse that is longer than the circle by
-// 1/cos of the off-axis angle, so the circle misses a fraction of 1 − cos. The ellipse of a near sphere is also farther from the axis than
-// its center, so the circle covers pixels outside it.
+// The original sprite is a circle whose size is computed at the center of the sphere. A distant sphere at the off-axis angle a projects to
+// an ellipse whose major axis is 1/cos(a) times the diameter of that circle. The circle therefore misses a fraction 1 − cos(a) of the
+// ellipse. For a near sphere, the center of the ellipse is also farther from the optical axis than the center of the circle, so the circle
+// covers pixels outside the ellipse.
 TEST_F(ParticlePictures, SilhouetteErrorGrowsWithTheOffAxisAngle) {
   const struct {
     double degrees, least, most;  // wrong pixels of the original sprite, as a fraction of the sphere's pixels

@@ -85,7 +85,7 @@ inline bool can_gather(const ShadedVertices& v, const Draw& draw) {
   return floats <= std::size_t{std::numeric_limits<int32_t>::max()};
 }
 
-/// All data that the stages after the vertex stage read.
+/// Input data of all stages that follow the vertex stage.
 struct PassContext {
   std::unique_ptr<std::pmr::monotonic_buffer_resource> memory;  ///< for the shaders and streams of the draws
   std::vector<Draw> draws;

@@ -18,8 +18,8 @@ constexpr std::array<uint8_t, kPixelsPerBlock> make_z_order() {
 // Index of pixel (x, y) in a block: kZOrder[8·y + x].
 inline constexpr std::array<uint8_t, kPixelsPerBlock> kZOrder = make_z_order();
 
-// Calls f(pixel of the tile, pixel of the image, count) for each row of each block, clipped to the target. The row has `count` pixels; in
-// the tile, they are at the first one's index plus kZOrder[0 … count − 1]. This is done for each sample. With ImageSamples::one, all
+// Calls f(first, out, count) for each row of each block, clipped to the target, and for each sample. `count` is the number of pixels in the
+// row. Pixel i of the row has the index first + kZOrder[i] in the tile and the index out + i in the image. With ImageSamples::one, all
 // samples use the same pixels of the image.
 template <class F>
 HS_INLINE void for_each_row(const Tile& tile, int target_width, int target_height, ImageSamples stored, int samples, F f) {
@@ -91,9 +91,10 @@ inline bool streams(const std::byte* data, int width, int height, int bytes) {
   return row * static_cast<std::size_t>(height) >= kStreamBytes && row % 64 == 0 && reinterpret_cast<uintptr_t>(data) % 64 == 0;
 }
 
-// Calls f(t, i0, i1) for each group of `columns` (2 or 4) pixels in two rows. The pixels are adjacent in the tile, quad by quad. t is the
-// first pixel in the tile; i0 and i1 are the offsets of its lower and upper row in the image, in channels (four per pixel). Returns false
-// and does nothing if the tile is multisampled or contains incomplete groups.
+// Splits the tile into groups two rows high and `columns` (2 or 4) pixels wide, which are one or two 2x2 quads, and calls f(t, i0, i1) for
+// each group. The pixels of a group are contiguous in the tile, one quad after the other, starting at index t. In the image, the lower and
+// upper row of the group start at the offsets i0 and i1, in channels (four per pixel). Returns false and does nothing if the tile is
+// multisampled or contains incomplete groups.
 template <int columns, class F>
 HS_INLINE bool for_each_two_rows(const Tile& tile, const ImageLayout& place, F f) {
   if (tile.samples != 1 || tile.width % columns != 0 || tile.height % 2 != 0) return false;

@@ -27,7 +27,8 @@ HS_INLINE MaskOf<R> compare(CompareOp op, R z, R stored) {
 /// Returns the lanes of mask that pass the stencil test.
 Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask);
 
-/// Updates the stencil values of lanes that failed the stencil test, that failed the depth test, and that passed both.
+/// Applies the stencil operations of `face`. The three masks are disjoint: lanes that failed the stencil test, lanes that passed it but
+/// failed the depth test, and lanes that passed both tests.
 void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed, Mask depth_failed, Mask passed);
 
 /// Returns the stencil state of a face, or null if the draw has no stencil test in this tile.
