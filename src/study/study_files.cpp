@@ -16,7 +16,7 @@ namespace halfspace {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 void write_text(const std::filesystem::path& path, const std::string& text) { write_file(path, std::as_bytes(std::span(text))); }
 
@@ -59,39 +59,39 @@ std::string today() {
   return text;
 }
 
-Json to_json(const std::vector<Quantity>& numbers) {
-  Json json = Json::object();
+OrderedJson to_json(const std::vector<Quantity>& numbers) {
+  OrderedJson json = OrderedJson::object();
   for (const Quantity& n : numbers) json[n.name] = n.value;
   return json;
 }
 
 // Writes a picture and returns its file name. Returns null for an empty picture.
-Json write_picture(const Image<glm::u8vec4>& picture, const std::string& name, const std::filesystem::path& folder) {
+OrderedJson write_picture(const Image<glm::u8vec4>& picture, const std::string& name, const std::filesystem::path& folder) {
   if (picture.empty()) return nullptr;
   write_png(folder / (name + ".png"), picture);
   return name + ".png";
 }
 
-Json json_of(const Study& study, const std::vector<bool>& front, const RunFacts& facts, const std::filesystem::path& folder) {
-  Json json = {{"study", study.name},
-               {"title", study.title},
-               {"setting", study.setting},
-               {"error_name", study.error_name},
-               {"time_name", study.time_name},
-               {"run",
-                {{"command", facts.command},
-                 {"date", today()},
-                 {"version", facts.version},
-                 {"processor", processor()},
-                 {"cores", Workers::cores()},
-                 {"threads", facts.threads},
-                 {"quick", facts.quick}}},
-               {"truth",
-                {{"method", study.truth.method},
-                 {"error", study.truth.error},
-                 {"error_method", study.truth.error_method},
-                 {"picture", write_picture(study.truth.picture, study.name + "-truth", folder)}}}};
-  Json& rows = json["variants"] = Json::array();
+OrderedJson json_of(const Study& study, const std::vector<bool>& front, const RunFacts& facts, const std::filesystem::path& folder) {
+  OrderedJson json = {{"study", study.name},
+                      {"title", study.title},
+                      {"setting", study.setting},
+                      {"error_name", study.error_name},
+                      {"time_name", study.time_name},
+                      {"run",
+                       {{"command", facts.command},
+                        {"date", today()},
+                        {"version", facts.version},
+                        {"processor", processor()},
+                        {"cores", Workers::cores()},
+                        {"threads", facts.threads},
+                        {"quick", facts.quick}}},
+                      {"truth",
+                       {{"method", study.truth.method},
+                        {"error", study.truth.error},
+                        {"error_method", study.truth.error_method},
+                        {"picture", write_picture(study.truth.picture, study.name + "-truth", folder)}}}};
+  OrderedJson& rows = json["variants"] = OrderedJson::array();
   for (std::size_t i = 0; i < study.variants.size(); ++i) {
     const Variant& v = study.variants[i];
     const std::string file = study.name + "-" + file_word(v.name);

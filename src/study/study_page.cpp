@@ -16,7 +16,7 @@ namespace halfspace {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* kHead = R"html(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -41,43 +41,43 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string text_at(const Json& json, const char* key) { return escaped(json.at(key).get<std::string>()); }
-std::string number_of(const Json& json) { return fmt::format("{:.4g}", json.get<double>()); }
+std::string text_at(const OrderedJson& json, const char* key) { return escaped(json.at(key).get<std::string>()); }
+std::string number_of(const OrderedJson& json) { return fmt::format("{:.4g}", json.get<double>()); }
 
-std::string table(const Json& study) {
+std::string table(const OrderedJson& study) {
   std::string html = "<div class=\"table\"><table><tr><th>variant</th>";
-  const Json& rows = study.at("variants");
+  const OrderedJson& rows = study.at("variants");
   for (const auto& [name, value] : rows.at(0).at("parameters").items()) html += "<th>" + escaped(name) + "</th>";
   html += "<th>error</th>";
   for (const auto& [name, value] : rows.at(0).at("measures").items()) html += "<th>" + escaped(name) + "</th>";
   html += "<th>ms</th><th>quartiles</th><th>runs</th></tr>\n";
-  for (const Json& row : rows) {
+  for (const OrderedJson& row : rows) {
     html += row.at("pareto").get<bool>() ? "<tr class=\"front\"><td>" : "<tr><td>";
     html += text_at(row, "name") + "</td>";
     for (const auto& [name, value] : row.at("parameters").items()) html += "<td>" + number_of(value) + "</td>";
     html += "<td>" + number_of(row.at("error")) + "</td>";
     for (const auto& [name, value] : row.at("measures").items()) html += "<td>" + number_of(value) + "</td>";
-    const Json& ms = row.at("ms");
+    const OrderedJson& ms = row.at("ms");
     html += "<td>" + number_of(ms.at("median")) + "</td><td>" + number_of(ms.at("low")) + " … " + number_of(ms.at("high")) + "</td><td>" +
             number_of(ms.at("runs")) + "</td></tr>\n";
   }
   return html + "</table></div>\n";
 }
 
-std::string figure(const Json& file, const std::string& caption) {
+std::string figure(const OrderedJson& file, const std::string& caption) {
   if (file.is_null()) return "";
   const std::string name = escaped(file.get<std::string>());
   return "<figure><a href=\"" + name + "\"><img loading=\"lazy\" alt=\"\" src=\"" + name + "\"></a><figcaption>" + caption +
          "</figcaption></figure>\n";
 }
 
-std::string section(const Json& study, bool has_chart) {
+std::string section(const OrderedJson& study, bool has_chart) {
   const std::string name = text_at(study, "study");
   std::string html = "<h2 id=\"" + name + "\">" + text_at(study, "title") + "</h2>\n";
   if (has_chart)
     html += "<picture><source media=\"(prefers-color-scheme: dark)\" srcset=\"" + name + "-dark.svg\"><img src=\"" + name +
             ".svg\" alt=\"" + text_at(study, "title") + "\"></picture>\n";
-  const Json &run = study.at("run"), &truth = study.at("truth");
+  const OrderedJson &run = study.at("run"), &truth = study.at("truth");
   html += "<p>" + text_at(study, "setting") + ". Error: " + text_at(study, "error_name") + ". Time: " + text_at(study, "time_name") +
           ". Reference: " + text_at(truth, "method") + ". Its error is " + number_of(truth.at("error")) + " (" +
           text_at(truth, "error_method") + "). <code>" + text_at(run, "command") + "</code>, " + text_at(run, "date") + ", " +
@@ -86,15 +86,15 @@ std::string section(const Json& study, bool has_chart) {
           ".csv\">CSV</a>, <a href=\"" + name + ".json\">JSON</a>.</p>\n<details><summary>Table</summary>\n" + table(study) +
           "</details>\n";
   std::string pictures = figure(truth.at("picture"), "truth");
-  for (const Json& row : study.at("variants"))
+  for (const OrderedJson& row : study.at("variants"))
     pictures += figure(row.at("picture"), text_at(row, "name")) + figure(row.at("difference"), text_at(row, "name") + ", difference");
   if (!pictures.empty()) html += "<details><summary>Pictures</summary><div class=\"pictures\">\n" + pictures + "</div></details>\n";
   return html;
 }
 
-Json read_json(const std::filesystem::path& path) {
+OrderedJson read_json(const std::filesystem::path& path) {
   std::ifstream file(path);
-  Json json = Json::parse(file, nullptr, false);
+  OrderedJson json = OrderedJson::parse(file, nullptr, false);
   if (json.is_discarded()) throw InputError(path.string() + ": not valid JSON; expected the data of a study");
   return json;
 }
