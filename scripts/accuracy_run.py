@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs all studies and shadow comparisons, and updates the generated parts of docs/results/accuracy.md and docs/results/charts.
 
     scripts/accuracy_run.py build/release/bin/halfspace [FOLDER]      run from the root of the tree; takes several minutes

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes docs/reference/cli.md, scene_keys.md and scene.schema.json from the help and the JSON Schema of a built program.
 
     generate_reference.py [--check] [--program build/release/bin/halfspace]

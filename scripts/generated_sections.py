@@ -11,24 +11,16 @@ import subprocess
 import sys
 from pathlib import Path
 
+from bench_measure import cpu_name
+
 SECTION = re.compile(r"(<!-- generated: ([\w-]+) -->\n).*?(<!-- /generated -->)", re.DOTALL)
-
-
-def commit():
-    """The current commit, with "-dirty" if files have changed."""
-    return subprocess.run(["git", "describe", "--always", "--dirty", "--exclude=*"], check=True, capture_output=True, text=True).stdout.strip()
-
-
-def processor():
-    """The processor's name with its family and model, because one name stands for different processors."""
-    text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    name, family, model = (re.search(rf"^{key}\s*: (.*)$", text, re.M)[1] for key in ("model name", "cpu family", "model"))
-    return f"{name} (family {family}, model {model})"
 
 
 def origin():
     """When, where and from which commit something is measured."""
-    return f"Measured on {datetime.date.today()} at commit {commit()} on {processor()}, {os.cpu_count()} cores"
+    commit = subprocess.run(["git", "describe", "--always", "--dirty"], check=True, capture_output=True, text=True).stdout.strip()
+    cpu = cpu_name(Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+    return f"Measured on {datetime.date.today()} at commit {commit} on {cpu}, {os.cpu_count()} cores"
 
 
 def names(text):

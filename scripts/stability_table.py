@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs the stability tests and writes their results to docs/explanation/stability.md.
 
     scripts/stability_table.py build/release/bin/test-stability      from the root of the source tree

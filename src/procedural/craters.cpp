@@ -7,6 +7,7 @@
 
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/trig_double.h"
+#include "halfspace/core/units.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/procedural/noise.h"
 
@@ -116,7 +117,7 @@ void add_ray_craters(std::vector<Aged>& out, Random random) {
     set_shape(a.crater, a.age);
     a.crater.freshness = 0.8f;
     set_outline(a.crater, random);
-    a.crater.rays = r.rays * static_cast<float>(std::numbers::pi / 180.0);
+    a.crater.rays = r.rays * static_cast<float>(kRadiansPerDegree);
     out.push_back(a);
   }
 }

@@ -4,16 +4,13 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <limits>
 
 #include "halfspace/core/image.h"
 #include "halfspace/image/image_tool.h"
+#include "support/constants.h"
 #include "support/folder_test.h"
 
 namespace halfspace {
-
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
-inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 inline constexpr const char* kNoImageTool = "halfspace-image-tool is not built here (OpenImageIO is absent)";
 

@@ -157,9 +157,9 @@ TEST_F(ToolFormats, ExrOmitsAlphaOfOpaqueImages) {
 }
 
 TEST_F(ToolFormats, ExrClampsInfinitiesAndReplacesNaN) {
-  EXPECT_EQ(write_and_read("a.exr", one_texel({kInfinity, -kInfinity, kNaN, 1.0f})).at(0, 0), glm::vec4(kMaxHalf, -kMaxHalf, 0.0f, 1.0f));
+  EXPECT_EQ(write_and_read("a.exr", one_texel({kInf, -kInf, kNaN, 1.0f})).at(0, 0), glm::vec4(kMaxHalf, -kMaxHalf, 0.0f, 1.0f));
   EXPECT_EQ(write_and_read("a.exr", one_texel({1e9f, 65520.0f, 1e-9f, 1.0f})).at(0, 0), glm::vec4(kMaxHalf, kMaxHalf, 0.0f, 1.0f));
-  EXPECT_EQ(write_and_read("a.exr", one_texel({kInfinity, 1.0f, 1.0f, 0.0f})).at(0, 0), glm::vec4(0.0f));
+  EXPECT_EQ(write_and_read("a.exr", one_texel({kInf, 1.0f, 1.0f, 0.0f})).at(0, 0), glm::vec4(0.0f));
   EXPECT_EQ(write_and_read("a.exr", one_texel({1.0f, 1.0f, 1.0f, kNaN})).at(0, 0), glm::vec4(0.0f));
 }
 
@@ -190,7 +190,7 @@ TEST_F(ToolFormats, HdrErrorIsBoundedByTheLargestChannel) {
 }
 
 TEST_F(ToolFormats, HdrRoundsAndClampsExtremeValues) {
-  EXPECT_EQ(write_and_read("a.hdr", one_texel({kInfinity, -kInfinity, kNaN, 1.0f})).at(0, 0), glm::vec4(65536.0f, 0.0f, 0.0f, 1.0f))
+  EXPECT_EQ(write_and_read("a.hdr", one_texel({kInf, -kInf, kNaN, 1.0f})).at(0, 0), glm::vec4(65536.0f, 0.0f, 0.0f, 1.0f))
       << "65504 rounded to 8 bits";
   EXPECT_EQ(write_and_read("a.hdr", one_texel({255.75f, 3.0f, 1.0f, 0.5f})).at(0, 0), glm::vec4(256.0f, 4.0f, 2.0f, 1.0f))
       << "the largest channel rounds up to a power of two, which doubles the step";

@@ -95,11 +95,11 @@ TEST_F(ToolNumbers, DecodesRgbe) {
 TEST_F(ToolNumbers, InfinitiesAreClampedInColorsAndRejectedInHeights) {
   const std::filesystem::path path = directory / "a.exr";
   Image<float> depth(3, 2);
-  depth.at(1, 1) = kInfinity;
+  depth.at(1, 1) = kInf;
   write_depth_exr(path, depth);
   EXPECT_EQ(read_linear(path).at(1, 1), glm::vec4(kMaxHalf, kMaxHalf, kMaxHalf, 1.0f));
   EXPECT_TRUE(tells(input_error([&] { read_gray(path); }), path.string(), {"infinity", "(1, 1)"}));
-  depth.at(1, 1) = -kInfinity;
+  depth.at(1, 1) = -kInf;
   write_depth_exr(path, depth);
   EXPECT_EQ(read_linear(path).at(1, 1).x, -kMaxHalf);
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Numeric constants shared by tests.
 #pragma once
 
 #include <limits>
