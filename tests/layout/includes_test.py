@@ -22,11 +22,12 @@ MODULES = {
     "procedural": ["geometry"],
     "raster": ["shading"],
     "scene": ["core"],
-    "render": ["raster", "image", "procedural", "scene"],
+    "model": ["core"],
+    "render": ["raster", "image", "procedural", "scene", "model"],
     "reference": ["render"],
     "study": ["reference"],
 }
-# Headers with only enums and plain structs, which do not include any SIMD headers. Scene descriptions may include these, too.
+# Headers with only enums and plain structs, which do not include any SIMD headers. Scene descriptions and models may include these, too.
 PLAIN_HEADERS = {"shading/sampler.h", "shading/light_types.h", "shading/tone_types.h"}
 
 # The phases within raster, lowest first. A file may include files of its own phase and of lower phases.
@@ -76,7 +77,7 @@ def check_library_include(includer, included):
     module, target = includer.split("/")[0], included.split("/")[0]
     if module not in MODULES or target not in MODULES:
         return f"includes {included}: unknown module; expected one of {', '.join(MODULES)}"
-    if included in PLAIN_HEADERS and module == "scene":
+    if included in PLAIN_HEADERS and module in ("scene", "model"):
         return None
     if target not in allowed_modules(module):
         return f"includes {included}: {module} may include {', '.join(sorted(allowed_modules(module)))}"

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The contents of a model file: meshes, materials, textures and a hierarchy of nodes. All readers (OBJ, glTF, PLY, STL) produce the
+// same structs, so that code that draws a model does not depend on its format. All references between items are indices into the
+// lists of Model; -1 means none. Readers check all indices.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "halfspace/shading/sampler.h"
+
+namespace halfspace {
+
+// ---- textures --------------------------------------------------------------------------------------------------
+
+/// An image in its encoded form (PNG, JPEG, ...): a file, or bytes that were stored in the model file.
+struct ModelImage {
+  std::string name;                                     ///< for messages: the path or name that the model file gives
+  std::filesystem::path file;                           ///< absolute; empty if `bytes` has the image or there is none
+  std::shared_ptr<const std::vector<std::byte>> bytes;  ///< null if the image is a file
+};
+
+/// An image and how it is sampled.
+struct ModelTexture {
+  int image = -1;
+  Sampler sampler;
+};
+
+/// A channel of a texture: red, green, blue, alpha, or the luminance of the color.
+enum class Channel : uint8_t { red, green, blue, alpha, luminance };
+
+/// A texture as used by one property of a material.
+struct TextureUse {
+  int texture = -1;                ///< -1: the property has no texture
+  int uv_set = 0;                  ///< 0 or 1: index in ModelMesh::uvs
+  glm::mat3x2 uv_transform{1.0f};  ///< uv' = uv_transform · (u, v, 1)
+  Channel channel = Channel::red;  ///< for properties that are single numbers
+};
+
+// ---- materials -------------------------------------------------------------------------------------------------
+
+/// How opacity is used. `mask`: the surface exists where opacity ≥ Material::alpha_cutoff. `blend`: the surface covers its background by
+/// its opacity.
+enum class AlphaMode : uint8_t { opaque, mask, blend };
+
+/// A metallic-roughness material (glTF 2.0, section 3.9 and appendix B). Every property is its factor times its texture. Color factors
+/// are linear; base color, emissive and specular color textures are encoded in sRGB; all others are linear. Readers convert materials
+/// of other kinds.
+struct ModelMaterial {
+  std::string name;
+  glm::vec4 base_color{1.0f};  ///< linear; w is the opacity
+  TextureUse base_color_map;   ///< its alpha channel multiplies the opacity
+  TextureUse opacity_map;      ///< a separate opacity map; multiplies the opacity
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;
+  float metallic = 0.0f, roughness = 1.0f;
+  TextureUse metallic_map, roughness_map;
+  float specular = 1.0f;           ///< scales the reflectance at normal incidence of non-metals (KHR_materials_specular)
+  glm::vec3 specular_color{1.0f};  ///< linear
+  TextureUse specular_map, specular_color_map;
+  float ior = 1.5f;  ///< index of refraction, ≥ 1
+  float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
+  TextureUse clearcoat_map, clearcoat_roughness_map, clearcoat_normal_map;
+  TextureUse normal_map;      ///< tangent space, green up
+  float normal_scale = 1.0f;  ///< scales x and y of the normal map
+  TextureUse bump_map;        ///< heights; ignored if there is a normal map
+  float bump_scale = 1.0f;    ///< height of the value 1 in model units
+  TextureUse occlusion_map;
+  float occlusion_strength = 1.0f;
+  glm::vec3 emissive{0.0f};  ///< linear, may exceed 1
+  TextureUse emissive_map;
+  bool unlit = false;  ///< base color is the result; no lighting
+  bool double_sided = false;
+};
+
+// ---- meshes ----------------------------------------------------------------------------------------------------
+
+enum class Topology : uint8_t { triangles, lines, points };
+
+/// Offsets that are added to the vertices of a mesh, scaled by a weight. Each list is empty or has one entry per vertex.
+struct MorphTarget {
+  std::vector<glm::vec3> positions, normals, tangents;
+};
+
+/// Vertices of one material. Every non-empty list has one entry per vertex.
+struct ModelMesh {
+  std::string name;
+  Topology topology = Topology::triangles;
+  glm::dvec3 origin{0.0};  ///< position of a vertex in the space of its node: origin + positions[i]
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;             ///< unit length; always present in triangle meshes that a reader returns
+  std::vector<glm::vec4> tangents;            ///< as in Mesh: xyz along increasing u, w is the sign of the bitangent
+  std::array<std::vector<glm::vec2>, 2> uvs;  ///< v = 0 is the top row of the image
+  std::vector<glm::vec4> colors;              ///< linear, multiplied by the base color
+  std::vector<uint32_t> indices;  ///< a list of triangles or line segments; for points, empty or the vertices to draw. All are in range.
+  int material = -1;              ///< -1: ModelMaterial{}
+  std::vector<int> variant_materials;  ///< one per Model::variants, or empty
+  std::vector<MorphTarget> targets;
+  std::vector<std::array<uint16_t, 4>> joints;  ///< indices into ModelSkin::joints
+  std::vector<glm::vec4> weights;               ///< of the joints
+};
+
+// ---- nodes -----------------------------------------------------------------------------------------------------
+
+/// A transform as translation · rotation · scale. `rotation` has unit length.
+struct NodeTransform {
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z
+  glm::dvec3 scale{1.0};
+};
+
+struct ModelNode {
+  std::string name;
+  NodeTransform transform;
+  std::optional<glm::dmat4> matrix;  ///< replaces `transform`
+  std::vector<int> children;         ///< the hierarchy is a forest: every node has at most one parent and there are no cycles
+  std::vector<int> meshes;
+  int skin = -1, camera = -1, light = -1;
+  std::vector<float> morph_weights;      ///< of the targets of its meshes; empty: all are 0
+  std::vector<NodeTransform> instances;  ///< copies, placed relative to the node; empty: one at the node
+};
+
+/// A set of joints that deform a mesh.
+struct ModelSkin {
+  std::vector<int> joints;                  ///< nodes
+  std::vector<glm::dmat4> joint_from_mesh;  ///< inverse bind matrices, one per joint
+};
+
+/// A camera at the origin of its node, looking along -z, with y up.
+struct ModelCamera {
+  std::string name;
+  bool perspective = true;
+  double fovy = 0.8;                ///< full vertical angle in radians, in (0, π)
+  double height = 2.0;              ///< of the view volume of an orthographic camera
+  double near = 0.1, far = 1000.0;  ///< far may be infinity
+};
+
+enum class ModelLightType : uint8_t { directional, point, spot };
+
+/// A light at the origin of its node that shines along -z (KHR_lights_punctual).
+struct ModelLight {
+  std::string name;
+  ModelLightType type = ModelLightType::directional;
+  glm::vec3 color{1.0f};                           ///< linear
+  double intensity = 1.0;                          ///< candela, or lux for a directional light
+  double range = 0.0;                              ///< 0: unlimited
+  double inner = 0.0, outer = 0.7853981633974483;  ///< half angles of the cone in radians
+};
+
+struct ModelScene {
+  std::string name;
+  std::vector<int> roots;
+};
+
+// ---- animation -------------------------------------------------------------------------------------------------
+
+enum class AnimatedProperty : uint8_t { translation, rotation, scale, weights };
+enum class KeyInterpolation : uint8_t { step, linear, cubic };
+
+/// The values of one property of one node over time.
+struct AnimationChannel {
+  int node = -1;
+  AnimatedProperty property = AnimatedProperty::translation;
+  KeyInterpolation interpolation = KeyInterpolation::linear;
+  std::vector<float> times;   ///< seconds, strictly increasing
+  std::vector<float> values;  ///< `width` numbers per time; three times as many for `cubic`: in-tangent, value, out-tangent
+  int width = 3;              ///< numbers per value: 3, 4 (rotation as x, y, z, w), or the number of morph targets
+};
+
+struct ModelAnimation {
+  std::string name;
+  std::vector<AnimationChannel> channels;
+};
+
+// ---- model -----------------------------------------------------------------------------------------------------
+
+/// The direction that points up in a model.
+enum class UpAxis : uint8_t { y, z };
+
+struct Model {
+  std::string format;  ///< "OBJ", "glTF", "PLY", "STL"
+  UpAxis up = UpAxis::y;
+  std::vector<ModelImage> images;
+  std::vector<ModelTexture> textures;
+  std::vector<ModelMaterial> materials;
+  std::vector<ModelMesh> meshes;
+  std::vector<ModelNode> nodes;
+  std::vector<ModelSkin> skins;
+  std::vector<ModelCamera> cameras;
+  std::vector<ModelLight> lights;
+  std::vector<ModelScene> scenes;  ///< at least one
+  int scene = 0;                   ///< the default scene
+  std::vector<ModelAnimation> animations;
+  std::vector<std::string> variants;
+  std::vector<std::string> extensions;  ///< extensions that the file says it uses
+  std::vector<std::string> warnings;    ///< one line each: what was left out or repaired
+};
+
+/// Limits and permissions for reading a model.
+struct ReadModelOptions {
+  bool allow_outside = false;                     ///< open referenced files outside the folder of the model
+  std::size_t max_memory = std::size_t{8} << 30;  ///< bytes that the model may need; more is refused before it is allocated
+  float crease_degrees = 30.0f;                   ///< OBJ, PLY and STL without normals: edges sharper than this stay sharp
+};
+
+/// Reads a model file. The format is recognized by the contents, and by the extension where contents do not identify it. Throws InputError
+/// "FILE: PLACE: problem; expected ..." if the file cannot be read.
+Model read_model(const std::filesystem::path& file, const ReadModelOptions& options = {});
+
+}  // namespace halfspace

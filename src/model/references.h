@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files that a model file refers to: buffers, images, material libraries.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halfspace {
+
+/// Finds files that a model refers to. A path that leaves the folder of the model (absolute, with too many "..", or through a symbolic
+/// link) is not opened unless `allow_outside` is set; the file name without folders is searched for in the folder of the model instead.
+class References {
+ public:
+  /// warnings: receives one line for each reference that was not found as written. Must outlive this object.
+  References(const std::filesystem::path& model, bool allow_outside, std::vector<std::string>& warnings);
+
+  /// Returns the absolute path of an existing file, or nothing (with a warning). `name` is a relative or absolute path with '/' or '\\',
+  /// without quotation marks or percent encoding. If no file has exactly that name, a file whose name differs only in case is used,
+  /// with a warning. `what` describes the reference in warnings: "the texture of material 'wood'".
+  std::optional<std::filesystem::path> find(std::string_view name, std::string_view what);
+
+ private:
+  std::filesystem::path folder_;
+  bool allow_outside_;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace halfspace
