@@ -85,7 +85,7 @@ struct ModelMaterial {
 
 // ---- meshes ----------------------------------------------------------------------------------------------------
 
-enum class Topology : uint8_t { triangles, lines, points };
+enum class MeshTopology : uint8_t { triangles, lines, points };
 
 /// Offsets that are added to the vertices of a mesh, scaled by a weight. Each list is empty or has one entry per vertex.
 struct MorphTarget {
@@ -95,7 +95,7 @@ struct MorphTarget {
 /// Vertices of one material. Every non-empty list has one entry per vertex.
 struct ModelMesh {
   std::string name;
-  Topology topology = Topology::triangles;
+  MeshTopology topology = MeshTopology::triangles;
   glm::dvec3 origin{0.0};  ///< position of a vertex in the space of its node: origin + positions[i]
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;             ///< unit length; always present in triangle meshes that a reader returns

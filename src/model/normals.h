@@ -10,7 +10,7 @@
 namespace halfspace {
 
 /// Gives every triangle three vertices of its own with the normal of its plane. A degenerate triangle gets the normal (0, 1, 0).
-/// Requires Topology::triangles. All other vertex data is copied; tangents are removed.
+/// Requires MeshTopology::triangles. All other vertex data is copied; tangents are removed.
 void add_flat_normals(ModelMesh& mesh);
 
 /// Gives the mesh smooth normals: the mean of the unit normals of the triangles around a vertex, weighted by their angles there (Thürmer
