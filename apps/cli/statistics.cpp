@@ -28,6 +28,7 @@ constexpr Count kCounts[] = {{"vertices_in", &PassStatistics::vertices_in},
                              {"samples_tested", &PassStatistics::samples_tested},
                              {"samples_passed", &PassStatistics::samples_passed},
                              {"fragments_shaded", &PassStatistics::fragments_shaded},
+                             {"layers_merged", &PassStatistics::layers_merged},
                              {"tiles_touched", &PassStatistics::tiles_touched},
                              {"flushes", &PassStatistics::flushes}};
 static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts) + sizeof(PassStatistics::queries),

@@ -152,6 +152,11 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
   if (state.viewport) check_rect(*state.viewport, 1);
   if (state.scissor) check_rect(*state.scissor, 0);
+  if (state.order_independent) {
+    HS_CHECK(!state.depth.write && !state.blend && attachments_.colors.size() == 1);
+    HS_CHECK(state.depth.compare == CompareOp::less || state.depth.compare == CompareOp::less_equal ||
+             state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal);
+  }
   if (context_.draws.capacity() == 0) context_.draws = take_draw_list();
   Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, *context_.memory), state);
   d.vertex_count = d.indices->used_count() * state.instances;
@@ -161,7 +166,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   const bool replaces = look_at_attachments(d);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
   const bool covers_by_alpha = state.alpha_to_coverage && context_.samples > 1;
-  const bool defers = options_.defer && replaces && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
+  const bool defers = options_.defer && replaces && !state.order_independent && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   d.deferred = defers || !attachments_.has_color;  // without color attachments there is nothing to blend or to shade immediately
   std::vector<uint64_t>& queries = plan_.submitted.queries;
   if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));

@@ -18,6 +18,7 @@ PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   samples_tested += o.samples_tested;
   samples_passed += o.samples_passed;
   fragments_shaded += o.fragments_shaded;
+  layers_merged += o.layers_merged;
   tiles_touched += o.tiles_touched;
   flushes += o.flushes;
   for (std::size_t i = 0; i < o.queries.size(); ++i) add_to_query(i, o.queries[i]);

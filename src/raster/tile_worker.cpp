@@ -56,6 +56,8 @@ std::size_t small_run(const Chunk& chunk, std::span<const uint16_t> bin) {
   return n;
 }
 
+bool prefers_greater(CompareOp compare) { return compare == CompareOp::greater || compare == CompareOp::greater_equal; }
+
 class TileWorker {
  public:
   TileWorker(const PassContext& context, const Attachments& attachments, Round round)
@@ -213,7 +215,13 @@ class TileWorker {
     CoverageList& list = memory.coverage;
     list.count = 0;
     rasterize(d, chunk, index, &list, statistics);
-    if (shades && list.count != 0) shade_immediate(context_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, statistics);
+    if (shades && list.count != 0)
+      shade_immediate(context_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, memory.layers, statistics);
+  }
+
+  // Blends the transparent layers over the colors of the tile. Pixels that are visible behind them have been shaded.
+  static void write_layers(TileMemory& memory) {
+    if (!memory.layers.empty()) memory.layers.write(memory.tile.color[0]);
   }
 
   void draw_tile(TileMemory& memory, int tile_x, int tile_y, PassStatistics& statistics) const {
@@ -229,7 +237,11 @@ class TileWorker {
       for (std::size_t i = 0; i < bin.size();) {
         const uint16_t t = bin[i];
         const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
-        if (!here || &here->draw != &draw) here.emplace(context_, draw, visibility_mode(draw), tile);
+        if (!here || &here->draw != &draw) {
+          here.emplace(context_, draw, visibility_mode(draw), tile);
+          if (!draw.state.order_independent) write_layers(memory);
+          if (memory.layers.empty()) memory.layers.clear(prefers_greater(draw.state.depth.compare));
+        }
         const uint64_t passed_before = statistics.samples_passed;
         const std::size_t small = here->is_opaque && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
         for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
@@ -256,6 +268,7 @@ class TileWorker {
     }
     occluder.write();
     if (pending && attachments_.has_color) shade_deferred(context_, tile, memory.shading, statistics);
+    write_layers(memory);
   }
 
   const PassContext& context_;

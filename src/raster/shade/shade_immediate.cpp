@@ -18,6 +18,7 @@ struct ImmediateShading {
   VisibilityMode mode;
   const CoverageList& list;
   Tile& tile;
+  TransparentLayers& layers;
   const StencilFace* stencil;  // null: no stencil test after shading
   PassStatistics& statistics;
 };
@@ -27,15 +28,16 @@ Mask alpha_covers(Real alpha, int samples, int sample) {
   return alpha * Real(static_cast<float>(samples)) >= Real(static_cast<float>(sample) + 0.5f);
 }
 
+// Returns the depth of the fragments of packet i of a batch, as represented in the tile.
+Real late_depth(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet) {
+  if (c.mode != VisibilityMode::cover_only) return load<Real>(&c.list.depth[static_cast<std::size_t>(packet) * kLanes]);
+  return depth_value(c.tile.depth_format, clamp(out.depth[i], Real(c.draw.depth_low), Real(c.draw.depth_high)));
+}
+
 // Runs the tests that come after the shader. Returns the lanes to draw; writes depth and stencil.
 Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask) {
   const DepthState& state = c.draw.state.depth;
-  Real z(0.0f);
-  if (c.mode == VisibilityMode::cover_only) {
-    z = depth_value(c.tile.depth_format, clamp(out.depth[i], Real(c.draw.depth_low), Real(c.draw.depth_high)));
-  } else {
-    z = load<Real>(&c.list.depth[static_cast<std::size_t>(packet) * kLanes]);
-  }
+  const Real z = late_depth(c, out, i, packet);
   if (c.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
   if (c.stencil != nullptr) {
     const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
@@ -55,6 +57,11 @@ void finish_sample(const ImmediateShading& c, const FragmentOutput& out, std::si
   Mask mask = mask_from_bits<Mask>(packet.lanes);
   if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
   if (c.mode != VisibilityMode::early) mask = late_tests(c, out, i, packet.packet, mask);
+  if (c.draw.state.order_independent) {
+    const Mask merged = c.layers.add(packet.packet, mask, late_depth(c, out, i, packet.packet), out.packet_color(0, i));
+    c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
+    return;
+  }
   const PacketMask drawn{packet.packet, static_cast<uint16_t>(bits(mask))};
   write_colors(c.draw, out, i, std::span(&drawn, 1), c.tile);
 }
@@ -126,11 +133,11 @@ void shade_pixels(const ImmediateShading& c) {
 }  // namespace
 
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
-                     PassStatistics& statistics) {
+                     TransparentLayers& layers, PassStatistics& statistics) {
   const Triangle& t = triangle_of(context, id);
   const bool late_stencil = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only;
   const StencilFace* stencil = late_stencil ? stencil_face(draw.state, tile, t.is(kFrontFacing)) : nullptr;
-  const ImmediateShading c{context, draw, id, mode, list, tile, stencil, statistics};
+  const ImmediateShading c{context, draw, id, mode, list, tile, layers, stencil, statistics};
   if (tile.samples == 1 || draw.shades_samples) {
     shade_samples(c);
   } else {

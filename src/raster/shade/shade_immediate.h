@@ -4,11 +4,13 @@
 #pragma once
 
 #include "halfspace/raster/shade/fragment_batch.h"
+#include "halfspace/raster/tile/layers.h"
 
 namespace halfspace {
 
-/// Shades the packets of one triangle: runs the remaining tests, blends and writes colors.
+/// Shades the packets of one triangle: runs the remaining tests, and blends and writes colors, or adds them to `layers` for draws with
+/// DrawState::order_independent.
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
-                     PassStatistics& statistics);
+                     TransparentLayers& layers, PassStatistics& statistics);
 
 }  // namespace halfspace

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "halfspace/raster/shade/shade_deferred.h"
+#include "halfspace/raster/tile/layers.h"
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/visibility/visibility.h"
 
@@ -15,6 +16,7 @@ struct TileMemory {
   Tile tile;
   CoverageList coverage;
   DeferredShading shading;
+  TransparentLayers layers;
   ColorBuffer post_color;                 ///< in the format of the post step's target
   std::unique_ptr<TileMemory> next_idle;  ///< next element in the pool
 };

@@ -204,7 +204,7 @@ VisibilityMode visibility_mode(const Draw& draw) {
   if (draw.deferred) return VisibilityMode::deferred;
   if (draw.kernels.fragment == nullptr) return VisibilityMode::depth_only;
   if (draw.kernels.writes_depth) return VisibilityMode::cover_only;
-  if (draw.kernels.discards || draw.state.alpha_to_coverage) return VisibilityMode::test_only;
+  if (draw.kernels.discards || draw.state.alpha_to_coverage || draw.state.order_independent) return VisibilityMode::test_only;
   return VisibilityMode::early;
 }
 

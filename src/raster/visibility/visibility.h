@@ -29,7 +29,7 @@ enum class VisibilityMode : uint8_t {
   deferred,    ///< test, write depth and triangle id
   depth_only,  ///< test, write depth; there is no color to shade
   early,       ///< test, write depth, list samples that pass
-  test_only,   ///< test, list samples that pass; depth is written after shading
+  test_only,   ///< test, list samples that pass and their depth; depth is written after shading
   cover_only   ///< list covered samples; depth is tested after shading, because the shader replaces it
 };
 
