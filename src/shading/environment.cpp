@@ -95,15 +95,27 @@ vec4<R> EnvironmentMap::fetch(const Coordinates<R>& at, IntOf<R> level) const {
   return light;
 }
 
-template <Number R>
-vec3<R> EnvironmentMap::sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const {
-  const Coordinates<R> at = place(d_ms, dx_ms, dy_ms);
+template <class R>
+vec3<R> EnvironmentMap::fetch_between_levels(const Coordinates<R>& at) const {
   const R clamped = clamp(at.lod, 0.0f, R(static_cast<float>(levels_ - 1)));
   const R whole = floor(clamped), fraction = clamped - whole;
   const IntOf<R> level = truncate_to_int(whole);
   const vec4<R> light = fetch(at, level);
   if (none(fraction > R(0.0f))) return vec3<R>(light);
   return vec3<R>(detail::lerp(light, fetch(at, min(level + 1, IntOf<R>(levels_ - 1))), fraction));
+}
+
+template <Number R>
+vec3<R> EnvironmentMap::sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const {
+  return fetch_between_levels(place(d_ms, dx_ms, dy_ms));
+}
+
+template <Number R>
+vec3<R> EnvironmentMap::sample_level(const vec3<R>& d_ms, std::type_identity_t<R> lod) const {
+  const vec3<R> still(R(0.0f));
+  Coordinates<R> at = place(d_ms, still, still);
+  at.lod = lod;
+  return fetch_between_levels(at);
 }
 
 template <Number R>
@@ -117,6 +129,12 @@ template vec3<RealN<4>> EnvironmentMap::sample(const vec3<RealN<4>>&, const vec3
 template vec3<RealN<8>> EnvironmentMap::sample(const vec3<RealN<8>>&, const vec3<RealN<8>>&, const vec3<RealN<8>>&) const;
 template vec3<RealN<16>> EnvironmentMap::sample(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
 template vec3<FragmentReal> EnvironmentMap::sample(const vec3<FragmentReal>&, const vec3<FragmentReal>&, const vec3<FragmentReal>&) const;
+template vec3<float> EnvironmentMap::sample_level(const vec3<float>&, float) const;
+template vec3<double> EnvironmentMap::sample_level(const vec3<double>&, double) const;
+template vec3<RealN<4>> EnvironmentMap::sample_level(const vec3<RealN<4>>&, RealN<4>) const;
+template vec3<RealN<8>> EnvironmentMap::sample_level(const vec3<RealN<8>>&, RealN<8>) const;
+template vec3<RealN<16>> EnvironmentMap::sample_level(const vec3<RealN<16>>&, RealN<16>) const;
+template vec3<FragmentReal> EnvironmentMap::sample_level(const vec3<FragmentReal>&, FragmentReal) const;
 template float EnvironmentMap::level_of_detail(const vec3<float>&, const vec3<float>&, const vec3<float>&) const;
 template double EnvironmentMap::level_of_detail(const vec3<double>&, const vec3<double>&, const vec3<double>&) const;
 template RealN<4> EnvironmentMap::level_of_detail(const vec3<RealN<4>>&, const vec3<RealN<4>>&, const vec3<RealN<4>>&) const;

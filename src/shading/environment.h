@@ -19,6 +19,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "halfspace/shading/texture.h"
@@ -43,6 +44,10 @@ class EnvironmentMap {
   template <class Texel>
   EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format);
 
+  /// Creates a cube map from given levels, at least one, whose faces are each half the size of those of the previous one. They are linear;
+  /// format is rgba16f or rgba32f.
+  EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> levels, TexelFormat format);
+
   EnvironmentLayout layout() const { return layout_; }
   TexelFormat format() const { return images_.front().format(); }
   int levels() const { return levels_; }
@@ -55,6 +60,10 @@ class EnvironmentMap {
   /// not finite, the result is the light of an arbitrary direction.
   template <Number R>
   vec3<R> sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const;
+
+  /// The same for a given level of detail, where 0 is the largest level. It is clamped to the existing levels.
+  template <Number R>
+  vec3<R> sample_level(const vec3<R>& d_ms, std::type_identity_t<R> lod) const;
 
   /// Returns the level of detail that sample uses, before it is clamped to the existing levels.
   template <Number R>
@@ -77,6 +86,8 @@ class EnvironmentMap {
   Coordinates<R> cube_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>
   vec4<R> fetch(const Coordinates<R>& at, IntOf<R> level) const;
+  template <class R>
+  vec3<R> fetch_between_levels(const Coordinates<R>& at) const;
 
   int faces() const { return layout_ == EnvironmentLayout::cube ? 6 : 1; }
   const Texture2D& image(int level, int face) const { return images_[static_cast<std::size_t>(level * faces() + face)]; }

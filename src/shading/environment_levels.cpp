@@ -148,6 +148,19 @@ EnvironmentMap::EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFo
   }
 }
 
+EnvironmentMap::EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> levels, TexelFormat format)
+    : layout_(EnvironmentLayout::cube) {
+  HS_CHECK_OP(levels.size(), >=, 1u);
+  for (const Faces<glm::vec4>& faces : levels) {
+    for (const Image<glm::vec4>& face : faces) {
+      HS_CHECK_OP(face.width(), ==, levels[0][0].width() >> levels_);
+      HS_CHECK_OP(face.height(), ==, face.width());
+    }
+    for (int f = 0; f < 6; ++f) images_.push_back(one_level(bordered(faces, f), format));
+    ++levels_;
+  }
+}
+
 template EnvironmentMap::EnvironmentMap(const Image<glm::u8vec4>&, TexelFormat);
 template EnvironmentMap::EnvironmentMap(const Image<glm::vec4>&, TexelFormat);
 template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::u8vec4>, 6>&, TexelFormat);

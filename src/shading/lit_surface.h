@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The common part of shaders for lit surfaces: transforms, material and lights.
+// The common part of shaders for surfaces with ambient, diffuse and specular factors.
 //
 //   color = color · (ambient + diffuse · D) + specular · S + emissive + reflection · M
 //
@@ -11,8 +11,7 @@
 #include <array>
 
 #include "halfspace/shading/environment.h"
-#include "halfspace/shading/lighting.h"
-#include "halfspace/shading/texture.h"
+#include "halfspace/shading/placed_surface.h"
 
 namespace halfspace {
 
@@ -31,12 +30,6 @@ struct Factor {
 template <class R>
 using Material = std::array<vec3<R>, kMaterialFactors>;
 
-/// Texture coordinates of a pixel. duv_dx and duv_dy are the changes in uv to the next pixel to the right and to the next pixel up.
-template <class R>
-struct MapCoordinates {
-  vec2<R> uv, duv_dx, duv_dy;
-};
-
 /// A map that modifies the normal per pixel (shading/surface_detail.h).
 struct DetailMap {
   const Texture2D* map = nullptr;  ///< not owned
@@ -47,30 +40,12 @@ struct DetailMap {
 };
 
 /// Uniforms of a lit surface. Shaders inherit from this struct.
-struct LitSurface {
-  glm::mat4 clip_from_object;
-  glm::mat4 world_from_object;    ///< to camera-relative world space (_rws, see Light)
-  glm::mat3 normal_from_object;   ///< inverse transpose of the upper left 3x3 of world_from_object
-  float handedness = 1.0f;        ///< −1 if world_from_object mirrors, otherwise 1
-  glm::vec3 to_eye_ws{0.0f};      ///< orthographic: the constant unit vector towards the eye; perspective: 0
-  std::span<const Light> lights;  ///< not owned
-  bool shadowed = false;          ///< at least one light has a shadow
+struct LitSurface : PlacedSurface {
   LightModel model = LightModel::blinn_phong;
-  bool two_sided = false;  ///< flip the normal of back faces for lighting
   std::array<Factor, kMaterialFactors> factors;
   DetailMap detail;
   const EnvironmentBlend* surroundings = nullptr;  ///< reflected environment; null: none; not owned
   glm::vec3 reflection{0.0f};
-
-  template <class R>
-  HS_INLINE vec3<R> position_rws(const vec3<R>& position_os) const {
-    return vec3<R>(world_from_object * vec4<R>(position_os, R(1)));
-  }
-
-  template <class R>
-  HS_INLINE vec3<R> to_eye(const vec3<R>& position_rws) const {
-    return to_eye_ws == glm::vec3(0.0f) ? normalize_or_zero(-position_rws) : vec3<R>(to_eye_ws);
-  }
 
   /// Returns the factors without their maps.
   template <class R>

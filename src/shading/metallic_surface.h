@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The shader for metallic-roughness materials (glTF 2.0, section 3.9 and appendix B), with per-pixel lighting by lights and an environment.
+//
+//   color = Σ lights · (diffuse + specular) + occlusion · environment · (diffuse + specular) + emissive
+//
+// with an optional clearcoat on top (KHR_materials_clearcoat). The reflection model is that of shading/ggx.h.
+#pragma once
+
+#include <array>
+
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/environment_light.h"
+#include "halfspace/shading/ggx.h"
+#include "halfspace/shading/placed_surface.h"
+
+namespace halfspace {
+
+/// The maps of a metallic-roughness material, in the order in which they are sampled.
+enum MetallicMap : uint8_t {
+  kBaseColorMap,
+  kOpacityMap,
+  kMetallicMap,
+  kRoughnessMap,
+  kSpecularMap,
+  kSpecularColorMap,
+  kClearcoatMap,
+  kClearcoatRoughnessMap,
+  kNormalMap,
+  kClearcoatNormalMap,
+  kOcclusionMap,
+  kEmissiveMap
+};
+inline constexpr std::size_t kMetallicMaps = 12;
+
+/// A texture, how it is placed, and which channel a property that is a single number reads.
+struct PlacedMap {
+  const Texture2D* map = nullptr;  ///< null: none; not owned
+  Sampler sampler{};
+  int uv_set = 0;                  ///< 0 or 1
+  glm::mat3x2 uv_transform{1.0f};  ///< uv' = uv_transform · (u, v, 1)
+  glm::vec4 channel{1, 0, 0, 0};   ///< weights of red, green, blue and alpha
+  bool repeats = false;            ///< the lookup equals that of the previous map with a texture, so its texel is used again
+};
+
+/// Uniforms of a metallic-roughness surface. Each factor is multiplied by its map, if there is one.
+struct MetallicMaterial : PlacedSurface {
+  glm::vec4 base_color{1.0f};  ///< linear; w is the opacity
+  float metallic = 0.0f, roughness = 1.0f;
+  float specular = 1.0f;
+  glm::vec3 specular_color{1.0f};
+  float normal_reflectance = 0.04f;  ///< of a non-metal at normal incidence: ((ior − 1) / (ior + 1))²
+  float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
+  float normal_scale = 1.0f;
+  float occlusion_strength = 1.0f;
+  glm::vec3 emissive{0.0f};
+  glm::vec3 ambient{0.0f};  ///< constant light from all directions, in addition to the environment
+  float alpha_cutoff = 0.5f;
+  bool unlit = false;                                  ///< the base color is the result
+  bool blends = false;                                 ///< the result has the opacity as alpha; otherwise alpha is 1
+  const EnvironmentLightBlend* environment = nullptr;  ///< null: none; not owned
+  std::array<PlacedMap, kMetallicMaps> maps;
+};
+
+/// The streams that a mesh has. They select a variant of the shader.
+enum class MetallicStreams : uint8_t {
+  plain,     ///< no maps
+  colored,   ///< no maps, but vertex colors
+  mapped,    ///< maps with one set of texture coordinates; no normal maps
+  detailed,  ///< the same, with tangents for normal maps
+  full       ///< two sets of texture coordinates, tangents and vertex colors
+};
+
+/// masked: pixels whose opacity is below alpha_cutoff are discarded.
+template <MetallicStreams streams, bool masked = false>
+struct MetallicSurface : MetallicMaterial {
+  static constexpr bool kFull = streams == MetallicStreams::full;
+  static constexpr bool kMapped = streams >= MetallicStreams::mapped;
+  static constexpr bool kTangents = streams >= MetallicStreams::detailed;
+  static constexpr bool kColors = streams == MetallicStreams::colored || kFull;
+
+  template <class R>
+  struct Attributes {
+    vec3<R> position_os;
+    vec3<R> normal_os;
+    [[no_unique_address]] MemberIf<kTangents, vec4<R>, 0> tangent_os;  ///< w is the sign of the bitangent
+    [[no_unique_address]] MemberIf<kMapped, vec2<R>, 1> uv;
+    [[no_unique_address]] MemberIf<kFull, vec2<R>, 2> second_uv;
+    [[no_unique_address]] MemberIf<kColors, vec4<R>, 3> color;
+  };
+
+  template <class R>
+  struct Varyings {
+    vec3<R> position_rws;
+    vec3<R> normal_ws;
+    [[no_unique_address]] MemberIf<kTangents, vec3<R>, 0> tangent_ws;
+    [[no_unique_address]] MemberIf<kTangents, Flat<R>, 1> side;
+    [[no_unique_address]] MemberIf<kMapped, vec2<R>, 2> uv;
+    [[no_unique_address]] MemberIf<kFull, vec2<R>, 3> second_uv;
+    [[no_unique_address]] MemberIf<kColors, vec4<R>, 4> color;
+  };
+
+  template <class R>
+  using Result = std::conditional_t<masked, DiscardingFragment<R>, Fragment<R>>;
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.position_rws = position_rws(in.position_os);
+    out.normal_ws = normalize_or_zero(normal_from_object * in.normal_os);
+    if constexpr (kTangents) {
+      out.tangent_ws = normalize_or_zero(glm::mat3(world_from_object) * vec3<R>(in.tangent_os));
+      out.side = {in.tangent_os.w * R(handedness)};
+    }
+    if constexpr (kMapped) out.uv = in.uv;
+    if constexpr (kFull) out.second_uv = in.second_uv;
+    if constexpr (kColors) out.color = in.color;
+    return clip_from_object * vec4<R>(in.position_os, R(1));
+  }
+
+  template <class R>
+  Result<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const Texels<R> texels = texels_at(in, px);
+    vec4<R> base(base_color);
+    if constexpr (kColors) base = base * in.color;
+    base = base * vec4<R>(texels.base_color, texels.opacity);
+    const vec3<R> color = unlit ? vec3<R>(base) : shaded(in, px, texels, vec3<R>(base));
+    const vec4<R> result(color, blends ? clamp(base.w, R(0), R(1)) : R(1));
+    if constexpr (masked) {
+      return {result, base.w >= R(alpha_cutoff)};
+    } else {
+      return {result};
+    }
+  }
+
+ private:
+  /// The values of all maps at a pixel; 1 where there is no map.
+  template <class R>
+  struct Texels {
+    vec3<R> base_color{R(1)};
+    R opacity{1};
+    std::array<R, kMetallicMaps> number;  ///< of properties that are single numbers
+    vec3<R> specular_color{R(1)}, emissive{R(1)};
+    vec3<R> normal{R(0), R(0), R(1)}, clearcoat_normal{R(0), R(0), R(1)};  ///< tangent space
+  };
+
+  template <class R>
+  HS_INLINE MapCoordinates<R> place(const PlacedMap& m, const Varyings<R>& in, const Pixel<R>& px) const {
+    using V = Varyings<R>;
+    MapCoordinates<R> at;
+    if constexpr (kFull) {
+      if (m.uv_set == 1) {
+        at = {in.second_uv, px.ddx(&V::second_uv), px.ddy(&V::second_uv)};
+      } else {
+        at = {in.uv, px.ddx(&V::uv), px.ddy(&V::uv)};
+      }
+    } else {
+      at = {in.uv, px.ddx(&V::uv), px.ddy(&V::uv)};
+    }
+    const glm::mat3x2& t = m.uv_transform;
+    if (t == glm::mat3x2(1.0f)) return at;
+    const auto turned = [&](const vec2<R>& v) { return vec2<R>(R(t[0].x) * v.x + R(t[1].x) * v.y, R(t[0].y) * v.x + R(t[1].y) * v.y); };
+    return {turned(at.uv) + vec2<R>(t[2]), turned(at.duv_dx), turned(at.duv_dy)};
+  }
+
+  template <class R>
+  HS_INLINE Texels<R> texels_at(const Varyings<R>& in, const Pixel<R>& px) const {
+    Texels<R> out;
+    out.number.fill(R(1));
+    if constexpr (kMapped) {
+      vec4<R> texel(R(1));
+      for (std::size_t i = 0; i < kMetallicMaps; ++i) {  // a loop, so that the lookup is inlined only once
+        const PlacedMap& m = maps[i];
+        if (m.map == nullptr) continue;
+        if (!m.repeats) {
+          const MapCoordinates<R> at = place(m, in, px);
+          texel = m.map->sample(m.sampler, at.uv, at.duv_dx, at.duv_dy);
+        }
+        switch (i) {
+          case kBaseColorMap:
+            out.base_color = vec3<R>(texel);
+            out.opacity = texel.w;
+            break;
+          case kOpacityMap: out.opacity *= dot(texel, vec4<R>(m.channel)); break;
+          case kSpecularColorMap: out.specular_color = vec3<R>(texel); break;
+          case kEmissiveMap: out.emissive = vec3<R>(texel); break;
+          case kNormalMap: out.normal = tilted(texel, normal_scale); break;
+          case kClearcoatNormalMap: out.clearcoat_normal = tilted(texel, 1.0f); break;
+          default: out.number[i] = dot(texel, vec4<R>(m.channel));
+        }
+      }
+    }
+    return out;
+  }
+
+  template <class R>
+  static HS_INLINE vec3<R> tilted(const vec4<R>& texel, float scale) {
+    const R tilt(2.0f * scale);
+    return {(texel.x - R(0.5f)) * tilt, (texel.y - R(0.5f)) * tilt, max(fma(R(2), texel.z, R(-1)), R(0))};
+  }
+
+  /// Returns the unit normal on the visible side. `detail` is in tangent space, with green up. As in MikkTSpace, the interpolated vectors
+  /// are not normalized.
+  template <class R>
+  HS_INLINE vec3<R> normal_at(const Varyings<R>& in, const Pixel<R>& px, const vec3<R>& detail) const {
+    vec3<R> n = in.normal_ws;
+    if constexpr (kTangents) {
+      const vec3<R> turned = in.tangent_ws * detail.x + cross(n, in.tangent_ws) * (in.side.value * detail.y) + n * detail.z;
+      n = select(dot(turned, turned) > R(0), turned, n);
+    }
+    n = normalize_or_zero(n);
+    return two_sided ? n * select(px.front_facing, R(1), R(-1)) : n;
+  }
+
+  /// A reflecting layer at a pixel.
+  template <class R>
+  struct Layer {
+    vec3<R> n_ws;
+    R n_v, roughness;
+    vec3<R> f0, f90;  ///< reflectance at normal and at grazing incidence
+  };
+
+  template <class R>
+  static HS_INLINE Layer<R> layer_of(const vec3<R>& n_ws, const vec3<R>& v_ws, R roughness, const vec3<R>& f0, const vec3<R>& f90) {
+    return {n_ws, max(dot(n_ws, v_ws), R(1e-4f)), clamp(roughness, R(kMinRoughness), R(1)), f0, f90};
+  }
+
+  template <class R>
+  static HS_INLINE R largest(const vec3<R>& v) {
+    return max(v.x, max(v.y, v.z));
+  }
+
+  template <class R>
+  HS_INLINE vec3<R> shaded(const Varyings<R>& in, const Pixel<R>& px, const Texels<R>& texels, const vec3<R>& base) const {
+    using V = Varyings<R>;
+    const vec3<R> v_ws = to_eye(in.position_rws), n_ws = normal_at(in, px, texels.normal);
+    const R metal = clamp(R(metallic) * texels.number[kMetallicMap], R(0), R(1));
+    const R strength = R(specular) * texels.number[kSpecularMap];
+    vec3<R> f0 = specular_color * texels.specular_color * R(normal_reflectance);
+    f0 = vec3<R>(min(f0.x, R(1)), min(f0.y, R(1)), min(f0.z, R(1))) * strength;
+    const vec3<R> f90 = mix(vec3<R>(strength), vec3<R>(R(1)), metal);
+    const Layer<R> layer = layer_of(n_ws, v_ws, R(roughness) * texels.number[kRoughnessMap], mix(f0, base, metal), f90);
+    const vec3<R> diffuse = base * (R(1) - metal);
+
+    // The coat reflects a part of all light and lets the rest through.
+    const bool has_coat = clearcoat > 0.0f;
+    Layer<R> coat = layer;
+    R coverage(0), through(1);
+    if (has_coat) {
+      coat = layer_of(normal_at(in, px, texels.clearcoat_normal), v_ws, R(clearcoat_roughness) * texels.number[kClearcoatRoughnessMap],
+                      vec3<R>(R(0.04f)), vec3<R>(R(1)));
+      coverage = R(clearcoat) * texels.number[kClearcoatMap];
+      through = R(1) - coverage * fma(R(0.96f), schlick_weight(coat.n_v), R(0.04f));
+    }
+
+    SurfacePoint<R> p{in.position_rws, n_ws, v_ws, n_ws, px.x, px.y};
+    if (shadowed) p.face_ws = face_towards(cross(px.ddx(&V::position_rws), px.ddy(&V::position_rws)), v_ws);
+    vec3<R> sum = emissive * texels.emissive;
+    vec3<R> coat_sum(R(0));
+    for (const Light& light : lights) {
+      const IncidentLight<R> arriving = light_at(light, p.position_rws);
+      const R n_l = dot(n_ws, arriving.l_ws);
+      R share = select(n_l > R(0), arriving.strength, R(0));
+      if (light.shadow != nullptr && any(n_l > R(0)))
+        share *= shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+      const vec3<R> h = normalize_or_zero(arriving.l_ws + v_ws);
+      const R fresnel = schlick_weight(dot(v_ws, h));
+      const vec3<R> f = layer.f0 + (layer.f90 - layer.f0) * fresnel;
+      const R lobe = ggx_reflection(layer.roughness * layer.roughness, n_ws, h, max(n_l, R(1e-6f)), layer.n_v);
+      sum += light.diffuse * share * (diffuse * (max(n_l, R(0)) * (R(1) - largest(f)))) + light.specular * share * (f * lobe);
+      if (has_coat) {
+        const R coat_n_l = dot(coat.n_ws, arriving.l_ws);
+        const R coat_lobe = ggx_reflection(coat.roughness * coat.roughness, coat.n_ws, h, max(coat_n_l, R(1e-6f)), coat.n_v);
+        coat_sum += light.specular * select(coat_n_l > R(0), share * coat_lobe * fma(R(0.96f), fresnel, R(0.04f)), R(0));
+      }
+    }
+
+    // Light from all directions. Microfacets reflect `single` of it; `multiple` is reflected after further bounces.
+    const R occlusion = fma(R(occlusion_strength), texels.number[kOcclusionMap] - R(1), R(1));
+    const DirectionalReflectance<R> table = directional_reflectance(layer.roughness, layer.n_v);
+    const vec3<R> single = layer.f0 * table.f0 + layer.f90 * table.f90;
+    const R lost = R(1) - (table.f0 + table.f90);
+    const vec3<R> mean = layer.f0 + (layer.f90 - layer.f0) * R(1.0f / 21.0f);
+    const vec3<R> multiple = single * mean * lost / (vec3<R>(R(1)) - mean * lost);
+    const vec3<R> transmitted = diffuse * (R(1) - min(largest(single + multiple), R(1)));
+    vec3<R> around = ambient * (transmitted + single + multiple);
+    if (environment != nullptr) {
+      const AmbientLight<R> light = environment->at<R>(n_ws, v_ws, layer.roughness);
+      around += light.diffuse * (transmitted + multiple) + light.specular * single;
+      if (has_coat) {
+        const vec3<R> mirrored = environment->at<R>(coat.n_ws, v_ws, coat.roughness).specular;
+        coat_sum += mirrored * (occlusion * fma(R(0.96f), schlick_weight(coat.n_v), R(0.04f)));
+      }
+    }
+    sum += around * occlusion;
+    return has_coat ? sum * through + coat_sum * coverage : sum;
+  }
+};
+
+}  // namespace halfspace
