@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Converts MTL materials to metallic-roughness materials.
+//
+// * Kd is the base color and Ke the emissive color. Both are sRGB-encoded, as programs that show OBJ files write the numbers to the screen
+//   unchanged. Where Ke exceeds 1, its largest component is a linear intensity and the rest is its color.
+// * A color or factor of 0 that has a texture counts as 1, and as 0.8 gray for Kd if the texture is missing.
+// * Opacity is d, else 1 − Tr. Tr = 1 without d is taken as opaque, because programs disagree about its meaning. Opacity below 1 gives
+//   AlphaMode::blend. A map_d gives AlphaMode::mask if the opacity is 1. If map_d is the image of map_Kd, its alpha channel is used.
+// * Ns is the exponent of a Blinn-Phong highlight: roughness² = sqrt(2/(Ns + 2)) gives the GGX distribution the same width. Without Ns,
+//   roughness is 0.6. map_Ns is a roughness map, as Blender writes it.
+// * Ks scales the reflectance at normal incidence: F0 = 0.08 Ks for Ni = 1.5 or no Ni, so that the usual 0.5 gives the 4 % of common
+//   dielectrics and 1 does not give a mirror. This is also Blender's rule. Without Ks it is 0.5. Ni outside [1.1, 4] is ignored, because
+//   many programs always write 1. map_Ks scales it by its luminance.
+// * illum 0 is unlit and illum 1 has no specular reflection. With illum 3, 5 or 8 (mirrors), a Ks brighter than Kd makes a metal of color
+//   Ks.
+// * Pr, Pm, Pc and Pcr are used as they are. Pr overrides Ns; a file with Pr or Pm gets F0 of Ni and ignores Ks and illum.
+// * bump and map_bump: the value 1 has a height of -bm times 1 % of the diagonal of the model's bounds.
+// * Materials are double-sided, because the winding of OBJ files is unreliable.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "halfspace/model/read_mtl.h"
+#include "halfspace/model/references.h"
+
+namespace halfspace {
+
+struct Model;
+struct ModelMaterial;
+struct ReadModelOptions;
+struct TextureUse;
+
+/// The material of elements without one, or whose material is not defined: roughness 0.6 and 0.8 gray, or white for vertex colors.
+ModelMaterial default_mtl_material(bool vertex_colors);
+
+/// Converts materials and adds their images and textures to a model. Missing images are named once in the model's warnings.
+class MtlConverter {
+ public:
+  /// diagonal: of the bounds of the model. `model` must outlive this object.
+  MtlConverter(Model& model, const std::filesystem::path& file, const ReadModelOptions& options, double diagonal);
+
+  ModelMaterial convert(const MtlMaterial& mtl);
+
+ private:
+  int image(const MtlMaterial& mtl, MtlMap which);
+  TextureUse texture(const MtlMaterial& mtl, MtlMap which);
+  void convert_opacity(const MtlMaterial& mtl, ModelMaterial& material);
+  void convert_reflection(const MtlMaterial& mtl, ModelMaterial& material);
+  void convert_relief(const MtlMaterial& mtl, ModelMaterial& material);
+
+  Model& model_;
+  References references_;
+  std::vector<std::string> quiet_warnings_;
+  References quiet_;  // writes to quiet_warnings_
+  double diagonal_;
+  std::map<std::string, int> images_;  // by folder and name; -1: missing
+};
+
+}  // namespace halfspace

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/model/obj_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <span>
+#include <unordered_map>
+
+#include "halfspace/core/check.h"
+#include "halfspace/model/text_lines.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr std::string_view kCurveStatements[] = {"bmat", "con",  "cstype", "curv", "curv2", "deg",  "end", "hole",
+                                                 "parm", "scrv", "sp",     "step", "surf",  "trim", "vp"};
+constexpr std::string_view kIgnoredStatements[] = {"bevel", "c_interp", "ctech",      "d_interp",  "lod",    "maplib",
+                                                   "mg",    "stech",    "shadow_obj", "trace_obj", "usemap", "vw"};
+
+bool contains(std::span<const std::string_view> names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+
+// The largest index that a file uses, and the line where it occurs.
+struct LargestIndex {
+  uint64_t index = 0;  // counted from 1; 0: no index
+  std::size_t line = 0;
+};
+
+class ObjParser {
+ public:
+  ObjParser(const std::filesystem::path& file, std::string_view text, std::vector<std::string>& warnings)
+      : file_(file), lines_(text), warnings_(warnings) {}
+
+  ObjText parse() {
+    while (lines_.next()) {
+      std::string_view rest = lines_.line();
+      if (const std::string_view word = take_word(rest); !word.empty() && word[0] != '#') statement(word, rest);
+    }
+    check_indices();
+    return std::move(obj_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem, std::size_t line) const {
+    throw InputError(fmt::format("{}:{}: {}", file_.string(), line, problem));
+  }
+  [[noreturn]] void fail(const std::string& problem) const { fail(problem, lines_.number()); }
+
+  void warn_once(const std::string& kind, const std::string& text) {
+    if (warned_.insert(kind).second) warnings_.push_back(fmt::format("line {}: {}", lines_.number(), text));
+  }
+
+  void statement(std::string_view word, std::string_view rest) {
+    if (word == "v") return vertex(rest);
+    if (word == "vt") return texture_coordinate(rest);
+    if (word == "vn") return normal(rest);
+    if (word == "f" || word == "fo") return element(MeshTopology::triangles, 3, rest);
+    if (word == "l") return element(MeshTopology::lines, 2, rest);
+    if (word == "p") return element(MeshTopology::points, 1, rest);
+    if (word == "usemtl") return use_material(trimmed(rest));
+    if (word == "o" || word == "g") return set_name(trimmed(rest));
+    if (word == "s") return set_smoothing(take_value(rest));
+    if (word == "mtllib") return add_library(trimmed(rest));
+    if (contains(kIgnoredStatements, word)) return;
+    if (contains(kCurveStatements, word)) return warn_once("curves", "free-form curves and surfaces are not drawn");
+    warn_once("unknown", "unknown statement " + in_quotes(word) + " is ignored, as are all others that are unknown");
+  }
+
+  // Reads up to 7 numbers. Returns how many there are.
+  template <class OnBad>
+  std::size_t numbers(std::string_view rest, std::array<double, 7>& values, OnBad on_bad) {
+    std::size_t count = 0;
+    for (std::string_view word = take_value(rest); !word.empty() && count < values.size(); word = take_value(rest)) {
+      const std::optional<double> value = number_in(word);
+      if (!value) on_bad(word);
+      values[count++] = value.value_or(0.0);
+    }
+    return count;
+  }
+
+  // x y z, x y z w, or x y z red green blue. The weight w belongs to rational curves.
+  void vertex(std::string_view rest) {
+    std::array<double, 7> v{};
+    const std::size_t count = numbers(rest, v, [&](std::string_view word) {
+      fail(fmt::format("cannot read {} as a coordinate; expected a number between -1e18 and 1e18", in_quotes(word)));
+    });
+    if (count < 3) fail(fmt::format("a vertex has {} coordinates; expected 3", count));
+    if (count >= 6) {
+      obj_.colors.resize(obj_.positions.size(), glm::vec3(1.0f));
+      obj_.colors.emplace_back(v[3], v[4], v[5]);
+    } else if (!obj_.colors.empty()) {
+      obj_.colors.emplace_back(1.0f);
+    }
+    obj_.positions.emplace_back(v[0], v[1], v[2]);
+  }
+
+  void texture_coordinate(std::string_view rest) {
+    std::array<double, 7> v{};
+    numbers(rest, v, [&](std::string_view word) {
+      warn_once("vt", fmt::format("cannot read {} as a texture coordinate; such numbers are taken as 0", in_quotes(word)));
+    });
+    obj_.uvs.emplace_back(v[0], v[1]);
+  }
+
+  void normal(std::string_view rest) {
+    std::array<double, 7> v{};
+    bool good = true;
+    const std::size_t count = numbers(rest, v, [&](std::string_view) { good = false; });
+    const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+    if (!good || count < 3 || largest == 0.0) {
+      warn_once("vn", "unusable normals (not numbers, or zero) are replaced by computed ones");
+      obj_.normals.emplace_back(0.0f);
+      return;
+    }
+    obj_.normals.emplace_back(glm::normalize(glm::dvec3(v[0], v[1], v[2]) / largest));
+  }
+
+  // Reads one index of a corner. Returns kNoIndex for an optional index that is missing or out of range.
+  uint32_t index(std::string_view text, std::string_view corner, std::size_t count, LargestIndex& largest, bool optional) {
+    if (text.empty() && optional) return kNoIndex;
+    int64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, value);
+    if (at != end || error == std::errc::invalid_argument) {
+      fail(fmt::format("cannot read {} as a corner; expected V, V/VT, V//VN or V/VT/VN", in_quotes(corner)));
+    }
+    const bool before_first = value == 0 || (value < 0 && value < -static_cast<int64_t>(count));
+    if (error != std::errc() || before_first || value >= kNoIndex) {
+      if (!optional) fail(fmt::format("vertex index {}; expected 1 to {} or -1 to -{}", in_quotes(text), count, count));
+      largest = {kNoIndex, lines_.number()};
+      return kNoIndex;
+    }
+    if (value < 0) return static_cast<uint32_t>(static_cast<int64_t>(count) + value);
+    if (static_cast<uint64_t>(value) > largest.index) largest = {static_cast<uint64_t>(value), lines_.number()};
+    return static_cast<uint32_t>(value - 1);
+  }
+
+  ObjCorner corner(std::string_view word) {
+    std::array<std::string_view, 3> parts{};
+    std::string_view rest = word;
+    std::size_t count = 0;
+    for (bool more = true; more; ++count) {
+      if (count == 3) fail(fmt::format("cannot read {} as a corner; expected V, V/VT, V//VN or V/VT/VN", in_quotes(word)));
+      const std::size_t slash = rest.find('/');
+      more = slash != std::string_view::npos;
+      parts[count] = rest.substr(0, slash);
+      if (more) rest.remove_prefix(slash + 1);
+    }
+    return {index(parts[0], word, obj_.positions.size(), largest_position_, false),
+            index(parts[1], word, obj_.uvs.size(), largest_uv_, true), index(parts[2], word, obj_.normals.size(), largest_normal_, true)};
+  }
+
+  void element(MeshTopology topology, std::size_t min_corners, std::string_view rest) {
+    const std::size_t first = obj_.corners.size();
+    for (std::string_view word = take_value(rest); !word.empty(); word = take_value(rest)) obj_.corners.push_back(corner(word));
+    if (obj_.corners.size() - first < min_corners) {
+      obj_.corners.resize(first);
+      return warn_once("few",
+                       fmt::format("an element has too few corners (expected at least {}); such elements are left out", min_corners));
+    }
+    if (state_changed_ || obj_.states.back().topology != topology) {
+      obj_.states.push_back({topology, material_, smoothing_, name_});
+      state_changed_ = false;
+    }
+    obj_.elements.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(obj_.states.size() - 1)});
+  }
+
+  void use_material(std::string_view name) {
+    const auto [known, added] = material_numbers_.try_emplace(std::string(name), static_cast<int>(obj_.materials.size()));
+    if (added) obj_.materials.emplace_back(name);
+    state_changed_ = state_changed_ || material_ != known->second;
+    material_ = known->second;
+  }
+
+  // Only names of the first element of a mesh are used, so a new name alone does not start a new state.
+  void set_name(std::string_view name) { name_ = name; }
+
+  void set_smoothing(std::string_view value) {
+    uint32_t group = value == "on" ? 1 : 0;  // everything else that is not a number, such as "off", is 0
+    std::from_chars(value.data(), value.data() + value.size(), group);
+    state_changed_ = state_changed_ || smoothing_ != group;
+    smoothing_ = group;
+    obj_.has_smoothing = true;
+  }
+
+  void add_library(std::string_view names) {
+    if (std::ranges::find(obj_.libraries, names) != obj_.libraries.end()) return;
+    if (obj_.libraries.size() == kMaxLibraries) return warn_once("libraries", "too many material libraries; the rest is ignored");
+    obj_.libraries.emplace_back(names);
+  }
+
+  // Positive indices may refer to statements that follow, so they are checked at the end.
+  void check_indices() {
+    const std::size_t count = obj_.positions.size();
+    if (largest_position_.index > count) {
+      fail(fmt::format("vertex index {}; expected at most {}, the number of vertices", largest_position_.index, count),
+           largest_position_.line);
+    }
+    if (largest_uv_.index > obj_.uvs.size()) warn_range("texture coordinates", largest_uv_.line, obj_.uvs.size());
+    if (largest_normal_.index > obj_.normals.size()) warn_range("normals", largest_normal_.line, obj_.normals.size());
+  }
+
+  void warn_range(std::string_view what, std::size_t line, std::size_t count) {
+    warnings_.push_back(fmt::format("line {}: indices of {} that are out of range (1 to {}) are ignored", line, what, count));
+  }
+
+  static constexpr std::size_t kMaxLibraries = 256;
+
+  const std::filesystem::path& file_;
+  TextLines lines_;
+  std::vector<std::string>& warnings_;
+  std::set<std::string> warned_;
+  ObjText obj_;
+  LargestIndex largest_position_, largest_uv_, largest_normal_;
+  std::unordered_map<std::string, int> material_numbers_;
+  int material_ = -1;
+  uint32_t smoothing_ = 0;
+  std::string name_;
+  bool state_changed_ = true;
+};
+
+}  // namespace
+
+ObjText parse_obj(const std::filesystem::path& file, std::string_view text, std::vector<std::string>& warnings) {
+  return ObjParser(file, text, warnings).parse();
+}
+
+}  // namespace halfspace

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Colors of model files that are encoded in sRGB but not as 8-bit codes.
+#pragma once
+
+#include <algorithm>
+#include <glm/glm.hpp>
+
+#include "halfspace/core/srgb.h"
+
+namespace halfspace {
+
+/// Returns the linear value of an sRGB-encoded value, which is clamped to [0, 1]. Values between two 8-bit codes are interpolated
+/// linearly; the error is below 7e-6.
+inline float linear_from_srgb(float encoded) {
+  const float code = std::clamp(encoded, 0.0f, 1.0f) * 255.0f;
+  const auto low = static_cast<std::size_t>(std::min(code, 254.0f));
+  return kSrgbToLinear[low] + (code - static_cast<float>(low)) * (kSrgbToLinear[low + 1] - kSrgbToLinear[low]);
+}
+
+inline glm::vec3 linear_from_srgb(const glm::vec3& encoded) {
+  return {linear_from_srgb(encoded.x), linear_from_srgb(encoded.y), linear_from_srgb(encoded.z)};
+}
+
+}  // namespace halfspace

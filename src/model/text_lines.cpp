@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/model/text_lines.h"
+
+#include <algorithm>
+
+namespace halfspace {
+
+std::string_view TextLines::take() {
+  const std::size_t end = std::min(text_.find(end_, at_), text_.size());
+  std::string_view line = text_.substr(at_, end - at_);
+  at_ = std::min(end + 1, text_.size());
+  ++taken_;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+bool TextLines::next() {
+  if (at_ == text_.size()) return false;
+  line_ = take();
+  number_ = taken_;
+  if (!line_.ends_with('\\') || trimmed(line_).starts_with('#')) return true;
+  joined_.clear();
+  std::string_view part = line_;
+  while (part.ends_with('\\')) {
+    joined_.append(part.substr(0, part.size() - 1)) += ' ';
+    part = at_ == text_.size() ? std::string_view() : take();
+  }
+  line_ = joined_.append(part);
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string in_quotes(std::string_view name) {
+  constexpr std::size_t kMaxLength = 120;
+  std::string text(name.substr(0, kMaxLength));
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+  return "'" + text + (name.size() > kMaxLength ? "...'" : "'");
+}
+
+}  // namespace halfspace

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Ear clipping. The polygon is projected along the coordinate axis nearest to its normal. This keeps coordinates exact, and for a planar
+// polygon it differs from the projection along the normal only by an affine map, which preserves all orientations. The orientation of
+// three corners is computed exactly.
+//
+// A corner is an ear if it turns left and no other corner is in its triangle. Only corners that do not turn left can be there, so these
+// are sorted into a grid. The total number of corners that are tested is limited to a multiple of the number of corners: a polygon that
+// intersects itself could take quadratic time or worse. Beyond the limit, corners are clipped in order.
+#include "halfspace/model/triangulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfspace {
+
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+
+struct Split {
+  double high, low;  // their exact sum is the value
+};
+
+Split product(double a, double b) {
+  const double high = a * b;
+  return {high, std::fma(a, b, -high)};
+}
+
+// Knuth's two-sum.
+Split sum(double a, double b) {
+  const double high = a + b, b_part = high - a;
+  return {high, (a - (high - b_part)) + (b - b_part)};
+}
+
+// Returns the exact sign of b.x·c.y − b.x·a.y − a.x·c.y − b.y·c.x + b.y·a.x + a.y·c.x, by adding the 12 parts of the products to an
+// expansion whose components do not overlap (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+// predicates", 1997, section 2.3).
+double exact_orientation(const dvec2& a, const dvec2& b, const dvec2& c) {
+  const Split products[] = {product(b.x, c.y),  product(-b.x, a.y), product(-a.x, c.y),
+                            product(-b.y, c.x), product(b.y, a.x),  product(a.y, c.x)};
+  double parts[12];
+  int count = 0;
+  for (const Split& p : products) {
+    for (double value : {p.low, p.high}) {
+      for (int i = 0; i < count; ++i) {
+        const Split s = sum(parts[i], value);
+        parts[i] = s.low;
+        value = s.high;
+      }
+      parts[count++] = value;
+    }
+  }
+  for (int i = count - 1; i >= 0; --i) {
+    if (parts[i] != 0.0) return parts[i];
+  }
+  return 0.0;
+}
+
+// Returns a number with the exact sign of the area of the triangle: positive if it is counter-clockwise. Overflow and underflow of products
+// are not handled.
+double orientation(const dvec2& a, const dvec2& b, const dvec2& c) {
+  const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x), area = left - right;
+  constexpr double kErrorBound = 4.0 * std::numeric_limits<double>::epsilon();  // Shewchuk's 3.33e-16, rounded up
+  if (std::abs(area) > kErrorBound * (std::abs(left) + std::abs(right))) return area;
+  return exact_orientation(a, b, c);
+}
+
+// Newell's normal, computed relative to the first corner. Its length is twice the area.
+dvec3 normal_of(std::span<const dvec3> corners) {
+  dvec3 normal(0.0);
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) normal += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+  return normal;
+}
+
+// Drops the coordinate in which the normal is largest. The result is counter-clockwise.
+class Projection {
+ public:
+  explicit Projection(const dvec3& normal) {
+    const dvec3 size = glm::abs(normal);
+    const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+    first_ = (axis + 1) % 3;
+    second_ = (axis + 2) % 3;
+    if (normal[axis] < 0.0) std::swap(first_, second_);
+  }
+  dvec2 operator()(const dvec3& p) const { return {p[first_], p[second_]}; }
+
+ private:
+  int first_, second_;
+};
+
+void add_fan(std::size_t apex, std::size_t count, std::vector<uint32_t>& triangles) {
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    for (const std::size_t corner : {apex, apex + i, apex + i + 1}) triangles.push_back(static_cast<uint32_t>(corner % count));
+  }
+}
+
+// A quad with a corner that does not turn left is cut there, all others along the shorter diagonal.
+void add_quad(const dvec2 (&p)[4], std::span<const dvec3> corners, std::vector<uint32_t>& triangles) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (orientation(p[(i + 3) % 4], p[i], p[(i + 1) % 4]) <= 0.0) return add_fan(i, 4, triangles);
+  }
+  constexpr double kTie = 1.0 - 1e-6;  // equal diagonals of a regular grid are cut in the same direction
+  const dvec3 d02 = corners[2] - corners[0], d13 = corners[3] - corners[1];
+  add_fan(glm::dot(d13, d13) < kTie * glm::dot(d02, d02) ? 1 : 0, 4, triangles);
+}
+
+// Returns whether the fan from corner 0 is a triangulation: all other corners are in order around it within half a turn.
+bool is_fan(std::span<const dvec2> p) {
+  for (std::size_t i = 2; i < p.size(); ++i) {
+    if (orientation(p[0], p[1], p[i]) <= 0.0 || orientation(p[0], p[i - 1], p[i]) <= 0.0) return false;
+  }
+  return true;
+}
+
+class EarClipper {
+ public:
+  explicit EarClipper(std::vector<dvec2> points) : points_(std::move(points)), count_(points_.size()), budget_(kTestsPerCorner * count_) {
+    previous_.resize(count_);
+    next_.resize(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      previous_[i] = static_cast<uint32_t>((i + count_ - 1) % count_);
+      next_[i] = static_cast<uint32_t>((i + 1) % count_);
+    }
+    blocks_.resize(count_);
+    for (uint32_t i = 0; i < count_; ++i) blocks_[i] = turn(i) <= 0.0 ? 1 : 0;
+    make_grid();
+  }
+
+  void clip(std::vector<uint32_t>& triangles) {
+    uint32_t corner = 0;
+    std::size_t misses = 0;
+    for (std::size_t left = count_; left > 2;) {
+      // When no corner is an ear, the polygon intersects itself or is degenerate. Then any corner is clipped.
+      if (budget_ > 0 && misses < left && !is_ear(corner)) {
+        corner = next_[corner];
+        ++misses;
+        continue;
+      }
+      misses = 0;
+      const uint32_t before = previous_[corner], after = next_[corner];
+      triangles.insert(triangles.end(), {before, corner, after});
+      remove(corner, before, after);
+      --left;
+      corner = next_[after];  // skipping one corner avoids long fans of thin triangles
+    }
+  }
+
+ private:
+  static constexpr std::size_t kTestsPerCorner = 1000;
+
+  double turn(uint32_t i) const { return orientation(points_[previous_[i]], points_[i], points_[next_[i]]); }
+
+  void remove(uint32_t corner, uint32_t before, uint32_t after) {
+    next_[before] = after;
+    previous_[after] = before;
+    blocks_[corner] = 0;
+    for (const uint32_t i : {before, after}) {
+      if (blocks_[i] != 0 && turn(i) > 0.0) blocks_[i] = 0;
+    }
+  }
+
+  bool is_ear(uint32_t corner) {
+    spend(1);
+    if (turn(corner) <= 0.0) return false;
+    const dvec2 &a = points_[previous_[corner]], &b = points_[corner], &c = points_[next_[corner]];
+    const dvec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+    const glm::ivec2 first = cell_of(low), last = cell_of(high);
+    for (int y = first.y; y <= last.y; ++y) {
+      for (int x = first.x; x <= last.x; ++x) {
+        spend(1);
+        const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_) + static_cast<std::size_t>(x);
+        for (uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
+          if (blocks_[grid_[i]] == 0) continue;
+          spend(1);
+          if (is_in_triangle(points_[grid_[i]], a, b, c)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  // Includes the edges, but not points that coincide with a corner: a hole that is connected by two coincident edges has such corners.
+  static bool is_in_triangle(const dvec2& p, const dvec2& a, const dvec2& b, const dvec2& c) {
+    if (p == a || p == b || p == c) return false;
+    return orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
+  }
+
+  void spend(std::size_t tests) { budget_ -= std::min(budget_, tests); }
+
+  void make_grid() {
+    low_ = high_ = points_[0];
+    for (const dvec2& p : points_) {
+      low_ = glm::min(low_, p);
+      high_ = glm::max(high_, p);
+    }
+    const auto blocking = static_cast<std::size_t>(std::ranges::count(blocks_, 1));
+    cells_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(blocking) / 2.0)));
+    cell_begin_.assign(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_) + 1, 0);
+    const auto cell_number = [&](uint32_t i) {
+      const glm::ivec2 cell = cell_of(points_[i]);
+      return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(cells_) + static_cast<std::size_t>(cell.x);
+    };
+    for (uint32_t i = 0; i < count_; ++i) cell_begin_[cell_number(i) + 1] += blocks_[i];
+    for (std::size_t i = 1; i < cell_begin_.size(); ++i) cell_begin_[i] += cell_begin_[i - 1];
+    grid_.resize(blocking);
+    std::vector<uint32_t> at(cell_begin_.begin(), cell_begin_.end() - 1);
+    for (uint32_t i = 0; i < count_; ++i) {
+      if (blocks_[i] != 0) grid_[at[cell_number(i)]++] = i;
+    }
+  }
+
+  glm::ivec2 cell_of(const dvec2& p) const {
+    glm::ivec2 cell(0);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double size = high_[axis] - low_[axis];
+      const double at = size > 0.0 ? (p[axis] - low_[axis]) / size * cells_ : 0.0;
+      cell[axis] = static_cast<int>(std::clamp(at, 0.0, static_cast<double>(cells_ - 1)));
+    }
+    return cell;
+  }
+
+  std::vector<dvec2> points_;
+  std::size_t count_;
+  std::size_t budget_;                     // corners and cells that may still be tested
+  std::vector<uint32_t> previous_, next_;  // of the corners that are left
+  std::vector<uint8_t> blocks_;            // 1: the corner does not turn left, so it may be in the triangle of another one
+  dvec2 low_{0.0}, high_{0.0};
+  int cells_ = 1;                            // per axis of the grid
+  std::vector<uint32_t> cell_begin_, grid_;  // blocking corners by cell, at the start
+};
+
+}  // namespace
+
+void triangulate(std::span<const dvec3> corners, std::vector<uint32_t>& triangles) {
+  const std::size_t count = corners.size();
+  if (count < 4) return add_fan(0, count, triangles);
+  const dvec3 normal = normal_of(corners);
+  if (!(glm::dot(normal, normal) > 0.0)) return add_fan(0, count, triangles);
+  const Projection project(normal);
+  if (count == 4) {
+    const dvec2 quad[4] = {project(corners[0]), project(corners[1]), project(corners[2]), project(corners[3])};
+    return add_quad(quad, corners, triangles);
+  }
+  std::vector<dvec2> points(count);
+  std::ranges::transform(corners, points.begin(), project);
+  if (is_fan(points)) return add_fan(0, count, triangles);
+  EarClipper(std::move(points)).clip(triangles);
+}
+
+}  // namespace halfspace
