@@ -1,26 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws charts of the results of bench_measure.py as PNG and SVG. Needs matplotlib."""
-import matplotlib
-
-matplotlib.use("Agg")
-matplotlib.rcParams["svg.hashsalt"] = "halfspace"  # makes the SVG files reproducible
-import matplotlib.pyplot as plt
-
+"""Selects the data of the charts of bench_measure.py's results, which draw_charts.py draws as PNG and SVG. Needs matplotlib."""
 from bench_tables import COMPARED, intensity, sweep_series
+from draw_charts import COLORS, LIGHT, finish_axes, legend_beside, new_panels, save, use_theme
 
-COLORS = {"halfspace native": "#1f6fb4", "halfspace v3": "#7fb3dc", "llvmpipe": "#d9722b", "SwiftShader": "#8a8a8a", "Embree": "#4a9a4a"}
+PROGRAM_COLORS = dict(zip(("halfspace native", "llvmpipe", "Embree", "halfspace v3", "SwiftShader"), (COLORS[k] for k in (0, 1, 2, 5, 7))))
 RATIOS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
+PANEL = (624, 442)  # size in pixels
 
 
-def save(figure, folder, name):
+def save_both(figure, folder, name):
     figure.tight_layout()
-    figure.savefig(folder / f"{name}.png", dpi=110)
-    figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
-    plt.close(figure)
-
-
-def legend_beside(axes):
-    axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0)
+    save(figure, folder / f"{name}.png", dpi=110)
+    save(figure, folder / f"{name}.svg")
 
 
 def bars(results, folder):
@@ -29,14 +20,14 @@ def bars(results, folder):
     for size in results.sizes:
         names = [w for w in COMPARED if (f"llvmpipe {n}", w, size) in results.rows]
         who = [f"halfspace native {n}", f"halfspace v3 {n}", f"SwiftShader {n}", f"Embree {n}"]
-        figure, axes = plt.subplots(figsize=(13, 5))
+        figure, (axes,) = new_panels(1, 1248, 480)
         width = 0.8 / len(who)
         for k, contender in enumerate(who):
             found = [(i, results.ms(f"llvmpipe {n}", w, size) / results.ms(contender, w, size)) for i, w in enumerate(names) if results.ms(contender, w, size)]
             if found:
                 places, ratios = [i + (k - 1.5) * width for i, _ in found], [r - 1 for _, r in found]
-                axes.bar(places, ratios, width, bottom=1, label=contender, color=COLORS[contender.rsplit(" ", 1)[0]])
-        axes.axhline(1, color=COLORS["llvmpipe"], label=f"llvmpipe {n}")
+                axes.bar(places, ratios, width, bottom=1, label=contender, color=PROGRAM_COLORS[contender.rsplit(" ", 1)[0]])
+        axes.axhline(1, color=PROGRAM_COLORS["llvmpipe"], label=f"llvmpipe {n}")
         axes.set_yscale("log")
         low, high = axes.get_ylim()
         ticks = [r for r in RATIOS if low <= r <= high]
@@ -46,18 +37,7 @@ def bars(results, folder):
         axes.set_ylabel("frame rate relative to llvmpipe")
         axes.set_title(f"{size}, {n} threads")
         legend_beside(axes)
-        save(figure, folder, f"workloads_{size}")
-
-
-def finish(axes, x_label, y_label, log_x, log_y):
-    if log_x:
-        axes.set_xscale("log")
-    if log_y:
-        axes.set_yscale("log")
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=8)
+        save_both(figure, folder, f"workloads_{size}")
 
 
 def by_program(results, folder, sweep, panels, x_label, log_x=True):
@@ -65,12 +45,12 @@ def by_program(results, folder, sweep, panels, x_label, log_x=True):
     series = sweep_series(results, sweep)
     if not series:
         return
-    figure, all_axes = plt.subplots(1, len(panels), figsize=(6.5 * len(panels), 4.6), squeeze=False)
-    for axes, (label, value, log_y) in zip(all_axes[0], panels):
+    figure, all_axes = new_panels(len(panels), *PANEL)
+    for axes, (label, value, log_y) in zip(all_axes, panels):
         for (who, _), points in series.items():
-            axes.plot([x for x, _ in points], [value(x, ms) for x, ms in points], marker="o", markersize=3, color=COLORS[who], label=who)
-        finish(axes, x_label, label, log_x, log_y)
-    save(figure, folder, sweep)
+            axes.plot([x for x, _ in points], [value(x, ms) for x, ms in points], marker="o", color=PROGRAM_COLORS[who], label=who)
+        finish_axes(axes, x_label, label, log_x, log_y)
+    save_both(figure, folder, sweep)
 
 
 def by_workload(results, folder, sweep, label, value, x_label, log_x, log_y):
@@ -80,18 +60,19 @@ def by_workload(results, folder, sweep, label, value, x_label, log_x, log_y):
         return
     programs = list(dict.fromkeys(who for who, _ in series))
     workloads = list(dict.fromkeys(workload for _, workload in series))
-    figure, all_axes = plt.subplots(1, len(programs), figsize=(6.5 * len(programs), 4.6), squeeze=False, sharey=True)
-    for axes, program in zip(all_axes[0], programs):
+    figure, all_axes = new_panels(len(programs), *PANEL, sharey=True)
+    for axes, program in zip(all_axes, programs):
         for (who, workload), points in series.items():
             if who == program:
-                axes.plot([x for x, _ in points], [value(x, ms, points[0][1]) for x, ms in points], marker="o", markersize=3,
-                          color=f"C{workloads.index(workload)}", label=workload)
+                axes.plot([x for x, _ in points], [value(x, ms, points[0][1]) for x, ms in points], marker="o",
+                          color=COLORS[workloads.index(workload) % len(COLORS)], label=workload)
         axes.set_title(program)
-        finish(axes, x_label, label, log_x, log_y)
+    for axes in all_axes:  # They share the y axis, whose range is known only now.
+        finish_axes(axes, x_label, label, log_x, log_y)
         places = sorted({x for points in series.values() for x, _ in points})
         axes.set_xticks(places, [f"{x:g}" for x in places])
         axes.minorticks_off()
-    save(figure, folder, sweep)
+    save_both(figure, folder, sweep)
 
 
 def roofline(results, folder):
@@ -102,15 +83,15 @@ def roofline(results, folder):
         points = [(w, *found) for w in COMPARED if (found := intensity(results, w, size, n))]
         if not peak or not bandwidth or not points:
             continue
-        figure, axes = plt.subplots(figsize=(9, 5))
+        figure, (axes,) = new_panels(1, 864, 480)
         low, high = 0.5 * min(p[1] for p in points), 4 * max(max(p[1] for p in points), peak / bandwidth)
         axes.plot([low, peak / bandwidth, high], [low * bandwidth, peak, peak], color="black", label=f"memset {bandwidth:.0f} GB/s, FMA {peak:.0f} GFLOP/s")
         for k, (workload, x, y) in enumerate(points):
-            axes.plot(x, y, marker="os^Dv*P"[k % 7], linestyle="", color=f"C{k % 10}", label=workload)
-        finish(axes, "operations per byte written from the tile", "GFLOP/s", True, True)
+            axes.plot(x, y, marker="os^Dv*P"[k % 7], linestyle="", color=COLORS[k % len(COLORS)], label=workload)
+        finish_axes(axes, "operations per byte written from the tile", "GFLOP/s", True, True)
         axes.set_title(f"{size}, {n} threads, native build")
         legend_beside(axes)
-        save(figure, folder, f"roofline_{size}")
+        save_both(figure, folder, f"roofline_{size}")
 
 
 def triangles_of_size(area):
@@ -119,6 +100,7 @@ def triangles_of_size(area):
 
 def draw_all(results, folder):
     folder.mkdir(parents=True, exist_ok=True)
+    use_theme(**LIGHT)
     bars(results, folder)
     roofline(results, folder)
     pixels = 1920 * 1080

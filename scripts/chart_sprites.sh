@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Measures the error of the original sprite by the angle off the axis. Writes docs/explanation/sprite_error.csv and its chart,
 # docs/explanation/sprite_error.svg.
-# Needs ImageMagick (compare) and gnuplot.
+# Needs ImageMagick and matplotlib.
 #
 #   scripts/chart_sprites.sh [PROGRAM]     default: build/release/bin/halfspace
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$(realpath "${1:-build/release/bin/halfspace}")
-for tool in compare convert gnuplot; do
-  command -v "$tool" > /dev/null || { echo "chart_sprites.sh: $tool is missing; install imagemagick and gnuplot-nox" >&2; exit 1; }
+for tool in compare convert; do
+  command -v "$tool" > /dev/null || { echo "chart_sprites.sh: $tool is missing; install imagemagick" >&2; exit 1; }
 done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -30,15 +30,7 @@ for angle in $(seq 0 5 50); do
   awk -v a="$angle" -v s="$sphere" -v w="$wrong" \
     'BEGIN { printf "%d,%d,%d,%.4f,%.4f\n", a, s + 0.5, w, w / s, 1 - cos(a * atan2(0, -1) / 180) }' >> docs/explanation/sprite_error.csv
 done
-gnuplot << 'END'
-set terminal svg size 640,400 font "sans,12" background "white"
-set output "docs/explanation/sprite_error.svg"
-set datafile separator ","
-set xlabel "angle off the axis (degrees)"
-set ylabel "wrong pixels relative to the sphere's area"
-set key top left
-set grid
-plot "docs/explanation/sprite_error.csv" skip 1 using 1:4 with linespoints pointtype 7 title "particles.sprite=original", \
-     "docs/explanation/sprite_error.csv" skip 1 using 1:5 with lines dashtype 2 title "1 - cos of the angle"
-END
+scripts/draw_charts.py curves docs/explanation/sprite_error.csv --x-label "angle off the axis (degrees)" \
+  --y-label "wrong pixels relative to the sphere's area" --line "wrong_share=particles.sprite=original" \
+  --dashed "one_minus_cos=1 - cos of the angle"
 cat docs/explanation/sprite_error.csv

@@ -3,6 +3,7 @@
 // `halfspace chart STUDY|all`: measures error and time of rendering methods; writes data files, charts and an HTML page.
 #include <filesystem>
 #include <iostream>
+#include <string>
 #include <vector>
 
 #include "cli/arguments.h"
@@ -38,13 +39,14 @@ void chart_command(const ChartArguments& args) {
   make_directory(folder);
   check_writable(folder / "index.html");
   const std::string command = "halfspace chart " + args.study + (args.quick ? " --quick" : "");
-  bool drawn = true;
+  std::vector<std::string> names;
   for (const StudyEntry& entry : chosen) {
-    drawn = write_charted(entry.run({args.quick}, workers), command, args.quick, workers, folder) && drawn;
+    write_data(entry.run({args.quick}, workers), command, args.quick, workers, folder);
+    names.emplace_back(entry.name);
     std::cout << entry.name << ": " << (folder / entry.name).string() << ".json" << std::endl;
   }
-  write_index(folder);
-  if (!drawn) std::cout << kNoGnuplot;
+  std::cout << draw_or_explain(names, folder);
+  write_index(folder);  // shows the charts that exist
   std::cout << (folder / "index.html").string() << '\n';
 }
 

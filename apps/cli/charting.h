@@ -5,18 +5,19 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "halfspace/core/parallel.h"
 #include "halfspace/study/study.h"
 
 namespace halfspace {
 
-/// Writes the data and the chart of a study to a folder, which must exist. `command` is the command line, which is stored with the data.
-/// Returns false if there is no chart because gnuplot is missing. Throws OutputError.
-bool write_charted(const Study& study, const std::string& command, bool quick, const Workers& workers, const std::filesystem::path& folder);
+/// Writes the data of a study to a folder, which must exist. `command` is the command line, which is stored with the data. Throws
+/// OutputError.
+void write_data(const Study& study, const std::string& command, bool quick, const Workers& workers, const std::filesystem::path& folder);
 
-/// The message to print if write_charted returns false.
-inline constexpr const char* kNoGnuplot =
-    "no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data files were written\n";
+/// Draws the charts of the named studies, whose data are in the folder. Returns an empty string, or a line to print that names the
+/// component that is not installed. Throws OutputError if drawing fails.
+std::string draw_or_explain(const std::vector<std::string>& names, const std::filesystem::path& folder);
 
 }  // namespace halfspace

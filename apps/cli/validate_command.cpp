@@ -39,7 +39,9 @@ void print_table(const ValidateArguments& args, const PictureSize& size, const W
       shadow_table(args.full, {size.width, size.height, 1}, workers, [](const TableRow& row) { std::cout << csv_line(row) << std::flush; });
   if (args.out.empty()) return;
   const std::string command = std::string("halfspace validate --table") + (args.full ? " --full" : "");
-  if (!write_charted(shadow_table_study(rows, size.width, size.height), command, false, workers, folder)) std::cerr << kNoGnuplot;
+  const Study study = shadow_table_study(rows, size.width, size.height);
+  write_data(study, command, false, workers, folder);
+  std::cerr << draw_or_explain({study.name}, folder);
 }
 
 }  // namespace

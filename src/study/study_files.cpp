@@ -10,7 +10,6 @@
 #include "halfspace/core/check.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/study/chart.h"
 
 namespace halfspace {
 
@@ -130,7 +129,6 @@ void write_study(const Study& study, const RunFacts& facts, const std::filesyste
   const std::vector<bool> front = pareto_front(study.variants, study.truth.error);
   write_text(folder / (study.name + ".csv"), csv_of(study, front));
   write_text(folder / (study.name + ".json"), json_of(study, front, facts, folder).dump(2) + "\n");
-  write_text(folder / (study.name + ".gnuplot"), chart_script(study, front));
 }
 
 }  // namespace halfspace

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "halfspace/study/study.h"
 
@@ -18,15 +20,17 @@ struct RunFacts {
   bool quick = false;
 };
 
-/// Writes NAME.csv, NAME.json, the pictures NAME-truth.png, NAME-VARIANT.png and NAME-VARIANT-difference.png, and the gnuplot script
-/// NAME.gnuplot to a folder, which must exist. Throws OutputError.
+/// Writes NAME.csv, NAME.json, and the pictures NAME-truth.png, NAME-VARIANT.png and NAME-VARIANT-difference.png to a folder, which must
+/// exist. Throws OutputError.
 void write_study(const Study& study, const RunFacts& facts, const std::filesystem::path& folder);
 
-/// Runs gnuplot on NAME.gnuplot, which draws NAME.svg, NAME-dark.svg and NAME.png. Returns false if gnuplot is not installed; throws
-/// OutputError if it fails.
-bool draw_chart(const std::string& name, const std::filesystem::path& folder);
+/// Runs draw_charts.py, which draws NAME.svg and NAME-dark.svg from NAME.json for each name. The script is searched in
+/// ../share/halfspace relative to the folder of the running program. Returns an empty string, or a text that names the component that is
+/// not installed and the package that contains it. Throws OutputError if the script fails.
+std::string draw_charts(const std::vector<std::string>& names, const std::filesystem::path& folder);
 
-/// Writes index.html, which shows every study that has a NAME.json in the folder. Throws InputError if one of them is invalid.
+/// Writes index.html, which shows every study that has a NAME.json in the folder, with its chart if NAME.svg exists. Throws InputError if
+/// one of them is invalid.
 void write_index(const std::filesystem::path& folder);
 
 /// Converts the name of a variant to a part of a file name: lowercase letters, digits and '-'.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes the HTML page that shows all studies in a folder, and runs gnuplot.
+// Writes the HTML page that shows all studies in a folder.
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -116,20 +114,6 @@ void write_index(const std::filesystem::path& folder) {
   }
   const std::string html = kHead + links + "</nav>\n" + sections + "</body></html>\n";
   write_file(folder / "index.html", std::as_bytes(std::span(html)));
-}
-
-bool draw_chart(const std::string& name, const std::filesystem::path& folder) {
-  const std::string script = name + ".gnuplot";
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::chdir(folder.c_str()) == 0) ::execlp("gnuplot", "gnuplot", script.c_str(), nullptr);
-    ::_exit(127);
-  }
-  int status = 0;
-  if (child < 0 || ::waitpid(child, &status, 0) != child) throw OutputError("gnuplot: cannot start the program");
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return false;
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw OutputError((folder / script).string() + ": gnuplot failed");
-  return true;
 }
 
 }  // namespace halfspace

@@ -75,6 +75,14 @@ class Cli : public testing::Test {
 
   Outcome run(const std::vector<std::string>& arguments) const { return finish(start(arguments)); }
 
+  // environment: assignments as the shell accepts them before a command
+  Outcome run_in(const std::string& environment, const std::string& arguments) const {
+    const std::string command = "cd " + directory.string() + " && " + environment + " " HALFSPACE_PROGRAM " " + arguments + " > " +
+                                (root / "out").string() + " 2> " + (root / "err").string();
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0, read_bytes(root / "out"), read_bytes(root / "err")};
+  }
+
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename().string());
@@ -582,12 +590,14 @@ TEST_F(Cli, ChartWritesDataChartAndPage) {
     for (const char* key : {"picture", "difference"}) EXPECT_TRUE(fs::exists(directory / "out" / row.at(key).get<std::string>())) << row;
   EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
   EXPECT_NE(page.find("antialiasing-8-samples.png"), std::string::npos);
-  if (!command_works("gnuplot --version")) {
-    EXPECT_NE(o.out.find("gnuplot is missing (Debian and Ubuntu: gnuplot-nox)"), std::string::npos);
-    GTEST_SKIP() << "gnuplot is not installed, so charts cannot be tested";
+  if (!fs::exists(directory / "out" / "antialiasing.svg")) {
+    EXPECT_NE(o.out.find("no charts were drawn: matplotlib is missing (Debian and Ubuntu: python3-matplotlib)"), std::string::npos);
+    GTEST_SKIP() << "matplotlib is not installed, so charts cannot be tested";
   }
-  for (const char* file : {"antialiasing.svg", "antialiasing-dark.svg", "antialiasing.png"})
+  for (const char* file : {"antialiasing.svg", "antialiasing-dark.svg"}) {
     EXPECT_GT(fs::file_size(directory / "out" / file), 5000u);
+    EXPECT_NE(page.find(file), std::string::npos) << "the page shows the chart";
+  }
   const std::string svg = read_bytes(directory / "out" / "antialiasing.svg");
   for (const auto& row : data.at("variants")) EXPECT_NE(svg.find(row.at("name").get<std::string>()), std::string::npos) << row;
   // A second study is added to the page of the first one.
@@ -597,15 +607,28 @@ TEST_F(Cli, ChartWritesDataChartAndPage) {
   EXPECT_NE(both.find("id=\"tone\""), std::string::npos);
 }
 
-TEST_F(Cli, ChartWritesDataWithoutGnuplot) {
-  const std::string command = "cd " + directory.string() + " && PATH=/nowhere " HALFSPACE_PROGRAM " chart tone --quick -o out > " +
-                              (root / "out").string() + " 2> " + (root / "err").string();
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
-  EXPECT_NE(read_bytes(root / "out")
-                .find("no charts were drawn: gnuplot is missing (Debian and Ubuntu: gnuplot-nox); the data files were written\n"),
-            std::string::npos);
+// Without Python or matplotlib, the data are written. matplotlib is hidden by a module of that name that cannot be imported.
+TEST_F(Cli, ChartWritesDataWithoutPythonOrMatplotlib) {
+  std::ofstream(root / "matplotlib.py") << "raise ImportError('hidden')\n";
+  const std::pair<std::string, std::string> cases[] = {
+      {"PATH=/nowhere", "python3 is missing (Debian and Ubuntu: python3)"},
+      {"PYTHONPATH=" + root.string(), "matplotlib is missing (Debian and Ubuntu: python3-matplotlib)"}};
+  for (const auto& [environment, missing] : cases) {
+    const Outcome o = run_in(environment, "chart tone --quick -o out");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_NE(o.out.find("no charts were drawn: " + missing + "; the data files were written\n"), std::string::npos) << o.out;
+    EXPECT_TRUE(fs::exists(directory / "out" / "tone.csv"));
+    EXPECT_FALSE(fs::exists(directory / "out" / "tone.svg"));
+    EXPECT_EQ(read_bytes(directory / "out" / "index.html").find("tone.svg"), std::string::npos);
+  }
+}
+
+TEST_F(Cli, ChartReportsAFailureOfTheScriptInOneLine) {
+  std::ofstream(root / "matplotlib.py") << "raise RuntimeError('broken for this test')\n";
+  const Outcome o = run_in("PYTHONPATH=" + root.string(), "chart tone --quick -o out");
+  EXPECT_EQ(o.exit_code, 4);
+  EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: no charts were drawn", {"RuntimeError: broken for this test"})) << o.err;
   EXPECT_TRUE(fs::exists(directory / "out" / "tone.csv"));
-  EXPECT_FALSE(fs::exists(directory / "out" / "tone.svg"));
 }
 
 // ---- convert-normal --------------------------------------------------------------------------------------------

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <set>
 
-#include "halfspace/study/chart.h"
 #include "halfspace/study/polygon_area.h"
 #include "halfspace/study/shadow_study.h"
 #include "halfspace/study/study_files.h"
@@ -35,32 +34,6 @@ TEST(Timing, QuartilesEncloseTheMedian) {
   EXPECT_LE(t.low_ms, t.median_ms);
   EXPECT_LE(t.median_ms, t.high_ms);
   EXPECT_GE(time_of([] {}, {}).runs, 9);
-}
-
-TEST(Labels, StayInsideTheChartAndDoNotOverlap) {
-  const ChartBox room{0, 0, 400, 300};
-  std::vector<glm::dvec2> points;
-  std::vector<double> widths;
-  for (int i = 0; i < 12; ++i) {
-    points.emplace_back(15 + 33 * i, 150 + 100 * std::sin(0.9 * i));
-    widths.push_back(50);
-  }
-  points.emplace_back(395, 295);  // in a corner
-  widths.push_back(80);
-  const std::vector<LabelPlace> places = place_labels(points, widths, room);
-  std::vector<ChartBox> boxes;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const LabelPlace& p = places[i];
-    const double x0 = p.anchor > 0 ? p.x : p.anchor < 0 ? p.x - widths[i] : p.x - 0.5 * widths[i];
-    boxes.push_back({x0, p.y - 7, x0 + widths[i], p.y + 7});
-    EXPECT_GE(x0, room.x0);
-    EXPECT_LE(x0 + widths[i], room.x1);
-    EXPECT_LE(p.y + 7, room.y1);
-    for (std::size_t k = 0; k < i; ++k) {
-      const ChartBox &a = boxes[i], &b = boxes[k];
-      EXPECT_FALSE(a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1) << i << " covers " << k;
-    }
-  }
 }
 
 TEST(FileWord, IsLowercaseLettersDigitsAndDashes) {
@@ -96,16 +69,6 @@ TEST(AreaCoverage, MatchesClosedFormForTriangles) {
   for (int i = 0; i < 4096; ++i) disk.push_back({glm::dvec2(0, 10), at(i), at(i + 1)});
   // The area of the polygon is smaller than the area of the disk by 4e-7 of it.
   EXPECT_NEAR(total(area_coverage<double>(disk, 20, 20)), 0.5 * std::numbers::pi * 64.0, 1e-3);
-}
-
-TEST(ChartScript, ContainsEveryPointLabelAndTheFront) {
-  Study study{.name = "s", .title = "It's one", .setting = "x", .error_name = "e", .time_name = "t", .truth = {"m", 1e-9, "n"}};
-  study.variants = {variant(0.1, 2.0), variant(0.0, 3.0), variant(0.2, 9.0)};
-  for (std::size_t i = 0; i < 3; ++i) study.variants[i].name = "name " + std::to_string(i);
-  const std::string script = chart_script(study, pareto_front(study.variants, study.truth.error));
-  for (const char* part : {"'name 0'", "'name 1'", "'name 2'", "'It''s one'", "'s.svg'", "'s-dark.svg'", "'s.png'", "set logscale xy",
-                           "$front << EOD\n1e-09 3\n0.1 2\nEOD", "error 1.0e-09"})
-    EXPECT_NE(script.find(part), std::string::npos) << part << '\n' << script;
 }
 
 // Returns a row as printed by `halfspace validate --table`.
@@ -152,7 +115,7 @@ TEST_P(Studies, ProduceCompleteData) {
   EXPECT_EQ(study.name, GetParam().name);
   ASSERT_GE(study.variants.size(), 3u);
   EXPECT_GT(study.truth.error, 0.0) << "every reference has an error";
-  // The chart is 1000 px wide and does not wrap its two lines of text, whose characters are about 7.5 px wide.
+  // The chart does not wrap its two lines of text. draw_charts_test.py tests that lines of this length fit.
   constexpr std::size_t kCharacters = 118, kErrorCharacters = 29;  // of a line; of "reference: ", "; error 1.0e-09 (" and ")"
   EXPECT_LE(study.setting.size(), kCharacters);
   EXPECT_LE(study.truth.method.size() + study.truth.error_method.size() + kErrorCharacters, kCharacters);
