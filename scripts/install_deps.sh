@@ -2,13 +2,13 @@
 # Installs the packages that halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing if all are installed.
 #
 #   scripts/install_deps.sh [--tests | --benchmarks]
-#     --tests       also installs the packages that the tests need
-#     --benchmarks  also installs the packages that scripts/bench.sh needs: those of the tests, and matplotlib for the charts
+#     --tests       also installs the packages that the tests need, among them matplotlib, which draws charts
+#     --benchmarks  also installs the packages that scripts/bench.sh needs
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libspng-dev libcli11-dev nlohmann-json3-dev libfmt-dev libembree-dev)
-benchmark_packages=(python3-matplotlib libvulkan1)
-test_packages=(patch python3-jsonschema gnuplot-nox libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
+benchmark_packages=(libvulkan1)
+test_packages=(patch python3-jsonschema python3-matplotlib libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
 
 case "${1:-}" in
   "") ;;

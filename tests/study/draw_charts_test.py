@@ -34,7 +34,7 @@ def wave_study():
     """Points on a wave, some of them close together. The texts are as long as the studies may have them (see study_test.cpp)."""
     variants = [variant(f"variant {i}, 16x14", f"group {i % 3}", 10 ** (-6 + 0.4 * i), 3 + 2 * math.sin(0.9 * i)) for i in range(12)]
     variants += [variant("above $x^2$", "group 1", 1.05e-6, 5.2, True), variant("low & fast", "group 2", 2e-4, 0.6, True),
-                 variant("no error", "group 0", 0.0, 60, True)]
+                 variant("no error", "group 0", 0.0, 60, True), variant("twin", "group 0", 1e-2, 3), variant("other twin", "group 1", 1e-2, 3)]
     line = ("Averages over shadow-plane, moon (terminator), shadow-contact and shadow-knot, 480x270; " * 2)[:118]
     return {"study": "wave", "title": "A wave", "setting": line, "error_name": "RMS error", "time_name": "frame",
             "truth": {"method": line[:50], "error": 2.5e-7, "error_method": line[:39]}, "variants": variants}
@@ -47,11 +47,12 @@ def boxes_of(texts, figure):
 
 
 class StudyChart(unittest.TestCase):
-    def setUp(self):
+    @classmethod
+    def setUpClass(cls):
         draw_charts.use_theme(**draw_charts.LIGHT)
-        self.study = wave_study()
-        self.figure = draw_charts.study_figure(self.study)
-        self.axes = self.figure.axes[0]
+        cls.study = wave_study()
+        cls.figure = draw_charts.study_figure(cls.study)
+        cls.axes = cls.figure.axes[0]
 
     def test_points_are_inside_the_plot_at_their_error_and_time(self):
         bounds = self.axes.get_window_extent()
@@ -81,8 +82,11 @@ class StudyChart(unittest.TestCase):
         for (a, box_a), (b, box_b) in combinations(labels.items(), 2):
             self.assertFalse(box_a.overlaps(box_b), f"'{a}' covers '{b}'")
 
-    def test_labels_do_not_cover_points(self):
+    def test_labels_do_not_cover_points_or_the_front(self):
+        front = self.axes.transData.transform([(2.5e-7, 60), (1.05e-6, 5.2), (2e-4, 0.6)])
+        on_front = [a + t / 200 * (b - a) for a, b in zip(front, front[1:]) for t in range(201)]
         for name, box in boxes_of(self.axes.texts, self.figure).items():
+            self.assertFalse(any(box.contains(x, y) for x, y in on_front), f"'{name}' covers the front")
             for v in self.study["variants"]:
                 x, y = self.axes.transData.transform((max(v["error"], 2.5e-7), v["ms"]["median"]))
                 self.assertFalse(box.contains(x, y), f"'{name}' covers the point of '{v['name']}'")
@@ -109,12 +113,13 @@ class StudyChart(unittest.TestCase):
             self.assertTrue(0 <= box.x0 and box.x1 <= draw_charts.WIDTH and 0 <= box.y0 and box.y1 <= lowest_title, text)
 
     def test_ticks_name_their_values(self):
-        draw_charts.log_ticks(self.axes.xaxis, 0.03, 3)
-        self.assertEqual([t.get_text() for t in self.axes.get_xticklabels()], ["0.05", "0.1", "0.2", "0.5", "1", "2"])
-        self.assertEqual(list(self.axes.get_xticks()), [0.05, 0.1, 0.2, 0.5, 1, 2])
-        draw_charts.log_ticks(self.axes.xaxis, 2e-12, 50)
-        self.assertEqual([t.get_text() for t in self.axes.get_xticklabels()], ["10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"])
-        self.assertEqual(list(self.axes.get_xticks()), [1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1])
+        axis = draw_charts.new_figure(300, 200).add_subplot().xaxis
+        for low, high, values, labels in (
+                (0.03, 3, [0.05, 0.1, 0.2, 0.5, 1, 2], ["0.05", "0.1", "0.2", "0.5", "1", "2"]),
+                (2e-12, 50, [1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1], ["10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"])):
+            draw_charts.log_ticks(axis, low, high)
+            self.assertEqual(list(axis.get_majorticklocs()), values)
+            self.assertEqual([label.get_text() for label in axis.get_majorticklabels()], labels)
 
 
 class Labels(unittest.TestCase):
