@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "halfspace/model/model.h"
+
+namespace halfspace {
+
+/// Replaces the vertices of a mesh by copies: vertex i becomes a copy of vertex sources[i], with all its data. Indices are not changed.
+void copy_vertices(ModelMesh& mesh, std::span<const uint32_t> sources);
+
+}  // namespace halfspace
