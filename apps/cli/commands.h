@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "cli/model_arguments.h"
+
 namespace halfspace {
 
 // The structs hold option values as given on the command line. An empty string means that the option was not given.
 
 struct RenderArguments {
   std::string scene;
-  std::string out;  ///< default: SCENE.png
+  std::string out;  ///< default: SCENE.png, or MODEL-render.png
   std::string size = "1920x1080";
   std::vector<std::string> set;
   std::string camera;   ///< default: the camera set in the scene
@@ -27,6 +29,7 @@ struct RenderArguments {
   std::string max_error, max_error_color;  ///< if both are empty, the scene is rendered as it is
   bool resume = false;
   bool print = false;
+  ModelArguments model;
 };
 void render_command(const RenderArguments& args);
 
@@ -72,6 +75,7 @@ struct ListArguments {
 void list_command(const ListArguments& args);
 
 struct InfoArguments {
+  std::string model;  ///< default: describe the program
   bool json = false;
 };
 void info_command(const InfoArguments& args);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace info`: prints the version and build of the program and what it found on this machine.
+// `halfspace info`: describes a model file, or the program: its version and build, and what it found on this machine.
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/model_info.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "halfspace/core/parallel.h"
@@ -39,6 +40,12 @@ void print_json() {
 
 }  // namespace
 
-void info_command(const InfoArguments& args) { args.json ? print_json() : print_text(); }
+void info_command(const InfoArguments& args) {
+  if (!args.model.empty()) {
+    std::cout << model_info(args.model, args.json);
+  } else {
+    args.json ? print_json() : print_text();
+  }
+}
 
 }  // namespace halfspace

@@ -22,10 +22,31 @@ void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+// Adds the options for model files.
+void add_model_options(CLI::App* command, ModelArguments& args) {
+  CLI::Option_group* group = command->add_option_group("Model files (.obj .gltf .glb .ply .stl)");
+  group->add_option("--yaw", args.yaw, "Degrees around the model, from the front to its left (default 35)")->type_name("A");
+  group->add_option("--pitch", args.pitch, "Degrees above the horizon (default 18)")->type_name("A");
+  group->add_option("--zoom", args.zoom, "2: half the distance (default 1)")->type_name("F");
+  group->add_option("--fov", args.fov, "Vertical field of view in degrees (default 35)")->type_name("A");
+  group->add_option("--eye", args.eye, "Position of the camera")->type_name("X,Y,Z");
+  group->add_option("--look-at", args.look_at, "Point at the center of the image")->type_name("X,Y,Z");
+  group->add_option("--up", args.up, "Direction that points up in the image (default 0,1,0)")->type_name("X,Y,Z");
+  group->add_flag("--inside", args.inside, "Start inside the bounds of the model");
+  group->add_option("--turntable", args.turntable, "Render N frames around the model")->type_name("N");
+  group->add_option("--environment", args.environment, "Panorama that lights the model (default: a studio)")->type_name("FILE");
+  group->add_option("--background", args.background, "#rrggbb, or environment")->type_name("COLOR");
+  group->add_flag("--no-floor", args.no_floor, "No shadow below the model");
+  group->add_option("--up-axis", args.up_axis, "y or z (default: z for STL, else y)")->type_name("AXIS");
+  group->add_option("--scene", args.model_scene, "Name of a scene in the file")->type_name("NAME");
+  group->add_option("--animation", args.animation, "Name of an animation in the file")->type_name("NAME");
+  group->add_option("--variant", args.variant, "Name of a material variant in the file")->type_name("NAME");
+}
+
 void add_render_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to an image or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
-  command->add_option("SCENE", args->scene, "Name of a scene, or a scene file")->required()->type_name("");
+  command->add_option("SCENE", args->scene, "Name of a scene, a scene file, or a model file")->required()->type_name("");
   command->add_option("-o,--output", args->out, ".png, .jpg, .tif; linear light: .exr, .hdr")->type_name("OUT");
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
@@ -40,8 +61,10 @@ void add_render_command(CLI::App& program) {
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");
+  add_model_options(command, args->model);
   command->footer(
       "Examples:\n"
+      "  halfspace render chair.glb\n"
       "  halfspace render earth -o earth.png --size 1280x720\n"
       "  halfspace render moon --set moon.color=lroc.png --frames 0..47 -o out/moon.png");
   command->callback([args] { render_command(*args); });
@@ -127,10 +150,11 @@ void add_list_command(CLI::App& program) {
 }
 
 void add_info_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("info", "Print version, build, cores and image tool");
+  CLI::App* command = program.add_subcommand("info", "Describe a model file, or this program");
   const auto args = std::make_shared<InfoArguments>();
+  command->add_option("MODEL", args->model, "Model file; without it: version, build, cores and image tool")->type_name("");
   command->add_flag("--json", args->json, "Print as JSON");
-  command->footer("Examples:\n  halfspace info\n  halfspace info --json");
+  command->footer("Examples:\n  halfspace info\n  halfspace info chair.glb --json");
   command->callback([args] { info_command(*args); });
 }
 

@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/errors.h"
 #include "cli/frames.h"
+#include "cli/input_files.h"
 #include "cli/scene_arguments.h"
 #include "cli/statistics.h"
 #include "halfspace/core/check.h"
@@ -30,6 +31,8 @@ namespace {
 // The parsed and validated arguments.
 struct RenderJob {
   SceneFile scene;
+  std::filesystem::path model_file;  // empty: the scene was not generated for a model
+  std::shared_ptr<const ModelAsset> model;
   std::filesystem::path out;
   ImageFile format;
   PictureSize size;
@@ -42,7 +45,7 @@ struct RenderJob {
 
 std::filesystem::path output_path(const RenderArguments& args) {
   if (!args.out.empty()) return args.out;
-  return std::filesystem::path(args.scene).stem().string() + ".png";
+  return std::filesystem::path(args.scene).stem().string() + (is_model_file(args.scene) ? "-render.png" : ".png");
 }
 
 ImageFile output_format(const std::filesystem::path& path) {
@@ -83,6 +86,10 @@ RenderJob understand(const RenderArguments& args) {
   const double fps = args.fps.empty() ? 30.0 : parse_real("--fps", args.fps, 1e-3, 1e6, "frames per second, for example 30");
   std::optional<FrameRange> frames;
   if (!args.frames.empty()) frames = parse_frames(args.frames);
+  if (const std::optional<int> turn = turntable_frames(args.model)) {
+    if (frames) throw UsageError("--turntable sets the frames itself; expected it without --frames");
+    frames = FrameRange{0, *turn - 1};
+  }
   if (!frames && (args.resume || !args.fps.empty())) {
     throw UsageError(std::string(args.resume ? "--resume" : "--fps") +
                      " applies only to multiple frames; expected --frames FIRST..LAST as well");
@@ -91,9 +98,21 @@ RenderJob understand(const RenderArguments& args) {
   if (frames && !out.has_extension())
     throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a file name ending in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
-  SceneFile scene = open_scene(args.scene, args.set, args.camera);
-  set_shading(scene, args.shading);
-  return {std::move(scene), out, format, size, time, fps, frames, threads, args.resume, allowed_error(args)};
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps);
+  set_scene(opened.scene, args.set, args.camera);
+  set_shading(opened.scene, args.shading);
+  return {std::move(opened.scene),
+          std::move(opened.model_file),
+          std::move(opened.model),
+          out,
+          format,
+          size,
+          time,
+          fps,
+          frames,
+          threads,
+          args.resume,
+          allowed_error(args)};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -185,7 +204,8 @@ void expect_frames(const RenderJob& job, SceneAssets& assets) {
 
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
-  SceneAssets assets(workers);
+  SceneAssets assets(workers, [](const std::string& problem) { std::cerr << "halfspace: warning: " << problem << '\n'; });
+  if (job.model != nullptr) assets.add_model(job.model_file, job.model);
   RenderReport report;
   if (!job.frames) {
     check_writable(job.out);
@@ -204,6 +224,15 @@ RenderReport run(const RenderJob& job) {
   return report;
 }
 
+// Throws OutputError if an output file would replace a file that the scene reads.
+void protect_inputs(const RenderJob& job, const std::string& scene) {
+  std::vector<std::filesystem::path> inputs = input_files(job.scene.description(), job.model.get());
+  inputs.emplace_back(scene);
+  if (!job.frames) return refuse_overwriting(job.out, inputs);
+  for (int frame = job.frames->first; frame <= job.frames->last; ++frame)
+    refuse_overwriting(frame_path(job.out, frame, *job.frames), inputs);
+}
+
 }  // namespace
 
 void render_command(const RenderArguments& args) {
@@ -212,6 +241,7 @@ void render_command(const RenderArguments& args) {
     std::cout << chosen(job).print();
     return;
   }
+  protect_inputs(job, args.scene);
   RenderReport report = run(job);
   if (args.statistics.empty()) return;
   report.scene = args.scene;

@@ -22,8 +22,7 @@ void set_camera(SceneFile& scene, const std::string& name) {
 
 }  // namespace
 
-SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera) {
-  SceneFile file = SceneFile::open(scene);
+void set_scene(SceneFile& file, const std::vector<std::string>& settings, const std::string& camera) {
   for (const std::string& setting : settings) {
     if (setting.find('=') == std::string::npos || setting.starts_with('=')) {
       throw UsageError("--set is '" + setting + "'; expected KEY=VALUE, for example camera=main");
@@ -31,6 +30,11 @@ SceneFile open_scene(const std::string& scene, const std::vector<std::string>& s
   }
   file.set(settings);
   set_camera(file, camera);
+}
+
+SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera) {
+  SceneFile file = SceneFile::open(scene);
+  set_scene(file, settings, camera);
   return file;
 }
 

@@ -14,4 +14,7 @@ class SceneFile;
 /// InputError.
 SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera);
 
+/// Applies the settings to a scene and selects a camera unless `camera` is empty.
+void set_scene(SceneFile& scene, const std::vector<std::string>& settings, const std::string& camera);
+
 }  // namespace halfspace

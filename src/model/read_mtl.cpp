@@ -183,8 +183,8 @@ class MtlParser {
       rest = after;
     }
     if (word.empty()) return;
-    if (option.name == "-s") texture.scale = values;
-    if (option.name == "-o") texture.offset = values;
+    if (option.name == "-s") texture.scale = glm::vec2(values);
+    if (option.name == "-o") texture.offset = glm::vec2(values);
     if (option.name == "-clamp") texture.clamp = word == "on";
     if (option.name == "-bm") texture.bump_multiplier = values.x;
     if (option.name == "-imfchan") texture.channel = word[0];

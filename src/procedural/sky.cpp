@@ -104,6 +104,21 @@ Vec night_light(const Vec& d, const NightSky& sky) {
   return blend(air + milky_way(d) * Real(sky.milky_way), tint(kNightGround), ground_of(d));
 }
 
+// ---- studio ------------------------------------------------------------------------------------------------------------
+
+// A soft light around the unit vector `center`: 1 within the cosine `inner`, 0 beyond `outer`.
+HS_INLINE Real lamp(const Vec& d, const glm::vec3& center, float outer, float inner) { return step(outer, inner, dot(d, center)); }
+
+Vec studio_light(const Vec& d) {
+  const Real up = Real(0.5f) + Real(0.5f) * d.y;
+  const Real wall = Real(0.22f) + Real(0.55f) * up * up;
+  const Real key = lamp(d, glm::vec3(-0.5f, 0.7071068f, -0.5f), 0.80f, 0.90f) * Real(5.0f);
+  const Real fill = lamp(d, glm::vec3(0.8944272f, 0.4472136f, 0.0f), 0.86f, 0.94f) * Real(2.0f);
+  const Real rim = lamp(d, glm::vec3(0.0f, 0.6f, 0.8f), 0.88f, 0.95f) * Real(2.0f);
+  const Real floor = step(0.0f, 0.3f, -d.y);
+  return Vec(wall * (Real(1.0f) - Real(0.55f) * floor) + key + fill + rim);
+}
+
 // ---- faces -------------------------------------------------------------------------------------------------------------
 
 // Evaluates light(d) for the direction d of every texel.
@@ -135,6 +150,8 @@ SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers)
   return fill_faces(
       size, [&](const Vec& d) { return day_light(d, sky, day); }, workers);
 }
+
+SkyFaces procedural_studio(int size, const Workers& workers) { return fill_faces(size, studio_light, workers); }
 
 SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& workers) {
   return fill_faces(

@@ -30,4 +30,8 @@ SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers)
 /// 1e-2.
 SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& workers);
 
+/// Returns a neutral photo studio for product pictures: gray walls, a dark floor, a large soft light above and two at the sides. The
+/// luminance is 0.1 to 6.
+SkyFaces procedural_studio(int size, const Workers& workers);
+
 }  // namespace halfspace

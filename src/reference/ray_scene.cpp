@@ -99,7 +99,7 @@ RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws,
     if (casters_only && !mesh.casts_shadow) continue;
     Impl::Placed& placed = impl_->placed[m];
     placed.indices = mesh.indices;
-    for (const glm::vec3& p : mesh.mesh->positions)
+    for (const glm::vec3& p : mesh.positions)
       placed.positions_rws.push_back(glm::dvec3(mesh.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye_ws);
     const RTCGeometry geometry = rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     const std::size_t triangles = mesh.indices->size() / 3;

@@ -24,8 +24,8 @@ Loose loosened(const PlacedMesh& placed) {
   Loose out;
   const Indices& indices = *placed.indices;
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    out.positions.push_back(placed.mesh->positions[indices[i]]);
-    out.normals.push_back(placed.mesh->normals[indices[i]]);
+    out.positions.push_back(placed.positions[indices[i]]);
+    out.normals.push_back(placed.normals[indices[i]]);
     out.triangles.push_back(static_cast<float>(i / 3));
   }
   return out;

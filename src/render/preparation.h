@@ -13,9 +13,11 @@
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/geometry/relief_detail.h"
+#include "halfspace/model/pose.h"
 #include "halfspace/procedural/earth.h"
 #include "halfspace/procedural/moon.h"
 #include "halfspace/procedural/patterns.h"
+#include "halfspace/render/model_asset.h"
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/render/shadow/shadow_views.h"
 #include "halfspace/render/view.h"
@@ -43,6 +45,9 @@ std::string recipe(const T&... parts) {
   (add(parts), ...);
   return text;
 }
+
+// Returns the cache key of a model file.
+inline std::string model_recipe(const std::filesystem::path& file) { return recipe("model", file.string()); }
 
 // Calls `read` and prepends the scene key that refers to the file to its error messages.
 template <class F>
@@ -142,7 +147,18 @@ class ScenePreparation {
   Relief relief_of(const ObjectDescription& o, const std::string& path);
   DetailMap slopes_of(const Relief& relief, const ObjectDescription& o);
   NormalDetail add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path);
-  void place(LitSurface& s, glm::dmat4 world) const;
+  void place(PlacedSurface& s, glm::dmat4 world) const;
+
+  // prepare_model_files.cpp
+  void add_model(int object, const std::string& path, const ObjectDescription& o);
+  void add_part(int object, const ObjectDescription& o, const std::shared_ptr<const ModelAsset>& model, const PosedMesh& part,
+                const glm::dmat4& world);
+  void add_shadow_catcher(const ObjectDescription& o, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices, int object);
+  void add_blended();
+  std::shared_ptr<const ModelAsset> model_asset(const ObjectDescription& o, const std::string& where);
+  // Returns null for an image that was not found.
+  std::shared_ptr<const Texture2D> model_texture(const std::filesystem::path& file, const Model& model, int image, bool color);
+  MetallicMaterial metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs);
 
   // prepare_shadows.cpp: renders the shadow maps, after all objects have been placed
   void add_shadows();
@@ -171,7 +187,9 @@ class ScenePreparation {
   // prepare_environments.cpp
   const std::pair<std::string, EnvironmentDescription>& environment_named(const std::string& name) const;
   EnvironmentBlend background_light();
+  EnvironmentBlend reflected_environment();
   const EnvironmentBlend* surroundings();
+  const EnvironmentLightBlend* environment_light();
   Environment environment_of(const std::string& name, const EnvironmentDescription& e);
   std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
   std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
@@ -186,7 +204,9 @@ class ScenePreparation {
   std::span<const Light> lights_;
   std::span<const Light> shadowless_lights_;  // used by objects that do not receive shadows
   glm::dvec3 ambient_;
-  std::shared_ptr<const EnvironmentBlend> environments_;  // null: not needed so far
+  std::shared_ptr<const EnvironmentBlend> environments_;            // null: not needed so far
+  std::shared_ptr<const EnvironmentLightBlend> environment_light_;  // null: not needed so far
+  std::vector<PreparedDraw> blended_;
   PreparedScene out_;
 };
 

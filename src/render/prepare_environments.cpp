@@ -164,6 +164,10 @@ std::shared_ptr<const EnvironmentMap> ScenePreparation::generated_sky(const Envi
       return EnvironmentMap(procedural_night_sky(size, sky, assets_.workers_), TexelFormat::rgba16f);
     });
   }
+  if (e.type == EnvironmentType::studio) {
+    return asset<EnvironmentMap>(recipe("studio", size),
+                                 [&] { return EnvironmentMap(procedural_studio(size, assets_.workers_), TexelFormat::rgba16f); });
+  }
   // The sun direction is given in world space, so rotating the sky moves the clouds but not the sun.
   const glm::dvec3 sun = unit_or_zero(glm::transpose(glm::dmat3(world_from_object({.rotation = e.rotation}))) * e.sun);
   return asset<EnvironmentMap>(recipe("day_sky", size, sun.x, sun.y, sun.z, e.clouds), [&] {
@@ -201,24 +205,51 @@ EnvironmentBlend ScenePreparation::background_light() {
   return light;
 }
 
+// Returns the environment that the scene's reflections show.
+EnvironmentBlend ScenePreparation::reflected_environment() {
+  EnvironmentBlend light;
+  if (const std::string& name = scene_.reflections.environment; !name.empty()) {
+    light.first = environment_of(name, environment_named(name).second);
+  } else if (scene_.background.type == BackgroundType::environment) {
+    light = background_light();
+  } else {
+    EnvironmentDescription color;
+    color.map = scene_.background.color;
+    light.first = environment_of("background", color);
+  }
+  return light;
+}
+
 // Returns the environment that surfaces reflect, or null if reflections are off.
 const EnvironmentBlend* ScenePreparation::surroundings() {
   if (!scene_.reflections.on) return nullptr;
   if (environments_ == nullptr) {
-    EnvironmentBlend light;
-    if (const std::string& name = scene_.reflections.environment; !name.empty()) {
-      light.first = environment_of(name, environment_named(name).second);
-    } else if (scene_.background.type == BackgroundType::environment) {
-      light = background_light();
-    } else {
-      EnvironmentDescription color;
-      color.map = scene_.background.color;
-      light.first = environment_of("background", color);
-    }
-    environments_ = std::make_shared<const EnvironmentBlend>(light);
+    environments_ = std::make_shared<const EnvironmentBlend>(reflected_environment());
     out_.assets.push_back(environments_);
   }
   return environments_.get();
+}
+
+// Returns the filtered environment that lights metallic-roughness surfaces, or null if reflections are off.
+const EnvironmentLightBlend* ScenePreparation::environment_light() {
+  constexpr int kFilteredSize = 128;
+  if (!scene_.reflections.on) return nullptr;
+  if (environment_light_ == nullptr) {
+    const EnvironmentBlend blend = reflected_environment();
+    const auto filtered = [&](const Environment& e) -> EnvironmentLight {
+      if (e.map == nullptr) return {};
+      // The address identifies the map, because both assets are dropped from the cache together.
+      const auto address = std::to_string(reinterpret_cast<std::uintptr_t>(e.map));
+      return {asset<FilteredEnvironment>(recipe("filtered", address),
+                                         [&] { return FilteredEnvironment(*e.map, kFilteredSize, assets_.workers_); })
+                  .get(),
+              e.map_from_world, e.brightness};
+    };
+    environment_light_ =
+        std::make_shared<const EnvironmentLightBlend>(EnvironmentLightBlend{filtered(blend.first), filtered(blend.second), blend.weight});
+    out_.assets.push_back(environment_light_);
+  }
+  return environment_light_.get();
 }
 
 }  // namespace halfspace

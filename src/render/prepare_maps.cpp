@@ -38,6 +38,7 @@ MapExtent extent_of(const ObjectDescription& o) {
     case Shape::uv_sphere:
     case Shape::icosphere:
     case Shape::sphere: return {round(o.radius), o.radius};
+    case Shape::file: return {0.0, 0.0};
     case Shape::plane: return {o.size, o.size * std::numbers::sqrt2 / 2.0};
     case Shape::cube: return {o.size, o.size * std::numbers::sqrt3 / 2.0};
     case Shape::torus: return {round(o.radius + o.tube), o.radius + o.tube};

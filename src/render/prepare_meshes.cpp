@@ -23,6 +23,7 @@ Mesh generated(const ObjectDescription& o, const Displacement* displacement) {
     case Shape::cone: return cone(radius, length, o.latitudes, o.longitudes, displacement);
     case Shape::torus: return torus(radius, tube, o.latitudes, o.longitudes, displacement);
     case Shape::sphere:
+    case Shape::file:
     case Shape::torus_knot: break;
   }
   return torus_knot(radius, tube, o.latitudes, o.longitudes, displacement);

@@ -24,7 +24,7 @@ std::vector<glm::dmat4> places_of(const ObjectDescription& o) {
   return places;
 }
 
-void ScenePreparation::place(LitSurface& s, glm::dmat4 world) const {
+void ScenePreparation::place(PlacedSurface& s, glm::dmat4 world) const {
   s.clip_from_object = glm::mat4(view_.clip_from_world * world);
   world[3] -= glm::dvec4(view_.eye_ws, 0.0);
   s.world_from_object = glm::mat4(world);
@@ -126,15 +126,17 @@ void ScenePreparation::add_object(int object) {
   const auto& [name, o] = scene_.objects[static_cast<std::size_t>(object)];
   const std::string path = "objects." + name;
   if (o.shape == Shape::sphere) return add_exact_spheres(object, path, o);
+  if (o.shape == Shape::file) return add_model(object, path, o);
   const Relief relief = relief_of(o, path);
   const std::shared_ptr<const MeshAsset> mesh = mesh_of(o, relief);
   const std::shared_ptr<const Indices> indices(mesh, &mesh->indices);
+  if (o.shape == Shape::plane && o.shadow_only) return add_shadow_catcher(o, *mesh, indices, object);
   LitSurface surface = surface_of(o, path);
   const NormalDetail detail = add_detail(surface, o, relief, path);
   for (const glm::dmat4& world : places_of(o)) {
     place(surface, world);
     out_.draws.push_back(draw_of(surface, o.surface.shading, detail, *mesh, indices));
-    out_.meshes.push_back({&mesh->mesh, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
+    out_.meshes.push_back({mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
   }
 }
 

@@ -91,8 +91,13 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
     const CullMode cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
                           : faces == ShadowFaces::front             ? CullMode::back
                                                                     : CullMode::front;
-    pass.draw_depth(DepthOnly{glm::mat4(clip_from_world * m.world_from_object)}, make_vertex_view(stream(m.mesh->positions)), *m.indices,
-                    opaque_state(cull, m.mirrored()));
+    const glm::mat4 clip_from_object(clip_from_world * m.world_from_object);
+    const DrawState state = opaque_state(cull, m.mirrored());
+    if (m.opacity) {
+      pass.draw_depth(MaskedDepth{clip_from_object, *m.opacity}, make_vertex_view(stream(m.positions), stream(m.uvs)), *m.indices, state);
+    } else {
+      pass.draw_depth(DepthOnly{clip_from_object}, make_vertex_view(stream(m.positions)), *m.indices, state);
+    }
   }
   return pass.run(workers);
 }

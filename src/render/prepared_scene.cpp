@@ -89,6 +89,7 @@ PreparedScene ScenePreparation::prepare() {
   }
   add_particles();
   add_background();
+  add_blended();
   add_shadows();
   return std::move(out_);
 }
@@ -102,13 +103,17 @@ const CameraDescription& ScenePreparation::camera() const {
 
 void ScenePreparation::expect() {
   for (const auto& [name, object] : scene_.objects) {
-    if (object.visible) assets_.widths_[name] = width_for(object);
+    if (object.visible && object.shape != Shape::file) assets_.widths_[name] = width_for(object);
   }
   assets_.panorama_width_ = panorama_width();
   assets_.face_size_ = face_size();
 }
 
 void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }
+
+void SceneAssets::add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model) {
+  entries_[model_recipe(file)] = {std::move(model), true};
+}
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
   PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();

@@ -4,8 +4,10 @@
 // order, for a Pass or for the naive pipeline of the tests.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,7 +20,11 @@
 #include "halfspace/render/particles.h"
 #include "halfspace/render/view.h"
 #include "halfspace/scene/description.h"
+#include "halfspace/shading/colored_primitives.h"
 #include "halfspace/shading/environment_sky.h"
+#include "halfspace/shading/masked_depth.h"
+#include "halfspace/shading/metallic_surface.h"
+#include "halfspace/shading/shadow_catcher.h"
 #include "halfspace/shading/shadow_map.h"
 #include "halfspace/shading/sphere_impostor.h"
 #include "halfspace/shading/star_sky.h"
@@ -37,7 +43,12 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::map>,                                 //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
-                                 SphereImpostor<false>, SphereImpostor<true>, StarSky, EnvironmentSky>;
+                                 SphereImpostor<false>, SphereImpostor<true>, StarSky, EnvironmentSky,                       //
+                                 MetallicSurface<MetallicStreams::plain>, MetallicSurface<MetallicStreams::colored>,         //
+                                 MetallicSurface<MetallicStreams::mapped>, MetallicSurface<MetallicStreams::mapped, true>,   //
+                                 MetallicSurface<MetallicStreams::detailed>, MetallicSurface<MetallicStreams::detailed, true>,
+                                 MetallicSurface<MetallicStreams::full>, MetallicSurface<MetallicStreams::full, true>,  //
+                                 ColoredPrimitives, ShadowCatcher>;
 
 /// One draw call. std::visit recovers the type of the shader.
 struct PreparedDraw {
@@ -59,11 +70,14 @@ void add_draw(Pass& pass, const PreparedDraw& draw);
 
 /// A mesh and its transform, for shadow maps and ray tracing.
 struct PlacedMesh {
-  const Mesh* mesh;
-  std::shared_ptr<const Indices> indices;
+  std::span<const glm::vec3> positions, normals;  ///< one per vertex; not owned
+  std::shared_ptr<const Indices> indices;         ///< of triangles
   glm::dmat4 world_from_object;
   bool two_sided, casts_shadow, receives_shadow;
   int object = 0;  ///< index in the scene's objects
+  /// Set for masked and blended surfaces: where they cast shadows. Ray tracing treats them as opaque.
+  std::optional<OpacityTest> opacity{};
+  std::span<const glm::vec2> uvs{};  ///< for `opacity`; not owned
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };
@@ -97,11 +111,18 @@ struct PreparedScene {
   std::vector<std::shared_ptr<const void>> assets;
 };
 
+struct ModelAsset;
+
 /// Creates the textures, meshes and maps that scene descriptions require. Assets are cached until a frame is prepared that does not
 /// use them.
 class SceneAssets {
  public:
-  explicit SceneAssets(const Workers& workers) : workers_(workers) {}
+  /// warn: called with one line for each problem that does not prevent a picture, such as a missing texture of a model.
+  explicit SceneAssets(const Workers& workers, std::function<void(const std::string&)> warn = {})
+      : workers_(workers), warn_(std::move(warn)) {}
+
+  /// Provides the contents of a model file that has been read already, so that `prepare` does not read it again.
+  void add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model);
 
   /// Announces a frame that will be rendered. Generated maps without an explicit width are from then on at least as fine as that
   /// frame needs. If all frames of a range are announced before the first is rendered, maps do not change in between. width and
@@ -121,7 +142,12 @@ class SceneAssets {
     std::shared_ptr<const void> asset;
     bool wanted;  // since the last frame was prepared
   };
+  void warn(const std::string& problem) const {
+    if (warn_) warn_(problem);
+  }
+
   const Workers& workers_;
+  std::function<void(const std::string&)> warn_;
   std::map<std::string, Entry> entries_;    ///< keyed by recipe
   std::map<std::string, int> widths_;       ///< minimum widths of generated maps, by object name
   int panorama_width_ = 0, face_size_ = 0;  ///< minimum sizes of generated environments

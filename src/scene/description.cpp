@@ -51,8 +51,12 @@ struct ChoiceNames<Wrap> {
 };
 template <>
 struct ChoiceNames<Shape> {
-  static constexpr std::array<std::string_view, 9> names{"uv_sphere", "icosphere", "sphere", "plane",     "cube",
-                                                         "cylinder",  "cone",      "torus",  "torus_knot"};
+  static constexpr std::array<std::string_view, 10> names{"uv_sphere", "icosphere", "sphere", "plane",      "cube",
+                                                          "cylinder",  "cone",      "torus",  "torus_knot", "file"};
+};
+template <>
+struct ChoiceNames<ModelUp> {
+  static constexpr std::array<std::string_view, 3> names{"auto", "y", "z"};
 };
 template <>
 struct ChoiceNames<NormalSource> {
@@ -214,7 +218,7 @@ Section section_of(Placement& p) {
 Section section_of(ObjectDescription& o) {
   using T = ObjectDescription;
   static const std::vector<Key> keys{
-      key<&T::shape>("shape", "Shape of the mesh; sphere: exact, ray traced per pixel, without maps"),
+      key<&T::shape>("shape", "Shape of the mesh; sphere: exact, ray traced per pixel, without maps; file: a model file"),
       key<&T::radius>("radius", "Radius; for torus and torus_knot, up to the middle of the tube",
                       {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere sphere cylinder cone torus torus_knot"}),
       key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = "torus torus_knot"}),
@@ -230,6 +234,13 @@ Section section_of(ObjectDescription& o) {
                        {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus torus_knot"}),
       key<&T::tiles_v>("tiles_v", "Number of repetitions of color maps along v",
                        {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus torus_knot"}),
+      key<&T::file>("file", "Model file: OBJ, glTF, GLB, PLY or STL", {.only = "file"}),
+      key<&T::up_axis>("up_axis", "Axis of the file that points up; auto: z for STL, y for all others", {.only = "file"}),
+      key<&T::model_scene>("model_scene", "Name of the scene in the file; empty: its default scene", {.only = "file"}),
+      key<&T::model_animation>("model_animation", "Name of the animation in the file; empty: none", {.only = "file"}),
+      key<&T::model_time>("model_time", "Time of the animation", {.unit = "s", .only = "file"}),
+      key<&T::model_variant>("model_variant", "Name of the material variant in the file; empty: the default materials", {.only = "file"}),
+      key<&T::shadow_only>("shadow_only", "Whether only the shadows on the plane are drawn, over the background", {.only = "plane"}),
       key<&T::visible>("visible", "Whether the object is drawn"),
       key<&T::casts_shadow>("casts_shadow", "Whether the object casts shadows"),
       key<&T::receives_shadow>("receives_shadow", "Whether the object receives shadows, including its own"),

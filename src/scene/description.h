@@ -121,8 +121,11 @@ struct SurfaceDescription {
 /// Returns the key of the first map of a surface, or an empty string if it has none.
 std::string_view first_map(const SurfaceDescription& s);
 
-/// `sphere` has no mesh: it is ray traced per pixel (shading/sphere_impostor.h), and its surface cannot have maps.
-enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot };
+/// `sphere` has no mesh: it is ray traced per pixel (shading/sphere_impostor.h), and its surface cannot have maps. `file` is a model file,
+/// which has its own materials.
+enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot, file };
+/// The up axis of a model file. `automatic`: z for STL, otherwise y.
+enum class ModelUp : uint8_t { automatic, y, z };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
 
 struct Placement {
@@ -141,6 +144,11 @@ struct ObjectDescription {
   double size = 2.0;
   int segments = 1;
   int tiles_u = 1, tiles_v = 1;
+  FilePath file;
+  ModelUp up_axis = ModelUp::automatic;
+  std::string model_scene, model_animation, model_variant;  ///< names in the file; empty: its default scene, no animation, default materials
+  double model_time = 0.0;                                  ///< seconds
+  bool shadow_only = false;
   bool visible = true;
   bool casts_shadow = true, receives_shadow = true;
 
@@ -156,7 +164,7 @@ struct ObjectDescription {
   std::vector<Placement> instances;  ///< copies placed relative to `placement`; empty: a single object at `placement`
 };
 
-enum class EnvironmentType : uint8_t { equirect, globe, cube, day_sky, night_sky };
+enum class EnvironmentType : uint8_t { equirect, globe, cube, day_sky, night_sky, studio };
 
 /// Light from infinitely far away, as a function of direction (see shading/environment.h).
 struct EnvironmentDescription {

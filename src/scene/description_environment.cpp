@@ -7,7 +7,7 @@ namespace halfspace {
 
 template <>
 struct ChoiceNames<EnvironmentType> {
-  static constexpr std::array<std::string_view, 5> names{"equirect", "globe", "cube", "day_sky", "night_sky"};
+  static constexpr std::array<std::string_view, 6> names{"equirect", "globe", "cube", "day_sky", "night_sky", "studio"};
 };
 template <>
 struct ChoiceNames<BackgroundType> {
@@ -78,7 +78,7 @@ Section section_of(EnvironmentDescription& e) {
       key<&T::front>("front", "Face at -z; empty: from the folder", {.only = "cube"}),
       key<&T::back>("back", "Face at +z; empty: from the folder", {.only = "cube"}),
       key<&T::size>("size", "Width of a generated face; 0: chosen for the view",
-                    {.unit = "texels", .low = 0, .high = 4096, .only = "day_sky night_sky"}),
+                    {.unit = "texels", .low = 0, .high = 4096, .only = "day_sky night_sky studio"}),
       key<&T::sun>("sun", "Direction towards the sun, any length; near the horizon: dusk", {.only = "day_sky"}),
       key<&T::clouds>("clouds", "Fraction of the sky covered by clouds", {.low = 0, .high = 1, .only = "day_sky"}),
       key<&T::milky_way>("milky_way", "Brightness factor of the Milky Way", {.low = 0, .high = 1e3, .only = "night_sky"}),

@@ -74,6 +74,7 @@ int64_t vertices_of(const ObjectDescription& o) {
   const int64_t bands = o.latitudes, sectors = o.longitudes, n = o.segments;
   switch (o.shape) {
     case Shape::sphere: return 1;
+    case Shape::file: return 0;  // checked when the file is read
     case Shape::icosphere: return 10 * (int64_t{1} << (2 * o.level)) + 2;
     case Shape::plane: return (n + 1) * (n + 1);
     case Shape::cube: return 6 * (n + 1) * (n + 1);
@@ -93,6 +94,7 @@ double thickness_of(const ObjectDescription& o) {
 
 void check(const ObjectDescription& o, const std::string& where) {
   check(o.placement, where);
+  if (o.shape == Shape::file && o.file.path.empty()) refuse(where + ".file", "is missing; expected a model file");
   for (std::size_t i = 0; i < o.instances.size(); ++i)
     check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));
   if (vertices_of(o) > kMaxVertices) refuse(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");

@@ -43,6 +43,16 @@ struct PlacedMap {
   bool repeats = false;            ///< the lookup equals that of the previous map with a texture, so its texel is used again
 };
 
+/// Applies a transform of texture coordinates, uv' = transform · (u, v, 1), and its derivatives.
+template <class R>
+HS_INLINE MapCoordinates<R> transformed(const glm::mat3x2& transform, const MapCoordinates<R>& at) {
+  if (transform == glm::mat3x2(1.0f)) return at;
+  const auto turned = [&](const vec2<R>& v) {
+    return vec2<R>(R(transform[0].x) * v.x + R(transform[1].x) * v.y, R(transform[0].y) * v.x + R(transform[1].y) * v.y);
+  };
+  return {turned(at.uv) + vec2<R>(transform[2]), turned(at.duv_dx), turned(at.duv_dy)};
+}
+
 /// Uniforms of a metallic-roughness surface. Each factor is multiplied by its map, if there is one.
 struct MetallicMaterial : PlacedSurface {
   glm::vec4 base_color{1.0f};  ///< linear; w is the opacity
@@ -156,10 +166,7 @@ struct MetallicSurface : MetallicMaterial {
     } else {
       at = {in.uv, px.ddx(&V::uv), px.ddy(&V::uv)};
     }
-    const glm::mat3x2& t = m.uv_transform;
-    if (t == glm::mat3x2(1.0f)) return at;
-    const auto turned = [&](const vec2<R>& v) { return vec2<R>(R(t[0].x) * v.x + R(t[1].x) * v.y, R(t[0].y) * v.x + R(t[1].y) * v.y); };
-    return {turned(at.uv) + vec2<R>(t[2]), turned(at.duv_dx), turned(at.duv_dy)};
+    return transformed(m.uv_transform, at);
   }
 
   template <class R>

@@ -28,10 +28,10 @@ std::vector<double> outline(const PlacedMesh& placed, const View& view) {
   };
   const glm::dvec2 middle = window({0, 0, 0, 1});
   std::vector<glm::dvec2> at;
-  for (const glm::vec3& p : placed.mesh->positions) at.push_back(window(glm::dvec4(p, 1)) - middle);
+  for (const glm::vec3& p : placed.positions) at.push_back(window(glm::dvec4(p, 1)) - middle);
   std::vector<double> farthest(kDirections, 0.0);
   const auto turns = [](const glm::dvec2& p) { return std::atan2(p.y, p.x) / (2.0 * std::numbers::pi) + 0.5; };
-  const std::vector<uint32_t>& indices = placed.mesh->indices;
+  const Indices& indices = *placed.indices;
   for (std::size_t i = 0; i < indices.size(); ++i) {
     glm::dvec2 a = at[indices[i]], b = at[indices[i % 3 == 2 ? i - 2 : i + 1]];
     double from = turns(a), to = turns(b);

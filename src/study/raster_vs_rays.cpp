@@ -31,21 +31,22 @@ struct ExactTriangles {
 
 ExactTriangles exact_triangles(const PreparedScene& scene, int width, int height) {
   const View& view = scene.view;
-  const Mesh& mesh = *scene.meshes.front().mesh;
+  const PlacedMesh& mesh = scene.meshes.front();
+  const Indices& indices = *mesh.indices;
   ExactTriangles out{Image<int>(width, height), 0.0};
   Image<double> nearest(width, height);
   std::fill_n(out.triangle.data(), out.triangle.texels().size(), -1);
   std::fill_n(nearest.data(), nearest.texels().size(), std::numeric_limits<double>::infinity());
   // Eye space scaled so that the image plane at distance 1 spans [−1, 1]: the ray through NDC (x, y) has the direction (x, y, 1).
   const auto in_eye_space = [&](const glm::vec3& p_os) {
-    const glm::dvec3 p = glm::dvec3(scene.meshes.front().world_from_object * glm::dvec4(glm::dvec3(p_os), 1.0)) - view.eye_ws;
+    const glm::dvec3 p = glm::dvec3(mesh.world_from_object * glm::dvec4(glm::dvec3(p_os), 1.0)) - view.eye_ws;
     return glm::dvec3(glm::dot(p, view.right_ws) / view.tan_x, glm::dot(p, view.up_ws) / view.tan_y, glm::dot(p, view.forward_ws));
   };
   std::vector<glm::dvec3> corners;
   for (const glm::vec3& p : mesh.positions) corners.push_back(in_eye_space(p));
   int64_t doubtful = 0;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const glm::dvec3 &a = corners[mesh.indices[i]], &b = corners[mesh.indices[i + 1]], &c = corners[mesh.indices[i + 2]];
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const glm::dvec3 &a = corners[indices[i]], &b = corners[indices[i + 1]], &c = corners[indices[i + 2]];
     const glm::dvec3 bc = glm::cross(b, c), ca = glm::cross(c, a), ab = glm::cross(a, b);
     const double volume = glm::dot(a, bc);
     if (volume == 0.0) continue;
@@ -90,7 +91,7 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers) 
     const PreparedScene scene = assets.prepare(description, width, height);
     const ExactTriangles truth = exact_triangles(scene, width, height);
     study.truth.error = std::max(study.truth.error, truth.doubtful);
-    const double triangles = static_cast<double>(scene.meshes.front().mesh->indices.size()) / 3.0;
+    const double triangles = static_cast<double>(scene.meshes.front().indices->size()) / 3.0;
     const auto add = [&](const std::string& group, const Timing& time, const auto& triangle_at) {
       int64_t wrong = 0;
       for (int y = 0; y < height; ++y)

@@ -15,8 +15,10 @@ struct World {
     glm::dmat4 below(1.0), above(1.0);
     below[3].y = -1.5;
     above[3].y = 0.5;
-    meshes.push_back({&ground, std::make_shared<const Indices>(ground.indices, ground.positions.size()), below, true, true, true});
-    meshes.push_back({&ball, std::make_shared<const Indices>(ball.indices, ball.positions.size()), above, false, true, true});
+    meshes.push_back({ground.positions, ground.normals, std::make_shared<const Indices>(ground.indices, ground.positions.size()), below,
+                      true, true, true});
+    meshes.push_back(
+        {ball.positions, ball.normals, std::make_shared<const Indices>(ball.indices, ball.positions.size()), above, false, true, true});
   }
 };
 
@@ -48,7 +50,7 @@ TEST(RayScene, HitPositionsMatchTheirWeights) {
   const PlacedMesh& placed = world.meshes[static_cast<std::size_t>(hit->mesh)];
   glm::dvec3 sum(0.0);
   for (std::size_t k = 0; k < 3; ++k) {
-    const glm::vec3& p = placed.mesh->positions[(*placed.indices)[3 * hit->triangle + k]];
+    const glm::vec3& p = placed.positions[(*placed.indices)[3 * hit->triangle + k]];
     sum += hit->weights[k] * (glm::dvec3(placed.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye);
   }
   EXPECT_LT(glm::length(sum - hit->position_rws), 1e-14);

@@ -44,7 +44,7 @@ Image<glm::vec4> numbers_of(const PreparedScene& scene) {
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     const PlacedMesh& mesh = scene.meshes[m];
     pass.draw(NumberedMesh{{glm::mat4(scene.view.clip_from_world * mesh.world_from_object)}, -1.0f - static_cast<float>(m)},
-              make_vertex_view(stream(mesh.mesh->positions)), *mesh.indices, opaque_state(CullMode::none, false));
+              make_vertex_view(stream(mesh.positions)), *mesh.indices, opaque_state(CullMode::none, false));
   }
   pass.run(two_workers());
   return image;

@@ -147,7 +147,7 @@ TEST(LightTruth, PenumbraOfAnEdgeMatchesTheAreaOfACutDisk) {
   edge.positions = {{-50, 2, -50}, {0, 2, -50}, {0, 2, 50}, {-50, 2, 50}};
   edge.indices = {0, 2, 1, 0, 3, 2};
   const std::vector<PlacedMesh> meshes{
-      {&edge, std::make_shared<const Indices>(edge.indices, edge.positions.size()), glm::dmat4(1.0), true, true, true}};
+      {edge.positions, edge.normals, std::make_shared<const Indices>(edge.indices, edge.positions.size()), glm::dmat4(1.0), true, true, true}};
   const RayScene casters(meshes, glm::dvec3(0.0), true);
   RayLight light{{}, 0.05, 4096};
   light.light.place_rws = {0, 1, 0};

@@ -187,6 +187,11 @@ void shade_points(const S& shader, const PreparedDraw& draw, const glm::dvec2& s
   }
 }
 
+// Shaders whose work is counted: those of the shapes of scene files. Shaders of model files are not.
+template <class S>
+constexpr bool kIsCounted = !std::is_same_v<S, StarSky> && !std::is_base_of_v<MetallicMaterial, S> &&
+                            !std::is_same_v<S, ColoredPrimitives> && !std::is_same_v<S, ShadowCatcher>;
+
 struct Cost {
   std::set<PerFragment> draws;  // visible draws only
   double shadows, vertex_lights, face_lights;
@@ -205,7 +210,7 @@ Cost cost_of(const char* scene_name, const std::vector<std::string>& settings) {
   for (const PreparedDraw& draw : scene.draws) {
     std::visit(
         [&]<class S>(const S& shader) {
-          if constexpr (!std::is_same_v<S, StarSky>) {
+          if constexpr (kIsCounted<S>) {
             const Stage before = counts.fragment;
             if constexpr (std::is_base_of_v<SphereImpostors, S>) {
               shade_points(Counting<S>{shader}, draw, {kWidth, kHeight});

@@ -16,7 +16,8 @@ struct World {
   Mesh ball = icosphere(4, 1.0f);
   std::vector<PlacedMesh> meshes;
   World() {
-    meshes.push_back({&ball, std::make_shared<const Indices>(ball.indices, ball.positions.size()), glm::dmat4(1.0), false, true, true});
+    meshes.push_back({ball.positions, ball.normals, std::make_shared<const Indices>(ball.indices, ball.positions.size()), glm::dmat4(1.0),
+                      false, true, true});
   }
 };
 

@@ -59,7 +59,7 @@ Distances far_from_the_origin(double away) {
       },
       scene.draws.front().shader);
   Distances out{};
-  for (const glm::vec3& p : placed.mesh->positions) {
+  for (const glm::vec3& p : placed.positions) {
     const auto window = [&](const glm::dvec4& clip) { return glm::dvec2(clip) / clip.w * (0.5 * size); };
     const glm::dvec2 exact = window(scene.view.clip_from_world * placed.world_from_object * glm::dvec4(glm::dvec3(p), 1.0));
     const glm::vec4 world = world_from_object * glm::vec4(p, 1.0f);
@@ -232,11 +232,11 @@ TEST(Stability, NormalsAreCorrectUnderNonUniformScale) {
   // The normal of the stretched sphere is the gradient of |M⁻¹ p|². M also rotates and mirrors.
   const glm::dmat3 m(placed.world_from_object), inverse = glm::inverse(m);
   double plain = 0.0, ours = 0.0;
-  for (std::size_t i = 0; i < placed.mesh->positions.size(); ++i) {
-    const glm::dvec3 p = m * glm::dvec3(placed.mesh->positions[i]), exact = glm::normalize(glm::transpose(inverse) * (inverse * p));
+  for (std::size_t i = 0; i < placed.positions.size(); ++i) {
+    const glm::dvec3 p = m * glm::dvec3(placed.positions[i]), exact = glm::normalize(glm::transpose(inverse) * (inverse * p));
     const auto angle = [&](const glm::dvec3& n) { return std::atan2(glm::length(glm::cross(n, exact)), glm::dot(n, exact)); };
-    plain = std::max(plain, angle(m * glm::dvec3(placed.mesh->normals[i])));
-    ours = std::max(ours, angle(glm::dvec3(by_shader * placed.mesh->normals[i])));
+    plain = std::max(plain, angle(m * glm::dvec3(placed.normals[i])));
+    ours = std::max(ours, angle(glm::dvec3(by_shader * placed.normals[i])));
   }
   // The matrix is in float and has a scale ratio of 16 : 1; normals have an error of 2^-24.
   judge({24, "normals under non-uniform scale", "a rotated sphere scaled by 1, 4 and −1/4; the matrix itself against its inverse transpose",

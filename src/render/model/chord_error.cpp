@@ -43,6 +43,7 @@ double chord_error(const ObjectDescription& o) {
     case Shape::torus: return chord_error_of_circle(o.tube, o.latitudes) + chord_error_of_circle(o.radius + o.tube, o.longitudes);
     case Shape::torus_knot: return chord_error_of_circle(o.tube, o.latitudes) + chord_error_along_knot(o.radius, o.tube, o.longitudes);
     case Shape::sphere:
+    case Shape::file:
     case Shape::plane:
     case Shape::cube: break;
   }
@@ -96,7 +97,8 @@ ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps) {
       break;
     case Shape::plane:
     case Shape::cube: o.segments = parts; break;
-    case Shape::sphere: break;
+    case Shape::sphere:
+    case Shape::file: break;
   }
   return o;
 }
@@ -111,7 +113,8 @@ int max_parts(const ObjectDescription& o) {
     case Shape::torus: return 512;
     case Shape::torus_knot: return 256;
     case Shape::uv_sphere:
-    case Shape::sphere: break;
+    case Shape::sphere:
+    case Shape::file: break;
   }
   return 1536;
 }

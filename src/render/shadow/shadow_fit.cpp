@@ -27,7 +27,7 @@ Box bounds_along(const PlacedMesh& placed, const glm::dmat3& axes) {
   const glm::dmat3 turn = glm::transpose(axes) * glm::dmat3(placed.world_from_object);
   const glm::dvec3 shift = glm::transpose(axes) * glm::dvec3(placed.world_from_object[3]);
   Box box;
-  for (const glm::vec3& p : placed.mesh->positions) box.add(turn * glm::dvec3(p) + shift);
+  for (const glm::vec3& p : placed.positions) box.add(turn * glm::dvec3(p) + shift);
   return box;
 }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The files that a scene reads, which no command overwrites.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "halfspace/scene/description.h"
+
+namespace halfspace {
+
+struct ModelAsset;
+
+/// Returns all files that the keys of a scene name, and those that a model refers to. model: null if there is none.
+std::vector<std::filesystem::path> input_files(SceneDescription scene, const ModelAsset* model);
+
+/// Throws OutputError if the output is one of the files, by this or another name.
+void refuse_overwriting(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs);
+
+}  // namespace halfspace

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/model_arguments.h"
+
+#include <fmt/format.h>
+
+#include "cli/arguments.h"
+#include "cli/errors.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr double kFar = 1e9;
+
+// Returns the first option that applies only to model files, or an empty string.
+std::string first_given(const ModelArguments& a) {
+  const std::pair<const char*, bool> options[] = {
+      {"--eye", !a.eye.empty()},
+      {"--look-at", !a.look_at.empty()},
+      {"--up", !a.up.empty()},
+      {"--fov", !a.fov.empty()},
+      {"--yaw", !a.yaw.empty()},
+      {"--pitch", !a.pitch.empty()},
+      {"--zoom", !a.zoom.empty()},
+      {"--environment", !a.environment.empty()},
+      {"--background", !a.background.empty()},
+      {"--up-axis", !a.up_axis.empty()},
+      {"--scene", !a.model_scene.empty()},
+      {"--animation", !a.animation.empty()},
+      {"--variant", !a.variant.empty()},
+      {"--turntable", !a.turntable.empty()},
+      {"--inside", a.inside},
+      {"--no-floor", a.no_floor},
+  };
+  for (const auto& [name, given] : options) {
+    if (given) return name;
+  }
+  return {};
+}
+
+// Parses a vector such as "1,0.5,-2".
+glm::dvec3 parse_vector(const char* option, const std::string& text) {
+  glm::dvec3 v{};
+  std::string_view rest = text;
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (k == 2))
+      throw UsageError(fmt::format("{} is '{}'; expected three numbers, for example 1,0.5,-2", option, text));
+    v[k] = parse_real(option, rest.substr(0, comma), -kFar, kFar, "three numbers, for example 1,0.5,-2");
+    if (k < 2) rest.remove_prefix(comma + 1);
+  }
+  return v;
+}
+
+void set_real(double& value, const char* option, const std::string& text, double low, double high, const char* example) {
+  if (!text.empty()) value = parse_real(option, text, low, high, example);
+}
+
+ModelView view_of(const ModelArguments& a, double aspect) {
+  ModelView v;
+  v.aspect = aspect;
+  if (!a.eye.empty()) v.eye = parse_vector("--eye", a.eye);
+  if (!a.look_at.empty()) v.look_at = parse_vector("--look-at", a.look_at);
+  if (!a.up.empty()) v.up = parse_vector("--up", a.up);
+  set_real(v.fov, "--fov", a.fov, 1.0, 170.0, "degrees, for example 35");
+  set_real(v.yaw, "--yaw", a.yaw, -360.0, 360.0, "degrees, for example 35");
+  set_real(v.pitch, "--pitch", a.pitch, -89.0, 89.0, "degrees, for example 18");
+  set_real(v.zoom, "--zoom", a.zoom, 1e-3, 1e3, "a factor, for example 1.5");
+  v.inside = a.inside;
+  v.floor = !a.no_floor;
+  v.environment = a.environment;
+  v.background = a.background;
+  v.scene = a.model_scene;
+  v.animation = a.animation;
+  v.variant = a.variant;
+  if (!a.up_axis.empty() && a.up_axis != "y" && a.up_axis != "z") throw UsageError("--up-axis is '" + a.up_axis + "'; expected y or z");
+  if (!a.up_axis.empty()) v.up_axis = a.up_axis;
+  return v;
+}
+
+}  // namespace
+
+std::optional<int> turntable_frames(const ModelArguments& args) {
+  if (args.turntable.empty()) return std::nullopt;
+  const int frames = parse_number(args.turntable);
+  if (frames < 2 || frames > 10000)
+    throw UsageError("--turntable is '" + args.turntable + "'; expected a number of frames from 2 to 10000");
+  return frames;
+}
+
+OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& args, double aspect, double fps) {
+  if (!is_model_file(scene)) {
+    if (const std::string option = first_given(args); !option.empty())
+      throw UsageError(option + " applies only to model files; expected a file ending in .obj, .gltf, .glb, .ply or .stl");
+    return {SceneFile::open(scene), {}, nullptr};
+  }
+  ModelView view = view_of(args, aspect);
+  if (const std::optional<int> frames = turntable_frames(args)) view.turn_seconds = *frames / fps;
+  GeneratedScene generated = model_scene(scene, view);
+  const std::filesystem::path file = std::filesystem::absolute(scene);
+  return {SceneFile::parse(generated.text, scene, std::filesystem::current_path()), file, std::move(generated.model)};
+}
+
+}  // namespace halfspace

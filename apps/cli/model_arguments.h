@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of `render` that apply to model files.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "halfspace/render/model_scene.h"
+#include "halfspace/scene/scene_file.h"
+
+namespace halfspace {
+
+/// Values as given on the command line; empty: not given.
+struct ModelArguments {
+  std::string eye, look_at, up, fov, yaw, pitch, zoom;
+  std::string environment, background, up_axis;
+  std::string model_scene, animation, variant;
+  std::string turntable;
+  bool inside = false, no_floor = false;
+};
+
+/// A scene, and the model file that it shows if it was generated for one.
+struct OpenedScene {
+  SceneFile scene;
+  std::filesystem::path model_file;  ///< empty: it was not
+  std::shared_ptr<const ModelAsset> model;
+};
+
+/// Opens a scene by name or file name, or generates one for a model file with the view that the options describe. `aspect`: width / height
+/// of the image; `fps`: frames per second of --turntable. Throws UsageError for options that do not apply, and InputError.
+OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& args, double aspect, double fps);
+
+/// Returns the number of frames of --turntable, or nothing. Throws UsageError.
+std::optional<int> turntable_frames(const ModelArguments& args);
+
+}  // namespace halfspace

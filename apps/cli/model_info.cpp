@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/model_info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+
+#include "halfspace/model/model.h"
+#include "halfspace/model/pose.h"
+
+namespace halfspace {
+
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+// Counts of triangles that renderers and other programs may treat differently.
+struct Problems {
+  std::size_t degenerate_triangles = 0;
+  std::size_t open_edges = 0;          // used by one triangle
+  std::size_t non_manifold_edges = 0;  // used by more than two triangles
+};
+
+// Joins vertices with equal positions and returns the number of each vertex.
+std::vector<uint32_t> position_numbers(const ModelMesh& mesh) {
+  struct Hash {
+    std::size_t operator()(const std::array<float, 3>& p) const {
+      std::size_t h = 0;
+      for (const float x : p) h = (h ^ std::hash<float>()(x)) * 0x9e3779b97f4a7c15u;
+      return h;
+    }
+  };
+  std::unordered_map<std::array<float, 3>, uint32_t, Hash> numbers;
+  std::vector<uint32_t> out;
+  for (const glm::vec3& p : mesh.positions)
+    out.push_back(numbers.try_emplace({p.x, p.y, p.z}, static_cast<uint32_t>(numbers.size())).first->second);
+  return out;
+}
+
+void count_problems(const ModelMesh& mesh, Problems& problems) {
+  const std::vector<uint32_t> number = position_numbers(mesh);
+  std::unordered_map<uint64_t, int> edges;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::array<uint32_t, 3> corner{number[mesh.indices[i]], number[mesh.indices[i + 1]], number[mesh.indices[i + 2]]};
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) {
+      ++problems.degenerate_triangles;
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const uint64_t a = std::min(corner[k], corner[(k + 1) % 3]), b = std::max(corner[k], corner[(k + 1) % 3]);
+      ++edges[a << 32 | b];
+    }
+  }
+  for (const auto& [edge, uses] : edges) {
+    if (uses == 1) ++problems.open_edges;
+    if (uses > 2) ++problems.non_manifold_edges;
+  }
+}
+
+std::size_t count_of(const Model& model, MeshTopology topology, int corners) {
+  std::size_t count = 0;
+  for (const ModelMesh& mesh : model.meshes) {
+    const std::size_t used = mesh.indices.empty() ? mesh.positions.size() : mesh.indices.size();
+    if (mesh.topology == topology) count += used / static_cast<std::size_t>(corners);
+  }
+  return count;
+}
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& list) {
+  std::vector<std::string> names;
+  for (const T& item : list) names.push_back(item.name);
+  return names;
+}
+
+OrderedJson describe(const std::filesystem::path& file) {
+  const Model model = read_model(file);
+  const PosedModel posed = pose(model, {});
+  std::size_t vertices = 0;
+  Problems problems;
+  for (const ModelMesh& mesh : model.meshes) {
+    vertices += mesh.positions.size();
+    if (mesh.topology == MeshTopology::triangles) count_problems(mesh, problems);
+  }
+  OrderedJson json = {{"file", file.string()},
+                      {"format", model.format},
+                      {"up_axis", model.up == UpAxis::z ? "z" : "y"},
+                      {"meshes", model.meshes.size()},
+                      {"vertices", vertices},
+                      {"triangles", count_of(model, MeshTopology::triangles, 3)},
+                      {"lines", count_of(model, MeshTopology::lines, 2)},
+                      {"points", count_of(model, MeshTopology::points, 1)},
+                      {"nodes", model.nodes.size()},
+                      {"drawn_meshes", posed.meshes.size()}};
+  const auto vector = [](const glm::dvec3& v) { return OrderedJson{v.x, v.y, v.z}; };
+  json["bounds"] =
+      posed.low.x <= posed.high.x ? OrderedJson{{"low", vector(posed.low)}, {"high", vector(posed.high)}} : OrderedJson(nullptr);
+  json["materials"] = names_of(model.materials);
+  json["images"] = names_of(model.images);
+  json["cameras"] = names_of(model.cameras);
+  json["lights"] = names_of(model.lights);
+  json["scenes"] = names_of(model.scenes);
+  json["animations"] = names_of(model.animations);
+  json["variants"] = model.variants;
+  json["extensions"] = model.extensions;
+  json["degenerate_triangles"] = problems.degenerate_triangles;
+  json["open_edges"] = problems.open_edges;
+  json["non_manifold_edges"] = problems.non_manifold_edges;
+  json["warnings"] = model.warnings;
+  return json;
+}
+
+std::string value_text(const std::string& key, const OrderedJson& value) {
+  if (value.is_null()) return "none";
+  if (key == "bounds") {
+    const auto corner = [&](const char* name) {
+      const OrderedJson& c = value.at(name);
+      return fmt::format("({:.6g}, {:.6g}, {:.6g})", c[0].get<double>(), c[1].get<double>(), c[2].get<double>());
+    };
+    return corner("low") + " to " + corner("high");
+  }
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string names;
+  for (const OrderedJson& name : value)
+    names += (names.empty() ? "" : ", ") + (name.get<std::string>().empty() ? "(no name)" : name.get<std::string>());
+  return value.empty() ? "0" : fmt::format("{}: {}", value.size(), names);
+}
+
+}  // namespace
+
+std::string model_info(const std::filesystem::path& file, bool json) {
+  const OrderedJson facts = describe(file);
+  if (json) return facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  std::string text;
+  for (const auto& [key, value] : facts.items()) {
+    if (key == "warnings") {
+      for (const OrderedJson& warning : value) text += "warning: " + warning.get<std::string>() + "\n";
+      continue;
+    }
+    std::string label = key;
+    std::ranges::replace(label, '_', ' ');
+    text += fmt::format("{:<21}{}\n", label, value_text(key, value));
+  }
+  return text;
+}
+
+}  // namespace halfspace

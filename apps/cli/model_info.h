@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `halfspace info MODEL`: what a model file contains, and problems found in it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace halfspace {
+
+/// Reads the model and describes it, as text or as JSON. Throws InputError.
+std::string model_info(const std::filesystem::path& file, bool json);
+
+}  // namespace halfspace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "halfspace/model/model.h"
+#include "halfspace/model/pose.h"
+#include "halfspace/raster/pass.h"
+#include "halfspace/scene/description.h"
+
+namespace halfspace {
+
+/// A model file with validated indices and with tangents where its materials need them. Movable.
+struct ModelAsset {
+  explicit ModelAsset(Model m);
+
+  Model model;
+  std::vector<Indices> indices;  ///< one per Model::meshes; refers to their indices
+};
+
+/// Returns the pose that an object of shape `file` asks for. Throws InputError, which begins with `path`, if the file has no scene,
+/// animation or variant of that name.
+PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path);
+
+}  // namespace halfspace

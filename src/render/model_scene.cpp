@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/model_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/core/units.h"
+#include "halfspace/model/pose.h"
+
+namespace halfspace {
+
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr double kMargin = 1.12;  // of the fitted view
+
+OrderedJson json_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+double tangent(double degrees) {
+  const SinCosDouble a = sincos_radians(degrees * kRadiansPerDegree);
+  return a.sin / a.cos;
+}
+
+// The bounds of a model as a center and half extents, with sizes that are never zero.
+struct Bounds {
+  glm::dvec3 center, half;
+  double radius;
+};
+
+Bounds bounds_of(const PosedModel& posed, const std::filesystem::path& file) {
+  if (!(posed.low.x <= posed.high.x)) throw InputError(file.string() + ": has nothing to draw; expected a scene with at least one mesh");
+  Bounds b{0.5 * (posed.low + posed.high), 0.5 * (posed.high - posed.low), 0.0};
+  b.radius = std::max(glm::length(b.half), 1e-6);
+  return b;
+}
+
+// Unit vector from the center to the eye.
+glm::dvec3 eye_direction(const ModelView& view) {
+  const SinCosDouble yaw = sincos_radians(view.yaw * kRadiansPerDegree), pitch = sincos_radians(view.pitch * kRadiansPerDegree);
+  return {pitch.cos * yaw.sin, pitch.sin, pitch.cos * yaw.cos};
+}
+
+// Calls f(p) for every vertex of a posed model, in world space.
+template <class F>
+void for_each_vertex(const Model& model, const PosedModel& posed, const F& f) {
+  for (const PosedMesh& part : posed.meshes) {
+    const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model.meshes[static_cast<std::size_t>(part.mesh)];
+    for (const glm::vec3& p : mesh.positions) f(glm::dvec3(part.world_from_mesh * glm::dvec4(glm::dvec3(p), 1.0)));
+  }
+}
+
+// The eye of a view along −back that shows all vertices with a margin. A vertex at (x, y, z) along the axes of the camera is in view if
+// |x − eye.x| ≤ (eye.z − z)·tan, so the planes through the eye touch the model, and the eye is where the farther pair of planes meets.
+struct Fit {
+  glm::dvec3 eye, target;
+};
+Fit fitted(const Model& model, const PosedModel& posed, const Bounds& b, const glm::dvec3& back, const ModelView& view) {
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right);
+  const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
+  glm::dvec2 low(1e300), high(-1e300);  // of x + z·tan and x − z·tan, whose planes touch the model on either side
+  double nearest = -1e300;
+  for_each_vertex(model, posed, [&](const glm::dvec3& p) {
+    const glm::dvec3 q(glm::dot(p - b.center, right), glm::dot(p - b.center, up), glm::dot(p - b.center, back));
+    const glm::dvec2 slope(tan_x, tan_y), side(q);
+    high = glm::max(high, side + slope * q.z);
+    low = glm::min(low, side - slope * q.z);
+    nearest = std::max(nearest, q.z);
+  });
+  const glm::dvec2 middle = 0.5 * (low + high);
+  const double distance = std::max({0.5 * (high.x - low.x) / tan_x, 0.5 * (high.y - low.y) / tan_y, nearest + 0.05 * b.radius});
+  const glm::dvec3 target = b.center + right * middle.x + up * middle.y;
+  return {target + back * (distance / view.zoom), target};
+}
+
+// A view of the center from which all vertices stay in view while the camera goes around the model.
+Fit fitted_for_turntable(const Model& model, const PosedModel& posed, const Bounds& b, const ModelView& view) {
+  constexpr int kDirections = 24;
+  const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
+  double distance = 0.0;
+  for (int i = 0; i < kDirections; ++i) {
+    ModelView turned = view;
+    turned.yaw += 360.0 * i / kDirections;
+    const glm::dvec3 back = eye_direction(turned), right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)),
+                     up = glm::cross(back, right);
+    for_each_vertex(model, posed, [&](const glm::dvec3& p) {
+      const glm::dvec3 from_center = p - b.center;
+      const double along = glm::dot(from_center, back);
+      distance = std::max(
+          {distance, along + std::fabs(glm::dot(from_center, right)) / tan_x, along + std::fabs(glm::dot(from_center, up)) / tan_y});
+    });
+  }
+  return {b.center + eye_direction(view) * (distance / view.zoom), b.center};
+}
+
+OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Bounds& b, const ModelView& view) {
+  glm::dvec3 target = view.look_at.value_or(b.center), eye = target;
+  if (view.eye) {
+    eye = *view.eye;
+  } else if (view.inside) {
+    const glm::dvec3 along = b.half.x >= b.half.z ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+    eye = b.center - along * (0.6 * glm::dot(along, b.half)) - glm::dvec3(0, 0.35 * b.half.y, 0);
+    target = view.look_at.value_or(eye + along);
+  } else {
+    const Fit fit =
+        view.turn_seconds > 0.0 ? fitted_for_turntable(model, posed, b, view) : fitted(model, posed, b, eye_direction(view), view);
+    target = view.look_at.value_or(fit.target);
+    eye = fit.eye + (target - fit.target);
+  }
+  if (eye == target) target = eye + glm::dvec3(0, 0, -1) * b.radius;
+  const double distance = glm::distance(eye, b.center);
+  return {{"position", json_of(eye)},
+          {"target", json_of(target)},
+          {"up", json_of(view.up)},
+          {"fov", view.fov},
+          {"near", std::max(1e-3 * b.radius, 0.5 * (distance - 1.5 * b.radius))},
+          {"far", distance + 20.0 * b.radius}};
+}
+
+// Returns a name for a scene file: without dots, which separate the parts of a path, and not used before.
+std::string unique_name(std::string name, const std::string& fallback, std::set<std::string>& used) {
+  std::ranges::replace_if(
+      name, [](char c) { return c == '.' || c == '=' || static_cast<unsigned char>(c) < 32; }, '_');
+  if (name.empty()) name = fallback;
+  std::string unique = name;
+  for (int i = 2; used.contains(unique); ++i) unique = name + "_" + std::to_string(i);
+  used.insert(unique);
+  return unique;
+}
+
+OrderedJson cameras_of(const Model& model, const PosedModel& posed, const Bounds& b, const ModelView& view) {
+  OrderedJson cameras = {{"view", fitted_camera(model, posed, b, view)}};
+  std::set<std::string> used{"view"};
+  for (const PosedCamera& placed : posed.cameras) {
+    const ModelCamera& c = model.cameras[static_cast<std::size_t>(placed.camera)];
+    const glm::dvec3 eye(placed.world_from_camera[3]), ahead(-placed.world_from_camera[2]);
+    const double far = std::isfinite(c.far) ? c.far : glm::distance(eye, b.center) + 100.0 * b.radius;
+    OrderedJson camera = {{"type", c.perspective ? "perspective" : "orthographic"},
+                          {"position", json_of(eye)},
+                          {"target", json_of(eye + glm::normalize(ahead) * b.radius)},
+                          {"up", json_of(glm::dvec3(placed.world_from_camera[1]))},
+                          {"near", c.near},
+                          {"far", std::max(far, 2.0 * c.near)}};
+    if (c.perspective) {
+      camera["fov"] = std::clamp(c.fovy / kRadiansPerDegree, 0.01, 179.0);
+    } else {
+      camera["height"] = c.height;
+    }
+    cameras[unique_name(c.name, "camera", used)] = std::move(camera);
+  }
+  return cameras;
+}
+
+// Lights of the file. Candela and lux are divided by π, because a white surface that faces a light of intensity 1 has a radiance of 1.
+OrderedJson lights_of(const Model& model, const PosedModel& posed) {
+  OrderedJson lights = OrderedJson::object();
+  std::set<std::string> used;
+  for (const PosedLight& placed : posed.lights) {
+    const ModelLight& l = model.lights[static_cast<std::size_t>(placed.light)];
+    const glm::dvec3 back(glm::normalize(glm::dvec3(placed.world_from_light[2])));
+    OrderedJson light = {{"color", json_of(glm::dvec3(l.color))}, {"intensity", l.intensity / 3.141592653589793}};
+    if (l.type == ModelLightType::directional) {
+      light["type"] = "directional";
+      light["direction"] = json_of(back);
+    } else {
+      light["type"] = l.type == ModelLightType::spot ? "spot" : "point";
+      light["position"] = json_of(glm::dvec3(placed.world_from_light[3]));
+      light["falloff"] = "physical";
+    }
+    if (l.type == ModelLightType::spot) {
+      light["direction"] = json_of(back);
+      light["inner"] = l.inner / kRadiansPerDegree;
+      light["outer"] = std::max(l.outer / kRadiansPerDegree, 0.01);
+    }
+    lights[unique_name(l.name, "light", used)] = std::move(light);
+  }
+  return lights;
+}
+
+// A soft light from above, to the left of the eye.
+OrderedJson key_light(const ModelView& view) {
+  ModelView from = view;
+  from.yaw -= 50.0;
+  from.pitch = 52.0;
+  return {{"key", {{"type", "directional"}, {"direction", json_of(eye_direction(from))}, {"intensity", 1.2}, {"size", 2.0}}}};
+}
+
+}  // namespace
+
+bool is_model_file(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension == ".obj" || extension == ".gltf" || extension == ".glb" || extension == ".ply" || extension == ".stl";
+}
+
+namespace {
+
+// A camera that goes around its target once in `seconds`.
+OrderedJson turntable(const OrderedJson& camera, double seconds) {
+  const auto vector = [&](const char* key) {
+    return glm::dvec3(camera.at(key)[0].get<double>(), camera.at(key)[1].get<double>(), camera.at(key)[2].get<double>());
+  };
+  const glm::dvec3 target = vector("target"), arm = vector("position") - target;
+  return {{"type", "orbit"},
+          {"target", "cameras.view.position"},
+          {"center", json_of(target + glm::dvec3(0, arm.y, 0))},
+          {"a", json_of({arm.x, 0, arm.z})},
+          {"b", json_of({arm.z, 0, -arm.x})},
+          {"period", seconds}};
+}
+
+UpAxis up_axis_of(const Model& model, const std::string& name) { return name == "y" ? UpAxis::y : name == "z" ? UpAxis::z : model.up; }
+
+}  // namespace
+
+GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view) {
+  Model contents = read_model(file);
+  contents.up = up_axis_of(contents, view.up_axis);
+  const auto asset = std::make_shared<const ModelAsset>(std::move(contents));
+  const Model& model = asset->model;
+  ObjectDescription shown;
+  shown.model_scene = view.scene;
+  shown.model_animation = view.animation;
+  shown.model_variant = view.variant;
+  const PosedModel posed = pose(model, pose_options(model, shown, file.string()));
+  const Bounds b = bounds_of(posed, file);
+  const bool own_lights = !posed.lights.empty();
+  OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", "view"}};
+  scene["cameras"] = cameras_of(model, posed, b, view);
+  scene["lights"] = own_lights ? lights_of(model, posed) : key_light(view);
+  OrderedJson environment = {{"type", "studio"}, {"size", 256}, {"brightness", 0.75}};
+  if (!view.environment.empty()) environment = {{"type", "equirect"}, {"map", view.environment}};
+  scene["environments"] = {{"around", environment}};
+  scene["reflections"] = {{"environment", "around"}};
+  if (view.background == "environment") {
+    scene["background"] = {{"type", "environment"}, {"environment", "around"}};
+  } else if (!view.background.empty()) {
+    scene["background"] = {{"color", view.background}};
+  } else {
+    scene["background"] = {{"color", {0.62, 0.63, 0.65}}};
+  }
+  scene["post"] = {{"hdr", true}, {"tone", "aces"}, {"exposure", 0.62}};
+  scene["shadow"] = {{"method", "pcss"}, {"resolution", 2048}, {"faces", "both"}};
+  OrderedJson object = {{"shape", "file"}, {"file", std::filesystem::absolute(file).string()}};
+  if (view.up_axis != "auto") object["up_axis"] = view.up_axis;
+  if (!view.scene.empty()) object["model_scene"] = view.scene;
+  if (!view.animation.empty()) object["model_animation"] = view.animation;
+  if (!view.variant.empty()) object["model_variant"] = view.variant;
+  scene["objects"] = {{"model", object}};
+  OrderedJson animations = OrderedJson::object();
+  if (!view.animation.empty()) animations["clock"] = {{"type", "rate"}, {"target", "objects.model.model_time"}, {"rate", 1}};
+  if (view.turn_seconds > 0.0) animations["turntable"] = turntable(scene["cameras"]["view"], view.turn_seconds);
+  if (!animations.empty()) scene["animations"] = animations;
+  if (view.floor && !view.inside) {
+    const double size = 6.0 * b.radius;
+    scene["objects"]["floor"] = {{"shape", "plane"},
+                                 {"shadow_only", true},
+                                 {"size", size},
+                                 {"position", {b.center.x, b.center.y - b.half.y - 1e-4 * b.radius, b.center.z}}};
+  }
+  return {scene.dump(1), asset};
+}
+
+}  // namespace halfspace

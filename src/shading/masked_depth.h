@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws the depth of a surface that is not opaque, for shadow maps.
+#pragma once
+
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/metallic_surface.h"
+#include "halfspace/shading/tone.h"
+
+namespace halfspace {
+
+/// How opacity decides whether a texel of a shadow map is covered.
+struct OpacityTest {
+  PlacedMap map;  ///< its alpha channel multiplies the opacity
+  float opacity = 1.0f;
+  float cutoff = 0.5f;    ///< covered where opacity ≥ cutoff
+  bool dithered = false;  ///< instead of the cutoff, a share of the texels equal to the opacity is covered, in an ordered pattern
+};
+
+struct MaskedDepth {
+  glm::mat4 clip_from_object;
+  OpacityTest test;
+
+  template <class R>
+  struct Attributes {
+    vec3<R> position_os;
+    vec2<R> uv;
+  };
+  template <class R>
+  struct Varyings {
+    vec2<R> uv;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = in.uv;
+    return clip_from_object * vec4<R>(in.position_os, R(1));
+  }
+  template <class R>
+  DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {vec4<R>(R(0)), visibility(in, px).keep};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
+    using V = Varyings<R>;
+    R opacity(test.opacity);
+    if (test.map.map != nullptr) {
+      const MapCoordinates<R> at = transformed(test.map.uv_transform, MapCoordinates<R>{in.uv, px.ddx(&V::uv), px.ddy(&V::uv)});
+      opacity *= test.map.map->sample(test.map.sampler, at.uv, at.duv_dx, at.duv_dy).w;
+    }
+    if (!test.dithered) return {opacity >= R(test.cutoff), {}};
+    // Shadow maps are not seen themselves: their filter averages the pattern.
+    return {opacity > dither_threshold<R>(truncate_to_int(px.x), truncate_to_int(px.y)), {}};
+  }
+};
+
+}  // namespace halfspace
