@@ -31,6 +31,7 @@ except ImportError:
     sys.exit(NO_MATPLOTLIB)
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter
 
 # From Okabe and Ito, "Color universal design", 2008: distinguishable with all types of color vision, on white and on black.
@@ -168,7 +169,7 @@ def boxes_along(line):
 def draw_labels(axes, names, xs, ys, lows, highs, front):
     """Draws the name of each point next to it, clear of the points, the error bars from lows to highs and the line through `front`."""
     renderer = axes.figure.canvas.get_renderer()
-    font = matplotlib.font_manager.FontProperties(size=SMALL)
+    font = FontProperties(size=SMALL)
     widths = [renderer.get_text_width_height_descent(name, font, False)[0] for name in names]
     points, bottoms, tops, line = (axes.transData.transform(list(at)) for at in (zip(xs, ys), zip(xs, lows), zip(xs, highs), front))
     obstacles = [(x - 3, low, x + 3, high) for (x, low), (_, high) in zip(bottoms, tops)] + list(boxes_along(line))
