@@ -2,6 +2,7 @@
 #include "halfspace/image/atomic_output.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -87,10 +88,10 @@ int write_all(int fd, std::span<const std::byte> bytes) {
 }
 
 // Creates a temporary file with a unique name in the directory of path, and stores its name in unfinished_name.
-int create_aside(const std::filesystem::path& path) {
+int create_temporary_file(const std::filesystem::path& path) {
   static std::atomic<unsigned> counter = 0;
   for (int attempt = 0; attempt < 100; ++attempt) {
-    const std::string name = ".halfspace-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
+    const std::string name = fmt::format(".halfspace-{}-{}.part", ::getpid(), counter++);
     const std::string full = (directory_of(path) / name).string();
     if (full.size() >= sizeof unfinished_name) return errno = ENAMETOOLONG, -1;
     std::memcpy(unfinished_name, full.c_str(), full.size() + 1);
@@ -151,7 +152,7 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
 
   const std::filesystem::path target = real_path(path, status.has_value());
   make_directory(directory_of(target));
-  const int fd = create_aside(target);
+  const int fd = create_temporary_file(target);
   if (fd < 0) fail_errno(path, errno);
   int error = write_all(fd, bytes);
   if (error == 0 && status && ::fchmod(fd, status->st_mode & 07777) != 0) error = errno;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/image/image_samples.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -23,8 +25,8 @@ Image<To> map_texels(const Image<From>& from, F&& convert) {
 
 [[noreturn]] void fail_at(std::size_t texel, int width, const char* what, const std::string& name) {
   const std::size_t columns = static_cast<std::size_t>(width);
-  throw InputError(name + ": contains " + what + " at pixel (" + std::to_string(texel % columns) + ", " + std::to_string(texel / columns) +
-                   "), counted from 0 at the top left; expected finite numbers");
+  throw InputError(fmt::format("{}: contains {} at pixel ({}, {}), counted from 0 at the top left; expected finite numbers", name, what,
+                               texel % columns, texel / columns));
 }
 
 Image<float> numbers(const Image<uint8_t>& codes, const std::string&) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/image/png.h"
 
+#include <fmt/format.h>
 #include <spng.h>
 
 #include <algorithm>
@@ -55,8 +56,8 @@ void check_claimed_size(const spng_ihdr& header, std::size_t file_bytes, const s
   const uint64_t bits = uint64_t{header.bit_depth} * kChannels[header.color_type];
   const uint64_t raw = (uint64_t{header.width} * bits + 7) / 8 * header.height;
   if (raw / 1032 > file_bytes) {
-    throw InputError(name + ": claims " + std::to_string(header.width) + "x" + std::to_string(header.height) + " pixels but has only " +
-                     std::to_string(file_bytes) + " bytes; expected a complete PNG file");
+    throw InputError(fmt::format("{}: claims {}x{} pixels but has only {} bytes; expected a complete PNG file", name, header.width,
+                                 header.height, file_bytes));
   }
 }
 

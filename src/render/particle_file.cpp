@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -42,8 +44,7 @@ class RowReader {
       row.number[row.count++] = number(trimmed(line.substr(begin, comma - begin)));
       begin = comma + 1;
     }
-    if (row.count != 3 && row.count != 4 && row.count != 7)
-      fail("has " + std::to_string(row.count) + (row.count == 1 ? " number" : " numbers"));
+    if (row.count != 3 && row.count != 4 && row.count != 7) fail(fmt::format("has {} number{}", row.count, row.count == 1 ? "" : "s"));
     if (row.count > 3 && !(row.number[3] >= kMinRadius && row.number[3] <= kMaxRadius))
       fail("the radius is " + number_text(row.number[3]), "expected one from 1e-6 to 1e6");
     for (std::size_t k = 4; k < row.count; ++k) {
@@ -54,7 +55,7 @@ class RowReader {
   }
 
   [[noreturn]] void fail(const std::string& what, const std::string& expected = kRow) const {
-    throw InputError(path_.string() + ":" + std::to_string(line_number_) + ": " + what + "; " + expected);
+    throw InputError(fmt::format("{}:{}: {}; {}", path_.string(), line_number_, what, expected));
   }
 
  private:
@@ -94,7 +95,7 @@ Particles read_particles(const std::filesystem::path& path, const ParticlesDescr
   for (int number = 1; std::getline(file, line); ++number) {
     const std::string_view text = trimmed(line);
     if (text.empty() || text.front() == '#') continue;
-    if (text.size() > kMaxLine) fail("line " + std::to_string(number) + " is longer than 1000 bytes; " + kRow);
+    if (text.size() > kMaxLine) fail(fmt::format("line {} is longer than 1000 bytes; {}", number, kRow));
     rows.push_back(reader.read(text, number));
     if (rows.size() > static_cast<std::size_t>(kMaxParticles)) reader.fail("is row 1000001", "expected at most 1000000 rows");
   }

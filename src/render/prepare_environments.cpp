@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Environments, read from files or generated at the resolution that the view needs.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -72,8 +74,8 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture,
     faces[f] = std::move(*face);
     const int size = faces[0].width();
     if (faces[f].width() != size || faces[f].height() != size) {
-      throw InputError(files[f].string() + ": is " + std::to_string(faces[f].width()) + "x" + std::to_string(faces[f].height()) +
-                       "; expected six square faces of one size");
+      throw InputError(
+          fmt::format("{}: is {}x{}; expected six square faces of one size", files[f].string(), faces[f].width(), faces[f].height()));
     }
     format = std::max(format, format_for(faces[f]));
   }

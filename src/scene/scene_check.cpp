@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/scene/scene_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -45,16 +47,14 @@ void check(const LightDescription& l, const std::string& where) {
 
 void check(const ShadowDescription& s, const std::string& where) {
   if (s.resolution != 0 && s.resolution < kMinShadowTexels) {
-    refuse(where + ".resolution",
-           "expected 0 or at least " + std::to_string(kMinShadowTexels) + " (room for the filters), got " + std::to_string(s.resolution));
+    refuse(where + ".resolution", fmt::format("expected 0 or at least {} (room for the filters), got {}", kMinShadowTexels, s.resolution));
   }
 }
 
 void check(const TextureDescription& t, const std::string& where) {
-  if (t.width % 2 != 0) refuse(where + ".width", "expected 0 or an even number, got " + std::to_string(t.width));
+  if (t.width % 2 != 0) refuse(where + ".width", fmt::format("expected 0 or an even number, got {}", t.width));
   if (is_pattern(t.source) && t.width > kMaxPatternWidth)
-    refuse(where + ".width",
-           "expected at most " + std::to_string(kMaxPatternWidth) + " for a map that tiles, got " + std::to_string(t.width));
+    refuse(where + ".width", fmt::format("expected at most {} for a map that tiles, got {}", kMaxPatternWidth, t.width));
 }
 
 void check(const EnvironmentDescription& e, const std::string& where) {
@@ -95,8 +95,7 @@ double thickness_of(const ObjectDescription& o) {
 void check(const ObjectDescription& o, const std::string& where) {
   check(o.placement, where);
   if (o.shape == Shape::file && o.file.path.empty()) refuse(where + ".file", "is missing; expected a model file");
-  for (std::size_t i = 0; i < o.instances.size(); ++i)
-    check(o.instances[i], where + "." + std::string(kInstances) + "." + std::to_string(i));
+  for (std::size_t i = 0; i < o.instances.size(); ++i) check(o.instances[i], fmt::format("{}.{}.{}", where, kInstances, i));
   if (vertices_of(o) > kMaxVertices) refuse(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
   if (is_ring(o.shape) && o.tube >= o.radius)
     refuse(where + ".tube", number_text(o.tube) + " closes the hole of the ring; expected less than radius, " + number_text(o.radius));
@@ -149,11 +148,11 @@ void check_room(const Named<ObjectDescription>& objects, const std::string& sour
     copies += count;
     vertices += vertices_of(o) * count;
   }
-  if (copies > kMaxCopies)
-    refuse(source, "objects: " + std::to_string(copies) + " objects including instances; expected at most " + std::to_string(kMaxCopies));
+  if (copies > kMaxCopies) refuse(source, fmt::format("objects: {} objects including instances; expected at most {}", copies, kMaxCopies));
   if (vertices > kMaxDrawnVertices) {
-    refuse(source, "objects: " + std::to_string(vertices) +
-                       " vertices including instances; expected at most 33554432 (2^25): fewer instances or coarser shapes");
+    refuse(source,
+           fmt::format("objects: {} vertices including instances; expected at most 33554432 (2^25): fewer instances or coarser shapes",
+                       vertices));
   }
 }
 
@@ -162,7 +161,7 @@ void check_scene(SceneDescription& scene, const std::string& source) {
     refuse(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
   }
   if (!std::has_single_bit(static_cast<unsigned>(scene.head.samples)))
-    refuse(source, "samples: expected 1, 2, 4 or 8, got " + std::to_string(scene.head.samples));
+    refuse(source, fmt::format("samples: expected 1, 2, 4 or 8, got {}", scene.head.samples));
   check_environments(scene, source);
   for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
     for (auto& entry : list) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/scene/scene_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -32,7 +34,7 @@ std::string place_of(std::string_view text, std::size_t byte) {
   const auto line = std::ranges::count(before, '\n') + 1;
   const std::size_t start = before.rfind('\n');
   const std::size_t column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
-  return std::to_string(line) + ":" + std::to_string(column);
+  return fmt::format("{}:{}", line, column);
 }
 
 // Returns the JSON library's message without its error number and position, on one line.
@@ -52,14 +54,13 @@ class OnceOnly {
  public:
   explicit OnceOnly(const std::string& source) : source_(source) {}
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
-    if (depth > kMaxLevels) fail(source_, "is nested deeper than " + std::to_string(kMaxLevels) + " levels");
+    if (depth > kMaxLevels) fail(source_, fmt::format("is nested deeper than {} levels", kMaxLevels));
     if (event == Json::parse_event_t::object_start) names_.emplace_back();
     if (event == Json::parse_event_t::object_end) names_.pop_back();
     if (event == Json::parse_event_t::key && !names_.back().insert(parsed.get<std::string>()).second) {
       fail(source_, "'" + parsed.get<std::string>() + "' occurs twice in one object; expected each name once");
     }
-    if (!names_.empty() && names_.back().size() > kMaxNames)
-      fail(source_, "an object has more than " + std::to_string(kMaxNames) + " names");
+    if (!names_.empty() && names_.back().size() > kMaxNames) fail(source_, fmt::format("an object has more than {} names", kMaxNames));
     return true;
   }
 
@@ -120,8 +121,8 @@ class Reader {
 
  private:
   void check_version() const {
-    if (!json_.contains("version")) fail(context_.source, "version: missing; expected \"version\": " + std::to_string(SceneFile::kVersion));
-    if (json_["version"] != SceneFile::kVersion) fail(context_.source, "version: expected " + std::to_string(SceneFile::kVersion));
+    if (!json_.contains("version")) fail(context_.source, fmt::format("version: missing; expected \"version\": {}", SceneFile::kVersion));
+    if (json_["version"] != SceneFile::kVersion) fail(context_.source, fmt::format("version: expected {}", SceneFile::kVersion));
   }
 
   const Json& collection(const char* name) const {
@@ -162,10 +163,10 @@ class Reader {
     if (!json.contains(kInstances)) return;
     const Json& list = json[kInstances];
     if (!list.is_array() || list.size() > kMaxNames)
-      fail(context_.source, path + ".instances: expected a list of at most " + std::to_string(kMaxNames) + " objects");
+      fail(context_.source, fmt::format("{}.instances: expected a list of at most {} objects", path, kMaxNames));
     for (std::size_t i = 0; i < list.size(); ++i) {
       Placement p;
-      read_section(section_of(p), list[i], path + ".instances." + std::to_string(i), context_);
+      read_section(section_of(p), list[i], fmt::format("{}.instances.{}", path, i), context_);
       object.instances.push_back(p);
     }
   }
@@ -287,7 +288,7 @@ SceneDescription SceneFile::at(double seconds) const {
   for (const auto& [name, animation] : description_.animations) {
     animate(scene, animation, "animations." + name, source_, begun + seconds * description_.animation.speed);
   }
-  check_scene(scene, source_ + " at " + std::to_string(seconds) + " s");
+  check_scene(scene, fmt::format("{} at {:f} s", source_, seconds));
   return scene;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/scene/scene_paths.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -115,7 +117,7 @@ std::vector<NamedSection> sections_of(SceneDescription& scene) {
       sections.push_back({path, help, section_of(value), defaults_of<T>()});
       if constexpr (std::is_same_v<T, ObjectDescription>) {
         for (std::size_t i = 0; i < value.instances.size(); ++i) {
-          sections.push_back({path + "." + std::string(kInstances) + "." + std::to_string(i), "A copy of the object, placed relative to it",
+          sections.push_back({fmt::format("{}.{}.{}", path, kInstances, i), "A copy of the object, placed relative to it",
                               section_of(value.instances[i]), defaults_of<Placement>()});
         }
       }

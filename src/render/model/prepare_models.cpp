@@ -3,6 +3,8 @@
 // Chooses the cheapest models whose image differs from the image of the finest models by at most the allowed error. The result is the
 // scene with other mesh resolutions, maps, filters and sample counts, and the reasons for them. Constants are fitted to the
 // measurements in docs/results/accuracy.md; nothing is timed.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,20 +78,20 @@ bool shades_by_vertex(const ObjectDescription& o) {
 
 // Returns the angle between the normals at the ends of a quad's diagonal; 0 for shapes with flat faces.
 double diagonal_angle(const ObjectDescription& o) {
-  constexpr double kPi = std::numbers::pi;
+  using std::numbers::pi;
   switch (o.shape) {
     case Shape::sphere:
     case Shape::file:
     case Shape::plane:
     case Shape::cube: return 0.0;
     case Shape::icosphere: return 1.33 / static_cast<double>(1 << o.level);
-    case Shape::uv_sphere: return glm::length(glm::dvec2(kPi / o.latitudes, 2.0 * kPi / o.longitudes));
+    case Shape::uv_sphere: return glm::length(glm::dvec2(pi / o.latitudes, 2.0 * pi / o.longitudes));
     case Shape::cylinder:
-    case Shape::cone: return 2.0 * kPi / o.longitudes;
+    case Shape::cone: return 2.0 * pi / o.longitudes;
     case Shape::torus:
     case Shape::torus_knot: break;
   }
-  return glm::length(glm::dvec2(2.0 * kPi / o.latitudes, 2.0 * kPi / o.longitudes));
+  return glm::length(glm::dvec2(2.0 * pi / o.latitudes, 2.0 * pi / o.longitudes));
 }
 
 // Returns the maximum channel of the light that reaches a surface.
@@ -220,8 +222,8 @@ void fit_shadow(ShadowDescription& shadow, double edge_px, std::vector<ModelChoi
   }
   shadow.resolution = 0;
   shadow.footprint = std::clamp(edge_px / kShadowEdgeTexels, 0.1, 100.0);
-  const std::string why = "fine enough for edges within " + rounded_text(shadow.footprint * kShadowEdgeTexels) + " px, at most " +
-                          std::to_string(kMaxShadowTexels) + " texels";
+  const std::string why = fmt::format("fine enough for edges within {} px, at most {} texels",
+                                      rounded_text(shadow.footprint * kShadowEdgeTexels), kMaxShadowTexels);
   choices.push_back({"shadow.resolution", "0", why});
   choices.push_back({"shadow.footprint", rounded_text(shadow.footprint), why});
 }
