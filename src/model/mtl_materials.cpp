@@ -21,7 +21,7 @@ constexpr double kBumpHeight = 0.01;  // of the diagonal
 constexpr std::string_view kMapNames[kMtlMaps] = {"map_Kd",     "map_Ks", "map_Ns", "map_Ke", "map_d",  "bump map",
                                                   "normal map", "map_Pr", "map_Pm", "map_Pc", "map_Pcr"};
 
-float largest(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
+float max_component(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
 float unit(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
 // Returns a factor: 1 if it is missing or 0 although there is a texture for it.
@@ -32,15 +32,15 @@ float factor(const std::optional<float>& value, const TextureUse& map, float mis
 
 glm::vec3 diffuse(const MtlMaterial& mtl, bool has_texture) {
   const glm::vec3 color = mtl.Kd.value_or(glm::vec3(0.0f));
-  if (largest(color) > 0.0f) return linear_from_srgb(color);
+  if (max_component(color) > 0.0f) return linear_from_srgb(color);
   if (has_texture) return glm::vec3(1.0f);
   return glm::vec3(mtl.Kd && mtl.map(MtlMap::Kd).file.empty() ? 0.0f : kDefaultGray);
 }
 
 glm::vec3 emission(const MtlMaterial& mtl, bool has_texture) {
   const glm::vec3 color = glm::max(mtl.Ke.value_or(glm::vec3(0.0f)), 0.0f);
-  if (largest(color) == 0.0f) return glm::vec3(has_texture ? 1.0f : 0.0f);
-  const float intensity = std::max(largest(color), 1.0f);
+  if (max_component(color) == 0.0f) return glm::vec3(has_texture ? 1.0f : 0.0f);
+  const float intensity = std::max(max_component(color), 1.0f);
   return linear_from_srgb(color / intensity) * intensity;
 }
 
@@ -128,12 +128,12 @@ void MtlConverter::convert_reflection(const MtlMaterial& mtl, ModelMaterial& mat
   const glm::vec3 ks = glm::clamp(mtl.Ks.value_or(glm::vec3(0.5f)), 0.0f, 1.0f);
   const int illum = mtl.illum.value_or(2);
   material.unlit = illum == 0;
-  if ((illum == 3 || illum == 5 || illum == 8) && largest(ks) > largest(mtl.Kd.value_or(glm::vec3(0.0f)))) {
+  if ((illum == 3 || illum == 5 || illum == 8) && max_component(ks) > max_component(mtl.Kd.value_or(glm::vec3(0.0f)))) {
     material.metallic = 1.0f;
     material.base_color = glm::vec4(linear_from_srgb(ks), material.base_color.w);
-  } else if (illum == 1 || (largest(ks) == 0.0f && material.specular_map.texture < 0)) {
+  } else if (illum == 1 || (max_component(ks) == 0.0f && material.specular_map.texture < 0)) {
     material.specular = 0.0f;
-  } else if (largest(ks) > 0.0f) {
+  } else if (max_component(ks) > 0.0f) {
     material.specular_color = 2.0f * ks;
   }
 }

@@ -21,7 +21,7 @@ constexpr std::string_view kCurveStatements[] = {"bmat", "con",  "cstype", "curv
 constexpr std::string_view kIgnoredStatements[] = {"bevel", "c_interp", "ctech",      "d_interp",  "lod",    "maplib",
                                                    "mg",    "stech",    "shadow_obj", "trace_obj", "usemap", "vw"};
 
-bool contains(std::span<const std::string_view> names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+bool is_one_of(std::span<const std::string_view> names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
 // The largest index that a file uses, and the line where it occurs.
 struct LargestIndex {
@@ -64,8 +64,8 @@ class ObjParser {
     if (word == "o" || word == "g") return set_name(trimmed(rest));
     if (word == "s") return set_smoothing(take_value(rest));
     if (word == "mtllib") return add_library(trimmed(rest));
-    if (contains(kIgnoredStatements, word)) return;
-    if (contains(kCurveStatements, word)) return warn_once("curves", "free-form curves and surfaces are not drawn");
+    if (is_one_of(kIgnoredStatements, word)) return;
+    if (is_one_of(kCurveStatements, word)) return warn_once("curves", "free-form curves and surfaces are not drawn");
     warn_once("unknown", "unknown statement " + in_quotes(word) + " is ignored, as are all others that are unknown");
   }
 

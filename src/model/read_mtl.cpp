@@ -61,10 +61,6 @@ std::string lower(std::string_view word) {
   return text;
 }
 
-std::string_view without_quotes(std::string_view name) {
-  return name.size() >= 2 && name.front() == '"' && name.back() == '"' ? name.substr(1, name.size() - 2) : name;
-}
-
 class MtlParser {
  public:
   MtlParser(std::string_view name, std::string_view text, std::vector<std::string>& warnings)

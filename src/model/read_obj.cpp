@@ -69,10 +69,6 @@ class Libraries {
   static constexpr std::string_view kWhat = "material library";
   static constexpr std::size_t kMaxNames = 64;
 
-  static std::string_view without_quotes(std::string_view name) {
-    return name.size() >= 2 && name.front() == '"' && name.back() == '"' ? name.substr(1, name.size() - 2) : name;
-  }
-
   // Returns false without a warning if the file is not found.
   bool read_quietly(std::string_view name) {
     std::vector<std::string> notes;

@@ -35,6 +35,10 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string_view without_quotes(std::string_view text) {
+  return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
 std::string in_quotes(std::string_view name) {
   constexpr std::size_t kMaxLength = 120;
   std::string text(name.substr(0, kMaxLength));

@@ -43,6 +43,9 @@ inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 /// Returns the text without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// Returns the text between two quotation marks, or all of it if it does not have them at both ends.
+std::string_view without_quotes(std::string_view text);
+
 /// Removes the first word from `rest` and returns it; empty if there is none. Words are separated by spaces and tabs.
 inline std::string_view take_word(std::string_view& rest) {
   std::size_t begin = 0;

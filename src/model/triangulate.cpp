@@ -5,8 +5,8 @@
 // three corners is computed exactly.
 //
 // A corner is an ear if it turns left and no other corner is in its triangle. Only corners that do not turn left can be there, so these
-// are sorted into a grid. The total number of corners that are tested is limited to a multiple of the number of corners: a polygon that
-// intersects itself could take quadratic time or worse. Beyond the limit, corners are clipped in order.
+// are sorted into a grid. The number of steps is limited to a multiple of the number of corners: a polygon that intersects itself could
+// take quadratic time or worse. Beyond the limit, corners are clipped without tests.
 #include "halfspace/model/triangulate.h"
 
 #include <algorithm>
@@ -117,54 +117,76 @@ bool is_fan(std::span<const dvec2> p) {
 
 class EarClipper {
  public:
-  explicit EarClipper(std::vector<dvec2> points) : points_(std::move(points)), count_(points_.size()), budget_(kTestsPerCorner * count_) {
+  explicit EarClipper(std::vector<dvec2> points) : points_(std::move(points)), count_(points_.size()), budget_(kBudgetPerCorner * count_) {
     previous_.resize(count_);
     next_.resize(count_);
     for (std::size_t i = 0; i < count_; ++i) {
       previous_[i] = static_cast<uint32_t>((i + count_ - 1) % count_);
       next_[i] = static_cast<uint32_t>((i + 1) % count_);
     }
-    blocks_.resize(count_);
-    for (uint32_t i = 0; i < count_; ++i) blocks_[i] = turn(i) <= 0.0 ? 1 : 0;
+    states_.resize(count_);
+    for (uint32_t i = 0; i < count_; ++i) {
+      update(i);
+      if (states_[i] == State::convex) queue_.push_back(i);
+    }
     make_grid();
   }
 
   void clip(std::vector<uint32_t>& triangles) {
-    uint32_t corner = 0;
-    std::size_t misses = 0;
-    for (std::size_t left = count_; left > 2;) {
-      // When no corner is an ear, the polygon intersects itself or is degenerate. Then any corner is clipped.
-      if (budget_ > 0 && misses < left && !is_ear(corner)) {
-        corner = next_[corner];
-        ++misses;
-        continue;
-      }
-      misses = 0;
+    uint32_t any = 0;  // clipped if no corner is an ear, i.e. if the polygon intersects itself or is degenerate
+    for (std::size_t left = count_; left > 2; --left) {
+      const uint32_t ear = take_ear(any), corner = ear == kNone ? any : ear;
       const uint32_t before = previous_[corner], after = next_[corner];
       triangles.insert(triangles.end(), {before, corner, after});
-      remove(corner, before, after);
-      --left;
-      corner = next_[after];  // skipping one corner avoids long fans of thin triangles
+      next_[before] = after;
+      previous_[after] = before;
+      states_[corner] = State::removed;
+      for (const uint32_t i : {before, after}) {
+        update(i);
+        if (states_[i] == State::convex) queue_.push_back(i);
+      }
+      any = after;
     }
   }
 
  private:
-  static constexpr std::size_t kTestsPerCorner = 1000;
+  // A corner that does not turn left is blocking: it may be in the triangle of another corner.
+  enum class State : uint8_t { convex, blocking, removed };
+  static constexpr uint32_t kNone = 0xffffffffu;
+  static constexpr std::size_t kBudgetPerCorner = 1000;
+  static constexpr std::size_t kTestCost = 10;  // of a test of a corner against a triangle; all other steps cost 1
 
   double turn(uint32_t i) const { return orientation(points_[previous_[i]], points_[i], points_[next_[i]]); }
 
-  void remove(uint32_t corner, uint32_t before, uint32_t after) {
-    next_[before] = after;
-    previous_[after] = before;
-    blocks_[corner] = 0;
-    for (const uint32_t i : {before, after}) {
-      if (blocks_[i] != 0 && turn(i) > 0.0) blocks_[i] = 0;
+  void update(uint32_t i) { states_[i] = turn(i) > 0.0 ? State::convex : State::blocking; }
+
+  // Returns kNone if there is no ear or if the budget is spent. `any` is a corner that is left.
+  uint32_t take_ear(uint32_t any) {
+    for (const bool all : {false, true}) {
+      if (all) queue_all(any);
+      while (queue_at_ < queue_.size() && budget_ > 0) {
+        const uint32_t corner = queue_[queue_at_++];
+        spend(1);
+        if (states_[corner] == State::convex && is_ear(corner)) return corner;
+      }
     }
+    return kNone;
+  }
+
+  // Corners that were blocked when they were tested may have become ears since.
+  void queue_all(uint32_t any) {
+    if (budget_ == 0) return;
+    queue_.clear();
+    queue_at_ = 0;
+    uint32_t i = any;
+    do {
+      spend(1);
+      if (states_[i] == State::convex) queue_.push_back(i);
+      i = next_[i];
+    } while (i != any);
   }
 
   bool is_ear(uint32_t corner) {
-    spend(1);
-    if (turn(corner) <= 0.0) return false;
     const dvec2 &a = points_[previous_[corner]], &b = points_[corner], &c = points_[next_[corner]];
     const dvec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
     const glm::ivec2 first = cell_of(low), last = cell_of(high);
@@ -173,9 +195,11 @@ class EarClipper {
         spend(1);
         const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_) + static_cast<std::size_t>(x);
         for (uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
-          if (blocks_[grid_[i]] == 0) continue;
+          const dvec2& p = points_[grid_[i]];
           spend(1);
-          if (is_in_triangle(points_[grid_[i]], a, b, c)) return false;
+          if (states_[grid_[i]] != State::blocking || p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) continue;
+          spend(kTestCost);
+          if (is_in_triangle(p, a, b, c)) return false;
         }
       }
     }
@@ -196,19 +220,21 @@ class EarClipper {
       low_ = glm::min(low_, p);
       high_ = glm::max(high_, p);
     }
-    const auto blocking = static_cast<std::size_t>(std::ranges::count(blocks_, 1));
+    const auto blocking = static_cast<std::size_t>(std::ranges::count(states_, State::blocking));
     cells_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(blocking) / 2.0)));
     cell_begin_.assign(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_) + 1, 0);
     const auto cell_number = [&](uint32_t i) {
       const glm::ivec2 cell = cell_of(points_[i]);
       return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(cells_) + static_cast<std::size_t>(cell.x);
     };
-    for (uint32_t i = 0; i < count_; ++i) cell_begin_[cell_number(i) + 1] += blocks_[i];
+    for (uint32_t i = 0; i < count_; ++i) {
+      if (states_[i] == State::blocking) ++cell_begin_[cell_number(i) + 1];
+    }
     for (std::size_t i = 1; i < cell_begin_.size(); ++i) cell_begin_[i] += cell_begin_[i - 1];
     grid_.resize(blocking);
     std::vector<uint32_t> at(cell_begin_.begin(), cell_begin_.end() - 1);
     for (uint32_t i = 0; i < count_; ++i) {
-      if (blocks_[i] != 0) grid_[at[cell_number(i)]++] = i;
+      if (states_[i] == State::blocking) grid_[at[cell_number(i)]++] = i;
     }
   }
 
@@ -224,9 +250,11 @@ class EarClipper {
 
   std::vector<dvec2> points_;
   std::size_t count_;
-  std::size_t budget_;                     // corners and cells that may still be tested
+  std::size_t budget_;                     // steps that may still be made
   std::vector<uint32_t> previous_, next_;  // of the corners that are left
-  std::vector<uint8_t> blocks_;            // 1: the corner does not turn left, so it may be in the triangle of another one
+  std::vector<State> states_;
+  std::vector<uint32_t> queue_;  // convex corners that may be ears; the first queue_at_ have been taken
+  std::size_t queue_at_ = 0;
   dvec2 low_{0.0}, high_{0.0};
   int cells_ = 1;                            // per axis of the grid
   std::vector<uint32_t> cell_begin_, grid_;  // blocking corners by cell, at the start
