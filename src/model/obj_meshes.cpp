@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/model/obj_meshes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
 #include <tuple>
 
-#include "halfspace/core/check.h"
 #include "halfspace/model/normals.h"
 #include "halfspace/model/srgb_color.h"
 #include "halfspace/model/triangulate.h"
@@ -71,8 +68,8 @@ std::vector<Group> groups_of(const ObjText& obj) {
 
 class MeshBuilder {
  public:
-  MeshBuilder(const ObjText& obj, const glm::dvec3& origin, const ReadModelOptions& options)
-      : obj_(obj), options_(options), origin_(origin), last_vertex_(obj.positions.size(), kNoIndex) {
+  MeshBuilder(const ObjText& obj, const glm::dvec3& origin, float crease_degrees)
+      : obj_(obj), crease_degrees_(crease_degrees), origin_(origin), last_vertex_(obj.positions.size(), kNoIndex) {
     for (const glm::vec3& color : obj.colors) {
       if (std::max({color.x, color.y, color.z}) > 1.0f) color_scale_ = 1.0f / 255.0f;
     }
@@ -88,23 +85,15 @@ class MeshBuilder {
     mesh.material = group.material;
     mesh.origin = origin_;
     for (const uint32_t element : group.elements) add_element(mesh, group.has_normals, element);
-    charge(mesh.indices.size() * sizeof(uint32_t));
     fill_vertices(mesh, group.has_normals);
     first_vertex_ += static_cast<uint32_t>(corners_.size());
     if (mesh.topology == MeshTopology::triangles && !group.has_normals) {
-      add_smooth_normals(mesh, options_.crease_degrees, smoothing_);
+      add_smooth_normals(mesh, crease_degrees_, smoothing_);
     }
     return mesh;
   }
 
  private:
-  void charge(std::size_t bytes) {
-    used_ += bytes;
-    if (used_ > options_.max_memory) {
-      throw InputError(fmt::format("the meshes need more than {} MiB; expected at most --max-memory", options_.max_memory >> 20));
-    }
-  }
-
   void add_element(ModelMesh& mesh, bool with_normals, uint32_t element) {
     polygon_.clear();
     for (std::size_t i = obj_.elements[element].first_corner; i < obj_.end_corner(element); ++i) {
@@ -155,7 +144,6 @@ class MeshBuilder {
   void fill_vertices(ModelMesh& mesh, bool with_normals) {
     const std::size_t count = corners_.size();
     const bool with_uvs = std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.uv != kNoIndex; });
-    charge(count * (2 * sizeof(glm::vec3) + (with_uvs ? sizeof(glm::vec2) : 0) + (obj_.colors.empty() ? 0 : sizeof(glm::vec4))));
     mesh.positions.reserve(count);
     if (with_normals) mesh.normals.reserve(count);
     if (with_uvs) mesh.uvs[0].reserve(count);
@@ -172,10 +160,9 @@ class MeshBuilder {
   }
 
   const ObjText& obj_;
-  const ReadModelOptions& options_;
+  float crease_degrees_;
   glm::dvec3 origin_;
   float color_scale_ = 1.0f;
-  std::size_t used_ = 0;  // bytes
   uint32_t first_vertex_ = 0;
   std::vector<uint32_t> last_vertex_;  // per position
   // Of the current mesh: the indices of each vertex, the vertex before it at the same position, and the smoothing group per triangle.
@@ -188,11 +175,11 @@ class MeshBuilder {
 
 }  // namespace
 
-ObjMeshes obj_meshes(const ObjText& obj, const ReadModelOptions& options) {
+ObjMeshes obj_meshes(const ObjText& obj, float crease_degrees) {
   const Bounds bounds = bounds_of(obj);
   ObjMeshes result;
   result.diagonal = glm::length(bounds.high - bounds.low);
-  MeshBuilder builder(obj, bounds.center(), options);
+  MeshBuilder builder(obj, bounds.center(), crease_degrees);
   for (const Group& group : groups_of(obj)) result.meshes.push_back(builder.build(group));
   return result;
 }

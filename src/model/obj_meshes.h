@@ -18,8 +18,7 @@ struct ObjMeshes {
 /// Makes one mesh for each combination of material, topology and presence of normals; a mesh has the name of its first object or group.
 /// Corners with equal indices share a vertex. All meshes have the center of the bounds as their origin, so that equal positions of two
 /// meshes stay equal. Colors are taken as sRGB-encoded, from 0 to 255 if any is greater than 1. Triangles without normals get smooth
-/// ones: within smoothing groups if the file has any, else across edges of at most options.crease_degrees, within one mesh. Throws
-/// InputError without a place if the meshes need more than options.max_memory bytes.
-ObjMeshes obj_meshes(const ObjText& obj, const ReadModelOptions& options);
+/// ones: within smoothing groups if the file has any, else across edges of at most crease_degrees, within one mesh.
+ObjMeshes obj_meshes(const ObjText& obj, float crease_degrees);
 
 }  // namespace halfspace

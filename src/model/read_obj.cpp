@@ -152,15 +152,11 @@ Model read_obj(const std::filesystem::path& file, std::span<const std::byte> byt
   Libraries libraries(file, options, model.warnings);
   for (const std::string& names : obj.libraries) libraries.add(names);
   const std::vector<const MtlMaterial*> materials = resolve_materials(obj, libraries, model.warnings);
-  try {
-    ObjMeshes built = obj_meshes(obj, options);
-    model.meshes = std::move(built.meshes);
-    MtlConverter converter(model, file, options, built.diagonal);
-    const ModelMaterial gray = default_mtl_material(!obj.colors.empty());
-    for (const MtlMaterial* const mtl : materials) model.materials.push_back(mtl == nullptr ? gray : converter.convert(*mtl));
-  } catch (const InputError& e) {
-    throw InputError(fmt::format("{}: {}", file.string(), e.what()));
-  }
+  ObjMeshes built = obj_meshes(obj, options.crease_degrees);
+  model.meshes = std::move(built.meshes);
+  MtlConverter converter(model, file, options, built.diagonal);
+  const ModelMaterial gray = default_mtl_material(!obj.colors.empty());
+  for (const MtlMaterial* const mtl : materials) model.materials.push_back(mtl == nullptr ? gray : converter.convert(*mtl));
   ModelNode& node = model.nodes.emplace_back();
   node.name = file.stem().string();
   node.meshes.resize(model.meshes.size());

@@ -68,11 +68,14 @@ inline std::string_view take_value(std::string_view& rest) {
 /// Returns the value of a decimal number such as "-1.5e3", or nothing if the word is not a number, not finite, or larger than
 /// kMaxModelNumber. Numbers too small for a double are 0.
 inline std::optional<double> number_in(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+')) {
+    word.remove_prefix(1);
+    if (word.starts_with('-')) return std::nullopt;
+  }
   double value = 0.0;
   const char* const end = word.data() + word.size();
   const auto [at, error] = std::from_chars(word.data(), end, value);
-  if (at != end || word.empty() || word.starts_with('+')) return std::nullopt;
+  if (at != end) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
     const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
     return tiny ? std::optional<double>(0.0) : std::nullopt;
