@@ -153,7 +153,7 @@ class EarClipper {
   // A corner that does not turn left is blocking: it may be in the triangle of another corner.
   enum class State : uint8_t { convex, blocking, removed };
   static constexpr uint32_t kNone = 0xffffffffu;
-  static constexpr std::size_t kBudgetPerCorner = 1000;
+  static constexpr std::size_t kBudgetPerCorner = 300;
   static constexpr std::size_t kTestCost = 10;  // of a test of a corner against a triangle; all other steps cost 1
 
   double turn(uint32_t i) const { return orientation(points_[previous_[i]], points_[i], points_[next_[i]]); }
@@ -193,7 +193,7 @@ class EarClipper {
     for (int y = first.y; y <= last.y; ++y) {
       for (int x = first.x; x <= last.x; ++x) {
         spend(1);
-        const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_) + static_cast<std::size_t>(x);
+        const std::size_t cell = number_of({x, y});
         for (uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
           const dvec2& p = points_[grid_[i]];
           spend(1);
@@ -221,12 +221,12 @@ class EarClipper {
       high_ = glm::max(high_, p);
     }
     const auto blocking = static_cast<std::size_t>(std::ranges::count(states_, State::blocking));
-    cells_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(blocking) / 2.0)));
-    cell_begin_.assign(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_) + 1, 0);
-    const auto cell_number = [&](uint32_t i) {
-      const glm::ivec2 cell = cell_of(points_[i]);
-      return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(cells_) + static_cast<std::size_t>(cell.x);
-    };
+    // About square cells, with two blocking corners per cell on average.
+    const double cells = static_cast<double>(blocking) / 2.0 + 1.0, width = high_.x - low_.x, height = high_.y - low_.y;
+    const double columns = height > 0.0 ? std::clamp(std::sqrt(cells * (width / height)), 1.0, cells) : cells;
+    cells_ = {static_cast<int>(columns), static_cast<int>(cells / columns)};
+    cell_begin_.assign(static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) + 1, 0);
+    const auto cell_number = [&](uint32_t i) { return number_of(cell_of(points_[i])); };
     for (uint32_t i = 0; i < count_; ++i) {
       if (states_[i] == State::blocking) ++cell_begin_[cell_number(i) + 1];
     }
@@ -238,12 +238,16 @@ class EarClipper {
     }
   }
 
+  std::size_t number_of(const glm::ivec2& cell) const {
+    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(cells_.x) + static_cast<std::size_t>(cell.x);
+  }
+
   glm::ivec2 cell_of(const dvec2& p) const {
     glm::ivec2 cell(0);
     for (int axis = 0; axis < 2; ++axis) {
       const double size = high_[axis] - low_[axis];
-      const double at = size > 0.0 ? (p[axis] - low_[axis]) / size * cells_ : 0.0;
-      cell[axis] = static_cast<int>(std::clamp(at, 0.0, static_cast<double>(cells_ - 1)));
+      const double at = size > 0.0 ? (p[axis] - low_[axis]) / size * cells_[axis] : 0.0;
+      cell[axis] = static_cast<int>(std::clamp(at, 0.0, static_cast<double>(cells_[axis] - 1)));
     }
     return cell;
   }
@@ -256,7 +260,7 @@ class EarClipper {
   std::vector<uint32_t> queue_;  // convex corners that may be ears; the first queue_at_ have been taken
   std::size_t queue_at_ = 0;
   dvec2 low_{0.0}, high_{0.0};
-  int cells_ = 1;                            // per axis of the grid
+  glm::ivec2 cells_{1};                      // of the grid, per axis
   std::vector<uint32_t> cell_begin_, grid_;  // blocking corners by cell, at the start
 };
 
