@@ -24,23 +24,26 @@ void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
 
 // Adds the options for model files.
 void add_model_options(CLI::App* command, ModelArguments& args) {
-  CLI::Option_group* group = command->add_option_group("Model files (.obj .gltf .glb .ply .stl)");
-  group->add_option("--yaw", args.yaw, "Degrees around the model, from the front to its left (default 35)")->type_name("A");
-  group->add_option("--pitch", args.pitch, "Degrees above the horizon (default 18)")->type_name("A");
-  group->add_option("--zoom", args.zoom, "2: half the distance (default 1)")->type_name("F");
-  group->add_option("--fov", args.fov, "Vertical field of view in degrees (default 35)")->type_name("A");
-  group->add_option("--eye", args.eye, "Position of the camera")->type_name("X,Y,Z");
-  group->add_option("--look-at", args.look_at, "Point at the center of the image")->type_name("X,Y,Z");
-  group->add_option("--up", args.up, "Direction that points up in the image (default 0,1,0)")->type_name("X,Y,Z");
-  group->add_flag("--inside", args.inside, "Start inside the bounds of the model");
-  group->add_option("--turntable", args.turntable, "Render N frames around the model")->type_name("N");
-  group->add_option("--environment", args.environment, "Panorama that lights the model (default: a studio)")->type_name("FILE");
-  group->add_option("--background", args.background, "#rrggbb, or environment")->type_name("COLOR");
-  group->add_flag("--no-floor", args.no_floor, "No shadow below the model");
-  group->add_option("--up-axis", args.up_axis, "y or z (default: z for STL, else y)")->type_name("AXIS");
-  group->add_option("--scene", args.model_scene, "Name of a scene in the file")->type_name("NAME");
-  group->add_option("--animation", args.animation, "Name of an animation in the file")->type_name("NAME");
-  group->add_option("--variant", args.variant, "Name of a material variant in the file")->type_name("NAME");
+  const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
+    command->add_option(name, value, help)->type_name(type)->group("Model files");
+  };
+  const auto add_flag = [&](const char* name, bool& value, const char* help) { command->add_flag(name, value, help)->group("Model files"); };
+  add("--yaw", args.yaw, "Degrees around the model (default 35)", "A");
+  add("--pitch", args.pitch, "Degrees above the horizon (default 18)", "A");
+  add("--zoom", args.zoom, "2: half the distance (default 1)", "F");
+  add("--fov", args.fov, "Vertical field of view (default 35)", "DEGREES");
+  add("--eye", args.eye, "Position of the camera", "X,Y,Z");
+  add("--look-at", args.look_at, "Point at the center of the image", "X,Y,Z");
+  add("--up", args.up, "Direction that points up (default 0,1,0)", "X,Y,Z");
+  add_flag("--inside", args.inside, "Start inside the bounds of the model");
+  add("--turntable", args.turntable, "Render N frames around the model", "N");
+  add("--environment", args.environment, "Panorama that lights the model", "FILE");
+  add("--background", args.background, "#rrggbb, or environment", "COLOR");
+  add_flag("--no-floor", args.no_floor, "No shadow below the model");
+  add("--up-axis", args.up_axis, "y or z (default: z for STL, else y)", "AXIS");
+  add("--scene", args.model_scene, "Scene in the file", "NAME");
+  add("--animation", args.animation, "Animation in the file", "NAME");
+  add("--variant", args.variant, "Material variant in the file", "NAME");
 }
 
 void add_render_command(CLI::App& program) {

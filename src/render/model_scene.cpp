@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 #include "halfspace/core/check.h"
@@ -18,6 +19,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMargin = 1.12;  // of the fitted view
+constexpr double kPi = std::numbers::pi;
 
 OrderedJson json_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -37,6 +39,27 @@ Bounds bounds_of(const PosedModel& posed, const std::filesystem::path& file) {
   Bounds b{0.5 * (posed.low + posed.high), 0.5 * (posed.high - posed.low), 0.0};
   b.radius = std::max(glm::length(b.half), 1e-6);
   return b;
+}
+
+// How the scene places the model. A model that is far from the origin compared with its size is moved to the origin, and one that is very
+// small or large is scaled by a power of ten, because keys of scene files have limits. Otherwise the scene has the units of the file.
+struct Frame {
+  glm::dvec3 origin{0.0};
+  double scale = 1.0;
+
+  glm::dvec3 point(const glm::dvec3& p) const { return (p - origin) * scale; }
+};
+
+Frame frame_of(const Bounds& b) {
+  constexpr double kFar = 100.0, kSmall = 1e-2, kLarge = 1e4;
+  Frame frame;
+  if (glm::length(b.center) > kFar * b.radius) frame.origin = b.center;
+  if (b.radius < kSmall || b.radius > kLarge) {
+    double radius = b.radius;
+    for (; radius < 0.5; radius *= 10.0) frame.scale *= 10.0;
+    for (; radius >= 5.0; radius /= 10.0) frame.scale /= 10.0;
+  }
+  return frame;
 }
 
 // Unit vector from the center to the eye.
@@ -97,7 +120,7 @@ Fit fitted_for_turntable(const Model& model, const PosedModel& posed, const Boun
   return {b.center + eye_direction(view) * (distance / view.zoom), b.center};
 }
 
-OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Bounds& b, const ModelView& view) {
+OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Bounds& b, const Frame& frame, const ModelView& view) {
   glm::dvec3 target = view.look_at.value_or(b.center), eye = target;
   if (view.eye) {
     eye = *view.eye;
@@ -112,13 +135,13 @@ OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Bou
     eye = fit.eye + (target - fit.target);
   }
   if (eye == target) target = eye + glm::dvec3(0, 0, -1) * b.radius;
-  const double distance = glm::distance(eye, b.center);
-  return {{"position", json_of(eye)},
-          {"target", json_of(target)},
+  const double distance = glm::distance(eye, b.center) * frame.scale, radius = b.radius * frame.scale;
+  return {{"position", json_of(frame.point(eye))},
+          {"target", json_of(frame.point(target))},
           {"up", json_of(view.up)},
           {"fov", view.fov},
-          {"near", std::max(1e-3 * b.radius, 0.5 * (distance - 1.5 * b.radius))},
-          {"far", distance + 20.0 * b.radius}};
+          {"near", std::max(1e-3 * radius, 0.5 * (distance - 1.5 * radius))},
+          {"far", distance + 20.0 * radius}};
 }
 
 // Returns a name for a scene file: without dots, which separate the parts of a path, and not used before.
@@ -132,23 +155,23 @@ std::string unique_name(std::string name, const std::string& fallback, std::set<
   return unique;
 }
 
-OrderedJson cameras_of(const Model& model, const PosedModel& posed, const Bounds& b, const ModelView& view) {
-  OrderedJson cameras = {{"view", fitted_camera(model, posed, b, view)}};
+OrderedJson cameras_of(const Model& model, const PosedModel& posed, const Bounds& b, const Frame& frame, const ModelView& view) {
+  OrderedJson cameras = {{"view", fitted_camera(model, posed, b, frame, view)}};
   std::set<std::string> used{"view"};
   for (const PosedCamera& placed : posed.cameras) {
     const ModelCamera& c = model.cameras[static_cast<std::size_t>(placed.camera)];
     const glm::dvec3 eye(placed.world_from_camera[3]), ahead(-placed.world_from_camera[2]);
     const double far = std::isfinite(c.far) ? c.far : glm::distance(eye, b.center) + 100.0 * b.radius;
     OrderedJson camera = {{"type", c.perspective ? "perspective" : "orthographic"},
-                          {"position", json_of(eye)},
-                          {"target", json_of(eye + glm::normalize(ahead) * b.radius)},
+                          {"position", json_of(frame.point(eye))},
+                          {"target", json_of(frame.point(eye + glm::normalize(ahead) * b.radius))},
                           {"up", json_of(glm::dvec3(placed.world_from_camera[1]))},
-                          {"near", c.near},
-                          {"far", std::max(far, 2.0 * c.near)}};
+                          {"near", c.near * frame.scale},
+                          {"far", std::max(far, 2.0 * c.near) * frame.scale}};
     if (c.perspective) {
       camera["fov"] = std::clamp(c.fovy / kRadiansPerDegree, 0.01, 179.0);
     } else {
-      camera["height"] = c.height;
+      camera["height"] = c.height * frame.scale;
     }
     cameras[unique_name(c.name, "camera", used)] = std::move(camera);
   }
@@ -156,19 +179,20 @@ OrderedJson cameras_of(const Model& model, const PosedModel& posed, const Bounds
 }
 
 // Lights of the file. Candela and lux are divided by π, because a white surface that faces a light of intensity 1 has a radiance of 1.
-OrderedJson lights_of(const Model& model, const PosedModel& posed) {
+OrderedJson lights_of(const Model& model, const PosedModel& posed, const Frame& frame) {
   OrderedJson lights = OrderedJson::object();
   std::set<std::string> used;
   for (const PosedLight& placed : posed.lights) {
     const ModelLight& l = model.lights[static_cast<std::size_t>(placed.light)];
     const glm::dvec3 back(glm::normalize(glm::dvec3(placed.world_from_light[2])));
-    OrderedJson light = {{"color", json_of(glm::dvec3(l.color))}, {"intensity", l.intensity / 3.141592653589793}};
+    OrderedJson light = {{"color", json_of(glm::dvec3(l.color))}, {"intensity", l.intensity / kPi}};
     if (l.type == ModelLightType::directional) {
       light["type"] = "directional";
       light["direction"] = json_of(back);
     } else {
       light["type"] = l.type == ModelLightType::spot ? "spot" : "point";
-      light["position"] = json_of(glm::dvec3(placed.world_from_light[3]));
+      light["position"] = json_of(frame.point(glm::dvec3(placed.world_from_light[3])));
+      light["intensity"] = l.intensity / kPi * frame.scale * frame.scale;
       light["falloff"] = "physical";
     }
     if (l.type == ModelLightType::spot) {
@@ -228,10 +252,11 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   shown.model_variant = view.variant;
   const PosedModel posed = pose(model, pose_options(model, shown, file.string()));
   const Bounds b = bounds_of(posed, file);
+  const Frame frame = frame_of(b);
   const bool own_lights = !posed.lights.empty();
   OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", "view"}};
-  scene["cameras"] = cameras_of(model, posed, b, view);
-  scene["lights"] = own_lights ? lights_of(model, posed) : key_light(view);
+  scene["cameras"] = cameras_of(model, posed, b, frame, view);
+  scene["lights"] = own_lights ? lights_of(model, posed, frame) : key_light(view);
   OrderedJson environment = {{"type", "studio"}, {"size", 256}, {"brightness", 0.75}};
   if (!view.environment.empty()) environment = {{"type", "equirect"}, {"map", view.environment}};
   scene["environments"] = {{"around", environment}};
@@ -246,6 +271,8 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   scene["post"] = {{"hdr", true}, {"tone", "aces"}, {"exposure", 0.62}};
   scene["shadow"] = {{"method", "pcss"}, {"resolution", 2048}, {"faces", "both"}};
   OrderedJson object = {{"shape", "file"}, {"file", std::filesystem::absolute(file).string()}};
+  if (frame.origin != glm::dvec3(0.0)) object["position"] = json_of(-frame.origin * frame.scale);
+  if (frame.scale != 1.0) object["scale"] = json_of(glm::dvec3(frame.scale));
   if (view.up_axis != "auto") object["up_axis"] = view.up_axis;
   if (!view.scene.empty()) object["model_scene"] = view.scene;
   if (!view.animation.empty()) object["model_animation"] = view.animation;
@@ -256,11 +283,9 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   if (view.turn_seconds > 0.0) animations["turntable"] = turntable(scene["cameras"]["view"], view.turn_seconds);
   if (!animations.empty()) scene["animations"] = animations;
   if (view.floor && !view.inside) {
-    const double size = 6.0 * b.radius;
-    scene["objects"]["floor"] = {{"shape", "plane"},
-                                 {"shadow_only", true},
-                                 {"size", size},
-                                 {"position", {b.center.x, b.center.y - b.half.y - 1e-4 * b.radius, b.center.z}}};
+    const glm::dvec3 below = b.center - glm::dvec3(0, b.half.y + 1e-4 * b.radius, 0);
+    scene["objects"]["floor"] = {
+        {"shape", "plane"}, {"shadow_only", true}, {"size", 6.0 * b.radius * frame.scale}, {"position", json_of(frame.point(below))}};
   }
   return {scene.dump(1), asset};
 }

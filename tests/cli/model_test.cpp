@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Rendering of model files by the program.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/cli_run.h"
+#include "halfspace/image/image_io.h"
+
+namespace halfspace {
+namespace {
+
+class Models : public Cli {
+ protected:
+  void write(const std::string& name, const std::string& text) const { std::ofstream(directory / name) << text; }
+  // A cube with the given center and edge length as OBJ.
+  static std::string cube(double center, double size) {
+    std::ostringstream text;
+    text.precision(17);
+    for (int i = 0; i < 8; ++i) {
+      const auto at = [&](int bit) { return center + size * ((i >> bit & 1) - 0.5); };
+      text << "v " << at(0) << " " << at(1) << " " << at(2) << "\n";
+    }
+    text << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    return text.str();
+  }
+  Image<glm::u8vec4> picture(const std::string& name) const { return read_image(directory / name); }
+  // Renders a cube and returns its picture.
+  Image<glm::u8vec4> cube_picture(double center, double size) const {
+    write("cube.obj", cube(center, size));
+    const Outcome o = run({"render", "cube.obj", "--size", "160x90"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    return picture("cube-render.png");
+  }
+};
+
+TEST_F(Models, RenderWritesAPictureNextToNothingElse) {
+  write("cube.obj", cube(0.0, 1.0));
+  const Outcome o = run({"render", "cube.obj", "--size", "160x90"});
+  EXPECT_EQ(o.exit_code, 0);
+  EXPECT_EQ(o.err, "");
+  EXPECT_EQ(files(), (std::vector<std::string>{"cube-render.png", "cube.obj"}));
+  const Image<glm::u8vec4> image = picture("cube-render.png");
+  // The cube is brighter than the background at its top, and fills most of the height.
+  const glm::u8vec4 background = image.at(2, 2);
+  int rows = 0;
+  for (int y = 0; y < image.height(); ++y) rows += image.at(80, y) != background;
+  EXPECT_GE(rows, 60);
+  EXPECT_LT(rows, 90);
+}
+
+TEST_F(Models, PositionAndSizeOfTheModelDoNotMatter) {
+  const Image<glm::u8vec4> expected = cube_picture(0.0, 1.0);
+  struct Case {
+    double center, size;
+  };
+  for (const Case& c : {Case{5e6, 1.0}, Case{-5e6, 1.0}, Case{0.0, 1e-6}, Case{0.0, 1e6}}) {
+    const Image<glm::u8vec4> other = cube_picture(c.center, c.size);
+    int differ = 0;
+    for (std::size_t i = 0; i < expected.texels().size(); ++i) {
+      for (int k = 0; k < 3; ++k) differ += std::abs(int{expected.data()[i][k]} - int{other.data()[i][k]}) > 1;
+    }
+    // Snapping can move an edge across a sample where the rounding of the camera's position differs.
+    EXPECT_LE(differ, 40) << c.center << " " << c.size;
+  }
+}
+
+TEST_F(Models, ThreadsDoNotMatter) {
+  write("cube.obj", cube(0.0, 1.0));
+  EXPECT_EQ(run({"render", "cube.obj", "--size", "160x90", "--threads", "1", "-o", "one.png"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "cube.obj", "--size", "160x90", "--threads", "3", "-o", "three.png"}).exit_code, 0);
+  EXPECT_EQ(read_bytes(directory / "one.png"), read_bytes(directory / "three.png"));
+}
+
+TEST_F(Models, OptionsChangeTheView) {
+  write("cube.obj", cube(0.0, 1.0));
+  EXPECT_EQ(run({"render", "cube.obj", "--size", "96x54", "-o", "default.png"}).exit_code, 0);
+  const std::vector<std::vector<std::string>> views{{"--yaw", "80"},
+                                                    {"--pitch", "60"},
+                                                    {"--zoom", "2"},
+                                                    {"--fov", "90"},
+                                                    {"--eye", "3,3,3"},
+                                                    {"--look-at", "0,0.4,0"},
+                                                    {"--up", "1,0,0"},
+                                                    {"--inside"},
+                                                    {"--background", "#102030"},
+                                                    {"--background", "environment"},
+                                                    {"--no-floor"},
+                                                    {"--up-axis", "z", "--pitch", "50"}};
+  for (const std::vector<std::string>& view : views) {
+    std::vector<std::string> words{"render", "cube.obj", "--size", "96x54", "-o", "view.png"};
+    words.insert(words.end(), view.begin(), view.end());
+    const Outcome o = run(words);
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_NE(read_bytes(directory / "default.png"), read_bytes(directory / "view.png")) << view[0];
+  }
+}
+
+TEST_F(Models, TurntableRendersNumberedFrames) {
+  write("cube.obj", cube(0.0, 1.0));
+  EXPECT_EQ(run({"render", "cube.obj", "--size", "96x54", "--turntable", "4"}).exit_code, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"cube-render_0000.png", "cube-render_0001.png", "cube-render_0002.png",
+                                               "cube-render_0003.png", "cube.obj"}));
+  // The lights stay while the camera goes around, so opposite views differ.
+  EXPECT_NE(read_bytes(directory / "cube-render_0000.png"), read_bytes(directory / "cube-render_0002.png"));
+}
+
+TEST_F(Models, AreObjectsOfSceneFiles) {
+  write("cube.obj", cube(0.0, 1.0));
+  write("scene.json", R"({ "version": 1, "cameras": { "main": { "position": [2, 2, 3] } }, "lights": { "sun": { "direction": [1, 2, 3] } },
+    "objects": { "cube": { "shape": "file", "file": "cube.obj", "instances": [ {}, { "position": [1.5, 0, 0] } ] } } })");
+  const Outcome o = run({"render", "scene.json", "--size", "96x54", "--stats=json"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(nlohmann::json::parse(o.out).at("counts").at("primitives_in"), 24);
+}
+
+TEST_F(Models, PrintedSceneRendersTheSamePicture) {
+  write("cube.obj", cube(0.0, 1.0));
+  const Outcome printed = run({"render", "cube.obj", "--size", "96x54", "--print"});
+  write("scene.json", printed.out);
+  EXPECT_EQ(run({"render", "scene.json", "--size", "96x54", "-o", "scene.png"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "cube.obj", "--size", "96x54", "-o", "model.png"}).exit_code, 0);
+  EXPECT_EQ(read_bytes(directory / "scene.png"), read_bytes(directory / "model.png"));
+}
+
+TEST_F(Models, InputFilesAreNotOverwritten) {
+  write("a.mtl", "newmtl m\nmap_Kd a-render.png\n");
+  write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+  Image<glm::u8vec4> texture(2, 2);
+  write_png(directory / "a-render.png", texture);
+  const std::string before = read_bytes(directory / "a-render.png");
+  const Outcome o = run({"render", "a.obj", "--size", "96x54"});  // the texture has the name of the default output
+  EXPECT_EQ(o.exit_code, 4);
+  EXPECT_EQ(lines_of(o.err), 1);
+  EXPECT_NE(o.err.find("a-render.png"), std::string::npos);
+  EXPECT_EQ(read_bytes(directory / "a-render.png"), before);
+}
+
+TEST_F(Models, InfoDescribesAModel) {
+  write("cube.obj", cube(2.0, 1.0) + "f 1 3 4\n");
+  const Outcome o = run({"info", "cube.obj", "--json"});
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const auto info = nlohmann::json::parse(o.out);
+  EXPECT_EQ(info.at("format"), "OBJ");
+  EXPECT_EQ(info.at("triangles"), 13);
+  EXPECT_EQ(info.at("non_manifold_edges"), 2 + 1);  // two sides of the added triangle, and the diagonal of the quad
+  EXPECT_EQ(info.at("bounds").at("low"), (std::vector<double>{1.5, 1.5, 1.5}));
+}
+
+TEST_F(Models, MistakesGiveOneLine) {
+  write("cube.obj", cube(0.0, 1.0));
+  write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+  write("empty.obj", "");
+  struct Mistake {
+    std::vector<std::string> words;
+    int exit_code;
+    std::string keyword;
+  };
+  const Mistake mistakes[] = {
+      {{"render", "none.obj"}, 3, "none.obj"},
+      {{"render", "bad.obj"}, 3, "bad.obj:4"},
+      {{"render", "empty.obj"}, 3, "empty.obj"},
+      {{"info", "none.glb"}, 3, "none.glb"},
+      {{"render", "cube.obj", "--yaw", "much"}, 2, "--yaw"},
+      {{"render", "cube.obj", "--eye", "1,2"}, 2, "--eye"},
+      {{"render", "cube.obj", "--up-axis", "x"}, 2, "--up-axis"},
+      {{"render", "cube.obj", "--turntable", "1"}, 2, "--turntable"},
+      {{"render", "cube.obj", "--turntable", "4", "--frames", "0..3"}, 2, "--turntable"},
+      {{"render", "cube.obj", "--animation", "walk"}, 3, "walk"},
+      {{"render", "cube.obj", "--environment", "none.hdr"}, 3, "none.hdr"},
+      {{"render", "moon", "--yaw", "10"}, 2, "--yaw"},
+      {{"render", "cube.obj", "--camera", "back"}, 3, "back"},
+  };
+  for (const Mistake& m : mistakes) {
+    std::vector<std::string> words = m.words;
+    if (words[0] == "render") words.insert(words.end(), {"--size", "32x18"});
+    const Outcome o = run(words);
+    EXPECT_EQ(o.exit_code, m.exit_code) << o.err;
+    EXPECT_EQ(lines_of(o.err), 1) << o.err;
+    EXPECT_NE(o.err.find(m.keyword), std::string::npos) << o.err;
+  }
+}
+
+}  // namespace
+}  // namespace halfspace
