@@ -14,6 +14,8 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "halfspace/core/image.h"
 
@@ -36,6 +38,9 @@ bool holds_linear_numbers(const std::filesystem::path& path);
 /// 16-bit codes are rounded to 8 bits. Color profiles and EXIF orientation are ignored; only the first image of a file is read.
 /// Throws InputError if the format implies linear values.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
+
+/// The same for an encoded image in memory. Error messages begin with `name`.
+Image<glm::u8vec4> read_image(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads the first channel (gray or red) of any file, such as a height map. 8-bit codes are divided by 255 and 16-bit codes by
 /// 65535, without sRGB decoding; linear values are unchanged. All results are finite: an infinity or NaN in the file throws an

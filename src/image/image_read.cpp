@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -90,6 +94,53 @@ Image<glm::u8vec4> read_image(const std::filesystem::path& path) try {
   fail_linear(path, "contains linear values");
 } catch (const std::bad_alloc&) {
   fail_without_memory(path);
+}
+
+namespace {
+
+// A copy of bytes that other processes can open as a file.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::span<const std::byte> bytes) : fd_(::memfd_create("image", MFD_CLOEXEC)) {
+    while (fd_ >= 0 && !bytes.empty()) {
+      const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
+      if (written <= 0) break;
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    complete_ = fd_ >= 0 && bytes.empty();
+  }
+  ~MemoryFile() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  bool complete() const { return complete_; }
+  std::filesystem::path path() const { return fmt::format("/proc/{}/fd/{}", ::getpid(), fd_); }
+
+ private:
+  int fd_;
+  bool complete_ = false;
+};
+
+}  // namespace
+
+Image<glm::u8vec4> read_image(std::span<const std::byte> bytes, const std::string& name) try {
+  if (is_png(bytes)) {
+    const ColorPicture picture = decode_png(bytes, name);
+    if (const auto* wide = std::get_if<Image<glm::u16vec4>>(&picture)) return round_to_8_bits(*wide);
+    return std::get<Image<glm::u8vec4>>(picture);
+  }
+  const MemoryFile file(bytes);
+  if (!file.complete()) fail_without_memory(name);
+  try {
+    return read_image(file.path());
+  } catch (const InputError& e) {
+    const std::string message = e.what(), path = file.path().string();
+    throw InputError(message.starts_with(path) ? name + message.substr(path.size()) : name + ": " + message);
+  }
+} catch (const std::bad_alloc&) {
+  fail_without_memory(name);
 }
 
 Image<float> read_gray(const std::filesystem::path& path) try {

@@ -102,15 +102,21 @@ class ScenePreparation {
 
   const CameraDescription& camera() const;
 
-  // Returns the asset with the key `recipe`, which is made by calling `make` if it does not exist yet.
-  template <class T, class F>
-  std::shared_ptr<const T> asset(const std::string& recipe, F make) {
-    auto found = assets_.entries_.find(recipe);
-    if (found == assets_.entries_.end())
-      found = assets_.entries_.emplace(recipe, SceneAssets::Entry{std::make_shared<const T>(make()), true}).first;
+  // Returns the asset with the key `recipe`, or null if it does not exist yet.
+  template <class T>
+  std::shared_ptr<const T> existing(const std::string& recipe) {
+    const auto found = assets_.entries_.find(recipe);
+    if (found == assets_.entries_.end()) return nullptr;
     found->second.wanted = true;
     out_.assets.push_back(found->second.asset);
     return std::static_pointer_cast<const T>(found->second.asset);
+  }
+  // The same, but an asset that does not exist yet is made by calling `make`.
+  template <class T, class F>
+  std::shared_ptr<const T> asset(const std::string& recipe, F make) {
+    if (auto found = existing<T>(recipe)) return found;
+    assets_.entries_.emplace(recipe, SceneAssets::Entry{std::make_shared<const T>(make()), true});
+    return existing<T>(recipe);
   }
   // prepare_maps.cpp
   int width_for(const ObjectDescription& o) const;
@@ -156,8 +162,8 @@ class ScenePreparation {
   void add_shadow_catcher(const ObjectDescription& o, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices, int object);
   void add_blended();
   std::shared_ptr<const ModelAsset> model_asset(const ObjectDescription& o, const std::string& where);
-  // Returns null for an image that was not found.
-  std::shared_ptr<const Texture2D> model_texture(const std::filesystem::path& file, const Model& model, int image, bool color);
+  void load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed);
+  const Texture2D* model_texture(const std::filesystem::path& file, int image, bool color);
   MetallicMaterial metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs);
 
   // prepare_shadows.cpp: renders the shadow maps, after all objects have been placed

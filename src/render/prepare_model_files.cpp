@@ -2,6 +2,8 @@
 //
 // Objects of shape `file`: model files with their own meshes and materials.
 #include <algorithm>
+#include <optional>
+#include <set>
 
 #include "halfspace/core/text.h"
 #include "halfspace/image/image_io.h"
@@ -161,24 +163,64 @@ ModelAsset::ModelAsset(Model m) : model(std::move(m)) {
 }
 
 std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDescription& o, const std::string& where) {
-  return asset<ModelAsset>(model_recipe(o.file.path),
-                           [&] { return read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path)); }); });
+  return asset<ModelAsset>(model_recipe(o.file.path), [&] {
+    ModelAsset model = read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path)); });
+    assets_.warn_of(o.file.path, model);
+    return model;
+  });
 }
 
-std::shared_ptr<const Texture2D> ScenePreparation::model_texture(const std::filesystem::path& file, const Model& model, int image,
-                                                                 bool color) {
-  const ModelImage& source = model.images[static_cast<std::size_t>(image)];
-  if (source.file.empty() && source.bytes == nullptr) return nullptr;  // the reader has warned
-  return asset<Texture2D>(recipe("model image", file.string(), image, color ? "color" : "data"), [&] {
-    Image<glm::u8vec4> picture(1, 1);
+namespace {
+
+std::string image_recipe(const std::filesystem::path& file, int image, bool color) {
+  return recipe("model image", file.string(), image, color ? "color" : "data");
+}
+
+// Decodes an image of a model. An image that cannot be read is replaced by a white texel, with a message in `problem`.
+Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color, std::string& problem) {
+  Image<glm::u8vec4> picture;
+  try {
+    picture = source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file);
+  } catch (const InputError& e) {
+    problem = e.what();
+    picture = Image<glm::u8vec4>(1, 1);
     picture.at(0, 0) = glm::u8vec4(255);
-    try {
-      picture = source.bytes != nullptr ? throw InputError(file.string() + ": " + source.name + ": embedded") : read_image(source.file);
-    } catch (const InputError& e) {
-      assets_.warn(e.what());
+  }
+  return Texture2D(picture, color ? TexelFormat::srgb8a8 : TexelFormat::rgba8);
+}
+
+}  // namespace
+
+// Decodes all images that the materials of a posed model use, in parallel.
+void ScenePreparation::load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed) {
+  std::set<std::pair<int, bool>> wanted;  // image, and whether it is a color map
+  for (const PosedMesh& part : posed.meshes) {
+    if (part.material < 0) continue;
+    const auto uses = uses_of(model.materials[static_cast<std::size_t>(part.material)]);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+      if (uses[i]->texture < 0) continue;
+      const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
+      if (image >= 0 && !assets_.entries_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
     }
-    return Texture2D(picture, color ? TexelFormat::srgb8a8 : TexelFormat::rgba8, &assets_.workers_);
+  }
+  const std::vector<std::pair<int, bool>> list(wanted.begin(), wanted.end());
+  std::vector<std::optional<Texture2D>> textures(list.size());
+  std::vector<std::string> problems(list.size());
+  assets_.workers_.for_each(static_cast<int>(list.size()), [&](int i) {
+    const auto [image, color] = list[static_cast<std::size_t>(i)];
+    const ModelImage& source = model.images[static_cast<std::size_t>(image)];
+    if (source.file.empty() && source.bytes == nullptr) return;  // the reader has warned
+    textures[static_cast<std::size_t>(i)].emplace(decoded(o.file.path, source, color, problems[static_cast<std::size_t>(i)]));
   });
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!problems[i].empty()) assets_.warn_once(problems[i]);
+    if (textures[i]) asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
+  }
+}
+
+// Returns a texture that load_images has loaded, or null if there is no such image.
+const Texture2D* ScenePreparation::model_texture(const std::filesystem::path& file, int image, bool color) {
+  return existing<Texture2D>(image_recipe(file, image, color)).get();
 }
 
 MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
@@ -213,7 +255,7 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
     const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) continue;
     PlacedMap& map = out.maps[i];
-    map.map = model_texture(o.file.path, model, texture.image, is_color(i)).get();
+    map.map = model_texture(o.file.path, texture.image, is_color(i));
     map.sampler = texture.sampler;
     map.uv_set = use.uv_set;
     map.uv_transform = use.uv_transform;
@@ -231,6 +273,7 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   const auto posed = std::make_shared<const PosedModel>(pose(model->model, pose_options(model->model, o, path)));
   out_.assets.push_back(posed);
   const glm::dmat4 turn = turn_of(o, model->model);
+  load_images(o, model->model, *posed);
   for (const glm::dmat4& place : places_of(o)) {
     for (const PosedMesh& part : posed->meshes) add_part(object, o, model, part, place * turn * part.world_from_mesh);
   }

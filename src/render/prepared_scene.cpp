@@ -80,7 +80,22 @@ ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& 
   out_.assets.insert(out_.assets.end(), {shadows, lights, shadowless});
 }
 
+namespace {
+
+// Returns true if surfaces are drawn that only light makes visible, but nothing shines on them.
+bool is_dark(const SceneDescription& scene) {
+  const auto is_lit = [](const auto& entry) {
+    const ObjectDescription& o = entry.second;
+    return o.visible && !o.shadow_only && o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0);
+  };
+  return scene.lights.empty() && scene.head.ambient.linear == glm::dvec3(0.0) && scene.environments.empty() &&
+         std::ranges::any_of(scene.objects, is_lit);
+}
+
+}  // namespace
+
 PreparedScene ScenePreparation::prepare() {
+  if (is_dark(scene_)) assets_.warn_once("nothing lights the scene; expected a light, ambient light or an environment");
   out_.clear_color = glm::vec4(glm::vec3(scene_.background.color.linear), 1.0f);
   out_.post = scene_.post;
   out_.samples = scene_.head.samples;
@@ -112,7 +127,12 @@ void ScenePreparation::expect() {
 void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }
 
 void SceneAssets::add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model) {
+  warn_of(file, *model);
   entries_[model_recipe(file)] = {std::move(model), true};
+}
+
+void SceneAssets::warn_of(const std::filesystem::path& file, const ModelAsset& model) const {
+  for (const std::string& warning : model.model.warnings) warn(file.string() + ": " + warning);
 }
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {

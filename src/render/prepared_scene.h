@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -145,9 +146,14 @@ class SceneAssets {
   void warn(const std::string& problem) const {
     if (warn_) warn_(problem);
   }
+  void warn_once(const std::string& problem) {
+    if (warned_.insert(problem).second) warn(problem);
+  }
+  void warn_of(const std::filesystem::path& file, const ModelAsset& model) const;
 
   const Workers& workers_;
   std::function<void(const std::string&)> warn_;
+  std::set<std::string> warned_;
   std::map<std::string, Entry> entries_;    ///< keyed by recipe
   std::map<std::string, int> widths_;       ///< minimum widths of generated maps, by object name
   int panorama_width_ = 0, face_size_ = 0;  ///< minimum sizes of generated environments

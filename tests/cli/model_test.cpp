@@ -60,8 +60,8 @@ TEST_F(Models, PositionAndSizeOfTheModelDoNotMatter) {
     for (std::size_t i = 0; i < expected.texels().size(); ++i) {
       for (int k = 0; k < 3; ++k) differ += std::abs(int{expected.data()[i][k]} - int{other.data()[i][k]}) > 1;
     }
-    // Snapping can move an edge across a sample where the rounding of the camera's position differs.
-    EXPECT_LE(differ, 40) << c.center << " " << c.size;
+    // At most 0.3 % of the channels: the grid of the shadow map is aligned with the origin of the scene, so penumbras differ a little.
+    EXPECT_LE(differ, 130) << c.center << " " << c.size;
   }
 }
 
