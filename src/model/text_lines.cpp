@@ -41,10 +41,12 @@ std::string_view without_quotes(std::string_view text) {
 
 std::string in_quotes(std::string_view name) {
   constexpr std::size_t kMaxLength = 120;
-  std::string text(name.substr(0, kMaxLength));
+  std::size_t length = std::min(name.size(), kMaxLength);
+  while (length > 0 && length < name.size() && (name[length] & 0xc0) == 0x80) --length;  // not within a UTF-8 sequence
+  std::string text(name.substr(0, length));
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-  return "'" + text + (name.size() > kMaxLength ? "...'" : "'");
+  return "'" + text + (length < name.size() ? "...'" : "'");
 }
 
 }  // namespace halfspace
