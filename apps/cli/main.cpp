@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command-line program: declares the subcommands and their options.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,12 +25,23 @@ void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-// Adds the options for model files.
+// Prints the options of a command that are in the group of model files, and ends the program successfully.
+void print_model_options(const CLI::App* command) {
+  std::cout << "Options of 'halfspace render' for model files (.obj .gltf .glb .ply .stl):\n";
+  for (const CLI::Option* option : command->get_options()) {
+    if (option->get_group() != kUnlistedGroup) continue;
+    const std::string name = "--" + option->get_lnames().front() + (option->get_type_name().empty() ? "" : " " + option->get_type_name());
+    std::cout << fmt::format("  {:<26}{}\n", name, option->get_description());
+  }
+  throw CLI::Success();
+}
+
+// Adds the options for model files. They are listed by --help-model, so that the help of the command fits on a screen.
 void add_model_options(CLI::App* command, ModelArguments& args) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
-    command->add_option(name, value, help)->type_name(type)->group("Model files");
+    command->add_option(name, value, help)->type_name(type)->group(kUnlistedGroup);
   };
-  const auto add_flag = [&](const char* name, bool& value, const char* help) { command->add_flag(name, value, help)->group("Model files"); };
+  const auto add_flag = [&](const char* name, bool& value, const char* help) { command->add_flag(name, value, help)->group(kUnlistedGroup); };
   add("--yaw", args.yaw, "Degrees around the model (default 35)", "A");
   add("--pitch", args.pitch, "Degrees above the horizon (default 18)", "A");
   add("--zoom", args.zoom, "2: half the distance (default 1)", "F");
@@ -44,12 +58,14 @@ void add_model_options(CLI::App* command, ModelArguments& args) {
   add("--scene", args.model_scene, "Scene in the file", "NAME");
   add("--animation", args.animation, "Animation in the file", "NAME");
   add("--variant", args.variant, "Material variant in the file", "NAME");
+  command->add_flag_callback("--help-model", [command] { print_model_options(command); }, "Print these options and exit")
+      ->group(kUnlistedGroup);
 }
 
 void add_render_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to an image or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
-  command->add_option("SCENE", args->scene, "Name of a scene, a scene file, or a model file")->required()->type_name("");
+  command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")->required()->type_name("");
   command->add_option("-o,--output", args->out, ".png, .jpg, .tif; linear light: .exr, .hdr")->type_name("OUT");
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
@@ -67,7 +83,6 @@ void add_render_command(CLI::App& program) {
   add_model_options(command, args->model);
   command->footer(
       "Examples:\n"
-      "  halfspace render chair.glb\n"
       "  halfspace render earth -o earth.png --size 1280x720\n"
       "  halfspace render moon --set moon.color=lroc.png --frames 0..47 -o out/moon.png");
   command->callback([args] { render_command(*args); });
@@ -155,7 +170,7 @@ void add_list_command(CLI::App& program) {
 void add_info_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info", "Describe a model file, or this program");
   const auto args = std::make_shared<InfoArguments>();
-  command->add_option("MODEL", args->model, "Model file; without it: version, build, cores and image tool")->type_name("");
+  command->add_option("MODEL", args->model, "Model file (default: the program itself)")->type_name("");
   command->add_flag("--json", args->json, "Print as JSON");
   command->footer("Examples:\n  halfspace info\n  halfspace info chair.glb --json");
   command->callback([args] { info_command(*args); });

@@ -224,13 +224,23 @@ RenderReport run(const RenderJob& job) {
   return report;
 }
 
+// Returns the decimal number that the text consists of, if it does.
+std::optional<int> number_in(const std::string& text) {
+  const int number = parse_number(text);
+  return number < 0 ? std::nullopt : std::optional(number);
+}
+
 // Throws OutputError if an output file would replace a file that the scene reads.
 void protect_inputs(const RenderJob& job, const std::string& scene) {
   std::vector<std::filesystem::path> inputs = input_files(job.scene.description(), job.model.get());
   inputs.emplace_back(scene);
   if (!job.frames) return refuse_overwriting(job.out, inputs);
-  for (int frame = job.frames->first; frame <= job.frames->last; ++frame)
-    refuse_overwriting(frame_path(job.out, frame, *job.frames), inputs);
+  for (const std::filesystem::path& input : inputs) {
+    const std::string name = input.stem().string();
+    const std::optional<int> frame = number_in(name.substr(name.find_last_of('_') + 1));
+    if (frame && *frame >= job.frames->first && *frame <= job.frames->last)
+      refuse_overwriting(frame_path(job.out, *frame, *job.frames), inputs);
+  }
 }
 
 }  // namespace
