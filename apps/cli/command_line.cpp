@@ -101,9 +101,9 @@ int report(const CLI::App& program, ExitCode code, std::string_view what) {
 
 // Omits the default value of a flag, which CLI11 prints in braces: here it is only the value used if none is given.
 class HelpFormatter : public CLI::Formatter {
-  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override {
-    std::string text = CLI::Formatter::make_groups(app, mode);
-    while (text.ends_with("\n\n")) text.pop_back();  // the empty line of the group that is left out
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    if (const std::size_t gap = text.find("\n\n\n"); gap != std::string::npos) text.erase(gap, 1);  // of the group that is left out
     return text;
   }
   std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> options) const override {
