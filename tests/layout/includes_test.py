@@ -47,6 +47,7 @@ THIRD_PARTY = {
     "OpenImageIO/": "image/tool/",
     "spng.h": "image/png.cpp",
     "tbb/": "core/parallel.cpp",
+    "meshoptimizer.h": "model/gltf_meshopt.cpp",
     "embree": "reference/ray_scene.cpp",
 }
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Typed arrays of glTF files. Data may be interleaved, normalized integers, sparse, or missing (all zeros).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "halfspace/model/gltf_buffers.h"
+#include "halfspace/model/gltf_document.h"
+
+namespace halfspace {
+
+enum class GltfComponent : uint16_t { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uint32 = 5125, float32 = 5126 };
+
+/// An accessor whose range is in its buffer.
+struct GltfAccessor {
+  const GltfValue* json = nullptr;
+  std::size_t index = 0;               ///< in the list of accessors
+  std::span<const std::byte> bytes{};  ///< begins with the first element; empty if all elements are 0
+  std::size_t count = 0, stride = 0;
+  GltfComponent component = GltfComponent::float32;
+  int width = 1;  ///< components per element; 16 for matrices
+  bool normalized = false;
+};
+
+/// Vertices to read, as indices of elements; empty: all.
+using GltfSubset = std::span<const uint32_t>;
+
+class GltfAccessors {
+ public:
+  GltfAccessors(GltfDocument& document, GltfBuffers& buffers) : document_(document), buffers_(buffers) {}
+
+  /// Returns the accessor that a member of an object refers to. The member must not be missing.
+  GltfAccessor find(const GltfValue& object, const char* key);
+
+  /// Reads floats or integers as floats. Normalized integers give values in [0, 1] or [−1, 1].
+  std::vector<float> read_floats(const GltfAccessor& accessor, GltfSubset subset = {});
+  /// Like read_floats, for accessors with as many components as the vector. T: glm::vec2, vec3, vec4.
+  template <class T>
+  std::vector<T> read(const GltfAccessor& accessor, GltfSubset subset = {}) {
+    check_width(accessor, T::length());
+    document_.take_memory(*accessor.json, subset.empty() ? accessor.count : subset.size(), sizeof(T));
+    std::vector<T> values(subset.empty() ? accessor.count : subset.size());
+    if (!values.empty()) read_into(accessor, subset, &values[0].x);
+    return values;
+  }
+  /// Reads unsigned integers. The accessor must have `width` components per element.
+  std::vector<uint32_t> read_integers(const GltfAccessor& accessor, int width, GltfSubset subset = {});
+
+  /// Throws InputError unless the accessor has this many components per element.
+  void check_width(const GltfAccessor& accessor, int width) const;
+  GltfDocument& document() { return document_; }
+
+ private:
+  std::span<const std::byte> range(const GltfValue& place, int view, uint64_t offset, uint64_t count, std::size_t element_size,
+                                   std::size_t& stride);
+  void read_into(const GltfAccessor& accessor, GltfSubset subset, float* values);
+  void read_dense(const GltfAccessor& accessor, GltfSubset subset, float* values) const;
+  void apply_sparse(const GltfAccessor& accessor, float* values);
+  std::vector<uint32_t> sparse_indices(const GltfAccessor& accessor, const GltfValue& sparse);
+
+  GltfDocument& document_;
+  GltfBuffers& buffers_;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/model/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace halfspace {
+
+namespace {
+
+// The extension KHR_materials_transmission is approximated by blending. Fully transmissive surfaces keep this opacity, to stay visible.
+constexpr float kMinGlassOpacity = 0.1f;
+
+glm::vec3 color_of(const std::array<double, 3>& c) {
+  return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+}
+
+glm::vec3 color(const GltfDocument& document, const GltfValue& json, const char* key, double fallback) {
+  return glm::max(color_of(document.numbers<3>(json, key, {fallback, fallback, fallback})), glm::vec3(0.0f));
+}
+
+glm::vec4 color_and_opacity(const GltfDocument& document, const GltfValue& json, const char* key) {
+  const auto c = document.numbers<4>(json, key, {1.0, 1.0, 1.0, 1.0});
+  return {glm::max(color_of({c[0], c[1], c[2]}), glm::vec3(0.0f)), static_cast<float>(std::clamp(c[3], 0.0, 1.0))};
+}
+
+double brightness(const glm::dvec3& c) { return std::sqrt(0.299 * c.x * c.x + 0.587 * c.y * c.y + 0.114 * c.z * c.z); }
+
+void read_alpha(GltfDocument& document, const GltfValue& json, ModelMaterial& material) {
+  const std::string mode = document.string(json, "alphaMode");
+  if (mode == "MASK") {
+    material.alpha_mode = AlphaMode::mask;
+  } else if (mode == "BLEND") {
+    material.alpha_mode = AlphaMode::blend;
+  } else if (!mode.empty() && mode != "OPAQUE") {
+    document.fail(json, "alphaMode", gltf_quoted(mode) + " is unknown; expected OPAQUE, MASK or BLEND");
+  }
+  material.alpha_cutoff = document.factor(json, "alphaCutoff", 0.5f, 0.0, 1e6);
+}
+
+void read_metallic_roughness(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
+  material.base_color = color_and_opacity(document, json, "baseColorFactor");
+  material.base_color_map = textures.use(json, "baseColorTexture");
+  material.metallic = document.factor(json, "metallicFactor", 1.0f);
+  material.roughness = document.factor(json, "roughnessFactor", 1.0f);
+  material.metallic_map = textures.use(json, "metallicRoughnessTexture", Channel::blue);
+  material.roughness_map = textures.use(json, "metallicRoughnessTexture", Channel::green);
+}
+
+void read_surface_maps(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
+  material.normal_map = textures.use(json, "normalTexture");
+  material.normal_scale = document.factor(document.object(json, "normalTexture"), "scale", 1.0f, -1e6, 1e6);
+  material.occlusion_map = textures.use(json, "occlusionTexture", Channel::red);
+  material.occlusion_strength = document.factor(document.object(json, "occlusionTexture"), "strength", 1.0f);
+  material.emissive = color(document, json, "emissiveFactor", 0.0);
+  material.emissive_map = textures.use(json, "emissiveTexture");
+  material.double_sided = document.boolean(json, "doubleSided");
+}
+
+void read_specular(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
+  material.specular = document.factor(json, "specularFactor", 1.0f);
+  material.specular_map = textures.use(json, "specularTexture", Channel::alpha);
+  material.specular_color = color(document, json, "specularColorFactor", 1.0);
+  material.specular_color_map = textures.use(json, "specularColorTexture");
+}
+
+void read_clearcoat(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
+  material.clearcoat = document.factor(json, "clearcoatFactor", 0.0f);
+  material.clearcoat_map = textures.use(json, "clearcoatTexture", Channel::red);
+  material.clearcoat_roughness = document.factor(json, "clearcoatRoughnessFactor", 0.0f);
+  material.clearcoat_roughness_map = textures.use(json, "clearcoatRoughnessTexture", Channel::green);
+  material.clearcoat_normal_map = textures.use(json, "clearcoatNormalTexture");
+}
+
+void read_transmission(GltfDocument& document, const GltfValue& json, ModelMaterial& material) {
+  const float transmission = document.factor(json, "transmissionFactor", 0.0f);
+  if (transmission == 0.0f) return;
+  document.warn("KHR_materials_transmission is approximated by blending, without refraction and transmission textures");
+  material.alpha_mode = AlphaMode::blend;
+  material.base_color.w *= std::max(1.0f - transmission, kMinGlassOpacity);
+}
+
+void read_specular_glossiness(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
+  document.warn("KHR_materials_pbrSpecularGlossiness is converted to metallic-roughness; its textures are approximated");
+  const glm::vec4 diffuse = color_and_opacity(document, json, "diffuseFactor");
+  const glm::vec3 specular = color(document, json, "specularFactor", 1.0);
+  const float glossiness = document.factor(json, "glossinessFactor", 1.0f);
+  material.metallic_map = material.roughness_map = {};
+  material.base_color_map = textures.use(json, "diffuseTexture");
+  material.specular_color_map = textures.use(json, "specularGlossinessTexture");
+  if (material.specular_color_map.texture < 0) {
+    convert_specular_glossiness(glm::dvec3(glm::vec3(diffuse)), glm::dvec3(specular), static_cast<double>(glossiness), material);
+  } else {
+    // A dielectric whose reflectance is the texture. Its glossiness, in the alpha channel, is assumed to be 0.5.
+    constexpr float kDielectric = 0.04f, kMeanGlossiness = 0.5f;
+    material.base_color = diffuse;
+    material.metallic = 0.0f;
+    material.roughness = 1.0f - glossiness * kMeanGlossiness;
+    material.specular_color = specular / kDielectric;
+  }
+  material.base_color.w = diffuse.w;
+}
+
+void read_extensions(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
+  if (const GltfValue* e = document.extension(json, "KHR_materials_pbrSpecularGlossiness")) {
+    read_specular_glossiness(document, textures, *e, material);
+  }
+  if (const GltfValue* e = document.extension(json, "KHR_materials_specular")) read_specular(document, textures, *e, material);
+  if (const GltfValue* e = document.extension(json, "KHR_materials_clearcoat")) read_clearcoat(document, textures, *e, material);
+  if (const GltfValue* e = document.extension(json, "KHR_materials_ior")) {
+    // The extension defines 0 as infinity, for materials converted from specular-glossiness.
+    const float ior = document.factor(*e, "ior", 1.5f, 0.0, 1e6);
+    material.ior = ior == 0.0f ? 1e6f : std::max(ior, 1.0f);
+  }
+  if (const GltfValue* e = document.extension(json, "KHR_materials_emissive_strength")) {
+    material.emissive *= document.factor(*e, "emissiveStrength", 1.0f, 0.0, 1e6);
+  }
+  if (const GltfValue* e = document.extension(json, "KHR_materials_transmission")) read_transmission(document, *e, material);
+  material.unlit = document.extension(json, "KHR_materials_unlit") != nullptr;
+}
+
+}  // namespace
+
+void convert_specular_glossiness(const glm::dvec3& diffuse, const glm::dvec3& specular, double glossiness, ModelMaterial& material) {
+  constexpr double kDielectric = 0.04, kEpsilon = 1e-6;
+  const double remaining = 1.0 - std::max({specular.x, specular.y, specular.z});
+  const double s = brightness(specular);
+  double metallic = 0.0;
+  if (s >= kDielectric) {  // the positive solution of kDielectric·m² + b·m + c = 0
+    const double b = brightness(diffuse) * remaining / (1.0 - kDielectric) + s - 2.0 * kDielectric, c = kDielectric - s;
+    const double root = std::sqrt(std::max(b * b - 4.0 * kDielectric * c, 0.0));
+    metallic = std::clamp((root - b) / (2.0 * kDielectric), 0.0, 1.0);
+  }
+  const glm::dvec3 from_diffuse = diffuse * (remaining / (1.0 - kDielectric) / std::max(1.0 - metallic, kEpsilon));
+  const glm::dvec3 from_specular = (specular - kDielectric * (1.0 - metallic)) / std::max(metallic, kEpsilon);
+  const glm::dvec3 base = glm::mix(from_diffuse, from_specular, metallic * metallic);
+  material.base_color = glm::vec4(glm::vec3(glm::clamp(base, 0.0, 1.0)), material.base_color.w);
+  material.metallic = static_cast<float>(metallic);
+  material.roughness = static_cast<float>(1.0 - glossiness);
+}
+
+ModelMaterial gltf_default_material() {
+  ModelMaterial material;
+  material.name = "default";
+  material.metallic = 1.0f;
+  return material;
+}
+
+std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& textures) {
+  std::vector<ModelMaterial> materials;
+  for (const GltfValue& json : document.list("materials")) {
+    ModelMaterial material;
+    material.name = document.string(json, "name");
+    read_metallic_roughness(document, textures, document.object(json, "pbrMetallicRoughness"), material);
+    read_surface_maps(document, textures, json, material);
+    read_alpha(document, json, material);
+    read_extensions(document, textures, json, material);
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "halfspace/model/gltf_document.h"
+#include "halfspace/model/gltf_textures.h"
+#include "halfspace/model/model.h"
+
+namespace halfspace {
+
+/// Returns the materials of a glTF file, with the extensions KHR_materials_unlit, emissive_strength, specular, ior, clearcoat, transmission
+/// (approximated by blending) and pbrSpecularGlossiness (converted).
+std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& textures);
+
+/// Returns the material of primitives that have none, which glTF defines as a rough white metal.
+ModelMaterial gltf_default_material();
+
+/// Converts the factors of KHR_materials_pbrSpecularGlossiness into base color, metallic and roughness, as in the appendix of that
+/// extension: the metal whose mixture with a dielectric of reflectance 0.04 has the same specular color.
+void convert_specular_glossiness(const glm::dvec3& diffuse, const glm::dvec3& specular, double glossiness, ModelMaterial& material);
+
+}  // namespace halfspace

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Images, samplers and textures of glTF files.
+#pragma once
+
+#include "halfspace/model/gltf_buffers.h"
+#include "halfspace/model/gltf_document.h"
+#include "halfspace/model/model.h"
+#include "halfspace/model/references.h"
+
+namespace halfspace {
+
+/// Reads the textures that materials use. All arguments of the constructor must outlive this object.
+class GltfTextures {
+ public:
+  /// Adds one ModelTexture per texture and one ModelImage per image to the model. An image is located when a material uses it; other images
+  /// have neither a file nor bytes.
+  GltfTextures(GltfDocument& document, GltfBuffers& buffers, References& references, Model& model);
+
+  /// Reads a texture that a member of an object describes, with KHR_texture_transform. Returns a use without texture if the member is
+  /// missing, or if its image does not exist.
+  TextureUse use(const GltfValue& object, const char* key, Channel channel = Channel::red);
+
+ private:
+  bool locate_image(int image);
+
+  GltfDocument& document_;
+  GltfBuffers& buffers_;
+  References& references_;
+  Model& model_;
+  std::vector<bool> tried_;  // for each image, whether locate_image was called
+};
+
+}  // namespace halfspace

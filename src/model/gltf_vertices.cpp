@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/model/gltf_vertices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "halfspace/model/text_lines.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr float kMaxPosition = static_cast<float>(kMaxModelNumber);
+constexpr float kMaxTextureCoordinate = 1e9f;
+
+template <class V>
+bool is_bounded(const V& v, float limit) {
+  for (glm::length_t i = 0; i < V::length(); ++i) {
+    if (!(std::abs(v[i]) <= limit)) return false;
+  }
+  return true;
+}
+
+/// Reads attributes of one primitive or morph target.
+class VertexReader {
+ public:
+  VertexReader(GltfAccessors& accessors, const GltfValue& attributes, std::size_t count, GltfSubset subset)
+      : accessors_(accessors), document_(accessors.document()), attributes_(attributes), count_(count), subset_(subset) {}
+
+  bool has(const char* key) const { return document_.find(attributes_, key) != nullptr; }
+
+  GltfAccessor accessor(const char* key) {
+    GltfAccessor accessor = accessors_.find(attributes_, key);
+    if (accessor.count != count_) {
+      document_.fail(*accessor.json, "count", fmt::format("{} is not the number of vertices; expected {}", accessor.count, count_));
+    }
+    return accessor;
+  }
+
+  std::vector<glm::vec3> positions(const char* key) {
+    const GltfAccessor source = accessor(key);
+    std::vector<glm::vec3> values = accessors_.read<glm::vec3>(source, subset_);
+    const auto bad = std::ranges::find_if_not(values, [](const glm::vec3& p) { return is_bounded(p, kMaxPosition); });
+    if (bad != values.end()) {
+      document_.fail(*source.json,
+                     fmt::format("position {} is not finite or larger than 1e18; expected finite positions", bad - values.begin()));
+    }
+    return values;
+  }
+
+  // Vectors that are not bounded are replaced by 0.
+  template <class V>
+  std::vector<V> bounded(const char* key, float limit) {
+    const GltfAccessor source = accessor(key);
+    std::vector<V> values = accessors_.read<V>(source, subset_);
+    bool replaced = false;
+    for (V& v : values) {
+      if (is_bounded(v, limit)) continue;
+      v = V(0.0f);
+      replaced = true;
+    }
+    if (replaced) document_.warn_at(*source.json, "", "has values that are not finite or too large; they are replaced by 0");
+    return values;
+  }
+
+  std::vector<glm::vec3> normals() {
+    std::vector<glm::vec3> values = bounded<glm::vec3>("NORMAL", kMaxPosition);
+    bool replaced = false;
+    for (glm::vec3& n : values) {
+      const double length = glm::length(glm::dvec3(n));
+      replaced = replaced || length == 0.0;
+      n = length == 0.0 ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(glm::dvec3(n) / length);
+    }
+    if (replaced) document_.warn_at(attributes_, "NORMAL", "has normals of length 0; they are replaced by (0, 1, 0)");
+    return values;
+  }
+
+  // Returns nothing if a tangent has no direction.
+  std::vector<glm::vec4> tangents() {
+    std::vector<glm::vec4> values = bounded<glm::vec4>("TANGENT", kMaxPosition);
+    for (glm::vec4& t : values) {
+      const glm::dvec3 direction(t);
+      const double length = glm::length(direction);
+      if (length == 0.0) {
+        document_.warn_at(attributes_, "TANGENT", "has tangents of length 0; all tangents are computed");
+        return {};
+      }
+      t = glm::vec4(glm::vec3(direction / length), t.w < 0.0f ? -1.0f : 1.0f);
+    }
+    return values;
+  }
+
+  std::vector<glm::vec4> colors() {
+    std::vector<glm::vec4> values;
+    const GltfAccessor source = accessor("COLOR_0");
+    if (source.width == 3) {
+      for (const glm::vec3& c : bounded<glm::vec3>("COLOR_0", kMaxPosition)) values.emplace_back(c, 1.0f);
+    } else {
+      values = bounded<glm::vec4>("COLOR_0", kMaxPosition);
+    }
+    for (glm::vec4& c : values) c = glm::clamp(c, 0.0f, 1.0f);
+    return values;
+  }
+
+  std::vector<std::array<uint16_t, 4>> joints() {
+    const GltfAccessor source = accessor("JOINTS_0");
+    const std::vector<uint32_t> numbers = accessors_.read_integers(source, 4, subset_);
+    document_.take_memory(*source.json, numbers.size(), sizeof(uint16_t));
+    std::vector<std::array<uint16_t, 4>> values(numbers.size() / 4);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (numbers[i] > 0xffff) document_.fail(*source.json, fmt::format("joint {} is out of range; expected at most 65535", numbers[i]));
+      values[i / 4][i % 4] = static_cast<uint16_t>(numbers[i]);
+    }
+    return values;
+  }
+
+ private:
+  GltfAccessors& accessors_;
+  GltfDocument& document_;
+  const GltfValue& attributes_;
+  std::size_t count_;
+  GltfSubset subset_;
+};
+
+// Scales the weights of every vertex to the sum 1. Joints without weight become joint 0. A vertex without weights follows its first joint.
+void normalize_weights(ModelMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.weights.size(); ++i) {
+    glm::vec4& w = mesh.weights[i];
+    w = glm::max(w, glm::vec4(0.0f));
+    const float sum = w.x + w.y + w.z + w.w;
+    w = sum > 0.0f ? w / sum : glm::vec4(1.0f, 0.0f, 0.0f, 0.0f);
+    for (int k = 0; k < 4; ++k) {
+      if (w[k] == 0.0f) mesh.joints[i][static_cast<std::size_t>(k)] = 0;
+    }
+  }
+}
+
+void read_skin_attributes(GltfDocument& document, VertexReader& reader, ModelMesh& mesh) {
+  if (!reader.has("JOINTS_0") || !reader.has("WEIGHTS_0")) return;
+  if (reader.has("JOINTS_1")) document.warn("more than four joints per vertex are not supported; using the first four");
+  mesh.joints = reader.joints();
+  mesh.weights = reader.bounded<glm::vec4>("WEIGHTS_0", 1e9f);
+  normalize_weights(mesh);
+}
+
+MorphTarget read_target(VertexReader reader, const ModelMesh& mesh) {
+  MorphTarget target;
+  if (reader.has("POSITION")) target.positions = reader.positions("POSITION");
+  if (reader.has("NORMAL") && !mesh.normals.empty()) target.normals = reader.bounded<glm::vec3>("NORMAL", kMaxPosition);
+  if (reader.has("TANGENT") && !mesh.tangents.empty()) target.tangents = reader.bounded<glm::vec3>("TANGENT", kMaxPosition);
+  return target;
+}
+
+}  // namespace
+
+void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::size_t count, GltfSubset subset, ModelMesh& mesh) {
+  GltfDocument& document = accessors.document();
+  VertexReader reader(accessors, document.object(primitive, "attributes"), count, subset);
+  mesh.positions = reader.positions("POSITION");
+  if (reader.has("NORMAL")) mesh.normals = reader.normals();
+  if (reader.has("TANGENT") && !mesh.normals.empty()) mesh.tangents = reader.tangents();
+  if (reader.has("TEXCOORD_0")) mesh.uvs[0] = reader.bounded<glm::vec2>("TEXCOORD_0", kMaxTextureCoordinate);
+  if (reader.has("TEXCOORD_1")) mesh.uvs[1] = reader.bounded<glm::vec2>("TEXCOORD_1", kMaxTextureCoordinate);
+  if (reader.has("COLOR_0")) mesh.colors = reader.colors();
+  read_skin_attributes(document, reader, mesh);
+  const GltfValue& targets = document.objects(primitive, "targets");
+  document.take_memory(targets, targets.size(), sizeof(MorphTarget));
+  for (const GltfValue& target : targets) mesh.targets.push_back(read_target({accessors, target, count, subset}, mesh));
+}
+
+}  // namespace halfspace

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Vertex attributes and morph targets of glTF primitives.
+#pragma once
+
+#include "halfspace/model/gltf_accessors.h"
+#include "halfspace/model/model.h"
+
+namespace halfspace {
+
+/// Reads the attributes of a primitive for all vertices, or for a subset. Values that are not finite are errors in positions, and replaced
+/// with a warning elsewhere. Normals and tangents get unit length. Tangents without normals are left out, and so are attributes that a mesh
+/// does not have.
+void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::size_t count, GltfSubset subset, ModelMesh& mesh);
+
+}  // namespace halfspace
