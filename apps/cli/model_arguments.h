@@ -3,6 +3,7 @@
 // The options of `render` that apply to model files.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct OpenedScene {
   SceneFile scene;
   std::filesystem::path model_file;  ///< empty: it was not
   std::shared_ptr<const ModelAsset> model;
+  std::map<std::string, std::string> camera_names;  ///< names in the model and the corresponding names in the scene
 };
 
 /// Opens a scene by name or file name, or generates one for a model file with the view that the options describe. `aspect`: width / height

@@ -99,7 +99,8 @@ RenderJob understand(const RenderArguments& args) {
     throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a file name ending in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
   OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps);
-  set_scene(opened.scene, args.set, args.camera);
+  const auto camera = opened.camera_names.find(args.camera);
+  set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
   set_shading(opened.scene, args.shading);
   return {std::move(opened.scene),
           std::move(opened.model_file),

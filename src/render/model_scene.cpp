@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/model_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -11,6 +13,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/model/pose.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 
@@ -144,18 +147,31 @@ OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Bou
           {"far", distance + 20.0 * radius}};
 }
 
-// Returns a name for a scene file: without dots, which separate the parts of a path, and not used before.
-std::string unique_name(std::string name, const std::string& fallback, std::set<std::string>& used) {
+// Returns a name for a scene file that is similar to a name in the model: a letter a to z followed by letters, digits and '_', not reserved
+// and not used before.
+std::string scene_name(const std::string& name, const char* fallback, std::set<std::string>& used) {
+  static const std::vector<std::string_view> reserved = [] {
+    static SceneDescription empty;
+    return top_words(empty);
+  }();
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };
+  const auto is_upper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  std::string word = name;
   std::ranges::replace_if(
-      name, [](char c) { return c == '.' || c == '=' || static_cast<unsigned char>(c) < 32; }, '_');
-  if (name.empty()) name = fallback;
-  std::string unique = name;
-  for (int i = 2; used.contains(unique); ++i) unique = name + "_" + std::to_string(i);
+      word, [&](char c) { return !is_digit(c) && !is_lower(c) && !is_upper(c); }, '_');
+  if (word.empty()) word = fallback;
+  if (is_upper(word[0])) word[0] = static_cast<char>(word[0] - 'A' + 'a');
+  if (!is_lower(word[0])) word.insert(0, std::string(fallback) + "_");
+  std::string unique = word;
+  for (int i = 1; used.contains(unique) || std::ranges::find(reserved, unique) != reserved.end(); ++i)
+    unique = fmt::format("{}_{}", word, i);
   used.insert(unique);
   return unique;
 }
 
-OrderedJson cameras_of(const Model& model, const PosedModel& posed, const Bounds& b, const Frame& frame, const ModelView& view) {
+OrderedJson cameras_of(const Model& model, const PosedModel& posed, const Bounds& b, const Frame& frame, const ModelView& view,
+                       std::map<std::string, std::string>& names) {
   OrderedJson cameras = {{"view", fitted_camera(model, posed, b, frame, view)}};
   std::set<std::string> used{"view"};
   for (const PosedCamera& placed : posed.cameras) {
@@ -173,7 +189,9 @@ OrderedJson cameras_of(const Model& model, const PosedModel& posed, const Bounds
     } else {
       camera["height"] = c.height * frame.scale;
     }
-    cameras[unique_name(c.name, "camera", used)] = std::move(camera);
+    const std::string name = scene_name(c.name, "camera", used);
+    if (!c.name.empty()) names.try_emplace(c.name, name);
+    cameras[name] = std::move(camera);
   }
   return cameras;
 }
@@ -200,7 +218,7 @@ OrderedJson lights_of(const Model& model, const PosedModel& posed, const Frame& 
       light["inner"] = l.inner / kRadiansPerDegree;
       light["outer"] = std::max(l.outer / kRadiansPerDegree, 0.01);
     }
-    lights[unique_name(l.name, "light", used)] = std::move(light);
+    lights[scene_name(l.name, "light", used)] = std::move(light);
   }
   return lights;
 }
@@ -255,7 +273,8 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   const Frame frame = frame_of(b);
   const bool own_lights = !posed.lights.empty();
   OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", "view"}};
-  scene["cameras"] = cameras_of(model, posed, b, frame, view);
+  std::map<std::string, std::string> camera_names;
+  scene["cameras"] = cameras_of(model, posed, b, frame, view, camera_names);
   scene["lights"] = own_lights ? lights_of(model, posed, frame) : key_light(view);
   OrderedJson environment = {{"type", "studio"}, {"size", 256}, {"brightness", 0.75}};
   if (!view.environment.empty()) environment = {{"type", "equirect"}, {"map", view.environment}};
@@ -287,7 +306,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
     scene["objects"]["floor"] = {
         {"shape", "plane"}, {"shadow_only", true}, {"size", 6.0 * b.radius * frame.scale}, {"position", json_of(frame.point(below))}};
   }
-  return {scene.dump(1), asset};
+  return {scene.dump(1), asset, std::move(camera_names)};
 }
 
 }  // namespace halfspace

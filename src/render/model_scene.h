@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct ModelView {
 struct GeneratedScene {
   std::string text;
   std::shared_ptr<const ModelAsset> model;
+  std::map<std::string, std::string> camera_names;  ///< names in the file and the corresponding names in the scene
 };
 
 /// Returns true if the extension of the file is that of a model format.
