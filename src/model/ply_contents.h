@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The elements of a PLY file that can be drawn.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string_view>
+#include <vector>
+
+#include "halfspace/model/ply_header.h"
+
+namespace halfspace {
+
+struct PlyContents {
+  // One entry per vertex; empty if the file has none. Only positions may have values that are not finite.
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::dvec3> normals;  ///< as in the file, of any length
+  std::vector<glm::vec2> uvs;       ///< v = 0 is the top row
+  std::vector<glm::vec4> colors;    ///< linear
+  // Faces are stored as one list of corners. Triangle strips are stored as triangles.
+  std::vector<uint32_t> lengths;       ///< corners of each face
+  std::vector<uint32_t> corners;       ///< vertices, in range
+  std::vector<glm::vec2> corner_uvs;   ///< one per corner, or empty
+  std::vector<glm::vec4> face_colors;  ///< one per face, or empty
+  std::vector<uint32_t> edges;         ///< pairs of vertices, in range
+};
+
+/// Reads the data after the header. Unknown elements and properties are skipped. Colors of integer types are sRGB-encoded and become
+/// linear; those of floating-point types are linear already, from 0 to 1. Throws InputError "FILE: element 'NAME', row N: problem;
+/// expected ..." if the data is not valid.
+PlyContents read_ply_contents(const PlyHeader& header, std::string_view data, const std::string& file);
+
+}  // namespace halfspace

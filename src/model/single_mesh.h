@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Models of one mesh, which is all that PLY and STL files have.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+
+#include "halfspace/model/model.h"
+
+namespace halfspace {
+
+bool is_finite(const glm::dvec3& v);
+
+/// Sets the origin of the mesh to the center of the bounds of the finite positions, and its positions to the rounded differences from it.
+/// Positions that are not finite become the origin. Throws InputError without a place if no position is finite, or if the coordinates are
+/// so large that squares of floats would overflow.
+void set_positions(ModelMesh& mesh, std::span<const glm::dvec3> positions);
+
+/// Returns a model with one node, which has the mesh and the name of the file. Its material is gray, or white under vertex colors, and
+/// blended if a vertex color is not opaque.
+Model single_mesh_model(std::string format, const std::filesystem::path& file, ModelMesh mesh);
+
+/// Throws InputError without a place if `bytes` exceed options.max_memory.
+void check_memory(std::size_t bytes, const ReadModelOptions& options);
+
+/// Upper bound of the memory that a triangle needs while normals are computed, in bytes.
+inline constexpr std::size_t kBytesPerTriangle = 200;
+
+}  // namespace halfspace
