@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "halfspace/core/check.h"
+#include "halfspace/model/file_bytes.h"
+#include "halfspace/model/model.h"
+#include "halfspace/model/read_gltf.h"
+#include "halfspace/model/read_obj.h"
+#include "halfspace/model/read_ply.h"
+#include "halfspace/model/read_stl.h"
+#include "halfspace/model/text_lines.h"
+
+namespace halfspace {
+
+namespace {
+
+using Reader = Model (*)(const std::filesystem::path&, std::span<const std::byte>, const ReadModelOptions&);
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; });
+  return extension;
+}
+
+/// Returns whether a line near the beginning is a vertex or a face.
+bool looks_like_obj(std::string_view text) {
+  TextLines lines(text.substr(0, 65536));
+  while (lines.next()) {
+    std::string_view rest = lines.line();
+    const std::string_view keyword = take_word(rest);
+    if ((keyword == "v" || keyword == "f") && number_in(take_word(rest).substr(0, 1))) return true;
+  }
+  return false;
+}
+
+Reader reader_by_contents(std::span<const std::byte> bytes, std::string_view text) {
+  if (text.starts_with("glTF")) return read_gltf;
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return read_ply;
+  if (is_binary_stl(bytes)) return read_stl;
+  const std::size_t begin = text.find_first_not_of(" \t\r\n", text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+  if (begin != std::string_view::npos && text[begin] == '{') return read_gltf;
+  return is_text_stl(bytes) ? read_stl : nullptr;
+}
+
+Reader reader_by_extension(const std::string& extension) {
+  if (extension == ".obj") return read_obj;
+  if (extension == ".gltf" || extension == ".glb") return read_gltf;
+  if (extension == ".ply") return read_ply;
+  if (extension == ".stl") return read_stl;
+  return nullptr;
+}
+
+Reader reader_of(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string extension = lower_extension(file);
+  if (extension == ".obj") return read_obj;  // OBJ has no signature
+  if (const Reader reader = reader_by_contents(bytes, text)) return reader;
+  if (const Reader reader = reader_by_extension(extension)) return reader;
+  if (looks_like_obj(text)) return read_obj;
+  throw InputError(fmt::format("{}: unknown model format; expected glTF (.gltf, .glb), OBJ, PLY or STL", file.string()));
+}
+
+}  // namespace
+
+Model read_model(const std::filesystem::path& file, const ReadModelOptions& options) {
+  const std::vector<std::byte> bytes = file_bytes(file, options.max_memory);
+  if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; expected a glTF, OBJ, PLY or STL file", file.string()));
+  return reader_of(file, bytes)(file, bytes, options);
+}
+
+}  // namespace halfspace

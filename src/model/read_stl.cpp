@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/model/read_stl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "halfspace/core/check.h"
+#include "halfspace/model/mesh_vertices.h"
+#include "halfspace/model/normals.h"
+#include "halfspace/model/position_ids.h"
+#include "halfspace/model/single_mesh.h"
+#include "halfspace/model/srgb_color.h"
+#include "halfspace/model/stl_triangles.h"
+
+namespace halfspace {
+
+namespace {
+
+constexpr std::size_t kMaxTriangles = 0xffffffffu / 3;
+
+// The smallest triangle takes 50 bytes in a binary file and more in a text file.
+constexpr std::size_t kMemoryPerByte = 1 + (kBytesPerTriangle + 3 * sizeof(glm::dvec3) + 3 * sizeof(glm::vec3)) / 50;
+
+/// Removes triangles that have a corner that is not finite. Returns how many there were.
+std::size_t remove_infinite(StlTriangles& triangles) {
+  std::size_t kept = 0;
+  const std::size_t count = triangles.corners.size() / 3;
+  for (std::size_t t = 0; t < count; ++t) {
+    if (!std::all_of(&triangles.corners[3 * t], &triangles.corners[3 * t] + 3, is_finite)) continue;
+    for (std::size_t k = 0; k < 3; ++k) triangles.corners[3 * kept + k] = triangles.corners[3 * t + k];
+    if (!triangles.attributes.empty()) triangles.attributes[kept] = triangles.attributes[t];
+    ++kept;
+  }
+  triangles.corners.resize(3 * kept);
+  if (!triangles.attributes.empty()) triangles.attributes.resize(kept);
+  return count - kept;
+}
+
+bool is_color(uint16_t attribute) { return (attribute & 0x8000) != 0; }
+
+/// Returns the linear color of an attribute; gray if it has none.
+glm::vec4 color_of(uint16_t attribute) {
+  constexpr float kGray = 0.8f;
+  if (!is_color(attribute)) return {kGray, kGray, kGray, 1.0f};
+  const auto channel = [&](int shift) { return linear_from_srgb(static_cast<float>(attribute >> shift & 31) / 31.0f); };
+  return {channel(10), channel(5), channel(0), 1.0f};
+}
+
+void join_vertices(ModelMesh& mesh) {
+  const std::vector<uint32_t> ids = position_ids(mesh.positions);
+  std::vector<uint32_t> sources, numbers(ids.size());
+  for (uint32_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] == i) {
+      numbers[i] = static_cast<uint32_t>(sources.size());
+      sources.push_back(i);
+    }
+  }
+  for (uint32_t i = 0; i < ids.size(); ++i) mesh.indices[i] = numbers[ids[i]];
+  copy_vertices(mesh, sources);
+}
+
+ModelMesh mesh_of(const StlTriangles& triangles, float crease_degrees) {
+  ModelMesh mesh;
+  set_positions(mesh, triangles.corners);
+  mesh.indices.resize(mesh.positions.size());
+  for (uint32_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = i;
+  if (std::ranges::any_of(triangles.attributes, is_color)) {
+    for (const uint16_t attribute : triangles.attributes) mesh.colors.insert(mesh.colors.end(), 3, color_of(attribute));
+  } else {
+    join_vertices(mesh);
+  }
+  add_smooth_normals(mesh, crease_degrees);
+  return mesh;
+}
+
+StlTriangles triangles_of(std::span<const std::byte> bytes, const std::string& file) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!is_binary_stl(bytes) && is_text_stl(bytes)) return text_stl_triangles(text, file);
+  return binary_stl_triangles(bytes, file);
+}
+
+}  // namespace
+
+bool is_binary_stl(std::span<const std::byte> bytes) {
+  if (bytes.size() < 84) return false;
+  uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return bytes.size() == 84 + std::size_t{count} * 50;
+}
+
+bool is_text_stl(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  constexpr std::string_view kSolid = "solid";
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  return begin != std::string_view::npos &&
+         std::ranges::equal(text.substr(begin, kSolid.size()), kSolid, [](char a, char b) { return static_cast<char>(a | 0x20) == b; });
+}
+
+Model read_stl(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options) {
+  try {
+    check_memory(bytes.size() * kMemoryPerByte, options);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", file.string(), e.what()));
+  }
+  StlTriangles triangles = triangles_of(bytes, file.string());
+  try {
+    if (triangles.corners.empty()) throw InputError("no triangles; expected at least one");
+    if (triangles.corners.size() / 3 > kMaxTriangles) throw InputError(fmt::format("more than {} triangles", kMaxTriangles));
+    const std::size_t removed = remove_infinite(triangles);
+    Model model = single_mesh_model("STL", file, mesh_of(triangles, options.crease_degrees));
+    model.up = UpAxis::z;
+    if (removed > 0) model.warnings.push_back(fmt::format("{} triangles without finite coordinates; left out", removed));
+    return model;
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", file.string(), e.what()));
+  }
+}
+
+}  // namespace halfspace
