@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Detects the formats that halfspace-image-tool reads, by the first bytes of a file.
+// Detects the formats that the decoder programs read, by the first bytes of a file.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,9 +22,15 @@ struct ToolFormat {
   const char* linear_name = nullptr;
 };
 
-/// Returns the format of a file that begins with head (16 bytes are sufficient), or nothing if it is unknown. TGA has no
-/// signature and is recognized by the extension of path.
+/// Number of bytes from the start of a file that the functions below look at.
+inline constexpr std::size_t kFormatBytes = 32;
+
+/// Returns the format of a file that begins with head, or nothing if it is unknown. TGA has no signature: it is recognized by a header
+/// that makes sense, or by the extension of path.
 std::optional<ToolFormat> find_tool_format(const std::filesystem::path& path, std::string_view head);
+
+/// Describes a file of an unknown format for a message: its type, for example "found PDF", or else its first characters or bytes.
+std::string describe_contents(std::string_view head);
 
 /// Returns the extension of path in ASCII lower case, including the dot.
 std::string small_extension(const std::filesystem::path& path);

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads and writes image files. PNG is handled in this process. All other formats go through a separate program,
-// halfspace-image-tool, which is the only user of OpenImageIO, so that a malicious file can only crash that program.
+// Reads and writes image files. PNG is decoded in this process. All other formats are decoded in separate processes, so that a malicious
+// file can only crash those: JPEG in halfspace-jpeg-tool, and the rest in halfspace-image-tool, which is the only user of OpenImageIO. They
+// are started when they are first needed and serve all later images of this process. PNG, JPEG and OpenEXR are encoded in this process.
 //
 // Images have straight alpha and store the top row first. There are two kinds of files:
 //   codes          PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS: 8 or 16 bits per channel, sRGB for colors
 //   linear values  OpenEXR, Radiance HDR, PFM, and floating-point TIFF, PSD or DDS
-// Readers detect the format by the content of a file, writers by its name. Readers throw InputError ("PATH: problem; expected
+// Readers detect the format by the content of a file, writers by its name. A file can also be read from memory, for example if it is part
+// of a model; `name` then takes the place of the path in messages. Readers throw InputError ("PATH: problem; expected
 // ...") for files that are missing, damaged or too large (more than 2^28 pixels or 32768 pixels per side).
-// Writers throw OutputError; an output file is either complete or not created. All functions are thread-safe.
+// Writers throw OutputError; an output file is either complete or not created. All functions are thread-safe, and up to 4 images are decoded in parallel. They may be used in a child process
+// after fork().
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -33,24 +38,25 @@ bool is_linear(ImageFile file);
 
 /// Returns whether the format of the file implies linear values (OpenEXR, Radiance HDR, PFM). Throws InputError like the readers.
 bool holds_linear_numbers(const std::filesystem::path& path);
+bool holds_linear_numbers(std::span<const std::byte> file, const std::string& name);
 
 /// Reads an image with 8-bit or 16-bit codes as 8-bit RGBA. Gray is replicated to all color channels, missing alpha becomes 255, and
 /// 16-bit codes are rounded to 8 bits. Color profiles and EXIF orientation are ignored; only the first image of a file is read.
 /// Throws InputError if the format implies linear values.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
-
-/// The same for an encoded image in memory. Error messages begin with `name`.
-Image<glm::u8vec4> read_image(std::span<const std::byte> bytes, const std::string& name);
+Image<glm::u8vec4> read_image(std::span<const std::byte> file, const std::string& name);
 
 /// Reads the first channel (gray or red) of any file, such as a height map. 8-bit codes are divided by 255 and 16-bit codes by
 /// 65535, without sRGB decoding; linear values are unchanged. All results are finite: an infinity or NaN in the file throws an
 /// InputError that names the pixel.
 Image<float> read_gray(const std::filesystem::path& path);
+Image<float> read_gray(std::span<const std::byte> file, const std::string& name);
 
 /// Reads any file as linear light with straight alpha. Codes are decoded from sRGB, except that alpha is divided by 255 or 65535.
 /// Linear values are unchanged, except that OpenEXR colors are divided by alpha where it is positive. Infinities are clamped to
 /// ±65504; NaN throws an InputError that names the pixel.
 Image<glm::vec4> read_linear(const std::filesystem::path& path);
+Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string& name);
 
 /// Writes 8-bit sRGB codes with straight alpha as PNG, regardless of the file name. Opaque images are written without alpha.
 void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
@@ -74,5 +80,21 @@ void write_image(const std::filesystem::path& path, const Image<glm::vec4>& imag
 /// Writes a single 32-bit float channel Z as OpenEXR (ZIP), regardless of the file name. Values are stored exactly. The image
 /// must not be empty.
 void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth);
+
+/// Types of OpenEXR samples: a 16-bit or 32-bit float, or a 32-bit unsigned integer (OpenEXR's HALF, FLOAT and UINT).
+enum class ExrSample { half, number, id };
+
+struct ExrChannel {
+  /// For example "R" or "normal.X".
+  std::string name;
+  ExrSample sample = ExrSample::number;
+  /// Writes the samples of row y, counted from the top, into row, which is aligned for the type. May be called several times per row.
+  std::function<void(int y, std::span<std::byte> row)> fill_row;
+};
+
+/// Writes the channels into one OpenEXR file (ZIP), regardless of the file name. Samples are stored exactly. width, height and the number
+/// of channels must be positive, and names must be distinct and not empty. A build without OpenEXR throws OutputError unless the
+/// channels are R, G, B and possibly A as halves, or Z as floats.
+void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels);
 
 }  // namespace halfspace

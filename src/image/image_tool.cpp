@@ -1,25 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/image/image_tool.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "halfspace/core/check.h"
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_limits.h"
-#include "halfspace/image/tool_process.h"
+#include "halfspace/image/tool_pool.h"
 
 namespace halfspace {
 
 namespace {
 
-constexpr const char* kOtherVersion = " has a different version than this program";
-
 [[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& what) {
   fail_writing(path, "cannot write (" + what + ")");
+}
+
+// The result of a request. `done` and `last` mean a complete answer; after `last`, the tool must not be used any further.
+enum class Talk { done, last, tool_ended };
+
+// Why there was no answer.
+struct ToolFailure {
+  std::string text;
+  bool started = true;
+};
+
+// Lends a tool of the pool to talk(tool), which sends a request and receives the answer. If a tool has ended that had served earlier
+// requests, the earlier ones may have damaged it, or something may have killed it meanwhile; talk is then called again with a new one. A
+// time limit is not tried twice.
+template <class F>
+std::optional<ToolFailure> talk_to_tool(ToolPool& pool, const std::filesystem::path& program, F&& talk) {
+  for (;;) {
+    ToolPool::Lease lease(pool);
+    const bool used = lease.tool().running();
+    const int error = used ? 0 : lease.tool().start(program);
+    if (error != 0) return ToolFailure{std::strerror(error), false};
+    const Talk result = talk(lease.tool());
+    if (result == Talk::done) lease.keep();
+    if (result != Talk::tool_ended) return std::nullopt;
+    const int signal = lease.tool().wait();
+    if (!used || signal == SIGXCPU) return ToolFailure{signal == 0 ? "ended early" : std::string("died: ") + ::strsignal(signal)};
+  }
+}
+
+ToolRequest request_of(ToolTask task, std::string_view format) {
+  ToolRequest request;
+  request.task = task;
+  HS_CHECK_OP(format.size(), <=, sizeof request.format);
+  std::ranges::copy(format, request.format);
+  return request;
 }
 
 std::optional<std::string> receive_message(ToolProcess& tool, uint32_t bytes) {
@@ -29,55 +66,79 @@ std::optional<std::string> receive_message(ToolProcess& tool, uint32_t bytes) {
 }
 
 template <class Picture, std::size_t kSample>
-std::optional<Picture> receive_pixels(ToolProcess& tool, int width, int height) {
+bool receive_pixels(ToolProcess& tool, int width, int height, Picture& picture) {
   std::variant_alternative_t<kSample, Picture> image(width, height);
-  if (!tool.receive(image.data(), image.texels().size_bytes())) return std::nullopt;
-  return image;
+  if (!tool.receive(image.data(), image.texels().size_bytes())) return false;
+  picture = std::move(image);
+  return true;
 }
 
-// Receives the decoder's answer. Returns nothing if the decoder ended before the answer was complete.
 template <class Picture>
-std::optional<Picture> receive_picture(ToolProcess& tool, uint32_t channels, const std::filesystem::path& path) {
-  PictureHeader h;
-  if (!tool.receive(&h, sizeof h)) return std::nullopt;
-  const std::string other_version = std::string("cannot be read: ") + kImageToolName + kOtherVersion;
-  if (h.magic != kImageToolMagic) fail_reading(path, other_version);
-  if (h.width == 0) {
-    const std::optional<std::string> message = receive_message(tool, h.message_bytes);
-    if (!message) return std::nullopt;
-    fail_reading(path, *message);
-  }
-  check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), path.string());
-  if (h.channels != channels) fail_reading(path, other_version);
+Talk receive_samples(ToolProcess& tool, const PictureHeader& h, Picture& picture, std::string& message) {
+  bool complete = false;
   switch (h.sample) {
-    case Sample::code8: return receive_pixels<Picture, 0>(tool, h.width, h.height);
-    case Sample::code16: return receive_pixels<Picture, 1>(tool, h.width, h.height);
-    case Sample::number: return receive_pixels<Picture, 2>(tool, h.width, h.height);
-    case Sample::half: break;
+    case Sample::code8: complete = receive_pixels<Picture, 0>(tool, h.width, h.height, picture); break;
+    case Sample::code16: complete = receive_pixels<Picture, 1>(tool, h.width, h.height, picture); break;
+    case Sample::number: complete = receive_pixels<Picture, 2>(tool, h.width, h.height, picture); break;
+    default: message = "cannot be read: the decoder has a different version than this program"; return Talk::last;
   }
-  fail_reading(path, other_version);
+  return complete ? Talk::done : Talk::tool_ended;
+}
+
+// Receives the decoder's answer, a picture or a message.
+template <class Picture>
+Talk receive_picture(ToolProcess& tool, uint32_t channels, const std::string& name, Picture& picture, std::string& message) {
+  PictureHeader h;
+  if (!tool.receive(&h, sizeof h)) return Talk::tool_ended;
+  if (h.magic == kImageToolMagic && h.width == 0) {
+    std::optional<std::string> text = receive_message(tool, h.message_bytes);
+    if (!text) return Talk::tool_ended;
+    message = *std::move(text);
+    return Talk::done;
+  }
+  if (h.magic == kImageToolMagic) check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), name);
+  if (h.magic != kImageToolMagic || h.channels != channels) {
+    message = "cannot be read: the decoder has a different version than this program";
+    return Talk::last;
+  }
+  return receive_samples(tool, h, picture, message);
+}
+
+struct DecoderProgram {
+  std::filesystem::path path;
+  ToolPool& pool;
+};
+
+DecoderProgram decoder_for(const ImageSource& source) {
+  const std::string_view format = source.tool_format()->name;
+  if (std::filesystem::path jpeg = format == "jpeg" ? find_jpeg_tool() : ""; !jpeg.empty()) return {std::move(jpeg), jpeg_tool_pool()};
+  std::filesystem::path program = find_image_tool();
+  if (program.empty()) {
+    fail_reading(source.name(), "is " + std::string(format) + ", and " + kImageToolName +
+                                    " is not installed; expected PNG, or that program (it is built if OpenImageIO is available)");
+  }
+  return {std::move(program), image_tool_pool()};
 }
 
 template <class Picture>
-Picture read_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes, uint32_t channels) {
-  const std::filesystem::path program = find_image_tool();
-  if (program.empty()) {
-    fail_reading(path, std::string("is ") + format + ", and " + kImageToolName +
-                           " is not installed; expected PNG, or that program (it is built if OpenImageIO is available)");
+Picture read_by_tool(ImageSource& source, ToolTask task) {
+  const DecoderProgram program = decoder_for(source);
+  const ToolRequest request = request_of(task, source.tool_format()->name);
+  const int file = source.descriptor();
+  Picture picture;
+  std::string message;
+  const auto failure = talk_to_tool(program.pool, program.path, [&](ToolProcess& tool) {
+    if (!tool.send_with_descriptor(&request, sizeof request, file)) return Talk::tool_ended;
+    return receive_picture(tool, task == ToolTask::read_gray ? 1 : 4, source.name(), picture, message);
+  });
+  if (failure && !failure->started) {
+    fail_reading(source.name(), "cannot be read: " + program.path.string() + " does not start (" + failure->text + ")");
   }
-  ToolProcess tool;
-  // The "./" keeps a name that begins with a dash from being taken for an option.
-  const std::string name = path.is_absolute() ? path.string() : "./" + path.string();
-  const int error = tool.start(
-      program, {"read", name, format, channels == 1 ? "gray" : "rgba", std::to_string(file_bytes), std::to_string(kMaxImagePixels)});
-  if (error != 0) fail_reading(path, "cannot be read: " + program.string() + " does not start (" + std::strerror(error) + ")");
-  tool.end_sending();
-  if (std::optional<Picture> picture = receive_picture<Picture>(tool, channels, path)) return *std::move(picture);
-  fail_reading(path,
-               std::string("cannot be read as ") + format + " (the decoder " + tool.how_it_ended() + "); expected a complete image file");
+  if (failure) message = "cannot be read as " + std::string(request.format) + " (the decoder " + failure->text + "); expected a complete image file";
+  if (!message.empty()) fail_reading(source.name(), message);
+  return picture;
 }
 
-// Returns false if the encoder has ended.
 bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::function<void(int y, std::span<std::byte> row)>& fill_row) {
   std::vector<std::byte> row(row_bytes(header));
   for (int y = 0; y < header.height; ++y) {
@@ -87,30 +148,41 @@ bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::functi
   return true;
 }
 
-// Receives the encoder's answer. Returns nothing if the encoder ended before the answer was complete.
-std::optional<std::vector<std::byte>> receive_file(ToolProcess& tool, uint64_t max_bytes, const std::filesystem::path& path) {
+// Receives the encoder's answer, a file or a message.
+Talk receive_file(ToolProcess& tool, uint64_t max_bytes, std::vector<std::byte>& file, std::string& message) {
   FileHeader h;
-  if (!tool.receive(&h, sizeof h)) return std::nullopt;
-  if (h.magic != kImageToolMagic || h.file_bytes > max_bytes) cannot_write(path, std::string(kImageToolName) + kOtherVersion);
-  if (h.file_bytes == 0) {
-    const std::optional<std::string> message = receive_message(tool, h.message_bytes);
-    if (!message) return std::nullopt;
-    cannot_write(path, *message);
+  if (!tool.receive(&h, sizeof h)) return Talk::tool_ended;
+  if (h.magic != kImageToolMagic || h.file_bytes > max_bytes) {
+    message = std::string(kImageToolName) + " has a different version than this program";
+    return Talk::last;
   }
-  std::vector<std::byte> bytes(h.file_bytes);
-  if (!tool.receive(bytes.data(), bytes.size())) return std::nullopt;
-  return bytes;
+  if (h.file_bytes == 0) {
+    std::optional<std::string> text = receive_message(tool, h.message_bytes);
+    if (!text) return Talk::tool_ended;
+    message = *std::move(text);
+    return Talk::last;
+  }
+  file.resize(h.file_bytes);
+  return tool.receive(file.data(), file.size()) ? Talk::done : Talk::tool_ended;
+}
+
+std::filesystem::path find_tool(const char* name) {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) return {};
+  const std::filesystem::path directory = program.parent_path();
+  for (const std::filesystem::path& place : {directory, directory / "../lib/halfspace"}) {
+    const std::filesystem::path candidate = (place / name).lexically_normal();
+    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+  }
+  return {};
 }
 
 }  // namespace
 
-ColorPicture read_color_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes) {
-  return read_by_tool<ColorPicture>(path, format, file_bytes, 4);
-}
+ColorPicture read_color_by_tool(ImageSource& source) { return read_by_tool<ColorPicture>(source, ToolTask::read_color); }
 
-GrayPicture read_gray_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes) {
-  return read_by_tool<GrayPicture>(path, format, file_bytes, 1);
-}
+GrayPicture read_gray_by_tool(ImageSource& source) { return read_by_tool<GrayPicture>(source, ToolTask::read_gray); }
 
 std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, const PictureHeader& header,
                                       const std::function<void(int y, std::span<std::byte> row)>& fill_row) {
@@ -118,28 +190,41 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
   if (program.empty()) {
     cannot_write(path, std::string(kImageToolName) + " is not installed; expected a file name ending in .png, or that program");
   }
-  ToolProcess tool;
-  const int error = tool.start(program, {"write", format});
-  if (error != 0) cannot_write(path, program.string() + " does not start: " + std::strerror(error));
-  // An encoder that reports an error ends before it has received all rows; its answer contains the reason.
-  const bool sent = tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
-  tool.end_sending();
+  const ToolRequest request = request_of(ToolTask::write, format);
   const uint64_t max_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + (1 << 20);
-  std::optional<std::vector<std::byte>> file = receive_file(tool, max_bytes, path);
-  if (sent && file) return *std::move(file);
-  cannot_write(path, std::string("the ") + format + " encoder " + tool.how_it_ended());
+  std::vector<std::byte> file;
+  std::string message;
+  const auto failure = talk_to_tool(image_tool_pool(), program, [&](ToolProcess& tool) {
+    // An encoder that reports an error ends before it has received all rows; its answer contains the reason.
+    const bool sent = tool.send(&request, sizeof request) && tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
+    const Talk result = receive_file(tool, max_bytes, file, message);
+    return sent || !message.empty() ? result : Talk::tool_ended;
+  });
+  if (failure && !failure->started) cannot_write(path, program.string() + " does not start: " + failure->text);
+  if (failure) cannot_write(path, std::string("the ") + format + " encoder " + failure->text);
+  if (!message.empty()) cannot_write(path, message);
+  return file;
 }
 
-std::filesystem::path find_image_tool() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return {};
-  const std::filesystem::path directory = program.parent_path();
-  for (const std::filesystem::path& place : {directory, directory / "../lib/halfspace"}) {
-    const std::filesystem::path candidate = (place / kImageToolName).lexically_normal();
-    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
-  }
-  return {};
+std::vector<std::byte> encode_codes_by_tool(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image,
+                                            uint32_t channels) {
+  HS_CHECK(!image.empty());
+  PictureHeader header;
+  header.width = image.width();
+  header.height = image.height();
+  header.channels = channels;
+  header.sample = Sample::code8;
+  return encode_by_tool(path, format, header, [&](int y, std::span<std::byte> row) {
+    std::byte* to = row.data();
+    for (const glm::u8vec4& texel : image.row(y)) {
+      std::memcpy(to, &texel, channels);
+      to += channels;
+    }
+  });
 }
+
+std::filesystem::path find_image_tool() { return find_tool(kImageToolName); }
+
+std::filesystem::path find_jpeg_tool() { return find_tool(kJpegToolName); }
 
 }  // namespace halfspace

@@ -1,35 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decoding and encoding by halfspace-image-tool, in a separate process.
+// Decoding and encoding by separate programs.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
+#include "halfspace/core/image.h"
 #include "halfspace/image/image_samples.h"
+#include "halfspace/image/image_source.h"
 #include "halfspace/image/tool/protocol.h"
 
 namespace halfspace {
 
-/// Decodes the file. format is OpenImageIO's name for the format, and file_bytes is the size of the file. Throws InputError if the
-/// file is damaged or crashes the decoder, or if the program is not installed.
-ColorPicture read_color_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes);
+/// Decodes a file that is not PNG: JPEG by halfspace-jpeg-tool, if it is installed, and everything else by halfspace-image-tool. Throws
+/// InputError if the file is damaged or crashes the decoder, or if the program is not installed.
+ColorPicture read_color_by_tool(ImageSource& source);
 /// The same, for the first channel only.
-GrayPicture read_gray_by_tool(const std::filesystem::path& path, const char* format, uint64_t file_bytes);
+GrayPicture read_gray_by_tool(ImageSource& source);
 
-/// Encodes an image with the size, channels and sample type of the header, and returns the bytes of the file. fill_row(y, row)
-/// writes row y, counted from the top, into row, which has row_bytes(header) bytes; it is called once per row, in order. Throws
-/// OutputError, with a message that begins with path, if the program is not installed, reports an error or crashes. Nothing is
-/// written to path.
+/// Encodes an image with the size, channels and sample type of the header in halfspace-image-tool, and returns the bytes of the file.
+/// format is OpenImageIO's name for the format. fill_row(y, row) writes row y, counted from the top, into row, which has row_bytes(header)
+/// bytes; it is called for all rows in order, and again from row 0 if a new process has to be started. Throws OutputError, with a message
+/// that begins with path, if the program is not installed, reports an error or crashes. Nothing is written to path.
 std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, const PictureHeader& header,
                                       const std::function<void(int y, std::span<std::byte> row)>& fill_row);
+
+/// The same for 8-bit codes. channels is 3 or 4; 3 drops alpha.
+std::vector<std::byte> encode_codes_by_tool(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image,
+                                            uint32_t channels);
 
 /// Returns the path of halfspace-image-tool, or an empty path if it is not installed. Searches the directory of the running
 /// program and ../lib/halfspace relative to it.
 std::filesystem::path find_image_tool();
+/// The same for halfspace-jpeg-tool.
+std::filesystem::path find_jpeg_tool();
 
 }  // namespace halfspace

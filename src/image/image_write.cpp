@@ -5,14 +5,17 @@
 #include <limits>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/half.h"
 #include "halfspace/image/atomic_output.h"
+#include "halfspace/image/exr_encode.h"
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_format.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_tool.h"
+#include "halfspace/image/jpeg_encode.h"
 #include "halfspace/image/png.h"
 
 namespace halfspace {
@@ -28,51 +31,31 @@ ImageFile checked_image_file(const std::filesystem::path& path, bool linear) {
   return *file;
 }
 
-template <class T>
-PictureHeader header_of(const Image<T>& image, uint32_t channels, Sample sample) {
-  HS_CHECK(!image.empty());
-  PictureHeader header;
-  header.width = image.width();
-  header.height = image.height();
-  header.channels = channels;
-  header.sample = sample;
-  return header;
-}
-
-// Encodes the image and writes the file. samples(texel) returns an array of channels of the header's sample type; the first
-// header.channels of them are sent.
-template <class T, class F>
-void write_by_tool(const std::filesystem::path& path, const char* format, const Image<T>& image, const PictureHeader& header, F&& samples) {
-  check_writable(path);
-  const std::size_t texel_bytes = header.channels * sample_bytes(header.sample);
-  write_file(path, encode_by_tool(path, format, header, [&](int y, std::span<std::byte> row) {
-               std::byte* to = row.data();
-               for (const T& texel : image.row(y)) {
-                 const auto channels = samples(texel);
-                 std::memcpy(to, &channels, texel_bytes);
-                 to += texel_bytes;
-               }
-             }));
-}
-
-void write_codes(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image, bool alpha) {
-  write_by_tool(path, format, image, header_of(image, alpha ? 4 : 3, Sample::code8), [](const glm::u8vec4& t) { return t; });
-}
-
 float number_or_0(float x) { return std::isnan(x) ? 0.0f : x; }
 
 // Premultiplies by alpha. An infinity times an alpha of 0 is NaN, which becomes 0 too.
-glm::u16vec4 exr_texel(const glm::vec4& t) {
+int exr_sample(const glm::vec4& t, int channel) {
   const float alpha = number_or_0(t.w);
-  glm::u16vec4 halves;
-  for (int c = 0; c < 3; ++c) halves[c] = float_to_finite_half(number_or_0(t[c] * alpha));
-  halves[3] = float_to_finite_half(alpha);
-  return halves;
+  return float_to_finite_half(channel == 3 ? alpha : number_or_0(t[channel] * alpha));
 }
 
-void write_exr(const std::filesystem::path& path, const Image<glm::vec4>& image) {
+ExrChannel exr_channel(const Image<glm::vec4>& image, int channel) {
+  constexpr const char* kNames[] = {"R", "G", "B", "A"};
+  return {kNames[channel], ExrSample::half, [&image, channel](int y, std::span<std::byte> row) {
+            std::byte* to = row.data();
+            for (const glm::vec4& texel : image.row(y)) {
+              const uint16_t half = static_cast<uint16_t>(exr_sample(texel, channel));
+              std::memcpy(to, &half, sizeof half);
+              to += sizeof half;
+            }
+          }};
+}
+
+void write_color_exr(const std::filesystem::path& path, const Image<glm::vec4>& image) {
   const bool opaque = std::ranges::all_of(image.texels(), [](const glm::vec4& t) { return t.w == 1.0f; });
-  write_by_tool(path, "openexr", image, header_of(image, opaque ? 3 : 4, Sample::half), exr_texel);
+  std::vector<ExrChannel> channels;
+  for (int c = 0; c < (opaque ? 3 : 4); ++c) channels.push_back(exr_channel(image, c));
+  write_exr(path, image.width(), image.height(), channels);
 }
 
 // Rounds to the nearest values that RGBE can represent: integer multiples, up to 255, of 2^(e − 8), where
@@ -97,7 +80,32 @@ glm::vec3 rgbe_texel(const glm::vec4& t) {
 }
 
 void write_hdr(const std::filesystem::path& path, const Image<glm::vec4>& image) {
-  write_by_tool(path, "hdr", image, header_of(image, 3, Sample::number), rgbe_texel);
+  HS_CHECK(!image.empty());
+  check_writable(path);
+  PictureHeader header;
+  header.width = image.width();
+  header.height = image.height();
+  header.channels = 3;
+  header.sample = Sample::number;
+  write_file(path, encode_by_tool(path, "hdr", header, [&](int y, std::span<std::byte> row) {
+               std::byte* to = row.data();
+               for (const glm::vec4& texel : image.row(y)) {
+                 const glm::vec3 color = rgbe_texel(texel);
+                 std::memcpy(to, &color, sizeof color);
+                 to += sizeof color;
+               }
+             }));
+}
+
+void write_tiff(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
+  check_writable(path);
+  const bool opaque = std::ranges::all_of(image.texels(), [](const glm::u8vec4& t) { return t.w == 255; });
+  write_file(path, encode_codes_by_tool(path, "tiff", image, opaque ? 3 : 4));
+}
+
+void write_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
+  check_writable(path);
+  write_file(path, encode_jpeg(path, image));
 }
 
 [[noreturn]] void fail_for_memory(const std::filesystem::path& path) {
@@ -127,20 +135,26 @@ void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>&
 void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image) try {
   const ImageFile file = checked_image_file(path, false);
   if (file == ImageFile::png) return write_png(path, image);
-  if (file == ImageFile::jpeg) return write_codes(path, "jpeg", image, false);
-  write_codes(path, "tiff", image, std::ranges::any_of(image.texels(), [](const glm::u8vec4& t) { return t.w != 255; }));
+  file == ImageFile::jpeg ? write_jpeg(path, image) : write_tiff(path, image);
 } catch (const std::bad_alloc&) {
   fail_for_memory(path);
 }
 
 void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image) try {
-  checked_image_file(path, true) == ImageFile::exr ? write_exr(path, image) : write_hdr(path, image);
+  checked_image_file(path, true) == ImageFile::exr ? write_color_exr(path, image) : write_hdr(path, image);
 } catch (const std::bad_alloc&) {
   fail_for_memory(path);
 }
 
-void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth) try {
-  write_by_tool(path, "openexr", depth, header_of(depth, 1, Sample::number), [](float z) { return z; });
+void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth) {
+  const ExrChannel z = {"Z", ExrSample::number,
+                        [&](int y, std::span<std::byte> row) { std::ranges::copy(std::as_bytes(depth.row(y)), row.begin()); }};
+  write_exr(path, depth.width(), depth.height(), {&z, 1});
+}
+
+void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels) try {
+  check_writable(path);
+  write_file(path, encode_exr(path, width, height, channels));
 } catch (const std::bad_alloc&) {
   fail_for_memory(path);
 }

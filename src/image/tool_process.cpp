@@ -41,18 +41,16 @@ int open_ends(int (&ends)[4]) {
   return 0;
 }
 
-int spawn(const std::filesystem::path& program, std::vector<std::string> words, int input, int output, pid_t& child) {
-  words.insert(words.begin(), program.string());
-  std::vector<char*> argv;
-  for (std::string& w : words) argv.push_back(w.data());
-  argv.push_back(nullptr);
+int spawn(const std::filesystem::path& program, int input, int output, pid_t& child) {
+  std::string words[] = {program.string(), "serve"};
+  char* argv[] = {words[0].data(), words[1].data(), nullptr};
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   // Decoders print warnings, but standard error is reserved for this program's own one-line message.
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  const int error = ::posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
+  const int error = ::posix_spawn(&child, program.c_str(), &actions, nullptr, argv, environ);
   ::posix_spawn_file_actions_destroy(&actions);
   if (error != 0) child = -1;
   return error;
@@ -60,24 +58,31 @@ int spawn(const std::filesystem::path& program, std::vector<std::string> words, 
 
 }  // namespace
 
-ToolProcess::~ToolProcess() {
-  close_if_open(to_);
-  close_if_open(from_);
-  if (child_ > 0) {
-    ::kill(child_, SIGKILL);
-    wait();
-  }
-}
-
-int ToolProcess::start(const std::filesystem::path& program, std::vector<std::string> words) {
+int ToolProcess::start(const std::filesystem::path& program) {
   int ends[4] = {-1, -1, -1, -1};
   int error = open_ends(ends);
   to_ = ends[0];
   from_ = ends[2];
-  if (error == 0) error = spawn(program, std::move(words), ends[1], ends[3], child_);
+  if (error == 0) error = spawn(program, ends[1], ends[3], child_);
   close_if_open(ends[1]);
   close_if_open(ends[3]);
+  if (error != 0) abandon();
   return error;
+}
+
+void ToolProcess::stop() {
+  if (child_ > 0) {
+    ::kill(child_, SIGKILL);
+    wait();
+  }
+  abandon();
+}
+
+void ToolProcess::abandon() {
+  close_if_open(to_);
+  close_if_open(from_);
+  to_ = from_ = -1;
+  child_ = -1;
 }
 
 bool ToolProcess::send(const void* memory, std::size_t bytes) {
@@ -91,7 +96,25 @@ bool ToolProcess::send(const void* memory, std::size_t bytes) {
   return true;
 }
 
-void ToolProcess::end_sending() { ::shutdown(to_, SHUT_WR); }
+bool ToolProcess::send_with_descriptor(const void* memory, std::size_t bytes, int descriptor) {
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptor)] = {};
+  iovec part = {const_cast<void*>(memory), bytes};
+  msghdr message = {};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  cmsghdr* rights = CMSG_FIRSTHDR(&message);
+  rights->cmsg_level = SOL_SOCKET;
+  rights->cmsg_type = SCM_RIGHTS;
+  rights->cmsg_len = CMSG_LEN(sizeof descriptor);
+  std::memcpy(CMSG_DATA(rights), &descriptor, sizeof descriptor);
+  ssize_t n = 0;
+  while ((n = ::sendmsg(to_, &message, MSG_NOSIGNAL)) < 0 && errno == EINTR) {
+  }
+  if (n <= 0) return false;
+  return send(static_cast<const char*>(memory) + n, bytes - static_cast<std::size_t>(n));
+}
 
 bool ToolProcess::receive(void* memory, std::size_t bytes) {
   for (char* to = static_cast<char*>(memory); bytes > 0;) {
@@ -104,13 +127,8 @@ bool ToolProcess::receive(void* memory, std::size_t bytes) {
   return true;
 }
 
-std::string ToolProcess::how_it_ended() {
-  const int signal = wait();
-  return signal == 0 ? "ended early" : std::string("died: ") + ::strsignal(signal);
-}
-
-// Returns the signal that terminated the tool, or 0.
 int ToolProcess::wait() {
+  ::shutdown(to_, SHUT_RDWR);  // a tool that still waits for input ends
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0) {
     if (errno != EINTR) break;

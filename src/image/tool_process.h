@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A running halfspace-image-tool process.
+// A running decoder program (see tool/protocol.h).
 #pragma once
 
 #include <sys/types.h>
@@ -8,36 +8,41 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace halfspace {
 
-/// Owns the running tool and the channels to and from it. The destructor closes them and kills the tool if it is still running.
+/// Owns a process and the channels to and from it.
 class ToolProcess {
  public:
   ToolProcess() = default;
-  ~ToolProcess();
+  ~ToolProcess() { stop(); }
   ToolProcess(const ToolProcess&) = delete;
   ToolProcess& operator=(const ToolProcess&) = delete;
 
-  /// Starts the program with the given command-line arguments. Returns 0, or the errno of the failure. Call only once.
-  int start(const std::filesystem::path& program, std::vector<std::string> words);
+  /// Starts `program serve`. Returns 0, or the errno of the failure. Must not be running.
+  int start(const std::filesystem::path& program);
+
+  bool running() const { return child_ > 0; }
 
   /// Sends all bytes to the tool's standard input. Returns false if the tool has ended; no signal is raised.
   bool send(const void* memory, std::size_t bytes);
 
-  /// Closes the tool's standard input.
-  void end_sending();
+  /// The same, together with a descriptor, which the tool receives a copy of.
+  bool send_with_descriptor(const void* memory, std::size_t bytes, int descriptor);
 
   /// Fills the memory from the tool's standard output. Returns false if the tool ended before that.
   bool receive(void* memory, std::size_t bytes);
 
-  /// Waits for the tool to exit. Returns "died: ..." with the name of the signal, or "ended early".
-  std::string how_it_ended();
-
- private:
+  /// Waits for the tool to exit and returns the signal that terminated it, or 0.
   int wait();
 
+  /// Closes the channels and kills the tool, if it is running.
+  void stop();
+
+  /// Closes the channels but leaves the tool running. Called in a child process, which has copies of the channels of its parent's tools.
+  void abandon();
+
+ private:
   int to_ = -1;
   int from_ = -1;
   pid_t child_ = -1;

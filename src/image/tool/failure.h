@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <cstdio>
-#include <span>
 #include <string>
+
+#include "halfspace/image/tool/protocol.h"
 
 namespace halfspace {
 
-/// The reason why halfspace-image-tool cannot fulfill a request. The text is one line of the form "problem; what was expected".
+/// The reason why a tool cannot fulfill a request. The text is one line of the form "problem; what was expected".
 struct Failure {
   std::string text;
 };
@@ -28,6 +29,13 @@ template <class Header>
 void put_answer(const Header& header, const std::string& message) {
   std::fwrite(&header, sizeof header, 1, stdout);
   std::fwrite(message.data(), 1, message.size(), stdout);
+}
+
+/// Answers a request for an image with a message.
+inline void refuse_picture(const std::string& message) {
+  PictureHeader header;
+  header.message_bytes = static_cast<uint32_t>(message.size());
+  put_answer(header, message);
 }
 
 }  // namespace halfspace

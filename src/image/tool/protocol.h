@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The protocol between halfspace-image-tool and the program that started it.
+// The protocol between a decoder program (halfspace-image-tool, halfspace-jpeg-tool) and the program that started it.
 //
-//   halfspace-image-tool read PATH FORMAT CHANNELS FILE_BYTES MAX_PIXELS
+//   TOOL serve
 //
-// writes a PictureHeader to standard output, followed by the pixels or, if width is 0, by a message of message_bytes bytes.
-// CHANNELS is "gray" (only the first channel of the file) or "rgba" (gray replicated, missing alpha opaque).
+// reads requests from standard input, which is a socket, until it is closed. The answer to each request goes to standard output.
 //
-//   halfspace-image-tool write FORMAT
+// To read an image, send a ToolRequest together with a descriptor of the file (SCM_RIGHTS). The answer is a PictureHeader, followed by
+// the pixels or, if width is 0, by a message of message_bytes bytes.
 //
-// reads a PictureHeader and its pixels from standard input. It writes a FileHeader to standard output, followed by the bytes of
-// the file or, if file_bytes is 0, by a message of message_bytes bytes.
+// To write an image, send a ToolRequest, a PictureHeader and the pixels. The answer is a FileHeader, followed by the bytes of the file or,
+// if file_bytes is 0, by a message of message_bytes bytes. The tool exits after such a message, since it may not have read all pixels.
 //
-// FORMAT is OpenImageIO's name for the format, for example "jpeg". Pixels are stored in rows without padding, top row first, with
-// interleaved channels in native byte order. A message is one line: the problem; what was expected.
+// Pixels are stored in rows without padding, top row first, with interleaved channels in native byte order. A message is one line:
+// the problem; what was expected.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,19 @@
 namespace halfspace {
 
 inline constexpr const char* kImageToolName = "halfspace-image-tool";
-inline constexpr uint32_t kImageToolMagic = 0x31544948;  // "HIT1": the digit is the protocol version
+inline constexpr const char* kJpegToolName = "halfspace-jpeg-tool";
+inline constexpr uint32_t kImageToolMagic = 0x32544948;  // "HIT2": the digit is the protocol version
+
+/// What a tool is asked to do. read_gray returns only the first channel of a file. read_color returns RGBA: gray is replicated and
+/// missing alpha is opaque.
+enum class ToolTask : uint32_t { read_gray, read_color, write };
+
+struct ToolRequest {
+  uint32_t magic = kImageToolMagic;
+  ToolTask task = ToolTask::read_color;
+  /// OpenImageIO's name for the format, for example "jpeg", padded with zeros.
+  char format[16] = {};
+};
 
 /// The type of one channel of a pixel: an 8-bit or 16-bit code that spans its full range, a half or a float.
 enum class Sample : uint32_t { code8, code16, half, number };

@@ -9,16 +9,13 @@
 #include <new>
 #include <vector>
 
+#include "halfspace/image/image_limits.h"
 #include "halfspace/image/tool/failure.h"
 #include "halfspace/image/tool/protocol.h"
 
 namespace halfspace {
 
 namespace {
-
-// Limit on the pixels per byte of file that a header may claim (a constant JPEG has about 100, a bilevel TIFF 8000).
-constexpr uint64_t kMaxPixelsPerByte = 8192;
-constexpr int kMaxChannels = 64;
 
 // A decoded image with the requested channels: all channels of the file, or only the first.
 struct Picture {
@@ -27,23 +24,30 @@ struct Picture {
   std::vector<std::byte> pixels;
 };
 
+// The name under which OpenImageIO opens the file of a request.
+std::string name_of(const ReadRequest& request) { return "/proc/self/fd/" + std::to_string(request.file); }
+
+// OpenImageIO's messages mention the name of the file, in quotes. It means nothing to a user, whose message begins with the real one.
+std::string without_name(std::string text, const ReadRequest& request) {
+  const std::string name = '"' + name_of(request) + '"';
+  for (const std::string& mention : {" (" + name + ")", " of " + name, " " + name, name}) {
+    for (std::size_t at = 0; (at = text.find(mention)) != std::string::npos;) text.erase(at, mention.size());
+  }
+  return text;
+}
+
 Failure damaged(const ReadRequest& request, const std::string& why) {
-  return {"cannot be read as " + request.format + " (" + one_line(why) + "); expected a complete image file"};
+  return {"cannot be read as " + request.format + " (" + one_line(without_name(why, request)) + "); expected a complete image file"};
 }
 
 void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
-  const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels";
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1) throw Failure{"has " + size + "; expected a flat image of at least 1x1"};
-  const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-  if (pixels > request.max_pixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 pixels per side"};
-  if (pixels > (1u << 20) && pixels / kMaxPixelsPerByte > request.file_bytes) {
-    throw Failure{"claims " + size + " but has only " + std::to_string(request.file_bytes) + " bytes; expected a complete image file"};
-  }
+  check_claimed_size(spec.width, spec.height, request.file_bytes);
+  if (spec.depth > 1) throw Failure{"has several layers of pixels; expected a flat image"};
   if (spec.nchannels < 1 || spec.nchannels > kMaxChannels) {
     throw Failure{"has " + std::to_string(spec.nchannels) + " channels; expected 1 to " + std::to_string(kMaxChannels)};
   }
   const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) * static_cast<uint64_t>(std::max(spec.tile_height, 0));
-  if (spec.deep || tile > request.max_pixels) throw Failure{"has deep pixels or oversized tiles; expected a flat image"};
+  if (spec.deep || tile > kMaxImagePixels) throw Failure{"has deep pixels or oversized tiles; expected a flat image"};
 }
 
 // Codes of up to 16 bits stay codes. All other types become floats; signed and 32-bit integers are scaled to 1.
@@ -64,7 +68,7 @@ Picture read_picture(const ReadRequest& request) {
   OIIO::ImageSpec spec;
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);  // keep straight alpha as it is
-  if (!input->open(request.path, spec, hints)) throw damaged(request, input->geterror());
+  if (!input->open(name_of(request), spec, hints)) throw damaged(request, input->geterror());
   check_spec(spec, request);
   Picture p{spec.width, spec.height, request.gray ? 1 : spec.nchannels, request.gray ? -1 : spec.alpha_channel, sample_of(spec.format), {}};
   p.pixels.resize(static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height) * static_cast<std::size_t>(p.channels) *
@@ -101,15 +105,9 @@ void put_rgba(const Picture& p) {
   }
 }
 
-void refuse(const std::string& message) {
-  PictureHeader header;
-  header.message_bytes = static_cast<uint32_t>(message.size());
-  put_answer(header, message);
-}
-
 }  // namespace
 
-void read_and_answer(const ReadRequest& request) {
+bool read_and_answer(const ReadRequest& request) {
   try {
     const Picture p = read_picture(request);
     put_answer(PictureHeader{kImageToolMagic, p.width, p.height, request.gray ? 1u : 4u, p.sample, 0}, "");
@@ -119,12 +117,14 @@ void read_and_answer(const ReadRequest& request) {
       put_rgba(p);
     }
   } catch (const Failure& failure) {
-    refuse(failure.text);
+    refuse_picture(failure.text);
   } catch (const std::bad_alloc&) {
-    refuse("not enough memory; expected a smaller image");
+    refuse_picture("not enough memory; expected a smaller image");
+    return false;
   } catch (const std::exception& e) {
-    refuse(damaged(request, e.what()).text);
+    refuse_picture(damaged(request, e.what()).text);
   }
+  return true;
 }
 
 }  // namespace halfspace

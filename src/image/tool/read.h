@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <string>
+#include "halfspace/image/tool/service.h"
 
 namespace halfspace {
 
-struct ReadRequest {
-  std::string path, format;
-  /// Read only the first channel instead of RGBA.
-  bool gray = false;
-  uint64_t file_bytes = 0, max_pixels = 0;
-};
+/// Largest number of channels that a file may have.
+inline constexpr int kMaxChannels = 64;
 
-/// Decodes the file and writes the answer (see protocol.h) to standard output.
-void read_and_answer(const ReadRequest& request);
+/// Decodes the file and writes the answer (see protocol.h) to standard output. Returns false if the process ran out of memory and should
+/// not handle further requests.
+bool read_and_answer(const ReadRequest& request);
 
 }  // namespace halfspace

@@ -15,6 +15,7 @@
 #include "halfspace/image/image_limits.h"
 #include "halfspace/image/tool/failure.h"
 #include "halfspace/image/tool/protocol.h"
+#include "halfspace/image/tool/service.h"
 
 namespace halfspace {
 
@@ -51,10 +52,6 @@ class MemoryFile {
  private:
   int fd_;
 };
-
-void receive(void* memory, std::size_t bytes) {
-  if (std::fread(memory, 1, bytes, stdin) != bytes) throw Failure{"the image data ended early"};
-}
 
 PictureHeader receive_header() {
   PictureHeader h;
@@ -103,17 +100,19 @@ void refuse(const std::string& message) { put_answer(FileHeader{kImageToolMagic,
 
 }  // namespace
 
-void write_and_answer(const std::string& format) {
+bool write_and_answer(const std::string& format) {
   try {
     const MemoryFile file;
     encode(format, file);
     put_answer(FileHeader{kImageToolMagic, 0, file.size()}, "");
     file.copy_to_output();
+    return true;
   } catch (const Failure& failure) {
     refuse(failure.text);
   } catch (const std::exception& e) {
     refuse("the " + format + " encoder reported: " + one_line(e.what()));
   }
+  return false;
 }
 
 }  // namespace halfspace

@@ -5,7 +5,7 @@
 
 namespace halfspace {
 
-/// Encodes the image received on standard input and writes the answer (see protocol.h) to standard output.
-void write_and_answer(const std::string& format);
+/// Encodes the image received on standard input and writes the answer (see protocol.h) to standard output. Returns false if that failed.
+bool write_and_answer(const std::string& format);
 
 }  // namespace halfspace

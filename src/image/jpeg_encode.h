@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// JPEG encoding in memory. The build chooses jpeg_encode.cpp, which uses libjpeg-turbo, or jpeg_encode_by_tool.cpp.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "halfspace/core/image.h"
+
+namespace halfspace {
+
+/// Encodes 8-bit sRGB codes at quality 95 without chroma subsampling. Alpha is dropped. The image must not be empty. Throws OutputError,
+/// with a message that begins with path, if the image is too large for the format (65500 pixels per side). Nothing is written to path.
+std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
+
+}  // namespace halfspace

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// JPEG encoding in builds without libjpeg.
+#include "halfspace/image/image_tool.h"
+#include "halfspace/image/jpeg_encode.h"
+
+namespace halfspace {
+
+std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
+  return encode_codes_by_tool(path, "jpeg", image, 3);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/image/jpeg_tool/decode.h"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <vector>
+
+#include "halfspace/image/jpeg_errors.h"
+#include "halfspace/image/tool/failure.h"
+#include "halfspace/image/tool/protocol.h"
+
+namespace halfspace {
+
+namespace {
+
+// The bytes of an open file. If the file is truncated meanwhile, reading them kills this process, like any other damaged file.
+class MappedFile {
+ public:
+  MappedFile(int file, std::size_t bytes) : bytes_(bytes), start_(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file, 0)) {
+    if (start_ == MAP_FAILED) throw Failure{std::string("cannot be read (") + std::strerror(errno) + "); expected an image"};
+  }
+  ~MappedFile() { ::munmap(start_, bytes_); }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  const unsigned char* data() const { return static_cast<const unsigned char*>(start_); }
+  std::size_t size() const { return bytes_; }
+
+ private:
+  std::size_t bytes_;
+  void* start_;
+};
+
+// Adobe stores CMYK inverted, as 255 minus the amount of ink, and so do all programs that write such files. The product of the color and
+// the black channel is then the reflected light.
+uint8_t light_of(uint8_t color, uint8_t black) { return static_cast<uint8_t>((color * black + 127) / 255); }
+
+class JpegDecoder {
+ public:
+  explicit JpegDecoder(const MappedFile& file) : errors_(true) {
+    codec_.err = errors_.manager();
+    check(errors_.run([&] {
+      jpeg_create_decompress(&codec_);
+      jpeg_mem_src(&codec_, file.data(), file.size());
+      jpeg_read_header(&codec_, TRUE);
+    }));
+  }
+  ~JpegDecoder() { jpeg_destroy_decompress(&codec_); }
+  JpegDecoder(const JpegDecoder&) = delete;
+  JpegDecoder& operator=(const JpegDecoder&) = delete;
+
+  unsigned width() const { return codec_.image_width; }
+  unsigned height() const { return codec_.image_height; }
+
+  // Decodes to 1 channel (the first) or to RGBA.
+  std::vector<uint8_t> decode(unsigned channels) {
+    std::vector<uint8_t> pixels(std::size_t{width()} * height() * channels);
+    std::vector<uint8_t> row(std::size_t{width()} * static_cast<unsigned>(codec_.num_components));
+    check(errors_.run([&] {
+      const bool inks = codec_.jpeg_color_space == JCS_CMYK || codec_.jpeg_color_space == JCS_YCCK;
+      if (inks) codec_.out_color_space = JCS_CMYK;
+      jpeg_start_decompress(&codec_);
+      uint8_t* scanline = row.data();
+      while (codec_.output_scanline < codec_.output_height) {
+        uint8_t* to = pixels.data() + std::size_t{codec_.output_scanline} * width() * channels;
+        jpeg_read_scanlines(&codec_, &scanline, 1);
+        put_row(row.data(), inks, channels, to);
+      }
+    }));
+    return pixels;
+  }
+
+ private:
+  void check(bool ok) const {
+    if (!ok) throw Failure{std::string("cannot be read as jpeg (JPEG error: ") + one_line(errors_.text()) + "); expected a complete image file"};
+  }
+
+  // Converts a decoded row. Files with fewer than 3 components give gray.
+  void put_row(const uint8_t* from, bool inks, unsigned channels, uint8_t* to) const {
+    const int components = codec_.out_color_components;
+    const int second = components >= 3 ? 1 : 0, third = components >= 3 ? 2 : 0;
+    for (unsigned x = 0; x < width(); ++x, from += components, to += channels) {
+      const uint8_t black = inks ? from[3] : uint8_t{255};
+      to[0] = light_of(from[0], black);
+      if (channels == 1) continue;
+      to[1] = light_of(from[second], black);
+      to[2] = light_of(from[third], black);
+      to[3] = 255;
+    }
+  }
+
+  JpegErrors errors_;
+  jpeg_decompress_struct codec_ = {};
+};
+
+void decode(const ReadRequest& request) {
+  const MappedFile file(request.file, request.file_bytes);
+  JpegDecoder decoder(file);
+  check_claimed_size(decoder.width(), decoder.height(), request.file_bytes);
+  const unsigned channels = request.gray ? 1 : 4;
+  const std::vector<uint8_t> pixels = decoder.decode(channels);
+  const auto edge = [](unsigned pixels_per_side) { return static_cast<int32_t>(pixels_per_side); };
+  put_answer(PictureHeader{kImageToolMagic, edge(decoder.width()), edge(decoder.height()), channels, Sample::code8, 0}, "");
+  std::fwrite(pixels.data(), 1, pixels.size(), stdout);
+}
+
+}  // namespace
+
+bool decode_and_answer(const ReadRequest& request) {
+  try {
+    decode(request);
+  } catch (const Failure& failure) {
+    refuse_picture(failure.text);
+  } catch (const std::bad_alloc&) {
+    refuse_picture("not enough memory; expected a smaller image");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace halfspace
