@@ -102,7 +102,7 @@ TEST(ObjHostileDeathTest, ReadsLargeRepetitions) {
            triangle + repeated("f 1 2 3\n", kMany),
            triangle + repeated("f 1 2 3 1\n", kMany / 2),
            triangle + repeated("g a\ng b\nusemtl c\ns 1\ns 2\nf 1 2 3\n", kMany / 4),
-           triangle + repeated("vt 0\nvn 1 0 0\nf 1/-1/-1 2/-1/-1 3/-1/-1\n", kMany / 2),
+           triangle + repeated("vt 0\nvn 1 0 0\nf 1/-1/-1 2/-1/-1 3/-1/-1\n", 2 * kMany),
            triangle + repeated("x\n", kMany),
            triangle + repeated("mtllib a\nmtllib b c d\n", kMany / 10),
            repeated("v 1e18 -1e18 1e18\nv -1e18 1e-300 1\nv 5e-324 0 1e18\nf -1 -2 -3\nf -3 -2 -1 -2\n", kMany / 10),

@@ -139,6 +139,13 @@ TEST(Obj, ReadsLinesAndPoints) {
   EXPECT_EQ(model.meshes[1].indices, (std::vector<uint32_t>{0, 1}));
 }
 
+TEST(Obj, LeavesOutElementsWithTooFewCorners) {
+  const Model model = read_obj_text(with_triangle("f 1 2\nf 1 2 3\nf 3 1\nf 1 2 3\nl 1\np\nf 1\n"));
+  ASSERT_EQ(model.meshes.size(), 1u);
+  EXPECT_EQ(model.meshes[0].indices, (std::vector<uint32_t>{0, 1, 2, 0, 1, 2}));
+  EXPECT_EQ(model.warnings.size(), 1u);
+}
+
 TEST(Obj, DrawsVerticesWithoutElementsAsPoints) {
   const Model model = read_obj_text(kTriangle);
   ASSERT_EQ(model.meshes.size(), 1u);
@@ -157,6 +164,8 @@ TEST(Obj, DecodesVertexColors) {
   EXPECT_EQ(first.w, 1.0f);
   EXPECT_EQ(model.meshes[0].colors[2], glm::vec4(1.0f)) << "a vertex without color is white";
   EXPECT_EQ(model.materials[0].base_color, glm::vec4(1.0f));
+  const Model late = read_obj_text("v 0 0 0\nv 1 0 0 1 0 0\nv 0 1 0 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(late.meshes[0].colors, (std::vector<glm::vec4>{{1, 1, 1, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}));
   const Model codes = read_obj_text("v 0 0 0 255 0 127.5\nv 1 0 0 0 255 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
   EXPECT_EQ(codes.meshes[0].colors[0], first);
 }
@@ -182,12 +191,12 @@ TEST(Obj, MakesOneMeshPerMaterialAndTopology) {
 
 // The positions relative to the origin must not depend on the place, and scale with the size.
 TEST(Obj, KeepsPrecisionFarAwayAndAtAllSizes) {
-  const ModelMesh near = read_obj_text(cube(1.0, glm::dvec3(0.0))).meshes[0];
-  const ModelMesh far = read_obj_text(cube(1.0, glm::dvec3(5e6))).meshes[0];
+  const ModelMesh near = read_obj_text(cube(0.75, glm::dvec3(0.0))).meshes[0];
+  const ModelMesh far = read_obj_text(cube(0.75, glm::dvec3(5e6))).meshes[0];
   EXPECT_EQ(near.positions, far.positions);
   EXPECT_EQ(far.origin, glm::dvec3(5e6));
   for (const double size : {0x1p-20, 0x1p20}) {
-    const ModelMesh scaled = read_obj_text(cube(size, glm::dvec3(0.0))).meshes[0];
+    const ModelMesh scaled = read_obj_text(cube(0.75 * size, glm::dvec3(0.0))).meshes[0];
     ASSERT_EQ(scaled.positions.size(), near.positions.size());
     EXPECT_EQ(scaled.indices, near.indices);
     for (std::size_t i = 0; i < near.positions.size(); ++i) {

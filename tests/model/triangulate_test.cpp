@@ -87,7 +87,7 @@ TEST(Triangulate, CutsConvexQuadsAlongTheShorterDiagonal) {
 
 // The shorter diagonal of this quad is outside of it.
 TEST(Triangulate, CutsConcaveQuadsAtTheReflexCorner) {
-  const Corners quad{{0, 0, 0}, {4, 1, 0}, {0, 2, 0}, {3, 1, 0}};
+  const Corners quad{{0, 0, 0}, {4, 1, 0}, {0, 2, 0}, {1, 1, 0}};
   for (int axis = 0; axis < 3; ++axis) {
     for (uint32_t turn = 0; turn < 4; ++turn) {
       for (const bool reversed : {false, true}) {
@@ -96,8 +96,11 @@ TEST(Triangulate, CutsConcaveQuadsAtTheReflexCorner) {
           const glm::dvec3& p = quad[(reversed ? 3 - i + turn : i + turn) % 4];
           corners.push_back(axis == 0 ? p : axis == 1 ? glm::dvec3(p.y, p.z, p.x) : glm::dvec3(p.z, p.x, p.y));
         }
-        const auto reflex =
-            static_cast<uint32_t>(std::ranges::find_if(corners, [](auto& p) { return p.x + p.y + p.z == 4.0; }) - corners.begin());
+        const auto reflex = static_cast<uint32_t>(std::ranges::find_if(corners,
+                                                                       [](auto& p) {
+                                                                         return std::max({p.x, p.y, p.z}) == 1.0;
+                                                                       }) -
+                                                  corners.begin());
         const std::vector<uint32_t> triangles = triangles_of(corners);
         EXPECT_TRUE(is_cut_at(triangles, reflex)) << axis << turn << reversed;
         for (std::size_t i = 0; i < 6; i += 3) {  // the winding is that of the quad
