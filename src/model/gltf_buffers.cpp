@@ -26,14 +26,14 @@ uint32_t number_at(std::span<const std::byte> bytes, std::size_t at) {
   return x;
 }
 
-std::string_view text_of(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+std::string_view as_text(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 }  // namespace
 
-bool is_glb(std::span<const std::byte> bytes) { return text_of(bytes).starts_with("glTF"); }
+bool is_glb(std::span<const std::byte> bytes) { return as_text(bytes).starts_with("glTF"); }
 
 GltfChunks gltf_chunks(const std::filesystem::path& file, std::span<const std::byte> bytes) {
-  if (!is_glb(bytes)) return {text_of(bytes), std::nullopt};
+  if (!is_glb(bytes)) return {as_text(bytes), std::nullopt};
   const auto fail = [&](const std::string& problem) { throw InputError(fmt::format("{}: GLB header: {}", file.string(), problem)); };
   if (bytes.size() < kHeaderSize) fail("the file is truncated; expected at least 12 bytes");
   if (number_at(bytes, 4) != 2) fail(fmt::format("version {}; expected 2", number_at(bytes, 4)));
@@ -48,7 +48,7 @@ GltfChunks gltf_chunks(const std::filesystem::path& file, std::span<const std::b
     if (size > length - at) fail(fmt::format("chunk {} has {} bytes, but {} are left; expected a whole file", number, size, length - at));
     const std::span<const std::byte> chunk = bytes.subspan(at, size);
     if (number == 0 && type != kJsonChunk) fail("the first chunk is of another type; expected a JSON chunk");
-    if (number == 0) chunks.json = text_of(chunk);
+    if (number == 0) chunks.json = as_text(chunk);
     if (number == 1 && type == kBinaryChunk) chunks.binary = chunk;
     at += size;
   }

@@ -68,7 +68,7 @@ bool append_path(const GltfValue& from, const GltfValue& to, std::string& path) 
   } else if (from.is_object()) {
     for (auto member = from.begin(); member != from.end(); ++member) {
       const std::string quoted = gltf_quoted(member.key());
-      path += fmt::format("{}{}", length == 0 ? "" : ".", quoted.substr(1, quoted.size() - 2));
+      path += fmt::format("{}{}", length == 0 ? "" : ".", std::string_view(quoted).substr(1, quoted.size() - 2));
       if (append_path(member.value(), to, path)) return true;
       path.resize(length);
     }
@@ -84,7 +84,7 @@ std::string gltf_quoted(std::string_view text) {
   constexpr std::size_t kMaxLength = 80;
   const bool cut = text.size() > kMaxLength;
   const std::string shown = GltfValue(text.substr(0, kMaxLength)).dump(-1, ' ', true, GltfValue::error_handler_t::replace);
-  return fmt::format("'{}{}'", shown.substr(1, shown.size() - 2), cut ? "..." : "");
+  return fmt::format("'{}{}'", std::string_view(shown).substr(1, shown.size() - 2), cut ? "..." : "");
 }
 
 GltfDocument::GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t max_memory,
