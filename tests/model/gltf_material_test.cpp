@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Materials and textures of glTF files.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "model/gltf_builder.h"
+#include "support/files.h"
+#include "support/temporary_folder.h"
+
+namespace halfspace {
+namespace {
+
+// Returns a file with one texture, whose image is the text "image" in a buffer view.
+GltfBuilder file_with_texture() {
+  GltfBuilder file;
+  file.add("images", {{"bufferView", file.view(std::vector<char>{'i', 'm', 'a', 'g', 'e'})}, {"mimeType", "image/png"}});
+  file.add("textures", {{"source", 0}});
+  return file;
+}
+
+Model read_material(GltfBuilder file, GltfJson material) {
+  file.add("materials", std::move(material));
+  return file.read();
+}
+ModelMaterial material_of(GltfJson json) { return read_material(file_with_texture(), std::move(json)).materials.at(0); }
+
+GltfJson extension(const char* name, GltfJson value) { return {{"extensions", {{name, std::move(value)}}}}; }
+
+TEST(GltfMaterial, HasTheDefaultsOfTheSpecification) {
+  const ModelMaterial m = material_of({{"name", "plain"}});
+  EXPECT_EQ(m.name, "plain");
+  EXPECT_EQ(m.base_color, glm::vec4(1.0f));
+  EXPECT_EQ(m.metallic, 1.0f);
+  EXPECT_EQ(m.roughness, 1.0f);
+  EXPECT_EQ(m.emissive, glm::vec3(0.0f));
+  EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(m.alpha_cutoff, 0.5f);
+  EXPECT_FALSE(m.double_sided);
+  EXPECT_FALSE(m.unlit);
+  EXPECT_EQ(m.ior, 1.5f);
+  EXPECT_EQ(m.base_color_map.texture, -1);
+}
+
+TEST(GltfMaterial, ReadsFactorsAndChannels) {
+  const GltfJson texture = {{"index", 0}};
+  const Model model = read_material(file_with_texture(), {{"pbrMetallicRoughness",
+                                                           {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                                                            {"metallicFactor", 0.5},
+                                                            {"roughnessFactor", 0.25},
+                                                            {"metallicRoughnessTexture", texture}}},
+                                                          {"normalTexture", {{"index", 0}, {"texCoord", 1}, {"scale", -2}}},
+                                                          {"occlusionTexture", {{"index", 0}, {"strength", 0.75}}},
+                                                          {"emissiveFactor", {0, 1, 0.5}},
+                                                          {"alphaMode", "MASK"},
+                                                          {"alphaCutoff", 0.3},
+                                                          {"doubleSided", true}});
+  const ModelMaterial& m = model.materials.at(0);
+  EXPECT_EQ(m.base_color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  EXPECT_EQ(m.metallic, 0.5f);
+  EXPECT_EQ(m.roughness, 0.25f);
+  EXPECT_EQ(m.metallic_map.channel, Channel::blue);
+  EXPECT_EQ(m.roughness_map.channel, Channel::green);
+  EXPECT_EQ(m.roughness_map.texture, 0);
+  EXPECT_EQ(m.normal_map.uv_set, 1);
+  EXPECT_EQ(m.normal_scale, -2.0f);
+  EXPECT_EQ(m.occlusion_map.channel, Channel::red);
+  EXPECT_EQ(m.occlusion_strength, 0.75f);
+  EXPECT_EQ(m.emissive, glm::vec3(0.0f, 1.0f, 0.5f));
+  EXPECT_EQ(m.alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(m.alpha_cutoff, 0.3f);
+  EXPECT_TRUE(m.double_sided);
+  ASSERT_NE(model.images.at(0).bytes, nullptr);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(model.images[0].bytes->data()), model.images[0].bytes->size()), "image");
+}
+
+TEST(GltfMaterial, ReadsExtensions) {
+  EXPECT_TRUE(material_of(extension("KHR_materials_unlit", GltfJson::object())).unlit);
+  EXPECT_EQ(material_of(extension("KHR_materials_ior", {{"ior", 1.3}})).ior, 1.3f);
+  GltfJson glowing = extension("KHR_materials_emissive_strength", {{"emissiveStrength", 8}});
+  glowing["emissiveFactor"] = {1, 0.5, 0};
+  EXPECT_EQ(material_of(glowing).emissive, glm::vec3(8, 4, 0));
+  const ModelMaterial specular = material_of(extension(
+      "KHR_materials_specular", {{"specularFactor", 0.5}, {"specularTexture", {{"index", 0}}}, {"specularColorFactor", {2, 1, 0}}}));
+  EXPECT_EQ(specular.specular, 0.5f);
+  EXPECT_EQ(specular.specular_map.channel, Channel::alpha);
+  EXPECT_EQ(specular.specular_color, glm::vec3(2, 1, 0));
+  const ModelMaterial coat =
+      material_of(extension("KHR_materials_clearcoat",
+                            {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0.5}, {"clearcoatRoughnessTexture", {{"index", 0}}}}));
+  EXPECT_EQ(coat.clearcoat, 1.0f);
+  EXPECT_EQ(coat.clearcoat_roughness, 0.5f);
+  EXPECT_EQ(coat.clearcoat_roughness_map.channel, Channel::green);
+}
+
+TEST(GltfMaterial, ApproximatesTransmissionByBlending) {
+  GltfJson json = extension("KHR_materials_transmission", {{"transmissionFactor", 0.75}});
+  json["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.5};
+  const Model model = read_material(file_with_texture(), json);
+  EXPECT_EQ(model.materials[0].alpha_mode, AlphaMode::blend);
+  EXPECT_EQ(model.materials[0].base_color.w, 0.125f);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("KHR_materials_transmission"), std::string::npos);
+}
+
+TEST(GltfMaterial, ConvertsSpecularGlossiness) {
+  const auto converted = [](GltfJson json) { return material_of(extension("KHR_materials_pbrSpecularGlossiness", std::move(json))); };
+  // A specular color of 0.04 is that of a dielectric.
+  const ModelMaterial plastic =
+      converted({{"diffuseFactor", {0.48, 0.24, 0, 0.5}}, {"specularFactor", {0.04, 0.04, 0.04}}, {"glossinessFactor", 0.75}});
+  EXPECT_NEAR(plastic.metallic, 0.0f, 1e-6f);
+  EXPECT_EQ(plastic.roughness, 0.25f);
+  EXPECT_NEAR(plastic.base_color.x, 0.48f, 1e-6f);
+  EXPECT_NEAR(plastic.base_color.y, 0.24f, 1e-6f);
+  EXPECT_EQ(plastic.base_color.w, 0.5f);
+  // Without diffuse reflection, the specular color is that of a metal.
+  const ModelMaterial gold = converted({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1.0, 0.7, 0.3}}});
+  EXPECT_EQ(gold.metallic, 1.0f);
+  EXPECT_NEAR(gold.base_color.y, 0.7f, 1e-6f);
+  // The reflectance is the texture times the factor.
+  const ModelMaterial textured = converted({{"specularFactor", {0.08, 0.04, 0}}, {"specularGlossinessTexture", {{"index", 0}}}});
+  EXPECT_EQ(textured.metallic, 0.0f);
+  EXPECT_EQ(textured.specular_color_map.texture, 0);
+  EXPECT_NEAR(textured.specular_color.x, 2.0f, 1e-6f);
+}
+
+TEST(GltfMaterial, TransformsTextureCoordinates) {
+  const GltfJson transform = {{"offset", {0.5, 0.25}}, {"rotation", std::numbers::pi / 2.0}, {"scale", {2, 3}}, {"texCoord", 1}};
+  const ModelMaterial m = material_of({{"emissiveTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}});
+  EXPECT_EQ(m.emissive_map.uv_set, 1);
+  // A quarter turn counter-clockwise in an image whose v axis points down: u becomes −v.
+  const glm::vec2 uv = m.emissive_map.uv_transform * glm::vec3(1.0f, 0.0f, 1.0f);
+  EXPECT_NEAR(uv.x, 0.5f, 1e-6f);
+  EXPECT_NEAR(uv.y, 0.25f - 2.0f, 1e-6f);
+  const glm::vec2 v = m.emissive_map.uv_transform * glm::vec3(0.0f, 1.0f, 1.0f);
+  EXPECT_NEAR(v.x, 0.5f + 3.0f, 1e-6f);
+  EXPECT_NEAR(v.y, 0.25f, 1e-6f);
+}
+
+TEST(GltfMaterial, MapsSamplers) {
+  GltfBuilder file = file_with_texture();
+  file.add("samplers", {{"magFilter", 9728}, {"minFilter", 9729}, {"wrapS", 33071}, {"wrapT", 33648}});
+  file.add("textures", {{"source", 0}, {"sampler", 0}});
+  const Model model = file.read();
+  const Sampler& standard = model.textures.at(0).sampler;
+  EXPECT_EQ(standard.mag, Filter::bilinear);
+  EXPECT_EQ(standard.min, Filter::trilinear);
+  EXPECT_EQ(standard.anisotropy, 8);
+  EXPECT_EQ(standard.wrap_s, Wrap::repeat);
+  const Sampler& sampler = model.textures.at(1).sampler;
+  EXPECT_EQ(sampler.mag, Filter::nearest);
+  EXPECT_EQ(sampler.min, Filter::bilinear);
+  EXPECT_EQ(sampler.anisotropy, 1);
+  EXPECT_EQ(sampler.wrap_s, Wrap::clamp);
+  EXPECT_EQ(sampler.wrap_t, Wrap::mirrored);
+}
+
+TEST(GltfMaterial, LocatesImages) {
+  const TemporaryFolder folder;
+  write_bytes(folder.path() / "a b.png", "x");
+  GltfBuilder file;
+  for (const char* uri : {"a%20b.png", "missing.png", "data:image/png;base64,eHl6", "data:,%41b"}) {
+    file.add("textures", {{"source", file.add("images", {{"uri", uri}})}});
+  }
+  file.add("textures", {{"source", 1}, {"extensions", {{"EXT_texture_webp", {{"source", 2}}}}}});
+  for (int i = 0; i < 5; ++i) file.add("materials", {{"emissiveTexture", {{"index", i}}}});
+  const Model model = GltfBuilder::read_text(file.text(), {}, folder.path() / "a.gltf");
+  EXPECT_EQ(model.images[0].file.filename(), "a b.png");
+  EXPECT_TRUE(model.images[1].file.empty());
+  EXPECT_EQ(model.images[1].name, "missing.png");
+  EXPECT_EQ(model.images[2].bytes->size(), 3u);
+  EXPECT_EQ(static_cast<char>(model.images[3].bytes->at(0)), 'A');
+  EXPECT_EQ(model.materials[0].emissive_map.texture, 0);
+  EXPECT_EQ(model.materials[1].emissive_map.texture, -1);
+  EXPECT_EQ(model.textures[4].image, 2);
+  EXPECT_EQ(model.warnings.size(), 1u);
+}
+
+TEST(GltfMaterial, ReadsVariants) {
+  GltfBuilder file;
+  for (int i = 0; i < 3; ++i) file.add("materials", GltfJson::object());
+  file.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}, {{"name", "green"}}, {{"name", "blue"}}};
+  GltfJson primitive = extension("KHR_materials_variants", {{"mappings", {{{"material", 2}, {"variants", {0, 2}}}}}});
+  primitive["attributes"]["POSITION"] = file.triangle();
+  primitive["material"] = 1;
+  file.mesh_node(primitive);
+  const Model model = file.read();
+  EXPECT_EQ(model.variants, (std::vector<std::string>{"red", "green", "blue"}));
+  EXPECT_EQ(model.meshes[0].material, 1);
+  EXPECT_EQ(model.meshes[0].variant_materials, (std::vector<int>{2, 1, 2}));
+}
+
+TEST(GltfMaterial, ComputesTangentsForNormalMaps) {
+  for (const bool has_map : {false, true}) {
+    GltfBuilder file = file_with_texture();
+    file.add("materials", has_map ? GltfJson{{"normalTexture", {{"index", 0}}}} : GltfJson::object());
+    const int uv = file.accessor<float>({0, 1, 1, 1, 0, 0}, 2);
+    file.mesh_node({{"attributes", {{"POSITION", file.triangle()}, {"TEXCOORD_0", uv}}}, {"material", 0}});
+    const ModelMesh mesh = file.read().meshes.at(0);
+    EXPECT_EQ(mesh.tangents, std::vector<glm::vec4>(has_map ? 3 : 0, glm::vec4(1, 0, 0, 1)));
+  }
+}
+
+TEST(GltfMaterial, ClampsFactors) {
+  const Model model = read_material(file_with_texture(), {{"pbrMetallicRoughness", {{"metallicFactor", 1.5}, {"roughnessFactor", -1}}}});
+  EXPECT_EQ(model.materials[0].metallic, 1.0f);
+  EXPECT_EQ(model.materials[0].roughness, 0.0f);
+  ASSERT_EQ(model.warnings.size(), 2u);
+  EXPECT_EQ(model.warnings[0], "materials[0].pbrMetallicRoughness.metallicFactor: 1.5 is out of range; using 1");
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/model/tangents.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace halfspace {
+namespace {
+
+// Two triangles that share the edge from (0, 0, 0) to (0, 1, 0). u runs along x on the right, and on the left in the direction of `sign`.
+ModelMesh two_triangles(float sign) {
+  ModelMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  mesh.normals.assign(4, {0, 0, 1});
+  mesh.uvs[0] = {{0, 1}, {1, 1}, {0, 0}, {-sign, 1}};
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+TEST(Tangents, FollowIncreasingU) {
+  ModelMesh mesh = two_triangles(1.0f);
+  add_tangents(mesh, 0);
+  // The bitangent, cross(normal, tangent) · w, points up, where v decreases.
+  EXPECT_EQ(mesh.tangents, std::vector<glm::vec4>(4, {1, 0, 0, 1}));
+  EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 1, 2, 0, 2, 3}));
+}
+
+TEST(Tangents, SplitVerticesWhereTextureCoordinatesAreMirrored) {
+  ModelMesh mesh = two_triangles(-1.0f);
+  mesh.colors.assign(4, glm::vec4(0.5f));
+  add_tangents(mesh, 0);
+  ASSERT_EQ(mesh.positions.size(), 6u);
+  EXPECT_EQ(mesh.colors.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const bool left = i >= 3;
+    EXPECT_EQ(mesh.tangents[mesh.indices[i]], left ? glm::vec4(-1, 0, 0, -1) : glm::vec4(1, 0, 0, 1));
+  }
+  EXPECT_EQ(mesh.positions[mesh.indices[3]], glm::vec3(0, 0, 0));
+  EXPECT_EQ(mesh.positions[mesh.indices[4]], glm::vec3(0, 1, 0));
+}
+
+// A fold of 90° along the y axis with a common normal at the edge. The angles at vertex 0 are 90° on the right and 45° on the left.
+TEST(Tangents, AreWeightedByAnglesInThePlaneOfTheNormal) {
+  ModelMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
+  mesh.normals.assign(4, {0, 0, 1});
+  mesh.uvs[0] = {{0, 0}, {1, 0}, {0, -1}, {0, -2}};  // left: u is constant on the edges (0, 2) and (2, 3), so it has no direction
+  mesh.uvs[0][3] = {-1, -2};                         // left: u and v increase by (−1, −1) from vertex 2 to vertex 3
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  add_tangents(mesh, 0);
+  // On the left, u = x and v = −y + x: the tangent is the direction in which only u increases, (1, 1), projected and normalized.
+  const double left_weight = std::numbers::pi / 4.0, right_weight = std::numbers::pi / 2.0, s = std::sqrt(0.5);
+  const glm::dvec2 sum(right_weight + left_weight * s, left_weight * s);
+  const glm::dvec2 mean = sum / std::sqrt(glm::dot(sum, sum));
+  EXPECT_NEAR(mesh.tangents[0].x, mean.x, 1e-6);
+  EXPECT_NEAR(mesh.tangents[0].y, mean.y, 1e-6);
+  EXPECT_EQ(mesh.tangents[1], glm::vec4(1, 0, 0, 1));
+}
+
+TEST(Tangents, AverageVerticesThatAreEqual) {
+  ModelMesh mesh = two_triangles(1.0f);
+  mesh.uvs[0][3] = {-1, 2};  // another direction of u on the left
+  ModelMesh separate = mesh;
+  for (auto* list : {&separate.positions, &separate.normals}) list->clear();
+  separate.uvs[0].clear();
+  for (std::size_t i = 0; i < 6; ++i) {
+    const uint32_t v = mesh.indices[i];
+    separate.positions.push_back(mesh.positions[v]);
+    separate.normals.push_back(mesh.normals[v]);
+    separate.uvs[0].push_back(mesh.uvs[0][v]);
+    separate.indices[i] = static_cast<uint32_t>(i);
+  }
+  add_tangents(mesh, 0);
+  add_tangents(separate, 0);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(separate.tangents[i], mesh.tangents[mesh.indices[i]]);
+  EXPECT_NE(mesh.tangents[0].y, 0.0f);  // the mean of both triangles
+  EXPECT_EQ(mesh.tangents[1].y, 0.0f);
+}
+
+TEST(Tangents, ArePerpendicularToTheNormalWhereTextureCoordinatesAreDegenerate) {
+  ModelMesh mesh = two_triangles(1.0f);
+  mesh.uvs[0].assign(4, {0.5f, 0.5f});
+  mesh.normals.assign(4, {0.6f, 0.0f, 0.8f});
+  add_tangents(mesh, 0);
+  for (const glm::vec4& t : mesh.tangents) {
+    EXPECT_NEAR(glm::dot(glm::vec3(t), glm::vec3(0.6f, 0.0f, 0.8f)), 0.0f, 1e-6f);
+    EXPECT_NEAR(glm::dot(glm::vec3(t), glm::vec3(t)), 1.0f, 1e-6f);
+    EXPECT_EQ(t.w, 1.0f);
+  }
+}
+
+TEST(Tangents, UseTheGivenSet) {
+  ModelMesh mesh = two_triangles(1.0f);
+  mesh.uvs[1] = {{0, 0}, {0, 1}, {1, 0}, {0, -1}};  // u runs along y
+  add_tangents(mesh, 1);
+  EXPECT_EQ(glm::vec3(mesh.tangents[0]), glm::vec3(0, 1, 0));
+}
+
+}  // namespace
+}  // namespace halfspace
