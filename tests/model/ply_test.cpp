@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "halfspace/core/srgb.h"
+#include "halfspace/model/normals.h"
+#include "model/ply_text.h"
+#include "model/test_meshes.h"
+#include "support/errors.h"
+#include "support/files.h"
+#include "support/folder_test.h"
+
+namespace halfspace {
+namespace {
+
+const std::string kXyz = "property double x\nproperty double y\nproperty double z\n";
+const std::string kTriangleData = "0 0 0\n1 0 0\n0 1 0\n";
+
+std::string vertices(int count) { return fmt::format("element vertex {}\n{}", count, kXyz); }
+std::string ascii(const std::string& elements, const std::string& data) {
+  return "ply\nformat ascii 1.0\n" + elements + "end_header\n" + data;
+}
+
+std::string cube_file(const std::string& encoding, double offset, double scale) {
+  PlyData data{encoding, {}};
+  const ModelMesh mesh = cube();
+  for (const glm::vec3& p : mesh.positions) {
+    for (int i = 0; i < 3; ++i) data.add(static_cast<double>(p[i]) * scale + offset);
+  }
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3)
+    data.add_list<uint32_t>({mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]});
+  return data.with_header(vertices(8) + "element face 12\nproperty list uchar uint vertex_indices\n");
+}
+
+TEST(Ply, EncodingsGiveIdenticalModels) {
+  const ModelMesh expected = [] {
+    ModelMesh mesh = cube();
+    add_smooth_normals(mesh, 30.0f);
+    return mesh;
+  }();
+  for (const char* const encoding : kPlyEncodings) {
+    const Model model = ply_model(cube_file(encoding, 0.0, 1.0));
+    EXPECT_EQ(model.format, "PLY");
+    EXPECT_EQ(model.up, UpAxis::y);
+    EXPECT_TRUE(model.warnings.empty());
+    ASSERT_EQ(model.meshes.size(), 1u);
+    EXPECT_EQ(model.meshes[0].positions, expected.positions) << encoding;
+    EXPECT_EQ(model.meshes[0].normals, expected.normals) << encoding;
+    EXPECT_EQ(model.meshes[0].indices, expected.indices) << encoding;
+    EXPECT_EQ(model.nodes.at(0).meshes, std::vector<int>{0});
+    EXPECT_TRUE(model.materials.at(0).double_sided);
+    EXPECT_EQ(model.materials[0].base_color, glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
+  }
+}
+
+TEST(Ply, DistantAndTinyCubesKeepTheirShape) {
+  for (const char* const encoding : kPlyEncodings) {
+    const ModelMesh distant = ply_model(cube_file(encoding, 5e6, 1.0)).meshes[0];
+    EXPECT_EQ(distant.origin, glm::dvec3(5e6));
+    for (const double scale : {0x1p-20, 0x1p20}) {
+      const ModelMesh scaled = ply_model(cube_file(encoding, 0.0, scale)).meshes[0];
+      ASSERT_EQ(scaled.positions.size(), distant.positions.size());
+      EXPECT_EQ(scaled.normals, distant.normals);
+      for (std::size_t i = 0; i < scaled.positions.size(); ++i)
+        EXPECT_EQ(scaled.positions[i], distant.positions[i] * static_cast<float>(scale));
+    }
+  }
+}
+
+TEST(Ply, ReadsAllTypesAndSkipsUnknownData) {
+  for (const char* const encoding : kPlyEncodings) {
+    PlyData data{encoding, {}};
+    data.add_list<int16_t>({7, 8}).add(int8_t{-1}).add(3.5);  // an unknown element
+    data.add_list<int16_t>({}).add(int8_t{-1}).add(3.5);
+    for (const int face : {0}) data.add(uint16_t(face)).add(int32_t{4}).add(int16_t{0}).add(int16_t{1}).add(int16_t{2}).add(int16_t{3});
+    const int8_t square[4][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+    for (const auto& corner : square) data.add(uint32_t{9}).add(corner[0]).add(static_cast<int16_t>(corner[1])).add(0.5f);
+    const std::string header =
+        "comment any order\nobj_info none\nelement other 2\nproperty list uint8 int16 a\nproperty int8 b\nproperty float64 c\n"
+        "element face 1\nproperty uint16 flags\nproperty list int32 short vertex_index\n"
+        "element vertex 4\nproperty uint id\nproperty char x\nproperty int16 y\nproperty float32 z\n";
+    const ModelMesh mesh = ply_model(data.with_header(header)).meshes[0];
+    EXPECT_EQ(mesh.origin, glm::dvec3(1.0, 1.0, 0.5)) << encoding;
+    EXPECT_EQ(mesh.indices.size(), 6u);
+    EXPECT_EQ(mesh.positions[2], glm::vec3(1.0f, 1.0f, 0.0f));
+    for (const glm::vec3& n : mesh.normals) EXPECT_EQ(n, glm::vec3(0, 0, 1));
+  }
+}
+
+TEST(Ply, AcceptsAllLineEnds) {
+  std::string text = ascii(vertices(3), kTriangleData);
+  for (const std::string end : {"\r\n", "\r"}) {
+    std::string changed;
+    for (const char c : text) changed += c == '\n' ? end : std::string(1, c);
+    EXPECT_EQ(ply_model(changed).meshes[0].positions.size(), 3u);
+  }
+}
+
+TEST(Ply, ConvertsColorsAndTextureCoordinates) {
+  const std::string header = "element vertex 3\n" + kXyz +
+                             "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
+                             "property float s\nproperty float t\nproperty float nx\nproperty float ny\nproperty float nz\n";
+  const Model model = ply_model(ascii(header, "0 0 0 255 128 0 255 0.25 0.75 0 0 2\n1 0 0 0 0 0 51 0 0 0 0 1\n0 1 0 0 0 0 0 0 0 0 0 1\n"));
+  const ModelMesh& mesh = model.meshes[0];
+  EXPECT_EQ(mesh.colors[0], glm::vec4(1.0f, kSrgbToLinear[128], 0.0f, 1.0f));
+  EXPECT_EQ(mesh.colors[1].w, 0.2f);
+  EXPECT_EQ(mesh.uvs[0][0], glm::vec2(0.25f, 0.25f));
+  EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, 1));
+  EXPECT_EQ(model.materials[0].base_color, glm::vec4(1.0f));
+  EXPECT_EQ(model.materials[0].alpha_mode, AlphaMode::blend);
+  const std::string linear = vertices(1) + "property float red\nproperty float green\nproperty float blue\n";
+  EXPECT_EQ(ply_model(ascii(linear, "0 0 0 0.5 2 nan")).meshes[0].colors[0], glm::vec4(0.5f, 1.0f, 0.0f, 1.0f));
+}
+
+TEST(Ply, IgnoresTheOpacityIfAllColorsAreTransparent) {
+  const std::string header = vertices(1) + "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
+  const Model model = ply_model(ascii(header, "0 0 0 255 255 255 0"));
+  EXPECT_EQ(model.meshes[0].colors[0], glm::vec4(1.0f));
+  EXPECT_EQ(model.materials[0].alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(model.warnings.size(), 1u);
+}
+
+TEST(Ply, ReadsFaceColorsAndTextureCoordinatesOfCorners) {
+  const std::string header = vertices(4) +
+                             "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+                             "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const ModelMesh mesh = ply_model(ascii(header, kTriangleData + "1 1 0\n3 0 1 2 6 0 0 1 0 0 1 255 0 0\n3 1 3 2 0 0 255 0\n")).meshes[0];
+  ASSERT_EQ(mesh.positions.size(), 6u);
+  EXPECT_EQ(mesh.uvs[0][1], glm::vec2(1.0f, 1.0f));
+  EXPECT_EQ(mesh.uvs[0][2], glm::vec2(0.0f, 0.0f));
+  EXPECT_EQ(mesh.colors[2], glm::vec4(1, 0, 0, 1));
+  EXPECT_EQ(mesh.colors[3], glm::vec4(0, 1, 0, 1));
+}
+
+TEST(Ply, ReadsTriangleStrips) {
+  const std::string header = vertices(5) + "element tristrips 1\nproperty list int int vertex_indices\n";
+  const ModelMesh mesh = ply_model(ascii(header, "0 0 0 0 1 0 1 0 0 1 1 0 2 0 0\n11 0 2 1 3 -1 2 4 3 3 -1 0\n")).meshes[0];
+  EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 2, 1, 1, 2, 3, 2, 4, 3}));
+  for (const glm::vec3& n : mesh.normals) EXPECT_EQ(n, glm::vec3(0, 0, 1));
+}
+
+TEST(Ply, WithoutFacesGivesPointsOrLines) {
+  const ModelMesh points = ply_model(ascii(vertices(3), "0 0 0 nan 0 0 1 1 1")).meshes[0];
+  EXPECT_EQ(points.topology, MeshTopology::points);
+  EXPECT_EQ(points.indices, (std::vector<uint32_t>{0, 2}));
+  EXPECT_TRUE(ply_model(ascii(vertices(3), kTriangleData)).meshes[0].indices.empty());
+  const std::string edges = vertices(3) + "element edge 2\nproperty int vertex1\nproperty int vertex2\n";
+  const ModelMesh lines = ply_model(ascii(edges, kTriangleData + "0 1 1 2")).meshes[0];
+  EXPECT_EQ(lines.topology, MeshTopology::lines);
+  EXPECT_EQ(lines.indices, (std::vector<uint32_t>{0, 1, 1, 2}));
+}
+
+TEST(Ply, LeavesOutFacesThatCannotBeDrawn) {
+  const std::string header = vertices(4) + "element face 3\nproperty list uchar int vertex_indices\n";
+  const Model model = ply_model(ascii(header, kTriangleData + "inf 0 1e999\n3 0 1 2\n3 0 1 3\n2 0 1\n"));
+  EXPECT_EQ(model.meshes[0].indices.size(), 3u);
+  EXPECT_EQ(model.warnings.size(), 3u);
+}
+
+class PlyTexture : public FolderTest {};
+
+TEST_F(PlyTexture, IsFoundByItsComment) {
+  put("wood.png", "");
+  const std::string header = "comment TextureFile wood.png\n" + vertices(3) + "property float u\nproperty float v\n";
+  const std::string text = ascii(header, "0 0 0 0 0 1 0 0 1 0 0 1 0 0 1");
+  const Model model = read_ply(directory / "a.ply", std::as_bytes(std::span(text)), {});
+  ASSERT_EQ(model.images.size(), 1u);
+  EXPECT_EQ(model.images[0].file.filename(), "wood.png");
+  EXPECT_EQ(model.materials[0].base_color_map.texture, 0);
+}
+
+TEST(Ply, RejectsInvalidHeaders) {
+  const auto rejects = [](const std::string& text, const std::string& place, const std::string& keyword) {
+    EXPECT_TRUE(tells(input_error([&] { ply_model(text); }), "a.ply: " + place, {keyword, "expected"}));
+  };
+  rejects("ply\n", "line 2", "end_header");
+  rejects("ply\nformat ascii 1.0\nelement vertex 1", "line 3", "end_header");
+  rejects("ply\nend_header\n", "line 2", "format");
+  rejects("ply\nformat text 1.0\n", "line 2", "'text'");
+  rejects("ply\nformat ascii 2.0\n", "line 2", "'2.0'");
+  rejects("ply\nproperty int x\n", "line 2", "element");
+  rejects("ply\nelement vertex -1\n", "line 2", "count");
+  rejects("ply\nelement vertex 99999999999999999999\n", "line 2", "count");
+  rejects("ply\nelement vertex 1\nproperty half x\n", "line 3", "'half'");
+  rejects("ply\nelement vertex 1\nproperty list float int x\n", "line 3", "integer");
+  rejects("ply\nelement vertex 1\nproperty int\n", "line 3", "name");
+  rejects("ply\nvertices 1\n", "line 2", "element");
+  rejects("ply\nformat ascii 1.0\n" + std::string(2 << 20, ' '), "line 3", "end_header");
+  rejects(ascii(vertices(2000000000), "0 0 0"), "element 'vertex'", "2000000000");
+  rejects(ascii("element vertex 0\n" + kXyz, ""), "", "no vertices");
+  rejects(ascii("element vertex 1\nproperty int x\n", "1"), "element 'vertex'", "x, y and z");
+  rejects(ascii(vertices(1), "nan 0 0"), "", "finite");
+  rejects(ascii(vertices(1), "1e30 0 0"), "", "1e+30");
+}
+
+TEST(Ply, RejectsInvalidData) {
+  const std::string faces = vertices(3) + "element face 2\nproperty list char int vertex_indices\n";
+  const auto rejects = [](const std::string& text, const std::string& place, const std::string& keyword) {
+    EXPECT_TRUE(tells(input_error([&] { ply_model(text); }), "a.ply: element " + place, {keyword, "expected"}));
+  };
+  rejects(ascii(vertices(3), "0 0 0 1 1 1 2 2     "), "'vertex', row 2", "ends");
+  rejects(ascii(vertices(3), "0 0 0 1 one 1 2 2 2"), "'vertex', row 1", "'one'");
+  rejects(ascii(faces, kTriangleData + "3 0 1 2 3 0 1 3"), "'face', row 1", "vertex index 3");
+  rejects(ascii(faces, kTriangleData + "3 0 1 -1 3 0 1 2"), "'face', row 0", "vertex index -1");
+  rejects(ascii(faces, kTriangleData + "3 0 1 0.5 3 0 1 2"), "'face', row 0", "vertex index 0.5");
+  rejects(ascii(faces, kTriangleData + "3 0 1 nan 3 0 1 2"), "'face', row 0", "vertex index nan");
+  rejects(ascii(faces, kTriangleData + "-3 0 1 2 3 0 1 2"), "'face', row 0", "length -3");
+  rejects(ascii(faces, kTriangleData + "100 0 1 2 3 0 1 2"), "'face', row 0", "length 100");
+  for (const char* const encoding : {"binary_little_endian", "binary_big_endian"}) {
+    const std::string whole = cube_file(encoding, 0.0, 1.0);
+    for (const std::size_t missing : {1u, 12u, 13u, 100u}) rejects(whole.substr(0, whole.size() - missing), "'face', row ", "");
+  }
+}
+
+TEST(Ply, RejectsFilesThatNeedTooMuchMemory) {
+  ReadModelOptions options;
+  options.max_memory = 1000;
+  EXPECT_TRUE(tells(input_error([&] { ply_model(cube_file("ascii", 0, 1), options); }), "a.ply: ", {"memory"}));
+}
+
+}  // namespace
+}  // namespace halfspace
