@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_program.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -64,11 +63,7 @@ std::vector<const WorkloadKind*> chosen_workloads(std::span<const WorkloadKind> 
   return chosen;
 }
 
-std::string padded(std::string_view name) {
-  std::string text(name);
-  text.resize(std::max<std::size_t>(text.size() + 1, 25), ' ');
-  return text;
-}
+std::string padded(std::string_view name) { return fmt::format("{:24} ", name); }
 
 void list_workloads(std::span<const WorkloadKind> kinds) {
   for (const WorkloadKind& kind : kinds) {
@@ -82,15 +77,11 @@ void write_pictures(const std::filesystem::path& directory, std::string_view nam
 }
 
 // Formats a time in milliseconds with microsecond resolution.
-std::string milliseconds(double ms) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%10.3f", ms);
-  return text.data();
-}
+std::string milliseconds(double ms) { return fmt::format("{:10.3f}", ms); }
 
 nlohmann::ordered_json json_line(nlohmann::ordered_json line, std::string_view name, PictureSize size, int threads, const FrameTimes& t) {
   line["workload"] = name;
-  line["size"] = std::to_string(size.width) + "x" + std::to_string(size.height);
+  line["size"] = fmt::format("{}x{}", size.width, size.height);
   line["threads"] = threads;
   line["frames"] = t.frames;
   line["ms"] = t.median;
@@ -106,15 +97,12 @@ nlohmann::ordered_json json_of(const PictureErrors& e) {
 }
 
 std::string row(std::string_view name, const FrameTimes& t) {
-  return padded(name) + milliseconds(t.median) + milliseconds(t.min) + milliseconds(t.max) + milliseconds(t.cpu) + "  " +
-         std::to_string(t.frames);
+  return fmt::format("{}{}{}{}{}  {}", padded(name), milliseconds(t.median), milliseconds(t.min), milliseconds(t.max), milliseconds(t.cpu),
+                     t.frames);
 }
 
 std::string text_of(const PictureErrors& e) {
-  std::array<char, 100> text;
-  std::snprintf(text.data(), text.size(), "  %.3f%% within 1/255, rms %.3f/255", 100.0 - 100.0 * e.colors_off / std::max(e.covered, 1),
-                e.rms_color);
-  return text.data();
+  return fmt::format("  {:.3f}% within 1/255, rms {:.3f}/255", 100.0 - 100.0 * e.colors_off / std::max(e.covered, 1), e.rms_color);
 }
 
 // Formats the identity of the renderer for the text output. Each value is preceded by ", ".

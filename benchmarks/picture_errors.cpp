@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture_errors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -82,7 +84,7 @@ PictureErrors picture_errors(const WorkloadPicture& picture, const WorkloadTruth
 
 WorkloadTruth kept_truth(const std::filesystem::path& directory, std::string_view name, const Workload& workload, WorkloadSize size) {
   make_directory(directory);
-  const std::string file = std::string(name) + "." + std::to_string(size.width) + "x" + std::to_string(size.height) + ".truth";
+  const std::string file = fmt::format("{}.{}x{}.truth", name, size.width, size.height);
   if (std::optional<WorkloadTruth> kept = read_truth(directory / file, size)) return *std::move(kept);
   WorkloadTruth truth = workload.truth();
   write_truth(directory / file, truth);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweeps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "families.h"
 #include "layer_mesh.h"
@@ -17,7 +17,7 @@ namespace {
 
 WorkloadKind triangle_size(double area) {
   const int count = triangles_of_size(area);
-  return {sweep_point("triangle_size", area), std::to_string(count) + " triangles", [=](WorkloadSize size, WorkloadAssets&) {
+  return {sweep_point("triangle_size", area), fmt::format("{} triangles", count), [=](WorkloadSize size, WorkloadAssets&) {
             auto corners = std::make_shared<const std::vector<glm::vec3>>(tiny_triangles(size, count, area));
             return std::make_unique<SingleDraw<ConstantShader>>(size, ConstantShader{kTinyColor}, make_vertex_view(stream(*corners)),
                                                                 Indices::sequential(corners->size()), DrawState{}, corners);
@@ -59,11 +59,7 @@ std::vector<WorkloadKind> each(const Numbers& numbers, Make make) {
 
 int triangles_of_size(double area) { return static_cast<int>(std::clamp(4e6 / area, 16.0, 1e6)); }
 
-std::string sweep_point(std::string_view series, double number) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "=%.10g", number);
-  return std::string(series) + text.data();
-}
+std::string sweep_point(std::string_view series, double number) { return fmt::format("{}={:.10g}", series, number); }
 
 std::span<const Sweep> sweeps() {
   static const std::vector<Sweep> all{{"triangle_size", each(kTriangleSizes, triangle_size)},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/arguments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <string>
@@ -35,7 +37,7 @@ int parse_threads(std::string_view text) {
   if (text.empty()) return Workers::cores();
   const int threads = parse_number(text);
   if (threads >= 1 && threads <= kMaxThreads) return threads;
-  throw UsageError("--threads is '" + std::string(text) + "'; expected 1 to " + std::to_string(kMaxThreads));
+  throw UsageError(fmt::format("--threads is '{}'; expected 1 to {}", text, kMaxThreads));
 }
 
 double parse_real(std::string_view option, std::string_view text, double low, double high, std::string_view example) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `halfspace compare A B`: measures the difference between two images.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -27,23 +28,20 @@ struct Comparison {
   bool linear;
 };
 
-std::string number(const char* format, double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, x);
-  return text;
-}
-
 std::string text_report(const CompareArguments& args, const Comparison& c) {
   const ImageDifference& d = c.difference;
-  return args.a + " vs. " + args.b + ", " + std::to_string(c.width) + "x" + std::to_string(c.height) +
-         (c.linear ? ", linear light" : ", 8-bit codes / 255") + (d.channels == 4 ? ", with alpha" : "") +  //
-         "\nrmse         " + number("%.6g", d.rmse) +                                                       //
-         "\nmean         " + number("%.6g", d.mean) +                                                       //
-         "\npsnr         " + (std::isinf(d.psnr_db) ? "infinite" : number("%.2f dB", d.psnr_db)) +          //
-         "\nmax          " + number("%.6g", d.max) +                                                        //
-         "\np99.9        " + number("%.6g", d.p999) +                                                       //
-         "\nabove 1/255  " + number("%.4f %%", 100.0 * d.share_above) +                                     //
-         "\nssim         " + number("%.6f", d.ssim) + "\n";
+  const std::string psnr = std::isinf(d.psnr_db) ? "infinite" : fmt::format("{:.2f} dB", d.psnr_db);
+  return fmt::format(
+      "{} vs. {}, {}x{}, {}{}\n"
+      "rmse         {:.6g}\n"
+      "mean         {:.6g}\n"
+      "psnr         {}\n"
+      "max          {:.6g}\n"
+      "p99.9        {:.6g}\n"
+      "above 1/255  {:.4f} %\n"
+      "ssim         {:.6f}\n",
+      args.a, args.b, c.width, c.height, c.linear ? "linear light" : "8-bit codes / 255", d.channels == 4 ? ", with alpha" : "", d.rmse,
+      d.mean, psnr, d.max, d.p999, 100.0 * d.share_above, d.ssim);
 }
 
 std::string json_report(const CompareArguments& args, const Comparison& c) {
@@ -68,7 +66,7 @@ std::string json_report(const CompareArguments& args, const Comparison& c) {
 template <class Texel>
 Comparison compare_files(const CompareArguments& args, const Image<Texel>& a, const Image<Texel>& b) {
   if (a.width() != b.width() || a.height() != b.height()) {
-    const auto size = [](const Image<Texel>& i) { return std::to_string(i.width()) + "x" + std::to_string(i.height()); };
+    const auto size = [](const Image<Texel>& i) { return fmt::format("{}x{}", i.width(), i.height()); };
     throw InputError(args.b + ": size is " + size(b) + "; expected " + size(a) + ", the size of " + args.a);
   }
   if (!args.out.empty()) write_png(args.out, difference_colors(difference_map(a, b)));
@@ -97,8 +95,8 @@ void compare_command(const CompareArguments& args) {
                                             : compare_files(args, read_codes(args.a, a_linear), read_codes(args.b, b_linear));
   std::cout << (args.json ? json_report(args, c) : text_report(args, c));
   if (tolerance >= 0.0 && c.difference.max > tolerance) {
-    throw DifferenceError(args.b + ": differs from " + args.a + " by " + number("%.6g", c.difference.max) + "; expected at most " +
-                          args.tolerance);
+    throw DifferenceError(
+        fmt::format("{}: differs from {} by {:.6g}; expected at most {}", args.b, args.a, c.difference.max, args.tolerance));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/frames.h"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -30,9 +31,7 @@ FrameRange parse_frames(std::string_view text) {
 
 std::filesystem::path frame_path(const std::filesystem::path& out, int frame, const FrameRange& range) {
   const std::size_t digits = std::max<std::size_t>(4, std::to_string(range.last).size());
-  std::string number = std::to_string(frame);
-  number.insert(0, digits - std::min(digits, number.size()), '0');
-  return out.parent_path() / (out.stem().string() + "_" + number + out.extension().string());
+  return out.parent_path() / fmt::format("{}_{:0{}}{}", out.stem().string(), frame, digits, out.extension().string());
 }
 
 namespace {
@@ -49,13 +48,8 @@ int terminal_columns() {
 
 // Formats a duration as "1:05" or "2:00:07".
 std::string time_text(int seconds) {
-  char text[32];
-  if (seconds < 3600) {
-    std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%d:%02d:%02d", seconds / 3600, seconds / 60 % 60, seconds % 60);
-  }
-  return text;
+  if (seconds < 3600) return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+  return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
 }  // namespace
@@ -80,8 +74,7 @@ void Progress::advance(bool skipped) {
 
 void Progress::show() const {
   if (!on_terminal_) return;
-  std::string text = " ";
-  text += std::to_string(done_) + "/" + std::to_string(total_);
+  std::string text = fmt::format(" {}/{}", done_, total_);
   if (rendered_ > 0) {
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     text += "  " + time_text(static_cast<int>(std::min(spent / rendered_ * (total_ - done_) + 0.5, 1e9))) + " left";

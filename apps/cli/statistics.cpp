@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/statistics.h"
 
-#include <iomanip>
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace halfspace {
 
@@ -37,14 +37,12 @@ static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts) + 
 }  // namespace
 
 std::string text_report(const RenderReport& r) {
-  std::ostringstream text;
-  text << r.scene << ", " << r.width << 'x' << r.height << ", " << r.threads << (r.threads == 1 ? " thread" : " threads") << ": "
-       << r.output << '\n';
-  text << std::fixed << std::setprecision(1);
-  text << std::left << std::setw(20) << "render_ms" << r.render_ms << '\n' << std::setw(20) << "write_ms" << r.write_ms << '\n';
-  for (const Count& c : kCounts) text << std::setw(20) << c.name << r.counts.*c.member << '\n';
-  for (const ModelChoice& c : r.choices) text << c.key << '=' << c.value << "  (" << c.why << ")\n";
-  return text.str();
+  std::string text =
+      fmt::format("{}, {}x{}, {} thread{}: {}\n", r.scene, r.width, r.height, r.threads, r.threads == 1 ? "" : "s", r.output);
+  text += fmt::format("{:20}{:.1f}\n{:20}{:.1f}\n", "render_ms", r.render_ms, "write_ms", r.write_ms);
+  for (const Count& c : kCounts) text += fmt::format("{:20}{}\n", c.name, r.counts.*c.member);
+  for (const ModelChoice& c : r.choices) text += fmt::format("{}={}  ({})\n", c.key, c.value, c.why);
+  return text;
 }
 
 std::string json_report(const RenderReport& r) {

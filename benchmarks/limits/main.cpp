@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // halfspace-limits: measures the peak rates of this machine.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
-#include <array>
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -24,9 +24,7 @@ void print(const Limit& limit, int threads, bool json) {
     std::cout << line.dump() << '\n';
     return;
   }
-  std::array<char, 100> text;
-  std::snprintf(text.data(), text.size(), "%-26s%10.2f  %s\n", limit.name.c_str(), limit.value, limit.unit.c_str());
-  std::cout << text.data();
+  std::cout << fmt::format("{:26}{:10.2f}  {}\n", limit.name, limit.value, limit.unit);
 }
 
 void parse_and_run(CLI::App& program, int argc, char** argv) {

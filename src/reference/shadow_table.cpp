@@ -68,7 +68,7 @@ void for_each_shadow_case(bool full, const std::function<void(const ShadowCase&)
     for (const Variant& v : variants(full)) {
       SceneFile varied = file;
       varied.set(std::vector<std::string>{"shadow.bias=" + std::string(v.bias), "shadow.method=" + std::string(v.filter),
-                                          "shadow.resolution=" + std::to_string(v.resolution)});
+                                          fmt::format("shadow.resolution={}", v.resolution)});
       ShadowCase c{v.factor, place.name, v.bias, v.filter, v.resolution, v.angle >= 0.0 ? v.angle : place.angle, varied.at(0.0)};
       LightDescription& light = c.description.lights.front().second;
       light.size = 0.0;

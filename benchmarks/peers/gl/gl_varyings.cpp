@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The series varyings: interpolates float varyings (see workload_varyings.h).
+#include <fmt/format.h>
+
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 
@@ -41,7 +43,7 @@ class Varyings final : public GlWorkload {
  public:
   Varyings(const GlInput& in, int count, const SphereMesh& mesh)
       : GlWorkload(in),
-        program_("#define VECTORS " + std::to_string(count / 4) + "\n", kVertex, kFragment),
+        program_(fmt::format("#define VECTORS {}\n", count / 4), kVertex, kFragment),
         mesh_(floats_of(std::span<const SphereVertex>(mesh.vertices)), {3, 3, 2}, mesh.indices) {
     program_.set("clip_from_world", sphere_uniforms(in.size, *in.assets.checker()).clip_from_world);
   }
