@@ -33,14 +33,14 @@ inline constexpr int32_t kSignBit = std::numeric_limits<int32_t>::min();
 
 /// Evaluates the sum of c[i]·x^i by Estrin's scheme, with a dependency chain of log2 N steps.
 template <class R, std::size_t N>
-HS_INLINE R polynomial_in_pairs(R x, const std::array<R, N>& c) {
+HS_INLINE R estrin_polynomial(R x, const std::array<R, N>& c) {
   if constexpr (N == 1) {
     return c[0];
   } else {
     std::array<R, (N + 1) / 2> pairs;
     for (std::size_t i = 0; i < N / 2; ++i) pairs[i] = fma(c[2 * i + 1], x, c[2 * i]);
     if constexpr (N % 2 == 1) pairs[N / 2] = c[N - 1];
-    return polynomial_in_pairs(x * x, pairs);
+    return estrin_polynomial(x * x, pairs);
   }
 }
 
@@ -49,7 +49,7 @@ template <std::size_t first = 0, class R, std::size_t N>
 HS_INLINE R polynomial(R x, const float (&c)[N]) {
   std::array<R, N - 1 - first> rest;
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = R(c[first + 1 + i]);
-  return fma(polynomial_in_pairs(x, rest), x, R(c[first]));
+  return fma(estrin_polynomial(x, rest), x, R(c[first]));
 }
 
 /// Coefficients of 2^f for |f| <= 0.50001, and of log2(1 + f)/f for sqrt(1/2) <= 1 + f < sqrt(2).
@@ -103,7 +103,7 @@ HS_INLINE MantissaExponent<R> split(R x) {
 
 /// Handles the special cases of logarithms: log 0 = −inf and log inf = inf; negative x and NaN give NaN.
 template <class R>
-HS_INLINE R hold_log_domain(R x, R log_x) {
+HS_INLINE R with_log_special_cases(R x, R log_x) {
   const R special = select(x == R(0.0f), R(-kInfinity), select(x > R(0.0f), R(kInfinity), R(kNaN)));
   return select(x > R(0.0f) && x < R(kInfinity), log_x, special);
 }
@@ -191,7 +191,7 @@ HS_INLINE R log2(R x) {
     const detail::MantissaExponent<R> me = detail::split(x);
     const R f = me.m - R(1.0f);
     const R tail = f * fma(f, detail::polynomial<1>(f, detail::kLog2), R(1.92596303e-08f));  // the low part of 1/ln 2
-    return detail::hold_log_domain(x, to_real<R>(me.e) + fma(f, R(detail::kLog2[0]), tail));
+    return detail::with_log_special_cases(x, to_real<R>(me.e) + fma(f, R(detail::kLog2[0]), tail));
   }
 }
 
@@ -207,7 +207,7 @@ HS_INLINE R log(R x) {
     const R f = me.m - R(1.0f);
     const R e = to_real<R>(me.e);
     const R low = fma(f * f, detail::polynomial(f, kC), e * R(1.42860677e-06f));
-    return detail::hold_log_domain(x, fma(e, R(0.693145752f), f + low));
+    return detail::with_log_special_cases(x, fma(e, R(0.693145752f), f + low));
   }
 }
 

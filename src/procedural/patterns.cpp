@@ -18,7 +18,7 @@ namespace {
 using namespace procedural;
 
 // Material of one texel.
-struct Matter {
+struct TexelMaterial {
   Vec color = tint(glm::vec3(128.0f));  // sRGB values, 0 to 255
   Real specular{0.0f};                  // 0 to 1
   Vec emissive = tint(glm::vec3(0.0f));
@@ -35,11 +35,11 @@ struct Place {
 
 constexpr glm::vec3 kBlade(92, 122, 46), kShade(34, 56, 20), kFresh(120, 148, 62), kStraw(160, 150, 92);
 
-Matter grass(const Place& p) {
+TexelMaterial grass(const Place& p) {
   const Real patches = tiled_cloud(p.u, p.v, 3, 3, 4, p.texels, 1001);
   const Real tufts = tiled_cloud(p.u, p.v, 16, 16, 4, p.texels, 1011);
   const Real blades = tiled_cloud(p.u, p.v, 96, 48, 3, p.texels, 1021) + Real(0.7f) * tiled_cloud(p.u, p.v, 64, 128, 2, p.texels, 1031);
-  Matter m;
+  TexelMaterial m;
   m.height = clamp(Real(0.5f) + Real(0.2f) * tufts + Real(0.25f) * blades, Real(0.0f), Real(1.0f));
   m.color = blend(tint(kBlade), kFresh, step(-0.2f, 0.7f, patches));
   m.color = blend(m.color, kStraw, Real(0.7f) * step(0.25f, 0.9f, tufts - patches));
@@ -49,12 +49,12 @@ Matter grass(const Place& p) {
 
 constexpr glm::vec3 kBarkDark(44, 33, 25), kBarkMiddle(104, 82, 62), kBarkLight(152, 132, 110), kMoss(96, 110, 58);
 
-Matter bark(const Place& p) {
+TexelMaterial bark(const Place& p) {
   // Ridges run along v and are slightly bent.
   const Real bend = Real(0.02f) * tiled_cloud(p.u, p.v, 3, 5, 3, p.texels, 1101);
   const Real ridge = tiled_ridges(p.u + bend, p.v, 10, 2, 5, p.texels, 1111);
   const Real fine = tiled_cloud(p.u, p.v, 48, 16, 3, p.texels, 1121);
-  Matter m;
+  TexelMaterial m;
   m.height = clamp(Real(0.15f) + Real(0.55f) * ridge + Real(0.08f) * fine, Real(0.0f), Real(1.0f));
   m.color = blend(tint(kBarkDark), kBarkMiddle, step(0.1f, 0.55f, m.height));
   m.color = blend(m.color, kBarkLight, Real(0.8f) * step(0.5f, 1.0f, m.height + Real(0.15f) * fine));
@@ -64,10 +64,10 @@ Matter bark(const Place& p) {
 
 constexpr glm::vec3 kRockDark(70, 66, 62), kRockMiddle(128, 122, 114), kRockLight(178, 172, 160), kLichen(140, 138, 96);
 
-Matter rock(const Place& p) {
+TexelMaterial rock(const Place& p) {
   const Real folds = tiled_ridges(p.u, p.v, 4, 4, 6, p.texels, 1201);
   const Real grain = tiled_cloud(p.u, p.v, 32, 32, 4, p.texels, 1211), wide = tiled_cloud(p.u, p.v, 3, 3, 4, p.texels, 1221);
-  Matter m;
+  TexelMaterial m;
   m.height = clamp(Real(0.2f) + Real(0.38f) * folds + Real(0.2f) * wide + Real(0.06f) * grain, Real(0.0f), Real(1.0f));
   m.color = blend(tint(kRockDark), kRockMiddle, step(0.15f, 0.5f, m.height + Real(0.1f) * grain));
   m.color = blend(m.color, kRockLight, step(0.5f, 0.95f, m.height + Real(0.12f) * grain));
@@ -75,8 +75,8 @@ Matter rock(const Place& p) {
   return m;
 }
 
-Matter hills(const Place& p) {
-  Matter m;
+TexelMaterial hills(const Place& p) {
+  TexelMaterial m;
   const Real wide = tiled_cloud(p.u, p.v, 2, 2, 8, p.texels, 1301), crests = tiled_ridges(p.u, p.v, 3, 3, 6, p.texels, 1311);
   m.height = clamp(Real(0.45f) + Real(0.38f) * wide + Real(0.12f) * crests * step(0.0f, 0.6f, wide), Real(0.0f), Real(1.0f));
   m.color = Vec(Real(255.0f) * m.height);
@@ -95,7 +95,7 @@ HS_INLINE Real modulo_whole(Real x, float period) { return x - Real(period) * fl
 
 constexpr glm::vec3 kMortar(168, 160, 148), kBrickDark(118, 54, 40), kBrickRed(164, 82, 60), kBrickPale(186, 118, 88);
 
-Matter bricks(const Place& p) {
+TexelMaterial bricks(const Place& p) {
   constexpr float kColumns = 4.0f, kRows = 8.0f;
   const Real y = p.v * Real(kRows), row = floor(y);
   const Real x = fma(p.u, Real(kColumns), Real(0.5f) * modulo_whole(row, 2.0f)), column = modulo_whole(floor(x), kColumns);
@@ -107,7 +107,7 @@ Matter bricks(const Place& p) {
   const auto along = [&](Real t, float joint) { return min(t, Real(1.0f) - t) - Real(joint) + worn * Real(joint / kJoint); };
   const Real brick = step(0.0f, 0.04f, along(x - floor(x), kJoint)) * step(0.0f, 0.08f, along(y - row, 2.0f * kJoint));
   const Real kind = chance(column, row, 1421);
-  Matter m;
+  TexelMaterial m;
   Vec clay = blend(tint(kBrickDark), kBrickRed, step(0.0f, 0.5f, kind));
   clay = blend(clay, kBrickPale, step(0.6f, 1.0f, kind));
   clay = clay * (Real(1.0f) + Real(0.12f) * fine + Real(0.10f) * wear);
@@ -119,7 +119,7 @@ Matter bricks(const Place& p) {
 
 constexpr glm::vec3 kPlaster(186, 174, 152), kFrame(226, 222, 212), kGlassDark(26, 34, 44), kGlassSky(92, 116, 138), kLamp(255, 204, 128);
 
-Matter facade(const Place& p) {
+TexelMaterial facade(const Place& p) {
   constexpr float kWindows = 4.0f;
   const Real x = p.u * Real(kWindows), y = p.v * Real(kWindows), column = floor(x), row = floor(y), fx = x - column, fy = y - row;
   const float texel = kWindows / static_cast<float>(p.texels);  // edges are two texels wide
@@ -134,7 +134,7 @@ Matter facade(const Place& p) {
   const Real glass = box(0.26f, 0.485f, 0.20f, 0.76f) + box(0.515f, 0.74f, 0.20f, 0.76f);
   const Real sill = box(0.18f, 0.82f, 0.80f, 0.85f);
   const Real fine = tiled_cloud(p.u, p.v, 48, 48, 3, p.texels, 1501), stains = tiled_cloud(p.u, p.v, 6, 3, 5, p.texels, 1511);
-  Matter m;
+  TexelMaterial m;
   m.color = tint(kPlaster) * (Real(1.0f) + Real(0.05f) * fine + Real(0.10f) * stains);
   m.color = m.color * (Real(1.0f) - Real(0.35f) * box(0.0f, 1.0f, 0.96f, 1.0f));  // joint between two stories
   m.color = blend(m.color, kFrame, max(frame, sill));
@@ -149,17 +149,17 @@ Matter facade(const Place& p) {
   return m;
 }
 
-Matter checkerboard(int x, int y, int width) {
+TexelMaterial checkerboard(int x, int y, int width) {
   // The square that contains the texel center, in integer arithmetic. SIMD lanes would not pay off here.
   const auto square = [&](int i) { return (2 * i + 1) * 8 / (2 * width); };
-  Matter m;
+  TexelMaterial m;
   m.color = tint(glm::vec3((square(x) + square(y)) % 2 == 0 ? 255.0f : 0.0f));
   return m;
 }
 
 // ---- maps ------------------------------------------------------------------------------------------------------
 
-Matter matter_at(Pattern pattern, const Place& p) {
+TexelMaterial material_at(Pattern pattern, const Place& p) {
   switch (pattern) {
     case Pattern::grass: return grass(p);
     case Pattern::bark: return bark(p);
@@ -176,7 +176,7 @@ glm::u8vec4 codes(const Vec& c, int lane_index) {
   return t;
 }
 
-void store_matter(PatternMaps& maps, int x, int y, const Matter& m, int count) {
+void store_material(PatternMaps& maps, int x, int y, const TexelMaterial& m, int count) {
   const Int height = round_to_int(clamp(m.height, Real(0.0f), Real(1.0f)) * Real(65535.0f));
   for (int i = 0; i < count; ++i) {
     maps.color.at(x + i, y) = codes(m.color, i);
@@ -189,14 +189,14 @@ void store_matter(PatternMaps& maps, int x, int y, const Matter& m, int count) {
 void fill_row(PatternMaps& maps, Pattern pattern, int y) {
   const int width = maps.color.width();
   if (pattern == Pattern::checkerboard) {
-    for (int x = 0; x < width; ++x) store_matter(maps, x, y, checkerboard(x, y, width), 1);
+    for (int x = 0; x < width; ++x) store_material(maps, x, y, checkerboard(x, y, width), 1);
     return;
   }
   const float per_texel = 1.0f / static_cast<float>(width);
   const Real v((static_cast<float>(y) + 0.5f) * per_texel);
   for (int x = 0; x < width; x += kLanes) {
     const Real u = (to_real<Real>(iota<Int>() + Int(x)) + Real(0.5f)) * Real(per_texel);
-    store_matter(maps, x, y, matter_at(pattern, {u, v, width}), std::min(kLanes, width - x));
+    store_material(maps, x, y, material_at(pattern, {u, v, width}), std::min(kLanes, width - x));
   }
 }
 

@@ -103,7 +103,7 @@ class PassState {
   // Sets the draw's viewport, bounds and depth range.
   void place_draw(Draw& d) const;
   // Sets d.writes_color. Returns true if the draw replaces all colors of a pixel.
-  bool look_at_attachments(Draw& d) const;
+  bool set_color_writes(Draw& d) const;
 
   PassContext context_;
   Plan plan_;
@@ -163,7 +163,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   count_primitives(d);
   d.shades_samples = context_.samples > 1 && (state.sample_shading || options_.supersample);
   d.sample_mask = context_.samples == 1 ? 1u : state.sample_mask & ((1u << context_.samples) - 1);
-  const bool replaces = look_at_attachments(d);
+  const bool replaces = set_color_writes(d);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
   const bool covers_by_alpha = state.alpha_to_coverage && context_.samples > 1;
   const bool defers = options_.defer && replaces && !state.order_independent && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
@@ -185,7 +185,7 @@ void PassState::place_draw(Draw& d) const {
   d.depth_high = std::max(d.state.depth.range_near, d.state.depth.range_far);
 }
 
-bool PassState::look_at_attachments(Draw& d) const {
+bool PassState::set_color_writes(Draw& d) const {
   bool replaces = true;
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(d.state, i);

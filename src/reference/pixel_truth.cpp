@@ -85,11 +85,11 @@ VisibilityScore compare_visibility(const ShadowPicture& picture, const Image<std
         return clip.z / clip.w;
       };
       for (int k = 0; k < 8 && !near_edge; ++k) {
-        constexpr int kWays[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
-        const PictureRay ray = picture_ray(view, width, height, x + 0.5 + kStep * kWays[k][0], row + 0.5 + kStep * kWays[k][1]);
-        const auto beside = rays.nearest(ray.origin_rws, ray.direction_ws, static_cast<float>(view.near), kFar);
-        near_edge = is_seen(beside);
-        if (hit && beside) depth_change = std::max(depth_change, std::abs(depth_of(*beside) - depth_of(*hit)));
+        constexpr int kOffsets[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+        const PictureRay ray = picture_ray(view, width, height, x + 0.5 + kStep * kOffsets[k][0], row + 0.5 + kStep * kOffsets[k][1]);
+        const auto shifted_hit = rays.nearest(ray.origin_rws, ray.direction_ws, static_cast<float>(view.near), kFar);
+        near_edge = is_seen(shifted_hit);
+        if (hit && shifted_hit) depth_change = std::max(depth_change, std::abs(depth_of(*shifted_hit) - depth_of(*hit)));
       }
       if (near_edge) {
         ++score.near_edge;

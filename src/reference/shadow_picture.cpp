@@ -15,13 +15,13 @@ namespace halfspace {
 namespace {
 
 // A mesh without shared vertices: each triangle has three vertices, which carry its index.
-struct Loose {
+struct UnsharedMesh {
   std::vector<glm::vec3> positions, normals;
   std::vector<float> triangles;
 };
 
-Loose loosened(const PlacedMesh& placed) {
-  Loose out;
+UnsharedMesh unshared(const PlacedMesh& placed) {
+  UnsharedMesh out;
   const Indices& indices = *placed.indices;
   for (std::size_t i = 0; i < indices.size(); ++i) {
     out.positions.push_back(placed.positions[indices[i]]);
@@ -52,17 +52,17 @@ ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, i
   DepthTarget depth = d32f_target(out.depth);
   depth.clear_value = 0.0f;
   Pass pass(width, height, rgba32f_target(out.mask), depth);
-  std::vector<Loose> meshes;
+  std::vector<UnsharedMesh> meshes;
   meshes.reserve(scene.meshes.size());  // the pass keeps pointers to the elements
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     const PlacedMesh& placed = scene.meshes[m];
-    const Loose& loose = meshes.emplace_back(loosened(placed));
+    const UnsharedMesh& mesh = meshes.emplace_back(unshared(placed));
     ShadowMask shader = mask_of(placed, view);
     shader.light = light.light;
     if (!with_shadow || !placed.receives_shadow) shader.light.shadow = nullptr;
     shader.mesh = static_cast<float>(m);
     const DrawState state = opaque_state(placed.two_sided ? CullMode::none : CullMode::back, placed.mirrored());
-    pass.draw(shader, make_vertex_view(stream(loose.positions), stream(loose.normals), stream(loose.triangles)), state);
+    pass.draw(shader, make_vertex_view(stream(mesh.positions), stream(mesh.normals), stream(mesh.triangles)), state);
   }
   const auto start = std::chrono::steady_clock::now();
   pass.run(workers);

@@ -12,7 +12,7 @@ namespace {
 
 class ConformanceOf : public testing::TestWithParam<Case> {
  protected:
-  static void expect_right() {
+  static void expect_no_error() {
     const std::string wrong = check(GetParam());
     EXPECT_EQ(wrong, "");
   }
@@ -24,31 +24,31 @@ const auto case_name = [](const auto& test) { return test.param.name; };
 void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
 
 class FillRules : public ConformanceOf {};
-TEST_P(FillRules, CoverEachSampleOnce) { expect_right(); }
+TEST_P(FillRules, CoverEachSampleOnce) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, FillRules, testing::ValuesIn(fill_rules_cases()), case_name);
 
 class Primitives : public ConformanceOf {};
-TEST_P(Primitives, CoverTheCorrectSamples) { expect_right(); }
+TEST_P(Primitives, CoverTheCorrectSamples) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Primitives, testing::ValuesIn(primitives_cases()), case_name);
 
 class Interpolation : public ConformanceOf {};
-TEST_P(Interpolation, MatchesTheVertexValues) { expect_right(); }
+TEST_P(Interpolation, MatchesTheVertexValues) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Interpolation, testing::ValuesIn(interpolation_cases()), case_name);
 
 class Culling : public ConformanceOf {};
-TEST_P(Culling, DropsCulledFaces) { expect_right(); }
+TEST_P(Culling, DropsCulledFaces) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Culling, testing::ValuesIn(culling_cases()), case_name);
 
 class FlatShading : public ConformanceOf {};
-TEST_P(FlatShading, UsesTheProvokingVertex) { expect_right(); }
+TEST_P(FlatShading, UsesTheProvokingVertex) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, FlatShading, testing::ValuesIn(flatshading_cases()), case_name);
 
 class Clipping : public ConformanceOf {};
-TEST_P(Clipping, PreservesTheInside) { expect_right(); }
+TEST_P(Clipping, PreservesTheInside) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Clipping, testing::ValuesIn(clipping_cases()), case_name);
 
 class Blend : public ConformanceOf {};
-TEST_P(Blend, MatchesTheFormula) { expect_right(); }
+TEST_P(Blend, MatchesTheFormula) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Blend, testing::ValuesIn(blend_cases()), case_name);
 
 // A second source requires a second color, whichever factor uses it.
@@ -69,51 +69,51 @@ TEST(ConformanceBlendDeathTest, ASecondSourceRequiresASecondColor) {
 }
 
 class DepthStencil : public ConformanceOf {};
-TEST_P(DepthStencil, TestsAndWritesLikeOpenGl) { expect_right(); }
+TEST_P(DepthStencil, TestsAndWritesLikeOpenGl) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, DepthStencil, testing::ValuesIn(depth_stencil_cases()), case_name);
 
 class Scissor : public ConformanceOf {};
-TEST_P(Scissor, CutsWithoutChangingTheInside) { expect_right(); }
+TEST_P(Scissor, CutsWithoutChangingTheInside) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Scissor, testing::ValuesIn(scissor_cases()), case_name);
 
 class Interaction : public ConformanceOf {};
-TEST_P(Interaction, OfOperationsMatchesTheOracle) { expect_right(); }
+TEST_P(Interaction, OfOperationsMatchesTheOracle) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Interaction, testing::ValuesIn(interaction_cases()), case_name);
 
 class PolygonOffset : public ConformanceOf {};
-TEST_P(PolygonOffset, MatchesTheFormula) { expect_right(); }
+TEST_P(PolygonOffset, MatchesTheFormula) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, PolygonOffset, testing::ValuesIn(polygon_offset_cases()), case_name);
 
 class Multisample : public ConformanceOf {};
-TEST_P(Multisample, WorksPerSample) { expect_right(); }
+TEST_P(Multisample, WorksPerSample) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Multisample, testing::ValuesIn(multisample_cases()), case_name);
 
 class OcclusionQuery : public ConformanceOf {};
-TEST_P(OcclusionQuery, CountsPassingSamples) { expect_right(); }
+TEST_P(OcclusionQuery, CountsPassingSamples) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, OcclusionQuery, testing::ValuesIn(occlusion_query_cases()), case_name);
 
 class Derivate : public ConformanceOf {};
-TEST_P(Derivate, MatchesTheFormula) { expect_right(); }
+TEST_P(Derivate, MatchesTheFormula) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Derivate, testing::ValuesIn(derivate_cases()), case_name);
 
 class TextureFiltering : public ConformanceOf {};
-TEST_P(TextureFiltering, FollowsTheSpecification) { expect_right(); }
+TEST_P(TextureFiltering, FollowsTheSpecification) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, TextureFiltering, testing::ValuesIn(texture_filtering_cases()), case_name);
 
 class TextureMipmap : public ConformanceOf {};
-TEST_P(TextureMipmap, SelectsTheCorrectLevel) { expect_right(); }
+TEST_P(TextureMipmap, SelectsTheCorrectLevel) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, TextureMipmap, testing::ValuesIn(texture_mipmap_cases()), case_name);
 
 class Clears : public ConformanceOf {};
-TEST_P(Clears, SetTheClearValue) { expect_right(); }
+TEST_P(Clears, SetTheClearValue) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Clears, testing::ValuesIn(clears_cases()), case_name);
 
 class Instanced : public ConformanceOf {};
-TEST_P(Instanced, DrawsInstancesInOrder) { expect_right(); }
+TEST_P(Instanced, DrawsInstancesInOrder) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Instanced, testing::ValuesIn(instanced_cases()), case_name);
 
 class PrimitiveRestart : public ConformanceOf {};
-TEST_P(PrimitiveRestart, MatchesSeparateDraws) { expect_right(); }
+TEST_P(PrimitiveRestart, MatchesSeparateDraws) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, PrimitiveRestart, testing::ValuesIn(primitive_restart_cases()), case_name);
 
 }  // namespace halfspace::conformance

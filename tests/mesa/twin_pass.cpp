@@ -81,10 +81,10 @@ Figures TwinPass::fragment_figures(int most_judged) const {
   return f;
 }
 
-TruthPixel TwinPass::truth(int x, int row, Positions positions, const glm::dvec2& beside) const {
+TruthPixel TwinPass::truth(int x, int row, Positions positions, const glm::dvec2& offset) const {
   TruthPixel pixel{truth_codes(glm::dvec4(target_.clear_color), target_.format), static_cast<double>(target_.clear_depth)};
   const glm::dvec2 center(x + 0.5, target_.height - 1 - row + 0.5);
-  for (const auto& draw : truths_) draw->draw(center + beside, positions, pixel);
+  for (const auto& draw : truths_) draw->draw(center + offset, positions, pixel);
   return pixel;
 }
 
@@ -110,8 +110,8 @@ void TwinPass::judge(int x, int row, int tolerance, Figures& f) const {
 bool TwinPass::is_right_beside(int x, int row, int tolerance) const {
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
-      const TruthPixel beside = truth(x, row, Positions::exact, glm::dvec2(i, j) / 256.0);
-      if (distance(ours_.color.at(x, row), beside.codes) <= tolerance) return true;
+      const TruthPixel shifted = truth(x, row, Positions::exact, glm::dvec2(i, j) / 256.0);
+      if (distance(ours_.color.at(x, row), shifted.codes) <= tolerance) return true;
     }
   }
   return false;

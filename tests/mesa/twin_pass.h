@@ -65,8 +65,8 @@ class TwinPass {
   Figures figures(int most_judged = 0) const;
   /// Compares the number of fragments per pixel, for additive draws of 1/255; `covered` then counts fragments.
   Figures fragment_figures(int most_judged = 0) const;
-  /// Returns the reference value of a pixel, or of a point at the offset `beside` (in pixels) from its center.
-  TruthPixel truth(int x, int row, Positions positions, const glm::dvec2& beside = glm::dvec2(0.0)) const;
+  /// Returns the reference value of a pixel, or of a point at `offset` (in pixels) from its center.
+  TruthPixel truth(int x, int row, Positions positions, const glm::dvec2& offset = glm::dvec2(0.0)) const;
 
  private:
   void judge_some(const std::vector<std::pair<int, int>>& pixels, int most, int tolerance, Figures& f) const;

@@ -18,7 +18,7 @@ enum class Light { pixel, vertex, flat };
 
 // A task draws a tile. A ray packet covers a block of pixels in the tile.
 constexpr int kTile = 32, kBlockWidth = kRays == 4 ? 2 : 4, kBlockHeight = kRays / kBlockWidth;
-constexpr int kVerticesATask = 4096;
+constexpr int kVerticesPerTask = 4096;
 
 // One triangle per lane: its vertex indices, one corner and two edges.
 struct Triangles {
@@ -50,7 +50,7 @@ class RaySphere final : public Workload {
   void frame(const Workers& workers) override {
     if (light_ != Light::pixel) {
       const int vertices = static_cast<int>(sphere_.mesh->vertices.size());
-      workers.for_each((vertices + kVerticesATask - 1) / kVerticesATask, [&](int task) { light_vertices(task * kVerticesATask); });
+      workers.for_each((vertices + kVerticesPerTask - 1) / kVerticesPerTask, [&](int task) { light_vertices(task * kVerticesPerTask); });
     }
     const int columns = (size_.width + kTile - 1) / kTile, rows = (size_.height + kTile - 1) / kTile;
     workers.for_each(columns * rows, [&](int tile) { draw_tile(tile % columns * kTile, tile / columns * kTile); });
@@ -69,9 +69,9 @@ class RaySphere final : public Workload {
   }
   vec3<R> gather3(const I& at) const { return {gather(floats(), at), gather(floats(), at + I(1)), gather(floats(), at + I(2))}; }
 
-  // Computes the diffuse and specular light of up to kVerticesATask vertices, starting at `first`.
+  // Computes the diffuse and specular light of up to kVerticesPerTask vertices, starting at `first`.
   void light_vertices(int first) {
-    const int vertices = static_cast<int>(sphere_.mesh->vertices.size()), end = std::min(first + kVerticesATask, vertices);
+    const int vertices = static_cast<int>(sphere_.mesh->vertices.size()), end = std::min(first + kVerticesPerTask, vertices);
     for (int v = first; v < end; v += kRays) {
       I vertex(0);
       for (int k = 0; k < kRays; ++k) set_lane(vertex, k, std::min(v + k, vertices - 1));

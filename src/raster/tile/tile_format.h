@@ -93,12 +93,12 @@ void fill_buffer(ColorBuffer& buffer, const PacketColor& color);
 /// of the product does the same.
 template <Number R>
 HS_INLINE R depth_value(DepthFormat format, R z) {
-  const R beside(0x1p23f);
+  const R two_to_23(0x1p23f);
   if (format == DepthFormat::d24) {
     const R code = z * R(16777215.0f);
-    return select(code < beside, fma(z, R(16777215.0f), beside) - beside, code);
+    return select(code < two_to_23, fma(z, R(16777215.0f), two_to_23) - two_to_23, code);
   }
-  if (format == DepthFormat::d16) return fma(z, R(65535.0f), beside) - beside;
+  if (format == DepthFormat::d16) return fma(z, R(65535.0f), two_to_23) - two_to_23;
   return z;
 }
 
