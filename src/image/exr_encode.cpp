@@ -60,11 +60,13 @@ Imf::Header header_of(int width, int height, std::span<const ExrChannel> channel
 class Band {
  public:
   Band(const ExrChannel& channel, int width, int rows)
-      : channel_(channel), row_bytes_(static_cast<std::size_t>(width) * sample_bytes(channel.sample)),
+      : channel_(channel),
+        row_bytes_(static_cast<std::size_t>(width) * sample_bytes(channel.sample)),
         samples_(row_bytes_ * static_cast<std::size_t>(rows)) {}
 
   void fill(int top, int end) {
-    for (int y = top; y < end; ++y) channel_.fill_row(y, std::span(samples_).subspan(static_cast<std::size_t>(y - top) * row_bytes_, row_bytes_));
+    for (int y = top; y < end; ++y)
+      channel_.fill_row(y, std::span(samples_).subspan(static_cast<std::size_t>(y - top) * row_bytes_, row_bytes_));
   }
 
   // Adds the samples to the frame buffer, as rows that begin with row top.

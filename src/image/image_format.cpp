@@ -43,10 +43,10 @@ struct OtherType {
   const char* name;
 };
 constexpr OtherType kOtherTypes[] = {
-    {4, "ftypavif"sv, "AVIF"}, {4, "ftypheic"sv, "HEIF"}, {4, "ftypmif1"sv, "HEIF"},     {4, "jP  "sv, "JPEG 2000"},
-    {0, "\xff\x0a"sv, "JPEG XL"}, {4, "JXL "sv, "JPEG XL"},  {1, "KTX"sv, "KTX"},           {0, "sB"sv, "Basis Universal"},
-    {0, "<svg"sv, "SVG"},      {0, "<?xml"sv, "XML"},      {0, "<!DOCTYPE"sv, "HTML"},    {0, "<html"sv, "HTML"},
-    {0, "%PDF"sv, "PDF"},      {0, "PK\x03\x04"sv, "ZIP"}, {0, "\x1f\x8b"sv, "gzip"},     {0, "glTF"sv, "binary glTF"},
+    {4, "ftypavif"sv, "AVIF"},    {4, "ftypheic"sv, "HEIF"},  {4, "ftypmif1"sv, "HEIF"},  {4, "jP  "sv, "JPEG 2000"},
+    {0, "\xff\x0a"sv, "JPEG XL"}, {4, "JXL "sv, "JPEG XL"},   {1, "KTX"sv, "KTX"},        {0, "sB"sv, "Basis Universal"},
+    {0, "<svg"sv, "SVG"},         {0, "<?xml"sv, "XML"},      {0, "<!DOCTYPE"sv, "HTML"}, {0, "<html"sv, "HTML"},
+    {0, "%PDF"sv, "PDF"},         {0, "PK\x03\x04"sv, "ZIP"}, {0, "\x1f\x8b"sv, "gzip"},  {0, "glTF"sv, "binary glTF"},
 };
 
 std::string_view from(std::string_view text, std::size_t offset) { return text.substr(std::min(offset, text.size())); }
@@ -57,7 +57,8 @@ bool is_tga_header(std::string_view head) {
   if (head.size() < 18) return false;
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(head[i]); };
   const int map = byte(1), type = byte(2) & ~8, bits = byte(16);  // 8: run-length encoded
-  const bool known_type = byte(2) < 16 && ((type == 1 && map == 1 && bits == 8) || (type == 2 && map == 0 && bits >= 15) || (type == 3 && map == 0));
+  const bool known_type =
+      byte(2) < 16 && ((type == 1 && map == 1 && bits == 8) || (type == 2 && map == 0 && bits >= 15) || (type == 3 && map == 0));
   const bool known_bits = bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32;
   const bool some_pixels = (byte(12) | byte(13)) != 0 && (byte(14) | byte(15)) != 0;
   return known_type && known_bits && some_pixels && (byte(17) & 0xc0) == 0;

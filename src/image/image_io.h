@@ -10,8 +10,8 @@
 // Readers detect the format by the content of a file, writers by its name. A file can also be read from memory, for example if it is part
 // of a model; `name` then takes the place of the path in messages. Readers throw InputError ("PATH: problem; expected
 // ...") for files that are missing, damaged or too large (more than 2^28 pixels or 32768 pixels per side).
-// Writers throw OutputError; an output file is either complete or not created. All functions are thread-safe, and up to 4 images are decoded in parallel. They may be used in a child process
-// after fork().
+// Writers throw OutputError; an output file is either complete or not created. All functions are thread-safe, and up to 4 images are
+// decoded in parallel. They may be used in a child process after fork().
 #pragma once
 
 #include <cstddef>

@@ -28,7 +28,8 @@ ColorPicture read_color(ImageSource& source) {
 }
 
 Image<glm::u8vec4> codes_of(ImageSource& source) {
-  if (linear_name(source) != nullptr) fail_linear(source.name(), std::string("is ") + linear_name(source) + ", which contains linear values");
+  if (linear_name(source) != nullptr)
+    fail_linear(source.name(), std::string("is ") + linear_name(source) + ", which contains linear values");
   ColorPicture picture = read_color(source);
   if (const auto* wide = std::get_if<Image<glm::u16vec4>>(&picture)) return round_to_8_bits(*wide);
   if (auto* codes = std::get_if<Image<glm::u8vec4>>(&picture)) return std::move(*codes);

@@ -41,8 +41,8 @@ class ImageSource {
 
   std::string name_;
   std::size_t size_ = 0;
-  std::span<const std::byte> bytes_;    // empty if the file is on disk and has not been read yet
-  std::vector<std::byte> read_bytes_;   // the memory of bytes_, if the file is on disk
+  std::span<const std::byte> bytes_;   // empty if the file is on disk and has not been read yet
+  std::vector<std::byte> read_bytes_;  // the memory of bytes_, if the file is on disk
   int descriptor_ = -1;
   std::optional<ToolFormat> tool_format_;
 };

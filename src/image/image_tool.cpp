@@ -134,7 +134,8 @@ Picture read_by_tool(ImageSource& source, ToolTask task) {
   if (failure && !failure->started) {
     fail_reading(source.name(), "cannot be read: " + program.path.string() + " does not start (" + failure->text + ")");
   }
-  if (failure) message = "cannot be read as " + std::string(request.format) + " (the decoder " + failure->text + "); expected a complete image file";
+  if (failure)
+    message = "cannot be read as " + std::string(request.format) + " (the decoder " + failure->text + "); expected a complete image file";
   if (!message.empty()) fail_reading(source.name(), message);
   return picture;
 }

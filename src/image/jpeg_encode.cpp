@@ -15,7 +15,7 @@ constexpr int kQuality = 95;
 
 class JpegEncoder {
  public:
-  JpegEncoder() : errors_(false) { codec_.err = errors_.manager(); }
+  JpegEncoder() { codec_.err = errors_.manager(); }
   ~JpegEncoder() {
     jpeg_destroy_compress(&codec_);
     std::free(file_);

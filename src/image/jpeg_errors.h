@@ -7,6 +7,7 @@
 // jpeglib.h uses size_t and FILE without including their headers.
 #include <cstdio>
 //
+#include <jerror.h>
 #include <jpeglib.h>
 
 #include <csetjmp>
@@ -17,13 +18,13 @@ namespace halfspace {
 /// Receives the errors of one jpeg_decompress_struct or jpeg_compress_struct. Must not move.
 class JpegErrors {
  public:
-  /// With strict set, warnings count as errors. libjpeg warns about data that it has to guess, for example at the end of a truncated file.
-  explicit JpegErrors(bool strict) : strict_(strict) {
+  /// The premature end of a file, of which libjpeg only warns, counts as an error. Other warnings are ignored.
+  JpegErrors() {
     jpeg_std_error(&manager_);
     manager_.error_exit = [](j_common_ptr codec) { of(codec).fail(codec); };
     manager_.output_message = [](j_common_ptr) {};
     manager_.emit_message = [](j_common_ptr codec, int level) {
-      if (level < 0 && of(codec).strict_) of(codec).fail(codec);
+      if (level < 0 && codec->err->msg_code == JWRN_JPEG_EOF) of(codec).fail(codec);
     };
   }
   JpegErrors(const JpegErrors&) = delete;
@@ -52,7 +53,6 @@ class JpegErrors {
   }
 
   jpeg_error_mgr manager_ = {};  // the first member, see of()
-  bool strict_;
   std::jmp_buf jump_;
   char text_[JMSG_LENGTH_MAX] = "";
 };

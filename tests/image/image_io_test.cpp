@@ -154,7 +154,14 @@ TEST_F(ImageIo, ReportsWhatIsWrongWithAnInput) {
   const std::string head = "\x89PNG\r\n\x1a\n";
   const Case cases[] = {
       {"empty.png", "", {"empty", "PNG", "DDS"}},
-      {"text.png", "This is not a picture.", {"not a supported image", "PNG", "DDS"}},
+      {"text.png", "This is not a picture.", {"not a supported image", "begins with \"This is \"", "PNG", "DDS"}},
+      {"bytes.png", std::string("\1\2\xfe", 3), {"not a supported image", "begins with the bytes 01 02 fe)"}},
+      {"paper.jpg", "%PDF-1.7", {"not a supported image", "found PDF"}},
+      {"phone.jpg",
+       std::string("\0\0\0\x18"
+                   "ftypheic",
+                   12),
+       {"not a supported image", "found HEIF"}},
       {"cut.png", head, {"damaged PNG", "end of stream"}},
       {"picture.exr", "\x76\x2f\x31\x01 and so on", {"OpenEXR", "linear", "16-bit", "PNG"}},
   };

@@ -123,8 +123,9 @@ TEST_F(ToolNumbers, RejectsFloatFilesAsEightBitImages) {
 // Checks the complete list of formats, because users choose from it.
 TEST_F(ImageNumbers, ErrorListsReadableFormats) {
   const std::filesystem::path path = put("a.txt", "This is not a picture.");
-  const std::string line =
-      path.string() + ": is not a supported image; expected PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, OpenEXR, HDR or PFM";
+  const std::string line = path.string() +
+                           ": is not a supported image (it begins with \"This is \"); expected PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, "
+                           "PSD, DDS, OpenEXR, HDR or PFM";
   EXPECT_EQ(input_error([&] { read_gray(path); }), line);
   EXPECT_TRUE(tells(input_error([&] { read_linear(path); }), path.string(), {"OpenEXR, HDR or PFM"}));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Behavior when halfspace-image-tool is missing, crashes or sends invalid data. The tool is looked up in the directory of the running
+// Behavior when a decoder program is missing, crashes or sends invalid data. The programs are looked up in the directory of the running
 // program, so these tests run a copy of the test program in a temporary directory, next to a script that replaces the tool.
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -30,23 +30,24 @@ TEST(ImageToolCopy, DISABLED_WritesAndReads) {
   const Image<glm::u8vec4> codes(400, 300);
   const Image<glm::vec4> light(400, 300);
   std::ofstream("a.ppm") << "P6 1 1 255\nabc";
+  std::ofstream("b.jpg") << "\xff\xd8\xff\xe0 and so on";
   std::ofstream lines("lines");
-  lines << output_error([&] { write_image("a.jpg", codes); }) << '\n'
-        << output_error([&] { write_image("a.exr", light); }) << '\n'
+  lines << output_error([&] { write_image("a.tif", codes); }) << '\n'
+        << output_error([&] { write_image("a.hdr", light); }) << '\n'
         << input_error([&] { read_image("a.ppm"); }) << '\n'
-        << (fs::exists("a.jpg") || fs::exists("a.exr") ? "something was written" : "nothing was written") << '\n';
+        << input_error([&] { read_image("b.jpg"); }) << '\n'
+        << (fs::exists("a.tif") || fs::exists("a.hdr") ? "something was written" : "nothing was written") << '\n';
 }
 
 class ImageTool : public FolderTest {
  protected:
-  // Runs a copy of this program in a folder in which the script is the image tool, and returns the lines that it writes. If the script is
-  // empty, there is no tool.
+  // Runs a copy of this program in a folder in which the script takes the place of both tools, and returns the lines that it writes. If
+  // the script is empty, there are no tools.
   std::string lines_beside(const std::string& script) const {
     const fs::path copy = directory / "test";
     fs::copy_file("/proc/self/exe", copy);
-    if (!script.empty()) {
-      const fs::path tool = put(kImageToolName, "#!/bin/sh\n" + script + "\n");
-      fs::permissions(tool, fs::perms::owner_all);
+    for (const char* name : {kImageToolName, kJpegToolName}) {
+      if (!script.empty()) fs::permissions(put(name, "#!/bin/sh\n" + script + "\n"), fs::perms::owner_all);
     }
     const pid_t child = ::fork();
     if (child == 0) {
@@ -62,12 +63,12 @@ class ImageTool : public FolderTest {
   }
 };
 
-// Expects that both writes failed for the first reason, the read failed for the second, and no file was left behind.
+// Expects that both writes failed for the first reason, both reads failed for the second, and no file was left behind.
 void expect_failures(const std::string& told, const std::string& of_writing, const std::string& of_reading) {
   std::istringstream lines(told);
   std::string line;
   const std::pair<const char*, std::string> expected[] = {
-      {"a.jpg: cannot write", of_writing}, {"a.exr: cannot write", of_writing}, {"a.ppm: ", of_reading}};
+      {"a.tif: cannot write", of_writing}, {"a.hdr: cannot write", of_writing}, {"a.ppm: ", of_reading}, {"b.jpg: ", of_reading}};
   for (const auto& [place, reason] : expected) {
     ASSERT_TRUE(std::getline(lines, line)) << told;
     EXPECT_TRUE(tells(line, place, {reason}));
@@ -83,20 +84,20 @@ TEST_F(ImageTool, ReportsACrash) { expect_failures(lines_beside("kill -SEGV $$")
 
 TEST_F(ImageTool, ReportsATruncatedAnswer) {
   // The script reads 1000 bytes of the image and sends the beginning of a valid 100-byte answer.
-  const std::string script = "head -c 1000 >/dev/null; printf 'HIT1\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
+  const std::string script = "head -c 1000 >/dev/null; printf 'HIT2\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
   expect_failures(lines_beside(script), "ended early", "ended early");
 }
 
 TEST_F(ImageTool, ReportsAnotherProtocolVersion) {
-  const std::string script = "cat >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'";
+  const std::string script = "head -c 24 >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'";
   expect_failures(lines_beside(script), "different version", "different version");
 }
 
 TEST_F(ImageTool, RejectsAnswersWithHugeSizes) {
-  // A file of 2^63 bytes; an image with a width of 2^31 − 1 pixels.
+  // A file of 2^63 bytes; an image with a width of 2^31 − 1 pixels. Byte 4 of a request is the task; 2 is writing.
   const std::string script =
-      "case $1 in write) printf 'HIT1\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
-      "*) printf 'HIT1\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
+      "case $(head -c 24 | od -An -tu1 -j4 -N1 | tr -d ' ') in 2) printf 'HIT2\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
+      "*) printf 'HIT2\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
   expect_failures(lines_beside(script), "different version", "2147483647x1");
 }
 
@@ -114,9 +115,14 @@ TEST_F(ImageTool, ReportsUnsupportedFormatsAndHeaders) {
 
 TEST_F(ImageTool, ReportsAFullDisk) {
   if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
-  fs::create_symlink("/dev/full", directory / "a.jpg");
-  EXPECT_TRUE(tells(output_error([&] { write_image(directory / "a.jpg", test_picture(true)); }), (directory / "a.jpg").string(),
-                    {"No space left on device"}));
+  for (const char* name : {"a.jpg", "a.tif", "a.exr"}) {
+    const fs::path path = directory / name;
+    fs::create_symlink("/dev/full", path);
+    const auto write = [&] {
+      is_linear(*image_file_of(path)) ? write_image(path, Image<glm::vec4>(9, 9)) : write_image(path, test_picture(true));
+    };
+    EXPECT_EQ(output_error(write), path.string() + ": cannot write (No space left on device)");
+  }
 }
 
 TEST_F(ImageTool, ReportsAnUnwritableDirectory) {

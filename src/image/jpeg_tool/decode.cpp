@@ -41,7 +41,7 @@ uint8_t light_of(uint8_t color, uint8_t black) { return static_cast<uint8_t>((co
 
 class JpegDecoder {
  public:
-  explicit JpegDecoder(const MappedFile& file) : errors_(true) {
+  explicit JpegDecoder(const MappedFile& file) {
     codec_.err = errors_.manager();
     check(errors_.run([&] {
       jpeg_create_decompress(&codec_);
@@ -76,7 +76,8 @@ class JpegDecoder {
 
  private:
   void check(bool ok) const {
-    if (!ok) throw Failure{std::string("cannot be read as jpeg (JPEG error: ") + one_line(errors_.text()) + "); expected a complete image file"};
+    if (!ok)
+      throw Failure{std::string("cannot be read as jpeg (JPEG error: ") + one_line(errors_.text()) + "); expected a complete image file"};
   }
 
   // Converts a decoded row. Files with fewer than 3 components give gray.
