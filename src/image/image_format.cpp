@@ -49,7 +49,7 @@ constexpr OtherType kOtherTypes[] = {
     {0, "%PDF"sv, "PDF"},         {0, "PK\x03\x04"sv, "ZIP"}, {0, "\x1f\x8b"sv, "gzip"},  {0, "glTF"sv, "binary glTF"},
 };
 
-std::string_view from(std::string_view text, std::size_t offset) { return text.substr(std::min(offset, text.size())); }
+std::string_view text_from(std::string_view text, std::size_t offset) { return text.substr(std::min(offset, text.size())); }
 
 // Returns whether the bytes are a possible TGA header: an image of a known type, with a color map if and only if the type needs one, of
 // at least 1x1 pixels of a known size, and without reserved bits.
@@ -75,13 +75,13 @@ std::string small_extension(const std::filesystem::path& path) {
 std::optional<ToolFormat> find_tool_format(const std::filesystem::path& path, std::string_view head) {
   const auto found = std::ranges::find_if(kSignatures, [&](const Signature& s) { return head.starts_with(s.magic); });
   if (found != std::end(kSignatures)) return found->format;
-  if (head.starts_with("RIFF") && from(head, 8).starts_with("WEBP")) return ToolFormat{"webp"};
+  if (head.starts_with("RIFF") && text_from(head, 8).starts_with("WEBP")) return ToolFormat{"webp"};
   if (is_tga_header(head) || small_extension(path) == ".tga") return ToolFormat{"targa"};
   return std::nullopt;
 }
 
 std::string describe_contents(std::string_view head) {
-  const auto found = std::ranges::find_if(kOtherTypes, [&](const OtherType& t) { return from(head, t.offset).starts_with(t.magic); });
+  const auto found = std::ranges::find_if(kOtherTypes, [&](const OtherType& t) { return text_from(head, t.offset).starts_with(t.magic); });
   if (found != std::end(kOtherTypes)) return std::string("found ") + found->name;
   const std::string_view start = head.substr(0, 8);
   if (std::ranges::all_of(start, [](char c) { return c >= ' ' && c <= '~'; })) return "it begins with \"" + std::string(start) + '"';

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -16,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "halfspace/core/check.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_tool.h"
 #include "image/image_fixture.h"
@@ -84,6 +86,27 @@ class DecoderProcess : public ImageToolTest {
     }
   }
 
+  // Sends the signal to the tool while it is reading an image, and returns the error of the read.
+  std::string error_if_signaled(int signal) const {
+    const std::vector<pid_t> ids = tools();
+    for (const pid_t id : ids) ::kill(id, SIGSTOP);
+    std::string error;
+    std::thread reader([&] {
+      try {
+        EXPECT_EQ(read_image(ppm).at(0, 0), first);
+      } catch (const InputError& e) {
+        error = e.what();
+      }
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (const pid_t id : ids) {
+      ::kill(id, signal);
+      ::kill(id, SIGCONT);
+    }
+    reader.join();
+    return error;
+  }
+
   const fs::path ppm = put("a.ppm", "P6 2 1 255\n\x01\x02\x03\xff\xfe\xfd"), jpeg = directory / "a.jpg";
   const glm::u8vec4 first = {1, 2, 3, 255};
 };
@@ -129,6 +152,21 @@ TEST_F(DecoderProcess, CrashFailsOnlyOneImage) {
     // OpenImageIO 2.4 crashes. Later versions may report an error.
     const std::string error = input_error([&] { read_image(hostile); });
     EXPECT_TRUE(tells(error, hostile.string() + ": cannot be read as bmp", {"expected a complete image file"}));
+    EXPECT_EQ(read_image(ppm).at(0, 0), first);
+  }
+  EXPECT_EQ(zombies(), 0u);
+}
+
+// An earlier image may have damaged a process that then crashes on a good one.
+TEST_F(DecoderProcess, CrashOfAUsedProcessIsRetried) {
+  EXPECT_EQ(error_if_signaled(SIGSEGV), "");
+  EXPECT_EQ(zombies(), 0u);
+}
+
+TEST_F(DecoderProcess, TimeLimitFailsOnlyOneImage) {
+  for (const int signal : {SIGXCPU, SIGALRM}) {
+    EXPECT_EQ(error_if_signaled(signal),
+              ppm.string() + ": cannot be read as pnm (the decoder died: " + ::strsignal(signal) + "); expected a complete image file");
     EXPECT_EQ(read_image(ppm).at(0, 0), first);
   }
   EXPECT_EQ(zombies(), 0u);

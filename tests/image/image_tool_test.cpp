@@ -83,8 +83,8 @@ TEST_F(ImageTool, ReportsAMissingTool) { expect_failures(lines_beside(""), "not 
 TEST_F(ImageTool, ReportsACrash) { expect_failures(lines_beside("kill -SEGV $$"), "died: Segmentation fault", "died: Segmentation fault"); }
 
 TEST_F(ImageTool, ReportsATruncatedAnswer) {
-  // The script reads 1000 bytes of the image and sends the beginning of a valid 100-byte answer.
-  const std::string script = "head -c 1000 >/dev/null; printf 'HIT2\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
+  // The script reads a request and sends the beginning of a valid 100-byte answer.
+  const std::string script = "head -c 24 >/dev/null; printf 'HIT2\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
   expect_failures(lines_beside(script), "ended early", "ended early");
 }
 

@@ -22,8 +22,9 @@ namespace halfspace {
 
 namespace {
 
-constexpr rlim_t kReadSeconds = 60;
-constexpr rlim_t kWriteSeconds = 1200;             // images to write are our own, and 16384x16384 pixels take minutes
+// Limits on CPU time. Elapsed time may be five times as long: it limits decoders that wait for something that never happens.
+constexpr unsigned kReadSeconds = 60;
+constexpr unsigned kWriteSeconds = 1200;           // images to write are our own, and 16384x16384 pixels take minutes
 constexpr rlim_t kAddressSpace = rlim_t{6} << 30;  // 2^28 pixels of 16 bytes, plus the libraries
 // Limit on the pixels per byte of file that a header may claim (a constant JPEG has about 100, a bilevel TIFF 8000).
 constexpr uint64_t kMaxPixelsPerByte = 8192;
@@ -47,16 +48,18 @@ void limit_memory() {
   const rlimit core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &core);
   ::signal(SIGXCPU, SIG_DFL);
+  ::signal(SIGALRM, SIG_DFL);
 }
 
-// Limits the CPU time from now on. Only the soft limit is set, because the next request raises it again.
-void limit_cpu_time(rlim_t seconds) {
+// Limits the time from now on. Only the soft limit of CPU time is set, because the next request raises it again.
+void limit_time(unsigned seconds) {
   timespec used = {};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
   rlimit cpu = {};
   ::getrlimit(RLIMIT_CPU, &cpu);
   cpu.rlim_cur = std::min(static_cast<rlim_t>(used.tv_sec) + seconds, cpu.rlim_max);
   ::setrlimit(RLIMIT_CPU, &cpu);
+  ::alarm(5 * seconds);
 }
 
 // Receives a request and, for reading, the descriptor that comes with it. Returns false at the end of the input.
@@ -81,7 +84,7 @@ bool receive_request(ToolRequest& request, int& file) {
 bool handle_read(const ToolHandlers& handlers, const ToolRequest& request, const std::string& format, int file) {
   struct stat status = {};
   if (file < 0 || ::fstat(file, &status) != 0) return false;
-  limit_cpu_time(kReadSeconds);
+  limit_time(kReadSeconds);
   const bool ready = handlers.read({file, static_cast<uint64_t>(status.st_size), format, request.task == ToolTask::read_gray});
   ::close(file);
   return ready;
@@ -91,7 +94,7 @@ bool handle(const ToolHandlers& handlers, const ToolRequest& request, int file) 
   const std::string format(request.format, ::strnlen(request.format, sizeof request.format));
   if (request.task != ToolTask::write) return handle_read(handlers, request, format, file);
   if (handlers.write == nullptr) return false;
-  limit_cpu_time(kWriteSeconds);
+  limit_time(kWriteSeconds);
   return handlers.write(format);
 }
 
@@ -105,6 +108,7 @@ int serve_requests(const ToolHandlers& handlers) {
   while (receive_request(request, file)) {
     const bool ready = handle(handlers, request, file);
     if (std::fflush(stdout) != 0 || !ready) break;
+    ::alarm(0);
   }
   return 0;
 }
