@@ -6,8 +6,8 @@
 #     --benchmarks  also installs the packages that scripts/bench.sh needs
 set -euo pipefail
 
-packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libspng-dev libcli11-dev nlohmann-json3-dev libfmt-dev libmeshoptimizer-dev
-  libembree-dev)
+packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopenexr-dev libjpeg-dev libspng-dev libcli11-dev nlohmann-json3-dev
+  libfmt-dev libmeshoptimizer-dev libembree-dev)
 benchmark_packages=(libvulkan1)
 test_packages=(patch python3-jsonschema python3-matplotlib libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
 

@@ -27,7 +27,7 @@ void print_text() {
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
             << "build         " << build_description() << ", " << kCompiler << '\n'
             << "cores         " << Workers::cores() << '\n'
-            << "image tool    " << (tool.empty() ? "not found: only PNG images can be read and written" : tool.string()) << '\n';
+            << "image tool    " << (tool.empty() ? "not found: only PNG images, and JPEG if its decoder is installed, can be read" : tool.string()) << '\n';
 }
 
 void print_json() {

@@ -47,7 +47,8 @@ std::optional<ToolFailure> talk_to_tool(ToolPool& pool, const std::filesystem::p
     if (result == Talk::done) lease.keep();
     if (result != Talk::tool_ended) return std::nullopt;
     const int signal = lease.tool().wait();
-    if (!used || signal == SIGXCPU || signal == SIGALRM) return ToolFailure{signal == 0 ? "ended early" : std::string("died: ") + ::strsignal(signal)};
+    if (!used || signal == SIGXCPU || signal == SIGALRM)
+      return ToolFailure{signal == 0 ? "ended early" : std::string("died: ") + ::strsignal(signal)};
   }
 }
 

@@ -45,6 +45,8 @@ RASTER_PHASES = [
 # Third-party headers and the only files or folders of src/ that may include them.
 THIRD_PARTY = {
     "OpenImageIO/": "image/tool/",
+    "OpenEXR/": "image/exr_encode.cpp",
+    "jpeglib.h": "image/jpeg_errors.h",
     "spng.h": "image/png.cpp",
     "tbb/": "core/parallel.cpp",
     "meshoptimizer.h": "model/gltf_meshopt.cpp",
