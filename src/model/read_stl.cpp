@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kMaxTriangles = 0xffffffffu / 3;
 
 // The smallest triangle takes 50 bytes in a binary file and more in a text file.
-constexpr std::size_t kMemoryPerByte = 1 + (kBytesPerTriangle + 3 * sizeof(glm::dvec3) + 3 * sizeof(glm::vec3)) / 50;
+constexpr std::size_t kStlMemoryPerByte = 1 + (kBytesPerTriangle + 3 * sizeof(glm::dvec3) + 3 * sizeof(glm::vec3)) / 50;
 
 /// Removes triangles that have a corner that is not finite. Returns how many there were.
 std::size_t remove_infinite(StlTriangles& triangles) {
@@ -103,7 +103,7 @@ bool is_text_stl(std::span<const std::byte> bytes) {
 
 Model read_stl(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options) {
   try {
-    check_memory(bytes.size() * kMemoryPerByte, options);
+    check_memory(bytes.size() * kStlMemoryPerByte, options);
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", file.string(), e.what()));
   }

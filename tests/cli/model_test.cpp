@@ -151,12 +151,12 @@ TEST_F(Models, MistakesGiveOneLine) {
   write("cube.obj", cube(0.0, 1.0));
   write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
   write("empty.obj", "");
-  struct Mistake {
+  struct WrongCommand {
     std::vector<std::string> words;
     int exit_code;
     std::string keyword;
   };
-  const Mistake mistakes[] = {
+  const WrongCommand mistakes[] = {
       {{"render", "none.obj"}, 3, "none.obj"},
       {{"render", "bad.obj"}, 3, "bad.obj:4"},
       {{"render", "empty.obj"}, 3, "empty.obj"},
@@ -171,7 +171,7 @@ TEST_F(Models, MistakesGiveOneLine) {
       {{"render", "moon", "--yaw", "10"}, 2, "--yaw"},
       {{"render", "cube.obj", "--camera", "back"}, 3, "back"},
   };
-  for (const Mistake& m : mistakes) {
+  for (const WrongCommand& m : mistakes) {
     std::vector<std::string> words = m.words;
     if (words[0] == "render") words.insert(words.end(), {"--size", "32x18"});
     const Outcome o = run(words);
