@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/model/read_gltf.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "halfspace/model/gltf_accessors.h"
@@ -16,6 +18,16 @@
 namespace halfspace {
 
 namespace {
+
+constexpr std::size_t kMaxWarnings = 500;
+
+// A damaged file can give thousands.
+void limit_warnings(std::vector<std::string>& warnings) {
+  if (warnings.size() <= kMaxWarnings) return;
+  const std::size_t left_out = warnings.size() - kMaxWarnings;
+  warnings.resize(kMaxWarnings);
+  warnings.push_back(fmt::format("{} more warnings are not shown", left_out));
+}
 
 void check_version(const GltfDocument& document) {
   const GltfValue& asset = document.object(document.root(), "asset");
@@ -52,6 +64,7 @@ Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> by
   read_gltf_cameras_and_lights(document, model);
   read_gltf_nodes(accessors, meshes, model);
   read_gltf_animations(accessors, model);
+  limit_warnings(model.warnings);
   return model;
 }
 

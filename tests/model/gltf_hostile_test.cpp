@@ -251,6 +251,12 @@ TEST(GltfHostile, LimitsWarnings) {
   GltfBuilder file;
   for (int i = 0; i < 10'000; ++i) file.add("materials", {{"alphaCutoff", -1}});
   EXPECT_LE(file.read().warnings.size(), 100u);
+  file = {};
+  for (int i = 0; i < 1000; ++i) file.add("materials", {{"emissiveTexture", {{"index", i}}}});
+  for (int i = 0; i < 1000; ++i) file.add("textures", {{"source", file.add("images", {{"uri", "missing " + std::to_string(i)}})}});
+  const std::vector<std::string> warnings = file.read().warnings;
+  ASSERT_EQ(warnings.size(), 501u);
+  EXPECT_EQ(warnings.back(), "500 more warnings are not shown");
 }
 
 // Replaces bytes of text and binary files, and values of the JSON document.
