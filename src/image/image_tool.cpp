@@ -55,7 +55,7 @@ std::optional<ToolFailure> talk_to_tool(ToolPool& pool, const std::filesystem::p
 ToolRequest request_of(ToolTask task, std::string_view format) {
   ToolRequest request;
   request.task = task;
-  HS_CHECK_OP(format.size(), <=, sizeof request.format);
+  HS_CHECK_OP(format.size(), <, sizeof request.format);
   std::ranges::copy(format, request.format);
   return request;
 }
@@ -136,7 +136,8 @@ Picture read_by_tool(ImageSource& source, ToolTask task) {
     fail_reading(source.name(), "cannot be read: " + program.path.string() + " does not start (" + failure->text + ")");
   }
   if (failure)
-    message = "cannot be read as " + std::string(request.format) + " (the decoder " + failure->text + "); expected a complete image file";
+    message = "cannot be read as " + std::string(source.tool_format()->name) + " (the decoder " + failure->text +
+              "); expected a complete image file";
   if (!message.empty()) fail_reading(source.name(), message);
   return picture;
 }

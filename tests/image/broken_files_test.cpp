@@ -11,14 +11,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <span>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "halfspace/core/check.h"
 #include "halfspace/image/image_io.h"
 #include "support/files.h"
-#include "support/long_tests.h"
 #include "support/sanitized.h"
 
 namespace halfspace {
@@ -54,12 +53,6 @@ constexpr Reader kReaders[] = {
     {"read_linear", [](const std::filesystem::path& path) { return !read_linear(path).empty(); }},
 };
 
-// Long tests read each file with every reader. Otherwise files take turns, because a decoder process takes 0.2 s to start.
-std::span<const Reader> readers_of(std::size_t file) {
-  if (runs_long_tests()) return kReaders;
-  return {&kReaders[file % std::size(kReaders)], 1};
-}
-
 std::string verdict_on(const std::filesystem::path& path, const Reader& reader) {
   try {
     return reader.gives_pixels(path) ? "ok" : "returned an empty image";
@@ -74,12 +67,12 @@ std::string verdict_on(const std::filesystem::path& path, const Reader& reader) 
 [[noreturn]] void read_all(const std::vector<std::filesystem::path>& files, int to_parent) {
   std::FILE* out = ::fdopen(to_parent, "w");
   limit_memory();
-  for (std::size_t file = 0; file < files.size(); ++file) {
-    for (const Reader& reader : readers_of(file)) {
-      std::fprintf(out, "%s by %s\n", files[file].c_str(), reader.name);
+  for (const std::filesystem::path& file : files) {
+    for (const Reader& reader : kReaders) {
+      std::fprintf(out, "%s by %s\n", file.c_str(), reader.name);
       std::fflush(out);
       ::alarm(kSecondsPerFile);
-      std::fprintf(out, "%s\n", verdict_on(files[file], reader).c_str());
+      std::fprintf(out, "%s\n", verdict_on(file, reader).c_str());
     }
   }
   std::fflush(out);
@@ -124,7 +117,7 @@ TEST_P(BrokenFiles, ReturnsAnImageOrOneLineError) {
   const std::string last = outcome.lines.empty() ? "(none)" : outcome.lines.back();
   ASSERT_TRUE(WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == 0)
       << "the reader was killed by signal " << WTERMSIG(outcome.status) << " (14: timeout of " << kSecondsPerFile << " s) at " << last;
-  const std::size_t count = files.size() * readers_of(0).size();
+  const std::size_t count = files.size() * std::size(kReaders);
   ASSERT_EQ(outcome.lines.size(), 2 * count) << "an error message spans several lines";
   std::size_t images = 0;
   for (std::size_t i = 0; i < 2 * count; i += 2) {
@@ -132,7 +125,7 @@ TEST_P(BrokenFiles, ReturnsAnImageOrOneLineError) {
     EXPECT_TRUE(verdict == "ok" || verdict.starts_with("error ")) << outcome.lines[i] << ": " << verdict;
     images += verdict == "ok" ? 1 : 0;
   }
-  std::printf("%zu files, %zu readers: %zu images, %zu rejected\n", files.size(), readers_of(0).size(), images, count - images);
+  std::printf("%zu files, %zu readers: %zu images, %zu rejected\n", files.size(), std::size(kReaders), images, count - images);
 }
 
 INSTANTIATE_TEST_SUITE_P(Folders, BrokenFiles,
