@@ -39,6 +39,7 @@ TESTS = {
     "src/core/": ["core", "raster", "property", "conformance", "shading"],
     "src/geometry/": ["geometry", "render"],
     "src/image/": ["image", "cli"],
+    "src/model/": ["model"],
     "src/procedural/": ["procedural", "render"],
     "src/raster/": ["raster", "property", "conformance", "shading"],
     "src/reference/": ["reference"],
