@@ -48,6 +48,21 @@ random_views() {
   HALFSPACE_VIEWS=208 "$dir/bin/test-reference" --gtest_filter='MaxError.*'
 }
 
+# Feeds mutated model files to the readers, one minute per format, with AddressSanitizer and UBSan.
+fuzz() {
+  local dir=build/full/fuzz format status=0
+  cmake -S . -B "$dir" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_FUZZ=ON -DHALFSPACE_BUILD_BENCHMARKS=OFF > /dev/null
+  cmake --build "$dir" --target fuzz -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  for format in obj gltf ply stl; do
+    mkdir -p "$dir/corpus-$format"
+    find ../shared/data -size -64k \( -name "*.$format" -o -name "*.${format/gltf/glb}" \) -exec cp -t "$dir/corpus-$format" {} + 2> /dev/null || true
+    "$dir/bin/fuzz-$format" -max_len=65536 -timeout=10 -max_total_time=60 -artifact_prefix="$dir/$format-" "$dir/corpus-$format" \
+      > "$dir/$format.log" 2>&1 || { tail -20 "$dir/$format.log"; status=1; }
+    grep -oE 'Done [0-9]+ runs' "$dir/$format.log" | sed "s/^/$format: /"
+  done
+  return $status
+}
+
 declare -A steps
 names=()
 step() { names+=("$1"); steps[$1]=$2; }
@@ -62,6 +77,7 @@ step gcc-O1            "build_and_test gcc-O1 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_B
 step dev               "sanitized dev -DCMAKE_CXX_COMPILER=g++"
 step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=address,undefined"
 step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
+step fuzz              "fuzz"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
 step order             "blended_order"
 step views             "random_views"

@@ -136,6 +136,26 @@ TEST_F(Models, InputFilesAreNotOverwritten) {
   EXPECT_EQ(read_bytes(directory / "a-render.png"), before);
 }
 
+// Two crossing quads, transparent and with holes, in front of a wall.
+std::string crossing_quads(const std::string& material) {
+  return "mtllib m.mtl\nv -1 -1 -2\nv 1 -1 -2\nv 1 1 -2\nv -1 1 -2\nusemtl wall\nf 1 2 3 4\n"
+         "v -1 -1 -1\nv 1 -1 1\nv 1 1 1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 1\n"
+         "usemtl " +
+         material + "\nf 5 6 7 8\nusemtl other\nf 9 10 11 12\n";
+}
+
+// A pixel left of the line where the quads cross shows the other quad in front than a pixel right of it.
+TEST_F(Models, TransparentSurfacesMayIntersect) {
+  write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl red\nKd 1 0 0\nd 0.5\nnewmtl other\nKd 0 0 1\nd 0.5\n");
+  write("quads.obj", crossing_quads("red"));
+  const Outcome o = run({"render", "quads.obj", "--size", "96x96", "--eye", "0,0,6", "--look-at", "0,0,0", "--fov", "30", "--no-floor"});
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const Image<glm::u8vec4> image = picture("quads-render.png");
+  const glm::u8vec4 left = image.at(36, 48), right = image.at(60, 48);  // red is nearer on the right
+  EXPECT_GT(left.b, right.b + 20);
+  EXPECT_GT(right.r, left.r + 20);
+}
+
 TEST_F(Models, InfoDescribesAModel) {
   write("cube.obj", cube(2.0, 1.0) + "f 1 3 4\n");
   const Outcome o = run({"info", "cube.obj", "--json"});
