@@ -41,16 +41,15 @@ TEST(Tangents, SplitVerticesWhereTextureCoordinatesAreMirrored) {
   EXPECT_EQ(mesh.positions[mesh.indices[4]], glm::vec3(0, 1, 0));
 }
 
-// A fold of 90° along the y axis with a common normal at the edge. The angles at vertex 0 are 90° on the right and 45° on the left.
-TEST(Tangents, AreWeightedByAnglesInThePlaneOfTheNormal) {
+// The angles at vertex 0 are 90° in the right triangle and 45° in the left one, where u = x and v = x − y.
+TEST(Tangents, AreWeightedByAngles) {
   ModelMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
   mesh.normals.assign(4, {0, 0, 1});
-  mesh.uvs[0] = {{0, 0}, {1, 0}, {0, -1}, {0, -2}};  // left: u is constant on the edges (0, 2) and (2, 3), so it has no direction
-  mesh.uvs[0][3] = {-1, -2};                         // left: u and v increase by (−1, −1) from vertex 2 to vertex 3
+  mesh.uvs[0] = {{0, 0}, {1, 0}, {0, -1}, {-1, -2}};
   mesh.indices = {0, 1, 2, 0, 2, 3};
   add_tangents(mesh, 0);
-  // On the left, u = x and v = −y + x: the tangent is the direction in which only u increases, (1, 1), projected and normalized.
+  // On the left, only u increases in the direction (1, 1).
   const double left_weight = std::numbers::pi / 4.0, right_weight = std::numbers::pi / 2.0, s = std::sqrt(0.5);
   const glm::dvec2 sum(right_weight + left_weight * s, left_weight * s);
   const glm::dvec2 mean = sum / std::sqrt(glm::dot(sum, sum));
