@@ -63,6 +63,12 @@ std::vector<pid_t> tools(const char* name = kImageToolName) {
   return ids;
 }
 
+// Kills the running tools and waits until they have ended.
+void kill_tools(const char* name = kImageToolName) {
+  for (const pid_t id : tools(name)) ::kill(id, SIGKILL);
+  while (!tools(name).empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 std::size_t zombies() {
   return static_cast<std::size_t>(std::ranges::count_if(children(), [](const Process& p) { return p.state == 'Z'; }));
 }
@@ -82,9 +88,7 @@ class DecoderProcess : public ImageToolTest {
   }
   // Stops all tools, so that the next test starts its own.
   void TearDown() override {
-    for (const char* name : {kImageToolName, kJpegToolName}) {
-      for (const pid_t id : tools(name)) ::kill(id, SIGKILL);
-    }
+    for (const char* name : {kImageToolName, kJpegToolName}) kill_tools(name);
   }
 
   // Sends the signal to the tool while it is reading an image, and returns the error of the read.
@@ -123,7 +127,7 @@ TEST_F(DecoderProcess, ServesManyImages) {
 
 TEST_F(DecoderProcess, JpegNeedsNoImageTool) {
   if (find_jpeg_tool().empty()) GTEST_SKIP() << "halfspace-jpeg-tool is not built here (libjpeg is absent)";
-  for (const pid_t id : tools()) ::kill(id, SIGKILL);
+  kill_tools();
   EXPECT_EQ(read_image(jpeg).width(), test_picture(true).width());
   EXPECT_EQ(tools(kJpegToolName).size(), 1u);
   EXPECT_EQ(tools().size(), 0u);
@@ -133,15 +137,13 @@ TEST_F(DecoderProcess, IsReplacedIfItIsKilled) {
   for (int i = 0; i < 3; ++i) {
     const std::vector<pid_t> before = tools();
     ASSERT_EQ(before.size(), 1u);
-    for (const char* name : {kImageToolName, kJpegToolName}) {
-      for (const pid_t id : tools(name)) ::kill(id, SIGKILL);
-    }
+    for (const char* name : {kImageToolName, kJpegToolName}) kill_tools(name);
     EXPECT_EQ(read_image(ppm).at(0, 0), first);
     EXPECT_EQ(read_gray(jpeg).width(), test_picture(true).width());
     ASSERT_EQ(tools().size(), 1u);
     EXPECT_NE(tools(), before);
   }
-  for (const pid_t id : tools()) ::kill(id, SIGKILL);
+  kill_tools();
   write_image(directory / "a.tif", test_picture(false));
   EXPECT_TRUE(read_image(directory / "a.tif") == test_picture(false)) << "a writer is replaced, too";
   EXPECT_EQ(zombies(), 0u);
@@ -189,7 +191,7 @@ TEST_F(DecoderProcess, LeaksNoDescriptors) {
   for (int i = 0; i < 100; ++i) read_all();
   EXPECT_EQ(open_files(), before);
   for (int i = 0; i < 5; ++i) {
-    for (const pid_t id : tools()) ::kill(id, SIGKILL);
+    kill_tools();
     read_all();
   }
   EXPECT_EQ(open_files(), before);
@@ -271,11 +273,11 @@ TEST_F(DecoderProcess, EndsWithTheProgramThatStartedIt) {
     if (ids.size() == 1 && ::write(ends[1], &ids[0], sizeof ids[0]) > 0) ::raise(SIGKILL);
     ::_exit(1);
   }
+  ::close(ends[1]);
   pid_t tool = 0;
   ASSERT_EQ(::read(ends[0], &tool, sizeof tool), static_cast<ssize_t>(sizeof tool));
   ::waitpid(child, nullptr, 0);
   ::close(ends[0]);
-  ::close(ends[1]);
   const auto lives = [&] {
     const Process p = process(tool);
     return p.id != 0 && p.state != 'Z';
