@@ -161,6 +161,16 @@ TEST_F(DecoderProcess, CrashFailsOnlyOneImage) {
   EXPECT_EQ(zombies(), 0u);
 }
 
+TEST_F(DecoderProcess, IsReplacedAfterAFailedWrite) {
+  PictureHeader header;
+  header.width = header.height = 1;
+  header.channels = 3;
+  const auto black = [](int, std::span<std::byte> row) { std::ranges::fill(row, std::byte{0}); };
+  EXPECT_THROW(encode_by_tool("a.xyz", "xyz", header, black), OutputError);
+  EXPECT_EQ(zombies(), 0u);
+  EXPECT_EQ(read_image(ppm).at(0, 0), first);
+}
+
 // An earlier image may have damaged a process that then crashes on a good one.
 TEST_F(DecoderProcess, CrashOfAUsedProcessIsRetried) {
   EXPECT_EQ(error_if_signaled(SIGSEGV), "");
