@@ -288,7 +288,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
     scene["background"] = {{"color", {0.62, 0.63, 0.65}}};
   }
   scene["post"] = {{"hdr", true}, {"tone", "aces"}, {"exposure", 0.62}};
-  scene["shadow"] = {{"method", "pcss"}, {"resolution", 2048}, {"faces", "both"}};
+  scene["shadow"] = {{"method", "pcf7"}, {"resolution", 1024}, {"faces", "both"}};
   OrderedJson object = {{"shape", "file"}, {"file", std::filesystem::absolute(file).string()}};
   if (frame.origin != glm::dvec3(0.0)) object["position"] = json_of(-frame.origin * frame.scale);
   if (frame.scale != 1.0) object["scale"] = json_of(glm::dvec3(frame.scale));
