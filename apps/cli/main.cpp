@@ -58,6 +58,7 @@ void add_model_options(CLI::App* command, ModelArguments& args) {
   add("--scene", args.model_scene, "Scene in the file", "NAME");
   add("--animation", args.animation, "Animation in the file", "NAME");
   add("--variant", args.variant, "Material variant in the file", "NAME");
+  add_flag("--allow-outside", args.allow_outside, "Open textures and buffers outside its folder");
   command->add_flag_callback("--help-model", [command] { print_model_options(command); }, "Print these options and exit")
       ->group(kUnlistedGroup);
 }

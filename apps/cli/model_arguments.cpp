@@ -31,6 +31,7 @@ std::string first_given(const ModelArguments& a) {
       {"--turntable", !a.turntable.empty()},
       {"--inside", a.inside},
       {"--no-floor", a.no_floor},
+      {"--allow-outside", a.allow_outside},
   };
   for (const auto& [name, given] : options) {
     if (given) return name;
@@ -68,6 +69,7 @@ ModelView view_of(const ModelArguments& a, double aspect) {
   set_real(v.zoom, "--zoom", a.zoom, 1e-3, 1e3, "a factor, for example 1.5");
   v.inside = a.inside;
   v.floor = !a.no_floor;
+  v.allow_outside = a.allow_outside;
   v.environment = a.environment;
   v.background = a.background;
   v.scene = a.model_scene;

@@ -19,7 +19,7 @@ struct ModelArguments {
   std::string environment, background, up_axis;
   std::string model_scene, animation, variant;
   std::string turntable;
-  bool inside = false, no_floor = false;
+  bool inside = false, no_floor = false, allow_outside = false;
 };
 
 /// A scene, and the model file that it shows if it was generated for one.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/errors.h"
+#include "cli/model_arguments.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
 #include "halfspace/scene/scene_file.h"
@@ -33,7 +34,7 @@ void set_scene(SceneFile& file, const std::vector<std::string>& settings, const 
 }
 
 SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera) {
-  SceneFile file = SceneFile::open(scene);
+  SceneFile file = is_model_file(scene) ? open_scene_or_model(scene, {}, 16.0 / 9.0, 30.0).scene : SceneFile::open(scene);
   set_scene(file, settings, camera);
   return file;
 }

@@ -10,7 +10,7 @@ namespace halfspace {
 
 class SceneFile;
 
-/// Opens a scene by name or file name, applies the settings, and selects a camera unless `camera` is empty. Throws UsageError and
+/// Opens a scene by name or file name, or the default view of a model file, applies the settings, and selects a camera unless `camera` is empty. Throws UsageError and
 /// InputError.
 SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera);
 

@@ -260,7 +260,7 @@ UpAxis up_axis_of(const Model& model, const std::string& name) { return name == 
 }  // namespace
 
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view) {
-  Model contents = read_model(file);
+  Model contents = read_model(file, {.allow_outside = view.allow_outside});
   contents.up = up_axis_of(contents, view.up_axis);
   const auto asset = std::make_shared<const ModelAsset>(std::move(contents));
   const Model& model = asset->model;

@@ -29,6 +29,7 @@ struct ModelView {
   std::string scene, animation, variant;  ///< names in the file; empty: its defaults
   std::string up_axis = "auto";           ///< "auto", "y" or "z"
   double turn_seconds = 0.0;              ///< time in which the camera goes around the model; 0: it does not move
+  bool allow_outside = false;             ///< open files outside the folder of the model that it refers to
 };
 
 /// A scene file as text, and the model that it shows.

@@ -60,8 +60,8 @@ TEST_F(Models, PositionAndSizeOfTheModelDoNotMatter) {
     for (std::size_t i = 0; i < expected.texels().size(); ++i) {
       for (int k = 0; k < 3; ++k) differ += std::abs(int{expected.data()[i][k]} - int{other.data()[i][k]}) > 1;
     }
-    // At most 0.3 % of the channels: the grid of the shadow map is aligned with the origin of the scene, so penumbras differ a little.
-    EXPECT_LE(differ, 130) << c.center << " " << c.size;
+    // At most 1 % of the channels: the texels of the shadow map are aligned with the origin of the scene, so penumbras differ a little.
+    EXPECT_LE(differ, 432) << c.center << " " << c.size;
   }
 }
 
@@ -152,8 +152,21 @@ TEST_F(Models, TransparentSurfacesMayIntersect) {
   ASSERT_EQ(o.exit_code, 0) << o.err;
   const Image<glm::u8vec4> image = picture("quads-render.png");
   const glm::u8vec4 left = image.at(36, 48), right = image.at(60, 48);  // red is nearer on the right
-  EXPECT_GT(left.b, right.b + 20);
-  EXPECT_GT(right.r, left.r + 20);
+  EXPECT_GT(left.z, right.z + 20);
+  EXPECT_GT(right.x, left.x + 20);
+}
+
+TEST_F(Models, FilesOutsideTheFolderNeedPermission) {
+  fs::create_directory(directory / "inner");
+  write("m.mtl", "newmtl m\nKd 1 0 0\n");
+  write("inner/a.obj", "mtllib ../m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Outcome refused = run({"render", "inner/a.obj", "--size", "96x54", "-o", "refused.png"});
+  EXPECT_EQ(refused.exit_code, 0);
+  EXPECT_EQ(lines_of(refused.err), 1);
+  EXPECT_NE(refused.err.find("--allow-outside"), std::string::npos) << refused.err;
+  const Outcome allowed = run({"render", "inner/a.obj", "--size", "96x54", "-o", "allowed.png", "--allow-outside"});
+  EXPECT_EQ(allowed.err, "");
+  EXPECT_NE(read_bytes(directory / "refused.png"), read_bytes(directory / "allowed.png"));
 }
 
 TEST_F(Models, InfoDescribesAModel) {
