@@ -9,10 +9,9 @@
 #include <numbers>
 #include <set>
 
-#include "halfspace/core/check.h"
-#include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/model/pose.h"
+#include "halfspace/render/model_fit.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
@@ -21,28 +20,9 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr double kMargin = 1.12;  // of the fitted view
 constexpr double kPi = std::numbers::pi;
 
 OrderedJson json_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
-double tangent(double degrees) {
-  const SinCosDouble a = sincos_radians(degrees * kRadiansPerDegree);
-  return a.sin / a.cos;
-}
-
-// The bounds of a model as a center and half extents, with sizes that are never zero.
-struct Bounds {
-  glm::dvec3 center, half;
-  double radius;
-};
-
-Bounds bounds_of(const PosedModel& posed, const std::filesystem::path& file) {
-  if (!(posed.low.x <= posed.high.x)) throw InputError(file.string() + ": has nothing to draw; expected a scene with at least one mesh");
-  Bounds b{0.5 * (posed.low + posed.high), 0.5 * (posed.high - posed.low), 0.0};
-  b.radius = std::max(glm::length(b.half), 1e-6);
-  return b;
-}
 
 // How the scene places the model. A model that is far from the origin compared with its size is moved to the origin, and one that is very
 // small or large is scaled by a power of ten, because keys of scene files have limits. Otherwise the scene has the units of the file.
@@ -53,7 +33,7 @@ struct Frame {
   glm::dvec3 point(const glm::dvec3& p) const { return (p - origin) * scale; }
 };
 
-Frame frame_of(const Bounds& b) {
+Frame frame_of(const ModelBounds& b) {
   constexpr double kFar = 100.0, kSmall = 1e-2, kLarge = 1e4;
   Frame frame;
   if (glm::length(b.center) > kFar * b.radius) frame.origin = b.center;
@@ -65,65 +45,7 @@ Frame frame_of(const Bounds& b) {
   return frame;
 }
 
-// Unit vector from the center to the eye.
-glm::dvec3 eye_direction(const ModelView& view) {
-  const SinCosDouble yaw = sincos_radians(view.yaw * kRadiansPerDegree), pitch = sincos_radians(view.pitch * kRadiansPerDegree);
-  return {pitch.cos * yaw.sin, pitch.sin, pitch.cos * yaw.cos};
-}
-
-// Calls f(p) for every vertex of a posed model, in world space.
-template <class F>
-void for_each_vertex(const Model& model, const PosedModel& posed, const F& f) {
-  for (const PosedMesh& part : posed.meshes) {
-    const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model.meshes[static_cast<std::size_t>(part.mesh)];
-    for (const glm::vec3& p : mesh.positions) f(glm::dvec3(part.world_from_mesh * glm::dvec4(glm::dvec3(p), 1.0)));
-  }
-}
-
-// The eye of a view along −back that shows all vertices with a margin. A vertex at (x, y, z) along the axes of the camera is in view if
-// |x − eye.x| ≤ (eye.z − z)·tan, so the planes through the eye touch the model, and the eye is where the farther pair of planes meets.
-struct Fit {
-  glm::dvec3 eye, target;
-};
-Fit fitted(const Model& model, const PosedModel& posed, const Bounds& b, const glm::dvec3& back, const ModelView& view) {
-  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right);
-  const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
-  glm::dvec2 low(1e300), high(-1e300);  // of x + z·tan and x − z·tan, whose planes touch the model on either side
-  double nearest = -1e300;
-  for_each_vertex(model, posed, [&](const glm::dvec3& p) {
-    const glm::dvec3 q(glm::dot(p - b.center, right), glm::dot(p - b.center, up), glm::dot(p - b.center, back));
-    const glm::dvec2 slope(tan_x, tan_y), side(q);
-    high = glm::max(high, side + slope * q.z);
-    low = glm::min(low, side - slope * q.z);
-    nearest = std::max(nearest, q.z);
-  });
-  const glm::dvec2 middle = 0.5 * (low + high);
-  const double distance = std::max({0.5 * (high.x - low.x) / tan_x, 0.5 * (high.y - low.y) / tan_y, nearest + 0.05 * b.radius});
-  const glm::dvec3 target = b.center + right * middle.x + up * middle.y;
-  return {target + back * (distance / view.zoom), target};
-}
-
-// A view of the center from which all vertices stay in view while the camera goes around the model.
-Fit fitted_for_turntable(const Model& model, const PosedModel& posed, const Bounds& b, const ModelView& view) {
-  constexpr int kDirections = 24;
-  const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
-  double distance = 0.0;
-  for (int i = 0; i < kDirections; ++i) {
-    ModelView turned = view;
-    turned.yaw += 360.0 * i / kDirections;
-    const glm::dvec3 back = eye_direction(turned), right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)),
-                     up = glm::cross(back, right);
-    for_each_vertex(model, posed, [&](const glm::dvec3& p) {
-      const glm::dvec3 from_center = p - b.center;
-      const double along = glm::dot(from_center, back);
-      distance = std::max(
-          {distance, along + std::fabs(glm::dot(from_center, right)) / tan_x, along + std::fabs(glm::dot(from_center, up)) / tan_y});
-    });
-  }
-  return {b.center + eye_direction(view) * (distance / view.zoom), b.center};
-}
-
-OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Bounds& b, const Frame& frame, const ModelView& view) {
+OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const ModelBounds& b, const Frame& frame, const ModelView& view) {
   glm::dvec3 target = view.look_at.value_or(b.center), eye = target;
   if (view.eye) {
     eye = *view.eye;
@@ -132,8 +54,7 @@ OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Bou
     eye = b.center - along * (0.6 * glm::dot(along, b.half)) - glm::dvec3(0, 0.35 * b.half.y, 0);
     target = view.look_at.value_or(eye + along);
   } else {
-    const Fit fit =
-        view.turn_seconds > 0.0 ? fitted_for_turntable(model, posed, b, view) : fitted(model, posed, b, eye_direction(view), view);
+    const FittedView fit = fitted_view(model, posed, b, view);
     target = view.look_at.value_or(fit.target);
     eye = fit.eye + (target - fit.target);
   }
@@ -170,7 +91,7 @@ std::string scene_name(const std::string& name, const char* fallback, std::set<s
   return unique;
 }
 
-OrderedJson cameras_of(const Model& model, const PosedModel& posed, const Bounds& b, const Frame& frame, const ModelView& view,
+OrderedJson cameras_of(const Model& model, const PosedModel& posed, const ModelBounds& b, const Frame& frame, const ModelView& view,
                        std::map<std::string, std::string>& names) {
   OrderedJson cameras = {{"view", fitted_camera(model, posed, b, frame, view)}};
   std::set<std::string> used{"view"};
@@ -269,7 +190,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   shown.model_animation = view.animation;
   shown.model_variant = view.variant;
   const PosedModel posed = pose(model, pose_options(model, shown, file.string()));
-  const Bounds b = bounds_of(posed, file);
+  const ModelBounds b = bounds_of(posed, file);
   const Frame frame = frame_of(b);
   const bool own_lights = !posed.lights.empty();
   OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", "view"}};

@@ -162,6 +162,8 @@ class ScenePreparation {
   void add_shadow_catcher(const ObjectDescription& o, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices, int object);
   void add_blended();
   std::shared_ptr<const ModelAsset> model_asset(const ObjectDescription& o, const std::string& where);
+
+  // prepare_model_materials.cpp
   void load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed);
   const Texture2D* model_texture(const std::filesystem::path& file, int image, bool color);
   MetallicMaterial metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs);

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/model_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/core/units.h"
+
+namespace halfspace {
+
+ModelBounds bounds_of(const PosedModel& posed, const std::filesystem::path& file) {
+  if (!(posed.low.x <= posed.high.x)) throw InputError(file.string() + ": has nothing to draw; expected a scene with at least one mesh");
+  ModelBounds b{0.5 * (posed.low + posed.high), 0.5 * (posed.high - posed.low), 0.0};
+  b.radius = glm::length(b.half);
+  if (b.radius == 0.0) b.radius = 1.0;
+  return b;
+}
+
+glm::dvec3 eye_direction(const ModelView& view) {
+  const SinCosDouble yaw = sincos_radians(view.yaw * kRadiansPerDegree), pitch = sincos_radians(view.pitch * kRadiansPerDegree);
+  return {pitch.cos * yaw.sin, pitch.sin, pitch.cos * yaw.cos};
+}
+
+namespace {
+
+constexpr double kMargin = 1.12;  // of the fitted view
+
+double tangent(double degrees) {
+  const SinCosDouble a = sincos_radians(degrees * kRadiansPerDegree);
+  return a.sin / a.cos;
+}
+
+// Calls f(p) for every vertex of a posed model, in world space.
+template <class F>
+void for_each_vertex(const Model& model, const PosedModel& posed, const F& f) {
+  for (const PosedMesh& part : posed.meshes) {
+    const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model.meshes[static_cast<std::size_t>(part.mesh)];
+    for (const glm::vec3& p : mesh.positions) f(glm::dvec3(part.world_from_mesh * glm::dvec4(glm::dvec3(p), 1.0)));
+  }
+}
+
+// The eye of a view along −back that shows all vertices with a margin. A vertex at (x, y, z) along the axes of the camera is in view if
+// |x − eye.x| ≤ (eye.z − z)·tan, so the planes through the eye touch the model, and the eye is where the farther pair of planes meets.
+FittedView fitted(const Model& model, const PosedModel& posed, const ModelBounds& b, const glm::dvec3& back, const ModelView& view) {
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right);
+  const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
+  glm::dvec2 low(1e300), high(-1e300);  // of x + z·tan and x − z·tan, whose planes touch the model on either side
+  double nearest = -1e300;
+  for_each_vertex(model, posed, [&](const glm::dvec3& p) {
+    const glm::dvec3 q(glm::dot(p - b.center, right), glm::dot(p - b.center, up), glm::dot(p - b.center, back));
+    const glm::dvec2 slope(tan_x, tan_y), side(q);
+    high = glm::max(high, side + slope * q.z);
+    low = glm::min(low, side - slope * q.z);
+    nearest = std::max(nearest, q.z);
+  });
+  const glm::dvec2 middle = 0.5 * (low + high);
+  const double distance = std::max({0.5 * (high.x - low.x) / tan_x, 0.5 * (high.y - low.y) / tan_y, nearest + 0.05 * b.radius});
+  const glm::dvec3 target = b.center + right * middle.x + up * middle.y;
+  return {target + back * (distance / view.zoom), target};
+}
+
+// A view of the center from which all vertices stay in view while the camera goes around the model.
+FittedView fitted_for_turntable(const Model& model, const PosedModel& posed, const ModelBounds& b, const ModelView& view) {
+  constexpr int kDirections = 24;
+  const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
+  double distance = 0.0;
+  for (int i = 0; i < kDirections; ++i) {
+    ModelView turned = view;
+    turned.yaw += 360.0 * i / kDirections;
+    const glm::dvec3 back = eye_direction(turned), right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)),
+                     up = glm::cross(back, right);
+    for_each_vertex(model, posed, [&](const glm::dvec3& p) {
+      const glm::dvec3 from_center = p - b.center;
+      const double along = glm::dot(from_center, back);
+      distance = std::max(
+          {distance, along + std::fabs(glm::dot(from_center, right)) / tan_x, along + std::fabs(glm::dot(from_center, up)) / tan_y});
+    });
+  }
+  return {b.center + eye_direction(view) * (distance / view.zoom), b.center};
+}
+
+}  // namespace
+
+FittedView fitted_view(const Model& model, const PosedModel& posed, const ModelBounds& b, const ModelView& view) {
+  return view.turn_seconds > 0.0 ? fitted_for_turntable(model, posed, b, view) : fitted(model, posed, b, eye_direction(view), view);
+}
+
+}  // namespace halfspace

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Materials of model files: their images, and the uniforms of the shader.
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "halfspace/image/image_io.h"
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+namespace {
+
+// Returns the texture uses of a material, in the order of MetallicMap.
+std::array<const TextureUse*, kMetallicMaps> uses_of(const ModelMaterial& m) {
+  return {&m.base_color_map, &m.opacity_map,          &m.metallic_map,  &m.roughness_map,
+          &m.specular_map,   &m.specular_color_map,   &m.clearcoat_map, &m.clearcoat_roughness_map,
+          &m.normal_map,     &m.clearcoat_normal_map, &m.occlusion_map, &m.emissive_map};
+}
+
+bool is_color(std::size_t map) { return map == kBaseColorMap || map == kSpecularColorMap || map == kEmissiveMap; }
+
+glm::vec4 weights_of(Channel channel) {
+  switch (channel) {
+    case Channel::red: return {1, 0, 0, 0};
+    case Channel::green: return {0, 1, 0, 0};
+    case Channel::blue: return {0, 0, 1, 0};
+    case Channel::alpha: return {0, 0, 0, 1};
+    case Channel::luminance: break;
+  }
+  return {0.2126f, 0.7152f, 0.0722f, 0};  // ITU-R BT.709
+}
+
+std::string image_recipe(const std::filesystem::path& file, int image, bool color) {
+  return recipe("model image", file.string(), image, color ? "color" : "data");
+}
+
+// Decodes an image of a model. An image that cannot be read is replaced by a white texel, with a message in `problem`.
+Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color, std::string& problem) {
+  Image<glm::u8vec4> picture;
+  try {
+    picture = source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file);
+  } catch (const InputError& e) {
+    problem = e.what();
+    picture = Image<glm::u8vec4>(1, 1);
+    picture.at(0, 0) = glm::u8vec4(255);
+  }
+  return Texture2D(picture, color ? TexelFormat::srgb8a8 : TexelFormat::rgba8);
+}
+
+}  // namespace
+
+// Decodes all images that the materials of a posed model use, in parallel.
+void ScenePreparation::load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed) {
+  std::set<std::pair<int, bool>> wanted;  // image, and whether it is a color map
+  for (const PosedMesh& part : posed.meshes) {
+    if (part.material < 0) continue;
+    const auto uses = uses_of(model.materials[static_cast<std::size_t>(part.material)]);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+      if (uses[i]->texture < 0) continue;
+      const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
+      if (image >= 0 && !assets_.entries_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
+    }
+  }
+  const std::vector<std::pair<int, bool>> list(wanted.begin(), wanted.end());
+  std::vector<std::optional<Texture2D>> textures(list.size());
+  std::vector<std::string> problems(list.size());
+  assets_.workers_.for_each(static_cast<int>(list.size()), [&](int i) {
+    const auto [image, color] = list[static_cast<std::size_t>(i)];
+    const ModelImage& source = model.images[static_cast<std::size_t>(image)];
+    if (source.file.empty() && source.bytes == nullptr) return;  // the reader has warned
+    textures[static_cast<std::size_t>(i)].emplace(decoded(o.file.path, source, color, problems[static_cast<std::size_t>(i)]));
+  });
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!problems[i].empty()) assets_.warn_once(problems[i]);
+    if (textures[i]) asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
+  }
+}
+
+// Returns a texture that load_images has loaded, or null if there is no such image.
+const Texture2D* ScenePreparation::model_texture(const std::filesystem::path& file, int image, bool color) {
+  return existing<Texture2D>(image_recipe(file, image, color)).get();
+}
+
+MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
+  MetallicMaterial out;
+  out.to_eye_ws = glm::vec3(view_.to_eye_ws);
+  out.lights = o.receives_shadow ? lights_ : shadowless_lights_;
+  out.shadowed = o.receives_shadow && std::ranges::any_of(lights_, [](const Light& l) { return l.shadow != nullptr; });
+  out.two_sided = m.double_sided;
+  out.base_color = m.base_color;
+  out.metallic = m.metallic;
+  out.roughness = m.roughness;
+  out.specular = m.specular;
+  out.specular_color = m.specular_color;
+  const float reflection = (m.ior - 1.0f) / (m.ior + 1.0f);
+  out.normal_reflectance = reflection * reflection;
+  out.clearcoat = m.clearcoat;
+  out.clearcoat_roughness = m.clearcoat_roughness;
+  out.normal_scale = m.normal_scale;
+  out.occlusion_strength = m.occlusion_strength;
+  out.emissive = m.emissive;
+  out.ambient = glm::vec3(ambient_);
+  out.alpha_cutoff = m.alpha_cutoff;
+  out.unlit = m.unlit;
+  out.blends = m.alpha_mode == AlphaMode::blend;
+  out.environment = m.unlit ? nullptr : environment_light();
+  if (!has_uvs) return out;
+  const auto uses = uses_of(m);
+  const TextureUse* previous = nullptr;
+  for (std::size_t i = 0; i < kMetallicMaps; ++i) {
+    const TextureUse& use = *uses[i];
+    if (use.texture < 0 || (m.unlit && i != kBaseColorMap && i != kOpacityMap)) continue;
+    const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
+    if (texture.image < 0) continue;
+    PlacedMap& map = out.maps[i];
+    map.map = model_texture(o.file.path, texture.image, is_color(i));
+    map.sampler = texture.sampler;
+    map.uv_set = use.uv_set;
+    map.uv_transform = use.uv_transform;
+    map.channel = weights_of(use.channel);
+    map.repeats = previous != nullptr &&
+                  map.map == out.maps[static_cast<std::size_t>(std::ranges::find(uses, previous) - uses.begin())].map &&
+                  previous->texture == use.texture && previous->uv_set == use.uv_set && previous->uv_transform == use.uv_transform;
+    if (map.map != nullptr) previous = &use;
+  }
+  return out;
+}
+
+}  // namespace halfspace
