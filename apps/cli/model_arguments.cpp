@@ -99,7 +99,7 @@ OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& 
   ModelView view = view_of(args, aspect);
   if (const std::optional<int> frames = turntable_frames(args)) view.turn_seconds = *frames / fps;
   GeneratedScene generated = model_scene(scene, view);
-  const std::filesystem::path file = std::filesystem::absolute(scene);
+  const std::filesystem::path file = std::filesystem::absolute(scene).lexically_normal();
   return {SceneFile::parse(generated.text, scene, std::filesystem::current_path()), file, std::move(generated.model),
           std::move(generated.camera_names)};
 }

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
 #include "halfspace/model/model.h"
 #include "halfspace/model/pose.h"
+#include "halfspace/model/position_ids.h"
 
 namespace halfspace {
 
@@ -25,24 +25,8 @@ struct Problems {
   std::size_t non_manifold_edges = 0;  // used by more than two triangles
 };
 
-// Joins vertices with equal positions and returns the number of each vertex.
-std::vector<uint32_t> position_numbers(const ModelMesh& mesh) {
-  struct Hash {
-    std::size_t operator()(const std::array<float, 3>& p) const {
-      std::size_t h = 0;
-      for (const float x : p) h = (h ^ std::hash<float>()(x)) * 0x9e3779b97f4a7c15u;
-      return h;
-    }
-  };
-  std::unordered_map<std::array<float, 3>, uint32_t, Hash> numbers;
-  std::vector<uint32_t> out;
-  for (const glm::vec3& p : mesh.positions)
-    out.push_back(numbers.try_emplace({p.x, p.y, p.z}, static_cast<uint32_t>(numbers.size())).first->second);
-  return out;
-}
-
 void count_problems(const ModelMesh& mesh, Problems& problems) {
-  const std::vector<uint32_t> number = position_numbers(mesh);
+  const std::vector<uint32_t> number = position_ids(mesh.positions);
   std::unordered_map<uint64_t, int> edges;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const std::array<uint32_t, 3> corner{number[mesh.indices[i]], number[mesh.indices[i + 1]], number[mesh.indices[i + 2]]};

@@ -73,7 +73,7 @@ struct ModelMaterial {
   TextureUse clearcoat_map, clearcoat_roughness_map, clearcoat_normal_map;
   TextureUse normal_map;      ///< tangent space, green up
   float normal_scale = 1.0f;  ///< scales x and y of the normal map
-  TextureUse bump_map;        ///< heights; ignored if there is a normal map
+  TextureUse bump_map;        ///< heights; not drawn yet
   float bump_scale = 1.0f;    ///< height of the value 1 in model units
   TextureUse occlusion_map;
   float occlusion_strength = 1.0f;

@@ -105,7 +105,7 @@ class Poser {
   void add_node(std::size_t i) {
     const ModelNode& node = nodes_[i];
     if (node.camera >= 0) result_.cameras.push_back({node.camera, without_scale(world_[i])});
-    if (node.light >= 0) result_.lights.push_back({node.light, world_[i]});
+    if (node.light >= 0) result_.lights.push_back({node.light, without_scale(world_[i])});
     for (const int mesh : node.meshes) add_mesh(mesh, node, world_[i]);
   }
 

@@ -31,7 +31,7 @@ struct PosedCamera {
 
 struct PosedLight {
   int light = 0;
-  glm::dmat4 world_from_light{1.0};
+  glm::dmat4 world_from_light{1.0};  ///< without scale
 };
 
 struct PosedModel {

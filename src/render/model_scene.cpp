@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "halfspace/core/check.h"
 #include "halfspace/core/units.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/render/model_fit.h"
@@ -99,16 +100,17 @@ OrderedJson cameras_of(const Model& model, const PosedModel& posed, const ModelB
     const ModelCamera& c = model.cameras[static_cast<std::size_t>(placed.camera)];
     const glm::dvec3 eye(placed.world_from_camera[3]), ahead(-placed.world_from_camera[2]);
     const double far = std::isfinite(c.far) ? c.far : glm::distance(eye, b.center) + 100.0 * b.radius;
+    const double near = std::clamp(c.near * frame.scale, 1e-6, 0.25 * kMaxCount);
     OrderedJson camera = {{"type", c.perspective ? "perspective" : "orthographic"},
                           {"position", json_of(frame.point(eye))},
                           {"target", json_of(frame.point(eye + glm::normalize(ahead) * b.radius))},
                           {"up", json_of(glm::dvec3(placed.world_from_camera[1]))},
-                          {"near", c.near * frame.scale},
-                          {"far", std::max(far, 2.0 * c.near) * frame.scale}};
+                          {"near", near},
+                          {"far", std::clamp(far * frame.scale, 2.0 * near, kMaxCount)}};
     if (c.perspective) {
       camera["fov"] = std::clamp(c.fovy / kRadiansPerDegree, 0.01, 179.0);
     } else {
-      camera["height"] = c.height * frame.scale;
+      camera["height"] = std::clamp(c.height * frame.scale, 1e-6, kMaxCount);
     }
     const std::string name = scene_name(c.name, "camera", used);
     if (!c.name.empty()) names.try_emplace(c.name, name);
@@ -124,14 +126,14 @@ OrderedJson lights_of(const Model& model, const PosedModel& posed, const Frame& 
   for (const PosedLight& placed : posed.lights) {
     const ModelLight& l = model.lights[static_cast<std::size_t>(placed.light)];
     const glm::dvec3 back(glm::normalize(glm::dvec3(placed.world_from_light[2])));
-    OrderedJson light = {{"color", json_of(glm::dvec3(l.color))}, {"intensity", l.intensity / kPi}};
+    OrderedJson light = {{"color", json_of(glm::dvec3(l.color))}, {"intensity", std::min(l.intensity / kPi, kMaxCount)}};
     if (l.type == ModelLightType::directional) {
       light["type"] = "directional";
       light["direction"] = json_of(back);
     } else {
       light["type"] = l.type == ModelLightType::spot ? "spot" : "point";
       light["position"] = json_of(frame.point(glm::dvec3(placed.world_from_light[3])));
-      light["intensity"] = l.intensity / kPi * frame.scale * frame.scale;
+      light["intensity"] = std::min(l.intensity / kPi * frame.scale * frame.scale, kMaxCount);
       light["falloff"] = "physical";
     }
     if (l.type == ModelLightType::spot) {
@@ -210,7 +212,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   }
   scene["post"] = {{"hdr", true}, {"tone", "aces"}, {"exposure", 0.62}};
   scene["shadow"] = {{"method", "pcf7"}, {"resolution", 1024}, {"faces", "both"}};
-  OrderedJson object = {{"shape", "file"}, {"file", std::filesystem::absolute(file).string()}};
+  OrderedJson object = {{"shape", "file"}, {"file", std::filesystem::absolute(file).lexically_normal().string()}};
   if (frame.origin != glm::dvec3(0.0)) object["position"] = json_of(-frame.origin * frame.scale);
   if (frame.scale != 1.0) object["scale"] = json_of(glm::dvec3(frame.scale));
   if (view.up_axis != "auto") object["up_axis"] = view.up_axis;
@@ -227,7 +229,11 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
     scene["objects"]["floor"] = {
         {"shape", "plane"}, {"shadow_only", true}, {"size", 6.0 * b.radius * frame.scale}, {"position", json_of(frame.point(below))}};
   }
-  return {scene.dump(1), asset, std::move(camera_names)};
+  try {
+    return {scene.dump(1), asset, std::move(camera_names)};
+  } catch (const OrderedJson::type_error&) {
+    throw InputError(file.string() + ": its path or a name is not valid UTF-8; expected a path that a scene file can contain");
+  }
 }
 
 }  // namespace halfspace

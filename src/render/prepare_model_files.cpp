@@ -198,8 +198,12 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   }
   PlacedMesh placed{streams.positions, streams.normals, indices, world, material.double_sided, o.casts_shadow, o.receives_shadow, object};
   if (masked || surface.blends) {
-    placed.opacity = OpacityTest{surface.maps[kBaseColorMap], material.base_color.w, material.alpha_cutoff, surface.blends};
-    placed.uvs = streams.uvs.empty() ? std::span<const glm::vec2>(neutral()->uvs) : streams.uvs;
+    PlacedMap alpha = surface.maps[kBaseColorMap];
+    alpha.channel = {0, 0, 0, 1};
+    placed.opacity = OpacityTest{{alpha, surface.maps[kOpacityMap]}, material.base_color.w, material.alpha_cutoff, surface.blends};
+    const bool second = alpha.map != nullptr ? alpha.uv_set == 1 : surface.maps[kOpacityMap].uv_set == 1;
+    const std::span<const glm::vec2> uvs = second ? streams.second_uvs : streams.uvs;
+    placed.uvs = uvs.empty() ? std::span<const glm::vec2>(neutral()->uvs) : uvs;
   }
   out_.meshes.push_back(placed);
 }

@@ -36,16 +36,10 @@ std::string image_recipe(const std::filesystem::path& file, int image, bool colo
   return recipe("model image", file.string(), image, color ? "color" : "data");
 }
 
-// Decodes an image of a model. An image that cannot be read is replaced by a white texel, with a message in `problem`.
-Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color, std::string& problem) {
-  Image<glm::u8vec4> picture;
-  try {
-    picture = source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file);
-  } catch (const InputError& e) {
-    problem = e.what();
-    picture = Image<glm::u8vec4>(1, 1);
-    picture.at(0, 0) = glm::u8vec4(255);
-  }
+// Decodes an image of a model.
+Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color) {
+  const Image<glm::u8vec4> picture =
+      source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file);
   return Texture2D(picture, color ? TexelFormat::srgb8a8 : TexelFormat::rgba8);
 }
 
@@ -70,7 +64,11 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     const auto [image, color] = list[static_cast<std::size_t>(i)];
     const ModelImage& source = model.images[static_cast<std::size_t>(image)];
     if (source.file.empty() && source.bytes == nullptr) return;  // the reader has warned
-    textures[static_cast<std::size_t>(i)].emplace(decoded(o.file.path, source, color, problems[static_cast<std::size_t>(i)]));
+    try {
+      textures[static_cast<std::size_t>(i)].emplace(decoded(o.file.path, source, color));
+    } catch (const InputError& e) {  // the material is drawn without it
+      problems[static_cast<std::size_t>(i)] = e.what();
+    }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!problems[i].empty()) assets_.warn_once(problems[i]);

@@ -26,7 +26,8 @@ template <Number R>
 HS_INLINE R ggx_reflection(R alpha, const vec3<R>& n, const vec3<R>& h, R n_l, R n_v) {
   const R a2 = alpha * alpha, n_h = dot(n, h);
   const vec3<R> sine = cross(n, h);                 // 1 − (n·h)² would cancel for small angles
-  const R d = fma(a2 * n_h, n_h, dot(sine, sine));  // (n·h)² (α² − 1) + 1
+  // (n·h)² (α² − 1) + 1, which is at least α². A half vector of zero would give 0.
+  const R d = max(fma(a2 * n_h, n_h, dot(sine, sine)), a2 * a2);
   const R rest = R(1) - a2;
   const R masking = n_l * sqrt(fma(n_v * n_v, rest, a2)) + n_v * sqrt(fma(n_l * n_l, rest, a2));
   return R(0.5f) * n_l * (a2 / (d * d)) / masking;

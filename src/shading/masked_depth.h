@@ -11,7 +11,7 @@ namespace halfspace {
 
 /// How opacity decides whether a texel of a shadow map is covered.
 struct OpacityTest {
-  PlacedMap map;  ///< its alpha channel multiplies the opacity
+  std::array<PlacedMap, 2> maps;  ///< the weighted channels of each multiply the opacity; both use the same texture coordinates
   float opacity = 1.0f;
   float cutoff = 0.5f;    ///< covered where opacity ≥ cutoff
   bool dithered = false;  ///< instead of the cutoff, a share of the texels equal to the opacity is covered, in an ordered pattern
@@ -44,9 +44,10 @@ struct MaskedDepth {
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
     using V = Varyings<R>;
     R opacity(test.opacity);
-    if (test.map.map != nullptr) {
-      const MapCoordinates<R> at = transformed(test.map.uv_transform, MapCoordinates<R>{in.uv, px.ddx(&V::uv), px.ddy(&V::uv)});
-      opacity *= test.map.map->sample(test.map.sampler, at.uv, at.duv_dx, at.duv_dy).w;
+    for (const PlacedMap& map : test.maps) {
+      if (map.map == nullptr) continue;
+      const MapCoordinates<R> at = transformed(map.uv_transform, MapCoordinates<R>{in.uv, px.ddx(&V::uv), px.ddy(&V::uv)});
+      opacity *= dot(map.map->sample(map.sampler, at.uv, at.duv_dx, at.duv_dy), vec4<R>(map.channel));
     }
     if (!test.dithered) return {opacity >= R(test.cutoff), {}};
     // Shadow maps are not seen themselves: their filter averages the pattern.

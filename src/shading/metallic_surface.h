@@ -265,19 +265,19 @@ struct MetallicSurface : MetallicMaterial {
     vec3<R> coat_sum(R(0));
     for (const Light& light : lights) {
       const IncidentLight<R> arriving = light_at(light, p.position_rws);
-      const R n_l = dot(n_ws, arriving.l_ws);
-      R share = select(n_l > R(0), arriving.strength, R(0));
-      if (light.shadow != nullptr && any(n_l > R(0)))
-        share *= shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+      const R n_l = dot(n_ws, arriving.l_ws), coat_n_l = has_coat ? dot(coat.n_ws, arriving.l_ws) : R(0);
+      R strength_here = arriving.strength;
+      if (light.shadow != nullptr && any(n_l > R(0) || coat_n_l > R(0)))
+        strength_here *= shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+      const R share = select(n_l > R(0), strength_here, R(0));
       const vec3<R> h = normalize_or_zero(arriving.l_ws + v_ws);
       const R fresnel = schlick_weight(dot(v_ws, h));
       const vec3<R> f = layer.f0 + (layer.f90 - layer.f0) * fresnel;
       const R lobe = ggx_reflection(layer.roughness * layer.roughness, n_ws, h, max(n_l, R(1e-6f)), layer.n_v);
       sum += light.diffuse * share * (diffuse * (max(n_l, R(0)) * (R(1) - largest(f)))) + light.specular * share * (f * lobe);
       if (has_coat) {
-        const R coat_n_l = dot(coat.n_ws, arriving.l_ws);
         const R coat_lobe = ggx_reflection(coat.roughness * coat.roughness, coat.n_ws, h, max(coat_n_l, R(1e-6f)), coat.n_v);
-        coat_sum += light.specular * select(coat_n_l > R(0), share * coat_lobe * fma(R(0.96f), fresnel, R(0.04f)), R(0));
+        coat_sum += light.specular * select(coat_n_l > R(0), strength_here * coat_lobe * fma(R(0.96f), fresnel, R(0.04f)), R(0));
       }
     }
 
@@ -290,12 +290,14 @@ struct MetallicSurface : MetallicMaterial {
     const vec3<R> multiple = single * mean * lost / (vec3<R>(R(1)) - mean * lost);
     const vec3<R> transmitted = diffuse * (R(1) - min(largest(single + multiple), R(1)));
     vec3<R> around = ambient * (transmitted + single + multiple);
+    const R coat_fresnel = has_coat ? fma(R(0.96f), schlick_weight(coat.n_v), R(0.04f)) : R(0);
+    coat_sum += ambient * (occlusion * coat_fresnel);
     if (environment != nullptr) {
       const AmbientLight<R> light = environment->at<R>(n_ws, v_ws, layer.roughness);
       around += light.diffuse * (transmitted + multiple) + light.specular * single;
       if (has_coat) {
         const vec3<R> mirrored = environment->at<R>(coat.n_ws, v_ws, coat.roughness).specular;
-        coat_sum += mirrored * (occlusion * fma(R(0.96f), schlick_weight(coat.n_v), R(0.04f)));
+        coat_sum += mirrored * (occlusion * coat_fresnel);
       }
     }
     sum += around * occlusion;
