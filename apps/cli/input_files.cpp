@@ -7,7 +7,8 @@
 
 namespace halfspace {
 
-std::vector<std::filesystem::path> input_files(SceneDescription scene, const ModelAsset* model) {
+std::vector<std::filesystem::path> input_files(SceneDescription scene,
+                                               const std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>>& models) {
   std::vector<std::filesystem::path> files;
   const auto add = [&](const std::filesystem::path& file) {
     if (!file.empty()) files.push_back(file);
@@ -19,7 +20,7 @@ std::vector<std::filesystem::path> input_files(SceneDescription scene, const Mod
       if (const auto* file = std::get_if<FilePath>(static_cast<const MapValue*>(field.value))) add(file->path);
     }
   }
-  if (model != nullptr) {
+  for (const auto& [file, model] : models) {
     for (const ModelImage& image : model->model.images) add(image.file);
   }
   return files;

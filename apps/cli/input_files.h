@@ -4,6 +4,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "halfspace/scene/description.h"
@@ -12,8 +14,9 @@ namespace halfspace {
 
 struct ModelAsset;
 
-/// Returns all files that the keys of a scene name, and those that a model refers to. model: null if there is none.
-std::vector<std::filesystem::path> input_files(SceneDescription scene, const ModelAsset* model);
+/// Returns all files that the keys of a scene name, and the images of its models.
+std::vector<std::filesystem::path> input_files(SceneDescription scene,
+                                               const std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>>& models);
 
 /// Throws OutputError if the output is one of the files, by this or another name.
 void refuse_overwriting(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `halfspace render SCENE`: validates all arguments, then renders one image or a range of frames.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,8 +34,7 @@ namespace {
 // The parsed and validated arguments.
 struct RenderJob {
   SceneFile scene;
-  std::filesystem::path model_file;  // empty: the scene was not generated for a model
-  std::shared_ptr<const ModelAsset> model;
+  std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>> models;  // of all objects of shape `file`
   std::filesystem::path out;
   ImageFile format;
   PictureSize size;
@@ -102,18 +104,9 @@ RenderJob understand(const RenderArguments& args) {
   const auto camera = opened.camera_names.find(args.camera);
   set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
   set_shading(opened.scene, args.shading);
-  return {std::move(opened.scene),
-          std::move(opened.model_file),
-          std::move(opened.model),
-          out,
-          format,
-          size,
-          time,
-          fps,
-          frames,
-          threads,
-          args.resume,
-          allowed_error(args)};
+  std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>> models;
+  if (opened.model != nullptr) models.emplace(opened.model_file, opened.model);
+  return {std::move(opened.scene), std::move(models), out, format, size, time, fps, frames, threads, args.resume, allowed_error(args)};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -206,7 +199,7 @@ void expect_frames(const RenderJob& job, SceneAssets& assets) {
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
   SceneAssets assets(workers, [](const std::string& problem) { std::cerr << "halfspace: warning: " << problem << '\n'; });
-  if (job.model != nullptr) assets.add_model(job.model_file, job.model);
+  for (const auto& [file, model] : job.models) assets.add_model(file, model);
   RenderReport report;
   if (!job.frames) {
     check_writable(job.out);
@@ -231,9 +224,21 @@ std::optional<int> number_in(const std::string& text) {
   return number < 0 ? std::nullopt : std::optional(number);
 }
 
+// Reads the models of all objects that have not been read yet.
+void read_models(RenderJob& job) {
+  for (const auto& [name, object] : job.scene.description().objects) {
+    if (object.shape != Shape::file || !object.visible || job.models.contains(object.file.path)) continue;
+    try {
+      job.models.emplace(object.file.path, std::make_shared<const ModelAsset>(read_model(object.file.path)));
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: objects.{}.file: {}", job.scene.source(), name, e.what()));
+    }
+  }
+}
+
 // Throws OutputError if an output file would replace a file that the scene reads.
 void protect_inputs(const RenderJob& job, const std::string& scene) {
-  std::vector<std::filesystem::path> inputs = input_files(job.scene.description(), job.model.get());
+  std::vector<std::filesystem::path> inputs = input_files(job.scene.description(), job.models);
   inputs.emplace_back(scene);
   if (!job.frames) return refuse_overwriting(job.out, inputs);
   for (const std::filesystem::path& input : inputs) {
@@ -247,11 +252,12 @@ void protect_inputs(const RenderJob& job, const std::string& scene) {
 }  // namespace
 
 void render_command(const RenderArguments& args) {
-  const RenderJob job = understand(args);
+  RenderJob job = understand(args);
   if (args.print) {
     std::cout << chosen(job).print();
     return;
   }
+  read_models(job);
   protect_inputs(job, args.scene);
   RenderReport report = run(job);
   if (args.statistics.empty()) return;

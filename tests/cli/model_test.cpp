@@ -156,6 +156,27 @@ TEST_F(Models, TransparentSurfacesMayIntersect) {
   EXPECT_GT(right.x, left.x + 20);
 }
 
+TEST_F(Models, ImagesOfModelsInSceneFilesAreNotOverwritten) {
+  write("a.mtl", "newmtl m\nmap_Kd t.png\n");
+  write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+  write_png(directory / "t.png", Image<glm::u8vec4>(2, 2));
+  write("scene.json",
+        R"({ "version": 1, "cameras": { "main": {} }, "ambient": 1, "objects": { "a": { "shape": "file", "file": "a.obj" } } })");
+  const std::string before = read_bytes(directory / "t.png");
+  EXPECT_EQ(run({"render", "scene.json", "--size", "96x54", "-o", "t.png"}).exit_code, 4);
+  EXPECT_EQ(read_bytes(directory / "t.png"), before);
+}
+
+// A floor that no light reaches has no shadow.
+TEST_F(Models, FloorSeenFromBelowIsInvisible) {
+  write("cube.obj", cube(0.0, 1.0));
+  EXPECT_EQ(run({"render", "cube.obj", "--size", "96x54", "--pitch", "-60", "-o", "floor.png"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "cube.obj", "--size", "96x54", "--pitch", "-60", "--no-floor", "-o", "none.png"}).exit_code, 0);
+  const Image<glm::u8vec4> with = picture("floor.png"), without = picture("none.png");
+  EXPECT_EQ(with.at(2, 27), without.at(2, 27));
+  EXPECT_EQ(with.at(48, 27), without.at(48, 27));
+}
+
 TEST_F(Models, FilesOutsideTheFolderNeedPermission) {
   fs::create_directory(directory / "inner");
   write("m.mtl", "newmtl m\nKd 1 0 0\n");

@@ -151,6 +151,14 @@ TEST(Ggx, DiffuseEnvironmentLightMatchesTheIntegral) {
   EXPECT_LT(error, 0.09 * largest);
 }
 
+// The half vector is zero where the light is exactly behind the surface as seen from the eye.
+TEST(Ggx, ReflectionIsFiniteForAZeroHalfVector) {
+  for (const float roughness : {kMinRoughness, 0.5f, 1.0f}) {
+    const float x = ggx_reflection(roughness * roughness, vec3<float>(0, 0, 1), vec3<float>(0, 0, 0), 1e-6f, 1.0f);
+    EXPECT_TRUE(std::isfinite(x)) << roughness;
+  }
+}
+
 // The result is the same for any number of workers.
 TEST(Ggx, FilteredEnvironmentsDoNotDependOnWorkers) {
   const EnvironmentMap map(faces_of(32, lamp), TexelFormat::rgba32f);
