@@ -239,8 +239,11 @@ class TileWorker {
         const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
         if (!here || &here->draw != &draw) {
           here.emplace(context_, draw, visibility_mode(draw), tile);
-          if (!draw.state.order_independent) write_layers(memory);
-          if (memory.layers.empty()) memory.layers.clear(prefers_greater(draw.state.depth.compare));
+          if (!draw.state.order_independent) {
+            write_layers(memory);
+          } else if (memory.layers.empty()) {
+            memory.layers.clear(prefers_greater(draw.state.depth.compare));
+          }
         }
         const uint64_t passed_before = statistics.samples_passed;
         const std::size_t small = here->is_opaque && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;

@@ -151,7 +151,7 @@ OrderedJson key_light(const ModelView& view) {
   ModelView from = view;
   from.yaw -= 50.0;
   from.pitch = 52.0;
-  return {{"key", {{"type", "directional"}, {"direction", json_of(eye_direction(from))}, {"intensity", 1.2}, {"size", 2.0}}}};
+  return {{"key", {{"type", "directional"}, {"direction", json_of(eye_direction(from))}, {"intensity", 1.2}}}};
 }
 
 }  // namespace

@@ -168,9 +168,8 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   const std::shared_ptr<const Indices> indices(model, &model->indices[mesh_index]);
   Streams streams = streams_of(mesh);
   const auto neutral = [&] {
-    const auto made = std::make_shared<const NeutralStreams>(mesh.positions.size());
-    out_.assets.push_back(made);
-    return made;
+    const std::size_t vertices = mesh.positions.size();
+    return asset<NeutralStreams>(recipe("neutral streams", vertices), [&] { return NeutralStreams(vertices); });
   };
   if (mesh.topology != MeshTopology::triangles) {
     if (streams.colors.empty()) streams.colors = neutral()->colors;

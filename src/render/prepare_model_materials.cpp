@@ -106,7 +106,8 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
   out.environment = m.unlit ? nullptr : environment_light();
   if (!has_uvs) return out;
   const auto uses = uses_of(m);
-  const TextureUse* previous = nullptr;
+  const PlacedMap* previous = nullptr;  // the last map that has a texture
+  int previous_texture = -1;
   for (std::size_t i = 0; i < kMetallicMaps; ++i) {
     const TextureUse& use = *uses[i];
     if (use.texture < 0 || (m.unlit && i != kBaseColorMap && i != kOpacityMap)) continue;
@@ -118,10 +119,11 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
     map.uv_set = use.uv_set;
     map.uv_transform = use.uv_transform;
     map.channel = weights_of(use.channel);
-    map.repeats = previous != nullptr &&
-                  map.map == out.maps[static_cast<std::size_t>(std::ranges::find(uses, previous) - uses.begin())].map &&
-                  previous->texture == use.texture && previous->uv_set == use.uv_set && previous->uv_transform == use.uv_transform;
-    if (map.map != nullptr) previous = &use;
+    map.repeats = previous != nullptr && map.map == previous->map && use.texture == previous_texture && map.uv_set == previous->uv_set &&
+                  map.uv_transform == previous->uv_transform;
+    if (map.map == nullptr) continue;
+    previous = &map;
+    previous_texture = use.texture;
   }
   return out;
 }

@@ -266,10 +266,10 @@ struct MetallicSurface : MetallicMaterial {
     for (const Light& light : lights) {
       const IncidentLight<R> arriving = light_at(light, p.position_rws);
       const R n_l = dot(n_ws, arriving.l_ws), coat_n_l = has_coat ? dot(coat.n_ws, arriving.l_ws) : R(0);
-      R strength_here = arriving.strength;
+      R received = arriving.strength;
       if (light.shadow != nullptr && any(n_l > R(0) || coat_n_l > R(0)))
-        strength_here *= shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
-      const R share = select(n_l > R(0), strength_here, R(0));
+        received *= shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+      const R share = select(n_l > R(0), received, R(0));
       const vec3<R> h = normalize_or_zero(arriving.l_ws + v_ws);
       const R fresnel = schlick_weight(dot(v_ws, h));
       const vec3<R> f = layer.f0 + (layer.f90 - layer.f0) * fresnel;
@@ -277,7 +277,7 @@ struct MetallicSurface : MetallicMaterial {
       sum += light.diffuse * share * (diffuse * (max(n_l, R(0)) * (R(1) - largest(f)))) + light.specular * share * (f * lobe);
       if (has_coat) {
         const R coat_lobe = ggx_reflection(coat.roughness * coat.roughness, coat.n_ws, h, max(coat_n_l, R(1e-6f)), coat.n_v);
-        coat_sum += light.specular * select(coat_n_l > R(0), strength_here * coat_lobe * fma(R(0.96f), fresnel, R(0.04f)), R(0));
+        coat_sum += light.specular * select(coat_n_l > R(0), received * coat_lobe * fma(R(0.96f), fresnel, R(0.04f)), R(0));
       }
     }
 

@@ -34,7 +34,7 @@ class Models : public Cli {
   }
 };
 
-TEST_F(Models, RenderWritesAPictureNextToNothingElse) {
+TEST_F(Models, RenderWritesOnlyThePicture) {
   write("cube.obj", cube(0.0, 1.0));
   const Outcome o = run({"render", "cube.obj", "--size", "160x90"});
   EXPECT_EQ(o.exit_code, 0);

@@ -113,7 +113,7 @@ TEST(Triangulate, CutsConcaveQuadsAtTheReflexCorner) {
   }
 }
 
-// One corner is 2^-53 beside the line through two others. Rounded coordinate differences do not show it.
+// One corner is 2^-53 away from the line through two others. Differences of coordinates, once rounded, would be on the line.
 TEST(Triangulate, ComputesOrientationsExactly) {
   for (const int side : {-1, 0, 1}) {
     const Corners quad{{0.5 + side * 0x1p-53, 0.5, 0}, {12, 12, 0}, {24, 24, 0}, {-30, 60, 0}};

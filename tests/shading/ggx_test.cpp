@@ -30,7 +30,7 @@ void over_sphere(int rows, const F& f) {
   }
 }
 
-// Returns ∫ D·V·n·l·(F with f0 = 1 − w and f90 = w …) as the parts multiplied by F0 and F90.
+// Integrates the reflection over all directions of light, in double. x is the part that F0 multiplies, y that of F90.
 glm::dvec2 integrated(double roughness, double n_v) {
   const vec3<double> n(0, 1, 0), v(std::sqrt(1 - n_v * n_v), n_v, 0);
   glm::dvec2 sum(0.0);
