@@ -7,6 +7,9 @@
 
 namespace halfspace {
 
+/// Returns true if the text, words separated by single spaces, contains the word.
+bool has_word(std::string_view text, std::string_view word);
+
 /// Returns the minimum number of insertions, deletions, substitutions and swaps of adjacent letters that turn a into b.
 int edit_distance(std::string_view a, std::string_view b);
 

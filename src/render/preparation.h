@@ -31,6 +31,13 @@ struct MeshAsset {
   Indices indices;
 };
 
+// The vertex streams of a mesh that surface shaders can read. Not owned.
+struct SurfaceStreams {
+  std::span<const glm::vec3> positions, normals;
+  std::span<const glm::vec4> tangents;
+  std::span<const glm::vec2> uvs;
+};
+
 // Builds the cache key of an asset from the parameters it is made with.
 template <class... T>
 std::string recipe(const T&... parts) {
@@ -74,17 +81,15 @@ MapEdges edges_of(Shape shape);
 /// Returns the sampler for a texture.
 Sampler make_sampler(const TextureDescription& t);
 
-/// Returns the radius of a ball around the origin that contains the undisplaced shape, in object space.
-double ball_radius(const ObjectDescription& o);
-
 /// Returns the maximum displacement of the shape by its heights, in object space.
 double relief_height(const ObjectDescription& o);
 
-/// Returns the number of columns of the mesh along u.
-int columns_of(const ObjectDescription& o);
+/// Returns the world-from-object transform of each copy of an object, which includes the placements of its ancestors.
+std::vector<glm::dmat4> places_of(const SceneDescription& scene, const ObjectDescription& o);
 
-/// Returns the world-from-object transform of each copy.
-std::vector<glm::dmat4> places_of(const ObjectDescription& o);
+/// Returns the draw of a lit surface with the shader variant that has the minimum features it needs.
+PreparedDraw surface_draw(const LitSurface& s, ShadingRate rate, NormalDetail detail, const SurfaceStreams& mesh,
+                          const std::shared_ptr<const Indices>& indices);
 
 class ScenePreparation {
  public:
@@ -157,8 +162,10 @@ class ScenePreparation {
 
   // prepare_model_files.cpp
   void add_model(int object, const std::string& path, const ObjectDescription& o);
-  void add_part(int object, const ObjectDescription& o, const std::shared_ptr<const ModelAsset>& model, const PosedMesh& part,
-                const glm::dmat4& world);
+  void add_part(int object, const ObjectDescription& o, const std::string& path, const std::shared_ptr<const ModelAsset>& model,
+                const PosedMesh& part, const glm::dmat4& world);
+  void add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
+                         const std::shared_ptr<const Indices>& indices, const glm::dmat4& world);
   void add_shadow_catcher(const ObjectDescription& o, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices, int object);
   void add_blended();
   std::shared_ptr<const ModelAsset> model_asset(const ObjectDescription& o, const std::string& where);
@@ -184,8 +191,8 @@ class ScenePreparation {
   void add_exact_spheres(int object, const std::string& path, const ObjectDescription& o);
 
   // prepare_particles.cpp
-  void add_particles();
-  std::shared_ptr<const Particles> particles();  // null: none
+  void add_particles(const ParticlesDescription& p, const std::string& path);
+  std::shared_ptr<const Particles> particles(const ParticlesDescription& p, const std::string& path);  // null: none
 
   // prepare_background.cpp
   void add_background();

@@ -12,6 +12,7 @@
 #include "halfspace/procedural/earth.h"
 #include "halfspace/render/preparation.h"
 #include "halfspace/render/shadow/shadow_views.h"
+#include "halfspace/scene/shapes.h"
 
 namespace halfspace {
 
@@ -27,28 +28,6 @@ Sampler make_sampler(const TextureDescription& t) {
 
 namespace {
 
-// Width of the map on the object, and radius of a ball that contains the object; in object space.
-struct MapExtent {
-  double map_width, radius;
-};
-
-MapExtent extent_of(const ObjectDescription& o) {
-  const auto round = [](double radius) { return 2.0 * std::numbers::pi * radius; };
-  switch (o.shape) {
-    case Shape::uv_sphere:
-    case Shape::icosphere:
-    case Shape::sphere: return {round(o.radius), o.radius};
-    case Shape::file: return {0.0, 0.0};
-    case Shape::plane: return {o.size, o.size * std::numbers::sqrt2 / 2.0};
-    case Shape::cube: return {o.size, o.size * std::numbers::sqrt3 / 2.0};
-    case Shape::torus: return {round(o.radius + o.tube), o.radius + o.tube};
-    case Shape::torus_knot: return {round(3.0 * o.radius), 1.4 * o.radius + o.tube};  // the knot is about 3 circles long
-    case Shape::cylinder:
-    case Shape::cone: break;
-  }
-  return {round(o.radius), glm::length(glm::dvec2(o.radius, 0.5 * o.length))};
-}
-
 Image<float> unit_numbers(const Image<uint16_t>& codes) {
   Image<float> map(codes.width(), codes.height());
   std::ranges::transform(codes.texels(), map.data(), [](uint16_t code) { return static_cast<float>(code) / 65535.0f; });
@@ -56,8 +35,6 @@ Image<float> unit_numbers(const Image<uint16_t>& codes) {
 }
 
 }  // namespace
-
-double ball_radius(const ObjectDescription& o) { return extent_of(o).radius; }
 
 double relief_height(const ObjectDescription& o) {
   return is_map(o.height) ? std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) : 0.0;
@@ -67,7 +44,7 @@ namespace {
 
 // Returns the distance from the eye to the bounding sphere of the object, in world units.
 double distance_of_ball(const ObjectDescription& o, const glm::dmat4& world_from_object, double scale, const View& view) {
-  return glm::distance(glm::dvec3(world_from_object[3]), view.eye_ws) - ball_radius(o) * scale;
+  return glm::distance(glm::dvec3(world_from_object[3]), view.eye_ws) - kind_of(o).extent(o).radius * scale;
 }
 
 // Returns the depth of the nearest visible part of a plane, in world units, or infinity if no part is visible. The bounding sphere of a
@@ -83,18 +60,22 @@ double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_o
 
 }  // namespace
 
+// Width of generated maps on models, because the size of a map on their surface is not known.
+constexpr int kModelMapWidth = 1024;
+
 // Returns the map width, in texels along u, that the object needs. At the point nearest to the eye, a texel then spans at most two pixels,
 // unless that would require a width above 4096.
 int ScenePreparation::width_for(const ObjectDescription& o) const {
+  if (o.shape == Shape::file) return kModelMapWidth;
   // Displaced parts outside the view can cast shadows into it.
   const bool shades = is_map(o.height) && o.casts_shadow && scene_.shadow.method != ShadowMethod::none;
   double max_px = 0.0;
-  for (const glm::dmat4& world : places_of(o)) {
+  for (const glm::dmat4& world : places_of(scene_, o)) {
     const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
     const double nearest = o.shape == Shape::plane && !shades ? depth_of_plane(o, world, view_) : distance_of_ball(o, world, scale, view_);
     const double distance = std::max(nearest, view_.near);
     const double height = camera().type == Projection::orthographic ? camera().height : 2.0 * view_.tan_y * distance;
-    max_px = std::max(max_px, extent_of(o).map_width * scale / height * view_.height_px);
+    max_px = std::max(max_px, kind_of(o).extent(o).map_width * scale / height * view_.height_px);
   }
   const auto is_this = [&](const auto& entry) { return &entry.second == &o; };
   const auto expected = assets_.widths_.find(std::ranges::find_if(scene_.objects, is_this)->first);

@@ -1,57 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Meshes of the scene's objects.
-#include <algorithm>
-
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/render/preparation.h"
+#include "halfspace/scene/shapes.h"
 
 namespace halfspace {
 
 namespace {
 
-Mesh generated(const ObjectDescription& o, const Displacement* displacement) {
-  const auto radius = static_cast<float>(o.radius), tube = static_cast<float>(o.tube), length = static_cast<float>(o.length);
-  const auto size = static_cast<float>(o.size);
-  switch (o.shape) {
-    case Shape::uv_sphere: return uv_sphere(o.latitudes, o.longitudes, radius);
-    case Shape::icosphere: return icosphere(o.level, radius, displacement);
-    case Shape::plane: return plane(size, o.segments, displacement);
-    case Shape::cube: return cube(size, o.segments, displacement);
-    case Shape::cylinder: return cylinder(radius, length, o.latitudes, o.longitudes, displacement);
-    case Shape::cone: return cone(radius, length, o.latitudes, o.longitudes, displacement);
-    case Shape::torus: return torus(radius, tube, o.latitudes, o.longitudes, displacement);
+// How a shape's mesh is made, and how its maps continue beyond their edges.
+struct MeshMaker {
+  MapEdges edges;
+  Mesh (*make)(const ObjectDescription& o, const Displacement* displacement);  // null: the shape has no generated mesh
+};
+
+float single(double x) { return static_cast<float>(x); }
+
+Mesh sphere_mesh(const ObjectDescription& o, const Displacement*) { return uv_sphere(o.latitudes, o.longitudes, single(o.radius)); }
+Mesh icosphere_mesh(const ObjectDescription& o, const Displacement* d) { return icosphere(o.level, single(o.radius), d); }
+Mesh plane_mesh(const ObjectDescription& o, const Displacement* d) { return plane(single(o.size), o.segments, d); }
+Mesh cube_mesh(const ObjectDescription& o, const Displacement* d) { return cube(single(o.size), o.segments, d); }
+Mesh cylinder_mesh(const ObjectDescription& o, const Displacement* d) {
+  return cylinder(single(o.radius), single(o.length), o.latitudes, o.longitudes, d);
+}
+Mesh cone_mesh(const ObjectDescription& o, const Displacement* d) {
+  return cone(single(o.radius), single(o.length), o.latitudes, o.longitudes, d);
+}
+Mesh torus_mesh(const ObjectDescription& o, const Displacement* d) {
+  return torus(single(o.radius), single(o.tube), o.latitudes, o.longitudes, d);
+}
+Mesh torus_knot_mesh(const ObjectDescription& o, const Displacement* d) {
+  return torus_knot(single(o.radius), single(o.tube), o.latitudes, o.longitudes, d);
+}
+
+MeshMaker maker_of(Shape shape) {
+  switch (shape) {
+    case Shape::uv_sphere: return {MapEdges::sphere, sphere_mesh};
+    case Shape::icosphere: return {MapEdges::sphere, icosphere_mesh};
+    case Shape::plane: return {MapEdges::sheet, plane_mesh};
+    case Shape::cube: return {MapEdges::sheet, cube_mesh};
+    case Shape::cylinder: return {MapEdges::cylinder, cylinder_mesh};
+    case Shape::cone: return {MapEdges::cylinder, cone_mesh};
+    case Shape::torus: return {MapEdges::torus, torus_mesh};
+    case Shape::torus_knot: return {MapEdges::torus, torus_knot_mesh};
     case Shape::sphere:
-    case Shape::file:
-    case Shape::torus_knot: break;
+    case Shape::file: break;
   }
-  return torus_knot(radius, tube, o.latitudes, o.longitudes, displacement);
+  return {MapEdges::sheet, nullptr};
 }
 
 }  // namespace
 
-// Height maps with more columns are box filtered to this width.
-int columns_of(const ObjectDescription& o) {
-  switch (o.shape) {
-    case Shape::plane:
-    case Shape::cube: return std::max(o.segments, 2);
-    case Shape::icosphere: return 5 << o.level;
-    default: return o.longitudes;
-  }
-}
-
-MapEdges edges_of(Shape shape) {
-  switch (shape) {
-    case Shape::uv_sphere:
-    case Shape::icosphere: return MapEdges::sphere;
-    case Shape::torus:
-    case Shape::torus_knot: return MapEdges::torus;
-    case Shape::cylinder:
-    case Shape::cone: return MapEdges::cylinder;
-    default: return MapEdges::sheet;
-  }
-}
+MapEdges edges_of(Shape shape) { return maker_of(shape).edges; }
 
 // Returns a displaced uv_sphere. It does not use SurfaceMesh: rows are displaced in parallel, and per-pixel slopes match the
 // vertices.
@@ -68,14 +70,15 @@ std::shared_ptr<const MeshAsset> ScenePreparation::mesh_of(const ObjectDescripti
   if (o.shape == Shape::uv_sphere && relief.field != nullptr) return sphere_of(o, relief);
   const std::string words = recipe("mesh", static_cast<int>(o.shape), o.radius, o.tube, o.length, o.size, o.latitudes, o.longitudes,
                                    o.level, o.segments, o.tiles_u, o.tiles_v, relief.recipe);
+  const auto make = maker_of(o.shape).make;
   return asset<MeshAsset>(words, [&] {
     Mesh mesh;
     if (relief.field != nullptr) {
-      const HeightField filtered = relief.field->filtered(columns_of(o), assets_.workers_);
+      const HeightField filtered = relief.field->filtered(kind_of(o).columns(o), assets_.workers_);
       const Displacement displacement{&filtered, o.height_scale, o.height_zero};
-      mesh = generated(o, &displacement);
+      mesh = make(o, &displacement);
     } else {
-      mesh = generated(o, nullptr);
+      mesh = make(o, nullptr);
     }
     for (glm::vec2& uv : mesh.uvs) uv *= glm::vec2(o.tiles_u, o.tiles_v);
     return MeshAsset(std::move(mesh));

@@ -8,6 +8,7 @@
 #include "halfspace/model/tangents.h"
 #include "halfspace/render/model_asset.h"
 #include "halfspace/render/preparation.h"
+#include "halfspace/scene/material_overrides.h"
 
 namespace halfspace {
 
@@ -153,13 +154,13 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   out_.assets.push_back(posed);
   const glm::dmat4 turn = turn_of(o, model->model);
   load_images(o, model->model, *posed);
-  for (const glm::dmat4& place : places_of(o)) {
-    for (const PosedMesh& part : posed->meshes) add_part(object, o, model, part, place * turn * part.world_from_mesh);
+  for (const glm::dmat4& place : places_of(scene_, o)) {
+    for (const PosedMesh& part : posed->meshes) add_part(object, o, path, model, part, place * turn * part.world_from_mesh);
   }
 }
 
-void ScenePreparation::add_part(int object, const ObjectDescription& o, const std::shared_ptr<const ModelAsset>& model,
-                                const PosedMesh& part, const glm::dmat4& world) {
+void ScenePreparation::add_part(int object, const ObjectDescription& o, const std::string& path,
+                                const std::shared_ptr<const ModelAsset>& model, const PosedMesh& part, const glm::dmat4& world) {
   static const ModelMaterial kDefault{};
   const auto mesh_index = static_cast<std::size_t>(part.mesh);
   const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model->model.meshes[mesh_index];
@@ -179,6 +180,12 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     state.topology = mesh.topology == MeshTopology::points ? Topology::points : Topology::lines;
     out_.draws.push_back({shader, make_vertex_view(stream(streams.positions), stream(streams.colors)), indices, state});
     return;
+  }
+  if (const SurfaceDescription* replacement = override_of(scene_, o, material.name); replacement != nullptr) {
+    ObjectDescription replaced = o;
+    replaced.surface = *replacement;
+    if (streams.uvs.empty()) streams.uvs = neutral()->uvs;
+    return add_replaced_part(object, replaced, path, {streams.positions, streams.normals, streams.tangents, streams.uvs}, indices, world);
   }
   MetallicMaterial surface = metallic_material(o, model->model, material, !streams.uvs.empty());
   place(surface, world);
@@ -207,13 +214,27 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   out_.meshes.push_back(placed);
 }
 
+// Draws a part of a model with a material of the scene, which is the object's surface.
+void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
+                                         const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
+  LitSurface surface = surface_of(o, path);
+  NormalDetail detail = add_detail(surface, o, {}, path);
+  if (detail != NormalDetail::none && streams.tangents.empty()) {
+    assets_.warn_once(path + ": the model has no tangents, so its replaced materials are drawn without normal and bump maps");
+    detail = NormalDetail::none;
+  }
+  place(surface, world);
+  out_.draws.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
+  out_.meshes.push_back({streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
+}
+
 void ScenePreparation::add_shadow_catcher(const ObjectDescription& o, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices,
                                           int object) {
   ShadowCatcher catcher;
   catcher.to_eye_ws = glm::vec3(view_.to_eye_ws);
   catcher.lights = lights_;
   catcher.inverse_radius = static_cast<float>(2.0 / o.size);
-  for (const glm::dmat4& world : places_of(o)) {
+  for (const glm::dmat4& world : places_of(scene_, o)) {
     place(catcher, world);
     DrawState state = opaque_state(CullMode::none, false);
     state.order_independent = true;

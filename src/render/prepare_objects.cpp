@@ -7,6 +7,7 @@
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/render/preparation.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 
@@ -16,8 +17,10 @@ bool is_displaced(const ObjectDescription& o) { return is_map(o.height); }
 
 }  // namespace
 
-std::vector<glm::dmat4> places_of(const ObjectDescription& o) {
-  const glm::dmat4 whole = world_from_object(o.placement);
+std::vector<glm::dmat4> places_of(const SceneDescription& scene, const ObjectDescription& o) {
+  glm::dmat4 whole = world_from_object(o.placement);
+  for (const ObjectDescription* p = find_named(scene.objects, o.parent); p != nullptr; p = find_named(scene.objects, p->parent))
+    whole = world_from_object(p->placement) * whole;
   if (o.instances.empty()) return {whole};
   std::vector<glm::dmat4> places;
   for (const Placement& p : o.instances) places.push_back(whole * world_from_object(p));
@@ -61,7 +64,7 @@ namespace {
 
 // Returns the mesh's streams in the order of the shader's attributes.
 template <class S>
-VertexView view_of(const Mesh& m) {
+VertexView view_of(const SurfaceStreams& m) {
   if constexpr (S::kTangents) return make_vertex_view(stream(m.positions), stream(m.normals), stream(m.tangents), stream(m.uvs));
   if constexpr (S::kNormals && S::kMapped) return make_vertex_view(stream(m.positions), stream(m.normals), stream(m.uvs));
   if constexpr (S::kNormals) return make_vertex_view(stream(m.positions), stream(m.normals));
@@ -70,15 +73,16 @@ VertexView view_of(const Mesh& m) {
 }
 
 template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none, bool highlight = true>
-PreparedDraw draw_of(const LitSurface& surface, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices) {
+PreparedDraw draw_of(const LitSurface& surface, const SurfaceStreams& mesh, const std::shared_ptr<const Indices>& indices) {
   using S = SurfaceShader<rate, mapped, detail, highlight>;
-  return {S{surface}, view_of<S>(mesh.mesh), indices,
+  return {S{surface}, view_of<S>(mesh), indices,
           opaque_state(surface.two_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f)};
 }
 
-// Selects the shader variant with the minimum features that the surface needs.
-PreparedDraw draw_of(const LitSurface& s, ShadingRate rate, NormalDetail detail, const MeshAsset& mesh,
-                     const std::shared_ptr<const Indices>& indices) {
+}  // namespace
+
+PreparedDraw surface_draw(const LitSurface& s, ShadingRate rate, NormalDetail detail, const SurfaceStreams& mesh,
+                          const std::shared_ptr<const Indices>& indices) {
   const bool mapped = std::ranges::any_of(s.factors, [](const Factor& f) { return f.map != nullptr; });
   switch (rate) {
     case ShadingRate::none: return (mapped ? draw_of<ShadingRate::none, true> : draw_of<ShadingRate::none, false>)(s, mesh, indices);
@@ -98,8 +102,6 @@ PreparedDraw draw_of(const LitSurface& s, ShadingRate rate, NormalDetail detail,
   }
   return (mapped ? draw_of<ShadingRate::phong, true> : draw_of<ShadingRate::phong, false>)(s, mesh, indices);
 }
-
-}  // namespace
 
 // Sets the map that provides an object's per-pixel normals, if there is one.
 NormalDetail ScenePreparation::add_detail(LitSurface& s, const ObjectDescription& o, const Relief& relief, const std::string& path) {
@@ -133,10 +135,12 @@ void ScenePreparation::add_object(int object) {
   if (o.shape == Shape::plane && o.shadow_only) return add_shadow_catcher(o, *mesh, indices, object);
   LitSurface surface = surface_of(o, path);
   const NormalDetail detail = add_detail(surface, o, relief, path);
-  for (const glm::dmat4& world : places_of(o)) {
+  const SurfaceStreams streams{mesh->mesh.positions, mesh->mesh.normals, mesh->mesh.tangents, mesh->mesh.uvs};
+  for (const glm::dmat4& world : places_of(scene_, o)) {
     place(surface, world);
-    out_.draws.push_back(draw_of(surface, o.surface.shading, detail, *mesh, indices));
-    out_.meshes.push_back({mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
+    out_.draws.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
+    out_.meshes.push_back(
+        {mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
   }
 }
 

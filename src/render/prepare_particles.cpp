@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The particles of a scene, drawn with a single draw call of points.
+// The particle systems of a scene, each drawn with a single draw call of points.
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
 
 namespace halfspace {
 
-std::shared_ptr<const Particles> ScenePreparation::particles() {
-  const ParticlesDescription& p = scene_.particles;
+std::shared_ptr<const Particles> ScenePreparation::particles(const ParticlesDescription& p, const std::string& path) {
   if (!p.file.path.empty()) {
     return asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
-                            [&] { return read_for("particles.file", [&] { return read_particles(p.file.path, p); }); });
+                            [&] { return read_for(path + ".file", [&] { return read_particles(p.file.path, p); }); });
   }
   return p.count == 0 ? nullptr : std::make_shared<const Particles>(make_particles(p));
 }
 
-void ScenePreparation::add_particles() {
-  const ParticlesDescription& p = scene_.particles;
-  const std::shared_ptr<const Particles> particles = this->particles();
+void ScenePreparation::add_particles(const ParticlesDescription& p, const std::string& path) {
+  const std::shared_ptr<const Particles> particles = this->particles(p, path);
   if (particles == nullptr) return;
   const bool exact = p.sprite == ParticleSprite::exact;
   SphereImpostors s = sphere_impostors(exact && p.receives_shadow);

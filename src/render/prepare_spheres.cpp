@@ -55,7 +55,7 @@ void ScenePreparation::draw_spheres(const Particles& spheres, const glm::dvec3& 
 
 void ScenePreparation::add_exact_spheres(int object, const std::string& path, const ObjectDescription& o) {
   const auto spheres = std::make_shared<Particles>();
-  for (const glm::dmat4& world : places_of(o)) {
+  for (const glm::dmat4& world : places_of(scene_, o)) {
     spheres->centers_ws.emplace_back(world[3]);
     spheres->radii.push_back(static_cast<float>(o.radius * glm::length(glm::dvec3(world[0]))));
     spheres->colors.emplace_back(1.0f);

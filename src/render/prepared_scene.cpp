@@ -102,7 +102,8 @@ PreparedScene ScenePreparation::prepare() {
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
     if (scene_.objects[i].second.visible) add_object(static_cast<int>(i));
   }
-  add_particles();
+  add_particles(scene_.particles, "particles");
+  for (const auto& [name, p] : scene_.particle_systems) add_particles(p, "particle_systems." + name);
   add_background();
   add_blended();
   add_shadows();
@@ -118,7 +119,7 @@ const CameraDescription& ScenePreparation::camera() const {
 
 void ScenePreparation::expect() {
   for (const auto& [name, object] : scene_.objects) {
-    if (object.visible && object.shape != Shape::file) assets_.widths_[name] = width_for(object);
+    if (object.visible) assets_.widths_[name] = width_for(object);
   }
   assets_.panorama_width_ = panorama_width();
   assets_.face_size_ = face_size();

@@ -87,7 +87,7 @@ struct PlacedMesh {
 struct PlacedSpheres {
   std::shared_ptr<const Particles> particles;
   bool casts_shadow, receives_shadow;
-  int object = -1;  ///< index in the scene's objects; −1: the particles
+  int object = -1;  ///< index in the scene's objects; −1: particles
 };
 
 /// A light, prepared for one image.

@@ -65,10 +65,10 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
   if (a.target.empty()) throw InputError(source + ": " + path + ".target: missing; expected the path to a number or vector");
   const FoundKey found = find_key(scene, a.target, source + ": " + path + ".target");
   const Key& key = *found.field.key;
-  for (const char* fixed : {"materials", "animations", "animation", "time"}) {
+  for (const char* fixed : {"animations", "animation", "time"}) {
     if (found.words[0] != fixed) continue;
     throw InputError(source + ": " + path + ".target: " + a.target +
-                     " cannot be animated; expected a key of an object, a light, a camera or the background");
+                     " cannot be animated; expected a key of an object, a material, a light, a camera or the background");
   }
   if (key.type != KeyType::number && !is_vector(key)) {
     throw InputError(source + ": " + path + ".target: " + a.target +

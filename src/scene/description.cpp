@@ -4,6 +4,8 @@
 // all based on them.
 #include "halfspace/scene/description.h"
 
+#include "halfspace/scene/shapes.h"
+
 namespace halfspace {
 
 template <>
@@ -48,11 +50,6 @@ struct ChoiceNames<Filter> {
 template <>
 struct ChoiceNames<Wrap> {
   static constexpr std::array<std::string_view, 4> names{"repeat", "mirrored", "clamp", "border"};
-};
-template <>
-struct ChoiceNames<Shape> {
-  static constexpr std::array<std::string_view, 10> names{"uv_sphere", "icosphere", "sphere", "plane",      "cube",
-                                                          "cylinder",  "cone",      "torus",  "torus_knot", "file"};
 };
 template <>
 struct ChoiceNames<ModelUp> {
@@ -220,27 +217,29 @@ Section section_of(ObjectDescription& o) {
   static const std::vector<Key> keys{
       key<&T::shape>("shape", "Shape of the mesh; sphere: exact, ray traced per pixel, without maps; file: a model file"),
       key<&T::radius>("radius", "Radius; for torus and torus_knot, up to the middle of the tube",
-                      {.unit = "units", .low = kTiny, .high = 1e6, .only = "uv_sphere icosphere sphere cylinder cone torus torus_knot"}),
-      key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = "torus torus_knot"}),
-      key<&T::length>("length", "Length from bottom to top", {.unit = "units", .low = kTiny, .high = 1e6, .only = "cylinder cone"}),
+                      {.unit = "units", .low = kTiny, .high = 1e6, .only = shapes_with("radius")}),
+      key<&T::tube>("tube", "Radius of the tube", {.unit = "units", .low = kTiny, .high = 1e6, .only = shapes_with("tube")}),
+      key<&T::length>("length", "Length from bottom to top", {.unit = "units", .low = kTiny, .high = 1e6, .only = shapes_with("length")}),
       key<&T::latitudes>("latitudes", "Number of bands from top to bottom, or around a tube",
-                         {.low = 2, .high = 8192, .only = "uv_sphere cylinder cone torus torus_knot"}),
-      key<&T::longitudes>("longitudes", "Number of sectors around the axis",
-                          {.low = 3, .high = 16384, .only = "uv_sphere cylinder cone torus torus_knot"}),
-      key<&T::level>("level", "Number of times each triangle is divided into four", {.low = 0, .high = 8, .only = "icosphere"}),
-      key<&T::size>("size", "Edge length", {.unit = "units", .low = kTiny, .high = 1e6, .only = "plane cube"}),
-      key<&T::segments>("segments", "Number of segments per edge", {.low = 1, .high = 1024, .only = "plane cube"}),
-      key<&T::tiles_u>("tiles_u", "Number of repetitions of color maps along u",
-                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus torus_knot"}),
-      key<&T::tiles_v>("tiles_v", "Number of repetitions of color maps along v",
-                       {.low = 1, .high = 4096, .only = "icosphere plane cube cylinder cone torus torus_knot"}),
-      key<&T::file>("file", "Model file: OBJ, glTF, GLB, PLY or STL", {.only = "file"}),
-      key<&T::up_axis>("up_axis", "Axis of the file that points up; auto: z for STL, y for all others", {.only = "file"}),
-      key<&T::model_scene>("model_scene", "Name of the scene in the file; empty: its default scene", {.only = "file"}),
-      key<&T::model_animation>("model_animation", "Name of the animation in the file; empty: none", {.only = "file"}),
-      key<&T::model_time>("model_time", "Time of the animation", {.unit = "s", .only = "file"}),
-      key<&T::model_variant>("model_variant", "Name of the material variant in the file; empty: the default materials", {.only = "file"}),
-      key<&T::shadow_only>("shadow_only", "Whether only the shadows on the plane are drawn, over the background", {.only = "plane"}),
+                         {.low = 2, .high = 8192, .only = shapes_with("latitudes")}),
+      key<&T::longitudes>("longitudes", "Number of sectors around the axis", {.low = 3, .high = 16384, .only = shapes_with("longitudes")}),
+      key<&T::level>("level", "Number of times each triangle is divided into four", {.low = 0, .high = 8, .only = shapes_with("level")}),
+      key<&T::size>("size", "Edge length", {.unit = "units", .low = kTiny, .high = 1e6, .only = shapes_with("size")}),
+      key<&T::segments>("segments", "Number of segments per edge", {.low = 1, .high = 1024, .only = shapes_with("segments")}),
+      key<&T::tiles_u>("tiles_u", "Number of repetitions of color maps along u", {.low = 1, .high = 4096, .only = shapes_with("tiles_u")}),
+      key<&T::tiles_v>("tiles_v", "Number of repetitions of color maps along v", {.low = 1, .high = 4096, .only = shapes_with("tiles_v")}),
+      key<&T::file>("file", "Model file: OBJ, glTF, GLB, PLY or STL", {.only = shapes_with("file")}),
+      key<&T::up_axis>("up_axis", "Axis of the file that points up; auto: z for STL, y for all others", {.only = shapes_with("up_axis")}),
+      key<&T::model_scene>("model_scene", "Name of the scene in the file; empty: its default scene", {.only = shapes_with("model_scene")}),
+      key<&T::model_animation>("model_animation", "Name of the animation in the file; empty: none",
+                               {.only = shapes_with("model_animation")}),
+      key<&T::model_time>("model_time", "Time of the animation", {.unit = "s", .only = shapes_with("model_time")}),
+      key<&T::model_variant>("model_variant", "Name of the material variant in the file; empty: the default materials",
+                             {.only = shapes_with("model_variant")}),
+      key<&T::model_materials>("model_materials", "Materials that replace those of the file, as NAME=MATERIAL, NAME=MATERIAL",
+                               {.only = shapes_with("model_materials")}),
+      key<&T::shadow_only>("shadow_only", "Whether only the shadows on the plane are drawn, over the background",
+                           {.only = shapes_with("shadow_only")}),
       key<&T::visible>("visible", "Whether the object is drawn"),
       key<&T::casts_shadow>("casts_shadow", "Whether the object casts shadows"),
       key<&T::receives_shadow>("receives_shadow", "Whether the object receives shadows, including its own"),
@@ -249,8 +248,10 @@ Section section_of(ObjectDescription& o) {
       key<&T::height_zero>("height_zero", "Map value that leaves the surface undisplaced", {.low = 0, .high = 1}),
       key<&T::height_smoothing>("height_smoothing", "Standard deviation of the Gaussian that smooths the heights",
                                 {.unit = "texels", .low = 0, .high = 64}),
-      key<&T::normals>("normals", "Normals of a displaced surface: per pixel, per vertex, or undisplaced", {.only = "uv_sphere"}),
-      key<&T::material>("material", "Name of a material; keys of the object override it"),
+      key<&T::normals>("normals", "Normals of a displaced surface: per pixel, per vertex, or undisplaced",
+                       {.only = shapes_with("normals")}),
+      key<&T::material>("material", "Name of a material; keys of the object override it; empty: a file keeps its own"),
+      key<&T::parent>("parent", "Name of the object that position, rotation and scale are relative to; empty: none"),
   };
   Section section{{keys, &o}};
   for (const Section& part : {section_of(o.surface), section_of(o.placement)}) section.insert(section.end(), part.begin(), part.end());

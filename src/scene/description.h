@@ -122,8 +122,9 @@ struct SurfaceDescription {
 std::string_view first_map(const SurfaceDescription& s);
 
 /// `sphere` has no mesh: it is ray traced per pixel (shading/sphere_impostor.h), and its surface cannot have maps. `file` is a model file,
-/// which has its own materials.
+/// which has its own materials. Each shape has a row in the table of scene/shapes.cpp.
 enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot, file };
+inline constexpr std::size_t kShapes = 10;
 /// The up axis of a model file. `automatic`: z for STL, otherwise y.
 enum class ModelUp : uint8_t { automatic, y, z };
 enum class NormalSource : uint8_t { pixel, vertex, undisplaced };
@@ -146,8 +147,11 @@ struct ObjectDescription {
   int tiles_u = 1, tiles_v = 1;
   FilePath file;
   ModelUp up_axis = ModelUp::automatic;
-  std::string model_scene, model_animation, model_variant;  ///< names in the file; empty: its default scene, no animation, default materials
-  double model_time = 0.0;                                  ///< seconds
+  std::string model_scene;      ///< name in the file; empty: its default scene
+  std::string model_animation;  ///< name in the file; empty: none
+  std::string model_variant;    ///< name in the file; empty: the default materials
+  std::string model_materials;  ///< materials of the scene that replace those of the file: "NAME=MATERIAL, NAME=MATERIAL"
+  double model_time = 0.0;      ///< seconds
   bool shadow_only = false;
   bool visible = true;
   bool casts_shadow = true, receives_shadow = true;
@@ -160,6 +164,7 @@ struct ObjectDescription {
 
   std::string material;  ///< empty: none
   SurfaceDescription surface;
+  std::string parent;  ///< object that `placement` is relative to; empty: the world
   Placement placement;
   std::vector<Placement> instances;  ///< copies placed relative to `placement`; empty: a single object at `placement`
 };
@@ -311,6 +316,7 @@ struct SceneDescription {
   Named<EnvironmentDescription> environments;
   Named<SurfaceDescription> materials;
   Named<ObjectDescription> objects;
+  Named<ParticlesDescription> particle_systems;  ///< in addition to `particles`
   Named<AnimationDescription> animations;
   BackgroundDescription background;
   ReflectionsDescription reflections;
@@ -349,6 +355,7 @@ void for_each_collection(Scene& scene, F&& visit) {
   visit("environments", "Distant light as a function of direction", scene.environments);
   visit("materials", "Surface properties that objects can share", scene.materials);
   visit("objects", "A shape with its surface and placement", scene.objects);
+  visit("particle_systems", "Further spheres drawn as points", scene.particle_systems);
   visit("animations", "Change to a key over time", scene.animations);
 }
 

@@ -157,12 +157,7 @@ bool applies(const Key& key, const Section& section) {
   if (key.limits.only[0] == '\0') return true;
   const Key& first = section.front().keys.front();
   const std::string_view kind = first.choices[as<uint8_t>(first.member(section.front().data))];
-  for (std::string_view words = key.limits.only; !words.empty();) {
-    const std::size_t end = std::min(words.find(' '), words.size());
-    if (words.substr(0, end) == kind) return true;
-    words.remove_prefix(std::min(end + 1, words.size()));
-  }
-  return false;
+  return has_word(key.limits.only, kind);
 }
 
 // Parses numbers separated by commas, with or without brackets.

@@ -12,7 +12,9 @@
 #include "halfspace/core/text.h"
 #include "halfspace/core/vec.h"
 #include "halfspace/scene/animation.h"
+#include "halfspace/scene/material_overrides.h"
 #include "halfspace/scene/scene_paths.h"
+#include "halfspace/scene/shapes.h"
 
 namespace halfspace {
 
@@ -62,6 +64,7 @@ void check(const EnvironmentDescription& e, const std::string& where) {
 }
 
 void check(const SurfaceDescription&, const std::string&) {}
+void check(const ParticlesDescription&, const std::string&) {}
 
 void check(const Placement& p, const std::string& where) {
   const glm::dvec3 s = glm::abs(p.scale);
@@ -69,47 +72,41 @@ void check(const Placement& p, const std::string& where) {
     refuse(where + ".scale", "has a component near zero; expected at least " + number_text(kMinScale) + " in magnitude");
 }
 
-// Returns the approximate number of vertices of the object's mesh, without the additional vertices at seams and poles.
-int64_t vertices_of(const ObjectDescription& o) {
-  const int64_t bands = o.latitudes, sectors = o.longitudes, n = o.segments;
-  switch (o.shape) {
-    case Shape::sphere: return 1;
-    case Shape::file: return 0;  // checked when the file is read
-    case Shape::icosphere: return 10 * (int64_t{1} << (2 * o.level)) + 2;
-    case Shape::plane: return (n + 1) * (n + 1);
-    case Shape::cube: return 6 * (n + 1) * (n + 1);
-    case Shape::cylinder: return 3 * bands * sectors;
-    case Shape::cone: return 2 * bands * sectors;
-    default: return bands * sectors;
-  }
-}
-
-bool is_ring(Shape shape) { return shape == Shape::torus || shape == Shape::torus_knot; }
-
-// Returns how far the surface can be displaced inwards before it intersects itself.
-double thickness_of(const ObjectDescription& o) {
-  if (is_ring(o.shape)) return o.tube;
-  return o.shape == Shape::cube ? 0.5 * o.size : o.radius;
-}
-
 void check(const ObjectDescription& o, const std::string& where) {
+  const ShapeKind& kind = kind_of(o);
   check(o.placement, where);
   if (o.shape == Shape::file && o.file.path.empty()) refuse(where + ".file", "is missing; expected a model file");
   for (std::size_t i = 0; i < o.instances.size(); ++i) check(o.instances[i], fmt::format("{}.{}.{}", where, kInstances, i));
-  if (vertices_of(o) > kMaxVertices) refuse(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
-  if (is_ring(o.shape) && o.tube >= o.radius)
+  if (kind.vertices(o) > kMaxVertices) refuse(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
+  if (kind.is_ring && o.tube >= o.radius)
     refuse(where + ".tube", number_text(o.tube) + " closes the hole of the ring; expected less than radius, " + number_text(o.radius));
-  if (is_ring(o.shape) && o.latitudes < 3) refuse(where + ".latitudes", "2 do not form a tube; expected at least 3");
+  if (kind.is_ring && o.latitudes < 3) refuse(where + ".latitudes", "2 do not form a tube; expected at least 3");
   if (const std::string_view key = key_for_meshes(o); o.shape == Shape::sphere && !key.empty()) {
     refuse(where + "." + std::string(key),
            std::string("is not supported by the shape sphere (only constant factors, per-pixel lighting, the outside, and uniform ") +
                "scale); expected the shape uv_sphere or icosphere");
   }
-  const bool displaced = o.shape != Shape::plane && is_map(o.height);
-  if (displaced && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness_of(o)) {
+  const double thickness = kind.thickness(o);
+  if (thickness > 0.0 && is_map(o.height) && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness) {
     refuse(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +
                                         " inside out; expected less than " + (o.shape == Shape::uv_sphere ? "its radius, " : "") +
-                                        number_text(thickness_of(o)));
+                                        number_text(thickness));
+  }
+}
+
+bool is_even(const Placement& p) { return glm::abs(p.scale) == glm::dvec3(std::fabs(p.scale.x)); }
+
+// Checks that the ancestors of an object exist and end, and that exact spheres stay round.
+void check_parents(SceneDescription& scene, const ObjectDescription& object, const std::string& where) {
+  std::size_t generations = 0;
+  for (const ObjectDescription* o = &object; !o->parent.empty();) {
+    const ObjectDescription* parent = find_named(scene.objects, o->parent);
+    if (parent == nullptr) refuse(where + ".parent", "no object '" + o->parent + "'" + suggestion(o->parent, names_of(scene.objects)));
+    if (++generations > scene.objects.size())
+      refuse(where + ".parent", "the object is among its own ancestors; expected an object that does not depend on it");
+    if (object.shape == Shape::sphere && !is_even(parent->placement))
+      refuse(where + ".parent", "'" + o->parent + "' is not scaled uniformly, as the shape sphere needs; expected the shape uv_sphere");
+    o = parent;
   }
 }
 
@@ -135,7 +132,6 @@ std::string_view key_for_meshes(const ObjectDescription& o) {
   if (s.reflection.linear != glm::dvec3(0.0)) return "reflection";
   if (s.shading != ShadingRate::phong) return "shading";
   if (s.two_sided) return "two_sided";
-  const auto is_even = [](const Placement& p) { return glm::abs(p.scale) == glm::dvec3(std::fabs(p.scale.x)); };
   if (!is_even(o.placement)) return "scale";
   return std::ranges::all_of(o.instances, is_even) ? "" : kInstances;
 }
@@ -146,7 +142,7 @@ void check_room(const Named<ObjectDescription>& objects, const std::string& sour
     if (!o.visible) continue;
     const int64_t count = std::max<int64_t>(1, static_cast<int64_t>(o.instances.size()));
     copies += count;
-    vertices += vertices_of(o) * count;
+    vertices += kind_of(o).vertices(o) * count;
   }
   if (copies > kMaxCopies) refuse(source, fmt::format("objects: {} objects including instances; expected at most {}", copies, kMaxCopies));
   if (vertices > kMaxDrawnVertices) {
@@ -173,6 +169,11 @@ void check_scene(SceneDescription& scene, const std::string& source) {
       }
     }
   });
+  for (const auto& [name, object] : scene.objects) {
+    const std::string where = source + ": objects." + name;
+    check_parents(scene, object, where);
+    check_material_overrides(scene, object, where);
+  }
   check(scene.shadow, source + ": shadow");
   check_room(scene.objects, source);
 }

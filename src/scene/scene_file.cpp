@@ -222,6 +222,10 @@ Json& at_words(Json& json, std::span<const std::string> words) {
   return *place;
 }
 
+bool animates_material(SceneDescription& scene, const AnimationDescription& animation) {
+  return find_key(scene, animation.target, "animation").words.front() == "materials";
+}
+
 void drop_foreign_keys(const Section& fields, Json& section) {
   Json kept = Json::object();
   for (const auto& [name, value] : section.items()) {
@@ -283,13 +287,27 @@ void SceneFile::set(std::span<const std::string> settings) {
 }
 
 SceneDescription SceneFile::at(double seconds) const {
-  SceneDescription scene = description_;
-  const double begun = description_.time.hours / 24.0 * description_.time.day;
+  const double time = description_.time.hours / 24.0 * description_.time.day + seconds * description_.animation.speed;
+  SceneDescription scene = with_materials_at(time);
   for (const auto& [name, animation] : description_.animations) {
-    animate(scene, animation, "animations." + name, source_, begun + seconds * description_.animation.speed);
+    if (!animates_material(scene, animation)) animate(scene, animation, "animations." + name, source_, time);
   }
   check_scene(scene, fmt::format("{} at {:f} s", source_, seconds));
   return scene;
+}
+
+// Objects copy the keys of their material that they do not override, so animated materials are written to the JSON, which is read again.
+SceneDescription SceneFile::with_materials_at(double time) const {
+  SceneDescription scene = description_;
+  Json json;
+  for (const auto& [name, animation] : description_.animations) {
+    if (!animates_material(scene, animation)) continue;
+    if (json.is_null()) json = *json_;
+    animate(scene, animation, "animations." + name, source_, time);
+    const FoundKey found = find_key(scene, animation.target, source_);
+    at_words(json, found.words) = value_of(found.field);
+  }
+  return json.is_null() ? scene : read_scene(json, source_, directory_);
 }
 
 std::string SceneFile::print() const { return json_of(description_).dump(2) + "\n"; }

@@ -52,6 +52,8 @@ class SceneFile {
   std::string print() const;
 
  private:
+  SceneDescription with_materials_at(double time) const;
+
   std::string source_;
   std::filesystem::path directory_;
   std::shared_ptr<const Json> json_;  ///< contents of the file with later settings applied; never null

@@ -46,12 +46,12 @@ Section section_at(SceneDescription& scene, std::span<const std::string> words);
 std::vector<std::string_view> top_words(SceneDescription& scene);
 
 /// Returns the item with that name, or null.
-template <class T>
-T* find_named(std::vector<std::pair<std::string, T>>& list, std::string_view name) {
+template <class List>
+auto* find_named(List& list, std::string_view name) {
   for (auto& [thing, value] : list) {
     if (thing == name) return &value;
   }
-  return nullptr;
+  return static_cast<decltype(&list.front().second)>(nullptr);
 }
 
 template <class T>

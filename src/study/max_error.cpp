@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "halfspace/render/model/chord_error.h"
+#include "halfspace/scene/shapes.h"
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/study/pictures.h"
 

@@ -13,7 +13,7 @@
 #include "halfspace/image/image_difference.h"
 #include "halfspace/reference/silhouettes.h"
 #include "halfspace/reference/validation.h"
-#include "halfspace/render/model/chord_error.h"
+#include "halfspace/scene/shapes.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/workers.h"
 
@@ -40,7 +40,7 @@ bool is_smooth(const ObjectDescription& o) { return o.surface.shading != Shading
 SceneDescription finest(SceneDescription scene) {
   for (auto& [name, o] : scene.objects) {
     if (!is_smooth(o) || ((o.shape == Shape::plane || o.shape == Shape::cube) && !is_map(o.height))) continue;
-    o = with_parts(o, std::min(max_parts(o), is_map(o.height) ? 1536 : 512), true);
+    o = with_parts(o, std::min(kind_of(o).max_parts, is_map(o.height) ? 1536 : 512), true);
   }
   scene.particles.sprite = ParticleSprite::exact;
   return scene;

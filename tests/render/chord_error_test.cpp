@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/render/model/chord_error.h"
+#include "halfspace/scene/shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "halfspace/core/check.h"
-#include "halfspace/render/model/chord_error.h"
+#include "halfspace/scene/shapes.h"
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/errors.h"

@@ -303,9 +303,29 @@ const Wrong kWrong[] = {
      {"2", "inside out", "less than 1"}},
     {"Level", R"({"version": 1, "objects": {"a": {"shape": "icosphere", "level": 9}}})", "test.json: objects.a.level", {"0 to 8", "got 9"}},
     {"TargetThatStands",
-     R"({"version": 1, "materials": {"m": {}}, "animations": {"t": {"target": "m.shininess"}}})",
+     R"({"version": 1, "animations": {"t": {"target": "time.hours"}}})",
      "test.json: animations.t.target",
-     {"m.shininess", "object", "camera"}},
+     {"time.hours", "object", "camera"}},
+    {"UnknownParent",
+     R"({"version": 1, "objects": {"wheel": {}, "a": {"parent": "weel"}}})",
+     "test.json: objects.a.parent",
+     {"'weel'", "'wheel'"}},
+    {"ParentsInALoop",
+     R"({"version": 1, "objects": {"a": {"parent": "b"}, "b": {"parent": "c"}, "c": {"parent": "b"}}})",
+     "test.json: objects.a.parent",
+     {"its own ancestors"}},
+    {"StretchedParentOfSphere",
+     R"({"version": 1, "objects": {"a": {"shape": "sphere", "parent": "b"}, "b": {"scale": [1, 2, 1]}}})",
+     "test.json: objects.a.parent",
+     {"'b'", "uniformly", "uv_sphere"}},
+    {"OverrideWithoutMaterial",
+     R"({"version": 1, "objects": {"a": {"shape": "file", "file": "a.obj", "model_materials": "Body"}}})",
+     "test.json: objects.a.model_materials",
+     {"'Body'", "NAME=MATERIAL"}},
+    {"OverrideWithUnknownMaterial",
+     R"({"version": 1, "materials": {"red": {}}, "objects": {"a": {"shape": "file", "file": "a.obj", "model_materials": "Body=rde"}}})",
+     "test.json: objects.a.model_materials",
+     {"'rde'", "'red'"}},
     {"OrbitOfANumber",
      R"({"version": 1, "objects": {"a": {}}, "animations": {"t": {"type": "orbit", "target": "a.radius"}}})",
      "test.json: animations.t.target",
@@ -433,6 +453,17 @@ TEST(Animation, RateOrbitAndKeyframesFollowTheirFormulas) {
   EXPECT_EQ(scene.at(1.5).objects[2].second.radius, 1.0 + 0.25 * 0.25 * 2.5) << "3x^2 - 2x^3 at x = 1/4";
   EXPECT_EQ(scene.at(2).objects[2].second.radius, 1.5);
   EXPECT_EQ(scene.at(9).objects[2].second.radius, 2.0);
+}
+
+TEST(Animation, MaterialsChangeTheObjectsThatDoNotOverrideTheKey) {
+  const SceneFile scene = scene_of(R"({"version": 1, "materials": {"m": {"shininess": 10}},
+    "objects": {"a": {"material": "m"}, "b": {"material": "m", "shininess": 7}, "c": {}},
+    "animations": {"t": {"target": "m.shininess", "rate": 5}, "u": {"target": "a.radius", "rate": 1}}})");
+  const SceneDescription then = scene.at(2);
+  EXPECT_EQ(then.objects[0].second.surface.shininess, 20.0);
+  EXPECT_EQ(then.objects[0].second.radius, 3.0) << "other animations still apply";
+  EXPECT_EQ(then.objects[1].second.surface.shininess, 7.0);
+  EXPECT_EQ(then.objects[2].second.surface.shininess, 32.0);
 }
 
 TEST(Animation, KeyframesLoopAndStep) {

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "halfspace/render/model/chord_error.h"
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
 #include "halfspace/scene/scene_check.h"
+#include "halfspace/scene/shapes.h"
 #include "halfspace/shading/tone.h"
 
 namespace halfspace {
@@ -67,31 +67,12 @@ double edge_for_color(const View& v) {
 bool is_faceted(const ObjectDescription& o) {
   return o.surface.shading == ShadingRate::flat || o.surface.shading == ShadingRate::provoking;
 }
-bool is_plane(Shape shape) { return shape == Shape::plane || shape == Shape::cube; }
-bool is_ball(const ObjectDescription& o) { return (o.shape == Shape::uv_sphere || o.shape == Shape::icosphere) && !is_map(o.height); }
+bool is_ball(const ObjectDescription& o) { return kind_of(o).is_sphere_mesh && !is_map(o.height); }
 
 // Returns true if shading uses more than the positions of vertices. The mesh is then part of the object's appearance.
 bool shades_by_vertex(const ObjectDescription& o) {
   if (o.surface.shading == ShadingRate::gouraud) return true;
   return is_map(o.height) && !(o.shape == Shape::uv_sphere && o.normals == NormalSource::pixel);
-}
-
-// Returns the angle between the normals at the ends of a quad's diagonal; 0 for shapes with flat faces.
-double diagonal_angle(const ObjectDescription& o) {
-  using std::numbers::pi;
-  switch (o.shape) {
-    case Shape::sphere:
-    case Shape::file:
-    case Shape::plane:
-    case Shape::cube: return 0.0;
-    case Shape::icosphere: return 1.33 / static_cast<double>(1 << o.level);
-    case Shape::uv_sphere: return glm::length(glm::dvec2(pi / o.latitudes, 2.0 * pi / o.longitudes));
-    case Shape::cylinder:
-    case Shape::cone: return 2.0 * pi / o.longitudes;
-    case Shape::torus:
-    case Shape::torus_knot: break;
-  }
-  return glm::length(glm::dvec2(2.0 * pi / o.latitudes, 2.0 * pi / o.longitudes));
 }
 
 // Returns the maximum channel of the light that reaches a surface.
@@ -112,12 +93,6 @@ bool may_shade_by_vertex(const ObjectDescription& o, const SceneDescription& sce
          std::ranges::all_of(scene.lights, [](const auto& light) { return light.second.type == LightType::directional; });
 }
 
-double vertices_of(const ObjectDescription& o) {
-  if (is_plane(o.shape)) return static_cast<double>(o.segments) * o.segments;
-  if (o.shape == Shape::icosphere) return 10.0 * static_cast<double>(1 << (2 * o.level));
-  return static_cast<double>(o.latitudes) * o.longitudes;
-}
-
 // Size and visibility of an object in the image.
 struct Presence {
   double px_per_unit = 0.0;  // maximum, for units of the object
@@ -125,11 +100,11 @@ struct Presence {
   bool is_seen = false;      // or may cast a visible shadow
 };
 
-Presence presence_of(const ObjectDescription& o, const View& view, bool casts) {
+Presence presence_of(const SceneDescription& scene, const ObjectDescription& o, const View& view, bool casts) {
   Presence p{.is_seen = casts};
-  for (const glm::dmat4& world : places_of(o)) {
+  for (const glm::dmat4& world : places_of(scene, o)) {
     const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
-    const double reach = (ball_radius(o) + relief_height(o)) * scale;
+    const double reach = (kind_of(o).extent(o).radius + relief_height(o)) * scale;
     if (is_outside(view, glm::dvec3(world[3]), reach)) continue;
     p.is_seen = true;
     const double per_unit = (is_ball(o) ? silhouette_pixels_per_unit : pixels_per_unit)(view, glm::dvec3(world[3]), reach);
@@ -161,24 +136,25 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
     choices.push_back({path + ".shape", "sphere", "ray traced per pixel: exact, without a mesh"});
     return sphere;
   }
-  const Presence presence = presence_of(authored, view_, scene_.shadow.method != ShadowMethod::none && authored.casts_shadow);
+  const ShapeKind& kind = kind_of(authored);
+  const Presence presence = presence_of(scene_, authored, view_, scene_.shadow.method != ShadowMethod::none && authored.casts_shadow);
   const std::shared_ptr<const ReliefDetail> detail = presence.is_seen ? relief_detail(authored, path) : nullptr;
   const auto off_px = [&](const ObjectDescription& o) {
-    const double relief = detail == nullptr ? 0.0 : std::fabs(o.height_scale) * detail->error(columns_of(o));
+    const double relief = detail == nullptr ? 0.0 : std::fabs(o.height_scale) * detail->error(kind.columns(o));
     return (chord_error(o) + relief) * presence.px_per_unit;
   };
   const auto is_enough = [&](const ObjectDescription& o) {
-    const double angle = diagonal_angle(o);
+    const double angle = kind.diagonal_angle(o);
     return off_px(o) <= edge_px && (!color || kCodesPerSquaredAngle * angle * angle <= *color);
   };
-  const bool has_curves = !is_plane(authored.shape) || is_map(authored.height);
+  const bool has_curves = !kind.has_flat_faces || is_map(authored.height);
   int parts = has_curves ? kMinParts : 1;
   ObjectDescription o = with_parts(authored, parts, color.has_value());
-  while (presence.is_seen && has_curves && parts < max_parts(o) && !is_enough(o)) {
-    parts = std::min(part_step(parts + 1), max_parts(o));
+  while (presence.is_seen && has_curves && parts < kind.max_parts && !is_enough(o)) {
+    parts = std::min(part_step(parts + 1), kind.max_parts);
     o = with_parts(authored, parts, color.has_value());
   }
-  if (shades_by_vertex(authored) && columns_of(o) <= columns_of(authored)) return authored;
+  if (shades_by_vertex(authored) && kind.columns(o) <= kind.columns(authored)) return authored;
   const std::string why = !presence.is_seen ? "not in the image"
                           : !has_curves     ? "its faces are flat"
                           : is_enough(o)    ? "at most " + rounded_text(off_px(o)) + " px off"
@@ -191,8 +167,9 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
   tell("level", authored.level, o.level);
   tell("segments", authored.segments, o.segments);
   // Linear interpolation of a cosine between two vertices has an error of at most an eighth of the squared angle.
-  const double angle = diagonal_angle(o), light_error = codes_of(max_light(scene_) * angle * angle / 8.0);
-  if (color && may_shade_by_vertex(o, scene_) && light_error <= *color && kPixelsPerVertex * vertices_of(o) <= presence.pixels) {
+  const double angle = kind.diagonal_angle(o), light_error = codes_of(max_light(scene_) * angle * angle / 8.0);
+  if (color && may_shade_by_vertex(o, scene_) && light_error <= *color &&
+      kPixelsPerVertex * static_cast<double>(kind.vertices(o)) <= presence.pixels) {
     o.surface.shading = ShadingRate::gouraud;
     choices.push_back({path + ".shading", "gouraud", "up to " + rounded_text(light_error) + " codes off"});
   }
@@ -247,11 +224,11 @@ double original_error_px(const View& v, const Particles& particles) {
   return worst;
 }
 
-void fit_particles(ParticlesDescription& p, double error_px, double edge_px, std::vector<ModelChoice>& choices) {
+void fit_particles(ParticlesDescription& p, const std::string& path, double error_px, double edge_px, std::vector<ModelChoice>& choices) {
   if (p.sprite == ParticleSprite::exact || error_px <= edge_px) return;
   p.sprite = ParticleSprite::exact;
   const std::string how_far = std::isfinite(error_px) ? "up to " + rounded_text(error_px) + " px" : std::string("arbitrarily far");
-  choices.push_back({"particles.sprite", "exact", "circles are " + how_far + " off the ellipses of the spheres"});
+  choices.push_back({path + ".sprite", "exact", "circles are " + how_far + " off the ellipses of the spheres"});
 }
 
 void fit_textures(Named<TextureDescription>& textures, double color, std::vector<ModelChoice>& choices) {
@@ -285,7 +262,11 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
     if (authored.visible) scene.objects[i].second = fitted(authored, "objects." + name, edge_px, allowed.color, out.choices);
   }
   fit_shadow(scene.shadow, edge_px, out.choices);
-  if (const auto spheres = particles()) fit_particles(scene.particles, original_error_px(view_, *spheres), edge_px, out.choices);
+  const auto fit_system = [&](ParticlesDescription& p, const std::string& path) {
+    if (const auto spheres = particles(p, path)) fit_particles(p, path, original_error_px(view_, *spheres), edge_px, out.choices);
+  };
+  fit_system(scene.particles, "particles");
+  for (auto& [name, p] : scene.particle_systems) fit_system(p, "particle_systems." + name);
   if (allowed.color) {
     fit_textures(scene.textures, *allowed.color, out.choices);
     fit_post(scene.post, *allowed.color, out.choices);

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/scene/shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <list>
+#include <numbers>
+#include <string>
+
+#include "halfspace/core/text.h"
+#include "halfspace/core/trig_double.h"
+
+namespace halfspace {
+
+namespace {
+
+using std::numbers::pi;
+using Object = ObjectDescription;
+
+// ---- counts ----------------------------------------------------------------------------------------------------
+
+int64_t no_vertices(const Object&) { return 0; }
+int64_t one_vertex(const Object&) { return 1; }
+int64_t grid_vertices(const Object& o) { return int64_t{o.latitudes} * o.longitudes; }
+int64_t cone_vertices(const Object& o) { return 2 * grid_vertices(o); }
+int64_t cylinder_vertices(const Object& o) { return 3 * grid_vertices(o); }
+int64_t icosphere_vertices(const Object& o) { return 10 * (int64_t{1} << (2 * o.level)) + 2; }
+int64_t plane_vertices(const Object& o) { return int64_t{o.segments + 1} * (o.segments + 1); }
+int64_t cube_vertices(const Object& o) { return 6 * plane_vertices(o); }
+
+int sectors(const Object& o) { return o.longitudes; }
+int segments(const Object& o) { return std::max(o.segments, 2); }
+int icosphere_columns(const Object& o) { return 5 << o.level; }
+
+// ---- sizes -----------------------------------------------------------------------------------------------------
+
+double around(double radius) { return 2.0 * pi * radius; }
+
+ShapeExtent no_extent(const Object&) { return {0.0, 0.0}; }
+ShapeExtent ball_extent(const Object& o) { return {around(o.radius), o.radius}; }
+ShapeExtent plane_extent(const Object& o) { return {o.size, o.size * std::numbers::sqrt2 / 2.0}; }
+ShapeExtent cube_extent(const Object& o) { return {o.size, o.size * std::numbers::sqrt3 / 2.0}; }
+ShapeExtent cylinder_extent(const Object& o) { return {around(o.radius), glm::length(glm::dvec2(o.radius, 0.5 * o.length))}; }
+ShapeExtent torus_extent(const Object& o) { return {around(o.radius + o.tube), o.radius + o.tube}; }
+ShapeExtent knot_extent(const Object& o) { return {around(3.0 * o.radius), 1.4 * o.radius + o.tube}; }  // the knot is about 3 circles long
+
+double no_length(const Object&) { return 0.0; }
+double radius(const Object& o) { return o.radius; }
+double tube(const Object& o) { return o.tube; }
+double half_size(const Object& o) { return 0.5 * o.size; }
+
+// ---- errors ----------------------------------------------------------------------------------------------------
+
+// Returns the distance between an arc of 2π/n and its chord.
+double chord_error_of_circle(double radius, int n) {
+  const double s = sincos_turns(0.25 / n).sin;
+  return 2.0 * radius * s * s;  // 1 − cos x = 2 sin²(x/2)
+}
+
+// The circumcircle of a triangle passes through the ends of the quad's diagonal.
+double sphere_chord_error(const Object& o) {
+  const double along = 1.0 / (4.0 * o.latitudes), across = 1.0 / (2.0 * o.longitudes);  // turns to the middle of the diagonal
+  const double s = sincos_turns(0.5 * std::sqrt(along * along + across * across)).sin;
+  return 2.0 * o.radius * s * s;
+}
+
+// Chord error of an icosphere of radius 1 at level 0. At level 1 and above it is kIcosphereError / 4^level.
+constexpr double kIcosahedronError = 0.2054, kIcosphereError = 0.292;
+
+double icosphere_chord_error(const Object& o) {
+  return o.radius * (o.level == 0 ? kIcosahedronError : kIcosphereError / static_cast<double>(1 << (2 * o.level)));
+}
+
+double cone_chord_error(const Object& o) { return chord_error_of_circle(o.radius, o.longitudes); }
+
+double torus_chord_error(const Object& o) {
+  return chord_error_of_circle(o.tube, o.latitudes) + chord_error_of_circle(o.radius + o.tube, o.longitudes);
+}
+
+// Length whose ratio to the tube's radius gives the ratio of the chord errors along the knot and around its tube. The error along the knot
+// (torus_knot.cpp) is an eighth of the maximum second derivative of the curve, divided by n². The maximum is at the outermost point, where
+// the center line contributes 36.8π²·R and the tube's radius 52π²·t.
+double knot_bend(const Object& o) { return 4.6 * o.radius + 6.5 * o.tube; }
+
+double knot_chord_error(const Object& o) {
+  return chord_error_of_circle(o.tube, o.latitudes) + pi * pi * knot_bend(o) / (static_cast<double>(o.longitudes) * o.longitudes);
+}
+
+double icosphere_angle(const Object& o) { return 1.33 / static_cast<double>(1 << o.level); }
+double sphere_angle(const Object& o) { return glm::length(glm::dvec2(pi / o.latitudes, 2.0 * pi / o.longitudes)); }
+double cone_angle(const Object& o) { return 2.0 * pi / o.longitudes; }
+double ring_angle(const Object& o) { return glm::length(glm::dvec2(2.0 * pi / o.latitudes, 2.0 * pi / o.longitudes)); }
+
+// ---- tessellation ----------------------------------------------------------------------------------------------
+
+int scaled(int parts, double factor) { return std::max(3, static_cast<int>(std::ceil(parts * factor))); }
+
+void no_parts(Object&, int, bool) {}
+
+void sphere_parts(Object& o, int parts, bool) {
+  o.latitudes = parts;
+  o.longitudes = 2 * parts;
+}
+
+void icosphere_parts(Object& o, int parts, bool) {
+  o.level = 0;
+  while (o.level < 8 && (1 << o.level) < parts) ++o.level;
+}
+
+void edge_parts(Object& o, int parts, bool) { o.segments = parts; }
+
+// Cylinders and cones are straight from top to bottom.
+void cylinder_parts(Object& o, int parts, bool) {
+  o.latitudes = is_map(o.height) ? scaled(parts, static_cast<double>(o.latitudes) / o.longitudes) : 2;
+  o.longitudes = std::max(3, parts);
+}
+
+void cone_parts(Object& o, int parts, bool places_maps) {
+  cylinder_parts(o, parts, places_maps);
+  // With sectors/3 bands, s/4n = 2πr/(4·sectors·sectors/3) = 4.7 r/sectors², which is below the chord error of 4.9 r/sectors².
+  if (places_maps && !is_map(o.height) && !first_map(o.surface).empty()) o.latitudes = scaled(parts, 1.0 / 3.0);
+}
+
+void torus_parts(Object& o, int parts, bool) {
+  o.latitudes = std::max(3, parts);
+  o.longitudes = scaled(parts, std::sqrt((o.radius + o.tube) / o.tube));
+}
+
+// The chord error around the tube is t·(π/n)²/2.
+void knot_parts(Object& o, int parts, bool) {
+  o.latitudes = std::max(3, parts);
+  o.longitudes = scaled(parts, std::sqrt(2.0 * knot_bend(o) / o.tube));
+}
+
+// ---- table -----------------------------------------------------------------------------------------------------
+
+constexpr ShapeKind kKinds[]{
+    {.shape = Shape::uv_sphere,
+     .name = "uv_sphere",
+     .keys = "radius latitudes longitudes normals",
+     .is_ring = false,
+     .has_flat_faces = false,
+     .is_sphere_mesh = true,
+     .max_parts = 1536,
+     .vertices = grid_vertices,
+     .extent = ball_extent,
+     .thickness = radius,
+     .columns = sectors,
+     .chord_error = sphere_chord_error,
+     .diagonal_angle = sphere_angle,
+     .set_parts = sphere_parts},
+    {.shape = Shape::icosphere,
+     .name = "icosphere",
+     .keys = "radius level tiles_u tiles_v",
+     .is_ring = false,
+     .has_flat_faces = false,
+     .is_sphere_mesh = true,
+     .max_parts = 1 << 8,
+     .vertices = icosphere_vertices,
+     .extent = ball_extent,
+     .thickness = radius,
+     .columns = icosphere_columns,
+     .chord_error = icosphere_chord_error,
+     .diagonal_angle = icosphere_angle,
+     .set_parts = icosphere_parts},
+    {.shape = Shape::sphere,
+     .name = "sphere",
+     .keys = "radius",
+     .is_ring = false,
+     .has_flat_faces = false,
+     .is_sphere_mesh = false,
+     .max_parts = 1,
+     .vertices = one_vertex,
+     .extent = ball_extent,
+     .thickness = radius,
+     .columns = sectors,
+     .chord_error = no_length,
+     .diagonal_angle = no_length,
+     .set_parts = no_parts},
+    {.shape = Shape::plane,
+     .name = "plane",
+     .keys = "size segments tiles_u tiles_v shadow_only",
+     .is_ring = false,
+     .has_flat_faces = true,
+     .is_sphere_mesh = false,
+     .max_parts = 1024,
+     .vertices = plane_vertices,
+     .extent = plane_extent,
+     .thickness = no_length,
+     .columns = segments,
+     .chord_error = no_length,
+     .diagonal_angle = no_length,
+     .set_parts = edge_parts},
+    {.shape = Shape::cube,
+     .name = "cube",
+     .keys = "size segments tiles_u tiles_v",
+     .is_ring = false,
+     .has_flat_faces = true,
+     .is_sphere_mesh = false,
+     .max_parts = 1024,
+     .vertices = cube_vertices,
+     .extent = cube_extent,
+     .thickness = half_size,
+     .columns = segments,
+     .chord_error = no_length,
+     .diagonal_angle = no_length,
+     .set_parts = edge_parts},
+    {.shape = Shape::cylinder,
+     .name = "cylinder",
+     .keys = "radius length latitudes longitudes tiles_u tiles_v",
+     .is_ring = false,
+     .has_flat_faces = false,
+     .is_sphere_mesh = false,
+     .max_parts = 8192,
+     .vertices = cylinder_vertices,
+     .extent = cylinder_extent,
+     .thickness = radius,
+     .columns = sectors,
+     .chord_error = cone_chord_error,
+     .diagonal_angle = cone_angle,
+     .set_parts = cylinder_parts},
+    {.shape = Shape::cone,
+     .name = "cone",
+     .keys = "radius length latitudes longitudes tiles_u tiles_v",
+     .is_ring = false,
+     .has_flat_faces = false,
+     .is_sphere_mesh = false,
+     .max_parts = 8192,
+     .vertices = cone_vertices,
+     .extent = cylinder_extent,
+     .thickness = radius,
+     .columns = sectors,
+     .chord_error = cone_chord_error,
+     .diagonal_angle = cone_angle,
+     .set_parts = cone_parts},
+    {.shape = Shape::torus,
+     .name = "torus",
+     .keys = "radius tube latitudes longitudes tiles_u tiles_v",
+     .is_ring = true,
+     .has_flat_faces = false,
+     .is_sphere_mesh = false,
+     .max_parts = 512,
+     .vertices = grid_vertices,
+     .extent = torus_extent,
+     .thickness = tube,
+     .columns = sectors,
+     .chord_error = torus_chord_error,
+     .diagonal_angle = ring_angle,
+     .set_parts = torus_parts},
+    {.shape = Shape::torus_knot,
+     .name = "torus_knot",
+     .keys = "radius tube latitudes longitudes tiles_u tiles_v",
+     .is_ring = true,
+     .has_flat_faces = false,
+     .is_sphere_mesh = false,
+     .max_parts = 256,
+     .vertices = grid_vertices,
+     .extent = knot_extent,
+     .thickness = tube,
+     .columns = sectors,
+     .chord_error = knot_chord_error,
+     .diagonal_angle = ring_angle,
+     .set_parts = knot_parts},
+    {.shape = Shape::file,
+     .name = "file",
+     .keys = "file up_axis model_scene model_animation model_time model_variant model_materials",
+     .is_ring = false,
+     .has_flat_faces = false,
+     .is_sphere_mesh = false,
+     .max_parts = 1,
+     .vertices = no_vertices,
+     .extent = no_extent,
+     .thickness = no_length,
+     .columns = sectors,
+     .chord_error = no_length,
+     .diagonal_angle = no_length,
+     .set_parts = no_parts},
+};
+
+// kind_of looks rows up by the value of the enumeration.
+constexpr bool is_in_order() {
+  for (std::size_t i = 0; i < std::size(kKinds); ++i) {
+    if (kKinds[i].shape != static_cast<Shape>(i)) return false;
+  }
+  return std::size(kKinds) == kShapes;
+}
+static_assert(is_in_order());
+
+constexpr std::array<std::string_view, kShapes> names_of_kinds() {
+  std::array<std::string_view, kShapes> names{};
+  std::ranges::transform(kKinds, names.begin(), &ShapeKind::name);
+  return names;
+}
+
+}  // namespace
+
+constinit const std::array<std::string_view, kShapes> ChoiceNames<Shape>::names = names_of_kinds();
+
+const ShapeKind& kind_of(Shape shape) { return kKinds[static_cast<std::size_t>(shape)]; }
+
+int part_step(int minimum) {
+  int power = 1;
+  while (2 * power <= minimum) power *= 2;
+  if (minimum <= power) return power;
+  return 2 * minimum <= 3 * power ? 3 * power / 2 : 2 * power;
+}
+
+const char* shapes_with(std::string_view key) {
+  static std::list<std::string> lists;
+  std::string& list = lists.emplace_back();
+  for (const ShapeKind& kind : kKinds) {
+    if (!has_word(kind.keys, key)) continue;
+    if (!list.empty()) list += ' ';
+    list += kind.name;
+  }
+  return list.c_str();
+}
+
+}  // namespace halfspace
