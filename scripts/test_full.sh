@@ -63,6 +63,14 @@ fuzz() {
   return $status
 }
 
+# Builds the programs that the default target leaves out, and runs the tests of all benchmarks.
+benchmarks() {
+  local dir=build/full/benchmarks
+  cmake -S . -B "$dir" -G Ninja -DCMAKE_BUILD_TYPE=Release > /dev/null
+  cmake --build "$dir" --target benchmarks test-bench -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  "$dir/bin/test-bench" --gtest_brief=1
+}
+
 declare -A steps
 names=()
 step() { names+=("$1"); steps[$1]=$2; }
@@ -78,6 +86,7 @@ step dev               "sanitized dev -DCMAKE_CXX_COMPILER=g++"
 step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=address,undefined"
 step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
 step fuzz              "fuzz"
+step benchmarks        "benchmarks"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
 step order             "blended_order"
 step views             "random_views"

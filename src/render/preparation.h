@@ -107,22 +107,20 @@ class ScenePreparation {
 
   const CameraDescription& camera() const;
 
-  // Returns the asset with the key `recipe`, or null if it does not exist yet.
+  // Returns the asset with this recipe and keeps it alive with the prepared scene, or returns null if it does not exist yet.
   template <class T>
   std::shared_ptr<const T> existing(const std::string& recipe) {
-    const auto found = assets_.entries_.find(recipe);
-    if (found == assets_.entries_.end()) return nullptr;
-    found->second.wanted = true;
-    out_.assets.push_back(found->second.asset);
-    return std::static_pointer_cast<const T>(found->second.asset);
+    std::shared_ptr<const T> found = assets_.cache_.find<T>(recipe);
+    if (found != nullptr) out_.assets.push_back(found);
+    return found;
   }
   // The same, but an asset that does not exist yet is made by calling `make`.
   template <class T, class F>
   std::shared_ptr<const T> asset(const std::string& recipe, F make) {
-    if (auto found = existing<T>(recipe)) return found;
-    assets_.entries_.emplace(recipe, SceneAssets::Entry{std::make_shared<const T>(make()), true});
+    if (!assets_.cache_.contains(recipe)) assets_.cache_.add(recipe, std::make_shared<const T>(make()));
     return existing<T>(recipe);
   }
+
   // prepare_maps.cpp
   int width_for(const ObjectDescription& o) const;
   const TextureDescription& texture_named(const std::string& name) const;

@@ -54,7 +54,7 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     for (std::size_t i = 0; i < uses.size(); ++i) {
       if (uses[i]->texture < 0) continue;
       const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
-      if (image >= 0 && !assets_.entries_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
+      if (image >= 0 && !assets_.cache_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
     }
   }
   const std::vector<std::pair<int, bool>> list(wanted.begin(), wanted.end());

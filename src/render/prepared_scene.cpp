@@ -129,7 +129,7 @@ void SceneAssets::expect(const SceneDescription& scene, int width, int height) {
 
 void SceneAssets::add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model) {
   warn_of(file, *model);
-  entries_[model_recipe(file)] = {std::move(model), true};
+  cache_.add(model_recipe(file), std::move(model));
 }
 
 void SceneAssets::warn_of(const std::filesystem::path& file, const ModelAsset& model) const {
@@ -140,8 +140,7 @@ void SceneAssets::warn_of(const std::filesystem::path& file, const ModelAsset& m
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
   PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();
-  std::erase_if(entries_, [](const auto& entry) { return !entry.second.wanted; });
-  for (auto& [recipe, entry] : entries_) entry.wanted = false;
+  cache_.remove_unwanted();
   return prepared;
 }
 

@@ -17,6 +17,7 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/raster/pass.h"
+#include "halfspace/render/asset_cache.h"
 #include "halfspace/render/model/model_choice.h"
 #include "halfspace/render/particles.h"
 #include "halfspace/render/view.h"
@@ -139,10 +140,6 @@ class SceneAssets {
 
  private:
   friend class ScenePreparation;
-  struct Entry {
-    std::shared_ptr<const void> asset;
-    bool wanted;  // since the last frame was prepared
-  };
   void warn(const std::string& problem) const {
     if (warn_) warn_(problem);
   }
@@ -154,7 +151,7 @@ class SceneAssets {
   const Workers& workers_;
   std::function<void(const std::string&)> warn_;
   std::set<std::string> warned_;
-  std::map<std::string, Entry> entries_;    ///< keyed by recipe
+  AssetCache cache_;
   std::map<std::string, int> widths_;       ///< minimum widths of generated maps, by object name
   int panorama_width_ = 0, face_size_ = 0;  ///< minimum sizes of generated environments
 };

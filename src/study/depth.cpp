@@ -90,7 +90,7 @@ struct Depths {
   }
 };
 
-double share_wrong(const Image<glm::vec4>& picture) {
+double wrong_fraction(const Image<glm::vec4>& picture) {
   int wrong = 0, cells = 0;
   for (int y = kCell / 2; y < picture.height(); y += kCell)
     for (int x = kCell / 2; x < picture.width(); x += kCell, ++cells) wrong += picture.at(x, y).y == 0.0f;
@@ -144,7 +144,7 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
                       options)};
         judge_picture(v, picture, white, PictureError::mean);
         v.measures.clear();
-        v.error = share_wrong(picture);
+        v.error = wrong_fraction(picture);
         study.variants.push_back(std::move(v));
       }
     }

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <utility>
 
-#include "halfspace/scene/shapes.h"
 #include "halfspace/scene/scene_file.h"
+#include "halfspace/scene/shapes.h"
 #include "halfspace/study/pictures.h"
 
 namespace halfspace {
@@ -65,7 +65,7 @@ double farthest_apart(const std::vector<double>& a, const std::vector<double>& b
   return max_difference;
 }
 
-struct Way {
+struct Candidate {
   std::string name, group;
   SceneDescription scene;
 };
@@ -76,17 +76,18 @@ SceneDescription with_bands(SceneDescription scene, int bands, int samples) {
   return scene;
 }
 
-std::vector<Way> ways_of(const std::string& name, const SceneDescription& scene, SceneAssets& assets, const View& size, bool quick) {
-  std::vector<Way> ways;
+std::vector<Candidate> candidates_of(const std::string& name, const SceneDescription& scene, SceneAssets& assets, const View& size,
+                                     bool quick) {
+  std::vector<Candidate> candidates;
   for (const int samples : {1, 8}) {
     for (const int bands : quick ? std::vector{16, 64} : std::vector{32, 64, 128, 256})
-      ways.push_back({fmt::format("{} {} bands, {}", name, bands, samples), fmt::format("{}, {} samples", name, samples),
-                      with_bands(scene, bands, samples)});
+      candidates.push_back({fmt::format("{} {} bands, {}", name, bands, samples), fmt::format("{}, {} samples", name, samples),
+                            with_bands(scene, bands, samples)});
   }
   for (const double px : quick ? std::vector{1.0} : std::vector{2.0, 1.0, 0.5, 0.25, 0.1, 0.05})
-    ways.push_back(
+    candidates.push_back(
         {fmt::format("{} {} px", name, px), name + ", --max-error", assets.fit(scene, size.width_px, size.height_px, {px, {}}).scene});
-  return ways;
+  return candidates;
 }
 
 }  // namespace
@@ -114,21 +115,21 @@ Study study_max_error(const StudyOptions& options, const Workers& workers) {
     const std::vector<double> truth = outline_by(with_bands(scene, finest, 1));
     study.truth.error = std::max(study.truth.error, farthest_apart(truth, outline_by(with_bands(scene, finest / 2, 1))) / 3.0);
     const View size = make_view(scene.cameras.front().second, width, height);
-    for (const Way& way : ways_of(name, scene, assets, size, options.quick)) {
+    for (const Candidate& candidate : candidates_of(name, scene, assets, size, options.quick)) {
       Image<glm::u8vec4> picture(width, height);
       PassStatistics statistics;
       double texels = 0.0;
-      Variant v{.name = way.name, .group = way.group, .error = farthest_apart(truth, outline_by(way.scene))};
+      Variant v{.name = candidate.name, .group = candidate.group, .error = farthest_apart(truth, outline_by(candidate.scene))};
       v.time = time_of(
           [&] {
-            const PreparedScene prepared = assets.prepare(way.scene, width, height);
+            const PreparedScene prepared = assets.prepare(candidate.scene, width, height);
             statistics = render(prepared, picture, workers);
             const Shadow* shadow = prepared.lights.front().light.shadow;
             texels = shadow == nullptr ? 0.0 : shadow->views.front().size;
           },
           options);
       v.parameters = {{"triangles", static_cast<double>(statistics.primitives_in)},
-                      {"samples", static_cast<double>(way.scene.head.samples)},
+                      {"samples", static_cast<double>(candidate.scene.head.samples)},
                       {"shadow_texels", texels}};
       v.picture = picture;
       study.variants.push_back(std::move(v));

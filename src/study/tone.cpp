@@ -74,7 +74,7 @@ Variant judged(const std::string& name, const std::string& group, const Lights& 
   }
   const auto n = static_cast<double>(codes.size());
   v.error = static_cast<double>(sum) / n;
-  v.measures = {{"share_wrong", static_cast<double>(wrong) / n}, {"largest", static_cast<double>(largest)}};
+  v.measures = {{"wrong_fraction", static_cast<double>(wrong) / n}, {"largest", static_cast<double>(largest)}};
   return v;
 }
 
