@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/core/parallel.h"
 
+#include <pthread.h>
+
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -52,19 +55,38 @@ void run_on_std_threads(int threads, int count, const Task& task) {
 
 struct Workers::Impl {
   static std::unique_ptr<Impl> make(int) { return nullptr; }
+  static bool works() { return false; }
   void run(int, const Task&) {}
 };
 
 #else
 
+namespace {
+
+/// Set in a child process after fork() if the parent had used TBB: the child has none of TBB's threads, which may have held its locks.
+std::atomic<bool> lost_tbb = false;
+
+void watch_forks() {
+  static const int kError = ::pthread_atfork(nullptr, nullptr, [] { lost_tbb = true; });
+  if (kError != 0) throw std::bad_alloc();
+}
+
+}  // namespace
+
 /// A team that runs on TBB's threads. The arena limits only our own tasks; other users of TBB in the process are unaffected.
 struct Workers::Impl {
-  explicit Impl(int threads) : arena(threads) {}
+  explicit Impl(int threads) : arena(std::make_unique<tbb::task_arena>(threads)) { watch_forks(); }
+  ~Impl() {
+    if (!works()) static_cast<void>(arena.release());  // releasing an arena takes locks of TBB
+  }
 
   /// Returns null if TBB is not used: for one thread, or for more threads than cores, which TBB does not start.
   static std::unique_ptr<Impl> make(int threads) {
-    return threads > 1 && threads <= tbb::info::default_concurrency() ? std::make_unique<Impl>(threads) : nullptr;
+    return works() && threads > 1 && threads <= tbb::info::default_concurrency() ? std::make_unique<Impl>(threads) : nullptr;
   }
+
+  /// Returns false after a fork() that made TBB unusable.
+  static bool works() { return !lost_tbb.load(std::memory_order_relaxed); }
 
   void run(int count, const Task& task) {
     const auto work = [&task](int i) {
@@ -73,10 +95,10 @@ struct Workers::Impl {
       task(i);
     };
     // Grain size 1: a task is a tile or several thousand triangles, so stealing is cheap and gives the best load balance.
-    arena.execute([&] { tbb::parallel_for(0, count, 1, work, tbb::simple_partitioner()); });
+    arena->execute([&] { tbb::parallel_for(0, count, 1, work, tbb::simple_partitioner()); });
   }
 
-  tbb::task_arena arena;
+  std::unique_ptr<tbb::task_arena> arena;
 };
 
 #endif
@@ -89,7 +111,7 @@ Workers::~Workers() = default;
 
 void Workers::for_each(int count, const std::function<void(int)>& task) const {
   try {
-    if (impl_ != nullptr && count > 1) {
+    if (impl_ != nullptr && count > 1 && Impl::works()) {
       impl_->run(count, task);
     } else {
       run_on_std_threads(threads_, count, task);
