@@ -42,6 +42,12 @@
 #define HS_INLINE inline __attribute__((always_inline))
 #define HS_FLATTEN __attribute__((flatten))
 
+// Inline namespace for what depends on the width of the build without naming it in its type. Objects and libraries that were compiled for
+// different widths do not link with each other, because the names of its members differ.
+#define HS_JOIN_EXPANDED(a, b) a##b
+#define HS_JOIN(a, b) HS_JOIN_EXPANDED(a, b)
+#define HS_LANES_NAMESPACE HS_JOIN(lanes, HALFSPACE_LANES)
+
 namespace halfspace {
 
 namespace detail {
@@ -196,11 +202,15 @@ inline constexpr bool kIsLanes<RealN<W>> = true;
 template <class R>
 concept Number = std::is_same_v<R, float> || std::is_same_v<R, double> || kIsLanes<R>;
 
+inline namespace HS_LANES_NAMESPACE {
+
 // The SIMD width of this build. CMake sets HALFSPACE_LANES to 1, 4, 8 or 16.
 inline constexpr int kLanes = HALFSPACE_LANES;
 using Real = std::conditional_t<kLanes == 1, std::type_identity<float>, std::type_identity<RealN<kLanes == 1 ? 4 : kLanes>>>::type;
 using Int = IntOf<Real>;
 using Mask = MaskOf<Real>;
+
+}  // namespace HS_LANES_NAMESPACE
 
 // ---- masks -----------------------------------------------------------------------------------------------------
 

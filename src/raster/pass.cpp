@@ -65,6 +65,8 @@ void check_rect(const Rect& r, int smallest) {
 
 namespace detail {
 
+inline namespace HS_LANES_NAMESPACE {
+
 class PassState {
  public:
   PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options);
@@ -331,6 +333,8 @@ void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader,
 }
 
 void set_post_step(PassState& state, PostStep post) { state.set_post_step(std::move(post)); }
+
+}  // namespace HS_LANES_NAMESPACE
 
 }  // namespace detail
 

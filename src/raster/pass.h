@@ -42,6 +42,8 @@ struct PassOptions {
   bool defer = true;
 };
 
+inline namespace HS_LANES_NAMESPACE {
+
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be
 /// used by one thread at a time.
 class Pass {
@@ -124,5 +126,7 @@ class Pass {
 
   std::unique_ptr<detail::PassState> state_;
 };
+
+}  // namespace HS_LANES_NAMESPACE
 
 }  // namespace halfspace

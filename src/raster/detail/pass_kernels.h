@@ -124,12 +124,16 @@ consteval bool require_depth_draw() {
   return false;
 }
 
+inline namespace HS_LANES_NAMESPACE {
+
 /// State of a Pass: its attachments, draws and work. Pass only stores a pointer to it.
 class PassState;
 std::pmr::memory_resource& memory_of(PassState& state);
 void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
               std::shared_ptr<const Indices> indices, const DrawState& draw_state);
 void set_post_step(PassState& state, PostStep post);
+
+}  // namespace HS_LANES_NAMESPACE
 
 /// Index list that can be drawn: Indices, or a contiguous range of uint32_t or uint16_t.
 template <class T>
