@@ -5,7 +5,8 @@
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 
-int main(int argc, char** argv) {
+// The launcher of a portable build calls this function (see cmake/program.cmake).
+extern "C" int halfspace_bench_main(int argc, char** argv) {
   using namespace halfspace;
   return run_bench_program({.name = "halfspace-bench",
                             .what = "Draws the benchmark workloads and measures their frame times",
@@ -19,3 +20,5 @@ int main(int argc, char** argv) {
                                 }},
                            argc, argv);
 }
+
+int main(int argc, char** argv) { return halfspace_bench_main(argc, argv); }

@@ -13,12 +13,27 @@ if(NOT HALFSPACE_ARCH MATCHES "^(native|x86-64-v[234])$")
   message(FATAL_ERROR "HALFSPACE_ARCH is '${HALFSPACE_ARCH}'; expected native, x86-64-v2, x86-64-v3 or x86-64-v4")
 endif()
 
+# Sets out to the macros that the compiler defines for an instruction set.
+function(halfspace_arch_macros arch out)
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=${arch} -dM -E -x c++ /dev/null
+    OUTPUT_VARIABLE macros RESULT_VARIABLE result ERROR_VARIABLE error)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${CMAKE_CXX_COMPILER} does not support -march=${arch}: ${error}")
+  endif()
+  set(${out} "${macros}" PARENT_SCOPE)
+endfunction()
+
+# Sets out to the features that code for an instruction set needs, as core/cpu.cpp expects them, for example " SSE3 AVX AVX2 FMA ".
+function(halfspace_cpu_needs arch out)
+  halfspace_arch_macros(${arch} macros)
+  string(REGEX MATCHALL "__(S?SSE|AVX|FMA|BMI|F16C|LZCNT|POPCNT|MOVBE|ADX|GFNI|XOP|TBM)[A-Z0-9_]*__ 1" needs "${macros}")
+  list(TRANSFORM needs REPLACE "^__(.*)__ 1$" "\\1")
+  list(JOIN needs " " needs)
+  set(${out} " ${needs} " PARENT_SCOPE)
+endfunction()
+
 # The default width depends on the macros that the compiler defines for this instruction set.
-execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=${HALFSPACE_ARCH} -dM -E -x c++ /dev/null
-  OUTPUT_VARIABLE arch_macros RESULT_VARIABLE arch_result ERROR_VARIABLE arch_error)
-if(NOT arch_result EQUAL 0)
-  message(FATAL_ERROR "${CMAKE_CXX_COMPILER} does not support -march=${HALFSPACE_ARCH}: ${arch_error}")
-endif()
+halfspace_arch_macros(${HALFSPACE_ARCH} arch_macros)
 
 set(lanes "${HALFSPACE_LANES}")
 if(lanes STREQUAL "")
@@ -39,7 +54,12 @@ add_library(halfspace_flags INTERFACE)
 # Headers are included as "halfspace/MODULE/FILE.h". The build tree provides this path with a symbolic link, an installation with a folder.
 file(MAKE_DIRECTORY ${halfspace_BINARY_DIR}/include)
 file(CREATE_LINK ${halfspace_SOURCE_DIR}/src ${halfspace_BINARY_DIR}/include/halfspace SYMBOLIC)
-target_include_directories(halfspace_flags INTERFACE ${halfspace_BINARY_DIR}/include)
+include(GNUInstallDirs)
+target_include_directories(halfspace_flags INTERFACE
+  $<BUILD_INTERFACE:${halfspace_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+set_target_properties(halfspace_flags PROPERTIES EXPORT_NAME flags)
+target_compile_features(halfspace_flags INTERFACE cxx_std_20)
+set(HALFSPACE_BUILD_LANES ${lanes})
 target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes})
 # Contraction of a*b + c would make results depend on the compiler; errno only costs time. -Wno-psabi suppresses a note that g++ prints
 # wherever wide vectors are passed by value.

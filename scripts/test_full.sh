@@ -84,7 +84,7 @@ step gcc-lanes8        "build_and_test gcc-lanes8 -DCMAKE_CXX_COMPILER=g++ -DCMA
 step gcc-O1            "build_and_test gcc-O1 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1"
 step dev               "sanitized dev -DCMAKE_CXX_COMPILER=g++"
 step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=address,undefined"
-step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_STD_THREADS=ON"
+step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_WITH_TBB=OFF"
 step fuzz              "fuzz"
 step benchmarks        "benchmarks"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"

@@ -210,7 +210,10 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
 
 }  // namespace halfspace
 
-int main(int argc, char** argv) {
+// The launcher of a portable build calls this function (see cmake/program.cmake).
+extern "C" int halfspace_cli_main(int argc, char** argv) {
   CLI::App program("Halfspace: a renderer that runs on the CPU");
   return halfspace::run_program(program, [&] { halfspace::parse_and_run(program, argc, argv); });
 }
+
+int main(int argc, char** argv) { return halfspace_cli_main(argc, argv); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Thread teams on top of TBB. A team uses std::thread instead if it has more threads than TBB would start, or if the build
-// has no TBB (HALFSPACE_STD_THREADS, also used for ThreadSanitizer, which must see every lock). A single task, or a team of
+// has no TBB (HALFSPACE_WITH_TBB=OFF, also used for ThreadSanitizer, which must see every lock). A single task, or a team of
 // one, runs on the calling thread. In a child process after fork(), teams use std::thread, because TBB's threads do not exist there.
 #pragma once
 

@@ -97,4 +97,9 @@ struct ExrChannel {
 /// channels are R, G, B and possibly A as halves, or Z as floats.
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels);
 
+/// Sets the folder that contains halfspace-image-tool and halfspace-jpeg-tool, for the whole process. By default, and with an empty path,
+/// they are found relative to the program or shared library that contains this code. Thread-safe; images that are being read are not
+/// affected.
+void set_tool_folder(const std::filesystem::path& folder);
+
 }  // namespace halfspace

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The programs of a package. A launcher is compiled for any x86-64 and opens a shared library that contains the program. The loader selects
+// the library for the processor from the folders glibc-hwcaps/x86-64-v3 and x86-64-v4 of the library folder, which is in the RUNPATH of the
+// launcher. start_check.cpp, which is linked too, refuses processors below x86-64-v3.
+#include <dlfcn.h>
+#include <stdio.h>
+
+int main(int argc, char** argv) {
+  void* library = dlopen(HALFSPACE_LIBRARY, RTLD_NOW);
+  void* run = library == nullptr ? nullptr : dlsym(library, HALFSPACE_FUNCTION);
+  if (run == nullptr) {
+    fprintf(stderr, "halfspace: %s; expected an installation with this library\n", dlerror());
+    return 1;
+  }
+  return reinterpret_cast<int (*)(int, char**)>(run)(argc, argv);
+}

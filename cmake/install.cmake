@@ -1,0 +1,214 @@
+# Installation: libraries, headers, the CMake package Halfspace and pkg-config files. Installed files contain no absolute paths, so a prefix
+# can be moved.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(halfspace_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Halfspace)
+set(halfspace_modules core shading raster image geometry procedural scene model render reference)
+
+# Public headers. The headers that these include are installed as well. docs/reference/api.md describes the same list.
+set(halfspace_public_headers
+  core/check.h core/cpu.h core/half.h core/image.h core/lane_math.h core/lanes.h core/parallel.h core/srgb.h core/units.h core/vec.h
+  shading/colored_primitives.h shading/contract.h shading/depth_only.h shading/environment.h shading/environment_sky.h shading/light_types.h
+  shading/lighting.h shading/lit_surface.h shading/masked_depth.h shading/metallic_surface.h shading/packed_texels.h
+  shading/placed_surface.h shading/sampler.h shading/shadow.h shading/shadow_catcher.h shading/shadow_map.h shading/sphere_depth.h
+  shading/sphere_impostor.h shading/star_sky.h shading/surface_shader.h shading/texture.h shading/tone.h shading/tone_types.h
+  raster/draw_state.h raster/naive.h raster/pass.h raster/statistics.h raster/target.h raster/vertex_input.h
+  image/image_difference.h image/image_io.h
+  geometry/camera.h geometry/displaced_sphere.h geometry/height_field.h geometry/mesh.h geometry/normal_map.h geometry/shapes.h
+  procedural/earth.h procedural/moon.h procedural/noise.h procedural/patterns.h procedural/sky.h
+  scene/animation.h scene/description.h scene/keys.h scene/scene_check.h scene/scene_file.h
+  model/model.h model/pose.h
+  render/model_asset.h render/model_fit.h render/model_scene.h render/particles.h render/prepared_scene.h render/view.h
+  reference/ray_scene.h reference/shadow_score.h reference/validation.h)
+
+# Sets the file names of the library of a module and installs it. The name of a shared library contains the number of lanes, because programs
+# compiled for another width must not load it. Modules are exported one by one, so that a component of the package needs only its own
+# dependencies.
+function(halfspace_library_properties name)
+  set_target_properties(halfspace_${name} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME halfspace-${name})
+  get_target_property(type halfspace_${name} TYPE)
+  if(type STREQUAL SHARED_LIBRARY)
+    set_target_properties(halfspace_${name} PROPERTIES
+      OUTPUT_NAME halfspace-${name}-lanes${HALFSPACE_BUILD_LANES} VERSION ${PROJECT_VERSION}
+      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN
+      LINK_DEPENDS ${halfspace_SOURCE_DIR}/cmake/exports.map)
+    target_link_options(halfspace_${name} PRIVATE LINKER:--version-script=${halfspace_SOURCE_DIR}/cmake/exports.map)
+  endif()
+  if(HALFSPACE_INSTALL AND name IN_LIST halfspace_modules)
+    install(TARGETS halfspace_${name} EXPORT halfspace-${name} COMPONENT dev
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
+    install(EXPORT halfspace-${name} NAMESPACE Halfspace:: FILE Halfspace-${name}.cmake DESTINATION ${halfspace_package_dir} COMPONENT dev)
+  endif()
+endfunction()
+
+# Links a module with a library that has no CMake package. The installed package refers to the library by name.
+function(halfspace_link_by_name module library)
+  get_filename_component(file_name ${library} NAME_WE)
+  string(REGEX REPLACE "^lib" "" link_name ${file_name})
+  target_link_libraries(halfspace_${module} PRIVATE $<BUILD_INTERFACE:${library}> $<INSTALL_INTERFACE:${link_name}>)
+endfunction()
+
+# Appends a header and all headers that it includes to the list `headers` of the caller.
+function(halfspace_collect_headers header)
+  if(header IN_LIST headers)
+    return()
+  endif()
+  list(APPEND headers ${header})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${halfspace_SOURCE_DIR}/src/${header})
+  file(STRINGS ${halfspace_SOURCE_DIR}/src/${header} includes REGEX "^#include \"halfspace/")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE ".*\"halfspace/(.*)\".*" "\\1" included ${include})
+    halfspace_collect_headers(${included})
+  endforeach()
+  set(headers ${headers} PARENT_SCOPE)
+endfunction()
+
+function(halfspace_install_headers)
+  set(headers "")
+  foreach(header IN LISTS halfspace_public_headers)
+    if(TARGET halfspace_reference OR NOT header MATCHES "^reference/")
+      halfspace_collect_headers(${header})
+    endif()
+  endforeach()
+  foreach(header IN LISTS headers)
+    get_filename_component(folder ${header} DIRECTORY)
+    install(FILES ${halfspace_SOURCE_DIR}/src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halfspace/${folder} COMPONENT dev)
+  endforeach()
+endfunction()
+
+# Writes and installs halfspace-MODULE.pc. requires: pkg-config packages. libraries: further libraries by name.
+function(halfspace_pkg_config module requires libraries)
+  if(NOT TARGET halfspace_${module})
+    return()
+  endif()
+  list(JOIN requires ", " requires)
+  list(TRANSFORM libraries PREPEND " -l")
+  list(JOIN libraries "" libraries)
+  get_target_property(name halfspace_${module} OUTPUT_NAME)
+  set(flags "")
+  if(module STREQUAL "core")
+    get_target_property(options halfspace_flags INTERFACE_COMPILE_OPTIONS)
+    get_target_property(definitions halfspace_flags INTERFACE_COMPILE_DEFINITIONS)
+    list(TRANSFORM definitions PREPEND -D)
+    list(JOIN options " " options)
+    list(JOIN definitions " " definitions)
+    set(flags " ${options} ${definitions} -pthread")
+  endif()
+  file(RELATIVE_PATH prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+  string(REGEX REPLACE "/$" "" prefix ${prefix})
+  file(CONFIGURE OUTPUT ${halfspace_BINARY_DIR}/pkgconfig/halfspace-${module}.pc CONTENT [[
+prefix=${pcfiledir}/@prefix@
+includedir=${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
+libdir=${prefix}/@CMAKE_INSTALL_LIBDIR@
+
+Name: halfspace-@module@
+Description: Module @module@ of Halfspace, a renderer that runs on the CPU (C++20)
+Version: @PROJECT_VERSION@
+Requires: @requires@
+Cflags: -I${includedir}@flags@
+Libs: -L${libdir} -l@name@@libraries@
+]] @ONLY)
+  install(FILES ${halfspace_BINARY_DIR}/pkgconfig/halfspace-${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+endfunction()
+
+# Dependencies that a program links in addition to a static library, by module.
+function(halfspace_install_pkg_config)
+  set(core glm)
+  set(image halfspace-core)
+  set(image_libraries "")
+  set(scene halfspace-core nlohmann_json)
+  set(model halfspace-core)
+  set(model_libraries "")
+  set(render halfspace-raster halfspace-image halfspace-procedural halfspace-scene halfspace-model)
+  set(reference halfspace-render)
+  set(reference_libraries "")
+  if(NOT BUILD_SHARED_LIBS)
+    foreach(module image scene model render reference)
+      list(APPEND ${module} fmt)
+    endforeach()
+    if(HALFSPACE_WITH_TBB)
+      list(APPEND core tbb)
+    endif()
+    if(JPEG_FOUND)
+      list(APPEND image libjpeg)
+    endif()
+    if(OpenEXR_FOUND)
+      list(APPEND image OpenEXR)
+    endif()
+    set(image_libraries spng)
+    set(model_libraries meshoptimizer)
+    get_filename_component(reference_libraries "${EMBREE_LIBRARY}" NAME_WE)
+    string(REGEX REPLACE "^lib" "" reference_libraries "${reference_libraries}")
+  endif()
+  halfspace_pkg_config(core "${core}" "")
+  halfspace_pkg_config(shading halfspace-core "")
+  halfspace_pkg_config(raster halfspace-shading "")
+  halfspace_pkg_config(geometry halfspace-shading "")
+  halfspace_pkg_config(procedural halfspace-geometry "")
+  halfspace_pkg_config(image "${image}" "${image_libraries}")
+  halfspace_pkg_config(scene "${scene}" "")
+  halfspace_pkg_config(model "${model}" "${model_libraries}")
+  halfspace_pkg_config(render "${render}" "")
+  halfspace_pkg_config(reference "${reference}" "${reference_libraries}")
+endfunction()
+
+# Installs everything but the libraries themselves. Called after src/ has been added.
+function(halfspace_install_package)
+  install(TARGETS halfspace_flags EXPORT halfspace-core COMPONENT dev)
+  halfspace_install_headers()
+  set(built "")
+  foreach(module IN LISTS halfspace_modules)
+    if(TARGET halfspace_${module})
+      list(APPEND built ${module})
+    endif()
+  endforeach()
+  get_target_property(type halfspace_core TYPE)
+  string(COMPARE EQUAL ${type} STATIC_LIBRARY is_static)
+  configure_file(${halfspace_SOURCE_DIR}/cmake/HalfspaceConfig.cmake.in ${halfspace_BINARY_DIR}/HalfspaceConfig.cmake @ONLY)
+  write_basic_package_version_file(${halfspace_BINARY_DIR}/HalfspaceConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${halfspace_BINARY_DIR}/HalfspaceConfig.cmake ${halfspace_BINARY_DIR}/HalfspaceConfigVersion.cmake
+    DESTINATION ${halfspace_package_dir} COMPONENT dev)
+  halfspace_install_pkg_config()
+endfunction()
+
+# Generates and installs the manual pages and the shell completions. They are made from the help of the programs.
+function(halfspace_install_documents)
+  find_package(Python3 COMPONENTS Interpreter)
+  if(NOT Python3_FOUND OR CMAKE_CROSSCOMPILING OR NOT TARGET halfspace)
+    return()
+  endif()
+  set(folder ${halfspace_BINARY_DIR}/share/generated)
+  set(bench "")
+  if(TARGET halfspace-bench)
+    set(bench --bench $<TARGET_FILE:halfspace-bench>)
+  endif()
+  add_custom_command(OUTPUT ${folder}/man/man1/halfspace.1
+    COMMAND Python3::Interpreter ${halfspace_SOURCE_DIR}/scripts/generate_man.py --program $<TARGET_FILE:halfspace> ${bench} ${folder}
+    DEPENDS halfspace $<TARGET_NAME_IF_EXISTS:halfspace-bench> ${halfspace_SOURCE_DIR}/scripts/generate_man.py
+    COMMENT "Generating manual pages and completions" VERBATIM)
+  add_custom_target(halfspace_documents ALL DEPENDS ${folder}/man/man1/halfspace.1)
+  install(DIRECTORY ${folder}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT runtime)
+  install(DIRECTORY ${folder}/bash-completion ${folder}/fish ${folder}/zsh DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT runtime)
+endfunction()
+
+# Targets that build what is installed and nothing else: `installed` for everything, `isa` for the programs of a portable build.
+function(halfspace_add_install_targets)
+  add_custom_target(isa)
+  add_custom_target(installed)
+  foreach(module IN LISTS halfspace_modules)
+    if(TARGET halfspace_${module})
+      add_dependencies(installed halfspace_${module})
+    endif()
+  endforeach()
+  foreach(target halfspace halfspace-bench halfspace_documents halfspace_python halfspace-image-tool halfspace-jpeg-tool)
+    if(TARGET ${target})
+      add_dependencies(installed ${target})
+    endif()
+  endforeach()
+  foreach(target halfspace-program-cli halfspace-program-bench halfspace_python)
+    if(TARGET ${target})
+      add_dependencies(isa ${target})
+    endif()
+  endforeach()
+endfunction()

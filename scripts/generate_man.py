@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the manual pages and completion scripts that an installation contains, from the help of the built programs.
+
+    generate_man.py --program build/release/bin/halfspace [--bench build/release/bin/halfspace-bench] FOLDER
+
+Writes FOLDER/man/man1/*.1 and the completions for bash, zsh and fish, in the folders where these shells search them below /usr/share.
+"""
+import argparse
+import pathlib
+import re
+import subprocess
+
+
+def output_of(program, *arguments):
+    return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def escape(text):
+    """Returns text without characters that roff interprets."""
+    text = text.replace("\\", "\\e").replace("-", "\\-")
+    return "\n".join("\\&" + line if line.startswith((".", "'")) else line for line in text.split("\n"))
+
+
+def sections(text):
+    """Splits a help text: (description, usage, [(title, lines)])."""
+    lines = text.rstrip("\n").split("\n")
+    description, usage, parts = lines[0], "", []
+    for line in lines[1:]:
+        if line.startswith("Usage: "):
+            usage = line.removeprefix("Usage: ")
+            parts.append(("Arguments", []))
+        elif re.fullmatch(r"[A-Z]\w*:", line):
+            parts.append((line[:-1], []))
+        elif parts:
+            parts[-1][1].append(line)
+    return description, usage, [(title, body) for title, body in parts if any(line.strip() for line in body)]
+
+
+def entries(lines):
+    """Yields (term, explanation) for lines such as "  --size WxH     Size in pixels". Other lines have no explanation."""
+    for line in lines:
+        if match := re.fullmatch(r"  (\S.*?)(?:  +(\S.*))?", line):
+            yield match[1], match[2] or ""
+        elif line.strip():
+            yield line.strip(), ""
+
+
+def page(name, help_text, version, see_also, more_options=""):
+    """Returns a page. more_options is the output of --help-model: a line that ends in a colon, and a list."""
+    description, usage, parts = sections(help_text)
+    if more_options:
+        parts.insert(2, ("Options for model files", more_options.rstrip("\n").split("\n")[1:]))
+    summary = re.sub(r"^\w+: (a )?", "", description)
+    out = [f'.TH {name.upper()} 1 "" "Halfspace {version}" "User Commands"', ".SH NAME", f"{escape(name)} \\- {escape(summary)}",
+           ".SH SYNOPSIS", f".B {escape(usage)}"]
+    for title, lines in parts:
+        out.append(f".SH {title.upper()}")
+        if title == "Examples":
+            out += [".nf", escape("\n".join(line.strip() for line in lines if line.strip())), ".fi"]
+            continue
+        for term, text in entries(lines):
+            out += [".TP", f".B {escape(term)}", escape(text)] if text else [".PP", escape(term)]
+    if see_also:
+        out += [".SH SEE ALSO", ",\n".join(f".BR {escape(other)} (1)" for other in see_also)]
+    return "\n".join(out) + "\n"
+
+
+def write(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--bench")
+    parser.add_argument("folder", type=pathlib.Path)
+    args = parser.parse_args()
+
+    man = args.folder / "man" / "man1"
+    version = output_of(args.program, "--version").split()[-1]
+    commands = output_of(args.program, "completion", "words").split()
+    names = [f"halfspace-{command}" for command in commands]
+    write(man / "halfspace.1", page("halfspace", output_of(args.program, "--help"), version, names))
+    for command, name in zip(commands, names):
+        more = output_of(args.program, command, "--help-model") if command == "render" else ""
+        write(man / f"{name}.1", page(name, output_of(args.program, command, "--help"), version, ["halfspace"], more))
+    if args.bench:
+        write(man / "halfspace-bench.1", page("halfspace-bench", output_of(args.bench, "--help"), version, ["halfspace"]))
+
+    write(args.folder / "bash-completion" / "completions" / "halfspace", output_of(args.program, "completion", "bash"))
+    write(args.folder / "fish" / "vendor_completions.d" / "halfspace.fish", output_of(args.program, "completion", "fish"))
+    # zsh loads the file when it completes the command for the first time. The last line answers that first request.
+    zsh = output_of(args.program, "completion", "zsh")
+    write(args.folder / "zsh" / "site-functions" / "_halfspace", f"#compdef halfspace\n{zsh}_bash_complete -F _halfspace\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Installs a build into temporary folders and uses it from projects outside of the tree.
+
+    consumer_test.py BUILD_FOLDER COMPILER
+
+The source tree is also added to a host project in both ways that CMake has. HALFSPACE_LONG_TESTS additionally builds that project, compiles
+every public header on its own and compiles with pkg-config.
+"""
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+LONG_TESTS = "HALFSPACE_LONG_TESTS" in os.environ
+BUILD = COMPILER = TEMPORARY = PREFIX = None
+
+
+def run(*command, **options):
+    return subprocess.run([str(c) for c in command], capture_output=True, text=True, **options)
+
+
+def expect(*command, **options):
+    result = run(*command, **options)
+    if result.returncode != 0:
+        raise AssertionError(f"{shlex.join(map(str, command))}\n{result.stdout[-4000:]}{result.stderr[-4000:]}")
+    return result.stdout
+
+
+def cached(name):
+    """Returns a variable of the build's CMake cache."""
+    match = re.search(rf"^{name}:\w+=(.*)$", (BUILD / "CMakeCache.txt").read_text(), re.M)
+    return match[1] if match else ""
+
+
+def files(folder):
+    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if not path.is_dir())
+
+
+def configure(source, name, *arguments):
+    folder = TEMPORARY / name
+    result = run("cmake", "-S", source, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_CXX_COMPILER={COMPILER}",
+                 f"-DCMAKE_CXX_FLAGS={cached('CMAKE_CXX_FLAGS')}", *arguments)
+    return folder, result
+
+
+def package_flags():
+    """Returns the compile flags of halfspace-core.pc without those of other packages."""
+    text = (LIBRARIES / "pkgconfig" / "halfspace-core.pc").read_text()
+    flags = re.search(r"^Cflags: (.*)$", text, re.M)[1]
+    return shlex.split(flags.replace("${includedir}", str(PREFIX / "include")))
+
+
+def module_headers():
+    """Yields the public headers, for example halfspace/core/check.h."""
+    text = (ROOT / "cmake" / "install.cmake").read_text()
+    names = re.search(r"set\(halfspace_public_headers(.*?)\)", text, re.S)[1].split()
+    for name in names:
+        if name.split("/")[0] in MODULES:
+            yield "halfspace/" + name
+
+
+class Installation(unittest.TestCase):
+    def test_destdir_contains_the_same_files(self):
+        root = TEMPORARY / "root"
+        expect("cmake", "--install", BUILD, "--prefix", "/opt/halfspace", env={**os.environ, "DESTDIR": str(root)})
+        self.assertEqual(files(root / "opt" / "halfspace"), files(PREFIX))
+        self.assertEqual([p.name for p in root.iterdir()], ["opt"])
+        shutil.rmtree(root)
+
+    def test_no_file_names_an_absolute_path(self):
+        for name in files(PREFIX):
+            path = PREFIX / name
+            if path.suffix in (".cmake", ".pc", ".h"):
+                text = path.read_text()
+                for folder in (str(BUILD), str(ROOT), str(PREFIX)):
+                    self.assertNotIn(folder, text, name)
+                if path.suffix != ".h":
+                    self.assertIsNone(re.search(r'["; =](/usr|/opt|/home)/', text), name)
+
+    def test_programs_find_their_libraries(self):
+        for program in (PREFIX / "bin").glob("halfspace*"):
+            self.assertIn("Usage", expect(program, "--help"))
+
+    def test_macros_begin_with_the_prefixes_of_the_project(self):
+        for name in files(PREFIX / "include"):
+            for macro in re.findall(r"^\s*#\s*define\s+(\w+)", (PREFIX / "include" / name).read_text(), re.M):
+                self.assertRegex(macro, "^(HS|HALFSPACE)_", name)
+
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
+    def test_manual_pages_are_valid(self):
+        pages = list((PREFIX / "share" / "man" / "man1").glob("*.1"))
+        if not (PREFIX / "bin" / "halfspace").exists():
+            self.skipTest("the build has no programs")
+        self.assertIn("halfspace-render.1", [p.name for p in pages])
+        for page in pages:
+            result = run("man", "--warnings", "-E", "UTF-8", "-Tutf8", "-l", page, env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "80"})
+            self.assertEqual((result.returncode, result.stderr), (0, ""), page)
+
+
+class Package(unittest.TestCase):
+    def test_programs_of_another_project_draw_the_expected_pixels(self):
+        components = "raster;render" if "render" in MODULES else "raster"
+        folder, result = configure(HERE, "consumer", f"-DCMAKE_PREFIX_PATH={PREFIX}", f"-DCOMPONENTS={components}")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        expect("cmake", "--build", folder, "-j", "2")
+        self.assertIn("all pixels are as expected", expect(folder / "own_shader"))
+        for name in ("picture.png", "picture.jpg"):
+            expect(folder / "scene", LIBRARIES / "halfspace", folder / name)
+            self.assertGreater((folder / name).stat().st_size, 1000)
+        if LONG_TESTS:
+            self.compare_pictures(folder)
+
+    def compare_pictures(self, folder):
+        program = PREFIX / "bin" / "halfspace"
+        if program.exists():
+            expect(program, "render", "earth", "--size", "96x54", "-o", folder / "expected.png")
+            expect(program, "compare", folder / "picture.png", folder / "expected.png", "--tolerance", "0")
+
+    def test_a_component_needs_only_its_own_packages(self):
+        others = ("fmt", "JPEG", "OpenEXR", "nlohmann_json")
+        _, result = configure(HERE, "raster-only", f"-DCMAKE_PREFIX_PATH={PREFIX}", *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{o}=ON" for o in others))
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_a_missing_package_is_named(self):
+        _, result = configure(HERE, "no-json", f"-DCMAKE_PREFIX_PATH={PREFIX}", "-DCOMPONENTS=raster;scene",
+                              "-DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("Halfspace::scene needs the package nlohmann_json", " ".join(result.stderr.split()))
+
+    def test_an_unknown_component_is_named(self):
+        _, result = configure(HERE, "unknown", f"-DCMAKE_PREFIX_PATH={PREFIX}", "-DCOMPONENTS=raster;rays")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("There is no module rays", " ".join(result.stderr.split()))
+
+    def test_another_width_does_not_link(self):
+        lanes = int(re.search(r"-DHALFSPACE_LANES=(\d+)", " ".join(package_flags()))[1])
+        other = 4 if lanes != 4 else 1
+        flags = [f for f in package_flags() if not f.startswith("-DHALFSPACE_LANES")] + [f"-DHALFSPACE_LANES={other}"]
+        for width, links in ((lanes, True), (other, False)):
+            flags[-1] = f"-DHALFSPACE_LANES={width}"
+            library = next(LIBRARIES.glob("libhalfspace-raster*[0-9ra]")).name
+            names = [library.replace("-raster", f"-{m}") for m in ("raster", "shading", "core")]
+            result = run(COMPILER, "-std=c++20", *shlex.split(cached("CMAKE_CXX_FLAGS")), *flags, HERE / "other_width.cpp", "-o",
+                         TEMPORARY / "other_width", *(LIBRARIES / n for n in names), *TBB)
+            self.assertEqual(result.returncode == 0, links, result.stderr[-2000:])
+        self.assertIn(f"lanes{other}::Pass", result.stderr)
+
+    @unittest.skipUnless(LONG_TESTS and shutil.which("pkg-config"), "needs HALFSPACE_LONG_TESTS and pkg-config")
+    def test_pkg_config(self):
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(LIBRARIES / "pkgconfig"), "LD_LIBRARY_PATH": str(LIBRARIES)}
+        for source, module in (("own_shader", "raster"), ("scene", "render")):
+            flags = shlex.split(expect("pkg-config", "--cflags", "--libs", f"halfspace-{module}", env=environment))
+            expect(COMPILER, "-std=c++20", HERE / f"{source}.cpp", "-o", TEMPORARY / source, *flags)
+        self.assertIn("all pixels are as expected", expect(TEMPORARY / "own_shader", env=environment))
+        expect(TEMPORARY / "scene", LIBRARIES / "halfspace", TEMPORARY / "picture.png", env=environment)
+
+
+class Headers(unittest.TestCase):
+    @unittest.skipUnless(LONG_TESTS, "needs HALFSPACE_LONG_TESTS")
+    def test_every_public_header_compiles_on_its_own(self):
+        for header in module_headers():
+            expect(COMPILER, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", *package_flags(), "-x", "c++", "-", input=f"#include <{header}>\n")
+
+    def test_all_public_headers_compile_together(self):
+        text = "".join(f"#include <{header}>\n" for header in module_headers())
+        expect(COMPILER, "-std=c++20", "-fsyntax-only", *package_flags(), "-x", "c++", "-", input=text)
+
+
+class Host(unittest.TestCase):
+    """The source tree inside of another project."""
+
+    def configure(self, name, *arguments):
+        folder, result = configure(HERE / "host", name, f"-DHALFSPACE_SOURCE={ROOT}", *arguments)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return folder
+
+    def test_add_subdirectory(self):
+        folder = self.configure("host", "-DCMAKE_CXX_COMPILER_LAUNCHER=" + cached("CMAKE_CXX_COMPILER_LAUNCHER"))
+        prefix = TEMPORARY / "host-prefix"
+        if LONG_TESTS:
+            expect("cmake", "--build", folder, "--target", "own_shader", "-j", "2")
+            self.assertIn("all pixels are as expected", expect(folder / "own_shader"))
+        self.assertNotIn("Halfspace", (folder / "halfspace" / "cmake_install.cmake").read_text())
+        self.assertFalse(prefix.exists())
+
+    def test_fetch_content(self):
+        self.configure("fetch", "-DFETCH=ON")
+
+
+def main():
+    global BUILD, COMPILER, TEMPORARY, PREFIX, LIBRARIES, MODULES, TBB
+    BUILD, COMPILER = Path(sys.argv[1]).resolve(), sys.argv[2]
+    with tempfile.TemporaryDirectory(prefix="halfspace-consumer-") as folder:
+        TEMPORARY = Path(folder)
+        PREFIX = TEMPORARY / "prefix"
+        expect("cmake", "--install", BUILD, "--prefix", PREFIX)
+        LIBRARIES = next(PREFIX.glob("lib*/**/pkgconfig")).parent
+        MODULES = [p.stem.removeprefix("halfspace-") for p in (LIBRARIES / "pkgconfig").glob("*.pc")]
+        TBB = ["-ltbb"] if "tbb" in (LIBRARIES / "pkgconfig" / "halfspace-core.pc").read_text() else []
+        return not unittest.main(argv=sys.argv[:1], exit=False).result.wasSuccessful()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
