@@ -115,8 +115,9 @@ struct ColorMask {
   bool operator[](int k) const { return k == 0 ? r : k == 1 ? g : k == 2 ? b : a; }
 };
 
-/// Maximum number of color attachments of a pass.
-inline constexpr int kMaxColorTargets = 4;
+/// Maximum number of color attachments of a pass, and of attachments that can have a state of their own.
+inline constexpr int kMaxColorTargets = 12;
+inline constexpr int kMaxAttachmentStates = 4;
 
 /// Blending and color mask of one color attachment.
 struct AttachmentState {
@@ -169,7 +170,7 @@ struct DrawState {
   bool order_independent = false;
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask color_mask{};
-  std::array<std::optional<AttachmentState>, kMaxColorTargets> attachments{};  ///< override blend and color_mask per attachment
+  std::array<std::optional<AttachmentState>, kMaxAttachmentStates> attachments{};  ///< override blend and color_mask of the first ones
   std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]
 };
 
@@ -192,11 +193,11 @@ inline constexpr DrawState kWireframeState{.polygon_mode = PolygonMode::line};  
 
 /// Returns the blend state of color attachment i.
 constexpr const std::optional<BlendState>& blend_of(const DrawState& s, std::size_t i) {
-  return s.attachments[i] ? s.attachments[i]->blend : s.blend;
+  return i < kMaxAttachmentStates && s.attachments[i] ? s.attachments[i]->blend : s.blend;
 }
 /// Returns the color mask of color attachment i.
 constexpr const ColorMask& color_mask_of(const DrawState& s, std::size_t i) {
-  return s.attachments[i] ? s.attachments[i]->mask : s.color_mask;
+  return i < kMaxAttachmentStates && s.attachments[i] ? s.attachments[i]->mask : s.color_mask;
 }
 
 /// Returns true if the draw produces points.

@@ -181,6 +181,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 /// no blending, no stencil test, no polygon offset and no instancing.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
+  static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not know the ids of primitives");
   using V = typename S::template Varyings<R>;
   const Rect viewport = state.viewport.value_or(Rect{0, 0, target.color.width(), target.color.height()});
   Rect bounds = intersect({0, 0, target.color.width(), target.color.height()}, viewport);

@@ -194,6 +194,7 @@ bool PassState::set_color_writes(Draw& d) const {
     const ColorMask& mask = color_mask_of(d.state, i);
     if (blend && uses_second_source(*blend)) HS_CHECK(d.kernels.color_count > 1 && attachments_.colors.size() == 1);
     if (attachments_.colors[i].format == ColorFormat::none) continue;
+    HS_CHECK(!blend || attachments_.colors[i].format != ColorFormat::r32ui);
     const bool has_color = d.kernels.fragment != nullptr && static_cast<int>(i) < d.kernels.color_count;
     replaces &= has_color && !blend && mask.all();
     d.writes_color |= has_color && (mask.r || mask.g || mask.b || mask.a);

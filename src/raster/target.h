@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,7 +21,11 @@ enum class ColorFormat : uint8_t {
   rgba8,    ///< linear values, 8-bit unsigned normalized
   srgb8a8,  ///< linear colors that are encoded to sRGB on write and decoded on read; alpha is linear
   rgba16f,  ///< IEEE half; values beyond ±65504 and infinities are clamped to ±65504
-  rgba32f
+  rgba32f,
+  r32f,  ///< these three store the first channels of a color; the others are read as 0, and alpha as 1
+  rg32f,
+  rgb32f,
+  r32ui  ///< an integer, see integer_color() in shading/contract.h; not blended; sample 0 is stored
 };
 
 /// Depth formats. d24s8 and d32fs8 also have 8 bits of stencil.
@@ -35,7 +40,18 @@ struct DepthStencil {
 
 /// Returns the size of a pixel in bytes, or 0 for none.
 constexpr int bytes_per_pixel(ColorFormat f) {
-  return f == ColorFormat::rgba32f ? 16 : f == ColorFormat::rgba16f ? 8 : f == ColorFormat::none ? 0 : 4;
+  switch (f) {
+    case ColorFormat::none: return 0;
+    case ColorFormat::rgba8:
+    case ColorFormat::srgb8a8:
+    case ColorFormat::r32f:
+    case ColorFormat::r32ui: return 4;
+    case ColorFormat::rgba16f:
+    case ColorFormat::rg32f: return 8;
+    case ColorFormat::rgb32f: return 12;
+    case ColorFormat::rgba32f: return 16;
+  }
+  return 0;
 }
 
 constexpr int bytes_per_pixel(DepthFormat f) {
@@ -59,7 +75,7 @@ struct ColorTarget {
   std::byte* data = nullptr;  ///< not owned; width × height pixels, tightly packed, top row first
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::store;
-  glm::vec4 clear_value = glm::vec4(0.0f);  ///< linear, straight alpha
+  glm::vec4 clear_value = glm::vec4(0.0f);  ///< linear, straight alpha; for r32ui, see r32ui_target()
 };
 
 /// Depth attachment with values in [0, 1]. Pixels are uint16_t for d16, uint32_t for d24 (0 to 2^24 − 1), float for d32f, uint32_t for
@@ -85,6 +101,20 @@ inline ColorTarget rgba16f_target(Image<U16Vec4>& image) {
 }
 inline ColorTarget rgba32f_target(Image<glm::vec4>& image) {
   return {.format = ColorFormat::rgba32f, .data = reinterpret_cast<std::byte*>(image.data())};
+}
+inline ColorTarget r32f_target(Image<float>& image, float clear_value = 0.0f) {
+  return {.format = ColorFormat::r32f, .data = reinterpret_cast<std::byte*>(image.data()), .clear_value = glm::vec4(clear_value)};
+}
+inline ColorTarget rg32f_target(Image<glm::vec2>& image) {
+  return {.format = ColorFormat::rg32f, .data = reinterpret_cast<std::byte*>(image.data())};
+}
+inline ColorTarget rgb32f_target(Image<glm::vec3>& image) {
+  return {.format = ColorFormat::rgb32f, .data = reinterpret_cast<std::byte*>(image.data())};
+}
+inline ColorTarget r32ui_target(Image<uint32_t>& image, uint32_t clear_value = 0) {
+  return {.format = ColorFormat::r32ui,
+          .data = reinterpret_cast<std::byte*>(image.data()),
+          .clear_value = glm::vec4(std::bit_cast<float>(clear_value))};
 }
 inline DepthTarget d16_target(Image<uint16_t>& image) {
   return {.format = DepthFormat::d16, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};

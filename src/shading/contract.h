@@ -17,6 +17,9 @@
 //   template <class R> Primitive<R> primitive(const Varyings<R>& v0, const Varyings<R>& v1, const Varyings<R>& v2) const;
 //     Runs once per triangle that survives culling. fragment then has the parameters (const Varyings<R>&, const Primitive<R>&,
 //     const Pixel<R>&).
+//   template <class R> Fragment<R> fragment(const Varyings<R>& in, const PrimitiveId<R>& id, const Pixel<R>& px) const;
+//     A fragment function that also receives the indices of the primitive and the instance, and the barycentric coordinates. It
+//     cannot be combined with a Primitive struct.
 //   PerVertex<R> or PerVertex<R, N> as the return type of vertex: adds a point size and N clip distances to the position.
 //   PointSpriteVertex<R> as the return type of vertex: the rectangle that a point covers, for shaders that know the bounds of
 //     what they draw in it.
@@ -40,6 +43,16 @@ template <class R>
 struct VertexId {
   IntOf<R> vertex;   ///< row in the vertex streams: the index plus DrawState::base_vertex
   int32_t instance;  ///< 0 … DrawState::instances − 1
+};
+
+/// Identifies the primitive of a fragment, and the position of the fragment in it.
+template <class R>
+struct PrimitiveId {
+  IntOf<R> primitive;  ///< 0, 1, … in submission order, including culled primitives; starts again in each instance
+  IntOf<R> instance;   ///< 0 … DrawState::instances − 1
+  /// Perspective-correct weights of the vertices of the submitted primitive, even if it was clipped. The vertices have the order of
+  /// OpenGL 4.6, table 13.2, which for lists is the order of the indices. Points have the weights (1, 0, 0), lines (1 − t, t, 0).
+  vec3<R> barycentrics;
 };
 
 /// Return type of vertex functions that output more than the clip-space position.
@@ -78,6 +91,12 @@ struct DepthFragment {
   MaskOf<R> keep;
   R depth;
 };
+
+/// Returns a color that stores an integer in an attachment of format r32ui.
+template <Number R>
+HS_INLINE vec4<R> integer_color(IntOf<R> i) {
+  return {as_real(i), R(0), R(0), R(0)};
+}
 
 /// The same with N colors: one per attachment, or the two sources of dual-source blending.
 template <class R, std::size_t N>
@@ -176,13 +195,19 @@ concept HasFragmentFunctionOfVaryings = requires(const S& s, const typename S::t
   s.fragment(in);
 };
 template <class S>
+concept HasFragmentFunctionOfId = requires(const S& s, const typename S::template Varyings<float>& in, const PrimitiveId<float>& id,
+                                           const Pixel<float>& px) {
+  s.fragment(in, id, px);
+};
+template <class S>
 concept HasPrimitiveFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in,
                                                 const typename S::template Primitive<float>& face, const Pixel<float>& px) {
   s.fragment(in, face, px);
 };
 template <class S>
 concept HasFragmentFunction = (HasPrimitive<S> && HasPrimitiveFunction<S> && HasPrimitiveFragmentFunction<S>) ||
-                              (!HasPrimitive<S> && (HasFragmentFunctionOfPixel<S> || HasFragmentFunctionOfVaryings<S>));
+                              (!HasPrimitive<S> &&
+                               (HasFragmentFunctionOfPixel<S> || HasFragmentFunctionOfVaryings<S> || HasFragmentFunctionOfId<S>));
 template <class S>
 concept HasVisibilityFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
   { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
@@ -199,10 +224,14 @@ HS_INLINE auto call_vertex(const S& s, const typename S::template Attributes<R>&
   }
 }
 
-/// Calls the fragment function of the shader, passing the per-triangle value if there is one.
+/// Whether the fragment function has a PrimitiveId parameter.
+template <class S>
+inline constexpr bool kUsesPrimitiveId = !HasPrimitive<S> && HasFragmentFunctionOfId<S>;
+
+/// Calls the fragment function of the shader, passing the per-triangle value or the primitive ID if it has such a parameter.
 template <class S, class R, class P>
 HS_INLINE auto call_fragment(const S& s, const typename S::template Varyings<R>& in, const P& face, const Pixel<R>& px) {
-  if constexpr (HasPrimitive<S>) {
+  if constexpr (HasPrimitive<S> || kUsesPrimitiveId<S>) {
     return s.fragment(in, face, px);
   } else if constexpr (HasFragmentFunctionOfVaryings<S>) {
     return s.fragment(in);
@@ -220,6 +249,11 @@ struct PrimitiveOfT {
 template <HasPrimitive S, class R>
 struct PrimitiveOfT<S, R> {
   using type = typename S::template Primitive<R>;
+};
+template <class S, class R>
+requires kUsesPrimitiveId<S>
+struct PrimitiveOfT<S, R> {
+  using type = PrimitiveId<R>;
 };
 template <class F>
 inline constexpr bool kIsDiscarding = false;
@@ -251,7 +285,7 @@ HS_INLINE const vec4<R>& nth_color(const std::array<vec4<R>, N>& colors, std::si
 }
 }  // namespace detail
 
-/// The per-triangle value of the shader, or an empty struct.
+/// The per-triangle value of the shader, its PrimitiveId, or an empty struct.
 template <class S, class R>
 using PrimitiveOf = typename detail::PrimitiveOfT<S, R>::type;
 

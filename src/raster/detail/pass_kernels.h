@@ -48,7 +48,11 @@ constexpr ShaderKernels kernels_of() {
       k.primitive = primitive_kernel<S>;
       k.primitive_count = static_cast<int>(kComponents<typename S::template Primitive<float>>);
     }
-    static_assert(kColors<S> <= kMaxColorTargets, "a fragment function returns at most 4 colors");
+    if constexpr (kUsesPrimitiveId<S>) {
+      k.uses_id = true;
+      k.primitive_count = static_cast<int>(kIdRow);
+    }
+    static_assert(kColors<S> <= kMaxColorTargets, "a fragment function returns at most 12 colors");
     k.fragment = fragment_kernel<S>;
     k.color_count = static_cast<int>(kColors<S>);
     k.discards = kDiscards<S>;

@@ -28,9 +28,10 @@ struct ShaderKernels {
   void (*visibility)(const void* shader, VisibilityBatch&) = nullptr;      ///< null: visibility does not depend on the shader
   void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
   int varying_count = 0;                          ///< floats per vertex
-  int primitive_count = 0;                        ///< floats per triangle
+  int primitive_count = 0;                        ///< floats per triangle in Chunk::primitives
   const Interpolation* interpolations = nullptr;  ///< varying_count entries
   bool uses_centroid = false;                     ///< some varying has centroid interpolation
+  bool uses_id = false;                           ///< the fragment function has a PrimitiveId parameter; primitive_count is kIdRow
   bool gives_point_size = false;                  ///< the vertex function sets the point size
   bool gives_point_sprite = false;                ///< the vertex function sets the bounds of points
   int clip_distance_count = 0;                    ///< clip distances set by the vertex function

@@ -182,17 +182,29 @@ struct Triangle {
   uint32_t covered() const { return flags >> kCoveredShift & kCoveredBits; }
 };
 
-/// Vertex created or copied by the clipper. Its flat varyings are copied from the provoking vertex.
+/// Vertex created or copied by the clipper. Its flat varyings are copied from the provoking vertex. For shaders that use a PrimitiveId,
+/// two more values follow the varyings: the weights of the second and third submitted vertex at this one.
 struct ClipVertex {
   ScreenVertex screen;
   uint32_t first_varying;  ///< index into Chunk::clip_varyings
 };
+inline constexpr std::size_t kClipWeights = 2;
 
 /// Vertices of the primitive that a clipped triangle was created from, for the primitive stage.
 struct ClipSource {
   uint32_t triangle;  ///< index of the first piece in Chunk::triangles
   std::array<uint32_t, 3> vertex;
 };
+
+/// Row of Chunk::primitives for a shader that uses a PrimitiveId. The values are integers, stored as the bits of floats.
+enum IdRow : std::size_t {
+  kIdPrimitive,
+  kIdInstance,
+  kIdSecond,  ///< slot of the second submitted vertex; kNoSlot for points
+  kIdThird,   ///< slot of the third submitted vertex; kNoSlot for points and lines
+  kIdRow      ///< number of values
+};
+inline constexpr uint32_t kNoSlot = 0xffffffffu;
 
 /// Range of consecutive primitives of one instance of a draw.
 struct DrawRange {
@@ -209,7 +221,7 @@ struct Chunk {
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
   std::vector<ClipSource> clip_sources;
-  std::vector<float> primitives;  ///< output of the primitive stage, one row per triangle
+  std::vector<float> primitives;  ///< output of the primitive stage, one row per triangle; see IdRow
 
   // Bins: triangle indices per tile, in submission order.
   int tile_x0 = 0, tile_y0 = 0, tile_x1 = 0, tile_y1 = 0;  ///< half-open range of tiles that have a bin

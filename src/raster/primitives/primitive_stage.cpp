@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/primitives/primitive_stage.h"
 
+#include <bit>
+
+#include "halfspace/raster/primitives/primitive_assembly.h"
+
 namespace halfspace {
 
 namespace {
@@ -23,11 +27,22 @@ class DrawRangePrimitives {
   DrawRangePrimitives(const PassContext& context, const Chunk& chunk, const DrawRange& range)
       : chunk_(chunk), draw_(context.draws[range.draw]), shaded_(context.shaded[range.draw]) {}
 
-  // Returns the varyings of the submitted vertices of triangle i.
-  std::array<const float*, 3> rows(uint32_t i) {
+  // The primitive that a triangle was created from.
+  struct Source {
+    std::array<uint32_t, 3> vertex;  // slots of the submitted vertices
+    bool is_first;                   // the triangle is its first piece
+  };
+  Source source(uint32_t i) const {
     const Triangle& t = chunk_.triangles[i];
-    const bool is_piece = t.is(kClipped | kLine);
-    const std::array<uint32_t, 3> vertex = is_piece ? source(i) : submitted_order(t, draw_.state);
+    if (!t.is(kClipped | kLine)) return {submitted_order(t, draw_.state), true};
+    const auto after = std::upper_bound(chunk_.clip_sources.begin(), chunk_.clip_sources.end(), i,
+                                        [](uint32_t triangle, const ClipSource& s) { return triangle < s.triangle; });
+    return {(after - 1)->vertex, (after - 1)->triangle == i};
+  }
+
+  // Returns the varyings of the submitted vertices of triangle i.
+  std::array<const float*, 3> rows(uint32_t i) const {
+    const std::array<uint32_t, 3> vertex = source(i).vertex;
     std::array<const float*, 3> r;
     for (std::size_t k = 0; k < 3; ++k) {
       r[k] = shaded_.varyings.get() + std::size_t{vertex[k]} * static_cast<std::size_t>(shaded_.varying_count);
@@ -36,16 +51,37 @@ class DrawRangePrimitives {
   }
 
  private:
-  std::array<uint32_t, 3> source(uint32_t i) {
-    const auto after = std::upper_bound(chunk_.clip_sources.begin(), chunk_.clip_sources.end(), i,
-                                        [](uint32_t triangle, const ClipSource& s) { return triangle < s.triangle; });
-    return (after - 1)->vertex;
-  }
-
   const Chunk& chunk_;
   const Draw& draw_;
   const ShadedVertices& shaded_;
 };
+
+// Writes the ids of the triangles [range.first_triangle, end). Setup keeps the order of the primitives, but drops some and splits others.
+// Whether a primitive is dropped depends only on its vertices and their order. Therefore the next submitted primitive with the vertices of
+// a triangle is the one that it was created from.
+void write_ids(const Draw& draw, const ShadedVertices& shaded, const DrawRange& range, const DrawRangePrimitives& primitives, uint32_t end,
+               float* row) {
+  const uint32_t slot_base = shaded.first - range.instance * shaded.count;
+  const bool has_second = !draws_points(draw.state), has_third = has_second && !is_lines(draw.state.topology);
+  Assembly assembly(draw, range.first);
+  std::array<uint32_t, 3> vertex{};
+  uint32_t next = range.first;
+  for (uint32_t i = range.first_triangle; i < end; ++i, row += kIdRow) {
+    const auto source = primitives.source(i);
+    if (source.is_first) {
+      do {
+        HS_DCHECK(next < range.first + range.count);
+        vertex = assembly.next();
+        for (uint32_t& v : vertex) v -= slot_base;
+        ++next;
+      } while (vertex != source.vertex);
+    }
+    row[kIdPrimitive] = std::bit_cast<float>(next - 1);
+    row[kIdInstance] = std::bit_cast<float>(range.instance);
+    row[kIdSecond] = std::bit_cast<float>(has_second ? vertex[1] : kNoSlot);
+    row[kIdThird] = std::bit_cast<float>(has_third ? vertex[2] : kNoSlot);
+  }
+}
 
 }  // namespace
 
@@ -55,12 +91,17 @@ void run_primitive_stage(const PassContext& context, Chunk& chunk) {
     DrawRange& range = chunk.ranges[s];
     const Draw& draw = context.draws[range.draw];
     const auto end = s + 1 < chunk.ranges.size() ? chunk.ranges[s + 1].first_triangle : static_cast<uint32_t>(chunk.triangles.size());
-    if (draw.kernels.primitive == nullptr || range.first_triangle == end) continue;
-    rows.clear();
-    DrawRangePrimitives range_rows(context, chunk, range);
-    for (uint32_t i = range.first_triangle; i < end; ++i) rows.push_back(range_rows.rows(i));
+    if (draw.kernels.primitive_count == 0 || range.first_triangle == end) continue;
+    const DrawRangePrimitives range_rows(context, chunk, range);
     range.first_primitive = static_cast<uint32_t>(chunk.primitives.size());
-    chunk.primitives.resize(chunk.primitives.size() + rows.size() * static_cast<std::size_t>(draw.kernels.primitive_count));
+    chunk.primitives.resize(chunk.primitives.size() +
+                            std::size_t{end - range.first_triangle} * static_cast<std::size_t>(draw.kernels.primitive_count));
+    if (draw.kernels.uses_id) {
+      write_ids(draw, context.shaded[range.draw], range, range_rows, end, chunk.primitives.data() + range.first_primitive);
+      continue;
+    }
+    rows.clear();
+    for (uint32_t i = range.first_triangle; i < end; ++i) rows.push_back(range_rows.rows(i));
     draw.kernels.primitive(draw.shader.get(),
                            {rows.data(), static_cast<int>(rows.size()), chunk.primitives.data() + range.first_primitive});
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Primitive stage, for shaders with a primitive function. Input: the triangles of a chunk. Output: Chunk::primitives, with one row per
-// triangle. The primitive function is called with the varyings of the three submitted vertices, so all pieces of a clipped triangle have
-// the same result.
+// Primitive stage, for shaders with a primitive function or with a PrimitiveId. Input: the triangles of a chunk. Output: Chunk::primitives,
+// with one row per triangle. The primitive function is called with the varyings of the three submitted vertices, so all pieces of a clipped
+// triangle have the same result. Rows of ids are described by IdRow.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct PrimitiveBatch {
   float* out;  ///< output: count rows of primitive_count floats
 };
 
-/// Fills chunk.primitives for the draw ranges whose shader has a primitive function.
+/// Fills chunk.primitives for the draw ranges whose shader has a primitive function or uses a PrimitiveId.
 void run_primitive_stage(const PassContext& context, Chunk& chunk);
 
 namespace detail {

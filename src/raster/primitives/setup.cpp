@@ -250,14 +250,17 @@ class DrawRangeSetup {
   // provoking vertex.
   uint32_t add_corners(const ClipPolygon& polygon, const std::array<uint32_t, 3>& id, const std::array<double, 3>& w) {
     const auto n = static_cast<std::size_t>(shaded_.varying_count);
+    const std::size_t weights = draw_.kernels.uses_id ? kClipWeights : 0;
     const float* rows = shaded_.varyings.get();  // null if there are no varyings
     const std::array<const float*, 3> varyings{rows + id[0] * n, rows + id[1] * n, rows + id[2] * n};
     const auto first = static_cast<uint32_t>(chunk_.clip_vertices.size());
     for (int i = 0; i < polygon.count; ++i) {
       const ClipCorner& c = polygon.corners[static_cast<std::size_t>(i)];
       const auto first_varying = static_cast<uint32_t>(chunk_.clip_varyings.size());
-      chunk_.clip_varyings.resize(first_varying + n);
-      interpolate_corner(c, w, varyings, static_cast<int>(provoking_), draw_.kernels, chunk_.clip_varyings.data() + first_varying);
+      chunk_.clip_varyings.resize(first_varying + n + weights);
+      float* const out = chunk_.clip_varyings.data() + first_varying;
+      interpolate_corner(c, w, varyings, static_cast<int>(provoking_), draw_.kernels, out);
+      for (std::size_t k = 0; k < weights; ++k) out[n + k] = static_cast<float>(c.weights[static_cast<int>(k) + 1]);
       // Corners that are vertices of the triangle have exactly the result of the vertex stage.
       const bool cut = c.vertex < 0;
       const ScreenVertex screen = cut ? project_corner(draw_.viewport, c.pos_clip) : shaded_.screen[id[static_cast<std::size_t>(c.vertex)]];

@@ -22,9 +22,9 @@ HS_INLINE PacketOrigin origin_of(const Batch& batch, int n, int packet) {
 }
 
 /// Sets up the Pixel of two packets and interpolates their varyings. at: position within the pixels; ids: triangles for Pixel::z().
-template <class S, std::size_t N, std::size_t P>
+template <class S, std::size_t N, std::size_t P, bool with_id>
 HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::array<PacketOrigin, 2>& origins, const SamplePosition& at,
-                                                                    const PacketTriangles<N, P>& t,
+                                                                    const PacketTriangles<N, P, with_id>& t,
                                                                     const std::array<PacketTriangleIds, 2>& ids, Pixel<FragmentReal>& px) {
   using R = FragmentReal;
   using I = IntOf<R>;
@@ -63,6 +63,16 @@ HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::a
   return interpolate_all<V>(px.weights, t.components, std::make_index_sequence<N>());
 }
 
+/// Returns the identity of the primitives at the pixels with the given weights.
+template <std::size_t N>
+HS_INLINE PrimitiveId<FragmentReal> primitive_id(const PacketTriangles<N, kIdRow, true>& t, const Weights<FragmentReal>& weights) {
+  using R = FragmentReal;
+  const ComponentLanes<R, 2>& b = t.barycentrics;
+  const R second = interpolate<Interpolation::smooth>(weights, b.value0[0], b.delta1[0], b.delta2[0]);
+  const R third = interpolate<Interpolation::smooth>(weights, b.value0[1], b.delta1[1], b.delta2[1]);
+  return {as_int(t.primitive[kIdPrimitive]), as_int(t.primitive[kIdInstance]), vec3<R>(R(1) - (second + third), second, third)};
+}
+
 template <class S>
 HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) {
   using R = FragmentReal;
@@ -70,7 +80,10 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
   using F = typename S::template Varyings<float>;
   using P = PrimitiveOf<S, R>;
   constexpr std::size_t n = kComponents<V>;
-  constexpr std::size_t p = HasPrimitive<S> ? kComponents<P> : 0;
+  constexpr std::size_t p = [] {
+    if constexpr (HasPrimitive<S>) return kComponents<P>;
+    return kUsesPrimitiveId<S> ? std::size_t{kIdRow} : 0;
+  }();
   const S& s = *static_cast<const S*>(shader);
   if constexpr (kIsConstant<S>) {
     const auto fragment = s.fragment(typename S::template Varyings<Real>{});
@@ -82,8 +95,8 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     }
     return;
   }
-  PacketTriangles<n, p> triangles;
-  RecentTriangles<F> recent;
+  PacketTriangles<n, p, kUsesPrimitiveId<S>> triangles;
+  RecentTriangles<F, kUsesPrimitiveId<S>> recent;
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);  // if the count is odd, the last packet is shaded twice
     const PacketMask a = batch.packets[first], b = batch.packets[second];
@@ -98,7 +111,11 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     const V in =
         begin_packets<S>({origin_of(batch, first, a.packet), origin_of(batch, second, b.packet)}, batch.position, triangles, ids, px);
     P face{};
-    if constexpr (p != 0) face = from_components<P, R>(triangles.primitive);
+    if constexpr (kUsesPrimitiveId<S>) {
+      face = primitive_id(triangles, px.weights);
+    } else if constexpr (p != 0) {
+      face = from_components<P, R>(triangles.primitive);
+    }
     const auto fragment = call_fragment<S, R>(s, in, face, px);
     const auto i = static_cast<std::size_t>(first);
     for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {

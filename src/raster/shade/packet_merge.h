@@ -16,11 +16,13 @@ namespace halfspace {
 namespace detail {
 
 /// Cache of recently used triangles. Adjacent packets usually show the same ones.
-template <class V>
+template <class V, bool with_id = false>
 class RecentTriangles {
  public:
+  using Scalars = TriangleScalars<kComponents<V>, with_id>;
+
   /// Returns the values of a triangle. The result of the previous call remains valid.
-  HS_INLINE const TriangleScalars<kComponents<V>>& of(const PassContext& context, TriangleId id) {
+  HS_INLINE const Scalars& of(const PassContext& context, TriangleId id) {
     uint32_t same = 0;
     for (std::size_t i = 0; i < kMaxCount; i += kLanes) same |= bits(load<Int>(&ids_[i]) == Int(std::bit_cast<int32_t>(id))) << i;
     same &= ~(1u << next_);  // this entry is replaced next, so it must not be returned
@@ -35,26 +37,28 @@ class RecentTriangles {
     return none;
   }();
 
-  __attribute__((noinline)) const TriangleScalars<kComponents<V>>& add(const PassContext& context, TriangleId id) {
+  __attribute__((noinline)) const Scalars& add(const PassContext& context, TriangleId id) {
     const std::size_t place = next_;
     next_ = (next_ + 1) % kMaxCount;
     ids_[place] = id;
-    return scalars_[place] = scalars_of<V>(context, id);
+    return scalars_[place] = scalars_of<V, with_id>(context, id);
   }
 
   std::array<TriangleId, kMaxCount> ids_ = kNone;
-  std::array<TriangleScalars<kComponents<V>>, kMaxCount> scalars_;
+  std::array<Scalars, kMaxCount> scalars_;
   std::size_t next_ = 0;  ///< the entry that is replaced next
 };
 
-/// Triangle values for two packets, per lane. P: number of components of the primitive stage's struct.
-template <std::size_t N, std::size_t P>
+/// Triangle values for two packets, per lane. P: number of values per triangle from the primitive stage. with_id: for shaders that use a
+/// PrimitiveId.
+template <std::size_t N, std::size_t P, bool with_id = false>
 struct PacketTriangles {
   std::array<TriangleId, 2> only{kNoTriangle, kNoTriangle};  ///< the triangle, if all lanes of a packet show the same one
   TriangleLanes<FragmentReal> lanes;
   ComponentLanes<FragmentReal, N> components;
   std::array<FragmentReal, P> primitive;
   MaskOf<FragmentReal> front;
+  [[no_unique_address]] MemberIf<with_id, ComponentLanes<FragmentReal, 2>, 0> barycentrics;  ///< see TriangleScalars
 };
 
 /// Calls put(value, member) for each value of packet i. member reads the same value from another struct.
@@ -74,9 +78,9 @@ HS_INLINE void for_each_corner_value(TriangleLanes<FragmentReal>& t, F put) {
 }
 
 /// The same for all values in a TriangleScalars.
-template <int i, std::size_t N, std::size_t P, class F>
-HS_INLINE void for_each_value(PacketTriangles<N, P>& t, F put) {
-  using S = TriangleScalars<N>;
+template <int i, std::size_t N, std::size_t P, bool with_id, class F>
+HS_INLINE void for_each_value(PacketTriangles<N, P, with_id>& t, F put) {
+  using S = TriangleScalars<N, with_id>;
   for_each_corner_value<i>(t.lanes, put);
   for (std::size_t k = 0; k < N; ++k) {
     put(half<i>(t.components.value0[k]), [k](const S& s) { return s.value0[k]; });
@@ -84,26 +88,34 @@ HS_INLINE void for_each_value(PacketTriangles<N, P>& t, F put) {
     put(half<i>(t.components.delta2[k]), [k](const S& s) { return s.delta2[k]; });
   }
   for (std::size_t k = 0; k < P; ++k) put(half<i>(t.primitive[k]), [k](const S& s) { return s.primitive[k]; });
+  if constexpr (with_id) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      put(half<i>(t.barycentrics.value0[k]), [k](const S& s) { return s.barycentrics.value0[k]; });
+      put(half<i>(t.barycentrics.delta1[k]), [k](const S& s) { return s.barycentrics.delta1[k]; });
+      put(half<i>(t.barycentrics.delta2[k]), [k](const S& s) { return s.barycentrics.delta2[k]; });
+    }
+  }
 }
 
 /// Copies the values of one triangle to all lanes of packet i.
-template <int i, std::size_t N, std::size_t P>
-HS_INLINE void spread_triangle(const TriangleScalars<N>& s, PacketTriangles<N, P>& out) {
+template <int i, std::size_t N, std::size_t P, bool with_id>
+HS_INLINE void spread_triangle(const TriangleScalars<N, with_id>& s, PacketTriangles<N, P, with_id>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = Real(value(s)); });
   half<i>(out.front) = Mask(s.front);
 }
 
 /// Merges the values of two triangles into packet i. Lanes that show the second triangle get its values. All other lanes get the values of
 /// the first, so that lanes without a triangle compute with finite values.
-template <int i, std::size_t N, std::size_t P>
-HS_INLINE void merge_two(const TriangleScalars<N>& first, const TriangleScalars<N>& second, Mask shows_second, PacketTriangles<N, P>& out) {
+template <int i, std::size_t N, std::size_t P, bool with_id>
+HS_INLINE void merge_two(const TriangleScalars<N, with_id>& first, const TriangleScalars<N, with_id>& second, Mask shows_second,
+                         PacketTriangles<N, P, with_id>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows_second, Real(value(second)), Real(value(first))); });
   half<i>(out.front) = select(shows_second, Mask(second.front), Mask(first.front));
 }
 
 /// Copies the values of another triangle to the lanes of packet i that show it.
-template <int i, std::size_t N, std::size_t P>
-HS_INLINE void add_triangle(const TriangleScalars<N>& s, Mask shows, PacketTriangles<N, P>& out) {
+template <int i, std::size_t N, std::size_t P, bool with_id>
+HS_INLINE void add_triangle(const TriangleScalars<N, with_id>& s, Mask shows, PacketTriangles<N, P, with_id>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows, Real(value(s)), lanes); });
   Mask& front = half<i>(out.front);
   front = select(shows, Mask(s.front), front);
@@ -132,8 +144,8 @@ HS_INLINE std::array<Real, 4> row_components(const float* varyings, Int at) {
 }
 
 /// Gathers the components of the rows into packet i.
-template <int i, class V, std::size_t N, std::size_t P>
-HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>& out) {
+template <int i, class V, std::size_t N, std::size_t P, bool with_id>
+HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P, with_id>& out) {
   const auto gather_four = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
     const auto smooth = [&](Int row) { return row_components<V, k, false>(rows.varyings, row * static_cast<int32_t>(N)); };
     const auto v0 = smooth(rows.row[0]), v1 = smooth(rows.row[1]), v2 = smooth(rows.row[2]);
@@ -151,6 +163,15 @@ HS_INLINE void gather_components(const TriangleRows& rows, PacketTriangles<N, P>
   gather_all(std::make_index_sequence<(N + 3) / 4>());
   for (std::size_t k = 0; k < P; ++k) {
     for (int lane = 0; lane < kLanes; ++lane) set_lane(half<i>(out.primitive[k]), lane, rows.primitive[static_cast<std::size_t>(lane)][k]);
+  }
+  if constexpr (with_id) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Int slot = as_int(half<i>(out.primitive[kIdSecond + k]));
+      const auto weight = [&](std::size_t vertex) { return select(rows.row[vertex] == slot, Real(1.0f), Real(0.0f)); };
+      half<i>(out.barycentrics.value0[k]) = weight(0);
+      half<i>(out.barycentrics.delta1[k]) = weight(1) - weight(0);
+      half<i>(out.barycentrics.delta2[k]) = weight(2) - weight(0);
+    }
   }
 }
 
@@ -176,9 +197,9 @@ HS_INLINE uint32_t first_lane_of_each(I packet_ids, const TriangleId* ids, uint3
 inline constexpr int kGatherFrom = 3;
 
 /// Merges the triangles of packet i one by one. Used where gather_rows() fails. firsts: one lane of each triangle.
-template <int i, class V, std::size_t N, std::size_t P>
-__attribute__((noinline)) void merge_many(const PassContext& context, const TriangleId* ids, uint32_t firsts, RecentTriangles<V>& recent,
-                                          PacketTriangles<N, P>& t) {
+template <int i, class V, std::size_t N, std::size_t P, bool with_id>
+__attribute__((noinline)) void merge_many(const PassContext& context, const TriangleId* ids, uint32_t firsts,
+                                          RecentTriangles<V, with_id>& recent, PacketTriangles<N, P, with_id>& t) {
   const Int packet_ids = load<Int>(ids);
   spread_triangle<i>(recent.of(context, ids[std::countr_zero(firsts)]), t);
   for (uint32_t rest = firsts & (firsts - 1); rest != 0; rest &= rest - 1) {
@@ -189,8 +210,9 @@ __attribute__((noinline)) void merge_many(const PassContext& context, const Tria
 
 /// Finds the triangles of a packet and stores their values as packet i of t. Does nothing if t already contains the only triangle, as
 /// recorded in t.only[i].
-template <int i, class V, std::size_t N, std::size_t P>
-HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V>& recent, PacketTriangles<N, P>& t) {
+template <int i, class V, std::size_t N, std::size_t P, bool with_id>
+HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V, with_id>& recent,
+                              PacketTriangles<N, P, with_id>& t) {
   TriangleId& only = t.only[i];
   const PassContext& context = *batch.context;
   if (batch.ids == nullptr) {
@@ -206,7 +228,7 @@ HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, Rec
   if (triangles == 1 && only == first) return;
   only = triangles == 1 ? first : kNoTriangle;
   if (triangles < kGatherFrom) {
-    const TriangleScalars<N>& a = recent.of(context, first);
+    const TriangleScalars<N, with_id>& a = recent.of(context, first);
     if (triangles == 1) return spread_triangle<i>(a, t);
     const TriangleId second = ids[std::countr_zero(firsts & (firsts - 1))];
     return merge_two<i>(a, recent.of(context, second), packet_ids == Int(std::bit_cast<int32_t>(second)), t);

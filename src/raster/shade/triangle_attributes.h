@@ -3,6 +3,8 @@
 // Triangle data for the shader kernels (vertices, varyings, primitive values), for one triangle or for a different one in each lane.
 #pragma once
 
+#include <bit>
+
 #include "halfspace/raster/shade/fragment_batch.h"
 #include "halfspace/shading/contract.h"
 
@@ -59,25 +61,35 @@ HS_INLINE ScaledInverseW<R> scaled(R q0, R q1, R q2) {
   return {q0 * scale, q1 * scale, q2 * scale, as_real(exponent)};
 }
 
-/// Interpolation data of one triangle, before it is copied to lanes. Vertex 0 is the one with the smallest 1/w.
-template <std::size_t N>
+/// Interpolation data of one triangle, before it is copied to lanes. Vertex 0 is the one with the smallest 1/w. with_id: for shaders that
+/// use a PrimitiveId.
+template <std::size_t N, bool with_id = false>
 struct TriangleScalars {
   float x0, y0, e1x, e1y, e2x, e2y, area, q0, q1, q2, q_unscale;
   std::array<float, N> value0, delta1, delta2;
   const float* primitive;  ///< row of the primitive stage, or null
   bool front;
+  [[no_unique_address]] MemberIf<with_id, ComponentLanes<float, 2>, 0> barycentrics;  ///< weights of the submitted vertices 1 and 2
 };
 
+/// Returns the weights of the submitted vertices 1 and 2 at vertex i of the triangle. varyings: number of varyings of a vertex.
+HS_INLINE std::array<float, 2> submitted_weights(const TriangleSource& s, std::size_t i, std::size_t varyings) {
+  if (s.triangle->is(kClipped)) return {s.varyings[i][varyings], s.varyings[i][varyings + 1]};
+  if (s.triangle->is(kLine) && i == 2) i = 0;  // this corner has the values of the first
+  const auto is_at = [&](IdRow slot) { return std::bit_cast<uint32_t>(s.primitive[slot]) == s.triangle->vertex[i] ? 1.0f : 0.0f; };
+  return {is_at(kIdSecond), is_at(kIdThird)};
+}
+
 /// Computes the interpolation data of a triangle. V is the Varyings struct with R = float; it determines how components are interpolated.
-template <class V, std::size_t N = kComponents<V>>
-HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
+template <class V, bool with_id = false, std::size_t N = kComponents<V>>
+HS_INLINE TriangleScalars<N, with_id> triangle_scalars(const TriangleSource& s) {
   std::size_t a = 0;
   if (s.vertex[1]->inv_w < s.vertex[a]->inv_w) a = 1;
   if (s.vertex[2]->inv_w < s.vertex[a]->inv_w) a = 2;
   const std::size_t b = a == 2 ? 0 : a + 1;
   const std::size_t c = b == 2 ? 0 : b + 1;
   const ScreenVertex &v0 = *s.vertex[a], &v1 = *s.vertex[b], &v2 = *s.vertex[c];
-  TriangleScalars<N> r;
+  TriangleScalars<N, with_id> r;
   r.x0 = static_cast<float>(v0.x);
   r.y0 = static_cast<float>(v0.y);
   r.e1x = static_cast<float>(v1.x - v0.x);
@@ -98,15 +110,23 @@ HS_INLINE TriangleScalars<N> triangle_scalars(const TriangleSource& s) {
   }
   r.primitive = s.primitive;
   r.front = s.triangle->is(kFrontFacing);
+  if constexpr (with_id) {
+    const std::array<float, 2> at0 = submitted_weights(s, a, N), at1 = submitted_weights(s, b, N), at2 = submitted_weights(s, c, N);
+    for (std::size_t k = 0; k < 2; ++k) {
+      r.barycentrics.value0[k] = at0[k];
+      r.barycentrics.delta1[k] = at1[k] - at0[k];
+      r.barycentrics.delta2[k] = at2[k] - at0[k];
+    }
+  }
   return r;
 }
 
 /// The same for a triangle id.
-template <class V>
-HS_INLINE TriangleScalars<kComponents<V>> scalars_of(const PassContext& context, TriangleId id) {
+template <class V, bool with_id = false>
+HS_INLINE TriangleScalars<kComponents<V>, with_id> scalars_of(const PassContext& context, TriangleId id) {
   TriangleSource source;
   find_triangle(context, id, source);
-  return triangle_scalars<V>(source);
+  return triangle_scalars<V, with_id>(source);
 }
 
 }  // namespace detail

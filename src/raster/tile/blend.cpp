@@ -78,6 +78,15 @@ void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const Packe
   store(pixels, select(mask, packed, old));
 }
 
+// Writes a format with one to three 32-bit channels.
+void write_narrow(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
+  for (int k = 0; k < narrow_channels(buffer.format); ++k) {
+    if (!channels[k]) continue;
+    float* to = plane<float>(buffer, k) + first;
+    store(to, select(mask, c[static_cast<std::size_t>(k)], load<Real>(to)));
+  }
+}
+
 template <ColorFormat format>
 void replace_packed(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src) {
   for (std::size_t i = 0; i < packets.size(); ++i) {
@@ -103,6 +112,10 @@ void read_batch(const ColorBuffer& buffer, std::span<const PacketMask> packets, 
     case ColorFormat::srgb8a8: return read_packets<ColorFormat::srgb8a8>(buffer, packets, out);
     case ColorFormat::rgba16f: return read_packets<ColorFormat::rgba16f>(buffer, packets, out);
     case ColorFormat::rgba32f: return read_packets<ColorFormat::rgba32f>(buffer, packets, out);
+    case ColorFormat::r32f:
+    case ColorFormat::r32ui: return read_packets<ColorFormat::r32f>(buffer, packets, out);
+    case ColorFormat::rg32f: return read_packets<ColorFormat::rg32f>(buffer, packets, out);
+    case ColorFormat::rgb32f: return read_packets<ColorFormat::rgb32f>(buffer, packets, out);
   }
 }
 
@@ -119,6 +132,7 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
   const bool fixed_point = is_fixed_point(buffer.format);
   const auto write = [&](const PacketColor& c) {
     if (fixed_point) return write_packed(buffer, first, mask, c, state.mask);
+    if (narrow_channels(buffer.format) != 0) return write_narrow(buffer, first, mask, c, state.mask);
     for (int k = 0; k < 4; ++k) {
       if (!state.mask[k]) continue;
       const Real value = c[static_cast<std::size_t>(k)];

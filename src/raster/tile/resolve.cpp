@@ -4,7 +4,7 @@
 namespace halfspace {
 
 void resolve_color(const Tile& tile, ColorBuffer& color) {
-  if (tile.samples == 1 || color.format == ColorFormat::none) return;
+  if (tile.samples == 1 || color.format == ColorFormat::none || color.format == ColorFormat::r32ui) return;
   const Real share(1.0f / static_cast<float>(tile.samples));
   for (int p = 0; p < kPackets; ++p) {
     if (packet_x(p) >= tile.width || packet_y(p) >= tile.height) continue;

@@ -74,8 +74,8 @@ struct PacketMask {
 /// Colors of a packet: r, g, b and a, with one value per lane.
 using PacketColor = std::array<Real, 4>;
 
-/// Color buffer of a tile, in the format of the attachment. 8-bit formats use one uint32 per pixel, with r in the lowest byte. rgba16f and
-/// rgba32f use four planes.
+/// Color buffer of a tile, in the format of the attachment. 8-bit formats use one uint32 per pixel, with r in the lowest byte. All other
+/// formats use a plane for each channel.
 struct ColorBuffer {
   ColorFormat format = ColorFormat::none;
   alignas(64) std::array<std::byte, kMaxTilePixels * 16> bytes;

@@ -43,12 +43,12 @@ void fill_rows(T value, std::byte* data, int width, int height, const PixelBound
     bytes *= static_cast<std::size_t>(runs);
     runs = 1;
   }
-  const bool large = streams(data, width, height, sizeof(T));
+  const bool large = 64 % sizeof(T) == 0 && streams(data, width, height, sizeof(T));
   if constexpr (sizeof(T) == sizeof(uint32_t)) {
     if (large && runs == 1 && bytes >= kLongRun) return fill_words(at(pixels.y1 - 1), std::bit_cast<uint32_t>(value), bytes / sizeof(T));
   }
   alignas(64) std::array<std::byte, 64> line;
-  for (std::size_t i = 0; i < 64; i += sizeof(T)) std::memcpy(&line[i], &value, sizeof(T));
+  for (std::size_t i = 0; i + sizeof(T) <= 64; i += sizeof(T)) std::memcpy(&line[i], &value, sizeof(T));
   const bool stream = large && bytes % 64 == 0 && static_cast<std::size_t>(pixels.x0) * sizeof(T) % 64 == 0;
   for (int y = pixels.y1 - runs; y < pixels.y1; ++y) {
     if (stream) {
@@ -72,6 +72,7 @@ void fill_color(const ColorTarget& target, int width, int height, const PixelBou
   switch (bytes_per_pixel(target.format)) {
     case 4: return fill(uint32_t{});
     case 8: return fill(std::array<uint16_t, 4>{});
+    case 12: return fill(std::array<float, 3>{});
     case 16: return fill(std::array<float, 4>{});
     default: return;
   }

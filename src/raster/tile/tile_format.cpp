@@ -18,6 +18,12 @@ PixelBytes encode_pixel(ColorFormat format, const PacketColor& color) {
     case ColorFormat::rgba32f:
       for (std::size_t k = 0; k < 4; ++k) put(k, lane(color[k], 0));
       break;
+    case ColorFormat::r32f:
+    case ColorFormat::rg32f:
+    case ColorFormat::rgb32f:
+    case ColorFormat::r32ui:
+      for (std::size_t k = 0; k < static_cast<std::size_t>(narrow_channels(format)); ++k) put(k, lane(color[k], 0));
+      break;
   }
   return bytes;
 }
@@ -36,6 +42,10 @@ void fill_buffer(ColorBuffer& buffer, const PacketColor& color) {
     case ColorFormat::srgb8a8: return fill(uint32_t{}, 1);
     case ColorFormat::rgba16f: return fill(uint16_t{}, 4);
     case ColorFormat::rgba32f: return fill(float{}, 4);
+    case ColorFormat::r32f:
+    case ColorFormat::rg32f:
+    case ColorFormat::rgb32f:
+    case ColorFormat::r32ui: return fill(uint32_t{}, narrow_channels(buffer.format));
   }
 }
 

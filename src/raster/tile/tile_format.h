@@ -15,6 +15,13 @@ namespace halfspace {
 
 constexpr bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
 
+/// Returns the number of 32-bit channels of formats that have less than four, otherwise 0.
+constexpr int narrow_channels(ColorFormat f) {
+  if (f == ColorFormat::rgb32f) return 3;
+  if (f == ColorFormat::rg32f) return 2;
+  return f == ColorFormat::r32f || f == ColorFormat::r32ui ? 1 : 0;
+}
+
 /// Returns plane k of a planar buffer, or plane 0 for 8-bit formats.
 template <class T>
 T* plane(ColorBuffer& b, int k) {
@@ -70,7 +77,9 @@ HS_INLINE Int packed_codes(const PacketColor& c) {
 /// Returns channel k of the packet that starts with pixel `first`, as linear floats.
 template <ColorFormat format>
 HS_INLINE Real read_channel(const ColorBuffer& buffer, std::size_t first, int k) {
-  if constexpr (format == ColorFormat::rgba32f) {
+  if constexpr (narrow_channels(format) != 0) {
+    return k < narrow_channels(format) ? load<Real>(plane<float>(buffer, k) + first) : Real(k == 3 ? 1.0f : 0.0f);
+  } else if constexpr (format == ColorFormat::rgba32f) {
     return load<Real>(plane<float>(buffer, k) + first);
   } else if constexpr (format == ColorFormat::rgba16f) {
     return decode_halves(load_halves<Int>(plane<uint16_t>(buffer, k) + first));

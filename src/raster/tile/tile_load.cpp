@@ -13,12 +13,12 @@ HS_INLINE void for_each_load(const Tile& tile, const ImageLayout& p, F f) {
   for_each_pixel(tile, p.width, p.height, p.stored, tile.samples, f);
 }
 
-template <class T>
+template <class T, std::size_t channels = 4>
 void load_planes(const std::byte* data, const ImageLayout& place, const Tile& tile, ColorBuffer& color) {
   const T* image = reinterpret_cast<const T*>(data);
   T* to = plane<T>(color, 0);
   for_each_load(tile, place, [&](std::size_t t, std::size_t i) {
-    for (std::size_t k = 0; k < 4; ++k) to[k * kMaxTilePixels + t] = image[4 * i + k];
+    for (std::size_t k = 0; k < channels; ++k) to[k * kMaxTilePixels + t] = image[channels * i + k];
   });
 }
 
@@ -76,6 +76,8 @@ void load_color(const ColorTarget& target, int width, int height, ImageSamples s
   switch (target.format) {
     case ColorFormat::rgba32f: load_planes<float>(target.data, place, tile, color); break;
     case ColorFormat::rgba16f: load_half_planes(target.data, place, tile, color); break;
+    case ColorFormat::rg32f: load_planes<float, 2>(target.data, place, tile, color); break;
+    case ColorFormat::rgb32f: load_planes<float, 3>(target.data, place, tile, color); break;
     default: copy_words<true>(tile, width, height, stored, tile.samples, color.bytes.data(), target.data); break;
   }
 }

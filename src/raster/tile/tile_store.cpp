@@ -46,12 +46,12 @@ HS_INLINE void for_each_store(const Tile& tile, const ImageLayout& p, F f) {
   for_each_pixel(tile, p.width, p.height, p.stored, stored_samples(tile, p.stored), f);
 }
 
-template <class T>
+template <class T, std::size_t channels = 4>
 void store_planes(std::byte* data, const ImageLayout& place, const Tile& tile, const ColorBuffer& color) {
   T* image = reinterpret_cast<T*>(data);
   const T* from = plane<T>(color, 0);
   for_each_store(tile, place, [&](std::size_t t, std::size_t i) {
-    for (std::size_t k = 0; k < 4; ++k) image[4 * i + k] = from[k * kMaxTilePixels + t];
+    for (std::size_t k = 0; k < channels; ++k) image[channels * i + k] = from[k * kMaxTilePixels + t];
   });
 }
 
@@ -94,6 +94,8 @@ void store_color(const ColorTarget& target, int width, int height, ImageSamples 
   switch (target.format) {
     case ColorFormat::rgba32f: store_planes<float>(target.data, place, tile, color); break;
     case ColorFormat::rgba16f: store_half_planes(target.data, place, tile, color); break;
+    case ColorFormat::rg32f: store_planes<float, 2>(target.data, place, tile, color); break;
+    case ColorFormat::rgb32f: store_planes<float, 3>(target.data, place, tile, color); break;
     default: store_words(tile, width, height, stored, stored_samples(tile, stored), color.bytes.data(), target.data); break;
   }
 }
