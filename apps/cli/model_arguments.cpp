@@ -94,14 +94,11 @@ OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& 
   if (!is_model_file(scene)) {
     if (const std::string option = first_given(args); !option.empty())
       throw UsageError(option + " applies only to model files; expected a file ending in .obj, .gltf, .glb, .ply or .stl");
-    return {SceneFile::open(scene), {}, nullptr, {}};
+    return open_scene_or_model(scene, ModelView{});
   }
   ModelView view = view_of(args, aspect);
   if (const std::optional<int> frames = turntable_frames(args)) view.turn_seconds = *frames / fps;
-  GeneratedScene generated = model_scene(scene, view);
-  const std::filesystem::path file = std::filesystem::absolute(scene).lexically_normal();
-  return {SceneFile::parse(generated.text, scene, std::filesystem::current_path()), file, std::move(generated.model),
-          std::move(generated.camera_names)};
+  return open_scene_or_model(scene, view);
 }
 
 }  // namespace halfspace

@@ -3,13 +3,10 @@
 // The options of `render` that apply to model files.
 #pragma once
 
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 
-#include "halfspace/render/model_scene.h"
-#include "halfspace/scene/scene_file.h"
+#include "halfspace/render/opened_scene.h"
 
 namespace halfspace {
 
@@ -20,14 +17,6 @@ struct ModelArguments {
   std::string model_scene, animation, variant;
   std::string turntable;
   bool inside = false, no_floor = false, allow_outside = false;
-};
-
-/// A scene, and the model file that it shows if it was generated for one.
-struct OpenedScene {
-  SceneFile scene;
-  std::filesystem::path model_file;  ///< empty: it was not
-  std::shared_ptr<const ModelAsset> model;
-  std::map<std::string, std::string> camera_names;  ///< names in the model and the corresponding names in the scene
 };
 
 /// Opens a scene by name or file name, or generates one for a model file with the view that the options describe. `aspect`: width / height

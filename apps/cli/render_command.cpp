@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -184,18 +183,6 @@ SceneFile chosen(const RenderJob& job) {
 
 double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
 
-// Generated maps get the resolution that the closest view of the animation needs, so that they do not change between frames. Longer
-// animations are sampled at a thousand frames.
-void expect_frames(const RenderJob& job, SceneAssets& assets) {
-  constexpr int kMaxLooks = 1000;
-  const bool stands = job.scene.description().animations.empty();
-  const int looks = stands ? 1 : std::min(job.frames->count(), kMaxLooks);
-  for (int i = 0; i < looks; ++i) {
-    const int frame = job.frames->first + static_cast<int>(static_cast<int64_t>(job.frames->count() - 1) * i / std::max(looks - 1, 1));
-    assets.expect(job.scene.at(time_of(job, frame)), job.size.width, job.size.height);
-  }
-}
-
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
   SceneAssets assets(workers, [](const std::string& problem) { std::cerr << "halfspace: warning: " << problem << '\n'; });
@@ -207,7 +194,8 @@ RenderReport run(const RenderJob& job) {
     return report;
   }
   check_writable(frame_path(job.out, job.frames->first, *job.frames));
-  expect_frames(job, assets);
+  const auto time_of_frame = [&](int i) { return time_of(job, job.frames->first + i); };
+  expect_frames(assets, job.scene, job.frames->count(), time_of_frame, job.size.width, job.size.height);
   Progress progress(job.frames->count());
   for (int frame = job.frames->first; frame <= job.frames->last; ++frame) {
     const std::filesystem::path path = frame_path(job.out, frame, *job.frames);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/opened_scene.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace halfspace {
+
+OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView& view) {
+  if (!is_model_file(name_or_file)) return {SceneFile::open(name_or_file), {}, nullptr, {}};
+  GeneratedScene generated = model_scene(name_or_file, view);
+  const std::filesystem::path file = std::filesystem::absolute(name_or_file).lexically_normal();
+  return {SceneFile::parse(generated.text, name_or_file, std::filesystem::current_path()), file, std::move(generated.model),
+          std::move(generated.camera_names)};
+}
+
+void expect_frames(SceneAssets& assets, const SceneFile& scene, int frames, const std::function<double(int)>& time_of, int width,
+                   int height) {
+  constexpr int kMaxLooks = 1000;
+  const int looks = scene.description().animations.empty() ? 1 : std::min(frames, kMaxLooks);
+  for (int i = 0; i < looks; ++i) {
+    const int frame = static_cast<int>(static_cast<int64_t>(frames - 1) * i / std::max(looks - 1, 1));
+    assets.expect(scene.at(time_of(frame)), width, height);
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Opens what a user names: a shipped scene, a scene file or a model file.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "halfspace/render/model_scene.h"
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/scene/scene_file.h"
+
+namespace halfspace {
+
+/// A scene, and the model file that it shows if it was generated for one.
+struct OpenedScene {
+  SceneFile scene;
+  std::filesystem::path model_file;  ///< empty: it was not
+  std::shared_ptr<const ModelAsset> model;
+  std::map<std::string, std::string> camera_names;  ///< names in the model and the corresponding names in the scene
+};
+
+/// Opens a scene by name or file name, or generates one that shows a model file. `view` is only used for model files. Throws InputError.
+OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView& view);
+
+/// Announces `frames` frames of width x height pixels to the assets (SceneAssets::expect), so that generated maps get the resolution that
+/// the closest view of the animation needs and do not change between frames. time_of(i) is the time of frame i in seconds. At most a
+/// thousand frames are looked at, and only one if nothing is animated. frames must be at least 1.
+void expect_frames(SceneAssets& assets, const SceneFile& scene, int frames, const std::function<double(int)>& time_of, int width,
+                   int height);
+
+}  // namespace halfspace
