@@ -17,17 +17,19 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/core/image.h"
 #include "halfspace/shading/sampler.h"
 
 namespace halfspace {
 
 // ---- textures --------------------------------------------------------------------------------------------------
 
-/// An image in its encoded form (PNG, JPEG, ...): a file, or bytes that were stored in the model file.
+/// An image: a file, the bytes of a file (PNG, JPEG, ...) that were stored in the model file, or pixels that a program provides.
 struct ModelImage {
   std::string name;                                     ///< for messages: the path or name that the model file gives
-  std::filesystem::path file;                           ///< absolute; empty if `bytes` has the image or there is none
+  std::filesystem::path file;                           ///< absolute; empty if `bytes` or `pixels` has the image or there is none
   std::shared_ptr<const std::vector<std::byte>> bytes;  ///< null if the image is a file
+  std::shared_ptr<const Image<glm::u8vec4>> pixels{};   ///< replaces the other two; never set by readers. Straight alpha
 };
 
 /// An image and how it is sampled.

@@ -38,9 +38,11 @@ std::string image_recipe(const std::filesystem::path& file, int image, bool colo
 
 // Decodes an image of a model.
 Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color) {
+  const TexelFormat format = color ? TexelFormat::srgb8a8 : TexelFormat::rgba8;
+  if (source.pixels != nullptr) return Texture2D(*source.pixels, format);
   const Image<glm::u8vec4> picture =
       source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file);
-  return Texture2D(picture, color ? TexelFormat::srgb8a8 : TexelFormat::rgba8);
+  return Texture2D(picture, format);
 }
 
 }  // namespace
@@ -63,7 +65,7 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
   assets_.workers_.for_each(static_cast<int>(list.size()), [&](int i) {
     const auto [image, color] = list[static_cast<std::size_t>(i)];
     const ModelImage& source = model.images[static_cast<std::size_t>(image)];
-    if (source.file.empty() && source.bytes == nullptr) return;  // the reader has warned
+    if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has warned
     try {
       textures[static_cast<std::size_t>(i)].emplace(decoded(o.file.path, source, color));
     } catch (const InputError& e) {  // the material is drawn without it
