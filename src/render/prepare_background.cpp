@@ -10,9 +10,9 @@ namespace {
 // Sets the view direction of a background.
 template <class Sky>
 void set_view(Sky& sky, const View& view) {
-  sky.forward_ws = glm::vec3(view.forward_ws);
-  sky.right_ws = glm::vec3(view.right_ws * view.tan_x);
-  sky.up_ws = glm::vec3(view.up_ws * view.tan_y);
+  sky.forward_ws = glm::vec3(view.ray_ws);
+  sky.right_ws = glm::vec3(view.ray_x_ws);
+  sky.up_ws = glm::vec3(view.ray_y_ws);
 }
 
 }  // namespace

@@ -31,13 +31,15 @@ SphereRows rows_of(const Particles& spheres, const View& view, const glm::dvec3&
 SphereIntersection intersection_of(const CameraDescription& c, const View& view) {
   const bool perspective = c.type == Projection::perspective;
   const double half_height = 0.5 * c.height, aspect = static_cast<double>(view.width_px) / view.height_px;
-  const glm::dvec2 half = perspective ? glm::dvec2(view.tan_x, view.tan_y) : glm::dvec2(half_height * aspect, half_height);
+  const glm::dvec2 half = perspective || c.matrices ? glm::dvec2(view.tan_x, view.tan_y) : glm::dvec2(half_height * aspect, half_height);
   return {perspective, half, view.near, view.far, {view.width_px, view.height_px}};
 }
 
 }  // namespace
 
 SphereImpostors ScenePreparation::sphere_impostors(bool receives_shadow) const {
+  if (!view_.symmetric)
+    throw InputError("camera: exact spheres need a symmetric view; expected a camera without skew and with a centered view axis");
   SphereImpostors s;
   s.lens = intersection_of(camera(), view_);
   s.world_from_camera = glm::mat3(glm::dmat3(view_.right_ws, view_.up_ws, view_.forward_ws));

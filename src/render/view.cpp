@@ -3,14 +3,102 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
+#include "halfspace/core/check.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/geometry/camera.h"
 
 namespace halfspace {
 
+namespace {
+
+// Returns the view of a camera that matrix_camera() has accepted.
+View matrix_view(const CameraDescription& c, int width, int height) {
+  const glm::dmat4 &world = c.matrices->world_from_camera, &p = c.matrices->clip_from_camera;
+  const glm::dvec3 right(world[0]), up(world[1]), back(world[2]);
+  const glm::dmat2 plane = glm::inverse(glm::dmat2(p[0][0], p[0][1], p[1][0], p[1][1]));
+  View v{{}, c.position, glm::dvec3(0.0), -back, right, up, glm::length(plane[0]), glm::length(plane[1]), c.near, c.far, width, height};
+  // Depth (w − z) / 2 is 1 at the near plane and 0 at the far plane.
+  glm::dmat4 reversed = p;
+  for (int i = 0; i < 4; ++i) reversed[i][2] = 0.5 * (p[i][3] - p[i][2]);
+  glm::dmat4 camera_from_world(glm::transpose(glm::dmat3(world)));
+  camera_from_world[3] = camera_from_world * glm::dvec4(-c.position, 1.0);
+  v.clip_from_world = reversed * camera_from_world;
+  if (c.type == Projection::orthographic) v.to_eye_ws = back;
+  const glm::dvec2 center = plane * glm::dvec2(p[2][0] - p[3][0], p[2][1] - p[3][1]);
+  v.ray_ws = v.forward_ws + right * center.x + up * center.y;
+  v.ray_x_ws = right * plane[0].x + up * plane[0].y;
+  v.ray_y_ws = right * plane[1].x + up * plane[1].y;
+  v.symmetric = center == glm::dvec2(0.0) && p[1][0] == 0.0 && p[0][1] == 0.0;
+  return v;
+}
+
+bool is_finite_matrix(const glm::dmat4& m) {
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      if (!std::isfinite(m[i][j])) return false;
+    }
+  }
+  return true;
+}
+
+bool is_rigid(const glm::dmat4& m) {
+  constexpr double kTolerance = 1e-5;  // of matrices that were stored as floats
+  const glm::dmat3 turn(m), product = glm::transpose(turn) * turn;
+  for (int i = 0; i < 3; ++i) {
+    if (m[i][3] != 0.0) return false;
+    for (int j = 0; j < 3; ++j) {
+      if (std::fabs(product[i][j] - (i == j ? 1.0 : 0.0)) > kTolerance) return false;
+    }
+  }
+  return m[3][3] == 1.0 && glm::determinant(turn) > 0.0;
+}
+
+[[noreturn]] void refuse_projection(const char* expected) {
+  throw InputError(std::string("camera: the projection matrix cannot be used; expected ") + expected);
+}
+
+// Sets the planes of a projection, z_clip = a·z + b.
+void set_planes(CameraDescription& c, double a, double b) {
+  if (c.type == Projection::perspective) {
+    c.near = b / (a - 1.0);
+    c.far = a == -1.0 ? std::numeric_limits<double>::infinity() : b / (a + 1.0);
+  } else {
+    c.near = (b + 1.0) / a;
+    c.far = (b - 1.0) / a;
+  }
+  if (!(c.near < c.far) || (c.type == Projection::perspective && !(c.near > 0.0)))
+    refuse_projection("a near plane in front of the far plane, and of the camera");
+}
+
+}  // namespace
+
+CameraDescription matrix_camera(const CameraMatrices& matrices) {
+  const glm::dmat4 &world = matrices.world_from_camera, &p = matrices.clip_from_camera;
+  if (!is_finite_matrix(world) || !is_finite_matrix(p)) throw InputError("camera: a matrix is not finite; expected finite numbers");
+  if (!is_rigid(world)) throw InputError("camera: the pose is not a rotation and a translation; expected a rigid transform");
+  CameraDescription c;
+  const glm::dvec4 w(p[0][3], p[1][3], p[2][3], p[3][3]);
+  if (w != glm::dvec4(0, 0, -1, 0) && w != glm::dvec4(0, 0, 0, 1)) refuse_projection("(0, 0, -1, 0) or (0, 0, 0, 1) as the last row");
+  c.type = w.z == 0.0 ? Projection::orthographic : Projection::perspective;
+  if (p[0][2] != 0.0 || p[1][2] != 0.0) refuse_projection("a depth that depends only on z");
+  if (c.type == Projection::perspective ? p[3][0] != 0.0 || p[3][1] != 0.0 : p[2][0] != 0.0 || p[2][1] != 0.0)
+    refuse_projection("a perspective or orthographic projection");
+  if (!(p[0][0] * p[1][1] - p[1][0] * p[0][1] > 0.0)) refuse_projection("one that keeps the image unmirrored");
+  set_planes(c, p[2][2], p[3][2]);
+  c.position = glm::dvec3(world[3]);
+  c.target = c.position - glm::dvec3(world[2]);
+  c.up = glm::dvec3(world[1]);
+  c.height = 2.0 / p[1][1];
+  c.matrices = matrices;
+  return c;
+}
+
 View make_view(const CameraDescription& c, int width, int height) {
+  if (c.matrices) return matrix_view(c, width, height);
   const double aspect = static_cast<double>(width) / height;
   const glm::dmat4 view = look_at(c.position, c.target, c.up);
   const glm::dvec3 right(view[0][0], view[1][0], view[2][0]), up(view[0][1], view[1][1], view[2][1]),
@@ -24,6 +112,9 @@ View make_view(const CameraDescription& c, int width, int height) {
     v.to_eye_ws = back;
   }
   v.tan_x = v.tan_y * aspect;
+  v.ray_ws = v.forward_ws;
+  v.ray_x_ws = right * v.tan_x;
+  v.ray_y_ws = up * v.tan_y;
   return v;
 }
 
@@ -96,6 +187,7 @@ glm::dmat3 rotation_about(int axis, double degrees) {
 }  // namespace
 
 glm::dmat4 world_from_object(const Placement& p) {
+  if (p.matrix) return *p.matrix;
   const glm::dmat3 turn = rotation_about(1, p.rotation.y) * rotation_about(0, p.rotation.x) * rotation_about(2, p.rotation.z);
   glm::dmat4 m(1.0);
   for (int k = 0; k < 3; ++k) m[k] = glm::dvec4(turn[k] * p.scale[k], 0.0);

@@ -16,7 +16,16 @@ struct View {
   double tan_x, tan_y;                     ///< tangents of half the field of view
   double near, far;                        ///< units along forward_ws
   int width_px, height_px;
+  /// Perspective: ray_ws + x·ray_x_ws + y·ray_y_ws is the direction of the ray through the NDC (x, y), and has a length of 1 along
+  /// forward_ws.
+  glm::dvec3 ray_ws{}, ray_x_ws{}, ray_y_ws{};
+  bool symmetric = true;  ///< the view axis is at the center of the image, and the image axes are perpendicular
 };
+
+/// Returns the camera with these matrices. The projection may have its view axis anywhere and skewed image axes, as calibrated cameras do.
+/// Throws InputError, with a message that begins with "camera: ", if world_from_camera is not a rotation and a translation, or if
+/// clip_from_camera is not a perspective or orthographic projection.
+CameraDescription matrix_camera(const CameraMatrices& matrices);
 
 /// Returns the view of a camera for an image of width x height pixels, with reversed Z.
 View make_view(const CameraDescription& camera, int width, int height);

@@ -4,6 +4,7 @@
 // bind each value to a key. render/prepared_scene.h documents how the values affect rendering.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,12 @@ using Named = std::vector<std::pair<std::string, T>>;
 
 enum class Projection : uint8_t { perspective, orthographic };
 
+/// A camera as a transform and a projection. The camera looks along −z, with y up.
+struct CameraMatrices {
+  glm::dmat4 world_from_camera{1.0};  ///< a rotation and a translation
+  glm::dmat4 clip_from_camera{1.0};   ///< OpenGL's clip space: −w at the near plane, w at the far plane
+};
+
 struct CameraDescription {
   Projection type = Projection::perspective;
   glm::dvec3 position{0, 0, 5};  ///< world space
@@ -30,6 +37,8 @@ struct CameraDescription {
   double fov = 45.0;    ///< vertical, in degrees
   double height = 2.0;  ///< height of the view volume, in scene units
   double near = 0.1, far = 1000.0;
+  /// Replaces all other members. No key sets it; see matrix_camera() in render/view.h.
+  std::optional<CameraMatrices> matrices{};
 };
 
 enum class Falloff : uint8_t { attenuation, physical };
@@ -133,6 +142,7 @@ struct Placement {
   glm::dvec3 position{0.0};
   glm::dvec3 rotation{0.0};  ///< degrees around x, y, z; applied in the order z, x, y
   glm::dvec3 scale{1.0};
+  std::optional<glm::dmat4> matrix{};  ///< affine; replaces all other members. No key sets it
 };
 
 struct ObjectDescription {

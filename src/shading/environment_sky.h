@@ -12,7 +12,7 @@
 namespace halfspace {
 
 struct EnvironmentSky {
-  glm::vec3 forward_ws{0, 0, -1};  ///< unit vector
+  glm::vec3 forward_ws{0, 0, -1};  ///< direction through the center of the image: a unit vector in a symmetric view
   glm::vec3 right_ws{1, 0, 0};     ///< unit vector times the tangent of half the horizontal field of view
   glm::vec3 up_ws{0, 1, 0};        ///< unit vector times the tangent of half the vertical field of view
   EnvironmentBlend environment;
