@@ -286,6 +286,13 @@ void SceneFile::set(std::span<const std::string> settings) {
   *this = std::move(next);
 }
 
+void SceneFile::merge(std::string_view patch, const std::string& source) {
+  Json json = *json_;
+  json.merge_patch(parse_json(patch, source));
+  description_ = read_scene(json, source_, directory_);
+  json_ = std::make_shared<const Json>(std::move(json));
+}
+
 SceneDescription SceneFile::at(double seconds) const {
   const double time = description_.time.hours / 24.0 * description_.time.day + seconds * description_.animation.speed;
   SceneDescription scene = with_materials_at(time);

@@ -38,6 +38,10 @@ class SceneFile {
   void set(std::span<const std::string> settings);
   void set(const std::string& setting) { set(std::span(&setting, 1)); }
 
+  /// Applies a JSON merge patch (RFC 7386) to the contents of the scene file, for example to add or remove objects. `source` is the start
+  /// of error messages about the patch itself. Throws InputError and leaves the scene unchanged on errors.
+  void merge(std::string_view patch, const std::string& source);
+
   /// Returns the whole scene, without animations applied.
   const SceneDescription& description() const { return description_; }
   /// Returns the scene at a time in seconds, with animated keys set to their values. Throws InputError if a value is outside its

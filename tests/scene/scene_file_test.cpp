@@ -490,6 +490,27 @@ TEST(Animation, ReportsValuesThatLeaveTheirRange) {
 
 // ---- schema ----------------------------------------------------------------------------------------------------
 
+TEST(Merge, AddsChangesAndRemovesSections) {
+  SceneFile scene = SceneFile::parse(R"({"version": 1, "objects": {"a": {"shape": "cube", "size": 2}}})", "test.json", ".");
+  scene.set("a.size=3");
+  scene.merge(R"({"samples": 4, "objects": {"a": {"segments": 2}, "b": {"shape": "plane"}}})", "patch");
+  ASSERT_EQ(scene.description().objects.size(), 2u);
+  EXPECT_EQ(scene.description().objects[0].second.size, 3.0) << "a setting is kept";
+  EXPECT_EQ(scene.description().objects[0].second.segments, 2);
+  EXPECT_EQ(scene.description().head.samples, 4);
+  scene.merge(R"({"samples": null, "objects": {"a": null}})", "patch");
+  ASSERT_EQ(scene.description().objects.size(), 1u);
+  EXPECT_EQ(scene.description().objects[0].first, "b");
+  EXPECT_EQ(scene.description().head.samples, 1);
+}
+
+TEST(Merge, LeavesTheSceneUnchangedOnErrors) {
+  SceneFile scene = SceneFile::parse(R"({"version": 1, "samples": 2})", "test.json", ".");
+  EXPECT_TRUE(tells(input_error([&] { scene.merge(R"({"samples": 3})", "patch"); }), "test.json: samples", {"8"}));
+  EXPECT_TRUE(tells(input_error([&] { scene.merge("{", "patch"); }), "patch:1:2", {"JSON"}));
+  EXPECT_EQ(scene.description().head.samples, 2);
+}
+
 TEST(Schema, FileInDocsIsUpToDate) {
   EXPECT_TRUE(read_bytes("docs/reference/scene.schema.json") == scene_schema())
       << "to update it, run: halfspace list --schema > docs/reference/scene.schema.json";
