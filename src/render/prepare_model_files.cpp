@@ -189,6 +189,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   }
   MetallicMaterial surface = metallic_material(o, model->model, material, !streams.uvs.empty());
   place(surface, world);
+  needs_light_ = needs_light_ || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
   const bool masked = material.alpha_mode == AlphaMode::mask;
   MetallicStreams variant = variant_of(surface, streams);
   if (masked && !(variant >= MetallicStreams::mapped)) variant = MetallicStreams::full;
@@ -217,6 +218,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
 // Draws a part of a model with a material of the scene, which is the object's surface.
 void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
                                          const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
+  needs_light_ = needs_light_ || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
   LitSurface surface = surface_of(o, path);
   NormalDetail detail = add_detail(surface, o, {}, path);
   if (detail != NormalDetail::none && streams.tangents.empty()) {

@@ -82,26 +82,29 @@ ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& 
 
 namespace {
 
-// Returns true if surfaces are drawn that only light makes visible, but nothing shines on them.
+// Returns true if nothing shines on surfaces.
 bool is_dark(const SceneDescription& scene) {
-  const auto is_lit = [](const auto& entry) {
-    const ObjectDescription& o = entry.second;
-    return o.visible && !o.shadow_only && o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0);
-  };
-  return scene.lights.empty() && scene.head.ambient.linear == glm::dvec3(0.0) && scene.environments.empty() &&
-         std::ranges::any_of(scene.objects, is_lit);
+  return scene.lights.empty() && scene.head.ambient.linear == glm::dvec3(0.0) && scene.environments.empty();
+}
+
+// Returns true if only light makes the surface of the object visible. The materials of model files are checked when they are drawn.
+bool needs_light(const ObjectDescription& o) {
+  return o.visible && !o.shadow_only && o.shape != Shape::file && o.surface.shading != ShadingRate::none &&
+         o.surface.emissive.linear == glm::dvec3(0.0);
 }
 
 }  // namespace
 
 PreparedScene ScenePreparation::prepare() {
-  if (is_dark(scene_)) assets_.warn_once("nothing lights the scene; expected a light, ambient light or an environment");
   out_.clear_color = glm::vec4(glm::vec3(scene_.background.color.linear), 1.0f);
   out_.post = scene_.post;
   out_.samples = scene_.head.samples;
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
-    if (scene_.objects[i].second.visible) add_object(static_cast<int>(i));
+    const ObjectDescription& object = scene_.objects[i].second;
+    needs_light_ = needs_light_ || needs_light(object);
+    if (object.visible) add_object(static_cast<int>(i));
   }
+  if (needs_light_ && is_dark(scene_)) assets_.warn_once("nothing lights the scene; expected a light, ambient light or an environment");
   add_particles(scene_.particles, "particles");
   for (const auto& [name, p] : scene_.particle_systems) add_particles(p, "particle_systems." + name);
   add_background();
