@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Checks of arguments. Every problem is an InputError of one line: "NAME: problem; expected what would be right"."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ._core import InputError
+
+MAX_SIDE = 16384
+
+
+def fail(name: str, problem: str, expected: str) -> "InputError":
+    """Returns the exception to raise."""
+    return InputError(f"{name}: {problem}; expected {expected}")
+
+
+def _shape_text(shape: Sequence[Optional[int]]) -> str:
+    names = iter(("N", "M"))
+    words = [next(names) if n is None else str(n) for n in shape]
+    return "(" + ", ".join(words) + ("," if len(words) == 1 else "") + ")"
+
+
+def _array(name: str, value: Any, shape: Sequence[Optional[int]], what: str) -> np.ndarray:
+    try:
+        array = np.asarray(value)
+    except ValueError:
+        raise fail(name, "is not an array", f"{what} of shape {_shape_text(shape)}") from None
+    if array.ndim != len(shape) or any(n is not None and n != m for n, m in zip(shape, array.shape)):
+        raise fail(name, f"has the shape {array.shape}", _shape_text(shape))
+    return array
+
+
+def numbers(name: str, value: Any, shape: Sequence[Optional[int]], dtype: Any = np.float64) -> np.ndarray:
+    """Returns finite numbers as a C-contiguous array of the type, without a copy if the value is one already. None: any length."""
+    array = _array(name, value, shape, "numbers")
+    if array.dtype.kind not in "fiu":
+        raise fail(name, f"has the dtype {array.dtype}", "a floating-point or integer dtype")
+    with np.errstate(over="ignore"):
+        out = np.ascontiguousarray(array, dtype=dtype)
+    if not np.isfinite(out).all():
+        where = tuple(int(i) for i in np.argwhere(~np.isfinite(out))[0])
+        raise fail(f"{name}[{', '.join(map(str, where))}]", f"is {out[where]}", "a finite number")
+    return out
+
+
+def indices(name: str, value: Any, width: Optional[int], vertices: int) -> np.ndarray:
+    """Returns indices of vertices as uint32, of shape (N, width), or (N,) if width is None."""
+    array = _array(name, value, (None,) if width is None else (None, width), "integers")
+    if array.dtype.kind not in "iu":
+        raise fail(name, f"has the dtype {array.dtype}", "an integer dtype")
+    if array.size:
+        low, high = int(array.min()), int(array.max())
+        if low < 0 or high >= vertices:
+            raise fail(name, f"has the index {low if low < 0 else high}", f"indices from 0 to {vertices - 1}")
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def texels(name: str, value: Any) -> np.ndarray:
+    """Returns an image as uint8 of shape (H, W, 4). Gray is replicated, and missing alpha is 255."""
+    array = np.asarray(value)
+    if array.dtype != np.uint8:
+        raise fail(name, f"has the dtype {array.dtype}", "uint8")
+    if array.ndim == 2:
+        array = array[:, :, np.newaxis]
+    if array.ndim != 3 or array.shape[2] not in (1, 3, 4) or 0 in array.shape or max(array.shape) > MAX_SIDE:
+        raise fail(name, f"has the shape {np.shape(value)}", f"(H, W), (H, W, 3) or (H, W, 4) with sides from 1 to {MAX_SIDE}")
+    if array.shape[2] == 1:
+        array = np.repeat(array, 3, axis=2)
+    if array.shape[2] == 3:
+        array = np.dstack([array, np.full(array.shape[:2], 255, np.uint8)])
+    return np.ascontiguousarray(array)
+
+
+def number(name: str, value: Any, low: float = -math.inf, high: float = math.inf) -> float:
+    """Returns a finite number in [low, high]."""
+    try:
+        x = float(value)
+    except (TypeError, ValueError):
+        raise fail(name, f"is {value!r}", "a number") from None
+    if not math.isfinite(x) or not low <= x <= high:
+        raise fail(name, f"is {value}", "a finite number" if math.isinf(high) and math.isinf(low) else f"a number from {low:g} to {high:g}")
+    return x
+
+
+def vector(name: str, value: Any, length: int = 3) -> Tuple[float, ...]:
+    """Returns a tuple of finite numbers."""
+    return tuple(float(x) for x in numbers(name, value, (length,)))
+
+
+def size(value: Any) -> Tuple[int, int]:
+    """Returns (width, height)."""
+    try:
+        width, height = value
+        width, height = width.__index__(), height.__index__()
+    except (TypeError, ValueError, AttributeError):
+        raise fail("size", f"is {value!r}", "(width, height) in pixels, for example (1280, 720)") from None
+    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+        raise fail("size", f"is {(width, height)}", f"a width and a height from 1 to {MAX_SIDE}")
+    return width, height
+
+
+def choice(name: str, value: Any, choices: Sequence[str]) -> str:
+    """Returns one of the words."""
+    if value not in choices:
+        raise fail(name, f"is {value!r}", "one of " + ", ".join(choices))
+    return value
+
+
+def threads(value: Optional[int], cores: int) -> int:
+    """Returns a number of threads; None means one per core."""
+    if value is None:
+        return cores
+    try:
+        count = value.__index__()
+    except AttributeError:
+        raise fail("threads", f"is {value!r}", "None or a number from 1 to 1024") from None
+    if not 1 <= count <= 1024:
+        raise fail("threads", f"is {count}", "None or a number from 1 to 1024")
+    return count
+
+
+def transforms(name: str, value: Any) -> np.ndarray:
+    """Returns affine transforms of shape (4, 4) or (N, 4, 4) as an array of shape (N, 4, 4)."""
+    array = np.asarray(value)
+    if array.ndim == 2:
+        array = array[np.newaxis]
+    out = numbers(name, array, (None, 4, 4))
+    wrong = np.nonzero((out[:, 3] != (0.0, 0.0, 0.0, 1.0)).any(axis=1))[0]
+    if wrong.size:
+        raise fail(f"{name}[{wrong[0]}]", f"has the last row {out[wrong[0], 3].tolist()}", "[0, 0, 0, 1]")
+    return out

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cameras.
+
+World space is right-handed. A camera looks along -z with y up, as in OpenGL; with `extrinsics`, it looks along +z with y down, as in OpenCV.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from . import _check, _core
+from ._check import fail
+
+# From the axes of an OpenCV camera to those of an OpenGL camera, and back.
+_TURN = np.diag([1.0, -1.0, -1.0, 1.0])
+
+
+class Camera:
+    """A view of a scene. Use one of the class methods. Cameras are immutable and can be used with any scene and from any thread."""
+
+    __slots__ = ("_for_size", "_text")
+
+    def __init__(self, for_size: Callable[[int, int], Any], text: str) -> None:
+        """Not for users: `for_size` returns the camera of _core for an image of width x height pixels."""
+        self._for_size = for_size
+        self._text = text
+
+    def __repr__(self) -> str:
+        return self._text
+
+    @classmethod
+    def look_at(cls, position: Any, target: Any = (0.0, 0.0, 0.0), up: Any = (0.0, 1.0, 0.0), *, fov: float = 45.0,
+                height: Optional[float] = None, near: float = 0.1, far: float = 1000.0) -> "Camera":
+        """Returns a camera at `position` that looks at `target`, both in world space.
+
+        fov: full vertical angle of view in degrees, 0.01 to 179.
+        height: if given, the camera is orthographic, and this is the height of the view volume in scene units.
+        near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far.
+        """
+        eye, aim, top = _check.vector("position", position), _check.vector("target", target), _check.vector("up", up)
+        line = np.subtract(aim, eye)
+        if not line.any():
+            raise fail("target", "is the position of the camera", "another point")
+        if np.linalg.norm(np.cross(line / np.linalg.norm(line), top)) <= 1e-12 * max(1e-300, float(np.linalg.norm(top))):
+            raise fail("up", "is parallel to the line from position to target, or zero", "another direction")
+        _check.number("fov", fov, 0.01, 179.0)
+        tall = 0.0 if height is None else _check.number("height", height, 1e-9, 1e9)
+        _check_planes(near, far)
+        camera = _core.Camera.look_at(eye, aim, top, float(fov), tall, float(near), float(far))
+        return cls(lambda width, height: camera, f"Camera.look_at({eye}, {aim})")
+
+    @classmethod
+    def from_pose(cls, pose: Any, *, fov: float = 45.0, near: float = 0.1, far: float = 1000.0) -> "Camera":
+        """Returns a perspective camera with a pose: camera to world, OpenGL axes, shape (4, 4). See look_at for the other arguments."""
+        world = _pose(pose, None)
+        _check.number("fov", fov, 0.01, 179.0)
+        _check_planes(near, far)
+        scale = 1.0 / math.tan(math.radians(fov) / 2.0)
+
+        def for_size(width: int, height: int) -> Any:
+            return _matrices(world, _frustum(scale * height / width, scale, 0.0, 0.0, 0.0, near, far))
+
+        return cls(for_size, f"Camera.from_pose(fov={fov:g})")
+
+    @classmethod
+    def from_matrices(cls, projection: Any, *, view: Any = None, pose: Any = None) -> "Camera":
+        """Returns a camera with OpenGL's matrices.
+
+        projection: camera to clip space, shape (4, 4), float; -w at the near plane and w at the far plane. Perspective projections may be
+            off-center or skewed; orthographic ones, too. The aspect ratio of the picture should match it.
+        view: world to camera, OpenGL axes, shape (4, 4); or
+        pose: its inverse, camera to world.
+        """
+        clip = _check.numbers("projection", projection, (4, 4))
+        if (view is None) == (pose is None):
+            raise fail("view, pose", "both or none are given", "one of them")
+        world = _pose(pose, None) if view is None else _inverse("view", view)
+        camera = _matrices(world, clip)
+        return cls(lambda width, height: camera, "Camera.from_matrices(...)")
+
+    @classmethod
+    def from_intrinsics(cls, K: Any, *, extrinsics: Any = None, pose: Any = None, near: float = 0.05, far: float = 1000.0) -> "Camera":
+        """Returns a calibrated camera, as in OpenCV.
+
+        K: [[fx, skew, cx], [0, fy, cy], [0, 0, 1]] in pixels of the rendered image. Pixel centers are at integers: (0, 0) is the center of
+            the top left pixel, and cx grows to the right, cy downwards.
+        extrinsics: [R | t], world to camera, with OpenCV's axes (x right, y down, z forward), shape (3, 4) or (4, 4); or
+        pose: camera to world, with OpenGL's axes (x right, y up, z backward), shape (4, 4).
+        near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far.
+        """
+        k = _check.numbers("K", K, (3, 3))
+        if k[1, 0] != 0.0 or k[2].tolist() != [0.0, 0.0, 1.0] or k[0, 0] <= 0.0 or k[1, 1] <= 0.0:
+            raise fail("K", f"is {k.tolist()}", "[[fx, skew, cx], [0, fy, cy], [0, 0, 1]] with positive fx and fy")
+        world = _pose(pose, extrinsics)
+        _check_planes(near, far)
+        fx, skew, cx, fy, cy = k[0, 0], k[0, 1], k[0, 2], k[1, 1], k[1, 2]
+
+        def for_size(width: int, height: int) -> Any:
+            # The center of pixel (0, 0) is half a pixel from the corner of the image. NDC y points up, and OpenCV's y down.
+            center_x, center_y = 2.0 * (cx + 0.5) / width - 1.0, 1.0 - 2.0 * (cy + 0.5) / height
+            return _matrices(world, _frustum(2.0 * fx / width, 2.0 * fy / height, -2.0 * skew / width, center_x, center_y, near, far))
+
+        return cls(for_size, f"Camera.from_intrinsics(fx={fx:g}, fy={fy:g}, cx={cx:g}, cy={cy:g}, skew={skew:g})")
+
+
+def _check_planes(near: float, far: float) -> None:
+    _check.number("near", near, 1e-9, 1e9)
+    _check.number("far", far, 1e-9, 1e12)
+    if near >= far:
+        raise fail("far", f"is {far}", f"more than near, {near}")
+
+
+def _frustum(scale_x: float, scale_y: float, skew: float, center_x: float, center_y: float, near: float, far: float) -> np.ndarray:
+    """Returns a projection: x_clip = scale_x x + skew y + center_x w, y_clip = scale_y y + center_y w, w = -z."""
+    return np.array([[scale_x, skew, -center_x, 0.0], [0.0, scale_y, -center_y, 0.0],
+                     [0.0, 0.0, -(far + near) / (far - near), -2.0 * far * near / (far - near)], [0.0, 0.0, -1.0, 0.0]])
+
+
+def _matrices(world: np.ndarray, clip: np.ndarray) -> Any:
+    return _core.Camera.from_matrices(np.ascontiguousarray(world), np.ascontiguousarray(clip))
+
+
+def _inverse(name: str, matrix: Any) -> np.ndarray:
+    """Returns the inverse of a rigid transform of shape (4, 4)."""
+    m = _check.numbers(name, matrix, (4, 4))
+    if m[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
+        raise fail(name, f"has the last row {m[3].tolist()}", "[0, 0, 0, 1]")
+    out = np.eye(4)
+    out[:3, :3] = m[:3, :3].T
+    out[:3, 3] = -m[:3, :3].T @ m[:3, 3]
+    return out
+
+
+def _pose(pose: Any, extrinsics: Any) -> np.ndarray:
+    """Returns camera to world, OpenGL axes."""
+    if (pose is None) == (extrinsics is None):
+        raise fail("extrinsics, pose", "both or none are given", "one of them")
+    if pose is not None:
+        return _check.numbers("pose", pose, (4, 4))
+    rows = np.shape(extrinsics)
+    if rows == (3, 4):
+        extrinsics = np.vstack([np.asarray(extrinsics), [0.0, 0.0, 0.0, 1.0]])
+    elif rows != (4, 4):
+        raise fail("extrinsics", f"has the shape {rows}", "(3, 4) or (4, 4)")
+    return _inverse("extrinsics", extrinsics) @ _TURN

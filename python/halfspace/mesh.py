@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes from arrays."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _check, _core
+from ._check import fail
+from .material import Material, Texture, srgb
+
+_numbers = itertools.count(1)
+_WIDTHS = {"triangles": 3, "lines": 2, "points": None}
+_MAX_VERTICES = 2**31
+
+
+class Mesh:
+    """Vertices of one material. All arrays are copied; a Mesh is immutable and can be added to any number of scenes.
+
+    vertices: (N, 3), in object space.
+    faces: (M, 3) indices of triangles, counter-clockwise seen from the front; (M, 2) for lines, (M,) for points. None: 0, 1, 2, ...
+    normals: (N, 3), any length but 0. None: computed, and vertices are split at edges sharper than `crease`.
+    crease: degrees. 0 gives flat shading, 180 smooth shading.
+    uvs: (N, 2).   uv_origin: "lower_left" (v grows upwards, as in OpenGL, OBJ and trimesh) or "upper_left" (as in glTF).
+    colors: (N, 3) or (N, 4); uint8 sRGB codes, or linear floats in [0, 1]. They multiply the base color.
+    material: None: a gray material, or a white one if there are colors.
+    topology: "triangles", "lines" or "points". Lines and points are not lit.
+    """
+
+    __slots__ = ("_model", "_file", "_low", "_high", "_faces")
+
+    def __init__(self, vertices: Any, faces: Any = None, *, normals: Any = None, uvs: Any = None, colors: Any = None,
+                 material: Optional[Material] = None, topology: str = "triangles", crease: float = 30.0,
+                 uv_origin: str = "lower_left") -> None:
+        positions = _check.numbers("vertices", vertices, (None, 3))
+        count = len(positions)
+        _check.choice("topology", topology, tuple(_WIDTHS))
+        if not 1 <= count < _MAX_VERTICES:
+            raise fail("vertices", f"has {count} rows", f"1 to {_MAX_VERTICES - 1}")
+        if faces is None and topology != "points" and count % _WIDTHS[topology] != 0:
+            raise fail("vertices", f"has {count} rows", f"a multiple of {_WIDTHS[topology]} if there are no faces")
+        index = None if faces is None else _check.indices("faces", faces, _WIDTHS[topology], count)
+        if index is not None and index.size == 0:
+            raise fail("faces", "is empty", "at least one row")
+        unit = None if normals is None else _unit("normals", _rows("normals", normals, count, 3))
+        uv = None if uvs is None else _rows("uvs", uvs, count, 2)
+        _check.choice("uv_origin", uv_origin, ("lower_left", "upper_left"))
+        rgba = None if colors is None else _colors("colors", colors, count)
+        if material is None:
+            material = Material((0.8, 0.8, 0.8) if rgba is None else (1.0, 1.0, 1.0),
+                                alpha_mode="blend" if rgba is not None and rgba[:, 3].min() < 1.0 else "opaque")
+        if not isinstance(material, Material):
+            raise fail("material", f"is a {type(material).__name__}", "a halfspace.Material")
+        self._model = _core.Model(positions, unit, uv, rgba, None, None if index is None else index.ravel(),
+                                  getattr(_core.Topology, topology), uv_origin == "lower_left", material._materials(),
+                                  _check.number("crease", crease, 0.0, 180.0) or -1.0)
+        self._file = f"/memory/mesh{next(_numbers)}"
+        self._low, self._high = positions.min(axis=0), positions.max(axis=0)
+        self._faces = count // 3 if index is None else len(index)
+
+    def __repr__(self) -> str:
+        return f"Mesh({self._faces} faces, from {self._low.tolist()} to {self._high.tolist()})"
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """The lowest and highest coordinates, float64 of shape (2, 3), in object space."""
+        return np.array([self._low, self._high])
+
+    @classmethod
+    def from_trimesh(cls, mesh: Any, *, crease: float = 30.0, material: Optional[Material] = None) -> "Mesh":
+        """Converts an object with the attributes of trimesh.Trimesh: vertices, faces and, optionally, visual.
+
+        Used from `visual`: vertex_colors or face_colors (as its `kind` says), or uv with material (baseColorFactor, baseColorTexture,
+        metallicFactor, roughnessFactor or, for simple materials, image and diffuse). trimesh itself is not needed.
+        """
+        for name in ("vertices", "faces"):
+            if not hasattr(mesh, name):
+                raise fail("mesh", f"a {type(mesh).__name__} has no {name}", "an object like trimesh.Trimesh")
+        vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+        visual = getattr(mesh, "visual", None)
+        kind = getattr(visual, "kind", None)
+        colors, uvs = None, None
+        if kind == "vertex":
+            colors = np.asarray(visual.vertex_colors)
+        elif kind == "face":
+            index = _check.indices("faces", faces, 3, len(vertices))
+            vertices, faces = vertices[index].reshape(-1, 3), np.arange(3 * len(index)).reshape(-1, 3)
+            colors = np.repeat(np.asarray(visual.face_colors), 3, axis=0)
+        elif kind == "texture" and getattr(visual, "uv", None) is not None:
+            uvs = np.asarray(visual.uv)
+            material = material if material is not None else _material_of(getattr(visual, "material", None))
+        return cls(vertices, faces, uvs=uvs, colors=colors, material=material, crease=crease)
+
+
+def _rows(name: str, value: Any, count: int, width: int) -> np.ndarray:
+    rows = _check.numbers(name, value, (None, width), np.float32)
+    if len(rows) != count:
+        raise fail(name, f"has {len(rows)} rows", f"one per vertex, {count}")
+    return rows
+
+
+def _unit(name: str, vectors: np.ndarray) -> np.ndarray:
+    length = np.sqrt((vectors.astype(np.float64) ** 2).sum(axis=1, keepdims=True))
+    zero = np.nonzero(length[:, 0] == 0.0)[0]
+    if zero.size:
+        raise fail(f"{name}[{zero[0]}]", "is zero", "a direction")
+    return np.ascontiguousarray(vectors / length, dtype=np.float32)
+
+
+def _colors(name: str, value: Any, count: int) -> np.ndarray:
+    array = np.asarray(value)
+    if array.ndim != 2 or array.shape[1] not in (3, 4):
+        raise fail(name, f"has the shape {array.shape}", "(N, 3) or (N, 4)")
+    linear = srgb(array) if array.dtype == np.uint8 else array
+    rows = _rows(name, linear, count, array.shape[1])
+    if rows.min() < 0.0 or rows.max() > 1.0:
+        raise fail(name, f"has values from {rows.min():g} to {rows.max():g}", "uint8, or numbers from 0 to 1")
+    return np.ascontiguousarray(np.column_stack([rows, np.ones(count, np.float32)]) if rows.shape[1] == 3 else rows)
+
+
+def _picture_of(image: Any) -> Optional[Texture]:
+    """Converts a PIL image or an array."""
+    if image is None:
+        return None
+    if hasattr(image, "convert"):
+        image = image.convert("RGBA")
+    return Texture(np.asarray(image))
+
+
+def _factor(value: Any) -> Any:
+    """Returns a color of trimesh, uint8 sRGB or linear floats, as linear numbers."""
+    array = np.asarray(value).ravel()
+    return srgb(array) if array.dtype == np.uint8 else array
+
+
+def _material_of(m: Any) -> Optional[Material]:
+    if m is None:
+        return None
+    if hasattr(m, "baseColorFactor"):
+        texture, color = m.baseColorTexture, m.baseColorFactor
+    else:
+        texture, color = getattr(m, "image", None), getattr(m, "diffuse", None)
+    white = (1.0, 1.0, 1.0) if texture is not None else (0.8, 0.8, 0.8)
+    metallic, roughness = getattr(m, "metallicFactor", None), getattr(m, "roughnessFactor", None)
+    return Material(white if color is None else _factor(color), metallic=0.0 if metallic is None else metallic,
+                    roughness=0.6 if roughness is None else roughness, base_color_texture=_picture_of(texture))

@@ -1,0 +1,392 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes and their pictures."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import warnings
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _check, _core
+from ._check import fail
+from .camera import Camera
+from .mesh import Mesh
+from .picture import Picture
+
+Size = Tuple[int, int]
+_MAX_COPIES = 65536
+
+
+class RenderWarning(UserWarning):
+    """A problem that does not prevent a picture, such as a missing texture."""
+
+
+# How model files are shown by `halfspace render MODEL`.
+_STUDIO: Dict[str, Any] = {
+    "version": 1, "samples": 4,
+    "lights": {"key": {"type": "directional", "direction": [-0.16, 0.79, 0.59], "intensity": 1.2}},
+    "environments": {"around": {"type": "studio", "size": 256, "brightness": 0.75}},
+    "reflections": {"environment": "around"},
+    "background": {"color": [0.62, 0.63, 0.65]},
+    "post": {"hdr": True, "tone": "aces", "exposure": 0.62},
+    "shadow": {"method": "pcf7", "resolution": 1024, "faces": "both"},
+}
+_DARK: Dict[str, Any] = {"version": 1, "samples": 4}
+_LIGHTING = {"studio": _STUDIO, "none": _DARK}
+
+# Options of Scene.load for model files, in the order of ModelView.
+_VIEW_OPTIONS = ("aspect", "yaw", "pitch", "zoom", "fov", "eye", "look_at", "up", "inside", "floor", "environment", "background",
+                 "model_scene", "model_animation", "model_variant", "up_axis", "turn_seconds", "allow_outside")
+_MODELS = (".obj", ".gltf", ".glb", ".ply", ".stl")
+
+
+def setting_text(key: str, value: Any) -> str:
+    """Returns "KEY=VALUE" for a value of Python or NumPy."""
+    if isinstance(value, (bool, np.bool_)):
+        text = "true" if value else "false"
+    elif isinstance(value, str):
+        text = value
+    elif isinstance(value, os.PathLike):
+        text = os.fspath(value)
+    elif isinstance(value, (int, np.integer)):
+        text = str(int(value))
+    elif isinstance(value, (float, np.floating)):
+        text = repr(float(value))
+    elif isinstance(value, (list, tuple, np.ndarray)):
+        array = np.asarray(value)
+        text = ",".join(repr(float(x)) for x in array) if array.ndim == 1 else json.dumps(array.tolist())
+    else:
+        raise fail(key, f"is a {type(value).__name__}", "a bool, a number, a string or a sequence of numbers")
+    return f"{key}={text}"
+
+
+def _view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
+    given = {name: value for name, value in options.items() if value is not None}
+    for name in given:
+        if name not in _VIEW_OPTIONS:
+            raise TypeError(f"{name}: unknown argument; expected one of {', '.join(_VIEW_OPTIONS)}")
+        if not path.lower().endswith(_MODELS) and name != "aspect":
+            raise fail(name, "applies only to model files", "a file ending in .obj, .gltf, .glb, .ply or .stl")
+    limits = {"aspect": (1e-3, 1e3), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
+              "turn_seconds": (0.0, 1e9)}
+    for name, (low, high) in limits.items():
+        if name in given:
+            given[name] = _check.number(name, given[name], low, high)
+    for name in ("eye", "look_at", "up"):
+        if name in given:
+            given[name] = _check.vector(name, given[name])
+    if "up_axis" in given:
+        _check.choice("up_axis", given["up_axis"], ("y", "z"))
+    return given
+
+
+class Scene:
+    """A scene that can be changed and rendered. Textures, meshes and maps are kept from one picture to the next.
+
+    Scene() starts an empty scene, for add() and add_light(). Scene.load() opens a scene or a model file.
+
+    lighting: "studio" (the surroundings, key light and tone curve that model files get) or "none" (black background, no light, no tone
+        curve: colors are clamped to [0, 1]).
+    threads: number of threads; None: one per core. The pictures do not depend on it.
+
+    All methods can be called by several Python threads at once. Pictures and labels are arrays of their own; they do not refer to the scene.
+    """
+
+    def __init__(self, *, lighting: str = "studio", threads: Optional[int] = None) -> None:
+        text = json.dumps(_LIGHTING[_check.choice("lighting", lighting, tuple(_LIGHTING))])
+        self._start(_core.Scene.parse(text, "scene", _check.threads(threads, _core.cores())))
+        self._fits = True
+
+    def _start(self, core: Any) -> None:
+        self._core = core
+        self._pending: Dict[str, Any] = {}
+        self._meshes: Dict[str, Tuple[Mesh, np.ndarray]] = {}
+        self._names = 0
+        self._fits = False  # no camera has been given: all objects are shown
+        self.camera: Optional[Camera] = None  #: used where render() gets none
+
+    @classmethod
+    def load(cls, path: Union[str, "os.PathLike[str]"], *, threads: Optional[int] = None, **view: Any) -> "Scene":
+        """Opens a shipped scene by name, a scene file, or a model file (.obj, .gltf, .glb, .ply, .stl).
+
+        A model file is shown as by `halfspace render MODEL`. These arguments change the view, and are None or absent otherwise:
+        aspect (width / height for which the model is fitted into the picture; default 16/9), yaw, pitch (degrees), zoom, fov (vertical,
+        degrees), eye, look_at, up (world space), inside, floor (bool), environment (image file), background ("#rrggbb" or "environment"),
+        model_scene, model_animation, model_variant (names in the file), up_axis ("y" or "z"), turn_seconds (time of a turn of the camera
+        around the model), allow_outside (bool: open files outside the folder of the model).
+
+        Raises InputError if the file cannot be used.
+        """
+        name = os.fspath(path)
+        scene = cls.__new__(cls)
+        scene._start(_core.Scene.open(name, _view_options(name, view), _check.threads(threads, _core.cores())))
+        return scene
+
+    # ---- keys ----------------------------------------------------------------------------------------------------
+
+    def set(self, keys: Mapping[str, Any]) -> None:
+        """Sets keys of the scene, for example {"time.hours": 18, "moon.radius": 2}, as --set of the command line does.
+
+        Raises InputError and leaves the scene unchanged if a key or a value is invalid.
+        """
+        self._flush()
+        self._core.set([setting_text(key, value) for key, value in keys.items()])
+        self._fits = self._fits and not any(key.split(".")[0] in ("camera", "cameras", "main") for key in keys)
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        self.set({key: value})
+
+    def __getitem__(self, key: str) -> Any:
+        """Returns the value of a key, as JSON would represent it: a bool, number, string or list."""
+        self._flush()
+        return json.loads(self._core.value(key))
+
+    def merge(self, patch: Mapping[str, Any]) -> None:
+        """Applies a JSON merge patch (RFC 7386) to the scene file, for example {"objects": {"ball": {"shape": "sphere"}}}."""
+        self._flush()
+        self._core.merge(json.dumps(patch))
+        self._fits = self._fits and not ("camera" in patch or "cameras" in patch)
+
+    def text(self) -> str:
+        """Returns the whole scene as the text of a scene file. It can be loaded again unless add() was used."""
+        self._flush()
+        return self._core.print()
+
+    # ---- objects and lights --------------------------------------------------------------------------------------
+
+    def add(self, mesh: Any, transform: Any = None, *, name: Optional[str] = None, casts_shadow: bool = True,
+            receives_shadow: bool = True) -> str:
+        """Adds an object and returns its name.
+
+        mesh: a Mesh, or an object like trimesh.Trimesh.
+        transform: object to world space, (4, 4), or (N, 4, 4) for N copies; affine, float. None: the identity.
+        name: a letter a to z followed by a to z, 0 to 9 and _. None: chosen.
+
+        The name is a section of the scene: scene[name + ".visible"] = False hides the object. Object ids in labels count objects in the
+        order in which they were added.
+        """
+        if not isinstance(mesh, Mesh):
+            mesh = Mesh.from_trimesh(mesh)
+        places = np.eye(4)[np.newaxis] if transform is None else self._transforms(transform)
+        if name is None:
+            self._names += 1
+            name = f"object_{self._names}"
+        elif name in self._meshes:
+            raise fail("name", f"an object '{name}' exists", "another name")
+        objects = self._pending.setdefault("objects", {})
+        objects[name] = {"shape": "file", "file": mesh._file, "casts_shadow": bool(casts_shadow), "receives_shadow": bool(receives_shadow)}
+        self._core.provide(mesh._file, mesh._model)
+        self._core.place(name, places)
+        self._meshes[name] = (mesh, places)
+        return name
+
+    def place(self, name: str, transform: Any) -> None:
+        """Moves an object of add(). transform: object to world space, (4, 4) or (N, 4, 4)."""
+        mesh, _ = self._mesh(name)
+        places = self._transforms(transform)
+        self._core.place(name, places)
+        self._meshes[name] = (mesh, places)
+
+    def remove(self, name: str) -> None:
+        """Removes an object of add()."""
+        mesh, _ = self._mesh(name)
+        self._flush()
+        self._core.merge(json.dumps({"objects": {name: None}}))
+        self._core.forget_object(name)
+        del self._meshes[name]
+        if all(other is not mesh for other, _ in self._meshes.values()):
+            self._core.forget_model(mesh._file)
+
+    def add_light(self, type: str = "directional", *, name: Optional[str] = None, **keys: Any) -> str:
+        """Adds a light and returns its name.
+
+        type: "directional" (direction: towards the light), "point" (position) or "spot" (position, direction, inner, outer in degrees).
+        keys: of a light in a scene file, for example color=(1, 0.9, 0.8), intensity=2, shadow=False, falloff="physical". Colors are linear.
+        """
+        if name is None:
+            self._names += 1
+            name = f"light_{self._names}"
+        light = {"type": type}
+        for key, value in keys.items():
+            light[key] = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
+        self._flush()
+        self._core.merge(json.dumps({"lights": {name: light}}))
+        return name
+
+    @property
+    def bounds(self) -> Optional[np.ndarray]:
+        """The lowest and highest coordinates of all objects of add(), float64 of shape (2, 3), in world space. None: there are none."""
+        corners: List[np.ndarray] = []
+        for mesh, places in self._meshes.values():
+            box = mesh.bounds
+            points = np.array([[box[i, 0], box[j, 1], box[k, 2], 1.0] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+            if len(places) > 0:
+                corners.append((places @ points.T)[:, :3].transpose(0, 2, 1).reshape(-1, 3))
+        if not corners:
+            return None
+        points = np.concatenate(corners)
+        return np.array([points.min(axis=0), points.max(axis=0)])
+
+    def fit(self, *, yaw: float = 35.0, pitch: float = 18.0, fov: float = 35.0) -> Camera:
+        """Returns a camera that shows all objects of add().
+
+        yaw, pitch: degrees; position of the eye around the objects, from the front (+z) to the right, and upwards.   fov: vertical, degrees.
+        """
+        box = self.bounds
+        if box is None:
+            raise fail("fit", "the scene has no objects of add()", "at least one")
+        center, radius = box.mean(axis=0), float(np.linalg.norm(box[1] - box[0])) / 2.0 or 1.0
+        yaw, pitch = np.radians(_check.number("yaw", yaw)), np.radians(_check.number("pitch", pitch, -89.0, 89.0))
+        towards = np.array([np.sin(yaw) * np.cos(pitch), np.sin(pitch), np.cos(yaw) * np.cos(pitch)])
+        distance = radius / float(np.sin(np.radians(_check.number("fov", fov, 1.0, 170.0)) / 2.0))
+        return Camera.look_at(center + towards * distance, center, fov=fov, near=max(1e-3 * radius, 0.5 * (distance - 1.5 * radius)),
+                              far=distance + 20.0 * radius)
+
+    # ---- pictures ------------------------------------------------------------------------------------------------
+
+    def render(self, size: Size = (640, 480), *, camera: Optional[Camera] = None, time: float = 0.0, linear: bool = False,
+               alpha: bool = False) -> Picture:
+        """Renders a picture.
+
+        size: (width, height) in pixels, each 1 to 16384.
+        camera: None: the `camera` of this object or, if that is None, the camera of the scene. A scene of arrays without a camera is shown
+            as a whole.
+        time: of animations, in seconds.
+        Returns uint8 of shape (height, width, 3), sRGB codes; with alpha=True (height, width, 4). With linear=True: float32 of shape
+        (height, width, 4), light before exposure and tone curve.
+        """
+        width, height = _check.size(size)
+        self._flush()
+        return self._picture(self._core, width, height, time, self._camera(camera, width, height), _kind(linear, alpha))
+
+    def frames(self, frames: Union[int, Iterable[int]], *, size: Size = (640, 480), fps: float = 30.0, time: float = 0.0,
+               camera: Optional[Camera] = None, linear: bool = False, alpha: bool = False) -> Iterator[Picture]:
+        """Returns an iterator over frames of an animation, which are rendered one by one, as by `halfspace render --frames`.
+
+        frames: the number of frames, or their numbers, for example range(24, 48).   fps: frames per second.
+        time: of frame 0, in seconds. Frame i shows the time `time` + i / fps.
+        Later changes of the scene do not affect the frames.
+        """
+        width, height = _check.size(size)
+        start, rate = _check.number("time", time), _check.number("fps", fps, 1e-3, 1e6)
+        numbers = list(range(frames) if isinstance(frames, (int, np.integer)) else frames)
+        times = [start + int(i) / rate for i in numbers]
+        self._flush()
+        core, view, kind = self._core.copy(), self._camera(camera, width, height), _kind(linear, alpha)
+        if times:
+            core.expect(times, width, height)
+        return (self._picture(core, width, height, t, view, kind) for t in times)
+
+    def render_batch(self, cameras: Sequence[Optional[Camera]], *, size: Size = (640, 480), time: Union[float, Sequence[float]] = 0.0,
+                     linear: bool = False, alpha: bool = False, progress: Optional[Callable[[int, int], Any]] = None) -> np.ndarray:
+        """Renders one picture per camera, several at a time, each by one thread.
+
+        time: in seconds, for all pictures, or one per camera.
+        progress: called as progress(done, total) after each picture, from any thread. An exception that it raises ends the batch.
+        Returns an array of shape (N, height, width, C) with the pictures that render() returns for each camera.
+        """
+        width, height = _check.size(size)
+        times = [float(time)] * len(cameras) if np.ndim(time) == 0 else [float(t) for t in time]  # type: ignore[arg-type, union-attr]
+        if len(times) != len(cameras):
+            raise fail("time", f"has {len(times)} values", f"one per camera, {len(cameras)}")
+        for t in times:
+            _check.number("time", t)
+        self._flush()
+        views = [self._camera(camera, width, height) for camera in cameras]
+        try:
+            return self._core.render_batch(width, height, times, views, _kind(linear, alpha), progress)
+        finally:
+            _emit(self._core)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self.render((640, 360))._repr_png_()
+
+    # ---- private -------------------------------------------------------------------------------------------------
+
+    def _picture(self, core: Any, width: int, height: int, time: float, view: Any, kind: Any) -> Picture:
+        try:
+            return core.render(width, height, _check.number("time", time), view, kind).view(Picture)
+        finally:
+            _emit(core)
+
+    def _camera(self, camera: Optional[Camera], width: int, height: int) -> Any:
+        camera = camera if camera is not None else self.camera
+        if camera is None and self._fits and self.bounds is not None:
+            camera = self.fit()
+        if camera is None:
+            return None
+        if not isinstance(camera, Camera):
+            raise fail("camera", f"is a {type(camera).__name__}", "a halfspace.Camera or None")
+        return camera._for_size(width, height)
+
+    def _flush(self) -> None:
+        """Adds the objects that were given to add()."""
+        if self._pending:
+            pending, self._pending = self._pending, {}
+            try:
+                self._core.merge(json.dumps(pending))
+            except _core.InputError:
+                for name in pending["objects"]:
+                    self._meshes.pop(name, None)
+                    self._core.forget_object(name)
+                raise
+
+    def _mesh(self, name: str) -> Tuple[Mesh, np.ndarray]:
+        if name not in self._meshes:
+            raise fail("name", f"no object '{name}' of add()", "one of " + ", ".join(self._meshes) if self._meshes else "add() first")
+        return self._meshes[name]
+
+    @staticmethod
+    def _transforms(transform: Any) -> np.ndarray:
+        places = _check.transforms("transform", transform).copy()
+        if len(places) > _MAX_COPIES:
+            raise fail("transform", f"has {len(places)} copies", f"at most {_MAX_COPIES}")
+        return places
+
+
+def _kind(linear: bool, alpha: bool) -> Any:
+    return _core.PixelKind.light if linear else _core.PixelKind.rgba if alpha else _core.PixelKind.rgb
+
+
+def _emit(core: Any) -> None:
+    """Passes the warnings of a scene on. They name the line of the caller of this package."""
+    lines = core.take_warnings()
+    if not lines:
+        return
+    level, frame = 1, sys._getframe()
+    while frame is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back  # type: ignore[assignment]
+    for line in lines:
+        warnings.warn(line, RenderWarning, stacklevel=level)
+
+
+def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), set: Optional[Mapping[str, Any]] = None,
+           camera: Union[str, Camera, None] = None, time: float = 0.0, linear: bool = False, alpha: bool = False,
+           threads: Optional[int] = None, **view: Any) -> Picture:
+    """Renders a scene or a model file to a picture with the pixels that `halfspace render` writes.
+
+    scene: a shipped scene ("moon"), a scene file, or a model file (.obj, .gltf, .glb, .ply, .stl).
+    size: (width, height) in pixels.
+    set: keys of the scene and their values, for example {"time.hours": 18}.
+    camera: the name of a camera of the scene or the model, or a Camera.
+    time: of animations, in seconds.   threads: None: one per core.
+    view: for model files, the arguments of Scene.load.
+    Returns uint8 of shape (height, width, 3), sRGB codes; with alpha=True (height, width, 4); with linear=True float32 of shape
+    (height, width, 4), light before exposure and tone curve.
+
+    Raises InputError with the line that the command line prints, and warns with RenderWarning.
+    """
+    width, height = _check.size(size)
+    view.setdefault("aspect", width / height)
+    opened = Scene.load(scene, threads=threads, **view)
+    keys = dict(set or {})
+    if isinstance(camera, str):
+        keys["camera"] = camera
+        camera = None
+    if keys:
+        opened.set(keys)
+    return opened.render((width, height), camera=camera, time=time, linear=linear, alpha=alpha)

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes. Every function that waits or renders releases the GIL.
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <memory>
+
+#include "bindings.h"
+#include "matrices.h"
+#include "scene_core.h"
+
+namespace halfspace::python {
+
+namespace {
+
+using Release = py::call_guard<py::gil_scoped_release>;
+
+/// How pixels are returned: 8-bit sRGB codes with 3 or 4 channels, or linear light.
+enum class PixelKind { rgb, rgba, light };
+
+// Copies an image to `out` without alpha.
+void copy_rgb(const Image<glm::u8vec4>& image, uint8_t* out) {
+  for (const glm::u8vec4& texel : image.texels()) {
+    *out++ = texel.x;
+    *out++ = texel.y;
+    *out++ = texel.z;
+  }
+}
+
+Shot shot_of(double time, const CameraDescription* camera) {
+  Shot shot{.time = time};
+  if (camera != nullptr) shot.camera = *camera;
+  return shot;
+}
+
+py::array render_rgb(SceneCore& scene, const Shot& shot, PictureSize size) {
+  py::array_t<uint8_t> array({py::ssize_t{size.height}, py::ssize_t{size.width}, py::ssize_t{3}});
+  uint8_t* out = array.mutable_data();
+  const py::gil_scoped_release release;
+  copy_rgb(scene.render<glm::u8vec4>(shot, size), out);
+  return array;
+}
+
+template <class Pixel>
+py::array render_whole(SceneCore& scene, const Shot& shot, PictureSize size) {
+  Image<Pixel> picture;
+  {
+    const py::gil_scoped_release release;
+    picture = scene.render<Pixel>(shot, size);
+  }
+  return array_of(std::move(picture));
+}
+
+py::array render(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, PixelKind kind) {
+  const Shot shot = shot_of(time, camera);
+  const PictureSize size{width, height};
+  switch (kind) {
+    case PixelKind::rgb: return render_rgb(scene, shot, size);
+    case PixelKind::rgba: return render_whole<glm::u8vec4>(scene, shot, size);
+    case PixelKind::light: break;
+  }
+  return render_whole<glm::vec4>(scene, shot, size);
+}
+
+// Calls progress(done, total) with the GIL held. Also lets Python handle signals, so that a batch can be interrupted.
+void report(const py::object& progress, std::size_t done, std::size_t total) {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (!progress.is_none()) progress(done, total);
+}
+
+// Renders all shots and hands each image to copy(image, out), where `out` is its place in the array.
+template <class Pixel, class Number, class Copy>
+py::array render_array(SceneCore& scene, const std::vector<Shot>& shots, PictureSize size, py::ssize_t channels, const py::object& progress,
+                       const Copy& copy) {
+  py::array_t<Number> array({static_cast<py::ssize_t>(shots.size()), py::ssize_t{size.height}, py::ssize_t{size.width}, channels});
+  Number* out = array.mutable_data();
+  const std::size_t stride =
+      static_cast<std::size_t>(size.height) * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels);
+  std::atomic<std::size_t> finished = 0;
+  const py::gil_scoped_release release;
+  scene.render_all<Pixel>(shots, size, [&](std::size_t i, Image<Pixel>&& picture) {
+    copy(picture, out + i * stride);
+    report(progress, ++finished, shots.size());
+  });
+  return array;
+}
+
+template <class Pixel>
+void copy_texels(const Image<Pixel>& image, typename Pixel::value_type* out) {
+  std::memcpy(out, image.data(), image.texels().size_bytes());
+}
+
+py::array render_batch(SceneCore& scene, int width, int height, const std::vector<double>& times,
+                       const std::vector<CameraDescription*>& cameras, PixelKind kind, const py::object& progress) {
+  std::vector<Shot> shots;
+  for (std::size_t i = 0; i < times.size(); ++i) shots.push_back(shot_of(times[i], cameras[i]));
+  const PictureSize size{width, height};
+  switch (kind) {
+    case PixelKind::rgb: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 3, progress, copy_rgb);
+    case PixelKind::rgba: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 4, progress, copy_texels<glm::u8vec4>);
+    case PixelKind::light: break;
+  }
+  return render_array<glm::vec4, float>(scene, shots, size, 4, progress, copy_texels<glm::vec4>);
+}
+
+glm::dvec3 vector_of(const py::handle& value) {
+  const auto v = value.cast<std::array<double, 3>>();
+  return {v[0], v[1], v[2]};
+}
+
+// Returns the view of a model file. Unknown names are refused by the Python code.
+ModelView model_view(const py::dict& options) {
+  ModelView view;
+  const auto set = [&](const char* name, auto& member) {
+    if (options.contains(name)) member = options[name].template cast<std::decay_t<decltype(member)>>();
+  };
+  set("aspect", view.aspect);
+  set("yaw", view.yaw);
+  set("pitch", view.pitch);
+  set("zoom", view.zoom);
+  set("fov", view.fov);
+  set("inside", view.inside);
+  set("floor", view.floor);
+  set("environment", view.environment);
+  set("background", view.background);
+  set("model_scene", view.scene);
+  set("model_animation", view.animation);
+  set("model_variant", view.variant);
+  set("up_axis", view.up_axis);
+  set("turn_seconds", view.turn_seconds);
+  set("allow_outside", view.allow_outside);
+  if (options.contains("eye")) view.eye = vector_of(options["eye"]);
+  if (options.contains("look_at")) view.look_at = vector_of(options["look_at"]);
+  if (options.contains("up")) view.up = vector_of(options["up"]);
+  return view;
+}
+
+std::shared_ptr<SceneCore> open(const std::string& name, const py::dict& options, int threads) {
+  const ModelView view = model_view(options);
+  const py::gil_scoped_release release;
+  return std::make_shared<SceneCore>(open_scene_or_model(name, view), threads);
+}
+
+std::shared_ptr<SceneCore> parse(const std::string& text, const std::string& source, int threads) {
+  return std::make_shared<SceneCore>(OpenedScene{SceneFile::parse(text, source, std::filesystem::current_path()), {}, nullptr, {}},
+                                     threads);
+}
+
+}  // namespace
+
+void bind_scene(py::module_& m) {
+  py::enum_<PixelKind>(m, "PixelKind").value("rgb", PixelKind::rgb).value("rgba", PixelKind::rgba).value("light", PixelKind::light);
+  py::class_<SceneCore, std::shared_ptr<SceneCore>>(m, "Scene")
+      .def_static("open", &open)
+      .def_static("parse", &parse, Release())
+      .def("copy", &SceneCore::copy, Release())
+      .def("set", &SceneCore::set, Release())
+      .def("value", &SceneCore::value, Release())
+      .def("merge", &SceneCore::merge, Release())
+      .def("print", &SceneCore::print, Release())
+      .def(
+          "provide",
+          [](SceneCore& scene, const std::string& file, std::shared_ptr<ModelAsset> model) { scene.provide(file, std::move(model)); },
+          Release())
+      .def("place",
+           [](SceneCore& scene, const std::string& object, const Array<double>& transforms) {
+             std::vector<glm::dmat4> list = matrices_of(transforms);
+             const py::gil_scoped_release release;
+             scene.place(object, std::move(list));
+           })
+      .def("forget_object", &SceneCore::forget_object, Release())
+      .def("forget_model", &SceneCore::forget_model, Release())
+      .def(
+          "expect",
+          [](SceneCore& scene, const std::vector<double>& times, int width, int height) {
+            scene.expect(times, {width, height});
+          },
+          Release())
+      .def("render", &render)
+      .def("render_batch", &render_batch)
+      .def("take_warnings", &SceneCore::take_warnings, Release())
+      .def_property_readonly("threads", &SceneCore::threads);
+}
+
+}  // namespace halfspace::python

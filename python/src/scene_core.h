@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scene behind halfspace.Scene, without Python types: a scene file, objects with meshes from memory, and assets that are kept between
+// images. All functions are thread-safe and are called without the GIL, because they wait for each other.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "halfspace/core/image.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/render/opened_scene.h"
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/view.h"
+
+namespace halfspace::python {
+
+/// Width and height of an image in pixels, each 1 to 16384.
+struct PictureSize {
+  int width, height;
+};
+
+/// What an image shows, in addition to the scene.
+struct Shot {
+  double time = 0.0;                          ///< seconds
+  std::optional<CameraDescription> camera{};  ///< replaces the camera of the scene
+};
+
+class SceneCore {
+ public:
+  SceneCore(OpenedScene opened, int threads);
+  /// Returns a copy that shares the assets.
+  std::shared_ptr<SceneCore> copy() const;
+
+  /// Sets keys, as in SceneFile::set. `camera` in a setting may also be the name of a camera in the model file.
+  void set(const std::vector<std::string>& settings);
+  /// Returns the value of a key as JSON text.
+  std::string value(const std::string& path) const;
+  /// Applies a JSON merge patch to the scene file.
+  void merge(const std::string& patch);
+  /// Returns the whole scene as the text of a scene file.
+  std::string print() const;
+
+  /// Provides the model that objects with this file show.
+  void provide(const std::string& file, std::shared_ptr<const ModelAsset> model);
+  /// Sets the transforms of the copies of an object, from its space to world space.
+  void place(const std::string& object, std::vector<glm::dmat4> transforms);
+  void forget_object(const std::string& object);
+  void forget_model(const std::string& file);
+
+  PreparedScene prepare(const Shot& shot, PictureSize size);
+  /// Announces frames, so that generated maps do not change between them.
+  void expect(std::span<const double> times, PictureSize size);
+  /// Renders to 8-bit sRGB codes, or to linear light, with straight alpha.
+  template <class Pixel>
+  Image<Pixel> render(const Shot& shot, PictureSize size);
+  /// Renders all shots, several at a time. done(shot, picture) is called by several threads at once.
+  template <class Pixel>
+  void render_all(std::span<const Shot> shots, PictureSize size, const std::function<void(std::size_t, Image<Pixel>&&)>& done);
+
+  /// Returns the warnings since the last call.
+  std::vector<std::string> take_warnings();
+  int threads() const { return workers_.threads(); }
+  const Workers& workers() const { return workers_; }
+
+ private:
+  // Everything that describes the scene.
+  struct State {
+    SceneFile scene;
+    std::map<std::string, std::shared_ptr<const ModelAsset>> models;  ///< by file
+    std::map<std::string, std::vector<glm::dmat4>> places;            ///< by object
+
+    SceneDescription description(const Shot& shot) const;
+    PreparedScene prepare(const Shot& shot, PictureSize size, SceneAssets& assets) const;
+  };
+
+  SceneCore(const SceneCore& other, const std::lock_guard<std::mutex>&);
+  std::function<void(const std::string&)> warner() {
+    return [this](const std::string& problem) { warn(problem); };
+  }
+  void warn(const std::string& problem);
+
+  mutable std::mutex mutex_;  ///< guards the state and the assets
+  State state_;
+  const std::map<std::string, std::string> camera_names_;  ///< names in the model and the corresponding names in the scene
+  std::mutex warnings_mutex_;
+  std::vector<std::string> warnings_;
+  std::set<std::string> warned_;
+  Workers workers_;
+  SceneAssets assets_;
+};
+
+}  // namespace halfspace::python

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes of arrays: meshes, materials, textures, lights, copies, and errors."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import halfspace
+from conftest import QUAD, sphere
+
+CAMERA = halfspace.Camera.look_at((0, 0, 4), height=2.0, near=1, far=10)
+
+
+def flat(color=(1, 1, 1), **more):
+    """A material whose color is the result."""
+    return halfspace.Material(color, unlit=True, **more)
+
+
+def dark(*meshes, **more):
+    scene = halfspace.Scene(lighting="none", **more)
+    for mesh in meshes:
+        scene.add(mesh)
+    return scene
+
+
+def shown(mesh, size=(20, 20)):
+    scene = dark(mesh)
+    scene["ambient"] = 1
+    return scene.render(size, camera=CAMERA, linear=True)
+
+
+def read_ply(path):
+    """Reads positions, normals and triangles of a binary PLY file of floats."""
+    data = path.read_bytes()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    header = data[:end].decode().split("\n")
+    counts = {line.split()[1]: int(line.split()[2]) for line in header if line.startswith("element")}
+    order = "<" if "little" in header[1] else ">"
+    columns = [line for line in header if line.startswith("property float")]
+    vertices = np.frombuffer(data, order + "f4", counts["vertex"] * len(columns), end).reshape(-1, len(columns))
+    face = np.dtype([("n", "u1"), ("i", order + "i4", 3)])
+    return vertices[:, :3], vertices[:, 3:6], np.frombuffer(data, face, counts["face"], end + vertices.nbytes)["i"]
+
+
+def test_a_quad_fills_the_picture():
+    color = np.array([0.25, 0.5, 0.75, 1], np.float32)
+    assert (shown(halfspace.Mesh(*QUAD, material=flat(color[:3]))) == color).all()
+
+
+def test_faces_none_means_all_vertices_in_order():
+    vertices = QUAD[0][QUAD[1].ravel()]
+    assert np.array_equal(shown(halfspace.Mesh(vertices)), shown(halfspace.Mesh(*QUAD)))
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int32])
+@pytest.mark.parametrize("index", [np.uint8, np.int32, np.int64, np.uint32])
+def test_types_and_layouts_do_not_matter(dtype, index):
+    expected = shown(halfspace.Mesh(*QUAD))
+    vertices, faces = np.asfortranarray(QUAD[0].astype(dtype)), QUAD[1].astype(index)
+    assert np.array_equal(shown(halfspace.Mesh(vertices, faces)), expected)
+    twice = np.repeat(vertices, 2, axis=0)[::2]
+    assert np.array_equal(shown(halfspace.Mesh(twice, faces.tolist())), expected)
+
+
+def test_colors_are_linear_floats_or_srgb_codes():
+    codes = np.tile(np.array([[255, 128, 0]], np.uint8), (4, 1))
+    linear = shown(halfspace.Mesh(*QUAD, colors=codes, material=flat()))[10, 10]
+    assert linear[0] == 1 and linear[2] == 0 and abs(linear[1] - 0.215861) < 1e-5
+    floats = shown(halfspace.Mesh(*QUAD, colors=np.full((4, 3), 0.5), material=flat()))
+    assert (floats[..., :3] == 0.5).all()
+
+
+def test_srgb_codes_survive_a_round_trip():
+    codes = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
+    for code in (0, 1, 10, 11, 127, 128, 254, 255):
+        mesh = halfspace.Mesh(*QUAD, colors=np.repeat(codes[code:code + 1], 4, axis=0), material=flat())
+        assert (dark(mesh).render((4, 4), camera=CAMERA) == code).all()
+
+
+def test_uvs_put_the_top_row_of_a_texture_at_v_1():
+    texels = np.zeros((2, 2, 3), np.uint8)
+    texels[0, 0], texels[0, 1], texels[1, 0], texels[1, 1] = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+    uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    material = flat(base_color_texture=halfspace.Texture(texels, filter="nearest", wrap="clamp"))
+    picture = dark(halfspace.Mesh(*QUAD, uvs=uvs, material=material)).render((2, 2), camera=CAMERA)
+    assert np.array_equal(picture, texels)
+    flipped = dark(halfspace.Mesh(*QUAD, uvs=uvs, material=material, uv_origin="upper_left")).render((2, 2), camera=CAMERA)
+    assert np.array_equal(flipped, texels[::-1])
+
+
+def test_textures_may_be_gray_or_have_alpha():
+    uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    gray = flat(base_color_texture=np.full((4, 4), 200, np.uint8))
+    assert (dark(halfspace.Mesh(*QUAD, uvs=uvs, material=gray)).render((4, 4), camera=CAMERA) == 200).all()
+    holes = np.full((4, 4, 4), 200, np.uint8)
+    holes[:, :2, 3] = 0
+    masked = flat(alpha_mode="mask", base_color_texture=halfspace.Texture(holes, filter="nearest"))
+    picture = dark(halfspace.Mesh(*QUAD, uvs=uvs, material=masked)).render((4, 4), camera=CAMERA)
+    assert (picture[:, :2] == 0).all() and (picture[:, 2:] == 200).all()
+
+
+def test_normals_are_computed_or_given():
+    vertices, faces, normals, _ = sphere()
+    light = {"direction": (0.3, 0.5, 1), "shadow": False}
+
+    def lit(mesh):
+        scene = dark(mesh)
+        scene.add_light(**light)
+        return scene.render((64, 64), camera=halfspace.Camera.look_at((0, 0, 4)), linear=True)[..., 0]
+
+    given = lit(halfspace.Mesh(vertices, faces, normals=3 * normals))
+    smooth = lit(halfspace.Mesh(vertices, faces, crease=180))
+    facets = lit(halfspace.Mesh(vertices, faces, crease=0))
+    assert np.abs(given - smooth).max() < 0.03 < 0.1 < np.abs(given - facets).max()
+
+
+def test_copies_are_placed_by_transforms():
+    places = np.tile(np.eye(4), (3, 1, 1))
+    places[:, 0, :3] *= 0.1
+    places[:, 1, :3] *= 0.1
+    places[:, 0, 3] = (-0.5, 0, 0.5)
+    scene = halfspace.Scene(lighting="none")
+    name = scene.add(halfspace.Mesh(*QUAD, material=flat()), places)
+    row = scene.render((40, 40), camera=CAMERA)[20, :, 0] > 0
+    assert np.nonzero(row)[0].tolist() == [8, 9, 10, 11, 18, 19, 20, 21, 28, 29, 30, 31]
+    scene.place(name, places[1])
+    assert (scene.render((40, 40), camera=CAMERA)[20, :, 0] > 0).sum() == 4
+    scene.place(name, places[:0])
+    assert not scene.render((40, 40), camera=CAMERA).any()
+    assert scene.bounds is None
+
+
+def test_mirrored_and_sheared_transforms_keep_the_front():
+    one_sided = halfspace.Mesh(*QUAD, material=flat(double_sided=False))
+    mirror, shear = np.diag([-1.0, 1, 1, 1]), np.eye(4)
+    shear[0, 1] = 0.25
+    scene = halfspace.Scene(lighting="none")
+    name = scene.add(one_sided, mirror)
+    assert (scene.render((8, 8), camera=CAMERA) == 255).all()
+    scene.place(name, shear)
+    assert (scene.render((8, 8), camera=CAMERA)[4] > 200).all()
+    scene.place(name, np.diag([-1.0, 1, -1, 1]))  # a half turn
+    assert not scene.render((8, 8), camera=CAMERA).any()
+
+
+def test_objects_are_hidden_and_removed():
+    scene = halfspace.Scene(lighting="none")
+    red = scene.add(halfspace.Mesh(*QUAD, material=flat((1, 0, 0))), name="red")
+    blue = scene.add(halfspace.Mesh(*QUAD, material=flat((0, 0, 1))), np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1.0]]))
+    assert (red, blue) == ("red", "object_1")
+    assert scene.render((4, 4), camera=CAMERA)[2, 2].tolist() == [0, 0, 255]
+    scene[f"{blue}.visible"] = False
+    assert scene.render((4, 4), camera=CAMERA)[2, 2].tolist() == [255, 0, 0]
+    scene[f"{blue}.visible"] = True
+    scene.remove(red)
+    assert scene.render((4, 4), camera=CAMERA)[2, 2].tolist() == [0, 0, 255]
+    scene.remove(blue)
+    assert scene.bounds is None and not scene.render((4, 4), camera=CAMERA).any()
+
+
+def test_a_scene_without_a_camera_shows_everything():
+    scene = halfspace.Scene(lighting="none")
+    scene.add(halfspace.Mesh(*sphere()[:2], material=flat()), np.diag([5.0, 5, 5, 1]))
+    covered = scene.render((60, 60))[..., 0] > 0
+    assert covered.sum() > 800 and not covered[0].any() and not covered[:, -1].any()
+    scene.merge({"cameras": {"own": {"position": [0, 0, 900], "far": 2000}}})
+    assert (scene.render((60, 60))[..., 0] > 0).sum() < 20
+
+
+def test_a_mesh_of_a_file_has_the_pixels_of_its_file(horse):
+    vertices, normals, faces = read_ply(horse)
+    by_file = halfspace.Scene.load(horse, floor=False)
+    by_arrays = halfspace.Scene()
+    name = by_arrays.add(halfspace.Mesh(vertices, faces, normals=normals))
+    by_arrays.merge({"lights": json.loads(by_file.text())["lights"]})
+    camera = halfspace.Camera.look_at(by_file["cameras.view.position"], by_file["cameras.view.target"], by_file["cameras.view.up"],
+                                      fov=by_file["cameras.view.fov"], near=by_file["cameras.view.near"], far=by_file["cameras.view.far"])
+    assert by_arrays[f"{name}.scale"] == by_file["model.scale"]
+    assert np.array_equal(by_arrays.render((320, 180), camera=camera), by_file.render((320, 180)))
+
+
+def test_trimesh_like_objects_are_meshes():
+    vertices, faces, _, uvs = sphere(8, 16)
+    plain = SimpleNamespace(vertices=vertices, faces=faces)
+    scene = halfspace.Scene()
+    scene.add(plain)
+    assert scene.render((32, 32)).std() > 0
+    codes = np.tile(np.array([255, 0, 0, 255], np.uint8), (len(vertices), 1))
+    by_vertex = SimpleNamespace(vertices=vertices, faces=faces, visual=SimpleNamespace(kind="vertex", vertex_colors=codes))
+    by_face = SimpleNamespace(vertices=vertices, faces=faces, visual=SimpleNamespace(kind="face", face_colors=codes[:len(faces)]))
+    texture = SimpleNamespace(kind="texture", uv=uvs, material=SimpleNamespace(
+        baseColorFactor=np.array([255, 255, 255, 255], np.uint8), baseColorTexture=np.full((2, 2, 3), (255, 0, 0), np.uint8),
+        metallicFactor=0.0, roughnessFactor=None))
+    by_texture = SimpleNamespace(vertices=vertices, faces=faces, visual=texture)
+    codes_by_face = np.tile(codes[:1], (len(faces), 1))
+    by_face.visual.face_colors = codes_by_face
+    for mesh in (by_vertex, by_face, by_texture):
+        picture = dark(halfspace.Mesh.from_trimesh(mesh))
+        picture.set({"ambient": 1})
+        pixels = picture.render((32, 32))[16, 16]
+        assert pixels[0] > 100 and pixels[1] < 60, mesh.visual.kind
+
+
+NAN = np.where(np.arange(12).reshape(4, 3) == 7, np.nan, 0.5)
+
+
+@pytest.mark.parametrize("make, words", [
+    (lambda: halfspace.Mesh(np.zeros((4, 2))), "vertices: has the shape (4, 2); expected (N, 3)"),
+    (lambda: halfspace.Mesh([[0, 0, 0], [1]]), "vertices: is not an array; expected numbers of shape (N, 3)"),
+    (lambda: halfspace.Mesh(np.zeros((0, 3))), "vertices: has 0 rows; expected 1 to 2147483647"),
+    (lambda: halfspace.Mesh(np.zeros((4, 3))), "vertices: has 4 rows; expected a multiple of 3 if there are no faces"),
+    (lambda: halfspace.Mesh(NAN, [[0, 1, 2]]), "vertices[2, 1]: is nan; expected a finite number"),
+    (lambda: halfspace.Mesh(np.full((3, 3), "a")), "vertices: has the dtype <U1; expected a floating-point or integer dtype"),
+    (lambda: halfspace.Mesh(QUAD[0], [[0, 1, 4]]), "faces: has the index 4; expected indices from 0 to 3"),
+    (lambda: halfspace.Mesh(QUAD[0], [[0, -1, 2]]), "faces: has the index -1; expected indices from 0 to 3"),
+    (lambda: halfspace.Mesh(QUAD[0], [[0.0, 1, 2]]), "faces: has the dtype float64; expected an integer dtype"),
+    (lambda: halfspace.Mesh(QUAD[0], [[0, 1]]), "faces: has the shape (1, 2); expected (N, 3)"),
+    (lambda: halfspace.Mesh(QUAD[0], np.zeros((0, 3), int)), "faces: is empty; expected at least one row"),
+    (lambda: halfspace.Mesh(*QUAD, normals=np.zeros((4, 3))), "normals[0]: is zero; expected a direction"),
+    (lambda: halfspace.Mesh(*QUAD, normals=np.ones((3, 3))), "normals: has 3 rows; expected one per vertex, 4"),
+    (lambda: halfspace.Mesh(*QUAD, uvs=np.full((4, 2), np.inf)), "uvs[0, 0]: is inf; expected a finite number"),
+    (lambda: halfspace.Mesh(*QUAD, uvs=np.full((4, 2), 1e300)), "uvs[0, 0]: is inf; expected a finite number"),
+    (lambda: halfspace.Mesh(*QUAD, colors=np.full((4, 3), 255.0)), "colors: has values from 255 to 255; expected uint8, or numbers from"),
+    (lambda: halfspace.Mesh(*QUAD, colors=np.zeros((4, 2))), "colors: has the shape (4, 2); expected (N, 3) or (N, 4)"),
+    (lambda: halfspace.Mesh(*QUAD, topology="quads"), "topology: is 'quads'; expected one of triangles, lines, points"),
+    (lambda: halfspace.Mesh(*QUAD, material="red"), "material: is a str; expected a halfspace.Material"),
+    (lambda: halfspace.Mesh(np.array(QUAD[0]) * 1e300, QUAD[1]), "coordinates from"),
+    (lambda: halfspace.Material((1, 2, 3)), "base_color: is [1, 2, 3]; expected 3 or 4 numbers from 0 to 1"),
+    (lambda: halfspace.Material(roughness=-1), "roughness: is -1; expected a number from 0 to 1"),
+    (lambda: halfspace.Material(base_color_texture=np.zeros((2, 2))), "base_color_texture: texels: has the dtype float64; expected uint8"),
+    (lambda: halfspace.Texture(np.zeros((2, 2, 2), np.uint8)), "texels: has the shape (2, 2, 2); expected (H, W), (H, W, 3) or (H, W, 4)"),
+    (lambda: halfspace.Texture(np.zeros((2, 2), np.uint8), wrap="tile"), "wrap: is 'tile'; expected one of repeat, mirrored, clamp"),
+    (lambda: halfspace.Scene().add(3), "mesh: a int has no vertices; expected an object like trimesh.Trimesh"),
+    (lambda: halfspace.Scene().add(halfspace.Mesh(*QUAD), np.eye(3)), "transform: has the shape (1, 3, 3); expected (N, 4, 4)"),
+    (lambda: halfspace.Scene().add(halfspace.Mesh(*QUAD), np.ones((4, 4))), "transform[0]: has the last row [1.0, 1.0, 1.0, 1.0]; expected"),
+    (lambda: halfspace.Scene().place("a", np.eye(4)), "name: no object 'a' of add(); expected add() first"),
+    (lambda: halfspace.Scene().add_light("sun"), "scene: lights.light_1.type: "),
+    (lambda: halfspace.Scene(lighting="sun"), "lighting: is 'sun'; expected one of studio, none"),
+])
+def test_wrong_arrays_are_named(make, words):
+    with pytest.raises(halfspace.InputError) as error:
+        make()
+    assert str(error.value).startswith(words) and "\n" not in str(error.value)
+
+
+def test_a_wrong_name_does_not_spoil_the_scene():
+    scene = halfspace.Scene(lighting="none")
+    scene.add(halfspace.Mesh(*QUAD, material=flat()), name="Wrong Name")
+    with pytest.raises(halfspace.InputError, match="Wrong Name: invalid name"):
+        scene.render((4, 4))
+    scene.add(halfspace.Mesh(*QUAD, material=flat()))
+    assert (scene.render((4, 4), camera=CAMERA) == 255).all()

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cameras: where points land, and the conventions of their arguments."""
+
+import numpy as np
+import pytest
+
+import halfspace
+from conftest import QUAD
+
+WHITE = halfspace.Material((1, 1, 1), unlit=True)
+SIZE = (64, 48)
+K = np.array([[70.0, 3.0, 20.3], [0, 65.0, 31.7], [0, 0, 1]])
+
+
+def random_rotation(rng):
+    q, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    return q * np.linalg.det(q)
+
+
+def moved(K, x=0.0, y=0.0):
+    out = K.copy()
+    out[0, 2] += x
+    out[1, 2] += y
+    return out
+
+
+def covered(corners_camera, R, t, K, pixel):
+    """Returns whether the pixel (column, row) shows the quad, whose corners are in OpenCV's camera space."""
+    scene = halfspace.Scene(lighting="none", threads=1)
+    scene["samples"] = 1
+    scene.add(halfspace.Mesh((corners_camera - t) @ R, QUAD[1], material=WHITE))
+    camera = halfspace.Camera.from_intrinsics(K, extrinsics=np.column_stack([R, t]), near=0.5, far=100)
+    return scene.render(SIZE, camera=camera)[pixel[1], pixel[0], 0] == 255
+
+
+def test_points_land_within_a_256th_of_a_pixel():
+    """Moves an edge through each point across the center of a pixel. The pixel must change within 1/256 px."""
+    rng = np.random.default_rng(5)
+    step = 1 / 256
+    for _ in range(100):
+        R, t = random_rotation(rng), rng.uniform(-5, 5, 3)
+        z = rng.uniform(1, 30)
+        pixel = rng.integers(2, 46, 2)
+        image = pixel + rng.uniform(-0.49, 0.49, 2)
+        p = z * np.linalg.solve(K, [*image, 1.0])
+        projected = K @ (R @ (R.T @ (p - t)) + t)
+        image = projected[:2] / projected[2]
+        along_y, along_x = z * np.array([-K[0, 1] / K[0, 0], 1, 0]), z * np.array([1.0, 0, 0])  # the directions of columns and rows
+        right = np.array([p - along_y, p - along_y + along_x, p + along_y + along_x, p + along_y])
+        below = np.array([p - along_x, p - along_x + along_y, p + along_x + along_y, p + along_x])
+        dx, dy = pixel - image
+        assert covered(right, R, t, moved(K, dx - step), pixel) and not covered(right, R, t, moved(K, dx + step), pixel)
+        assert covered(below, R, t, moved(K, 0, dy - step), pixel) and not covered(below, R, t, moved(K, 0, dy + step), pixel)
+
+
+def textured_scene():
+    rng = np.random.default_rng(1)
+    scene = halfspace.Scene()
+    for place in rng.uniform(-1, 1, (6, 3)):
+        transform = np.eye(4)
+        transform[:3, :3] = 0.3 * random_rotation(rng)
+        transform[:3, 3] = place
+        scene.add(halfspace.Mesh(*QUAD, material=halfspace.Material(rng.uniform(0, 1, 3))), transform)
+    return scene
+
+
+def difference(a, b):
+    return np.abs(a.astype(int) - b.astype(int)).max()
+
+
+def look_at_pose(eye, target):
+    back = np.subtract(eye, target) / np.linalg.norm(np.subtract(eye, target))
+    right = np.cross((0, 1, 0), back)
+    right /= np.linalg.norm(right)
+    pose = np.eye(4)
+    pose[:3] = np.column_stack([right, np.cross(back, right), back, eye])
+    return pose
+
+
+def test_all_kinds_of_cameras_show_the_same():
+    scene, eye, target = textured_scene(), (2.0, 1.5, 4.0), (0.1, 0.0, -0.2)
+    width, height = 120, 90
+    expected = scene.render((width, height), camera=halfspace.Camera.look_at(eye, target, fov=40, near=1, far=20))
+    pose = look_at_pose(eye, target)
+    f = 1 / np.tan(np.radians(20))
+    projection = [[f * height / width, 0, 0, 0], [0, f, 0, 0], [0, 0, -21 / 19, -40 / 19], [0, 0, -1, 0]]
+    K = [[f * height / 2, 0, (width - 1) / 2], [0, f * height / 2, (height - 1) / 2], [0, 0, 1]]
+    extrinsics = np.diag([1, -1, -1, 1]) @ np.linalg.inv(pose)
+    cameras = [
+        halfspace.Camera.from_pose(pose, fov=40, near=1, far=20),
+        halfspace.Camera.from_matrices(projection, pose=pose),
+        halfspace.Camera.from_matrices(projection, view=np.linalg.inv(pose)),
+        halfspace.Camera.from_intrinsics(K, extrinsics=extrinsics, near=1, far=20),
+        halfspace.Camera.from_intrinsics(K, extrinsics=extrinsics[:3], near=1, far=20),
+        halfspace.Camera.from_intrinsics(K, pose=pose, near=1, far=20),
+    ]
+    for camera in cameras:
+        assert difference(scene.render((width, height), camera=camera), expected) <= 1, camera
+    turned = halfspace.Camera.from_intrinsics(K, pose=pose @ np.diag([1, -1, -1, 1]), near=1, far=20)
+    assert difference(scene.render((width, height), camera=turned), expected) > 20
+
+
+def test_orthographic_matrices_match_look_at():
+    scene, eye = textured_scene(), (0.0, 0.0, 5.0)
+    expected = scene.render((100, 100), camera=halfspace.Camera.look_at(eye, height=3, near=1, far=10))
+    projection = np.diag([2 / 3, 2 / 3, -2 / 9, 1.0])
+    projection[2, 3] = -11 / 9
+    camera = halfspace.Camera.from_matrices(projection, pose=look_at_pose(eye, (0, 0, 0)))
+    assert difference(scene.render((100, 100), camera=camera), expected) <= 1
+
+
+def test_the_sky_moves_with_the_principal_point():
+    """The part of a picture with an off-center view is the same part of a larger one."""
+    scene = halfspace.Scene.load("environment")
+    pose = look_at_pose((0.0, 1.0, 6.0), (0.0, 0.5, 0.0))
+    K = np.array([[100.0, 0, 79.5], [0, 100.0, 59.5], [0, 0, 1]])
+    scene["samples"] = 1
+    whole = scene.render((160, 120), camera=halfspace.Camera.from_intrinsics(K, pose=pose))
+    part = scene.render((80, 60), camera=halfspace.Camera.from_intrinsics(moved(K, -60, -10), pose=pose))
+    close = np.abs(part.astype(int) - whole[10:70, 60:140].astype(int)) <= 3
+    assert whole.std() > 5 and close.mean() > 0.98
+
+
+def test_exact_spheres_refuse_off_center_cameras():
+    scene = halfspace.Scene(lighting="none")
+    scene.merge({"ambient": 1, "objects": {"ball": {"shape": "sphere"}}})
+    pose = look_at_pose((0.0, 0.0, 4.0), (0.0, 0.0, 0.0))
+    centered = np.array([[40.0, 0, 15.5], [0, 40, 15.5], [0, 0, 1]])
+    assert scene.render((32, 32), camera=halfspace.Camera.from_intrinsics(centered, pose=pose)).any()
+    with pytest.raises(halfspace.InputError, match="camera: exact spheres need a symmetric view"):
+        scene.render((32, 32), camera=halfspace.Camera.from_intrinsics(moved(centered, 1), pose=pose))
+
+
+@pytest.mark.parametrize("make, words", [
+    (lambda c: c.look_at((0, 0, 0)), "target: is the position of the camera; expected another point"),
+    (lambda c: c.look_at((0, 1, 0)), "up: is parallel to the line from position to target, or zero; expected another direction"),
+    (lambda c: c.look_at((0, 0, 1), up=(0, 0, 0)), "up: is parallel"),
+    (lambda c: c.look_at((0, 0, 1), fov=180), "fov: is 180; expected a number from 0.01 to 179"),
+    (lambda c: c.look_at((0, 0, 1), near=2, far=1), "far: is 1; expected more than near, 2"),
+    (lambda c: c.look_at((0, 0, np.nan)), "position[2]: is nan; expected a finite number"),
+    (lambda c: c.from_pose(np.eye(3)), "pose: has the shape (3, 3); expected (4, 4)"),
+    (lambda c: c.from_intrinsics(K), "extrinsics, pose: both or none are given; expected one of them"),
+    (lambda c: c.from_intrinsics(K, pose=np.eye(4), extrinsics=np.eye(4)), "extrinsics, pose: both or none are given; expected one"),
+    (lambda c: c.from_intrinsics(np.diag([1.0, 1, 2]), pose=np.eye(4)), "K: is [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]; expected"),
+    (lambda c: c.from_intrinsics(K, extrinsics=np.eye(3)), "extrinsics: has the shape (3, 3); expected (3, 4) or (4, 4)"),
+    (lambda c: c.from_matrices(np.eye(4)), "view, pose: both or none are given; expected one of them"),
+    (lambda c: c.from_matrices(np.eye(4), view=np.ones((4, 4))), "view: has the last row [1.0, 1.0, 1.0, 1.0]; expected [0, 0, 0, 1]"),
+    (lambda c: c.from_matrices(np.ones((4, 4)), pose=np.eye(4)), "camera: the projection matrix cannot be used; expected"),
+    (lambda c: c.from_pose(2 * np.eye(4))._for_size(4, 4), "camera: the pose is not a rotation and a translation; expected"),
+])
+def test_wrong_cameras_are_named(make, words):
+    with pytest.raises(halfspace.InputError) as error:
+        make(halfspace.Camera)
+    assert str(error.value).startswith(words) and "\n" not in str(error.value)

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lifetimes, threads, processes, memory and the time of an import."""
+
+import gc
+import multiprocessing
+import os
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import halfspace
+from conftest import QUAD, sphere
+
+SMALL = (64, 48)
+
+
+def ball_scene(threads=None):
+    vertices, faces, normals, uvs = sphere(12, 24)
+    scene = halfspace.Scene(threads=threads)
+    texels = np.random.default_rng(2).integers(0, 255, (16, 16, 3), np.uint8)
+    scene.add(halfspace.Mesh(vertices, faces, normals=normals, uvs=uvs, material=halfspace.Material(base_color_texture=texels)))
+    return scene
+
+
+def test_pictures_outlive_their_scene():
+    scene = ball_scene()
+    kept = [scene.render(SMALL), scene.render(SMALL, linear=True), scene.render(SMALL, alpha=True), scene.render_batch([None] * 2, size=SMALL)]
+    copies = [picture.copy() for picture in kept]
+    frames = scene.frames(2, size=SMALL)
+    del scene
+    gc.collect()
+    [np.full((500, 500, 4), 7.0, np.float32) for _ in range(20)]
+    assert all(np.array_equal(a, b) for a, b in zip(kept, copies))
+    assert np.array_equal(next(frames), copies[0])
+
+
+def test_scenes_outlive_their_arrays():
+    vertices, faces, normals, uvs = (np.array(a) for a in sphere(12, 24))
+    texels, place = np.full((4, 4, 4), 200, np.uint8), np.eye(4)
+    mesh = halfspace.Mesh(vertices, faces, normals=normals, uvs=uvs, material=halfspace.Material(base_color_texture=texels))
+    scene = halfspace.Scene()
+    scene.add(mesh, place)
+    before = scene.render(SMALL)
+    for array in (vertices, normals, uvs, place):
+        array[:] = 5
+    texels[:], faces[:] = 9, 0
+    del vertices, faces, normals, uvs, texels, mesh, place
+    gc.collect()
+    assert np.array_equal(scene.render(SMALL), before)
+
+
+def test_eight_threads_render_their_own_scenes():
+    expected = ball_scene().render(SMALL)
+    with ThreadPoolExecutor(8) as pool:
+        pictures = list(pool.map(lambda i: ball_scene(threads=1 + i % 3).render(SMALL), range(24)))
+    assert all(np.array_equal(picture, expected) for picture in pictures)
+
+
+def test_eight_threads_render_the_same_scene():
+    scene = ball_scene(threads=2)
+    cameras = [halfspace.Camera.look_at((4 * np.sin(a), 1, 4 * np.cos(a))) for a in range(8)]
+    expected = [scene.render(SMALL, camera=camera) for camera in cameras]
+
+    def work(i):
+        for _ in range(5):
+            picture = scene.render(SMALL, camera=cameras[i])
+            batch = scene.render_batch([cameras[i]] * 2, size=SMALL)
+            scene[f"object_1.casts_shadow"]
+            if not (np.array_equal(picture, expected[i]) and np.array_equal(batch[1], expected[i])):
+                return False
+        return True
+
+    with ThreadPoolExecutor(8) as pool:
+        assert all(pool.map(work, range(8)))
+
+
+def test_other_threads_run_while_a_picture_is_rendered():
+    scene, stop, ticks = halfspace.Scene.load("moon", threads=1), threading.Event(), []
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    scene.render((16, 16))
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.perf_counter()
+    scene.render((1920, 1080))
+    end = time.perf_counter()
+    stop.set()
+    thread.join()
+    assert sum(start < t < end for t in ticks) >= 3
+
+
+def in_process(connection):
+    connection.send_bytes(ball_scene(threads=2).render(SMALL).tobytes())
+    connection.close()
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_other_processes_render(method):
+    expected = ball_scene(threads=2).render(SMALL)
+    context = multiprocessing.get_context(method)
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=in_process, args=(sender,))
+    process.start()
+    assert receiver.poll(60), "the process does not answer"
+    assert receiver.recv_bytes() == expected.tobytes()
+    process.join(60)
+    assert process.exitcode == 0
+
+
+def test_a_scene_of_the_parent_renders_in_a_fork():
+    scene = ball_scene(threads=2)
+    expected = scene.render(SMALL)
+    pid = os.fork()
+    if pid == 0:
+        try:
+            same = np.array_equal(scene.render(SMALL), expected) and np.array_equal(scene.render_batch([None] * 4, size=SMALL)[3], expected)
+            os._exit(0 if same else 1)
+        finally:
+            os._exit(2)
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        done, status = os.waitpid(pid, os.WNOHANG)
+        if done:
+            assert os.waitstatus_to_exitcode(status) == 0
+            return
+        time.sleep(0.01)
+    os.kill(pid, 9)
+    os.waitpid(pid, 0)
+    pytest.fail("the child hangs")
+
+
+def resident_bytes():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_ten_thousand_frames_leak_nothing():
+    scene = halfspace.Scene(lighting="none", threads=1)
+    name = scene.add(halfspace.Mesh(*QUAD, material=halfspace.Material(unlit=True)))
+    place = np.eye(4)
+
+    def render(count):
+        for i in range(count):
+            place[0, 3] = i % 7
+            scene.place(name, place)
+            scene.render((16, 16), linear=i % 2 == 0)
+
+    render(1000)
+    gc.collect()
+    before = resident_bytes()
+    render(10000)
+    gc.collect()
+    assert resident_bytes() - before < 4 << 20  # a lost picture of 16x16 would need 10 MB
+
+
+def test_meshes_that_are_removed_leak_nothing():
+    vertices, faces, _, _ = sphere(32, 64)
+    scene = halfspace.Scene(lighting="none", threads=1)
+
+    def render(count):
+        for _ in range(count):
+            name = scene.add(halfspace.Mesh(vertices, faces, material=halfspace.Material(unlit=True)))
+            scene.render((16, 16))
+            scene.remove(name)
+
+    render(20)
+    gc.collect()
+    before = resident_bytes()
+    render(200)
+    gc.collect()
+    assert resident_bytes() - before < 8 << 20  # 200 meshes need 30 MB
+
+
+def test_importing_takes_little_time():
+    """The target is 50 ms more than NumPy alone; the test allows more, because other programs may run."""
+    code = "import time, numpy; t = time.perf_counter(); import halfspace; print(time.perf_counter() - t)"
+    times = [float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout) for _ in range(5)]
+    assert min(times) < 0.2

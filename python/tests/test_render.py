@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+"""halfspace.render: the same pixels as the command line, and its errors."""
+
+import subprocess
+import warnings
+
+import numpy as np
+import pytest
+
+import halfspace
+from conftest import same_bytes
+
+SMALL = (160, 90)
+
+
+def test_moon_has_the_pixels_of_the_command_line(command_line):
+    path = command_line("moon", "--size", "160x90", "--set", "time.hours=18")
+    picture = halfspace.render("moon", size=SMALL, set={"time.hours": 18})
+    assert picture.shape == (90, 160, 3) and picture.dtype == np.uint8
+    assert same_bytes(picture, path)
+    assert not same_bytes(halfspace.render("moon", size=SMALL), path)
+
+
+def test_time_and_camera_have_the_pixels_of_the_command_line(command_line):
+    path = command_line("day-night", "--size", "160x90", "--time", "2.5", "--set", "samples=2")
+    assert same_bytes(halfspace.render("day-night", size=SMALL, time=2.5, set={"samples": 2}), path)
+
+
+def test_model_has_the_pixels_of_the_command_line(command_line, horse):
+    path = command_line(horse, "--size", "200x100", "--yaw", "-40", "--background", "#204060")
+    assert same_bytes(halfspace.render(horse, size=(200, 100), yaw=-40, background="#204060"), path)
+
+
+def test_linear_light_has_the_values_of_the_command_line(command_line):
+    path = command_line("moon", "--size", "160x90", out="light.exr")
+    light = halfspace.render("moon", size=SMALL, linear=True)
+    assert light.shape == (90, 160, 4) and light.dtype == np.float32
+    saved = path.with_name("own.exr")
+    light.save(saved)
+    assert saved.read_bytes() == path.read_bytes()
+
+
+def test_threads_do_not_change_a_bit():
+    one = halfspace.render("moon", size=SMALL, threads=1)
+    assert np.array_equal(one, halfspace.render("moon", size=SMALL, threads=3))
+
+
+def test_alpha_is_the_fourth_channel():
+    four = halfspace.render("moon", size=SMALL, alpha=True)
+    assert four.shape == (90, 160, 4) and (four[..., 3] == 255).all()
+    assert np.array_equal(four[..., :3], halfspace.render("moon", size=SMALL))
+
+
+@pytest.mark.parametrize("call, arguments", [
+    (lambda: halfspace.render("mooon", size=SMALL), ["mooon"]),
+    (lambda: halfspace.render("moon", size=SMALL, set={"moon.raduis": 2}), ["moon", "--set", "moon.raduis=2"]),
+    (lambda: halfspace.render("moon", size=SMALL, set={"moon.radius": "many"}), ["moon", "--set", "moon.radius=many"]),
+    (lambda: halfspace.render("missing.glb", size=SMALL), ["missing.glb"]),
+])
+def test_errors_have_the_line_of_the_command_line(program, call, arguments):
+    with pytest.raises(halfspace.InputError) as error:
+        call()
+    assert isinstance(error.value, ValueError)
+    printed = subprocess.run([program, "render", *arguments], capture_output=True, text=True, check=False)
+    assert printed.returncode == 3
+    assert printed.stderr == f"halfspace: {error.value}\n"
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ({"size": (0, 10)}, "size: is (0, 10); expected"),
+    ({"size": 5}, "size: is 5; expected"),
+    ({"size": (1.5, 2)}, "size: is (1.5, 2); expected"),
+    ({"threads": 0}, "threads: is 0; expected"),
+    ({"time": float("nan")}, "time: is nan; expected"),
+    ({"yaw": 3}, "yaw: applies only to model files"),
+    ({"set": {"moon.radius": object()}}, "moon.radius: is a object; expected"),
+    ({"camera": 5}, "camera: is a int; expected"),
+])
+def test_wrong_arguments_are_named(arguments, words):
+    with pytest.raises(halfspace.InputError) as error:
+        halfspace.render("moon", **{"size": SMALL, **arguments})
+    assert str(error.value).startswith(words) and "\n" not in str(error.value)
+
+
+def test_unknown_arguments_are_named():
+    with pytest.raises(TypeError, match="yaww: unknown argument; expected one of aspect, yaw"):
+        halfspace.render("model.glb", yaww=3)
+
+
+def test_warnings_are_python_warnings(tmp_path):
+    model = tmp_path / "triangle.obj"
+    model.write_text("mtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    with pytest.warns(halfspace.RenderWarning, match="missing.mtl") as caught:
+        halfspace.render(model, size=SMALL)
+    assert caught[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(halfspace.RenderWarning):
+            halfspace.render(model, size=SMALL)
+
+
+def test_pictures_show_and_save_themselves(tmp_path):
+    picture = halfspace.render("moon", size=SMALL)
+    assert picture._repr_png_().startswith(b"\x89PNG")
+    assert picture[0]._repr_png_() is None and picture.astype(float)._repr_png_() is None
+    with pytest.raises(halfspace.InputError, match="path: is .*picture.xyz"):
+        picture.save(tmp_path / "picture.xyz")
+    with pytest.raises(halfspace.InputError, match="expected a file name ending in .png"):
+        picture.save(tmp_path / "picture.exr")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(halfspace.OutputError) as error:
+        picture.save(tmp_path / "file" / "picture.png")
+    assert isinstance(error.value, OSError)

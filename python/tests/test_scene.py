@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scene.load, keys, frames and batches."""
+
+import numpy as np
+import pytest
+
+import halfspace
+from conftest import same_bytes
+
+SMALL = (160, 90)
+
+
+def test_keys_are_set_and_read():
+    scene = halfspace.Scene.load("moon")
+    scene["moon.radius"] = np.float32(0.75)
+    assert scene["moon.radius"] == 0.75 and scene["objects.moon.radius"] == 0.75
+    scene.set({"ambient": (0.1, 0.2, 0.3), "samples": np.int64(4)})
+    assert scene["ambient"] == [0.1, 0.2, 0.3] and scene["samples"] == 4
+    scene["moon.casts_shadow"] = False
+    assert scene["moon.casts_shadow"] is False
+    with pytest.raises(halfspace.InputError, match="samples"):
+        scene.set({"moon.radius": 0.5, "samples": 3})
+    assert scene["moon.radius"] == 0.75  # unchanged
+    with pytest.raises(halfspace.InputError, match="no key|unknown"):
+        scene["moon.raduis"]
+
+
+def test_a_changed_scene_has_the_pixels_of_the_command_line(command_line):
+    path = command_line("moon", "--size", "160x90", "--set", "moon.radius=0.75")
+    scene = halfspace.Scene.load("moon")
+    before = scene.render(SMALL)
+    scene["moon.radius"] = 0.75
+    assert same_bytes(scene.render(SMALL), path)
+    assert not np.array_equal(before, scene.render(SMALL))
+
+
+def test_frames_have_the_pixels_of_the_command_line(command_line):
+    first = command_line("day-night", "--size", "160x90", "--frames", "3..5", "--fps", "2")
+    frames = list(halfspace.Scene.load("day-night").frames(range(3, 6), size=SMALL, fps=2))
+    assert len(frames) == 3
+    for number, frame in zip(range(3, 6), frames):
+        assert same_bytes(frame, first.with_name(f"picture_{number:04}.png"))
+
+
+def test_frames_are_made_one_by_one_and_do_not_change_with_the_scene():
+    scene = halfspace.Scene.load("day-night")
+    expected = list(scene.frames(2, size=SMALL))
+    frames = scene.frames(2, size=SMALL)
+    assert np.array_equal(next(frames), expected[0])
+    scene["samples"] = 1 if scene["samples"] != 1 else 2
+    assert np.array_equal(next(frames), expected[1])
+    with pytest.raises(StopIteration):
+        next(frames)
+
+
+def test_a_batch_has_the_pixels_of_single_pictures():
+    scene = halfspace.Scene.load("moon", threads=3)
+    cameras = [halfspace.Camera.look_at((3 * np.sin(a), 1, 3 * np.cos(a))) for a in np.linspace(0, 3, 7)]
+    calls = []
+    batch = scene.render_batch(cameras, size=(80, 60), progress=lambda done, total: calls.append((done, total)))
+    assert batch.shape == (7, 60, 80, 3)
+    assert sorted(calls) == [(i + 1, 7) for i in range(7)]
+    for camera, picture in zip(cameras, batch):
+        assert np.array_equal(scene.render((80, 60), camera=camera), picture)
+    light = scene.render_batch(cameras[:2], size=(80, 60), linear=True)
+    assert light.shape == (2, 60, 80, 4) and light.dtype == np.float32
+    assert np.array_equal(light[1], scene.render((80, 60), camera=cameras[1], linear=True))
+
+
+def test_progress_can_use_the_scene_and_end_the_batch():
+    scene = halfspace.Scene.load("moon", threads=2)
+    cameras = [None] * 5
+    scene.render_batch(cameras, size=(16, 16), progress=lambda done, total: scene["moon.radius"])
+
+    def stop(done, total):
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        scene.render_batch(cameras, size=(16, 16), progress=stop)
+    assert scene.render_batch([], size=(16, 16)).shape == (0, 16, 16, 3)
+
+
+def test_a_scene_shows_itself():
+    scene = halfspace.Scene.load("moon")
+    assert scene._repr_png_() == scene.render((640, 360))._repr_png_()
+
+
+def test_the_text_of_a_scene_can_be_loaded(tmp_path):
+    scene = halfspace.Scene.load("moon")
+    scene["moon.radius"] = 0.5
+    (tmp_path / "own.json").write_text(scene.text())
+    assert np.array_equal(halfspace.render(tmp_path / "own.json", size=SMALL), scene.render(SMALL))
+
+
+def test_a_patch_changes_the_scene_file():
+    scene = halfspace.Scene.load("moon")
+    scene.merge({"objects": {"ball": {"shape": "icosphere", "radius": 0.25, "position": [1.5, 0, 0]}}})
+    assert scene["ball.radius"] == 0.25
+    scene.merge({"objects": {"ball": None}})
+    with pytest.raises(halfspace.InputError):
+        scene["ball.radius"]
+    with pytest.raises(halfspace.InputError, match="shape"):
+        scene.merge({"objects": {"ball": {"shape": "bal"}}})
