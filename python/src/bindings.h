@@ -26,6 +26,8 @@ template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 
 void bind_camera(py::module_& m);
+void bind_draw(py::module_& m);
+void bind_draw_state(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_model(py::module_& m);
 void bind_image(py::module_& m);

@@ -14,7 +14,7 @@ namespace halfspace::python {
 
 namespace {
 
-[[noreturn]] void throw_failed_check(const CheckFailure& failure) { throw std::logic_error("halfspace: " + failure.message); }
+[[noreturn]] void throw_failed_check(const CheckFailure& failure) { throw std::logic_error(failure.message); }
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
@@ -38,6 +38,8 @@ PYBIND11_MODULE(_core, m) {
   bind_scene(m);
   bind_model(m);
   bind_image(m);
+  bind_draw_state(m);
+  bind_draw(m);
 }
 
 }  // namespace halfspace::python

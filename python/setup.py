@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the extension with CMake, for `pip install --no-build-isolation ./python`.
+
+The environment variable CMAKE_ARGS has further arguments of CMake, for example -DHALFSPACE_ARCH=x86-64-v3. The default instruction set is
+that of this machine. scripts/install_deps.sh installs the packages that the build needs.
+"""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+class CMakeBuild(build_ext):
+    """Builds only what the module needs and installs it into the folder of the wheel."""
+
+    def run(self):
+        package = Path(self.get_ext_fullpath("halfspace._core")).resolve().parent
+        build = Path(self.build_temp).resolve()
+        options = {"HALFSPACE_PYTHON": "ON", "HALFSPACE_PYTHON_DIR": ".", "Python_EXECUTABLE": sys.executable, "CMAKE_BUILD_TYPE": "Release"}
+        options.update({f"HALFSPACE_BUILD_{part}": "OFF" for part in ("APPS", "TESTS", "BENCHMARKS", "EXAMPLES")})
+        defines = [f"-D{name}={value}" for name, value in options.items()]
+        subprocess.run(["cmake", "-S", ROOT, "-B", build, *defines, *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
+        jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
+        subprocess.run(["cmake", "--build", build, "--target", "halfspace_python", "-j", jobs], check=True)
+        for component in ("python", "wheel"):
+            subprocess.run(["cmake", "--install", build, "--component", component, "--prefix", package.parent, "--strip"], check=True)
+
+
+version = re.search(r"project\(halfspace VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+setup(version=version, ext_modules=[Extension("halfspace._core", [])], cmdclass={"build_ext": CMakeBuild})
