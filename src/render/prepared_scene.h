@@ -125,7 +125,7 @@ class SceneAssets {
 
   /// Shares the assets of `other`. Both can then be used by different threads. Frames that were announced to `other` do not count.
   SceneAssets(const SceneAssets& other, const Workers& workers, std::function<void(const std::string&)> warn)
-      : workers_(workers), warn_(std::move(warn)), entries_(other.entries_) {}
+      : workers_(workers), warn_(std::move(warn)), cache_(other.cache_) {}
 
   /// Provides the contents of a model file that has been read already, so that `prepare` does not read it again.
   void add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model);
