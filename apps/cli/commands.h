@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/limit_arguments.h"
 #include "cli/model_arguments.h"
 
 namespace halfspace {
@@ -27,9 +28,11 @@ struct RenderArguments {
   std::string threads;  ///< default: one per core
   std::string statistics;
   std::string max_error, max_error_color;  ///< if both are empty, the scene is rendered as it is
+  std::string wireframe;                   ///< "lines", "hidden", or empty: surfaces
   bool resume = false;
   bool print = false;
   ModelArguments model;
+  LimitArguments limits;
 };
 void render_command(const RenderArguments& args);
 
@@ -47,6 +50,7 @@ struct ValidateArguments {
   std::vector<std::string> set;
   std::string camera, time, threads, rays;
   bool json = false, table = false, full = false;
+  LimitArguments limits;
 };
 /// Only defined in builds with ray casting (HALFSPACE_HAS_RAYS).
 void validate_command(const ValidateArguments& args);
@@ -77,6 +81,7 @@ void list_command(const ListArguments& args);
 struct InfoArguments {
   std::string model;  ///< default: describe the program
   bool json = false;
+  LimitArguments limits;
 };
 void info_command(const InfoArguments& args);
 

@@ -41,6 +41,7 @@ void print_json() {
 }  // namespace
 
 void info_command(const InfoArguments& args) {
+  set_limits(args.limits);
   if (!args.model.empty()) {
     std::cout << model_info(args.model, args.json);
   } else {

@@ -25,9 +25,14 @@ void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void add_limit_options(CLI::App* command, LimitArguments& args, const std::string& group = "OPTIONS") {
+  command->add_option("--max-memory", args.memory, "Memory for files and images, e.g. 4G")->type_name("SIZE")->group(group);
+  command->add_option("--max-pixels", args.pixels, "Pixels of an image (default 268435456)")->type_name("N")->group(group);
+}
+
 // Prints the options of a command that are in the group of model files, and ends the program successfully.
 void print_model_options(const CLI::App* command) {
-  std::cout << "Options of 'halfspace render' for model files (.obj .gltf .glb .ply .stl):\n";
+  std::cout << "More options of 'halfspace render', most of them for model files (.obj .gltf .glb .ply .stl):\n";
   for (const CLI::Option* option : command->get_options()) {
     if (option->get_group() != kUnlistedGroup) continue;
     const std::string name = "--" + option->get_lnames().front() + (option->get_type_name().empty() ? "" : " " + option->get_type_name());
@@ -81,7 +86,9 @@ void add_render_command(CLI::App& program) {
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");
+  command->add_flag("--wireframe{lines}", args->wireframe, "Edges only; =hidden: without edges behind faces")->group(kUnlistedGroup);
   add_model_options(command, args->model);
+  add_limit_options(command, args->limits, kUnlistedGroup);
   command->footer(
       "Examples:\n"
       "  halfspace render earth -o earth.png --size 1280x720\n"
@@ -118,6 +125,7 @@ void add_validate_command(CLI::App& program) {
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
   command->add_option("--rays", args->rays, "Rays per pixel for area lights (default 1024)")->type_name("N");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
+  add_limit_options(command, args->limits);
   command->footer(
       "Examples:\n"
       "  halfspace validate moon --json\n"
@@ -173,6 +181,7 @@ void add_info_command(CLI::App& program) {
   const auto args = std::make_shared<InfoArguments>();
   command->add_option("MODEL", args->model, "Model file (default: the program itself)")->type_name("");
   command->add_flag("--json", args->json, "Print as JSON");
+  add_limit_options(command, args->limits);
   command->footer("Examples:\n  halfspace info\n  halfspace info chair.glb --json");
   command->callback([args] { info_command(*args); });
 }

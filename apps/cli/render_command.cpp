@@ -24,6 +24,7 @@
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/wireframe.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
@@ -42,6 +43,7 @@ struct RenderJob {
   int threads;
   bool resume;
   std::optional<AllowedError> allowed;
+  std::optional<HiddenLines> wireframe;
 };
 
 std::filesystem::path output_path(const RenderArguments& args) {
@@ -77,7 +79,14 @@ std::optional<AllowedError> allowed_error(const RenderArguments& args) {
   return allowed;
 }
 
+std::optional<HiddenLines> wireframe_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  if (text != "lines" && text != "hidden") throw UsageError("--wireframe is '" + text + "'; expected --wireframe or --wireframe=hidden");
+  return text == "hidden" ? HiddenLines::removed : HiddenLines::shown;
+}
+
 RenderJob understand(const RenderArguments& args) {
+  set_limits(args.limits);
   const PictureSize size = parse_size(args.size);
   const int threads = parse_threads(args.threads);
   if (args.statistics != "" && args.statistics != "text" && args.statistics != "json") {
@@ -99,13 +108,15 @@ RenderJob understand(const RenderArguments& args) {
   if (frames && !out.has_extension())
     throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a file name ending in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
+  check_picture(size, is_linear(format) ? sizeof(glm::vec4) : sizeof(glm::u8vec4));
   OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps);
   const auto camera = opened.camera_names.find(args.camera);
   set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
   set_shading(opened.scene, args.shading);
   std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>> models;
   if (opened.model != nullptr) models.emplace(opened.model_file, opened.model);
-  return {std::move(opened.scene), std::move(models), out, format, size, time, fps, frames, threads, args.resume, allowed_error(args)};
+  return {std::move(opened.scene), std::move(models),           out, format, size, time, fps, frames, threads, args.resume,
+          allowed_error(args),     wireframe_of(args.wireframe)};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -126,7 +137,10 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
       scene = std::move(fitted.scene);
       report.choices = std::move(fitted.choices);
     }
-    return assets.prepare(scene, job.size.width, job.size.height);
+    if (job.wireframe) scene.shadow.method = ShadowMethod::none;
+    PreparedScene prepared = assets.prepare(scene, job.size.width, job.size.height);
+    if (job.wireframe) report.spheres_without_wireframe |= make_wireframe(prepared, scene, *job.wireframe);
+    return prepared;
   } catch (const InputError& e) {
     throw InputError(job.scene.source() + ": " + e.what());
   }
@@ -183,9 +197,11 @@ SceneFile chosen(const RenderJob& job) {
 
 double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
 
+void warn(const std::string& problem) { std::cerr << "halfspace: warning: " << problem << '\n'; }
+
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
-  SceneAssets assets(workers, [](const std::string& problem) { std::cerr << "halfspace: warning: " << problem << '\n'; });
+  SceneAssets assets(workers, warn);
   for (const auto& [file, model] : job.models) assets.add_model(file, model);
   RenderReport report;
   if (!job.frames) {
@@ -248,6 +264,7 @@ void render_command(const RenderArguments& args) {
   read_models(job);
   protect_inputs(job, args.scene);
   RenderReport report = run(job);
+  if (report.spheres_without_wireframe) warn("spheres that are not meshes have no wireframe; they are drawn as surfaces");
   if (args.statistics.empty()) return;
   report.scene = args.scene;
   report.output = job.out.string();

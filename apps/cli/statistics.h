@@ -16,6 +16,7 @@ struct RenderReport {
   double render_ms = 0;  ///< loading or generating maps, and rendering
   double write_ms = 0;   ///< encoding and writing the images
   PassStatistics counts;
+  bool spheres_without_wireframe = false;
   std::vector<ModelChoice> choices;  ///< settings chosen by --max-error for the last image
 };
 

@@ -47,7 +47,9 @@ void print_table(const ValidateArguments& args, const PictureSize& size, const W
 }  // namespace
 
 void validate_command(const ValidateArguments& args) {
+  set_limits(args.limits);
   const PictureSize size = parse_size(args.size);
+  check_picture(size, sizeof(glm::vec4));
   const Workers workers(parse_threads(args.threads));
   if (args.full && !args.table) throw UsageError("--full applies only to --table; expected --table as well");
   if (args.table != args.scene.empty()) {

@@ -6,20 +6,25 @@
 #include <cstdint>
 #include <string>
 
-#include "halfspace/core/check.h"
+#include "halfspace/core/resource_limits.h"
 
 namespace halfspace {
 
 inline constexpr uint32_t kMaxImageEdge = 32768;  // same as Texture2D::kMaxSize
-inline constexpr uint64_t kMaxImagePixels = uint64_t{1} << 28;
+inline constexpr uint64_t kMaxImagePixels = ResourceLimits::kMostPixels;
 
-/// Throws an InputError that begins with `name` if an image of this size is not supported.
+/// Throws an InputError that begins with `name` if an image of this size is not supported. If it is too large, the error is a LimitError.
 inline void check_image_size(uint64_t width, uint64_t height, const std::string& name) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
   if (width == 0 || height == 0) throw InputError(name + ": has " + size + "; expected at least 1x1");
   if (width > kMaxImageEdge || height > kMaxImageEdge || width * height > kMaxImagePixels) {
-    throw InputError(name + ": claims " + size + "; expected at most 2^28 pixels and 32768 pixels per side");
+    throw LimitError(name + ": claims " + size + "; expected at most 2^28 pixels and 32768 pixels per side");
   }
+}
+
+/// Returns the memory that is needed to decode an image and to make a texture with its mip levels, or a converted copy, from it.
+inline uint64_t decoding_memory(uint64_t width, uint64_t height, uint64_t bytes_per_pixel) {
+  return width * height * bytes_per_pixel / 2 * 5;
 }
 
 }  // namespace halfspace

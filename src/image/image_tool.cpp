@@ -58,6 +58,8 @@ std::optional<ToolFailure> talk_to_tool(ToolPool& pool, const std::filesystem::p
 
 ToolRequest request_of(ToolTask task, std::string_view format) {
   ToolRequest request;
+  request.max_pixels = resource_limits().max_pixels;
+  request.max_bytes = memory_left();
   request.task = task;
   HS_CHECK_OP(format.size(), <, sizeof request.format);
   std::ranges::copy(format, request.format);
@@ -71,20 +73,23 @@ std::optional<std::string> receive_message(ToolProcess& tool, uint32_t bytes) {
 }
 
 template <class Picture, std::size_t kSample>
-bool receive_pixels(ToolProcess& tool, int width, int height, Picture& picture) {
-  std::variant_alternative_t<kSample, Picture> image(width, height);
+bool receive_pixels(ToolProcess& tool, const PictureHeader& h, const std::string& name, Picture& picture) {
+  using Pixels = std::variant_alternative_t<kSample, Picture>;
+  const auto edge = [](int32_t pixels) { return static_cast<uint64_t>(pixels); };
+  const MemoryClaim claim(decoding_memory(edge(h.width), edge(h.height), h.channels * sample_bytes(h.sample)), name);
+  Pixels image(h.width, h.height);
   if (!tool.receive(image.data(), image.texels().size_bytes())) return false;
   picture = std::move(image);
   return true;
 }
 
 template <class Picture>
-Talk receive_samples(ToolProcess& tool, const PictureHeader& h, Picture& picture, std::string& message) {
+Talk receive_samples(ToolProcess& tool, const PictureHeader& h, const std::string& name, Picture& picture, std::string& message) {
   bool complete = false;
   switch (h.sample) {
-    case Sample::code8: complete = receive_pixels<Picture, 0>(tool, h.width, h.height, picture); break;
-    case Sample::code16: complete = receive_pixels<Picture, 1>(tool, h.width, h.height, picture); break;
-    case Sample::number: complete = receive_pixels<Picture, 2>(tool, h.width, h.height, picture); break;
+    case Sample::code8: complete = receive_pixels<Picture, 0>(tool, h, name, picture); break;
+    case Sample::code16: complete = receive_pixels<Picture, 1>(tool, h, name, picture); break;
+    case Sample::number: complete = receive_pixels<Picture, 2>(tool, h, name, picture); break;
     default: message = "cannot be read: the decoder has a different version than this program"; return Talk::last;
   }
   return complete ? Talk::done : Talk::tool_ended;
@@ -98,6 +103,7 @@ Talk receive_picture(ToolProcess& tool, uint32_t channels, const std::string& na
   if (h.magic == kImageToolMagic && h.width == 0) {
     std::optional<std::string> text = receive_message(tool, h.message_bytes);
     if (!text) return Talk::tool_ended;
+    if (h.height != 0) throw LimitError(name + ": " + *text);
     message = *std::move(text);
     return Talk::done;
   }
@@ -106,7 +112,7 @@ Talk receive_picture(ToolProcess& tool, uint32_t channels, const std::string& na
     message = "cannot be read: the decoder has a different version than this program";
     return Talk::last;
   }
-  return receive_samples(tool, h, picture, message);
+  return receive_samples(tool, h, name, picture, message);
 }
 
 struct DecoderProgram {

@@ -52,6 +52,7 @@ void encode_rows(spng_ctx* context, const Image<glm::u8vec4>& image, bool opaque
 // Deflate compresses by a factor of at most 1032. A file that claims more is truncated or a decompression bomb.
 void check_claimed_size(const spng_ihdr& header, std::size_t file_bytes, const std::string& name) {
   check_image_size(header.width, header.height, name);
+  check_pixel_limit(header.width, header.height, name);
   constexpr uint64_t kChannels[] = {1, 1, 3, 1, 2, 1, 4};
   const uint64_t bits = uint64_t{header.bit_depth} * kChannels[header.color_type];
   const uint64_t raw = (uint64_t{header.width} * bits + 7) / 8 * header.height;
@@ -63,6 +64,7 @@ void check_claimed_size(const spng_ihdr& header, std::size_t file_bytes, const s
 
 template <class Texel>
 Image<Texel> decode_texels(spng_ctx* context, const spng_ihdr& header, spng_format format, const std::string& name) {
+  const MemoryClaim claim(decoding_memory(header.width, header.height, sizeof(Texel)), name);
   Image<Texel> image(static_cast<int>(header.width), static_cast<int>(header.height));
   check_decoding(spng_decode_image(context, image.data(), image.texels().size_bytes(), format, SPNG_DECODE_TRNS), name);
   return image;
@@ -101,7 +103,6 @@ bool is_png(std::span<const std::byte> bytes) {
 
 ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name) {
   const SpngContext context = new_context(0);
-  check_decoding(spng_set_image_limits(context.get(), kMaxImageEdge, kMaxImageEdge), name);
   check_decoding(spng_set_chunk_limits(context.get(), std::size_t{1} << 26, std::size_t{1} << 26), name);
   check_decoding(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()), name);
   spng_ihdr header = {};

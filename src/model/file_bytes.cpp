@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/resource_limits.h"
 
 namespace halfspace {
 
@@ -36,7 +37,7 @@ std::size_t size_of(const std::filesystem::path& file, int descriptor, std::size
   if (S_ISDIR(status.st_mode)) fail(file, "is a directory; expected a file");
   if (!S_ISREG(status.st_mode)) fail(file, "is not a regular file; expected a regular file");
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (size > max_bytes) fail(file, fmt::format("has {} bytes; expected at most {}", size, max_bytes));
+  if (size > max_bytes) fail(file, fmt::format("has {} bytes; expected at most {} (--max-memory)", size, max_bytes));
   return size;
 }
 
@@ -46,7 +47,9 @@ std::vector<std::byte> file_bytes(const std::filesystem::path& file, std::size_t
   // O_NONBLOCK: opening a pipe that nobody writes to must not block.
   const OpenFile open = {::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   if (open.descriptor < 0) fail_with_errno(file);
-  std::vector<std::byte> bytes(size_of(file, open.descriptor, max_bytes));
+  const std::size_t size = size_of(file, open.descriptor, max_bytes);
+  const MemoryClaim claim(size, file.string());
+  std::vector<std::byte> bytes(size);
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t n = ::read(open.descriptor, bytes.data() + done, bytes.size() - done);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "halfspace/core/image.h"
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/shading/sampler.h"
 
 namespace halfspace {
@@ -211,7 +212,7 @@ struct Model {
 /// Limits and permissions for reading a model.
 struct ReadModelOptions {
   bool allow_outside = false;                     ///< open referenced files outside the folder of the model
-  std::size_t max_memory = std::size_t{8} << 30;  ///< bytes that the model may need; more is refused before it is allocated
+  std::size_t max_memory = resource_limits().max_memory;  ///< bytes that the model may need; more is refused before it is allocated
   float crease_degrees = 30.0f;                   ///< OBJ, PLY and STL without normals: edges sharper than this stay sharp
 };
 

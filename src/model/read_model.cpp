@@ -67,9 +67,11 @@ Reader reader_of(const std::filesystem::path& file, std::span<const std::byte> b
 }  // namespace
 
 Model read_model(const std::filesystem::path& file, const ReadModelOptions& options) {
-  const std::vector<std::byte> bytes = file_bytes(file, options.max_memory);
+  ReadModelOptions left = options;  // other models and images may be in memory
+  left.max_memory = static_cast<std::size_t>(std::min<uint64_t>(options.max_memory, memory_left()));
+  const std::vector<std::byte> bytes = file_bytes(file, left.max_memory);
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; expected a glTF, OBJ, PLY or STL file", file.string()));
-  return reader_of(file, bytes)(file, bytes, options);
+  return reader_of(file, bytes)(file, bytes, left);
 }
 
 }  // namespace halfspace

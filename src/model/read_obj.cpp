@@ -137,8 +137,8 @@ std::vector<const MtlMaterial*> resolve_materials(ObjText& obj, const Libraries&
 Model read_obj(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options) {
   const std::size_t max_bytes = std::min(kMaxBytes, options.max_memory / kMemoryPerByte);
   if (bytes.size() > max_bytes) {
-    throw InputError(fmt::format("{}: {} bytes; expected at most {}, as reading needs {} times as much memory", file.string(), bytes.size(),
-                                 max_bytes, kMemoryPerByte));
+    throw InputError(fmt::format("{}: {} bytes; expected at most {}, because reading needs {} times as much memory (--max-memory)",
+                                 file.string(), bytes.size(), max_bytes, kMemoryPerByte));
   }
   Model model;
   model.format = "OBJ";

@@ -68,6 +68,8 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has warned
     try {
       textures[static_cast<std::size_t>(i)].emplace(decoded(o.file.path, source, color));
+    } catch (const LimitError&) {
+      throw;
     } catch (const InputError& e) {  // the material is drawn without it
       problems[static_cast<std::size_t>(i)] = e.what();
     }

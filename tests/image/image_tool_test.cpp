@@ -84,20 +84,20 @@ TEST_F(ImageTool, ReportsACrash) { expect_failures(lines_beside("kill -SEGV $$")
 
 TEST_F(ImageTool, ReportsATruncatedAnswer) {
   // The script reads a request and sends the beginning of a valid 100-byte answer.
-  const std::string script = "head -c 24 >/dev/null; printf 'HIT2\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
+  const std::string script = "head -c 40 >/dev/null; printf 'HIT3\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
   expect_failures(lines_beside(script), "ended early", "ended early");
 }
 
 TEST_F(ImageTool, ReportsAnotherProtocolVersion) {
-  const std::string script = "head -c 24 >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'";
+  const std::string script = "head -c 40 >/dev/null; printf 'HIT0 some other protocol, of which nothing is known'";
   expect_failures(lines_beside(script), "different version", "different version");
 }
 
 TEST_F(ImageTool, RejectsAnswersWithHugeSizes) {
   // A file of 2^63 bytes; an image with a width of 2^31 − 1 pixels. Byte 4 of a request is the task; 2 is writing.
   const std::string script =
-      "case $(head -c 24 | od -An -tu1 -j4 -N1 | tr -d ' ') in 2) printf 'HIT2\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
-      "*) printf 'HIT2\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
+      "case $(head -c 40 | od -An -tu1 -j4 -N1 | tr -d ' ') in 2) printf 'HIT3\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
+      "*) printf 'HIT3\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
   expect_failures(lines_beside(script), "different version", "2147483647x1");
 }
 

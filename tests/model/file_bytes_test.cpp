@@ -46,7 +46,7 @@ TEST_F(FileBytes, OfAnEmptyFileAreEmpty) {
 
 TEST_F(FileBytes, AreLimited) {
   write_bytes(folder_ / "file", "123456");
-  EXPECT_EQ(error_for(folder_ / "file", 5), (folder_ / "file").string() + ": has 6 bytes; expected at most 5");
+  EXPECT_EQ(error_for(folder_ / "file", 5), (folder_ / "file").string() + ": has 6 bytes; expected at most 5 (--max-memory)");
 }
 
 TEST_F(FileBytes, RejectWhatIsNotARegularFile) {

@@ -101,8 +101,8 @@ class JpegDecoder {
 void decode(const ReadRequest& request) {
   const MappedFile file(request.file, request.file_bytes);
   JpegDecoder decoder(file);
-  check_claimed_size(decoder.width(), decoder.height(), request.file_bytes);
   const unsigned channels = request.gray ? 1 : 4;
+  check_claimed_size(request, decoder.width(), decoder.height(), channels);
   const std::vector<uint8_t> pixels = decoder.decode(channels);
   const auto edge = [](unsigned pixels_per_side) { return static_cast<int32_t>(pixels_per_side); };
   put_answer(PictureHeader{kImageToolMagic, edge(decoder.width()), edge(decoder.height()), channels, Sample::code8, 0}, "");
@@ -115,9 +115,9 @@ bool decode_and_answer(const ReadRequest& request) {
   try {
     decode(request);
   } catch (const Failure& failure) {
-    refuse_picture(failure.text);
+    refuse_picture(failure);
   } catch (const std::bad_alloc&) {
-    refuse_picture("not enough memory; expected a smaller image");
+    refuse_picture({"not enough memory; expected a smaller image"});
     return false;
   }
   return true;

@@ -12,6 +12,7 @@ namespace halfspace {
 /// The reason why a tool cannot fulfill a request. The text is one line of the form "problem; what was expected".
 struct Failure {
   std::string text;
+  bool exceeds_limit = false;
 };
 
 /// Converts a message of a decoder or encoder, which may have several lines, to a part of one line.
@@ -32,10 +33,11 @@ void put_answer(const Header& header, const std::string& message) {
 }
 
 /// Answers a request for an image with a message.
-inline void refuse_picture(const std::string& message) {
+inline void refuse_picture(const Failure& failure) {
   PictureHeader header;
-  header.message_bytes = static_cast<uint32_t>(message.size());
-  put_answer(header, message);
+  header.height = failure.exceeds_limit ? 1 : 0;
+  header.message_bytes = static_cast<uint32_t>(failure.text.size());
+  put_answer(header, failure.text);
 }
 
 }  // namespace halfspace

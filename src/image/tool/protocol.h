@@ -7,7 +7,7 @@
 // reads requests from standard input, which is a socket, until it is closed. The answer to each request goes to standard output.
 //
 // To read an image, send a ToolRequest together with a descriptor of the file (SCM_RIGHTS). The answer is a PictureHeader, followed by
-// the pixels or, if width is 0, by a message of message_bytes bytes.
+// the pixels or, if width is 0, by a message of message_bytes bytes. height is then 1 if the image exceeds a limit of the request.
 //
 // To write an image, send a ToolRequest, a PictureHeader and the pixels. The answer is a FileHeader, followed by the bytes of the file or,
 // if file_bytes is 0, by a message of message_bytes bytes. The tool exits after such a message, since it may not have read all pixels.
@@ -23,7 +23,7 @@ namespace halfspace {
 
 inline constexpr const char* kImageToolName = "halfspace-image-tool";
 inline constexpr const char* kJpegToolName = "halfspace-jpeg-tool";
-inline constexpr uint32_t kImageToolMagic = 0x32544948;  // "HIT2": the digit is the protocol version
+inline constexpr uint32_t kImageToolMagic = 0x33544948;  // "HIT3": the digit is the protocol version
 
 /// What a tool is asked to do. read_gray returns only the first channel of a file. read_color returns RGBA: gray is replicated and
 /// missing alpha is opaque.
@@ -34,6 +34,8 @@ struct ToolRequest {
   ToolTask task = ToolTask::read_color;
   /// OpenImageIO's name for the format, for example "jpeg", padded with zeros.
   char format[16] = {};
+  /// Limits for reading: pixels of the image, and bytes of the decoded pixels with all channels of the file.
+  uint64_t max_pixels = 0, max_bytes = 0;
 };
 
 /// The type of one channel of a pixel: an 8-bit or 16-bit code that spans its full range, a half or a float.

@@ -40,20 +40,21 @@ Failure damaged(const ReadRequest& request, const std::string& why) {
   return {"cannot be read as " + request.format + " (" + one_line(without_name(why, request)) + "); expected a complete image file"};
 }
 
-void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
-  check_claimed_size(spec.width, spec.height, request.file_bytes);
-  if (spec.depth > 1) throw Failure{"has several layers of pixels; expected a flat image"};
-  if (spec.nchannels < 1 || spec.nchannels > kMaxChannels) {
-    throw Failure{"has " + std::to_string(spec.nchannels) + " channels; expected 1 to " + std::to_string(kMaxChannels)};
-  }
-  const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) * static_cast<uint64_t>(std::max(spec.tile_height, 0));
-  if (spec.deep || tile > kMaxImagePixels) throw Failure{"has deep pixels or oversized tiles; expected a flat image"};
-}
-
 // Codes of up to 16 bits stay codes. All other types become floats; signed and 32-bit integers are scaled to 1.
 Sample sample_of(const OIIO::TypeDesc& type) {
   if (type.basetype == OIIO::TypeDesc::UINT8) return Sample::code8;
   return type.basetype == OIIO::TypeDesc::UINT16 ? Sample::code16 : Sample::number;
+}
+
+void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
+  if (spec.depth > 1) throw Failure{"has several layers of pixels; expected a flat image"};
+  if (spec.nchannels < 1 || spec.nchannels > kMaxChannels) {
+    throw Failure{"has " + std::to_string(spec.nchannels) + " channels; expected 1 to " + std::to_string(kMaxChannels)};
+  }
+  const auto channels = static_cast<uint64_t>(request.gray ? 1 : spec.nchannels);
+  check_claimed_size(request, spec.width, spec.height, channels * sample_bytes(sample_of(spec.format)));
+  const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) * static_cast<uint64_t>(std::max(spec.tile_height, 0));
+  if (spec.deep || tile > kMaxImagePixels) throw Failure{"has deep pixels or oversized tiles; expected a flat image"};
 }
 
 OIIO::TypeDesc type_of(Sample sample) {
@@ -117,12 +118,12 @@ bool read_and_answer(const ReadRequest& request) {
       put_rgba(p);
     }
   } catch (const Failure& failure) {
-    refuse_picture(failure.text);
+    refuse_picture(failure);
   } catch (const std::bad_alloc&) {
-    refuse_picture("not enough memory; expected a smaller image");
+    refuse_picture({"not enough memory; expected a smaller image"});
     return false;
   } catch (const std::exception& e) {
-    refuse_picture(damaged(request, e.what()).text);
+    refuse_picture(damaged(request, e.what()));
   }
   return true;
 }

@@ -85,7 +85,8 @@ bool handle_read(const ToolHandlers& handlers, const ToolRequest& request, const
   struct stat status = {};
   if (file < 0 || ::fstat(file, &status) != 0) return false;
   limit_time(kReadSeconds);
-  const bool ready = handlers.read({file, static_cast<uint64_t>(status.st_size), format, request.task == ToolTask::read_gray});
+  const bool ready = handlers.read(
+      {file, static_cast<uint64_t>(status.st_size), format, request.task == ToolTask::read_gray, request.max_pixels, request.max_bytes});
   ::close(file);
   return ready;
 }
@@ -123,13 +124,20 @@ void receive(void* memory, std::size_t bytes) {
   }
 }
 
-void check_claimed_size(int64_t width, int64_t height, uint64_t file_bytes) {
+void check_claimed_size(const ReadRequest& request, int64_t width, int64_t height, uint64_t bytes_per_pixel) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
   if (width < 1 || height < 1) throw Failure{"has " + size + "; expected a flat image of at least 1x1"};
   const uint64_t pixels = static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
-  if (pixels > kMaxImagePixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 pixels per side"};
-  if (pixels > (1u << 20) && pixels / kMaxPixelsPerByte > file_bytes) {
-    throw Failure{"claims " + size + " but has only " + std::to_string(file_bytes) + " bytes; expected a complete image file"};
+  if (pixels > kMaxImagePixels) throw Failure{"claims " + size + "; expected at most 2^28 pixels and 32768 pixels per side", true};
+  if (pixels > request.max_pixels)
+    throw Failure{size + "; expected at most " + std::to_string(request.max_pixels) + " pixels (--max-pixels)", true};
+  if (pixels > (1u << 20) && pixels / kMaxPixelsPerByte > request.file_bytes) {
+    throw Failure{"claims " + size + " but has only " + std::to_string(request.file_bytes) + " bytes; expected a complete image file"};
+  }
+  if (pixels * bytes_per_pixel > request.max_bytes) {
+    throw Failure{"claims " + size + " of " + std::to_string(bytes_per_pixel) + " bytes; expected at most " +
+                      std::to_string(request.max_bytes >> 20) + " MiB (--max-memory)",
+                  true};
   }
 }
 

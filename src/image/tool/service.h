@@ -17,6 +17,8 @@ struct ReadRequest {
   std::string format;
   /// Read only the first channel instead of RGBA.
   bool gray = false;
+  /// See ToolRequest.
+  uint64_t max_pixels = 0, max_bytes = 0;
 };
 
 /// Functions that handle a request and write the answer (see protocol.h) to standard output. They return whether the tool can handle
@@ -34,7 +36,8 @@ int serve_requests(const ToolHandlers& handlers);
 /// Reads from standard input, unbuffered. Throws Failure if it ends early.
 void receive(void* memory, std::size_t bytes);
 
-/// Throws Failure if a header claims more pixels than Halfspace supports, or than a file of this size can contain.
-void check_claimed_size(int64_t width, int64_t height, uint64_t file_bytes);
+/// Throws Failure if a header claims more pixels than Halfspace supports or the request permits, or than a file of this size can contain.
+/// bytes_per_pixel: of the decoded pixels, with all channels.
+void check_claimed_size(const ReadRequest& request, int64_t width, int64_t height, uint64_t bytes_per_pixel);
 
 }  // namespace halfspace

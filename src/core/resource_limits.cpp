@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/core/resource_limits.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <mutex>
+
+namespace halfspace {
+
+namespace {
+
+// Rounds up, so that a limit of less than a mebibyte does not read as 0.
+std::string mebibytes(uint64_t bytes) { return std::to_string((bytes >> 20) + (bytes % (1u << 20) != 0 ? 1 : 0)) + " MiB"; }
+
+struct LimitState {
+  std::mutex mutex;
+  ResourceLimits limits;
+  uint64_t claimed = 0;  // bytes
+};
+
+LimitState& limit_state() {
+  static LimitState state;
+  return state;
+}
+
+// Returns the resident memory of this process in bytes, or 0 if the system does not tell.
+uint64_t resident_memory() {
+  std::ifstream file("/proc/self/statm");
+  uint64_t size = 0, resident = 0;
+  file >> size >> resident;
+  return file ? resident * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+// The mutex must be locked.
+uint64_t left(const LimitState& state, uint64_t resident) {
+  const uint64_t used = resident + state.claimed;
+  return used < state.limits.max_memory ? state.limits.max_memory - used : 0;
+}
+
+}  // namespace
+
+uint64_t ResourceLimits::default_max_memory() {
+  constexpr uint64_t kMost = uint64_t{8} << 30;
+  const auto pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || size <= 0) return kMost;
+  return std::min(static_cast<uint64_t>(pages) / 2 * static_cast<uint64_t>(size), kMost);
+}
+
+ResourceLimits resource_limits() {
+  LimitState& state = limit_state();
+  const std::lock_guard lock(state.mutex);
+  return state.limits;
+}
+
+void set_resource_limits(const ResourceLimits& limits) {
+  HS_CHECK_OP(limits.max_pixels, <=, ResourceLimits::kMostPixels);
+  LimitState& state = limit_state();
+  const std::lock_guard lock(state.mutex);
+  state.limits = limits;
+}
+
+uint64_t memory_left() {
+  const uint64_t resident = resident_memory();
+  LimitState& state = limit_state();
+  const std::lock_guard lock(state.mutex);
+  return left(state, resident);
+}
+
+MemoryClaim::MemoryClaim(uint64_t bytes, const std::string& place) : bytes_(bytes) {
+  const uint64_t resident = resident_memory();
+  LimitState& state = limit_state();
+  const std::lock_guard lock(state.mutex);
+  if (bytes > left(state, resident)) {
+    throw LimitError(place + ": needs " + mebibytes(bytes) + " of memory in addition to " + mebibytes(resident + state.claimed) +
+                     " in use; expected at most " + mebibytes(state.limits.max_memory) + " (--max-memory)");
+  }
+  state.claimed += bytes;
+}
+
+MemoryClaim::~MemoryClaim() {
+  LimitState& state = limit_state();
+  const std::lock_guard lock(state.mutex);
+  state.claimed -= bytes_;
+}
+
+void check_pixel_limit(uint64_t width, uint64_t height, const std::string& place) {
+  const uint64_t limit = resource_limits().max_pixels;
+  if (width == 0 || height <= limit / width) return;
+  throw LimitError(place + ": " + std::to_string(width) + "x" + std::to_string(height) + " pixels; expected at most " +
+                   std::to_string(limit) + " pixels (--max-pixels)");
+}
+
+}  // namespace halfspace

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Limits on the memory and the pixels that files may make this process use. Readers compare them with the sizes in the header of a file,
+// before they allocate memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "halfspace/core/check.h"
+
+namespace halfspace {
+
+/// A file needs more than a limit permits. Programs end with this error even where they tolerate other invalid files.
+class LimitError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Limits of this process.
+struct ResourceLimits {
+  uint64_t max_memory = default_max_memory();  ///< bytes of memory in use, all files together
+  uint64_t max_pixels = kMostPixels;           ///< in one image
+
+  static constexpr uint64_t kMostPixels = uint64_t{1} << 28;
+  /// Returns half of the memory of the machine, but at most 8 GiB.
+  static uint64_t default_max_memory();
+};
+
+/// Returns the limits. Thread-safe.
+ResourceLimits resource_limits();
+
+/// Sets the limits for files that are read from now on. max_pixels must be at most kMostPixels. Thread-safe.
+void set_resource_limits(const ResourceLimits& limits);
+
+/// Returns how many bytes may still be allocated: max_memory minus the resident memory of the process and the claims of other threads.
+uint64_t memory_left();
+
+/// Reserves memory that is about to be allocated and filled, so that threads that load files in parallel do not exceed the limit together.
+/// Release it when the memory has been filled: then the operating system counts it.
+class MemoryClaim {
+ public:
+  /// Throws LimitError, which begins with `place`, if the memory is not available.
+  MemoryClaim(uint64_t bytes, const std::string& place);
+  ~MemoryClaim();
+  MemoryClaim(const MemoryClaim&) = delete;
+  MemoryClaim& operator=(const MemoryClaim&) = delete;
+
+ private:
+  uint64_t bytes_;
+};
+
+/// Throws LimitError, which begins with `place`, if an image has more pixels than permitted.
+void check_pixel_limit(uint64_t width, uint64_t height, const std::string& place);
+
+}  // namespace halfspace
