@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lesson 1: a triangle is the set of pixels whose centers are on the inner side of all three edges. Uses no library.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+constexpr int kWidth = 320, kHeight = 240;
+
+struct Point {
+  double x, y;  // pixels from the upper left corner of the image
+};
+struct Color {
+  double red, green, blue;  // 0 to 1
+};
+
+// Twice the signed area of the triangle a, b, p. It is positive if p is to the right of the line from a to b, as seen in the image.
+double edge(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+
+uint8_t code_of(double value) { return static_cast<uint8_t>(255.0 * std::clamp(value, 0.0, 1.0) + 0.5); }
+
+int main(int argc, char** argv) {
+  const Point a{160, 20}, b{290, 200}, c{30, 160};  // clockwise in the image
+  const Color red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
+  std::vector<uint8_t> image(3 * kWidth * kHeight, 30);
+
+  const double area = edge(a, b, c);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const Point center{x + 0.5, y + 0.5};
+      // The edge function of the edge opposite a vertex, divided by the area, is the weight of that vertex: its barycentric coordinate.
+      const double wa = edge(b, c, center) / area;
+      const double wb = edge(c, a, center) / area;
+      const double wc = edge(a, b, center) / area;
+      if (wa < 0 || wb < 0 || wc < 0) continue;
+      uint8_t* pixel = &image[3 * static_cast<std::size_t>(y * kWidth + x)];
+      pixel[0] = code_of(wa * red.red + wb * green.red + wc * blue.red);
+      pixel[1] = code_of(wa * red.green + wb * green.green + wc * blue.green);
+      pixel[2] = code_of(wa * red.blue + wb * green.blue + wc * blue.blue);
+    }
+  }
+
+  std::FILE* file = std::fopen(argc > 1 ? argv[1] : "lesson01.ppm", "wb");
+  if (file == nullptr) return 1;
+  std::fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
+  std::fwrite(image.data(), 1, image.size(), file);
+  return std::fclose(file) == 0 ? 0 : 1;
+}

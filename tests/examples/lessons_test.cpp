@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs every program of apps/lessons. Their pages show the pictures and the times, so both must be what the programs produce.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "halfspace/core/image.h"
+#include "halfspace/image/image_io.h"
+
+namespace halfspace {
+namespace {
+
+constexpr int kLessons = 12;
+
+struct Lesson {
+  std::string name;    // "01_triangle"
+  std::string output;  // what the program prints
+  Image<glm::u8vec4> picture;
+  Image<glm::u8vec4> in_docs;
+};
+
+// The pictures of the first lessons are PPM files, which have no compression. Read without the image tool, which is optional.
+Image<glm::u8vec4> read_ppm(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string magic;
+  int width = 0, height = 0, maximum = 0;
+  file >> magic >> width >> height >> maximum;
+  file.get();
+  EXPECT_EQ(magic, "P6");
+  EXPECT_EQ(maximum, 255);
+  Image<glm::u8vec4> image(width, height);
+  for (std::size_t i = 0; i < image.texels().size(); ++i) {
+    char rgb[3]{};
+    file.read(rgb, 3);
+    image.data()[i] = {static_cast<uint8_t>(rgb[0]), static_cast<uint8_t>(rgb[1]), static_cast<uint8_t>(rgb[2]), 255};
+  }
+  EXPECT_TRUE(file.good());
+  return image;
+}
+
+// Runs the program of a lesson, counted from 1.
+Lesson run_lesson(int number) {
+  const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
+  Lesson lesson;
+  for (const auto& entry : std::filesystem::directory_iterator(HALFSPACE_LESSONS_SOURCE_DIR)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() == ".cpp" && stem.starts_with(digits)) lesson.name = stem;
+  }
+  const std::filesystem::path folder = testing::TempDir();
+  const std::filesystem::path out = folder / ("lesson" + digits + (number <= 3 ? ".ppm" : ".png")),
+                              printed = folder / ("lesson" + digits + ".txt");
+  const std::string command =
+      std::string(HALFSPACE_EXAMPLES_DIR) + "/lesson-" + lesson.name + " '" + out.string() + "' > '" + printed.string() + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  std::ifstream text(printed);
+  lesson.output.assign(std::istreambuf_iterator<char>(text), {});
+  lesson.picture = number <= 3 ? read_ppm(out) : read_image(out);
+  lesson.in_docs = read_image(std::filesystem::path(HALFSPACE_LESSONS_DOCS_DIR) / "images" / (digits + ".png"));
+  std::filesystem::remove(out);
+  std::filesystem::remove(printed);
+  return lesson;
+}
+
+class Lessons : public testing::TestWithParam<int> {};
+
+TEST_P(Lessons, DrawThePictureOfTheirPage) {
+  const Lesson lesson = run_lesson(GetParam());
+  EXPECT_EQ(lesson.picture, lesson.in_docs) << lesson.name << ": scripts/lesson_pictures.py draws the pictures again";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Lessons, testing::Range(1, kLessons + 1));
+
+int differing_pixels(const Image<glm::u8vec4>& a, const Image<glm::u8vec4>& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.texels().size(); ++i) count += a.texels()[i] != b.texels()[i];
+  return count;
+}
+
+TEST(Lesson, FourDrawsThePictureOfThree) {
+  const Image<glm::u8vec4> own = run_lesson(3).picture, library = run_lesson(4).picture;
+  ASSERT_EQ(own.width(), library.width());
+  ASSERT_EQ(own.height(), library.height());
+  // The page states the number. Vertices are snapped to 1/256 px, which moves edges by less than a pixel.
+  EXPECT_EQ(differing_pixels(own, library), 156);
+}
+
+TEST(Lesson, MeasurementsCompareEqualImages) {
+  EXPECT_NE(run_lesson(11).output.find("the same image"), std::string::npos);
+  EXPECT_NE(run_lesson(12).output.find("all images are the same"), std::string::npos);
+}
+
+TEST(Lesson, ProgramsHaveAtMostAHundredLines) {
+  int programs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HALFSPACE_LESSONS_SOURCE_DIR)) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream file(entry.path());
+    EXPECT_LE(std::count(std::istreambuf_iterator<char>(file), {}, '\n'), 100) << entry.path();
+    ++programs;
+  }
+  EXPECT_EQ(programs, kLessons);
+}
+
+}  // namespace
+}  // namespace halfspace
