@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders a shipped scene and writes it to a file: scene TOOL_FOLDER OUTPUT.
+// Renders a shipped scene, writes it to a file and reads the file: scene TOOL_FOLDER OUTPUT. An empty TOOL_FOLDER leaves it to the library
+// to find the decoders.
 #include <halfspace/image/image_io.h>
 #include <halfspace/render/prepared_scene.h>
 #include <halfspace/scene/scene_file.h>
@@ -18,7 +19,8 @@ int main(int argc, char** argv) {
     Image<glm::u8vec4> picture(96, 54);
     render(assets.prepare(SceneFile::open("earth").description(), picture.width(), picture.height()), picture, workers);
     write_image(argv[2], picture);
-    std::printf("wrote %s\n", argv[2]);
+    const Image<glm::u8vec4> read = read_image(argv[2]);
+    std::printf("wrote %s, %d x %d pixels\n", argv[2], read.width(), read.height());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
