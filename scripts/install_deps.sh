@@ -10,11 +10,12 @@ packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopen
   libfmt-dev libmeshoptimizer-dev libembree-dev pybind11-dev python3-dev python3-numpy)
 benchmark_packages=(libvulkan1)
 test_packages=(patch python3-jsonschema python3-matplotlib python3-pytest libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
+document_packages=(doxygen man-db)
 
 case "${1:-}" in
   "") ;;
-  --tests) packages+=("${test_packages[@]}") ;;
-  --benchmarks) packages+=("${test_packages[@]}" "${benchmark_packages[@]}") ;;
+  --tests) packages+=("${test_packages[@]}" "${document_packages[@]}") ;;
+  --benchmarks) packages+=("${test_packages[@]}" "${document_packages[@]}" "${benchmark_packages[@]}") ;;
   *) echo "install_deps.sh: unknown argument '$1'; expected --tests, --benchmarks or nothing" >&2; exit 2 ;;
 esac
 

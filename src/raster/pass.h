@@ -101,8 +101,8 @@ class Pass {
 
   /// Passes the final color of each pixel in the first attachment through a functor and stores the result in another target of the same
   /// size. This happens while the tile is in cache and is intended for tone mapping and encoding. The functor is copied. It must have
-  /// template <class R> vec4<R> operator()(vec4<R> color) const, or the same with window coordinates: operator()(vec4<R> color, IntOf<R> x,
-  /// IntOf<R> y). The format of the first color attachment must not be none.
+  /// `template <class R> vec4<R> operator()(vec4<R> color) const`, or the same with window coordinates: `operator()(vec4<R> color,
+  /// IntOf<R> x, IntOf<R> y)`. The format of the first color attachment must not be none.
   template <class F>
   void post(const F& function, const ColorTarget& target) {
     detail::set_post_step(*state_, {std::make_shared<const F>(function), detail::post_kernel<F>, target});
