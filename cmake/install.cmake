@@ -31,7 +31,7 @@ function(halfspace_library_properties name)
   if(type STREQUAL SHARED_LIBRARY)
     set_target_properties(halfspace_${name} PROPERTIES
       OUTPUT_NAME halfspace-${name}-lanes${HALFSPACE_BUILD_LANES} VERSION ${PROJECT_VERSION}
-      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN
+      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN DEFINE_SYMBOL ""
       LINK_DEPENDS ${halfspace_SOURCE_DIR}/cmake/exports.map)
     target_link_options(halfspace_${name} PRIVATE LINKER:--version-script=${halfspace_SOURCE_DIR}/cmake/exports.map)
   endif()
@@ -64,14 +64,33 @@ function(halfspace_collect_headers header)
   set(headers ${headers} PARENT_SCOPE)
 endfunction()
 
-function(halfspace_install_headers)
-  set(headers "")
-  foreach(header IN LISTS halfspace_public_headers)
-    if(TARGET halfspace_reference OR NOT header MATCHES "^reference/")
-      halfspace_collect_headers(${header})
+set(headers "")
+foreach(header IN LISTS halfspace_public_headers)
+  halfspace_collect_headers(${header})
+endforeach()
+set(halfspace_installed_headers ${headers})
+
+# Shared libraries do not export the functions of a source whose header is not installed, and of the private folders of raster. Unity builds
+# compile sources with options of their own one by one, so static libraries are left alone.
+function(halfspace_hide_private_functions sources)
+  if(NOT BUILD_SHARED_LIBS)
+    return()
+  endif()
+  foreach(source IN LISTS sources)
+    file(RELATIVE_PATH header ${halfspace_SOURCE_DIR}/src ${source})
+    string(REGEX REPLACE "[.]cpp$" ".h" header ${header})
+    if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_installed_headers
+        AND (EXISTS ${halfspace_SOURCE_DIR}/src/${header} OR header MATCHES "^raster/.*/"))
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fvisibility=hidden)
     endif()
   endforeach()
-  foreach(header IN LISTS headers)
+endfunction()
+
+function(halfspace_install_headers)
+  foreach(header IN LISTS halfspace_installed_headers)
+    if(header MATCHES "^reference/" AND NOT TARGET halfspace_reference)
+      continue()
+    endif()
     get_filename_component(folder ${header} DIRECTORY)
     install(FILES ${halfspace_SOURCE_DIR}/src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halfspace/${folder} COMPONENT dev)
   endforeach()
