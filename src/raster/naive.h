@@ -3,8 +3,9 @@
 // Reference implementation of the opaque pipeline as a plain loop, in the order used by the OpenGL specification. For each triangle: shade
 // three vertices, clip, divide by w, visit every pixel of the bounding box, interpolate, shade, test depth.
 //
-// With R = float, this is a slow but readable equivalent of the tile-based pipeline. With R = double, it is the accuracy reference: vertex
-// positions, interpolation, texture filtering and shading use double precision. Coverage is computed on the same 1/256 px grid.
+// With R = float, this is a slow but readable equivalent of the tile-based pipeline: it calls the same formulas for snapping, clipping,
+// depth and interpolation, and draws the same bits. With R = double, it is the accuracy reference: vertex positions, interpolation, texture
+// filtering and shading use double precision. Coverage is computed on the same 1/256 px grid.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/raster/draw_state.h"
-#include "halfspace/raster/pipeline/window.h"
+#include "halfspace/raster/naive_steps.h"
 #include "halfspace/raster/vertex_input.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/shading/contract.h"
@@ -32,12 +33,6 @@ struct NaiveTarget {
 };
 
 namespace naive {
-
-template <class R, class V>
-struct Vertex {
-  vec4<R> pos_clip;
-  V varyings;
-};
 
 // Step 1: fetch the attributes from the vertex streams and run the vertex function.
 template <class A, class R>
@@ -59,46 +54,7 @@ Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t i
   return v;
 }
 
-template <class R, class V>
-Vertex<R, V> mix(const Vertex<R, V>& a, const Vertex<R, V>& b, R t) {
-  auto x = to_components<R>(a.varyings);
-  const auto y = to_components<R>(b.varyings);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] += t * (y[i] - x[i]);
-  return {a.pos_clip + (b.pos_clip - a.pos_clip) * t, from_components<V, R>(x)};
-}
-
-// Step 2: clip a convex polygon against the plane distance(pos_clip) = 0, keeping the side where distance >= 0.
-template <class R, class V, class Distance>
-std::vector<Vertex<R, V>> clip(const std::vector<Vertex<R, V>>& polygon, Distance distance) {
-  std::vector<Vertex<R, V>> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const auto &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const R da = distance(a.pos_clip), db = distance(b.pos_clip);
-    if (da >= 0) kept.push_back(a);
-    if (da >= 0 && db < 0) kept.push_back(mix(a, b, da / (da - db)));
-    if (da < 0 && db >= 0) kept.push_back(mix(b, a, db / (db - da)));
-  }
-  return kept;
-}
-
-// Step 3: divide by w and transform to window coordinates. Positions are snapped to the 1/256 px grid.
-template <class R>
-struct ScreenPoint {
-  int64_t x, y;
-  R z, inv_w;
-};
-template <class R>
-ScreenPoint<R> to_window(const vec4<R>& p, const Rect& viewport, const DepthState& depth) {
-  const R inv_w = R(1) / p.w;
-  const auto snap = [&](R ndc, int origin, int size) {
-    const R px = (ndc + R(1)) / R(2) * R(static_cast<float>(size)) + R(static_cast<float>(origin));
-    return static_cast<int64_t>(std::nearbyint(std::clamp(static_cast<double>(px) * 256.0, -0x1p30, 0x1p30)));
-  };
-  const R ndc = p.z * inv_w;
-  const R unit = depth.clip == ClipDepth::negative_one_to_one ? (ndc + R(1)) / R(2) : ndc;
-  const R z = R(depth.range_near) + unit * (R(depth.range_far) - R(depth.range_near));
-  return {snap(p.x * inv_w, viewport.x, viewport.width), snap(p.y * inv_w, viewport.y, viewport.height), z, inv_w};
-}
+// Steps 2 and 3, clipping and the transform to window coordinates, are in naive_steps.h.
 
 // Step 4: visit every pixel whose center is inside the triangle, or on an edge whose samples belong to it.
 template <class F>
@@ -129,14 +85,16 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
   if (area == 0) return;
   const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
   if (is_culled(state.cull, front)) return;
-  std::array<std::size_t, 3> o{0, 1, 2};  // counter-clockwise, smallest 1/w first
+  std::array<std::size_t, 3> o{0, 1, 2};  // counter-clockwise, smallest depth first
   if (area < 0) std::swap(o[1], o[2]);
-  while (p[o[0]].inv_w > std::min(p[o[1]].inv_w, p[o[2]].inv_w)) std::rotate(o.begin(), o.begin() + 1, o.end());
+  while (p[o[0]].z > std::min(p[o[1]].z, p[o[2]].z)) std::rotate(o.begin(), o.begin() + 1, o.end());
+  const DepthPlane<R> depth_plane({p[o[0]], p[o[1]], p[o[2]]});
+  while (p[o[0]].inv_w > std::min(p[o[1]].inv_w, p[o[2]].inv_w)) std::rotate(o.begin(), o.begin() + 1, o.end());  // smallest 1/w first
   const ScreenPoint<R>&a = p[o[0]], &b = p[o[1]], &c = p[o[2]];
   const auto real = [](int64_t i) { return static_cast<R>(i); };
-  const TriangleLanes<R> t{
-      real(a.x), real(a.y), real(b.x - a.x), real(b.y - a.y), real(c.x - a.x), real(c.y - a.y), real(std::abs(area)), a.inv_w, b.inv_w,
-      c.inv_w,   R(1)};
+  TriangleLanes<R> t{real(a.x), real(a.y), real(b.x - a.x), real(b.y - a.y), real(c.x - a.x), real(c.y - a.y), R(0), a.inv_w, b.inv_w,
+                     c.inv_w,   R(1)};
+  t.area = difference_of_products(t.e1x, t.e2y, t.e1y, t.e2x);
   ComponentLanes<R, kComponents<V>> lanes;
   const auto v0 = to_components<R>(in[o[0]]->varyings), v1 = to_components<R>(in[o[1]]->varyings),
              v2 = to_components<R>(in[o[2]]->varyings);
@@ -157,7 +115,8 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
     px.y = real(y) + R(0.5f);
     px.quad_x = real(x & 1);
     px.quad_y = real(y & 1);
-    R z = std::clamp(a.z + px.weights.b1 * (b.z - a.z) + px.weights.b2 * (c.z - a.z), R(0), R(1));
+    R z = std::clamp(depth_plane.at(x * 256 + 128, y * 256 + 128), R(std::min(state.depth.range_near, state.depth.range_far)),
+                     R(std::max(state.depth.range_near, state.depth.range_far)));
     px.find_z = [](const Pixel<R>& pixel) { return *static_cast<const R*>(pixel.z_source); };
     px.z_source = &z;
     px.front_facing = front;
@@ -183,25 +142,19 @@ template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not know the ids of primitives");
   using V = typename S::template Varyings<R>;
-  const Rect viewport = state.viewport.value_or(Rect{0, 0, target.color.width(), target.color.height()});
-  Rect bounds = intersect({0, 0, target.color.width(), target.color.height()}, viewport);
+  const Rect rect = state.viewport.value_or(Rect{0, 0, target.color.width(), target.color.height()});
+  const Viewport viewport = make_viewport(rect, state.depth);
+  Rect bounds = intersect({0, 0, target.color.width(), target.color.height()}, rect);
   if (state.scissor) bounds = intersect(bounds, *state.scissor);
-  const R near_w = state.depth.clip == ClipDepth::negative_one_to_one ? R(1) : R(0);
+  const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    std::vector<naive::Vertex<R, V>> polygon;
-    for (std::size_t k = 0; k < 3; ++k) polygon.push_back(naive::shade_vertex<R>(shader, vertices, indices[i + k]));
-    const auto whole = polygon;
-    const V& provoking = whole[state.provoking == ProvokingVertex::first ? 0 : 2].varyings;
+    std::array<naive::Vertex<R, V>, 3> whole;
+    for (std::size_t k = 0; k < 3; ++k) whole[k] = naive::shade_vertex<R>(shader, vertices, indices[i + k]);
     PrimitiveOf<S, R> face{};
     if constexpr (HasPrimitive<S>) face = shader.primitive(whole[0].varyings, whole[1].varyings, whole[2].varyings);
-    polygon = naive::clip(polygon, [](const vec4<R>& p) { return p.w - R(kMinW); });
-    polygon = naive::clip(polygon, [&](const vec4<R>& p) { return p.z + near_w * p.w; });
-    polygon = naive::clip(polygon, [](const vec4<R>& p) { return p.w - p.z; });
-    for (std::size_t k = 2; k < polygon.size(); ++k) {
-      std::array<const naive::Vertex<R, V>*, 3> v{&polygon[0], &polygon[k - 1], &polygon[k]};
-      std::array<naive::ScreenPoint<R>, 3> p;
-      for (std::size_t j = 0; j < 3; ++j) p[j] = naive::to_window(v[j]->pos_clip, viewport, state.depth);
-      naive::rasterize(target, shader, v, face, p, bounds, state, provoking);
+    for (const std::array<naive::Vertex<R, V>, 3>& piece : naive::clipped(whole, viewport, state.depth, provoking)) {
+      const std::array<naive::ScreenPoint<R>, 3> p{piece[0].window, piece[1].window, piece[2].window};
+      naive::rasterize(target, shader, {&piece[0], &piece[1], &piece[2]}, face, p, bounds, state, whole[provoking].varyings);
     }
   }
 }

@@ -39,7 +39,7 @@ RASTER_PHASES = [
     ["visibility/"],
     ["shade/"],
     ["constant_tiles", "tile_worker", "detail/"],
-    ["pass", "naive"],
+    ["pass", "naive", "naive_steps"],
 ]
 
 # Third-party headers and the only files or folders of src/ that may include them.

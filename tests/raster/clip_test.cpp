@@ -122,12 +122,9 @@ TEST(Clip, InterpolatesVaryingsOfNewVertices) {
   // The new vertex is the clip-space midpoint of an edge from w = 1 to w = 3, so its own w is 2. Smooth varyings use the clip-space
   // weights, 1/2 each. Linear varyings are interpolated in window space, where the weights are 1/2 · 1/2 = 1/4 and 1/2 · 3/2 = 3/4.
   const std::array<Interpolation, 3> modes{Interpolation::smooth, Interpolation::linear, Interpolation::flat};
-  ShaderKernels kernels;
-  kernels.varying_count = 3;
-  kernels.interpolations = modes.data();
   const std::array<float, 3> a{0, 0, 5}, b{8, 8, 6}, c{1, 1, 7};
   std::array<float, 3> out{};
-  interpolate_corner({glm::dvec4(0, 0, 0, 2), glm::dvec3(0.5, 0.5, 0)}, {1, 3, 1}, {a.data(), b.data(), c.data()}, 2, kernels, out.data());
+  interpolate_corner({glm::dvec4(0, 0, 0, 2), glm::dvec3(0.5, 0.5, 0)}, {1, 3, 1}, {a.data(), b.data(), c.data()}, 2, modes, out.data());
   EXPECT_EQ(out[0], 4.0f);
   EXPECT_EQ(out[1], 6.0f);
   EXPECT_EQ(out[2], 7.0f);

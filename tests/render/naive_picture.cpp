@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/naive_picture.h"
 
-#include "halfspace/raster/naive.h"
+#include <algorithm>
+
+#include "halfspace/render/naive_draws.h"
+#include "halfspace/render/naive_render.h"
 
 namespace halfspace {
 
@@ -26,24 +29,20 @@ struct Placed : S {
 
 }  // namespace
 
-template <class R>
-Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height, Positions positions) {
-  NaiveTarget<R> target(width, height, vec4<R>(scene.clear_color), R(0));
-  for (const PreparedDraw& draw : scene.draws) {
-    std::visit(
-        [&]<class S>(const S& shader) {
-          if constexpr (kGivesPointSprite<S> || kGivesPointSize<S>) {
-            HS_CHECK(false);  // the naive pipeline does not support points
-          } else {
-            draw_naive(target, Placed<S>{shader, positions}, draw.vertices, *draw.indices, draw.state);
-          }
-        },
-        draw.shader);
-  }
+template <>
+Image<vec4<double>> naive_picture<double>(const PreparedScene& scene, int width, int height, Positions positions) {
+  NaiveTarget<double> target(width, height, vec4<double>(scene.clear_color), 0.0);
+  draw_all_naive(target, scene, [&]<class S>(const S& shader) { return Placed<S>{shader, positions}; });
   return target.color;
 }
 
-template Image<vec4<float>> naive_picture<float>(const PreparedScene&, int, int, Positions);
-template Image<vec4<double>> naive_picture<double>(const PreparedScene&, int, int, Positions);
+template <>
+Image<vec4<float>> naive_picture<float>(const PreparedScene& scene, int width, int height, Positions) {
+  Image<glm::vec4> light(width, height);
+  render_naive(scene, light);
+  Image<vec4<float>> out(width, height);
+  std::ranges::transform(light.texels(), out.data(), [](const glm::vec4& c) { return vec4<float>(c); });
+  return out;
+}
 
 }  // namespace halfspace

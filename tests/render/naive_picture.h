@@ -40,6 +40,10 @@ enum class Positions { in_r, as_rendered };
 /// naive_picture.cpp, so that the shaders of all scenes are compiled only there.
 template <class R>
 Image<vec4<R>> naive_picture(const PreparedScene& scene, int width, int height, Positions positions = Positions::in_r);
+template <>
+Image<vec4<float>> naive_picture<float>(const PreparedScene& scene, int width, int height, Positions positions);
+template <>
+Image<vec4<double>> naive_picture<double>(const PreparedScene& scene, int width, int height, Positions positions);
 
 template <class R>
 Image<vec4<R>> naive_picture(const SceneDescription& scene, int width, int height) {

@@ -135,16 +135,16 @@ ScreenVertex project_corner(const Viewport& v, const glm::dvec4& p) {
 }
 
 void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, const std::array<const float*, 3>& rows, int provoking,
-                        const ShaderKernels& kernels, float* out) {
+                        std::span<const Interpolation> modes, float* out) {
   const glm::dvec3& smooth = c.weights;
   // Linear in window space. The weight of a vertex is its clip-space weight times its w, divided by the w of the corner.
   const glm::dvec3 linear = glm::dvec3(smooth.x * w[0], smooth.y * w[1], smooth.z * w[2]) / c.pos_clip.w;
-  for (int i = 0; i < kernels.varying_count; ++i) {
-    if (kernels.interpolations[i] == Interpolation::flat) {
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (modes[i] == Interpolation::flat) {
       out[i] = rows[static_cast<std::size_t>(provoking)][i];
       continue;
     }
-    const glm::dvec3& weight = kernels.interpolations[i] == Interpolation::linear ? linear : smooth;
+    const glm::dvec3& weight = modes[i] == Interpolation::linear ? linear : smooth;
     out[i] = static_cast<float>(weight.x * static_cast<double>(rows[0][i]) + weight.y * static_cast<double>(rows[1][i]) +
                                 weight.z * static_cast<double>(rows[2][i]));
   }

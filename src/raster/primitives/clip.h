@@ -53,9 +53,9 @@ ClipPolygon clip_line(const Viewport& viewport, const DepthState& depth, const s
 ScreenVertex project_corner(const Viewport& viewport, const glm::dvec4& pos_clip);
 
 /// Writes the varyings of corner c to out. Smooth and linear varyings are interpolated. Flat ones are taken from the provoking vertex.
-/// rows: varyings of the three vertices; w: their clip-space w.
+/// rows: varyings of the three vertices; w: their clip-space w; modes: one per varying.
 void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, const std::array<const float*, 3>& rows, int provoking,
-                        const ShaderKernels& kernels, float* out);
+                        std::span<const Interpolation> modes, float* out);
 
 /// Returns twice the signed area of a triangle; it is positive for counter-clockwise triangles.
 inline int64_t orient2d(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {

@@ -259,7 +259,7 @@ class DrawRangeSetup {
       const auto first_varying = static_cast<uint32_t>(chunk_.clip_varyings.size());
       chunk_.clip_varyings.resize(first_varying + n + weights);
       float* const out = chunk_.clip_varyings.data() + first_varying;
-      interpolate_corner(c, w, varyings, static_cast<int>(provoking_), draw_.kernels, out);
+      interpolate_corner(c, w, varyings, static_cast<int>(provoking_), {draw_.kernels.interpolations, n}, out);
       for (std::size_t k = 0; k < weights; ++k) out[n + k] = static_cast<float>(c.weights[static_cast<int>(k) + 1]);
       // Corners that are vertices of the triangle have exactly the result of the vertex stage.
       const bool cut = c.vertex < 0;

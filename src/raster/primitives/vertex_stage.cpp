@@ -12,21 +12,6 @@ namespace halfspace {
 
 namespace {
 
-HS_INLINE Int bit(Mask m, Outcode code) { return select(m, Int(code), Int(0)); }
-
-HS_INLINE Int outcode(const Viewport& v, const DepthState& depth, Real x, Real y, Real z, Real w) {
-  const Real zero(0.0f);
-  const Mask finite = (x - x == zero) & (y - y == zero) & (z - z == zero) & (w - w == zero);
-  const Real z_low = depth.clip == ClipDepth::negative_one_to_one ? -w : zero;
-  // fma gives the exact sign of x − guard·w, which the clip stage also computes. If a vertex were inside here and outside there, one of two
-  // adjacent triangles would be clipped at the vertex and the other one would not.
-  const Mask inside_guard = (fma(w, Real(-v.guard_left), x) >= zero) && (fma(w, Real(-v.guard_right), x) <= zero) &&
-                            (fma(w, Real(-v.guard_bottom), y) >= zero) && (fma(w, Real(-v.guard_top), y) <= zero) && (w >= Real(kMinW));
-  Int code = bit(x < -w, kOutLeft) | bit(x > w, kOutRight) | bit(y < -w, kOutBottom) | bit(y > w, kOutTop);
-  if (!depth.clamp) code = code | bit(z < z_low, kOutNear) | bit(z > w, kOutFar);
-  return code | bit(!inside_guard, kOutGuard) | bit(!finite, kOutNonFinite);
-}
-
 // Transforms clip-space positions to window coordinates and outcodes. clip: four rows with x, y, z and w. Returns the union of the
 // outcodes.
 Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* screen, Outcode* outcodes) {
@@ -37,22 +22,18 @@ Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* sc
     const Real y = load<Real>(clip + kVertexBatch + begin);
     const Real z = load<Real>(clip + 2 * kVertexBatch + begin);
     const Real w = load<Real>(clip + 3 * kVertexBatch + begin);
-    const Int code = outcode(v, draw.state.depth, x, y, z, w);
-    const Real inv_w = Real(1.0f) / w;
-    const Int x_fixed = snap(x, w, inv_w, v.half_width, v.center_x);
-    const Int y_fixed = snap(y, w, inv_w, v.half_height, v.center_y);
-    // The clamp only matters with depth clamp, where z/w can overflow.
-    const Real z_window = clamp(fma(z * inv_w, Real(v.depth_scale), Real(v.depth_bias)), Real(-1e30f), Real(1e30f));
+    const WindowVertex<Real> vertex = window_vertex(v, draw.state.depth, x, y, z, w);
     const int rest = std::min(kLanes, count - begin);
     static_assert(sizeof(ScreenVertex) == 16 && offsetof(ScreenVertex, z) == 8);
     ScreenVertex spare;
-    store_aos4<Int>({x_fixed, y_fixed, as_int(z_window), as_int(inv_w)}, [&](int k) { return k < rest ? &screen[begin + k] : &spare; });
+    store_aos4<Int>({vertex.x, vertex.y, as_int(vertex.z), as_int(vertex.inv_w)},
+                    [&](int k) { return k < rest ? &screen[begin + k] : &spare; });
     alignas(64) std::array<int32_t, kLanes> codes;
-    store(codes.data(), code);
+    store(codes.data(), vertex.outcode);
     std::array<Outcode, kLanes> narrow;
     for (std::size_t k = 0; k < narrow.size(); ++k) narrow[k] = static_cast<Outcode>(codes[k]);
     std::copy_n(narrow.begin(), rest, outcodes + begin);
-    any = any | select(first_lanes<Mask>(rest), code, Int(0));
+    any = any | select(first_lanes<Mask>(rest), vertex.outcode, Int(0));
   }
   Outcode all = 0;
   for (int k = 0; k < kLanes; ++k) all |= static_cast<Outcode>(lane(any, k));

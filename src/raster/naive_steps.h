@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Steps of the naive pipeline (naive.h) that have two versions: for float, the formulas of the tile-based pipeline; for double, the same
+// steps as the specification gives them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "halfspace/raster/pipeline/window.h"
+#include "halfspace/raster/primitives/clip.h"
+#include "halfspace/raster/primitives/setup_scalar.h"
+#include "halfspace/raster/primitives/vertex_stage.h"
+#include "halfspace/shading/contract.h"
+
+namespace halfspace::naive {
+
+template <class R>
+inline constexpr bool kIsFloat = std::is_same_v<R, float>;
+
+// Window coordinates; x and y in 1/256 px.
+template <class R>
+struct ScreenPoint {
+  int64_t x, y;
+  R z, inv_w;
+};
+
+template <class R, class V>
+struct Vertex {
+  vec4<R> pos_clip;
+  V varyings;
+  ScreenPoint<R> window;
+};
+
+// ---- step 2: clip --------------------------------------------------------------------------------------------------
+
+template <class R, class V>
+Vertex<R, V> mix(const Vertex<R, V>& a, const Vertex<R, V>& b, R t) {
+  auto x = to_components<R>(a.varyings);
+  const auto y = to_components<R>(b.varyings);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += t * (y[i] - x[i]);
+  return {a.pos_clip + (b.pos_clip - a.pos_clip) * t, from_components<V, R>(x), {}};
+}
+
+// Clips a convex polygon against the plane distance(pos_clip) = 0, keeping the side where distance >= 0.
+template <class R, class V, class Distance>
+std::vector<Vertex<R, V>> clip(const std::vector<Vertex<R, V>>& polygon, Distance distance) {
+  std::vector<Vertex<R, V>> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const R da = distance(a.pos_clip), db = distance(b.pos_clip);
+    if (da >= 0) kept.push_back(a);
+    if (da >= 0 && db < 0) kept.push_back(mix(a, b, da / (da - db)));
+    if (da < 0 && db >= 0) kept.push_back(mix(b, a, db / (db - da)));
+  }
+  return kept;
+}
+
+// ---- step 3: divide by w and transform to window coordinates --------------------------------------------------------
+
+// Positions are snapped to the 1/256 px grid.
+template <class R>
+ScreenPoint<R> to_window(const vec4<R>& p, const Viewport& v, const DepthState& depth) {
+  if constexpr (kIsFloat<R>) {
+    const WindowVertex<R> w = window_vertex<R>(v, depth, p.x, p.y, p.z, p.w);
+    return {w.x, w.y, w.z, w.inv_w};
+  } else {
+    const R inv_w = R(1) / p.w;
+    return {snap(static_cast<double>(p.x * inv_w), v.half_width, v.center_x), snap(static_cast<double>(p.y * inv_w), v.half_height, v.center_y),
+            p.z * inv_w * R(v.depth_scale) + R(v.depth_bias), inv_w};
+  }
+}
+
+template <class R, class V>
+using Piece = std::array<Vertex<R, V>, 3>;
+
+// Returns the polygon that is left of a triangle, with window coordinates.
+template <class V>
+std::vector<Vertex<float, V>> clipped_polygon(const Piece<float, V>& t, const Viewport& viewport, const DepthState& depth,
+                                              std::size_t provoking) {
+  std::array<glm::vec4, 3> pos_clip;
+  std::array<std::array<float, kComponents<V>>, 3> rows;
+  for (std::size_t k = 0; k < 3; ++k) {
+    pos_clip[k] = glm::vec4(t[k].pos_clip.x, t[k].pos_clip.y, t[k].pos_clip.z, t[k].pos_clip.w);
+    rows[k] = to_components<float>(t[k].varyings);
+  }
+  const ClipPolygon polygon = clip_triangle(viewport, depth, pos_clip);
+  const std::array<double, 3> w{static_cast<double>(pos_clip[0].w), static_cast<double>(pos_clip[1].w), static_cast<double>(pos_clip[2].w)};
+  std::vector<Vertex<float, V>> kept;
+  for (int i = 0; i < polygon.count; ++i) {
+    const ClipCorner& c = polygon.corners[static_cast<std::size_t>(i)];
+    if (c.vertex >= 0) {
+      kept.push_back(t[static_cast<std::size_t>(c.vertex)]);
+      continue;
+    }
+    std::array<float, kComponents<V>> row;
+    interpolate_corner(c, w, {rows[0].data(), rows[1].data(), rows[2].data()}, static_cast<int>(provoking), kInterpolations<V>, row.data());
+    const ScreenVertex s = project_corner(viewport, c.pos_clip);
+    kept.push_back({{}, from_components<V, float>(row), {s.x, s.y, s.z, s.inv_w}});
+  }
+  return kept;
+}
+
+template <class R, class V>
+std::vector<Vertex<R, V>> clipped_polygon(const Piece<R, V>& t, const Viewport& viewport, const DepthState& depth, std::size_t) {
+  const R near_w = depth.clip == ClipDepth::negative_one_to_one ? R(1) : R(0);
+  std::vector<Vertex<R, V>> polygon(t.begin(), t.end());
+  polygon = clip(polygon, [](const vec4<R>& p) { return p.w - R(kMinW); });
+  polygon = clip(polygon, [&](const vec4<R>& p) { return p.z + near_w * p.w; });
+  polygon = clip(polygon, [](const vec4<R>& p) { return p.w - p.z; });
+  for (Vertex<R, V>& v : polygon) v.window = to_window(v.pos_clip, viewport, depth);
+  return polygon;
+}
+
+// Returns the triangles that are left of a triangle, with window coordinates: those of a fan.
+template <class R, class V>
+std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const DepthState& depth, std::size_t provoking) {
+  Fan fan;
+  std::vector<Vertex<R, V>> polygon;
+  if constexpr (kIsFloat<R>) {
+    Outcode any = 0, all = kOutView;
+    for (Vertex<R, V>& v : t) {
+      const WindowVertex<R> w = window_vertex<R>(viewport, depth, v.pos_clip.x, v.pos_clip.y, v.pos_clip.z, v.pos_clip.w);
+      v.window = {w.x, w.y, w.z, w.inv_w};
+      any |= static_cast<Outcode>(w.outcode);
+      all &= static_cast<Outcode>(w.outcode);
+    }
+    if ((any & kOutNonFinite) != 0 || all != 0) return {};
+    if ((any & kOutNeedsClip) == 0) return {t};
+    polygon = clipped_polygon(t, viewport, depth, provoking);
+    std::vector<ClipVertex> corners;
+    for (const Vertex<R, V>& v : polygon)
+      corners.push_back({{static_cast<int32_t>(v.window.x), static_cast<int32_t>(v.window.y), v.window.z, v.window.inv_w}, 0});
+    fan = fan_of(corners.data(), static_cast<uint32_t>(corners.size()));
+  } else {
+    polygon = clipped_polygon(t, viewport, depth, provoking);
+  }
+  std::vector<Piece<R, V>> pieces;
+  const std::size_t n = polygon.size();
+  for (std::size_t k = 2; k < n; ++k) {
+    const Piece<R, V> piece{polygon[fan.apex], polygon[(fan.apex + k - 1) % n], polygon[(fan.apex + k) % n]};
+    const ScreenPoint<R>&a = piece[0].window, &b = piece[1].window, &c = piece[2].window;
+    const int64_t area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (kIsFloat<R> && area != 0 && (area > 0) != fan.counter_clockwise) continue;  // a fold of a sliver; see fan_of
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+// ---- step 5: depth -------------------------------------------------------------------------------------------------
+
+// Depth of a triangle at window positions in 1/256 px. The corners are counter-clockwise, the one with the smallest depth first.
+template <class R>
+class DepthPlane {
+ public:
+  explicit DepthPlane(const std::array<ScreenPoint<R>, 3>& p) : p_(p) {
+    const double area = static_cast<double>((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
+    z_edge1_ = static_cast<R>((static_cast<double>(p[1].z) - static_cast<double>(p[0].z)) / area);
+    z_edge2_ = static_cast<R>((static_cast<double>(p[2].z) - static_cast<double>(p[0].z)) / area);
+    const auto [x_low, x_high] = std::minmax({p[0].x, p[1].x, p[2].x});
+    const auto [y_low, y_high] = std::minmax({p[0].y, p[1].y, p[2].y});
+    small_ = x_high - x_low <= kSmallExtent && y_high - y_low <= kSmallExtent;
+    z_max_ = std::max({p[0].z, p[1].z, p[2].z});
+  }
+
+  R at(int64_t x, int64_t y) const {
+    const int64_t dx = x - p_[0].x, dy = y - p_[0].y;
+    const int64_t e1x = p_[1].x - p_[0].x, e1y = p_[1].y - p_[0].y, e2x = p_[2].x - p_[0].x, e2y = p_[2].y - p_[0].y;
+    R w1 = static_cast<R>(dx * e2y - dy * e2x), w2 = static_cast<R>(e1x * dy - e1y * dx);
+    if (kIsFloat<R> && !small_) {  // large triangles round the edge functions differently (visibility/depth_plane.h)
+      w1 = difference_of_products(static_cast<R>(dx), static_cast<R>(e2y), static_cast<R>(dy), static_cast<R>(e2x));
+      w2 = difference_of_products(static_cast<R>(e1x), static_cast<R>(dy), static_cast<R>(e1y), static_cast<R>(dx));
+    }
+    return std::clamp(fma(w1, z_edge1_, fma(w2, z_edge2_, p_[0].z)), p_[0].z, z_max_);
+  }
+
+ private:
+  std::array<ScreenPoint<R>, 3> p_;
+  R z_edge1_, z_edge2_, z_max_;
+  bool small_;
+};
+
+}  // namespace halfspace::naive
