@@ -199,7 +199,10 @@ std::vector<std::filesystem::path> tool_folders() {
   if (folder.empty()) return {};
   // The loader selects a library for the processor in LIB/glibc-hwcaps/LEVEL.
   if (folder.parent_path().filename() == "glibc-hwcaps") folder = folder.parent_path().parent_path();
-  return {folder, folder / "halfspace", folder / HALFSPACE_TOOLS_FROM_BIN};
+  // An installed Python module is in PREFIX/lib/python3/dist-packages/halfspace or PREFIX/lib/python3.N/site-packages/halfspace.
+  const std::filesystem::path parent = folder.parent_path().filename();
+  const bool is_python = parent == "dist-packages" || parent == "site-packages";
+  return {folder, folder / "halfspace", folder / (is_python ? "../../../../bin" : "") / HALFSPACE_TOOLS_FROM_BIN};
 }
 
 std::filesystem::path find_tool(const char* name) {
