@@ -70,8 +70,33 @@ foreach(header IN LISTS halfspace_public_headers)
 endforeach()
 set(halfspace_installed_headers ${headers})
 
-# Shared libraries do not export the functions of a source whose header is not installed, and of the private folders of raster. Unity builds
-# compile sources with options of their own one by one, so static libraries are left alone.
+# Sets out to the headers that a program or another module includes.
+function(halfspace_headers_used_elsewhere out)
+  set(used "")
+  file(GLOB_RECURSE sources ${halfspace_SOURCE_DIR}/src/*.cpp ${halfspace_SOURCE_DIR}/src/*.h ${halfspace_SOURCE_DIR}/apps/*.cpp
+    ${halfspace_SOURCE_DIR}/apps/*.h ${halfspace_SOURCE_DIR}/benchmarks/*.cpp ${halfspace_SOURCE_DIR}/python/*.cpp)
+  foreach(source IN LISTS sources)
+    file(RELATIVE_PATH module ${halfspace_SOURCE_DIR}/src ${source})
+    string(REGEX REPLACE "/.*" "" module ${module})
+    file(STRINGS ${source} includes REGEX "^#include \"halfspace/")
+    foreach(include IN LISTS includes)
+      string(REGEX REPLACE ".*\"halfspace/(.*)\".*" "\\1" included ${include})
+      if(NOT included MATCHES "^${module}/")
+        list(APPEND used ${included})
+      endif()
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES used)
+  set(${out} ${used} PARENT_SCOPE)
+endfunction()
+if(BUILD_SHARED_LIBS)
+  halfspace_headers_used_elsewhere(halfspace_exported_headers)
+  list(APPEND halfspace_exported_headers ${halfspace_installed_headers})
+endif()
+
+# Shared libraries export the functions of headers that are installed or used by another module or a program. They do not export the functions
+# of other headers and of the private folders of raster. Unity builds compile sources with options of their own one by one, so static libraries
+# are left alone.
 function(halfspace_hide_private_functions sources)
   if(NOT BUILD_SHARED_LIBS)
     return()
@@ -79,7 +104,7 @@ function(halfspace_hide_private_functions sources)
   foreach(source IN LISTS sources)
     file(RELATIVE_PATH header ${halfspace_SOURCE_DIR}/src ${source})
     string(REGEX REPLACE "[.]cpp$" ".h" header ${header})
-    if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_installed_headers
+    if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_exported_headers
         AND (EXISTS ${halfspace_SOURCE_DIR}/src/${header} OR header MATCHES "^raster/.*/"))
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fvisibility=hidden)
     endif()
@@ -225,7 +250,7 @@ function(halfspace_add_install_targets)
       add_dependencies(installed ${target})
     endif()
   endforeach()
-  foreach(target halfspace-program-cli halfspace-program-bench halfspace_python)
+  foreach(target halfspace-program-cli halfspace-program-bench)
     if(TARGET ${target})
       add_dependencies(isa ${target})
     endif()

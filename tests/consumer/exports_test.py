@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Compares the symbols that the shared libraries export with tests/consumer/exports.txt.
+
+    exports_test.py FOLDER
+
+FOLDER contains the libraries of a build with BUILD_SHARED_LIBS. With HALFSPACE_RENEW_EXPORTS=1, the file is written instead. Each of its
+lines is the name of a function or variable, without its parameters. Names of private functions must not appear in it.
+"""
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+LIST = Path(__file__).resolve().parent / "exports.txt"
+
+
+def exported(library):
+    """Returns the names that a library exports, without those that the compiler emits in every object that uses them."""
+    lines = subprocess.run(["nm", "-D", "-C", "--defined-only", library], check=True, capture_output=True, text=True).stdout.splitlines()
+    names = set()
+    for line in lines:
+        match = re.fullmatch(r"[0-9a-f]+ ([A-Za-z]) (.*?)(@@.*)?", line)
+        if match[1] in "TDBR":
+            names.add(re.sub(r"lanes\d+", "lanes", re.sub(r"\(.*", "", match[2].replace("(anonymous namespace)", "ANONYMOUS"))))
+        elif not re.search(r"\bhalfspace::", match[2]):
+            names.add(match[2])
+    return names
+
+
+def main():
+    libraries = sorted(Path(sys.argv[1]).glob("libhalfspace-*-lanes*.so"))
+    if not libraries:
+        sys.exit(f"exports_test.py: no shared libraries of Halfspace in {sys.argv[1]}")
+    found = sorted({name for library in libraries for name in exported(library)})
+    foreign = [name for name in found if not re.match(r"(non-virtual thunk to |vtable for |typeinfo (name )?for )?halfspace::", name)]
+    if foreign:
+        sys.exit("exported, but not in namespace halfspace:\n" + "\n".join(foreign))
+    if os.environ.get("HALFSPACE_RENEW_EXPORTS"):
+        LIST.write_text("\n".join(found) + "\n")
+    listed = LIST.read_text().split("\n")[:-1]
+    added, removed = sorted(set(found) - set(listed)), sorted(set(listed) - set(found))
+    for title, names in (("exported, but not listed", added), ("listed, but not exported", removed)):
+        if names:
+            print(f"{title} in {LIST.name}:\n  " + "\n  ".join(names))
+    if added or removed:
+        sys.exit("exports_test.py: make private what users should not call, then run this test with HALFSPACE_RENEW_EXPORTS=1")
+    print(f"{len(libraries)} libraries export the {len(listed)} listed names")
+
+
+if __name__ == "__main__":
+    main()
