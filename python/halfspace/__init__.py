@@ -12,8 +12,6 @@
 All problems with arguments and files are InputError, a ValueError of one line. Results have the same bits for any number of threads.
 """
 
-import os as _os
-
 from . import _core
 from ._core import InputError, OutputError
 from .camera import Camera
@@ -24,11 +22,6 @@ from .scene import RenderWarning, Scene, render
 
 InputError.__module__ = OutputError.__module__ = __name__
 __version__: str = _core.version
-
-# The decoders of image files are installed with the package, or else with the program.
-_folder = _os.path.dirname(_os.path.abspath(__file__))
-if _os.path.exists(_os.path.join(_folder, "halfspace-image-tool")):
-    _core.set_tool_folder(_folder)
 
 
 def scenes() -> "list[str]":

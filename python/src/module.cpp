@@ -7,7 +7,6 @@
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "halfspace/core/parallel.h"
-#include "halfspace/image/image_io.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace::python {
@@ -32,7 +31,6 @@ PYBIND11_MODULE(_core, m) {
   m.attr("lanes") = kLanes;
   m.attr("arch") = build_arch();
   m.def("cores", &Workers::cores);
-  m.def("set_tool_folder", [](const std::string& folder) { set_tool_folder(folder); });
   m.def("scene_names", &scene_names);
   bind_camera(m);
   bind_scene(m);
