@@ -12,15 +12,25 @@
 All problems with arguments and files are InputError, a ValueError of one line. Results have the same bits for any number of threads.
 """
 
-from . import _core
-from ._core import InputError, OutputError
-from .camera import Camera
-from .material import Material, Texture, srgb
-from .mesh import Mesh
-from .picture import Picture
-from .scene import RenderWarning, Scene, render
+import os as _os
 
-InputError.__module__ = OutputError.__module__ = __name__
+from . import _instruction_set
+
+_folder = _instruction_set.extension_folder(_os.path.dirname(_os.path.abspath(__file__)), _instruction_set.processor_flags())
+if _folder is not None:
+    __path__.insert(0, _folder)
+
+from . import _core  # noqa: E402
+from ._core import InputError, OutputError  # noqa: E402
+from ._one_call import render  # noqa: E402
+from ._options import RenderWarning  # noqa: E402
+from .camera import Camera  # noqa: E402
+from .material import Material, Texture, srgb  # noqa: E402
+from .mesh import Mesh  # noqa: E402
+from .picture import Picture  # noqa: E402
+from .scene import Scene  # noqa: E402
+
+RenderWarning.__module__ = InputError.__module__ = OutputError.__module__ = __name__
 __version__: str = _core.version
 
 

@@ -5,83 +5,20 @@ from __future__ import annotations
 
 import json
 import os
-import sys
-import warnings
+import threading
 from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _check, _core
 from ._check import fail
+from ._options import LIGHTING, emit, pixel_kind, setting_text, times_of, view_options
 from .camera import Camera
 from .mesh import Mesh
 from .picture import Picture
 
 Size = Tuple[int, int]
 _MAX_COPIES = 65536
-
-
-class RenderWarning(UserWarning):
-    """A problem that does not prevent a picture, such as a missing texture."""
-
-
-# How model files are shown by `halfspace render MODEL`.
-_STUDIO: Dict[str, Any] = {
-    "version": 1, "samples": 4,
-    "lights": {"key": {"type": "directional", "direction": [-0.16, 0.79, 0.59], "intensity": 1.2}},
-    "environments": {"around": {"type": "studio", "size": 256, "brightness": 0.75}},
-    "reflections": {"environment": "around"},
-    "background": {"color": [0.62, 0.63, 0.65]},
-    "post": {"hdr": True, "tone": "aces", "exposure": 0.62},
-    "shadow": {"method": "pcf7", "resolution": 1024, "faces": "both"},
-}
-_DARK: Dict[str, Any] = {"version": 1, "samples": 4}
-_LIGHTING = {"studio": _STUDIO, "none": _DARK}
-
-# Options of Scene.load for model files, in the order of ModelView.
-_VIEW_OPTIONS = ("aspect", "yaw", "pitch", "zoom", "fov", "eye", "look_at", "up", "inside", "floor", "environment", "background",
-                 "model_scene", "model_animation", "model_variant", "up_axis", "turn_seconds", "allow_outside")
-_MODELS = (".obj", ".gltf", ".glb", ".ply", ".stl")
-
-
-def setting_text(key: str, value: Any) -> str:
-    """Returns "KEY=VALUE" for a value of Python or NumPy."""
-    if isinstance(value, (bool, np.bool_)):
-        text = "true" if value else "false"
-    elif isinstance(value, str):
-        text = value
-    elif isinstance(value, os.PathLike):
-        text = os.fspath(value)
-    elif isinstance(value, (int, np.integer)):
-        text = str(int(value))
-    elif isinstance(value, (float, np.floating)):
-        text = repr(float(value))
-    elif isinstance(value, (list, tuple, np.ndarray)):
-        array = np.asarray(value)
-        text = ",".join(repr(float(x)) for x in array) if array.ndim == 1 else json.dumps(array.tolist())
-    else:
-        raise fail(key, f"is a {type(value).__name__}", "a bool, a number, a string or a sequence of numbers")
-    return f"{key}={text}"
-
-
-def _view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
-    given = {name: value for name, value in options.items() if value is not None}
-    for name in given:
-        if name not in _VIEW_OPTIONS:
-            raise TypeError(f"{name}: unknown argument; expected one of {', '.join(_VIEW_OPTIONS)}")
-        if not path.lower().endswith(_MODELS) and name != "aspect":
-            raise fail(name, "applies only to model files", "a file ending in .obj, .gltf, .glb, .ply or .stl")
-    limits = {"aspect": (1e-3, 1e3), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
-              "turn_seconds": (0.0, 1e9)}
-    for name, (low, high) in limits.items():
-        if name in given:
-            given[name] = _check.number(name, given[name], low, high)
-    for name in ("eye", "look_at", "up"):
-        if name in given:
-            given[name] = _check.vector(name, given[name])
-    if "up_axis" in given:
-        _check.choice("up_axis", given["up_axis"], ("y", "z"))
-    return given
 
 
 class Scene:
@@ -93,16 +30,17 @@ class Scene:
         curve: colors are clamped to [0, 1]).
     threads: number of threads; None: one per core. The pictures do not depend on it.
 
-    All methods can be called by several Python threads at once. Pictures and labels are arrays of their own; they do not refer to the scene.
+    All methods can be called by several Python threads at once. Pictures are arrays of their own; they do not refer to the scene.
     """
 
     def __init__(self, *, lighting: str = "studio", threads: Optional[int] = None) -> None:
-        text = json.dumps(_LIGHTING[_check.choice("lighting", lighting, tuple(_LIGHTING))])
+        text = json.dumps(LIGHTING[_check.choice("lighting", lighting, tuple(LIGHTING))])
         self._start(_core.Scene.parse(text, "scene", _check.threads(threads, _core.cores())))
         self._fits = True
 
     def _start(self, core: Any) -> None:
         self._core = core
+        self._lock = threading.RLock()  # guards the following members
         self._pending: Dict[str, Any] = {}
         self._meshes: Dict[str, Tuple[Mesh, np.ndarray]] = {}
         self._names = 0
@@ -123,7 +61,7 @@ class Scene:
         """
         name = os.fspath(path)
         scene = cls.__new__(cls)
-        scene._start(_core.Scene.open(name, _view_options(name, view), _check.threads(threads, _core.cores())))
+        scene._start(_core.Scene.open(name, view_options(name, view), _check.threads(threads, _core.cores())))
         return scene
 
     # ---- keys ----------------------------------------------------------------------------------------------------
@@ -166,40 +104,42 @@ class Scene:
         transform: object to world space, (4, 4), or (N, 4, 4) for N copies; affine, float. None: the identity.
         name: a letter a to z followed by a to z, 0 to 9 and _. None: chosen.
 
-        The name is a section of the scene: scene[name + ".visible"] = False hides the object. Object ids in labels count objects in the
-        order in which they were added.
+        The name is a section of the scene: scene[name + ".visible"] = False hides the object. 
         """
         if not isinstance(mesh, Mesh):
             mesh = Mesh.from_trimesh(mesh)
         places = np.eye(4)[np.newaxis] if transform is None else self._transforms(transform)
-        if name is None:
-            self._names += 1
-            name = f"object_{self._names}"
-        elif name in self._meshes:
-            raise fail("name", f"an object '{name}' exists", "another name")
-        objects = self._pending.setdefault("objects", {})
-        objects[name] = {"shape": "file", "file": mesh._file, "casts_shadow": bool(casts_shadow), "receives_shadow": bool(receives_shadow)}
-        self._core.provide(mesh._file, mesh._model)
-        self._core.place(name, places)
-        self._meshes[name] = (mesh, places)
+        with self._lock:
+            if name is None:
+                self._names += 1
+                name = f"object_{self._names}"
+            elif name in self._meshes:
+                raise fail("name", f"an object '{name}' exists", "another name")
+            self._pending.setdefault("objects", {})[name] = {"shape": "file", "file": mesh._file, "casts_shadow": bool(casts_shadow),
+                                                             "receives_shadow": bool(receives_shadow)}
+            self._core.provide(mesh._file, mesh._model)
+            self._core.place(name, places)
+            self._meshes[name] = (mesh, places)
         return name
 
     def place(self, name: str, transform: Any) -> None:
         """Moves an object of add(). transform: object to world space, (4, 4) or (N, 4, 4)."""
-        mesh, _ = self._mesh(name)
         places = self._transforms(transform)
-        self._core.place(name, places)
-        self._meshes[name] = (mesh, places)
+        with self._lock:
+            mesh, _ = self._mesh(name)
+            self._core.place(name, places)
+            self._meshes[name] = (mesh, places)
 
     def remove(self, name: str) -> None:
         """Removes an object of add()."""
-        mesh, _ = self._mesh(name)
-        self._flush()
-        self._core.merge(json.dumps({"objects": {name: None}}))
-        self._core.forget_object(name)
-        del self._meshes[name]
-        if all(other is not mesh for other, _ in self._meshes.values()):
-            self._core.forget_model(mesh._file)
+        with self._lock:
+            mesh, _ = self._mesh(name)
+            self._flush()
+            self._core.merge(json.dumps({"objects": {name: None}}))
+            self._core.forget_object(name)
+            del self._meshes[name]
+            if all(other is not mesh for other, _ in self._meshes.values()):
+                self._core.forget_model(mesh._file)
 
     def add_light(self, type: str = "directional", *, name: Optional[str] = None, **keys: Any) -> str:
         """Adds a light and returns its name.
@@ -208,8 +148,9 @@ class Scene:
         keys: of a light in a scene file, for example color=(1, 0.9, 0.8), intensity=2, shadow=False, falloff="physical". Colors are linear.
         """
         if name is None:
-            self._names += 1
-            name = f"light_{self._names}"
+            with self._lock:
+                self._names += 1
+                name = f"light_{self._names}"
         light = {"type": type}
         for key, value in keys.items():
             light[key] = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
@@ -221,7 +162,9 @@ class Scene:
     def bounds(self) -> Optional[np.ndarray]:
         """The lowest and highest coordinates of all objects of add(), float64 of shape (2, 3), in world space. None: there are none."""
         corners: List[np.ndarray] = []
-        for mesh, places in self._meshes.values():
+        with self._lock:
+            meshes = list(self._meshes.values())
+        for mesh, places in meshes:
             box = mesh.bounds
             points = np.array([[box[i, 0], box[j, 1], box[k, 2], 1.0] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
             if len(places) > 0:
@@ -261,7 +204,7 @@ class Scene:
         """
         width, height = _check.size(size)
         self._flush()
-        return self._picture(self._core, width, height, time, self._camera(camera, width, height), _kind(linear, alpha))
+        return self._picture(self._core, width, height, time, self._camera(camera, width, height), pixel_kind(linear, alpha))
 
     def frames(self, frames: Union[int, Iterable[int]], *, size: Size = (640, 480), fps: float = 30.0, time: float = 0.0,
                camera: Optional[Camera] = None, linear: bool = False, alpha: bool = False) -> Iterator[Picture]:
@@ -276,7 +219,7 @@ class Scene:
         numbers = list(range(frames) if isinstance(frames, (int, np.integer)) else frames)
         times = [start + int(i) / rate for i in numbers]
         self._flush()
-        core, view, kind = self._core.copy(), self._camera(camera, width, height), _kind(linear, alpha)
+        core, view, kind = self._core.copy(), self._camera(camera, width, height), pixel_kind(linear, alpha)
         if times:
             core.expect(times, width, height)
         return (self._picture(core, width, height, t, view, kind) for t in times)
@@ -290,17 +233,19 @@ class Scene:
         Returns an array of shape (N, height, width, C) with the pictures that render() returns for each camera.
         """
         width, height = _check.size(size)
-        times = [float(time)] * len(cameras) if np.ndim(time) == 0 else [float(t) for t in time]  # type: ignore[arg-type, union-attr]
-        if len(times) != len(cameras):
-            raise fail("time", f"has {len(times)} values", f"one per camera, {len(cameras)}")
-        for t in times:
-            _check.number("time", t)
+        times = times_of(time, cameras)
         self._flush()
         views = [self._camera(camera, width, height) for camera in cameras]
         try:
-            return self._core.render_batch(width, height, times, views, _kind(linear, alpha), progress)
+            return self._core.render_batch(width, height, times, views, pixel_kind(linear, alpha), progress)
         finally:
-            _emit(self._core)
+            emit(self._core)
+
+    @property
+    def objects(self) -> List[str]:
+        """The names of all objects of the scene, in the order of their ids."""
+        self._flush()
+        return self._core.objects()
 
     def _repr_png_(self) -> Optional[bytes]:
         return self.render((640, 360))._repr_png_()
@@ -311,7 +256,7 @@ class Scene:
         try:
             return core.render(width, height, _check.number("time", time), view, kind).view(Picture)
         finally:
-            _emit(core)
+            emit(core)
 
     def _camera(self, camera: Optional[Camera], width: int, height: int) -> Any:
         camera = camera if camera is not None else self.camera
@@ -324,9 +269,11 @@ class Scene:
         return camera._for_size(width, height)
 
     def _flush(self) -> None:
-        """Adds the objects that were given to add()."""
-        if self._pending:
+        """Adds the objects that were given to add(). Other threads wait until they are there."""
+        with self._lock:
             pending, self._pending = self._pending, {}
+            if not pending:
+                return
             try:
                 self._core.merge(json.dumps(pending))
             except _core.InputError:
@@ -346,47 +293,3 @@ class Scene:
         if len(places) > _MAX_COPIES:
             raise fail("transform", f"has {len(places)} copies", f"at most {_MAX_COPIES}")
         return places
-
-
-def _kind(linear: bool, alpha: bool) -> Any:
-    return _core.PixelKind.light if linear else _core.PixelKind.rgba if alpha else _core.PixelKind.rgb
-
-
-def _emit(core: Any) -> None:
-    """Passes the warnings of a scene on. They name the line of the caller of this package."""
-    lines = core.take_warnings()
-    if not lines:
-        return
-    level, frame = 1, sys._getframe()
-    while frame is not None and frame.f_globals.get("__package__") == __package__:
-        level, frame = level + 1, frame.f_back  # type: ignore[assignment]
-    for line in lines:
-        warnings.warn(line, RenderWarning, stacklevel=level)
-
-
-def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), set: Optional[Mapping[str, Any]] = None,
-           camera: Union[str, Camera, None] = None, time: float = 0.0, linear: bool = False, alpha: bool = False,
-           threads: Optional[int] = None, **view: Any) -> Picture:
-    """Renders a scene or a model file to a picture with the pixels that `halfspace render` writes.
-
-    scene: a shipped scene ("moon"), a scene file, or a model file (.obj, .gltf, .glb, .ply, .stl).
-    size: (width, height) in pixels.
-    set: keys of the scene and their values, for example {"time.hours": 18}.
-    camera: the name of a camera of the scene or the model, or a Camera.
-    time: of animations, in seconds.   threads: None: one per core.
-    view: for model files, the arguments of Scene.load.
-    Returns uint8 of shape (height, width, 3), sRGB codes; with alpha=True (height, width, 4); with linear=True float32 of shape
-    (height, width, 4), light before exposure and tone curve.
-
-    Raises InputError with the line that the command line prints, and warns with RenderWarning.
-    """
-    width, height = _check.size(size)
-    view.setdefault("aspect", width / height)
-    opened = Scene.load(scene, threads=threads, **view)
-    keys = dict(set or {})
-    if isinstance(camera, str):
-        keys["camera"] = camera
-        camera = None
-    if keys:
-        opened.set(keys)
-    return opened.render((width, height), camera=camera, time=time, linear=linear, alpha=alpha)

@@ -161,7 +161,13 @@ class ArrayPass {
     } else {
       order = std::make_shared<const Indices>(Indices::sequential(view.vertex_count));
     }
-    draws_.push_back({{shader.shader, view, order, state}, shader, std::move(kept)});
+    Draw& added = draws_.emplace_back();
+    added.draw.shader = shader.shader;
+    added.draw.vertices = view;
+    added.draw.indices = std::move(order);
+    added.draw.state = state;
+    added.shader = shader;
+    added.arrays = std::move(kept);
   }
 
   /// Returns the number of draws.

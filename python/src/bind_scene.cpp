@@ -9,6 +9,7 @@
 #include "bindings.h"
 #include "matrices.h"
 #include "scene_core.h"
+#include "shots.h"
 
 namespace halfspace::python {
 
@@ -28,17 +29,18 @@ void copy_rgb(const Image<glm::u8vec4>& image, uint8_t* out) {
   }
 }
 
-Shot shot_of(double time, const CameraDescription* camera) {
-  Shot shot{.time = time};
-  if (camera != nullptr) shot.camera = *camera;
-  return shot;
+template <class Pixel>
+Image<Pixel> picture_of(SceneCore& scene, const Shot& shot, PictureSize size) {
+  Image<Pixel> picture(size.width, size.height);
+  render(scene.prepare(shot, size), picture, scene.workers());
+  return picture;
 }
 
 py::array render_rgb(SceneCore& scene, const Shot& shot, PictureSize size) {
   py::array_t<uint8_t> array({py::ssize_t{size.height}, py::ssize_t{size.width}, py::ssize_t{3}});
   uint8_t* out = array.mutable_data();
   const py::gil_scoped_release release;
-  copy_rgb(scene.render<glm::u8vec4>(shot, size), out);
+  copy_rgb(picture_of<glm::u8vec4>(scene, shot, size), out);
   return array;
 }
 
@@ -47,12 +49,12 @@ py::array render_whole(SceneCore& scene, const Shot& shot, PictureSize size) {
   Image<Pixel> picture;
   {
     const py::gil_scoped_release release;
-    picture = scene.render<Pixel>(shot, size);
+    picture = picture_of<Pixel>(scene, shot, size);
   }
   return array_of(std::move(picture));
 }
 
-py::array render(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, PixelKind kind) {
+py::array render_picture(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, PixelKind kind) {
   const Shot shot = shot_of(time, camera);
   const PictureSize size{width, height};
   switch (kind) {
@@ -61,13 +63,6 @@ py::array render(SceneCore& scene, int width, int height, double time, const Cam
     case PixelKind::light: break;
   }
   return render_whole<glm::vec4>(scene, shot, size);
-}
-
-// Calls progress(done, total) with the GIL held. Also lets Python handle signals, so that a batch can be interrupted.
-void report(const py::object& progress, std::size_t done, std::size_t total) {
-  const py::gil_scoped_acquire acquire;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (!progress.is_none()) progress(done, total);
 }
 
 // Renders all shots and hands each image to copy(image, out), where `out` is its place in the array.
@@ -80,7 +75,9 @@ py::array render_array(SceneCore& scene, const std::vector<Shot>& shots, Picture
       static_cast<std::size_t>(size.height) * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels);
   std::atomic<std::size_t> finished = 0;
   const py::gil_scoped_release release;
-  scene.render_all<Pixel>(shots, size, [&](std::size_t i, Image<Pixel>&& picture) {
+  scene.for_each_shot(shots, size, [&](std::size_t i, const PreparedScene& prepared, const Workers& workers) {
+    Image<Pixel> picture(size.width, size.height);
+    render(prepared, picture, workers);
     copy(picture, out + i * stride);
     report(progress, ++finished, shots.size());
   });
@@ -94,8 +91,7 @@ void copy_texels(const Image<Pixel>& image, typename Pixel::value_type* out) {
 
 py::array render_batch(SceneCore& scene, int width, int height, const std::vector<double>& times,
                        const std::vector<CameraDescription*>& cameras, PixelKind kind, const py::object& progress) {
-  std::vector<Shot> shots;
-  for (std::size_t i = 0; i < times.size(); ++i) shots.push_back(shot_of(times[i], cameras[i]));
+  const std::vector<Shot> shots = shots_of(times, cameras);
   const PictureSize size{width, height};
   switch (kind) {
     case PixelKind::rgb: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 3, progress, copy_rgb);
@@ -159,6 +155,7 @@ void bind_scene(py::module_& m) {
       .def("set", &SceneCore::set, Release())
       .def("value", &SceneCore::value, Release())
       .def("merge", &SceneCore::merge, Release())
+      .def("objects", &SceneCore::objects, Release())
       .def("print", &SceneCore::print, Release())
       .def(
           "provide",
@@ -178,7 +175,7 @@ void bind_scene(py::module_& m) {
             scene.expect(times, {width, height});
           },
           Release())
-      .def("render", &render)
+      .def("render", &render_picture)
       .def("render_batch", &render_batch)
       .def("take_warnings", &SceneCore::take_warnings, Release())
       .def_property_readonly("threads", &SceneCore::threads);

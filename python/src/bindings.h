@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,14 @@ std::span<const T> rows_of(const Array<typename T::value_type>& array) {
   constexpr auto n = static_cast<py::ssize_t>(sizeof(T) / sizeof(typename T::value_type));
   if (array.ndim() == 0 || array.shape(array.ndim() - 1) != n) throw InputError("an array has the wrong shape");
   return {reinterpret_cast<const T*>(array.data()), static_cast<std::size_t>(array.size() / n)};
+}
+
+/// Returns an array of shape (height, width) that owns the image.
+template <class Number>
+requires std::is_arithmetic_v<Number> py::array array_of(Image<Number>&& image) {
+  auto* owned = new Image<Number>(std::move(image));
+  const py::capsule owner(owned, [](void* p) { delete static_cast<Image<Number>*>(p); });
+  return py::array_t<Number>({py::ssize_t{owned->height()}, py::ssize_t{owned->width()}}, owned->data(), owner);
 }
 
 /// Returns an array of shape (height, width, channels) that owns the image.

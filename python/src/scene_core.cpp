@@ -50,6 +50,13 @@ void SceneCore::merge(const std::string& patch) {
   state_.scene.merge(patch, state_.scene.source());
 }
 
+std::vector<std::string> SceneCore::objects() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> names;
+  for (const auto& [name, object] : state_.scene.description().objects) names.push_back(name);
+  return names;
+}
+
 std::string SceneCore::print() const {
   const std::lock_guard lock(mutex_);
   return state_.scene.print();
@@ -122,20 +129,12 @@ void SceneCore::expect(std::span<const double> times, PictureSize size) {
   if (!times.empty()) expect_frames(assets_, state_.scene, static_cast<int>(times.size()), time_of, size.width, size.height);
 }
 
-template <class Pixel>
-Image<Pixel> SceneCore::render(const Shot& shot, PictureSize size) {
-  Image<Pixel> picture(size.width, size.height);
-  const PreparedScene scene = prepare(shot, size);
-  halfspace::render(scene, picture, workers_);
-  return picture;
-}
-
 // The first shot is rendered by all threads and loads the assets. Afterwards, each thread renders whole images with its own list of the
-// shared assets. The lock is not held meanwhile, because done() may call Python code that uses the scene.
-template <class Pixel>
-void SceneCore::render_all(std::span<const Shot> shots, PictureSize size, const std::function<void(std::size_t, Image<Pixel>&&)>& done) {
+// shared assets. The lock is not held meanwhile, because render() may call Python code that uses the scene.
+void SceneCore::for_each_shot(std::span<const Shot> shots, PictureSize size,
+                              const std::function<void(std::size_t, const PreparedScene&, const Workers&)>& render) {
   if (shots.empty()) return;
-  done(0, render<Pixel>(shots[0], size));
+  render(0, prepare(shots[0], size), workers_);
   std::unique_lock lock(mutex_);
   const State state = state_;
   const SceneAssets shared(assets_, workers_, {});
@@ -147,9 +146,7 @@ void SceneCore::render_all(std::span<const Shot> shots, PictureSize size, const 
     SceneAssets assets(shared, own, warner());
     try {
       for (std::size_t i = next++; i < shots.size(); i = next++) {
-        Image<Pixel> picture(size.width, size.height);
-        halfspace::render(state.prepare(shots[i], size, assets), picture, own);
-        done(i, std::move(picture));
+        render(i, state.prepare(shots[i], size, assets), own);
       }
     } catch (...) {
       next = shots.size();
@@ -157,10 +154,5 @@ void SceneCore::render_all(std::span<const Shot> shots, PictureSize size, const 
     }
   });
 }
-
-template Image<glm::u8vec4> SceneCore::render(const Shot&, PictureSize);
-template Image<glm::vec4> SceneCore::render(const Shot&, PictureSize);
-template void SceneCore::render_all(std::span<const Shot>, PictureSize, const std::function<void(std::size_t, Image<glm::u8vec4>&&)>&);
-template void SceneCore::render_all(std::span<const Shot>, PictureSize, const std::function<void(std::size_t, Image<glm::vec4>&&)>&);
 
 }  // namespace halfspace::python

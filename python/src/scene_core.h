@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/render/opened_scene.h"
 #include "halfspace/render/prepared_scene.h"
@@ -45,6 +44,8 @@ class SceneCore {
   std::string value(const std::string& path) const;
   /// Applies a JSON merge patch to the scene file.
   void merge(const std::string& patch);
+  /// Returns the names of all objects, in the order of their ids.
+  std::vector<std::string> objects() const;
   /// Returns the whole scene as the text of a scene file.
   std::string print() const;
 
@@ -58,12 +59,9 @@ class SceneCore {
   PreparedScene prepare(const Shot& shot, PictureSize size);
   /// Announces frames, so that generated maps do not change between them.
   void expect(std::span<const double> times, PictureSize size);
-  /// Renders to 8-bit sRGB codes, or to linear light, with straight alpha.
-  template <class Pixel>
-  Image<Pixel> render(const Shot& shot, PictureSize size);
-  /// Renders all shots, several at a time. done(shot, picture) is called by several threads at once.
-  template <class Pixel>
-  void render_all(std::span<const Shot> shots, PictureSize size, const std::function<void(std::size_t, Image<Pixel>&&)>& done);
+  /// Prepares all shots and calls render(index, scene, workers) for each, several at a time from several threads.
+  void for_each_shot(std::span<const Shot> shots, PictureSize size,
+                     const std::function<void(std::size_t, const PreparedScene&, const Workers&)>& render);
 
   /// Returns the warnings since the last call.
   std::vector<std::string> take_warnings();

@@ -79,6 +79,14 @@ def test_eight_threads_render_the_same_scene():
         assert all(pool.map(work, range(8)))
 
 
+def test_threads_that_start_together_see_all_objects():
+    expected = ball_scene().render(SMALL)
+    for _ in range(10):
+        scene = ball_scene(threads=1)  # its object is added by the first picture
+        with ThreadPoolExecutor(8) as pool:
+            assert all(np.array_equal(picture, expected) for picture in pool.map(lambda i: scene.render(SMALL), range(8)))
+
+
 def test_other_threads_run_while_a_picture_is_rendered():
     scene, stop, ticks = halfspace.Scene.load("moon", threads=1), threading.Event(), []
 
@@ -185,3 +193,33 @@ def test_importing_takes_little_time():
     code = "import time, numpy; t = time.perf_counter(); import halfspace; print(time.perf_counter() - t)"
     times = [float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout) for _ in range(5)]
     assert min(times) < 0.2
+
+
+def test_the_extension_is_chosen_by_the_processor(tmp_path):
+    from halfspace import _instruction_set as sets
+
+    v3, v4 = sets._V3 | {"sse"}, sets._V4
+    assert sets.extension_folder(str(tmp_path), set()) is None  # only one extension
+    (tmp_path / "x86-64-v3").mkdir()
+    (tmp_path / "x86-64-v4").mkdir()
+    assert sets.extension_folder(str(tmp_path), v4) == str(tmp_path / "x86-64-v4")
+    assert sets.extension_folder(str(tmp_path), v3) == str(tmp_path / "x86-64-v3")
+    with pytest.raises(ImportError, match="lacks avx2, movbe; expected a processor with x86-64-v3"):
+        sets.extension_folder(str(tmp_path), v3 - {"avx2", "movbe"})
+    (tmp_path / "cpuinfo").write_text("processor : 0\nflags\t\t: fpu avx2 movbe\n")
+    assert sets.processor_flags(tmp_path / "cpuinfo") == {"fpu", "avx2", "movbe"}
+    assert sets.processor_flags(tmp_path / "missing") == set()
+    assert sets.processor_flags()
+
+
+def test_an_extension_in_a_folder_is_imported(tmp_path):
+    source = os.path.dirname(halfspace.__file__)
+    package = tmp_path / "halfspace"
+    (package / "x86-64-v3").mkdir(parents=True)
+    for name in os.listdir(source):
+        folder = package / "x86-64-v3" if name.startswith("_core") else package
+        if os.path.isfile(os.path.join(source, name)):
+            (folder / name).symlink_to(os.path.realpath(os.path.join(source, name)))
+    code = "import halfspace; print(halfspace._core.__file__, halfspace.render('moon', size=(8, 8)).shape)"
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    assert out.stdout.startswith(str(package / "x86-64-v3")) and "(8, 8, 3)" in out.stdout

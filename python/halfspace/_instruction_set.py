@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Chooses the extension for this processor. Packages have one per instruction set, in the folders x86-64-v3 and x86-64-v4; a build for one
+machine has only one, in the folder of the package."""
+
+import os
+
+_V3 = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"}
+_V4 = _V3 | {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}
+_SETS = (("x86-64-v4", _V4), ("x86-64-v3", _V3))
+
+
+def processor_flags(path="/proc/cpuinfo"):
+    """Returns the features of the processor as Linux names them; none if they are unknown."""
+    try:
+        with open(path) as file:
+            for line in file:
+                if line.startswith("flags"):
+                    return set(line.split(":", 1)[1].split())
+    except OSError:
+        pass
+    return set()
+
+
+def extension_folder(package, flags):
+    """Returns the folder of the extension, or None if the package has only one. Raises ImportError if the processor can run none."""
+    present = [(name, needed) for name, needed in _SETS if os.path.isdir(os.path.join(package, name))]
+    for name, needed in present:
+        if needed <= flags:
+            return os.path.join(package, name)
+    if present:
+        name, needed = present[-1]
+        raise ImportError(f"halfspace: this processor lacks {', '.join(sorted(needed - flags))}; expected a processor with {name}")
+    return None

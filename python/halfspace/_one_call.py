@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""halfspace.render."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping, Optional, Union
+
+from . import _check
+from .camera import Camera
+from .picture import Picture
+from .scene import Scene, Size
+
+
+def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), set: Optional[Mapping[str, Any]] = None,
+           camera: Union[str, Camera, None] = None, time: float = 0.0, linear: bool = False, alpha: bool = False,
+           threads: Optional[int] = None, **view: Any) -> Picture:
+    """Renders a scene or a model file to a picture with the pixels that `halfspace render` writes.
+
+    scene: a shipped scene ("moon"), a scene file, or a model file (.obj, .gltf, .glb, .ply, .stl).
+    size: (width, height) in pixels.
+    set: keys of the scene and their values, for example {"time.hours": 18}.
+    camera: the name of a camera of the scene or the model, or a Camera.
+    time: of animations, in seconds.   threads: None: one per core.
+    view: for model files, the arguments of Scene.load.
+    Returns uint8 of shape (height, width, 3), sRGB codes; with alpha=True (height, width, 4); with linear=True float32 of shape
+    (height, width, 4), light before exposure and tone curve.
+
+    Raises InputError with the line that the command line prints, and warns with RenderWarning.
+    """
+    width, height = _check.size(size)
+    view.setdefault("aspect", width / height)
+    opened = Scene.load(scene, threads=threads, **view)
+    keys = dict(set or {})
+    if isinstance(camera, str):
+        keys["camera"] = camera
+        camera = None
+    if keys:
+        opened.set(keys)
+    return opened.render((width, height), camera=camera, time=time, linear=linear, alpha=alpha)

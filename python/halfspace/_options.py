@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Arguments of scenes: lighting, keys, views of model files, pixels, and warnings."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import warnings
+from typing import Any, Dict, List, Mapping, Sequence
+
+import numpy as np
+
+from . import _check, _core
+from ._check import fail
+
+
+class RenderWarning(UserWarning):
+    """A problem that does not prevent a picture, such as a missing texture."""
+
+
+# How model files are shown by `halfspace render MODEL`.
+_STUDIO: Dict[str, Any] = {
+    "version": 1, "samples": 4,
+    "lights": {"key": {"type": "directional", "direction": [-0.16, 0.79, 0.59], "intensity": 1.2}},
+    "environments": {"around": {"type": "studio", "size": 256, "brightness": 0.75}},
+    "reflections": {"environment": "around"},
+    "background": {"color": [0.62, 0.63, 0.65]},
+    "post": {"hdr": True, "tone": "aces", "exposure": 0.62},
+    "shadow": {"method": "pcf7", "resolution": 1024, "faces": "both"},
+}
+_DARK: Dict[str, Any] = {"version": 1, "samples": 4}
+LIGHTING = {"studio": _STUDIO, "none": _DARK}
+
+# Options of Scene.load for model files, in the order of ModelView.
+_VIEW_OPTIONS = ("aspect", "yaw", "pitch", "zoom", "fov", "eye", "look_at", "up", "inside", "floor", "environment", "background",
+                 "model_scene", "model_animation", "model_variant", "up_axis", "turn_seconds", "allow_outside")
+_MODELS = (".obj", ".gltf", ".glb", ".ply", ".stl")
+
+
+def setting_text(key: str, value: Any) -> str:
+    """Returns "KEY=VALUE" for a value of Python or NumPy."""
+    if isinstance(value, (bool, np.bool_)):
+        text = "true" if value else "false"
+    elif isinstance(value, str):
+        text = value
+    elif isinstance(value, os.PathLike):
+        text = os.fspath(value)
+    elif isinstance(value, (int, np.integer)):
+        text = str(int(value))
+    elif isinstance(value, (float, np.floating)):
+        text = repr(float(value))
+    elif isinstance(value, (list, tuple, np.ndarray)):
+        array = np.asarray(value)
+        text = ",".join(repr(float(x)) for x in array) if array.ndim == 1 else json.dumps(array.tolist())
+    else:
+        raise fail(key, f"is a {type(value).__name__}", "a bool, a number, a string or a sequence of numbers")
+    return f"{key}={text}"
+
+
+def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
+    given = {name: value for name, value in options.items() if value is not None}
+    for name in given:
+        if name not in _VIEW_OPTIONS:
+            raise TypeError(f"{name}: unknown argument; expected one of {', '.join(_VIEW_OPTIONS)}")
+        if not path.lower().endswith(_MODELS) and name != "aspect":
+            raise fail(name, "applies only to model files", "a file ending in .obj, .gltf, .glb, .ply or .stl")
+    limits = {"aspect": (1e-3, 1e3), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
+              "turn_seconds": (0.0, 1e9)}
+    for name, (low, high) in limits.items():
+        if name in given:
+            given[name] = _check.number(name, given[name], low, high)
+    for name in ("eye", "look_at", "up"):
+        if name in given:
+            given[name] = _check.vector(name, given[name])
+    if "up_axis" in given:
+        _check.choice("up_axis", given["up_axis"], ("y", "z"))
+    return given
+
+
+def times_of(time: Any, cameras: Sequence[Any]) -> List[float]:
+    times = [time] * len(cameras) if np.ndim(time) == 0 else list(time)
+    if len(times) != len(cameras):
+        raise fail("time", f"has {len(times)} values", f"one per camera, {len(cameras)}")
+    return [_check.number("time", t) for t in times]
+
+
+def pixel_kind(linear: bool, alpha: bool) -> Any:
+    return _core.PixelKind.light if linear else _core.PixelKind.rgba if alpha else _core.PixelKind.rgb
+
+
+def emit(core: Any) -> None:
+    """Passes the warnings of a scene on. They name the line of the caller of this package."""
+    lines = core.take_warnings()
+    if not lines:
+        return
+    level, frame = 1, sys._getframe()
+    while frame is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back  # type: ignore[assignment]
+    for line in lines:
+        warnings.warn(line, RenderWarning, stacklevel=level)
+
+

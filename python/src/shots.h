@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What pictures and labels show, as Python passes it, and the progress of a batch.
+#pragma once
+
+#include <vector>
+
+#include "bindings.h"
+#include "scene_core.h"
+
+namespace halfspace::python {
+
+inline Shot shot_of(double time, const CameraDescription* camera) {
+  Shot shot{.time = time};
+  if (camera != nullptr) shot.camera = *camera;
+  return shot;
+}
+
+/// times and cameras have the same length.
+inline std::vector<Shot> shots_of(const std::vector<double>& times, const std::vector<CameraDescription*>& cameras) {
+  std::vector<Shot> shots;
+  for (std::size_t i = 0; i < times.size(); ++i) shots.push_back(shot_of(times[i], cameras[i]));
+  return shots;
+}
+
+/// Calls progress(done, total) with the GIL held. Also lets Python handle signals, so that a batch can be interrupted.
+inline void report(const py::object& progress, std::size_t done, std::size_t total) {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (!progress.is_none()) progress(done, total);
+}
+
+}  // namespace halfspace::python

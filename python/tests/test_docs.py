@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the code of docs/howto/python.md and the examples."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+
+from conftest import ROOT
+
+EXAMPLES = ROOT / "python" / "examples"
+
+
+def test_the_code_of_the_document_runs(tmp_path, monkeypatch):
+    blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "howto" / "python.md").read_text(), flags=re.S | re.M)
+    assert len(blocks) >= 7
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for block in blocks:
+        exec(compile(block, "python.md", "exec"), names)
+    assert names["image"].any()
+    assert (tmp_path / "moon_0002.png").exists()
+
+
+def run(*arguments):
+    return subprocess.run([sys.executable, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
+
+
+def test_the_turntable_example_writes_frames(tmp_path):
+    (tmp_path / "triangle.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    run(EXAMPLES / "turntable.py", tmp_path / "triangle.obj", tmp_path / "out")
+    assert len(list((tmp_path / "out").glob("*.png"))) == 48
