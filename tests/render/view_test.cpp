@@ -44,7 +44,7 @@ void expect_same_view(const View& a, const View& b) {
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) EXPECT_NEAR(a.clip_from_world[i][j], b.clip_from_world[i][j], 1e-12) << i << ", " << j;
   }
-  expect_near(a.eye_ws, b.eye_ws, 1e-12);  // glm::inverse rounds
+  expect_near(a.eye_ws, b.eye_ws, 1e-12);
   expect_near(a.to_eye_ws, b.to_eye_ws, 1e-12);
   expect_near(a.forward_ws, b.forward_ws, 1e-12);
   expect_near(a.ray_ws, b.ray_ws, 1e-12);
