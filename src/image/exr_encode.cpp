@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
 #include <cstring>
@@ -49,10 +50,12 @@ Imf::PixelType type_of(ExrSample sample) {
   return sample == ExrSample::number ? Imf::FLOAT : Imf::UINT;
 }
 
-Imf::Header header_of(int width, int height, std::span<const ExrChannel> channels) {
+Imf::Header header_of(int width, int height, std::span<const ExrChannel> channels, const ImageText& text) {
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const ExrChannel& c : channels) header.channels().insert(c.name, Imf::Channel(type_of(c.sample)));
+  if (!text.software.empty()) header.insert("software", Imf::StringAttribute(text.software));
+  if (!text.comment.empty()) header.insert("comments", Imf::StringAttribute(text.comment));
   return header;
 }
 
@@ -100,11 +103,12 @@ void write_bands(Imf::OutputFile& file, int width, int height, std::span<const E
 
 }  // namespace
 
-std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels) {
+std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels,
+                                  const ImageText& text) {
   HS_CHECK(width > 0 && height > 0 && !channels.empty());
   MemoryStream stream(path.c_str());
   try {
-    Imf::OutputFile file(stream, header_of(width, height, channels), 0);  // 0: no threads
+    Imf::OutputFile file(stream, header_of(width, height, channels, text), 0);  // 0: no threads
     write_bands(file, width, height, channels);
   } catch (const Iex::BaseExc& e) {
     fail_writing(path, std::string("cannot write (the openexr encoder reported: ") + e.what() + ")");

@@ -16,6 +16,7 @@ inline constexpr std::size_t sample_bytes(ExrSample s) { return s == ExrSample::
 
 /// Encodes a single-part scanline file with ZIP compression. Equal samples give equal bytes. Throws OutputError, with a message that
 /// begins with path. Nothing is written to path.
-std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels);
+std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels,
+                                  const ImageText& text);
 
 }  // namespace halfspace

@@ -23,7 +23,8 @@ bool tool_can_write(std::span<const ExrChannel> channels) {
 
 }  // namespace
 
-std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels) {
+std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels,
+                                  const ImageText&) {
   HS_CHECK(width > 0 && height > 0 && !channels.empty());
   if (!tool_can_write(channels)) fail_writing(path, "cannot write (this build has no OpenEXR); expected channels R, G, B and A, or Z");
   PictureHeader header;

@@ -21,6 +21,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "halfspace/core/image.h"
 
@@ -58,8 +59,16 @@ Image<float> read_gray(std::span<const std::byte> file, const std::string& name)
 Image<glm::vec4> read_linear(const std::filesystem::path& path);
 Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string& name);
 
-/// Writes 8-bit sRGB codes with straight alpha as PNG, regardless of the file name. Opaque images are written without alpha.
-void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
+/// Text that PNG and OpenEXR files can contain, in UTF-8; nothing is stored for empty text. Other formats, and OpenEXR in builds without
+/// it, ignore the text.
+struct ImageText {
+  std::string software;  ///< name and version of the program; "Software" in PNG, "software" in OpenEXR
+  std::string comment;   ///< how the image was made; "Comment" in PNG, "comments" in OpenEXR
+};
+
+/// Writes 8-bit or 16-bit sRGB codes with straight alpha as PNG, regardless of the file name. Opaque images are written without alpha.
+void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text = {});
+void write_png(const std::filesystem::path& path, const Image<glm::u16vec4>& image, const ImageText& text = {});
 
 /// Writes codes that are data rather than colors, such as a normal map, as PNG without the sRGB marker.
 void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
@@ -67,7 +76,7 @@ void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>&
 /// Writes 8-bit sRGB codes with straight alpha, in the format given by the extension of path. PNG and TIFF (deflate) are
 /// lossless, and omit alpha if the image is opaque. JPEG uses quality 95 without chroma subsampling, and drops alpha. The image
 /// must not be empty.
-void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
+void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text = {});
 
 /// Writes linear light with straight alpha, in the format given by the extension of path. NaN is written as 0. The image must
 /// not be empty.
@@ -75,7 +84,11 @@ void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& im
 ///         nearest half and clamped to ±65504. Colors are multiplied by alpha, as OpenEXR requires, and are lost where it is 0.
 ///   .hdr  RGBE: 8 bits per channel and a shared exponent per pixel. The error is at most 1/256 of the pixel's largest channel.
 ///         Alpha is dropped, negative values become 0, and infinities become 65504.
-void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image);
+void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image, const ImageText& text = {});
+
+struct ExrChannel;
+/// Returns the channels that write_image() stores for .exr. The image is not copied and must outlive them.
+std::vector<ExrChannel> color_channels(const Image<glm::vec4>& image);
 
 /// Writes a single 32-bit float channel Z as OpenEXR (ZIP), regardless of the file name. Values are stored exactly. The image
 /// must not be empty.
@@ -95,7 +108,7 @@ struct ExrChannel {
 /// Writes the channels into one OpenEXR file (ZIP), regardless of the file name. Samples are stored exactly. width, height and the number
 /// of channels must be positive, and names must be distinct and not empty. A build without OpenEXR throws OutputError unless the
 /// channels are R, G, B and possibly A as halves, or Z as floats.
-void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels);
+void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels, const ImageText& text = {});
 
 /// Sets the folder that contains halfspace-image-tool and halfspace-jpeg-tool, for the whole process. By default, and with an empty path,
 /// they are found relative to the program or shared library that contains this code. Thread-safe; images that are being read are not

@@ -51,13 +51,6 @@ ExrChannel exr_channel(const Image<glm::vec4>& image, int channel) {
           }};
 }
 
-void write_color_exr(const std::filesystem::path& path, const Image<glm::vec4>& image) {
-  const bool opaque = std::ranges::all_of(image.texels(), [](const glm::vec4& t) { return t.w == 1.0f; });
-  std::vector<ExrChannel> channels;
-  for (int c = 0; c < (opaque ? 3 : 4); ++c) channels.push_back(exr_channel(image, c));
-  write_exr(path, image.width(), image.height(), channels);
-}
-
 // Rounds to the nearest values that RGBE can represent: integer multiples, up to 255, of 2^(e − 8), where
 // 2^(e − 1) <= largest < 2^e. OpenImageIO would truncate, with an error of up to 1/128 of the largest channel; after this
 // rounding it has nothing to truncate. The error of rounding is half a step, 2^(e − 9), at most 1/256 of the largest channel.
@@ -126,22 +119,36 @@ std::optional<ImageFile> image_file_of(const std::filesystem::path& path) {
 
 bool is_linear(ImageFile file) { return file == ImageFile::exr || file == ImageFile::hdr; }
 
-void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image) { write_file(path, encode_png(image)); }
+void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text) {
+  write_file(path, encode_png(image, PngCodes::srgb, text));
+}
+
+void write_png(const std::filesystem::path& path, const Image<glm::u16vec4>& image, const ImageText& text) {
+  write_file(path, encode_png(image, text));
+}
 
 void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
   write_file(path, encode_png(image, PngCodes::numbers));
 }
 
-void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image) try {
+void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text) try {
   const ImageFile file = checked_image_file(path, false);
-  if (file == ImageFile::png) return write_png(path, image);
+  if (file == ImageFile::png) return write_png(path, image, text);
   file == ImageFile::jpeg ? write_jpeg(path, image) : write_tiff(path, image);
 } catch (const std::bad_alloc&) {
   fail_for_memory(path);
 }
 
-void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image) try {
-  checked_image_file(path, true) == ImageFile::exr ? write_color_exr(path, image) : write_hdr(path, image);
+std::vector<ExrChannel> color_channels(const Image<glm::vec4>& image) {
+  const bool opaque = std::ranges::all_of(image.texels(), [](const glm::vec4& t) { return t.w == 1.0f; });
+  std::vector<ExrChannel> channels;
+  for (int c = 0; c < (opaque ? 3 : 4); ++c) channels.push_back(exr_channel(image, c));
+  return channels;
+}
+
+void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image, const ImageText& text) try {
+  if (checked_image_file(path, true) == ImageFile::hdr) return write_hdr(path, image);
+  write_exr(path, image.width(), image.height(), color_channels(image), text);
 } catch (const std::bad_alloc&) {
   fail_for_memory(path);
 }
@@ -152,9 +159,9 @@ void write_depth_exr(const std::filesystem::path& path, const Image<float>& dept
   write_exr(path, depth.width(), depth.height(), {&z, 1});
 }
 
-void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels) try {
+void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels, const ImageText& text) try {
   check_writable(path);
-  write_file(path, encode_exr(path, width, height, channels));
+  write_file(path, encode_exr(path, width, height, channels, text));
 } catch (const std::bad_alloc&) {
   fail_for_memory(path);
 }

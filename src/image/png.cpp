@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 #include "halfspace/image/image_limits.h"
@@ -35,13 +36,29 @@ void check_decoding(int result, const std::string& name) {
   if (result != SPNG_OK) throw InputError(name + ": damaged PNG (" + spng_strerror(result) + "); expected a complete PNG file");
 }
 
+// Adds a text chunk unless the text is empty: tEXt, or iTXt if there are characters other than those of ASCII.
+void add_text(std::vector<spng_text>& chunks, const char* keyword, const std::string& text) {
+  if (text.empty()) return;
+  spng_text chunk = {};
+  std::strncpy(chunk.keyword, keyword, sizeof chunk.keyword - 1);
+  const bool is_ascii = std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  chunk.type = is_ascii ? SPNG_TEXT : SPNG_ITXT;
+  chunk.length = text.size();
+  chunk.text = const_cast<char*>(text.c_str());
+  static char none[] = "";
+  chunk.language_tag = chunk.translated_keyword = none;
+  chunks.push_back(chunk);
+}
+
 // Encodes row by row, converting to RGB if the image is opaque. A converted copy of the whole image could need gigabytes.
-void encode_rows(spng_ctx* context, const Image<glm::u8vec4>& image, bool opaque) {
+template <class Channel>
+void encode_rows(spng_ctx* context, const Image<glm::vec<4, Channel>>& image, bool opaque) {
   check_encoding(spng_encode_image(context, nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
-  std::vector<glm::u8vec3> rgb(opaque ? static_cast<std::size_t>(image.width()) : 0);
+  using Opaque = glm::vec<3, Channel>;
+  std::vector<Opaque> rgb(opaque ? static_cast<std::size_t>(image.width()) : 0);
   for (int y = 0; y < image.height(); ++y) {
-    const std::span<const glm::u8vec4> row = image.row(y);
-    if (opaque) std::ranges::transform(row, rgb.begin(), [](const glm::u8vec4& t) { return glm::u8vec3(t); });
+    const std::span<const glm::vec<4, Channel>> row = image.row(y);
+    if (opaque) std::ranges::transform(row, rgb.begin(), [](const glm::vec<4, Channel>& t) { return Opaque(t); });
     const std::span<const std::byte> bytes = opaque ? std::as_bytes(std::span(rgb)) : std::as_bytes(row);
     const int result = spng_encode_row(context, bytes.data(), bytes.size());
     const bool last = y + 1 == image.height();
@@ -70,16 +87,16 @@ Image<Texel> decode_texels(spng_ctx* context, const spng_ihdr& header, spng_form
   return image;
 }
 
-}  // namespace
-
-std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes) {
+template <class Channel>
+std::vector<std::byte> encode_codes(const Image<glm::vec<4, Channel>>& image, PngCodes codes, const ImageText& text) {
   HS_CHECK(!image.empty());
-  const bool opaque = std::ranges::all_of(image.texels(), [](const glm::u8vec4& t) { return t.w == 255; });
+  constexpr Channel kOpaque = std::numeric_limits<Channel>::max();
+  const bool opaque = std::ranges::all_of(image.texels(), [](const glm::vec<4, Channel>& t) { return t.w == kOpaque; });
   const SpngContext context = new_context(SPNG_CTX_ENCODER);
   spng_ihdr header = {};
   header.width = static_cast<uint32_t>(image.width());
   header.height = static_cast<uint32_t>(image.height());
-  header.bit_depth = 8;
+  header.bit_depth = 8 * sizeof(Channel);
   header.color_type = opaque ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
   check_encoding(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
   // Measured on a 1024x512 map: 29 ms and 596 kB. Level 6 with all filters takes 151 ms and gives 521 kB.
@@ -87,6 +104,10 @@ std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes code
   check_encoding(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB));
   check_encoding(spng_set_ihdr(context.get(), &header));
   if (codes == PngCodes::srgb) check_encoding(spng_set_srgb(context.get(), 0));
+  std::vector<spng_text> chunks;
+  add_text(chunks, "Software", text.software);
+  add_text(chunks, "Comment", text.comment);
+  if (!chunks.empty()) check_encoding(spng_set_text(context.get(), chunks.data(), static_cast<uint32_t>(chunks.size())));
   encode_rows(context.get(), image, opaque);
   std::size_t size = 0;
   int error = 0;
@@ -94,6 +115,16 @@ std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes code
   check_encoding(error);
   const std::byte* first = static_cast<const std::byte*>(buffer.get());
   return std::vector<std::byte>(first, first + size);
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes, const ImageText& text) {
+  return encode_codes(image, codes, text);
+}
+
+std::vector<std::byte> encode_png(const Image<glm::u16vec4>& image, const ImageText& text) {
+  return encode_codes(image, PngCodes::srgb, text);
 }
 
 bool is_png(std::span<const std::byte> bytes) {

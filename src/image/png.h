@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "halfspace/core/image.h"
+#include "halfspace/image/image_io.h"
 #include "halfspace/image/image_samples.h"
 
 namespace halfspace {
@@ -19,7 +20,9 @@ enum class PngCodes { srgb, numbers };
 
 /// Encodes codes with straight alpha. Opaque images are stored without alpha. The file is marked as sRGB unless the codes are
 /// numbers. The image must not be empty.
-std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes = PngCodes::srgb);
+std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes = PngCodes::srgb, const ImageText& text = {});
+/// The same with 16 bits per channel. The file is marked as sRGB.
+std::vector<std::byte> encode_png(const Image<glm::u16vec4>& image, const ImageText& text = {});
 
 /// Returns whether the bytes begin with the PNG signature.
 bool is_png(std::span<const std::byte> bytes);

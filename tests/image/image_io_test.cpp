@@ -51,6 +51,26 @@ TEST_F(ImageIo, OmitsAlphaOfOpaqueImages) {
 
 TEST_F(ImageIo, PngDeclaresSrgb) { EXPECT_TRUE(contains(encode_png(test_picture(true)), "sRGB")); }
 
+TEST_F(ImageIo, PngStores16Bits) {
+  for (const uint16_t alpha : {uint16_t{65535}, uint16_t{300}}) {
+    Image<glm::u16vec4> image(40, 30);
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 40; ++x) image.at(x, y) = glm::u16vec4(x * 1601 + y, y * 2003, 65535 - x, alpha);
+    }
+    EXPECT_EQ(color_type(encode_png(image)), alpha == 65535 ? 2 : 6);
+    EXPECT_TRUE(decode_png(encode_png(image), "x") == ColorPicture(image));
+  }
+}
+
+TEST_F(ImageIo, PngStoresText) {
+  const std::vector<std::byte> file = encode_png(test_picture(true), PngCodes::srgb, {.software = "Program 1.0", .comment = "caf\u00e9"});
+  EXPECT_TRUE(contains(file, std::string("tEXtSoftware\0Program 1.0", 24)));
+  EXPECT_TRUE(contains(file, std::string("iTXtComment\0", 12)));
+  EXPECT_TRUE(contains(file, "caf\u00e9"));
+  EXPECT_TRUE(decode_png(file, "x") == ColorPicture(test_picture(true)));
+  EXPECT_FALSE(contains(encode_png(test_picture(true)), "tEXt"));
+}
+
 TEST_F(ImageIo, PngKeepsTransparentColors) {
   // Alpha is straight, so a color survives an alpha of 0.
   Image<glm::u8vec4> image(1, 1);
