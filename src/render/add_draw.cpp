@@ -5,8 +5,8 @@
 
 namespace halfspace {
 
-void add_draw(Pass& pass, const PreparedDraw& draw) {
-  std::visit([&](const auto& shader) { pass.draw(shader, draw.vertices, *draw.indices, draw.state); }, draw.shader);
+void add_draw(Pass& pass, const PreparedDraw& draw, const DrawState& state) {
+  std::visit([&](const auto& shader) { pass.draw(shader, draw.vertices, *draw.indices, state); }, draw.shader);
 }
 
 }  // namespace halfspace

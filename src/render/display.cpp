@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <numeric>
 #include <vector>
 
@@ -80,18 +81,71 @@ struct ToCodes {
   }
 };
 
+// Divides colors that have been multiplied by alpha by it.
+template <Number R>
+vec4<R> straight(const vec4<R>& color) {
+  const MaskOf<R> is_seen = color.w > R(0);
+  return select(is_seen, vec4<R>(vec3<R>(color) / select(is_seen, color.w, R(1)), color.w), vec4<R>(R(0)));
+}
+
+// Applies `next` to colors with straight alpha.
+template <class F>
+struct Straightened {
+  F next;
+
+  template <class R, class... Position>
+  requires std::invocable<const F&, vec4<R>, Position...> vec4<R>
+  operator()(const vec4<R>& color, Position... position) const { return next(straight(color), position...); }
+};
+
+// Returns the light, which need not be displayable.
+struct ToLight {
+  template <class R>
+  vec4<R> operator()(const vec4<R>& color) const {
+    return straight(color);
+  }
+};
+
+// Converts to encoded values for more than 8 bits per channel.
+struct ToFineCodes {
+  ToCodes codes;
+  bool premultiplied;
+
+  template <class R>
+  vec4<R> operator()(const vec4<R>& color, IntOf<R> x, IntOf<R> y) const {
+    return codes(premultiplied ? straight(color) : color, x, y);
+  }
+};
+
+// Adds a post step for colors with or without straight alpha.
+template <class F>
+void add_post(Pass& pass, const F& function, const ColorTarget& target, Premultiplied premultiplied) {
+  if (premultiplied == Premultiplied::yes) {
+    pass.post(Straightened<F>{function}, target);
+  } else {
+    pass.post(function, target);
+  }
+}
+
 }  // namespace
 
 double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers) { return log_average(light, workers); }
 double log_average_luminance(const Image<glm::vec4>& light, const Workers& workers) { return log_average(light, workers); }
 
-void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture) {
+void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture, Premultiplied premultiplied) {
   const ToneMapping tone = tone_of(post, exposure);
   if (post.encode == DisplayEncoding::srgb && !post.dither) {
-    pass.post(ToDisplayLight{tone}, srgb8a8_target(picture));
+    add_post(pass, ToDisplayLight{tone}, srgb8a8_target(picture), premultiplied);
   } else {
-    pass.post(ToCodes{tone, post.encode, static_cast<float>(post.gamma), post.dither}, rgba8_target(picture));
+    add_post(pass, ToCodes{tone, post.encode, static_cast<float>(post.gamma), post.dither}, rgba8_target(picture), premultiplied);
   }
 }
+
+void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<glm::vec4>& encoded, Premultiplied premultiplied) {
+  const ToCodes codes{tone_of(post, exposure), post.encode, static_cast<float>(post.gamma), false};
+  pass.post(ToFineCodes{codes, premultiplied == Premultiplied::yes}, rgba32f_target(encoded));
+}
+
+void show_light(Pass& pass, Image<glm::vec4>& light) { pass.post(ToLight{}, rgba32f_target(light)); }
 
 }  // namespace halfspace

@@ -17,8 +17,18 @@ inline constexpr float kMinLuminance = 1e-6f;
 double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers);
 double log_average_luminance(const Image<glm::vec4>& light, const Workers& workers);
 
+/// Whether the colors of a pass have been multiplied by alpha; if so, they are divided by it before the tone curve.
+enum class Premultiplied : bool { no, yes };
+
 /// Makes a pass write displayable pixel values to `picture`, as specified by `post` but with the given `exposure`. The color
 /// attachment of the pass must hold light. `picture` must have the size of the pass and outlive it.
-void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture);
+void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture,
+          Premultiplied premultiplied = Premultiplied::no);
+
+/// The same with encoded values in [0, 1] that are not rounded, whatever post.dither.
+void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<glm::vec4>& encoded, Premultiplied premultiplied);
+
+/// Makes a pass write light with straight alpha to `light`.
+void show_light(Pass& pass, Image<glm::vec4>& light);
 
 }  // namespace halfspace

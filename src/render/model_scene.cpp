@@ -205,6 +205,8 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   scene["reflections"] = {{"environment", "around"}};
   if (view.background == "environment") {
     scene["background"] = {{"type", "environment"}, {"environment", "around"}};
+  } else if (view.background == "transparent") {
+    scene["background"] = {{"type", "transparent"}};
   } else if (!view.background.empty()) {
     scene["background"] = {{"color", view.background}};
   } else {

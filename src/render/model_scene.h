@@ -25,7 +25,7 @@ struct ModelView {
   bool inside = false;                    ///< start at the center of the bounds
   bool floor = true;                      ///< shadows on a floor below the model
   std::string environment;                ///< image file; empty: a photo studio
-  std::string background;                 ///< "#rrggbb", "environment", or empty: light gray
+  std::string background;                 ///< "#rrggbb", "environment", "transparent", or empty: light gray
   std::string scene, animation, variant;  ///< names in the file; empty: its defaults
   std::string up_axis = "auto";           ///< "auto", "y" or "z"
   double turn_seconds = 0.0;              ///< time in which the camera goes around the model; 0: it does not move

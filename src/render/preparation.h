@@ -185,11 +185,12 @@ class ScenePreparation {
 
   // prepare_spheres.cpp
   SphereImpostors sphere_impostors(bool receives_shadow) const;
-  void draw_spheres(const Particles& spheres, const glm::dvec3& color, const SceneShader& shader);
+  void draw_spheres(int object, const Particles& spheres, const glm::dvec3& color, const SceneShader& shader);
   void add_exact_spheres(int object, const std::string& path, const ObjectDescription& o);
 
   // prepare_particles.cpp
-  void add_particles(const ParticlesDescription& p, const std::string& path);
+  // object: number of the particles among the objects, for DrawSource.
+  void add_particles(int object, const ParticlesDescription& p, const std::string& path);
   std::shared_ptr<const Particles> particles(const ParticlesDescription& p, const std::string& path);  // null: none
 
   // prepare_background.cpp

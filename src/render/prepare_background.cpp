@@ -59,6 +59,10 @@ void ScenePreparation::add_background() {
       break;
     }
     case BackgroundType::environment: add(environment_sky()); break;
+    case BackgroundType::transparent:
+      out_.transparent = true;
+      out_.clear_color = glm::vec4(0.0f);
+      break;
   }
 }
 

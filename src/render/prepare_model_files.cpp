@@ -16,13 +16,6 @@ namespace {
 
 bool has_normal_map(const ModelMaterial& m) { return m.normal_map.texture >= 0 || m.clearcoat_normal_map.texture >= 0; }
 
-// The vertex streams of a mesh, including streams that the file does not have but a shader variant needs.
-struct Streams {
-  std::span<const glm::vec3> positions, normals;
-  std::span<const glm::vec4> tangents, colors;
-  std::span<const glm::vec2> uvs, second_uvs;
-};
-
 // Streams with neutral values for a mesh that lacks them.
 struct NeutralStreams {
   std::vector<glm::vec4> tangents, colors;
@@ -31,11 +24,11 @@ struct NeutralStreams {
       : tangents(vertices, glm::vec4(1, 0, 0, 1)), colors(vertices, glm::vec4(1.0f)), uvs(vertices, glm::vec2(0.0f)) {}
 };
 
-Streams streams_of(const ModelMesh& m) { return {m.positions, m.normals, m.tangents, m.colors, m.uvs[0], m.uvs[1]}; }
+MeshStreams streams_of(const ModelMesh& m) { return {m.positions, m.normals, m.tangents, m.colors, m.uvs[0], m.uvs[1]}; }
 
-bool has_all(const Streams& s) { return !s.tangents.empty() && !s.colors.empty() && !s.uvs.empty() && !s.second_uvs.empty(); }
+bool has_all(const MeshStreams& s) { return !s.tangents.empty() && !s.colors.empty() && !s.uvs.empty() && !s.second_uvs.empty(); }
 
-void fill(Streams& s, const NeutralStreams& neutral) {
+void fill(MeshStreams& s, const NeutralStreams& neutral) {
   if (s.tangents.empty()) s.tangents = neutral.tangents;
   if (s.colors.empty()) s.colors = neutral.colors;
   if (s.uvs.empty()) s.uvs = neutral.uvs;
@@ -43,7 +36,7 @@ void fill(Streams& s, const NeutralStreams& neutral) {
 }
 
 // Selects the variant with the fewest streams that the material can use on the mesh.
-MetallicStreams variant_of(const MetallicMaterial& m, const Streams& s) {
+MetallicStreams variant_of(const MetallicMaterial& m, const MeshStreams& s) {
   bool mapped = false, second = false, tangents = false;
   for (std::size_t i = 0; i < kMetallicMaps; ++i) {
     if (m.maps[i].map == nullptr) continue;
@@ -58,7 +51,8 @@ MetallicStreams variant_of(const MetallicMaterial& m, const Streams& s) {
 }
 
 template <MetallicStreams variant, bool masked>
-PreparedDraw draw_of(const MetallicMaterial& m, const Streams& s, const std::shared_ptr<const Indices>& indices, const DrawState& state) {
+PreparedDraw draw_of(const MetallicMaterial& m, const MeshStreams& s, const std::shared_ptr<const Indices>& indices,
+                     const DrawState& state) {
   const MetallicSurface<variant, masked> shader{m};
   if constexpr (variant == MetallicStreams::plain)
     return {shader, make_vertex_view(stream(s.positions), stream(s.normals)), indices, state};
@@ -75,7 +69,7 @@ PreparedDraw draw_of(const MetallicMaterial& m, const Streams& s, const std::sha
         indices, state};
 }
 
-PreparedDraw draw_of(const MetallicMaterial& m, MetallicStreams variant, bool masked, const Streams& s,
+PreparedDraw draw_of(const MetallicMaterial& m, MetallicStreams variant, bool masked, const MeshStreams& s,
                      const std::shared_ptr<const Indices>& indices, const DrawState& state) {
   switch (variant) {
     case MetallicStreams::plain: return draw_of<MetallicStreams::plain, false>(m, s, indices, state);
@@ -154,8 +148,14 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   out_.assets.push_back(posed);
   const glm::dmat4 turn = turn_of(o, model->model);
   load_images(o, model->model, *posed);
+  int instance = 0;
   for (const glm::dmat4& place : places_of(scene_, o)) {
-    for (const PosedMesh& part : posed->meshes) add_part(object, o, path, model, part, place * turn * part.world_from_mesh);
+    for (const PosedMesh& part : posed->meshes) {
+      const std::size_t before = out_.draws.size();
+      add_part(object, o, path, model, part, place * turn * part.world_from_mesh);
+      for (std::size_t i = before; i < out_.draws.size(); ++i) out_.draws[i].source.instance = instance;
+      ++instance;
+    }
   }
 }
 
@@ -167,7 +167,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   if (mesh.positions.empty() || model->indices[mesh_index].size() == 0 || glm::determinant(glm::dmat3(world)) == 0.0) return;
   const ModelMaterial& material = part.material < 0 ? kDefault : model->model.materials[static_cast<std::size_t>(part.material)];
   const std::shared_ptr<const Indices> indices(model, &model->indices[mesh_index]);
-  Streams streams = streams_of(mesh);
+  MeshStreams streams = streams_of(mesh);
   const auto neutral = [&] {
     const std::size_t vertices = mesh.positions.size();
     return asset<NeutralStreams>(recipe("neutral streams", vertices), [&] { return NeutralStreams(vertices); });
@@ -179,6 +179,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     state.point_size = std::max(1.0f, static_cast<float>(view_.height_px) / 360.0f);
     state.topology = mesh.topology == MeshTopology::points ? Topology::points : Topology::lines;
     out_.draws.push_back({shader, make_vertex_view(stream(streams.positions), stream(streams.colors)), indices, state});
+    out_.draws.back().source = {object, 0, streams, world};
     return;
   }
   if (const SurfaceDescription* replacement = override_of(scene_, o, material.name); replacement != nullptr) {
@@ -202,6 +203,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     blended_.push_back(draw_of(surface, variant, false, streams, indices, state));
   } else {
     out_.draws.push_back(draw_of(surface, variant, masked, streams, indices, state));
+    out_.draws.back().source = {object, 0, streams, world};
   }
   PlacedMesh placed{streams.positions, streams.normals, indices, world, material.double_sided, o.casts_shadow, o.receives_shadow, object};
   if (masked || surface.blends) {
@@ -227,6 +229,7 @@ void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o,
   }
   place(surface, world);
   out_.draws.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
+  out_.draws.back().source = {object, 0, {streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}}, world};
   out_.meshes.push_back({streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
 }
 

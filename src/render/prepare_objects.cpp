@@ -136,9 +136,12 @@ void ScenePreparation::add_object(int object) {
   LitSurface surface = surface_of(o, path);
   const NormalDetail detail = add_detail(surface, o, relief, path);
   const SurfaceStreams streams{mesh->mesh.positions, mesh->mesh.normals, mesh->mesh.tangents, mesh->mesh.uvs};
+  const MeshStreams all_streams{streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}};
+  int copy = 0;
   for (const glm::dmat4& world : places_of(scene_, o)) {
     place(surface, world);
     out_.draws.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
+    out_.draws.back().source = {object, copy++, all_streams, world};
     out_.meshes.push_back(
         {mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
   }

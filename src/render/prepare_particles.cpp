@@ -14,7 +14,7 @@ std::shared_ptr<const Particles> ScenePreparation::particles(const ParticlesDesc
   return p.count == 0 ? nullptr : std::make_shared<const Particles>(make_particles(p));
 }
 
-void ScenePreparation::add_particles(const ParticlesDescription& p, const std::string& path) {
+void ScenePreparation::add_particles(int object, const ParticlesDescription& p, const std::string& path) {
   const std::shared_ptr<const Particles> particles = this->particles(p, path);
   if (particles == nullptr) return;
   const bool exact = p.sprite == ParticleSprite::exact;
@@ -27,9 +27,9 @@ void ScenePreparation::add_particles(const ParticlesDescription& p, const std::s
   if (s.specular == glm::vec3(0.0f)) s.model = LightModel::lambert;
   if (exact) {
     out_.spheres.push_back({particles, p.casts_shadow, p.receives_shadow});
-    draw_spheres(*particles, p.color.linear, SphereImpostor<true>{s});
+    draw_spheres(object, *particles, p.color.linear, SphereImpostor<true>{s});
   } else {
-    draw_spheres(*particles, p.color.linear, SphereImpostor<false>{s});
+    draw_spheres(object, *particles, p.color.linear, SphereImpostor<false>{s});
   }
 }
 

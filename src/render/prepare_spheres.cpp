@@ -48,11 +48,14 @@ SphereImpostors ScenePreparation::sphere_impostors(bool receives_shadow) const {
   return s;
 }
 
-void ScenePreparation::draw_spheres(const Particles& spheres, const glm::dvec3& color, const SceneShader& shader) {
+void ScenePreparation::draw_spheres(int object, const Particles& spheres, const glm::dvec3& color, const SceneShader& shader) {
   const auto rows = std::make_shared<const SphereRows>(rows_of(spheres, view_, color));
   out_.assets.push_back(rows);
-  out_.draws.push_back({shader, make_vertex_view(stream(rows->centers_cs), stream(rows->radii), stream(rows->colors)),
-                        std::make_shared<const Indices>(Indices::sequential(rows->radii.size())), sprite_state()});
+  out_.draws.push_back({shader,
+                        make_vertex_view(stream(rows->centers_cs), stream(rows->radii), stream(rows->colors)),
+                        std::make_shared<const Indices>(Indices::sequential(rows->radii.size())),
+                        sprite_state(),
+                        {.object = object}});
 }
 
 void ScenePreparation::add_exact_spheres(int object, const std::string& path, const ObjectDescription& o) {
@@ -70,7 +73,7 @@ void ScenePreparation::add_exact_spheres(int object, const std::string& path, co
   s.emissive = surface.factors[kEmissive].constant;
   s.shininess = surface.factors[kShininess].constant.x;
   s.model = surface.model;
-  draw_spheres(*spheres, glm::dvec3(surface.factors[kColor].constant), SphereImpostor<true>{s});
+  draw_spheres(object, *spheres, glm::dvec3(surface.factors[kColor].constant), SphereImpostor<true>{s});
   out_.spheres.push_back({spheres, o.casts_shadow, o.receives_shadow, object});
 }
 

@@ -5,7 +5,6 @@
 
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/camera.h"
-#include "halfspace/render/display.h"
 #include "halfspace/render/preparation.h"
 
 namespace halfspace {
@@ -105,8 +104,9 @@ PreparedScene ScenePreparation::prepare() {
     if (object.visible) add_object(static_cast<int>(i));
   }
   if (needs_light_ && is_dark(scene_)) assets_.warn_once("nothing lights the scene; expected a light, ambient light or an environment");
-  add_particles(scene_.particles, "particles");
-  for (const auto& [name, p] : scene_.particle_systems) add_particles(p, "particle_systems." + name);
+  auto particles = static_cast<int>(scene_.objects.size());
+  add_particles(particles, scene_.particles, "particles");
+  for (const auto& [name, p] : scene_.particle_systems) add_particles(++particles, p, "particle_systems." + name);
   add_background();
   add_blended();
   add_shadows();
@@ -145,56 +145,6 @@ PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int
   PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();
   cache_.remove_unwanted();
   return prepared;
-}
-
-namespace {
-
-constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
-
-// Returns a pass with the scene's draws.
-Pass pass_of(const PreparedScene& scene, int width, int height, ColorTarget color) {
-  color.clear_value = scene.clear_color;
-  Pass pass(width, height, color, kDepth, {.samples = scene.samples});
-  for (const PreparedDraw& draw : scene.draws) add_draw(pass, draw);
-  return pass;
-}
-
-// Renders with a known exposure, so light only exists in tiles.
-PassStatistics render_exposed(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {
-  const ColorFormat format = scene.post.format == LightFormat::rgba16f ? ColorFormat::rgba16f : ColorFormat::rgba32f;
-  Pass pass = pass_of(scene, picture.width(), picture.height(), {.format = format, .store = StoreOp::dont_care});
-  show(pass, scene.post, scene.post.exposure, picture);
-  return pass.run(workers);
-}
-
-// Renders the light of the whole image, measures it, and displays it with a second pass without draws.
-template <class Pixel>
-PassStatistics render_metered(const PreparedScene& scene, ColorTarget (*target)(Image<Pixel>&), Image<glm::u8vec4>& picture,
-                              const Workers& workers) {
-  const int width = picture.width(), height = picture.height();
-  Image<Pixel> light(width, height);
-  const PassStatistics statistics = pass_of(scene, width, height, target(light)).run(workers);
-  const double exposure = scene.post.exposure * scene.post.key_value / log_average_luminance(light, workers);
-  ColorTarget whole = target(light);
-  whole.load = LoadOp::load;
-  whole.store = StoreOp::dont_care;
-  Pass pass(width, height, whole, {});
-  show(pass, scene.post, exposure, picture);
-  pass.run(workers);
-  return statistics;
-}
-
-}  // namespace
-
-PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {
-  if (!scene.post.hdr) return pass_of(scene, picture.width(), picture.height(), srgb8a8_target(picture)).run(workers);
-  if (!scene.post.auto_exposure) return render_exposed(scene, picture, workers);
-  return scene.post.format == LightFormat::rgba16f ? render_metered<U16Vec4>(scene, rgba16f_target, picture, workers)
-                                                   : render_metered<glm::vec4>(scene, rgba32f_target, picture, workers);
-}
-
-PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers) {
-  return pass_of(scene, picture.width(), picture.height(), rgba32f_target(picture)).run(workers);
 }
 
 }  // namespace halfspace

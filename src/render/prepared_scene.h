@@ -52,12 +52,28 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  MetallicSurface<MetallicStreams::full>, MetallicSurface<MetallicStreams::full, true>,  //
                                  ColoredPrimitives, ShadowCatcher>;
 
+/// The vertex streams of a mesh, not owned. Those that it lacks are empty.
+struct MeshStreams {
+  std::span<const glm::vec3> positions, normals;
+  std::span<const glm::vec4> tangents, colors;
+  std::span<const glm::vec2> uvs, second_uvs;
+};
+
+/// The origin of a draw, for the values of a frame other than its color (render/frame.h).
+struct DrawSource {
+  int object = -1;                    ///< as in FrameImages::object; −1: the background
+  int instance = 0;                   ///< copy of the object · parts of its model + part
+  MeshStreams streams{};              ///< also those that the shader does not read; empty for spheres and the background
+  glm::dmat4 world_from_object{1.0};  ///< identity for spheres and the background
+};
+
 /// One draw call. std::visit recovers the type of the shader.
 struct PreparedDraw {
   SceneShader shader;
   VertexView vertices;
   std::shared_ptr<const Indices> indices;
   DrawState state;  ///< uses reversed Z: clear depth to 0
+  DrawSource source{};
 };
 
 /// Returns the draw state of opaque surfaces, with reversed Z. `mirrored` must be set if the object's transform inverts the
@@ -67,8 +83,8 @@ DrawState opaque_state(CullMode cull, bool mirrored);
 /// Returns the draw state of spheres drawn as points.
 DrawState sprite_state();
 
-/// Adds a draw to a pass.
-void add_draw(Pass& pass, const PreparedDraw& draw);
+/// Adds a draw to a pass, with the given state.
+void add_draw(Pass& pass, const PreparedDraw& draw, const DrawState& state);
 
 /// A mesh and its transform, for shadow maps and ray tracing.
 struct PlacedMesh {
@@ -103,6 +119,7 @@ struct PreparedLight {
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
+  bool transparent = false;           ///< colors are premultiplied by alpha, which is 0 where nothing is drawn
   PostDescription post;
   int samples = 1;  ///< per pixel
   View view;
@@ -160,10 +177,8 @@ class SceneAssets {
   int panorama_width_ = 0, face_size_ = 0;  ///< minimum sizes of generated environments
 };
 
-/// Renders the scene to 8-bit pixels as specified by its post section. Light is stored for the whole image only if auto_exposure
-/// has to measure it first; otherwise it only exists in tiles.
+/// Render only the color of a frame; see render_frame() in render/frame.h for the meaning of the images and for other values.
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
-/// Renders the scene as linear light before exposure and tone curve, with alpha 1.
-PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& picture, const Workers& workers);
+PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& light, const Workers& workers);
 
 }  // namespace halfspace

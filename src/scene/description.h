@@ -197,7 +197,8 @@ struct EnvironmentDescription {
   double brightness = 1.0;
 };
 
-enum class BackgroundType : uint8_t { color, stars, environment };
+/// `transparent`: where nothing is drawn, alpha is 0.
+enum class BackgroundType : uint8_t { color, stars, environment, transparent };
 
 struct BackgroundDescription {
   BackgroundType type = BackgroundType::color;

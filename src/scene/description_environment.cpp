@@ -11,7 +11,7 @@ struct ChoiceNames<EnvironmentType> {
 };
 template <>
 struct ChoiceNames<BackgroundType> {
-  static constexpr std::array<std::string_view, 3> names{"color", "stars", "environment"};
+  static constexpr std::array<std::string_view, 4> names{"color", "stars", "environment", "transparent"};
 };
 template <>
 struct ChoiceNames<LightFormat> {

@@ -84,7 +84,7 @@ struct SphereImpostor : SphereImpostors {
     return lens.perspective ? size / max(center_cs.z, R(lens.near)) : size;
   }
 
- private:
+ protected:
   template <class R>
   HS_INLINE PerVertex<R> point(const Attributes<R>& in) const {
     const vec3<R>& c = in.center_cs;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders a prepared scene: its color and, from a second pass, values such as depth, normals and ids.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "halfspace/core/image.h"
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/shading/frame_values.h"
+
+namespace halfspace {
+
+/// A rectangle of an image, in pixels from the upper left corner.
+struct ImageRect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// The images of a frame that render_frame() fills; null: not wanted. They are not owned. All must have the size for which the scene was
+/// prepared, or that of the crop.
+///
+/// Colors are antialiased as the scene specifies. All other values are those of the surface at the center of a pixel, without filtering.
+/// Only opaque surfaces have them, including the remaining parts of masked ones: blended surfaces and floors that only show shadows are
+/// left out, as if they were not there. Positions and distances are in scene units.
+struct FrameImages {
+  Image<glm::u8vec4>* picture = nullptr;        ///< codes for display, as the post section of the scene specifies; straight alpha
+  Image<glm::u16vec4>* fine_picture = nullptr;  ///< the same with 16 bits per channel, not dithered
+  Image<glm::vec4>* light = nullptr;            ///< linear light before exposure and tone curve, straight alpha
+
+  // See FrameValue for their meaning. Where there is no surface, they are 0 unless stated otherwise.
+  Image<float>* depth = nullptr;              ///< background_depth where there is no surface
+  Image<float>* distance = nullptr;           ///< background_depth where there is no surface
+  Image<glm::vec3>* normal = nullptr;         ///< world space
+  Image<glm::vec3>* camera_normal = nullptr;  ///< x right, y up, z towards the eye
+  Image<glm::vec3>* albedo = nullptr;         ///< linear
+  Image<glm::vec3>* position = nullptr;       ///< world space
+  Image<glm::vec2>* uv = nullptr;             ///< 0 if the mesh has none
+  /// Index in the scene's objects. Their number for the particles, and the following numbers for further particle systems. kNoId where
+  /// there is no surface.
+  Image<uint32_t>* object = nullptr;
+  /// Index of the copy of an object; of a model with n meshes, copy · n + mesh; of spheres and particles, their index. kNoId as above.
+  Image<uint32_t>* instance = nullptr;
+  /// Index of the triangle, point or line in its mesh; 0 for spheres. kNoId as above.
+  Image<uint32_t>* triangle = nullptr;
+  Image<glm::vec3>* barycentrics = nullptr;  ///< (1, 0, 0) for points and spheres
+
+  float background_depth = std::numeric_limits<float>::infinity();
+  /// Render only this rectangle, which must be inside the frame. The images have its size and equal the rectangle of the whole images.
+  std::optional<ImageRect> crop{};
+};
+
+inline constexpr uint32_t kNoId = 0xffffffffu;
+
+/// Returns true if an image other than the color images is wanted.
+bool wants_values(const FrameImages& images);
+
+/// Renders all wanted images. The result does not depend on the number of workers. Light is stored for the whole image only if it is
+/// wanted, or if auto_exposure has to measure it first; otherwise it only exists in tiles. The returned statistics are the sums over all
+/// passes that draw the scene.
+PassStatistics render_frame(const PreparedScene& scene, const FrameImages& images, const Workers& workers);
+
+/// Adds a draw to a pass whose attachment n stores FrameValue n. Draws without values are left out: the background and blended surfaces.
+/// wanted: the values that are needed; others may be wrong. Compiled once, in add_value_draw.cpp.
+void add_value_draw(Pass& pass, const PreparedDraw& draw, const FrameCamera& camera, const std::array<bool, kFrameValues>& wanted,
+                    const DrawState& state);
+
+}  // namespace halfspace
