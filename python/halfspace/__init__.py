@@ -25,6 +25,7 @@ from ._core import InputError, OutputError  # noqa: E402
 from ._one_call import render  # noqa: E402
 from ._options import RenderWarning  # noqa: E402
 from .camera import Camera  # noqa: E402
+from .labels import LABELS, NO_ID  # noqa: E402
 from .material import Material, Texture, srgb  # noqa: E402
 from .mesh import Mesh  # noqa: E402
 from .picture import Picture  # noqa: E402
@@ -39,5 +40,5 @@ def scenes() -> "list[str]":
     return _core.scene_names()
 
 
-__all__ = ["Camera", "InputError", "Material", "Mesh", "OutputError", "Picture", "RenderWarning", "Scene", "Texture", "render", "scenes",
+__all__ = ["LABELS", "NO_ID", "Camera", "InputError", "Material", "Mesh", "OutputError", "Picture", "RenderWarning", "Scene", "Texture", "render", "scenes",
            "srgb"]

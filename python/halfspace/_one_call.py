@@ -22,6 +22,7 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     set: keys of the scene and their values, for example {"time.hours": 18}.
     camera: the name of a camera of the scene or the model, or a Camera.
     time: of animations, in seconds.   threads: None: one per core.
+    alpha: leave the background out; alpha is straight, and 0 where nothing is drawn.
     view: for model files, the arguments of Scene.load.
     Returns uint8 of shape (height, width, 3), sRGB codes; with alpha=True (height, width, 4); with linear=True float32 of shape
     (height, width, 4), light before exposure and tone curve.

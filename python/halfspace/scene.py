@@ -14,6 +14,7 @@ from . import _check, _core
 from ._check import fail
 from ._options import LIGHTING, emit, pixel_kind, setting_text, times_of, view_options
 from .camera import Camera
+from .labels import LABELS, checked_background, finished, images_of
 from .mesh import Mesh
 from .picture import Picture
 
@@ -30,7 +31,7 @@ class Scene:
         curve: colors are clamped to [0, 1]).
     threads: number of threads; None: one per core. The pictures do not depend on it.
 
-    All methods can be called by several Python threads at once. Pictures are arrays of their own; they do not refer to the scene.
+    All methods can be called by several Python threads at once. Pictures and labels are arrays of their own; they do not refer to the scene.
     """
 
     def __init__(self, *, lighting: str = "studio", threads: Optional[int] = None) -> None:
@@ -104,7 +105,8 @@ class Scene:
         transform: object to world space, (4, 4), or (N, 4, 4) for N copies; affine, float. None: the identity.
         name: a letter a to z followed by a to z, 0 to 9 and _. None: chosen.
 
-        The name is a section of the scene: scene[name + ".visible"] = False hides the object. 
+        The name is a section of the scene: scene[name + ".visible"] = False hides the object. Object ids in labels count objects in the
+        order in which they were added.
         """
         if not isinstance(mesh, Mesh):
             mesh = Mesh.from_trimesh(mesh)
@@ -199,12 +201,13 @@ class Scene:
         camera: None: the `camera` of this object or, if that is None, the camera of the scene. A scene of arrays without a camera is shown
             as a whole.
         time: of animations, in seconds.
+        alpha: leave the background out; alpha is straight, and 0 where nothing is drawn.
         Returns uint8 of shape (height, width, 3), sRGB codes; with alpha=True (height, width, 4). With linear=True: float32 of shape
         (height, width, 4), light before exposure and tone curve.
         """
         width, height = _check.size(size)
         self._flush()
-        return self._picture(self._core, width, height, time, self._camera(camera, width, height), pixel_kind(linear, alpha))
+        return self._picture(self._core, width, height, time, self._camera(camera, width, height), pixel_kind(linear, alpha), alpha)
 
     def frames(self, frames: Union[int, Iterable[int]], *, size: Size = (640, 480), fps: float = 30.0, time: float = 0.0,
                camera: Optional[Camera] = None, linear: bool = False, alpha: bool = False) -> Iterator[Picture]:
@@ -222,7 +225,7 @@ class Scene:
         core, view, kind = self._core.copy(), self._camera(camera, width, height), pixel_kind(linear, alpha)
         if times:
             core.expect(times, width, height)
-        return (self._picture(core, width, height, t, view, kind) for t in times)
+        return (self._picture(core, width, height, t, view, kind, alpha) for t in times)
 
     def render_batch(self, cameras: Sequence[Optional[Camera]], *, size: Size = (640, 480), time: Union[float, Sequence[float]] = 0.0,
                      linear: bool = False, alpha: bool = False, progress: Optional[Callable[[int, int], Any]] = None) -> np.ndarray:
@@ -237,7 +240,56 @@ class Scene:
         self._flush()
         views = [self._camera(camera, width, height) for camera in cameras]
         try:
-            return self._core.render_batch(width, height, times, views, pixel_kind(linear, alpha), progress)
+            return self._core.render_batch(width, height, times, views, pixel_kind(linear, alpha), bool(alpha), progress)
+        finally:
+            emit(self._core)
+
+    # ---- labels --------------------------------------------------------------------------------------------------
+
+    def labels(self, outputs: Iterable[str] = LABELS, *, size: Size = (640, 480), camera: Optional[Camera] = None, time: float = 0.0,
+               background_depth: float = float("inf")) -> Dict[str, np.ndarray]:
+        """Renders a picture and values of each pixel. Returns a dictionary with an array for each name in `outputs`.
+
+        "color"          uint8 (H, W, 3), the pixels of render()
+        "depth"          float32 (H, W), along the view axis, in scene units; background_depth where there is no surface
+        "distance"       float32 (H, W), from the eye along the ray of the pixel; background_depth where there is no surface
+        "normal"         float32 (H, W, 3), unit length, in world space; towards the side of the surface that is seen if it has two
+        "camera_normal"  float32 (H, W, 3), the same in camera space: x right, y up, z towards the eye
+        "albedo"         float32 (H, W, 3), linear color before lighting
+        "position"       float32 (H, W, 3), in world space
+        "uv"             float32 (H, W, 2), texture coordinates with v = 0 at the top row of the texture
+        "object"         uint32 (H, W), index in `objects`; NO_ID where there is no surface
+        "instance"       uint32 (H, W), index of the copy of an object of add(); NO_ID where there is no surface
+        "triangle"       uint32 (H, W), index of the face; NO_ID where there is no surface
+        "barycentrics"   float32 (H, W, 3), weights of the corners of the face, in their order
+        "mask"           bool (H, W), whether there is a surface
+
+        Values are those of the surface at the center of the pixel, without antialiasing; other values are 0 where there is no surface.
+        Blended surfaces are left out. background_depth=0 gives the depth of pyrender.
+        """
+        width, height = _check.size(size)
+        wanted, depth = images_of(outputs), checked_background(background_depth)
+        self._flush()
+        view = self._camera(camera, width, height)
+        try:
+            return finished(_core.labels(self._core, width, height, _check.number("time", time), view, wanted, depth), outputs)
+        finally:
+            emit(self._core)
+
+    def label_batch(self, cameras: Sequence[Optional[Camera]], outputs: Iterable[str] = LABELS, *, size: Size = (640, 480),
+                    time: Union[float, Sequence[float]] = 0.0, background_depth: float = float("inf"),
+                    progress: Optional[Callable[[int, int], Any]] = None) -> Dict[str, np.ndarray]:
+        """Renders the labels of one frame per camera, several at a time. The arrays have the shapes of labels() after a first axis of N.
+
+        time, progress: as in render_batch().
+        """
+        width, height = _check.size(size)
+        wanted, depth = images_of(outputs), checked_background(background_depth)
+        times = times_of(time, cameras)
+        self._flush()
+        views = [self._camera(camera, width, height) for camera in cameras]
+        try:
+            return finished(_core.label_batch(self._core, width, height, times, views, wanted, depth, progress), outputs)
         finally:
             emit(self._core)
 
@@ -252,9 +304,9 @@ class Scene:
 
     # ---- private -------------------------------------------------------------------------------------------------
 
-    def _picture(self, core: Any, width: int, height: int, time: float, view: Any, kind: Any) -> Picture:
+    def _picture(self, core: Any, width: int, height: int, time: float, view: Any, kind: Any, alpha: bool) -> Picture:
         try:
-            return core.render(width, height, _check.number("time", time), view, kind).view(Picture)
+            return core.render(width, height, _check.number("time", time), view, kind, bool(alpha)).view(Picture)
         finally:
             emit(core)
 

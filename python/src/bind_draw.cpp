@@ -176,7 +176,7 @@ class ArrayPass {
     try {
       const py::gil_scoped_release release;
       Pass pass(width_, height_, color_target_, depth_target_, {.samples = samples_});
-      for (const Draw& d : draws) add_draw(pass, d.draw);
+      for (const Draw& d : draws) add_draw(pass, d.draw, d.draw.state);
       pass.run(Workers(threads));
     } catch (const std::logic_error& e) {  // a failed check
       throw InputError(std::string("pass: the draws are invalid (") + e.what() + ")");

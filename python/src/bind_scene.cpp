@@ -54,8 +54,10 @@ py::array render_whole(SceneCore& scene, const Shot& shot, PictureSize size) {
   return array_of(std::move(picture));
 }
 
-py::array render_picture(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, PixelKind kind) {
-  const Shot shot = shot_of(time, camera);
+py::array render_picture(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, PixelKind kind,
+                         bool transparent) {
+  Shot shot = shot_of(time, camera);
+  shot.transparent = transparent;
   const PictureSize size{width, height};
   switch (kind) {
     case PixelKind::rgb: return render_rgb(scene, shot, size);
@@ -90,8 +92,9 @@ void copy_texels(const Image<Pixel>& image, typename Pixel::value_type* out) {
 }
 
 py::array render_batch(SceneCore& scene, int width, int height, const std::vector<double>& times,
-                       const std::vector<CameraDescription*>& cameras, PixelKind kind, const py::object& progress) {
-  const std::vector<Shot> shots = shots_of(times, cameras);
+                       const std::vector<CameraDescription*>& cameras, PixelKind kind, bool transparent, const py::object& progress) {
+  std::vector<Shot> shots = shots_of(times, cameras);
+  for (Shot& shot : shots) shot.transparent = transparent;
   const PictureSize size{width, height};
   switch (kind) {
     case PixelKind::rgb: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 3, progress, copy_rgb);

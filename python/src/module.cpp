@@ -36,6 +36,7 @@ PYBIND11_MODULE(_core, m) {
   bind_scene(m);
   bind_model(m);
   bind_image(m);
+  bind_labels(m);
   bind_draw_state(m);
   bind_draw(m);
 }

@@ -101,6 +101,7 @@ SceneDescription SceneCore::State::description(const Shot& shot) const {
     for (const glm::dmat4& transform : found->second) object.instances.push_back({.matrix = transform});
     object.visible = object.visible && !found->second.empty();
   }
+  if (shot.transparent) description.background.type = BackgroundType::transparent;
   if (shot.camera) {
     description.cameras = {{"shot", *shot.camera}};
     description.head.camera = "shot";

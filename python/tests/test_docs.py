@@ -14,7 +14,7 @@ EXAMPLES = ROOT / "python" / "examples"
 
 def test_the_code_of_the_document_runs(tmp_path, monkeypatch):
     blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "howto" / "python.md").read_text(), flags=re.S | re.M)
-    assert len(blocks) >= 7
+    assert len(blocks) >= 8
     monkeypatch.chdir(tmp_path)
     names = {}
     for block in blocks:
@@ -25,6 +25,16 @@ def test_the_code_of_the_document_runs(tmp_path, monkeypatch):
 
 def run(*arguments):
     return subprocess.run([sys.executable, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
+
+
+def test_the_dataset_example_writes_views_with_labels(tmp_path):
+    np = pytest.importorskip("numpy")
+    text = run(EXAMPLES / "dataset.py", "--views", "3", "--size", "64x48", "--out", tmp_path)
+    assert re.search(r"3 views of 64x48 with color, depth, camera_normal, object: \d+ frames/s", text)
+    views = np.load(tmp_path / "views_00000.npz")
+    assert views["color"].shape == (3, 48, 64, 3) and views["depth"].dtype == np.float32 and views["box_counts"].sum() == len(views["boxes"])
+    number, left, top, right, bottom = views["boxes"][0]
+    assert (views["object"][0, top:bottom, left:right] == number).any() and (tmp_path / "labels.png").exists()
 
 
 def test_the_turntable_example_writes_frames(tmp_path):

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The names of labels, and the ids of pixels without a surface."""
+
+from __future__ import annotations
+
+from typing import Dict, Iterable, Set
+
+import numpy as np
+
+from . import _check, _core
+from ._check import fail
+
+LABELS = ("color", "depth", "distance", "normal", "camera_normal", "albedo", "position", "uv", "object", "instance", "triangle",
+          "barycentrics", "mask")
+NO_ID: int = _core.no_id  #: id where there is no surface
+
+
+def images_of(outputs: Iterable[str]) -> Set[str]:
+    """Returns the names of the images that _core renders."""
+    if isinstance(outputs, str):
+        raise fail("outputs", f"is {outputs!r}", "a list of names, for example ['depth', 'object']")
+    wanted = {_check.choice("outputs", name, LABELS) for name in outputs}
+    return wanted - {"mask"} | ({"object"} if "mask" in wanted else set())
+
+
+def checked_background(depth: float) -> float:
+    if np.isnan(depth):
+        raise fail("background_depth", "is nan", "a number or infinity")
+    return float(depth)
+
+
+def finished(arrays: Dict[str, np.ndarray], outputs: Iterable[str]) -> Dict[str, np.ndarray]:
+    """Adds the mask, and removes what was only needed for it."""
+    arrays["mask"] = arrays["object"] != NO_ID if "object" in arrays else None
+    if "color" in arrays:
+        arrays["color"] = arrays["color"][..., :3]
+    return {name: arrays[name] for name in outputs}

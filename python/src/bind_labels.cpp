@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Labels: the values of a frame other than its color.
+#include <atomic>
+#include <cstring>
+#include <set>
+
+#include "bindings.h"
+#include "halfspace/render/frame.h"
+#include "shots.h"
+
+namespace halfspace::python {
+
+namespace {
+
+/// The images of all labels; those that are not wanted are empty.
+struct LabelImages {
+  Image<glm::u8vec4> color;
+  Image<float> depth, distance;
+  Image<glm::vec3> normal, camera_normal, albedo, position, barycentrics;
+  Image<glm::vec2> uv;
+  Image<uint32_t> object, instance, triangle;
+
+  /// Calls visit(name, image, member of FrameImages) for each label.
+  template <class F>
+  void for_each(const F& visit) {
+    visit("color", color, &FrameImages::picture);
+    visit("depth", depth, &FrameImages::depth);
+    visit("distance", distance, &FrameImages::distance);
+    visit("normal", normal, &FrameImages::normal);
+    visit("camera_normal", camera_normal, &FrameImages::camera_normal);
+    visit("albedo", albedo, &FrameImages::albedo);
+    visit("position", position, &FrameImages::position);
+    visit("uv", uv, &FrameImages::uv);
+    visit("object", object, &FrameImages::object);
+    visit("instance", instance, &FrameImages::instance);
+    visit("triangle", triangle, &FrameImages::triangle);
+    visit("barycentrics", barycentrics, &FrameImages::barycentrics);
+  }
+};
+
+using Names = std::set<std::string>;
+
+/// Allocates the wanted images and renders them.
+void render_labels(LabelImages& images, const Names& wanted, float background_depth, PictureSize size, const PreparedScene& scene,
+                   const Workers& workers) {
+  FrameImages frame;
+  frame.background_depth = background_depth;
+  images.for_each([&](const char* name, auto& image, auto member) {
+    if (!wanted.contains(name)) return;
+    image = std::decay_t<decltype(image)>(size.width, size.height);
+    frame.*member = &image;
+  });
+  render_frame(scene, frame, workers);
+}
+
+py::dict labels(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, const Names& wanted,
+                float background_depth) {
+  LabelImages images;
+  const Shot shot = shot_of(time, camera);
+  const PictureSize size{width, height};
+  {
+    const py::gil_scoped_release release;
+    render_labels(images, wanted, background_depth, size, scene.prepare(shot, size), scene.workers());
+  }
+  py::dict arrays;
+  images.for_each([&](const char* name, auto& image, auto) {
+    if (wanted.contains(name)) arrays[name] = array_of(std::move(image));
+  });
+  return arrays;
+}
+
+/// Arrays of shape (N, height, width, ...) that a batch fills.
+class LabelArrays {
+ public:
+  LabelArrays(const Names& wanted, std::size_t count, PictureSize size) {
+    LabelImages images;
+    images.for_each([&](const char* name, auto& image, auto) {
+      using Texel = std::decay_t<decltype(*image.data())>;
+      if (!wanted.contains(name)) return;
+      std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count), size.height, size.width};
+      if constexpr (!std::is_arithmetic_v<Texel>) shape.push_back(Texel::length());
+      py::array array(py::dtype::of<Number<Texel>>(), shape);
+      places_[name] = static_cast<std::byte*>(array.mutable_data());
+      arrays_[name] = std::move(array);
+    });
+  }
+
+  /// Copies the images of one shot. Thread-safe for different shots.
+  void store(std::size_t shot, LabelImages& images) const {
+    images.for_each([&](const char* name, const auto& image, auto) {
+      const std::size_t bytes = image.texels().size_bytes();
+      if (const auto place = places_.find(name); place != places_.end()) std::memcpy(place->second + shot * bytes, image.data(), bytes);
+    });
+  }
+
+  const py::dict& arrays() const { return arrays_; }
+
+ private:
+  template <class Texel>
+  struct NumberOf {
+    using type = Texel;
+  };
+  template <class Texel>
+  requires requires { typename Texel::value_type; }
+  struct NumberOf<Texel> {
+    using type = typename Texel::value_type;
+  };
+  template <class Texel>
+  using Number = typename NumberOf<Texel>::type;
+
+  py::dict arrays_;
+  std::map<std::string, std::byte*> places_;
+};
+
+py::dict label_batch(SceneCore& scene, int width, int height, const std::vector<double>& times,
+                     const std::vector<CameraDescription*>& cameras, const Names& wanted, float background_depth,
+                     const py::object& progress) {
+  const PictureSize size{width, height};
+  const std::vector<Shot> shots = shots_of(times, cameras);
+  const LabelArrays arrays(wanted, shots.size(), size);
+  std::atomic<std::size_t> finished = 0;
+  {
+    const py::gil_scoped_release release;
+    scene.for_each_shot(shots, size, [&](std::size_t i, const PreparedScene& prepared, const Workers& workers) {
+      LabelImages images;
+      render_labels(images, wanted, background_depth, size, prepared, workers);
+      arrays.store(i, images);
+      report(progress, ++finished, shots.size());
+    });
+  }
+  return arrays.arrays();
+}
+
+}  // namespace
+
+void bind_labels(py::module_& m) {
+  m.def("labels", &labels);
+  m.def("label_batch", &label_batch);
+  m.attr("no_id") = kNoId;
+}
+
+}  // namespace halfspace::python
