@@ -103,11 +103,12 @@ int report(const CLI::App& program, ExitCode code, std::string_view what) {
 class HelpFormatter : public CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
-    if (const std::size_t gap = text.find("\n\n\n"); gap != std::string::npos) text.erase(gap, 1);  // of the group that is left out
+    // Groups that are left out leave a gap.
+    for (std::size_t gap = text.find("\n\n\n"); gap != std::string::npos; gap = text.find("\n\n\n")) text.erase(gap, 1);
     return text;
   }
   std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> options) const override {
-    return group == kUnlistedGroup ? "" : CLI::Formatter::make_group(group, is_positional, options);
+    return group == kUnlistedGroup || group == kOutputGroup ? "" : CLI::Formatter::make_group(group, is_positional, options);
   }
   // Omits the headline: positional arguments are listed directly below the usage line.
   std::string make_positionals(const CLI::App* app) const override {

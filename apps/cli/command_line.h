@@ -17,6 +17,7 @@ namespace halfspace {
 
 /// The name of a group of options that the help of a command leaves out.
 inline constexpr const char* kUnlistedGroup = "unlisted";
+inline constexpr const char* kOutputGroup = "unlisted output";
 
 /// Adds --help and --version and sets the layout of the help text. The name of the program must be set before.
 void set_common_options(CLI::App& program);

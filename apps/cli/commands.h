@@ -10,6 +10,7 @@
 
 #include "cli/limit_arguments.h"
 #include "cli/model_arguments.h"
+#include "cli/output_arguments.h"
 
 namespace halfspace {
 
@@ -33,6 +34,7 @@ struct RenderArguments {
   bool print = false;
   ModelArguments model;
   LimitArguments limits;
+  OutputArguments output;
 };
 void render_command(const RenderArguments& args);
 

@@ -30,15 +30,37 @@ void add_limit_options(CLI::App* command, LimitArguments& args, const std::strin
   command->add_option("--max-pixels", args.pixels, "Pixels of an image (default 268435456)")->type_name("N")->group(group);
 }
 
-// Prints the options of a command that are in the group of model files, and ends the program successfully.
-void print_model_options(const CLI::App* command) {
-  std::cout << "More options of 'halfspace render', most of them for model files (.obj .gltf .glb .ply .stl):\n";
+// Prints the options of a command that are in a group that its help leaves out, and ends the program successfully.
+void print_group(const CLI::App* command, const char* group, const char* title) {
+  std::cout << title << '\n';
   for (const CLI::Option* option : command->get_options()) {
-    if (option->get_group() != kUnlistedGroup) continue;
+    if (option->get_group() != group) continue;
     const std::string name = "--" + option->get_lnames().front() + (option->get_type_name().empty() ? "" : " " + option->get_type_name());
     std::cout << fmt::format("  {:<26}{}\n", name, option->get_description());
   }
   throw CLI::Success();
+}
+
+// Adds the options that say what is written. They are listed by --help-output, so that the help of the command fits on a screen.
+void add_output_options(CLI::App* command, OutputArguments& args) {
+  const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
+    command->add_option(name, value, help)->type_name(type)->group(kOutputGroup);
+  };
+  add("--aov", args.aov, "Also write values: depth,distance,normal,...", "LIST");
+  command->add_flag("--aov-separate", args.separate, "One file per value, OUT-depth.exr, ...")->group(kOutputGroup);
+  add("--bits", args.bits, "Bits per channel of .png: 8 (default) or 16", "N");
+  add("--crop", args.crop, "Render only this rectangle, from the top left", "X,Y,W,H");
+  command
+      ->add_flag_callback(
+          "--help-output",
+          [command] {
+            print_group(command, kOutputGroup,
+                        "Options of 'halfspace render' for what is written. The values of --aov are depth, distance,\n"
+                        "normal, camera_normal, albedo, position, uv, object, instance, triangle and barycentrics.\n"
+                        "They are added to OUT if that is an .exr file; otherwise they go to OUT-aov.exr.");
+          },
+          "Print these options and exit")
+      ->group(kOutputGroup);
 }
 
 // Adds the options for model files. They are listed by --help-model, so that the help of the command fits on a screen.
@@ -46,7 +68,9 @@ void add_model_options(CLI::App* command, ModelArguments& args) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
     command->add_option(name, value, help)->type_name(type)->group(kUnlistedGroup);
   };
-  const auto add_flag = [&](const char* name, bool& value, const char* help) { command->add_flag(name, value, help)->group(kUnlistedGroup); };
+  const auto add_flag = [&](const char* name, bool& value, const char* help) {
+    command->add_flag(name, value, help)->group(kUnlistedGroup);
+  };
   add("--yaw", args.yaw, "Degrees around the model (default 35)", "A");
   add("--pitch", args.pitch, "Degrees above the horizon (default 18)", "A");
   add("--zoom", args.zoom, "2: half the distance (default 1)", "F");
@@ -57,14 +81,21 @@ void add_model_options(CLI::App* command, ModelArguments& args) {
   add_flag("--inside", args.inside, "Start inside the bounds of the model");
   add("--turntable", args.turntable, "Render N frames around the model", "N");
   add("--environment", args.environment, "Panorama that lights the model", "FILE");
-  add("--background", args.background, "#rrggbb, or environment", "COLOR");
+  add("--background", args.background, "#rrggbb, environment or transparent", "COLOR");
   add_flag("--no-floor", args.no_floor, "No shadow below the model");
   add("--up-axis", args.up_axis, "y or z (default: z for STL, else y)", "AXIS");
   add("--scene", args.model_scene, "Scene in the file", "NAME");
   add("--animation", args.animation, "Animation in the file", "NAME");
   add("--variant", args.variant, "Material variant in the file", "NAME");
   add_flag("--allow-outside", args.allow_outside, "Open textures and buffers outside its folder");
-  command->add_flag_callback("--help-model", [command] { print_model_options(command); }, "Print these options and exit")
+  command
+      ->add_flag_callback(
+          "--help-model",
+          [command] {
+            print_group(command, kUnlistedGroup,
+                        "More options of 'halfspace render', most of them for model files (.obj .gltf .glb .ply .stl):");
+          },
+          "Print these options and exit")
       ->group(kUnlistedGroup);
 }
 
@@ -72,7 +103,7 @@ void add_render_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to an image or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
   command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")->required()->type_name("");
-  command->add_option("-o,--output", args->out, ".png, .jpg, .tif; linear light: .exr, .hdr")->type_name("OUT");
+  command->add_option("-o,--output", args->out, ".png .jpg .tif .exr .hdr (see --help-output)")->type_name("OUT");
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
   command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
@@ -87,6 +118,7 @@ void add_render_command(CLI::App& program) {
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");
   command->add_flag("--wireframe{lines}", args->wireframe, "Edges only; =hidden: without edges behind faces")->group(kUnlistedGroup);
+  add_output_options(command, args->output);
   add_model_options(command, args->model);
   add_limit_options(command, args->limits, kUnlistedGroup);
   command->footer(

@@ -16,6 +16,8 @@
 #include "cli/errors.h"
 #include "cli/frames.h"
 #include "cli/input_files.h"
+#include "cli/output_files.h"
+#include "cli/render_comment.h"
 #include "cli/scene_arguments.h"
 #include "cli/statistics.h"
 #include "halfspace/core/check.h"
@@ -44,6 +46,8 @@ struct RenderJob {
   bool resume;
   std::optional<AllowedError> allowed;
   std::optional<HiddenLines> wireframe;
+  OutputChoice output;
+  const RenderArguments& arguments;
 };
 
 std::filesystem::path output_path(const RenderArguments& args) {
@@ -85,6 +89,13 @@ std::optional<HiddenLines> wireframe_of(const std::string& text) {
   return text == "hidden" ? HiddenLines::removed : HiddenLines::shown;
 }
 
+// Throws UsageError if the background is transparent and the format cannot store that.
+void check_alpha(const SceneFile& scene, const std::filesystem::path& out, ImageFile format) {
+  const bool stores_alpha = format == ImageFile::png || format == ImageFile::tiff || format == ImageFile::exr;
+  if (scene.description().background.type == BackgroundType::transparent && !stores_alpha)
+    throw UsageError("-o is '" + out.string() + "', but the background is transparent; expected a file name ending in .png, .tif or .exr");
+}
+
 RenderJob understand(const RenderArguments& args) {
   set_limits(args.limits);
   const PictureSize size = parse_size(args.size);
@@ -108,24 +119,31 @@ RenderJob understand(const RenderArguments& args) {
   if (frames && !out.has_extension())
     throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a file name ending in .png, .jpg, .tif, .exr or .hdr");
   const ImageFile format = output_format(out);
-  check_picture(size, is_linear(format) ? sizeof(glm::vec4) : sizeof(glm::u8vec4));
+  const OutputChoice output = parse_output(args.output, size, out, format);
+  if (!output.values.empty() && !args.wireframe.empty())
+    throw UsageError("--aov does not apply to --wireframe; expected only one of the two");
+  check_picture(size, bytes_per_pixel(output, format));
   OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps);
   const auto camera = opened.camera_names.find(args.camera);
   set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
   set_shading(opened.scene, args.shading);
+  check_alpha(opened.scene, out, format);
   std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>> models;
   if (opened.model != nullptr) models.emplace(opened.model_file, opened.model);
-  return {std::move(opened.scene), std::move(models),           out, format, size, time, fps, frames, threads, args.resume,
-          allowed_error(args),     wireframe_of(args.wireframe)};
-}
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-void write_picture(const std::filesystem::path& path, const Image<glm::vec4>& picture) { write_image(path, picture); }
-void write_picture(const std::filesystem::path& path, const Image<glm::u8vec4>& picture) {
-  path.has_extension() ? write_image(path, picture) : write_png(path, picture);  // for example /dev/stdout
+  return {std::move(opened.scene),
+          std::move(models),
+          out,
+          format,
+          size,
+          time,
+          fps,
+          frames,
+          threads,
+          args.resume,
+          allowed_error(args),
+          wireframe_of(args.wireframe),
+          output,
+          args};
 }
 
 // Prepares the scene at a point in time. Adds the name of the scene to the messages of errors.
@@ -146,40 +164,23 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
   }
 }
 
-// Renders one image to a file and adds its times and counts to the report.
-template <class Pixel>
+PictureFiles files_of(const RenderJob& job, double seconds, const std::filesystem::path& path) {
+  const std::optional<ImageRect>& crop = job.output.crop;
+  return {path,
+          job.format,
+          job.output,
+          crop ? PictureSize{crop->width, crop->height} : job.size,
+          {.software = "Halfspace " HALFSPACE_VERSION, .comment = render_comment(job.arguments, seconds)}};
+}
+
+// Renders one image to its files and adds its times and counts to the report.
 void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
                     RenderReport& report) {
   const auto start = std::chrono::steady_clock::now();
-  Image<Pixel> picture(job.size.width, job.size.height);
   const PreparedScene scene = prepare(job, seconds, assets, report);
   report.counts += scene.shadow_statistics;
-  report.counts += render(scene, picture, workers);
-  const double render_ms = milliseconds_since(start);
-  write_picture(path, picture);
-  report.render_ms += render_ms;
-  report.write_ms += milliseconds_since(start) - render_ms;
-}
-
-void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
-                    RenderReport& report) {
-  if (is_linear(job.format)) {
-    render_picture<glm::vec4>(job, seconds, path, assets, workers, report);
-  } else {
-    render_picture<glm::u8vec4>(job, seconds, path, assets, workers, report);
-  }
-}
-
-// Returns true if the file from an earlier run contains a complete image of the requested size.
-bool is_whole(const std::filesystem::path& path, const RenderJob& job) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return false;
-  try {
-    const auto fits = [&](const auto& picture) { return picture.width() == job.size.width && picture.height() == job.size.height; };
-    return is_linear(job.format) ? fits(read_linear(path)) : fits(read_image(path));
-  } catch (const InputError&) {
-    return false;
-  }
+  report.render_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  render_files(scene, files_of(job, seconds, path), workers, report);
 }
 
 // Returns the scene, including the settings that --max-error chooses.
@@ -215,16 +216,17 @@ RenderReport run(const RenderJob& job) {
   Progress progress(job.frames->count());
   for (int frame = job.frames->first; frame <= job.frames->last; ++frame) {
     const std::filesystem::path path = frame_path(job.out, frame, *job.frames);
-    const bool skip = job.resume && is_whole(path, job);
+    const bool skip = job.resume && are_complete(files_of(job, time_of(job, frame), path));
     if (!skip) render_picture(job, time_of(job, frame), path, assets, workers, report);
     progress.advance(skip);
   }
   return report;
 }
 
-// Returns the decimal number that the text consists of, if it does.
-std::optional<int> number_in(const std::string& text) {
-  const int number = parse_number(text);
+// Returns the frame number in a file name such as "moon_0007" or "moon_0007-aov", if there is one.
+std::optional<int> frame_in(const std::string& name) {
+  const std::string end = name.substr(name.find_last_of('_') + 1);
+  const int number = parse_number(end.substr(0, end.find('-')));
   return number < 0 ? std::nullopt : std::optional(number);
 }
 
@@ -244,12 +246,14 @@ void read_models(RenderJob& job) {
 void protect_inputs(const RenderJob& job, const std::string& scene) {
   std::vector<std::filesystem::path> inputs = input_files(job.scene.description(), job.models);
   inputs.emplace_back(scene);
-  if (!job.frames) return refuse_overwriting(job.out, inputs);
+  const auto check = [&](const std::filesystem::path& picture) {
+    refuse_overwriting(picture, inputs);
+    for (const std::filesystem::path& file : value_files(job.output, picture)) refuse_overwriting(file, inputs);
+  };
+  if (!job.frames) return check(job.out);
   for (const std::filesystem::path& input : inputs) {
-    const std::string name = input.stem().string();
-    const std::optional<int> frame = number_in(name.substr(name.find_last_of('_') + 1));
-    if (frame && *frame >= job.frames->first && *frame <= job.frames->last)
-      refuse_overwriting(frame_path(job.out, *frame, *job.frames), inputs);
+    const std::optional<int> frame = frame_in(input.stem().string());
+    if (frame && *frame >= job.frames->first && *frame <= job.frames->last) check(frame_path(job.out, *frame, *job.frames));
   }
 }
 
@@ -268,8 +272,9 @@ void render_command(const RenderArguments& args) {
   if (args.statistics.empty()) return;
   report.scene = args.scene;
   report.output = job.out.string();
-  report.width = job.size.width;
-  report.height = job.size.height;
+  const PictureSize size = files_of(job, job.time, job.out).size;
+  report.width = size.width;
+  report.height = size.height;
   report.threads = job.threads;
   // If the image goes to standard output, print the report to standard error.
   std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;

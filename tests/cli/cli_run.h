@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/image/image_io.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"
 
@@ -68,6 +69,9 @@ class Cli : public testing::Test {
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0, read_bytes(root / "out"), read_bytes(root / "err")};
   }
+
+  // The pixels of an image file. Files of the same pixels differ if they were made with different options.
+  Image<glm::u8vec4> picture(const std::string& name) const { return read_image(directory / name); }
 
   std::vector<std::string> files() const {
     std::vector<std::string> names;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of `render` that say what is written besides or instead of the whole picture: --aov, --crop and --bits.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/render/frame.h"
+
+namespace halfspace {
+
+/// Values as given on the command line; empty: not given.
+struct OutputArguments {
+  std::string aov, crop, bits;
+  bool separate = false;  ///< --aov-separate
+};
+
+/// What a picture consists of.
+struct OutputChoice {
+  std::vector<FrameValue> values;  ///< those of --aov, each once
+  bool separate = false;
+  bool fine = false;  ///< 16 bits per channel
+  std::optional<ImageRect> crop;
+};
+
+/// Parses the options for pictures of the given size that are written to `out`. Throws UsageError.
+OutputChoice parse_output(const OutputArguments& args, const PictureSize& size, const std::filesystem::path& out, ImageFile format);
+
+/// Returns the memory of all images of a picture, in bytes per pixel of the whole view.
+int bytes_per_pixel(const OutputChoice& choice, ImageFile format);
+
+/// Images of the values of --aov.
+class ValueImages {
+ public:
+  ValueImages(const OutputChoice& choice, int width, int height);
+
+  /// Sets the pointers for the values.
+  void bind(FrameImages& images);
+
+  /// Writes the files of the picture `path`, except for the picture itself; see value_files().
+  void write(const std::filesystem::path& path, const ImageText& text) const;
+
+  /// Returns the channels of all values. They refer to this object.
+  std::vector<ExrChannel> channels() const;
+
+ private:
+  using AnyImage = std::variant<Image<float>, Image<uint32_t>, Image<glm::vec2>, Image<glm::vec3>>;
+
+  const OutputChoice& choice_;
+  int width_, height_;
+  std::vector<AnyImage> images_;  // parallel to choice_.values
+};
+
+/// Returns whether the values are channels of the picture itself: if that is an OpenEXR file, unless separate files are wanted.
+bool share_file(const OutputChoice& choice, const std::filesystem::path& picture);
+
+/// Returns the files of the values, next to the picture: NAME-aov.exr, or NAME-VALUE.exr for each value if separate files are wanted. Empty
+/// if there are no values or they are in the picture's own file.
+std::vector<std::filesystem::path> value_files(const OutputChoice& choice, const std::filesystem::path& picture);
+
+}  // namespace halfspace

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/output_files.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace halfspace {
+
+namespace {
+
+// The color image of a picture, in the form in which it is written.
+struct ColorImage {
+  Image<glm::u8vec4> codes;
+  Image<glm::u16vec4> fine_codes;
+  Image<glm::vec4> light;
+};
+
+void bind(ColorImage& color, const PictureFiles& files, FrameImages& images) {
+  const auto make = [&](auto& image, auto*& bound) {
+    image = {files.size.width, files.size.height};
+    bound = &image;
+  };
+  if (is_linear(files.format)) return make(color.light, images.light);
+  files.choice.fine ? make(color.fine_codes, images.fine_picture) : make(color.codes, images.picture);
+}
+
+void write(const ColorImage& color, const ValueImages& values, const PictureFiles& files) {
+  if (share_file(files.choice, files.picture)) {
+    std::vector<ExrChannel> channels = color_channels(color.light);
+    std::ranges::move(values.channels(), std::back_inserter(channels));
+    return write_exr(files.picture, files.size.width, files.size.height, channels, files.text);
+  }
+  if (is_linear(files.format)) return write_image(files.picture, color.light, files.text);
+  if (files.choice.fine) return write_png(files.picture, color.fine_codes, files.text);
+  if (files.picture.has_extension()) return write_image(files.picture, color.codes, files.text);
+  write_png(files.picture, color.codes, files.text);  // for example /dev/stdout
+}
+
+}  // namespace
+
+void render_files(const PreparedScene& scene, const PictureFiles& files, const Workers& workers, RenderReport& report) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto milliseconds = [&] { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(); };
+  ColorImage color;
+  ValueImages values(files.choice, files.size.width, files.size.height);
+  FrameImages images{.crop = files.choice.crop};
+  bind(color, files, images);
+  values.bind(images);
+  report.counts += render_frame(scene, images, workers);
+  const double render_ms = milliseconds();
+  values.write(files.picture, files.text);
+  write(color, values, files);
+  report.render_ms += render_ms;
+  report.write_ms += milliseconds() - render_ms;
+}
+
+bool are_complete(const PictureFiles& files) {
+  const auto exists = [](const std::filesystem::path& file) {
+    std::error_code error;
+    return std::filesystem::exists(file, error);
+  };
+  if (!exists(files.picture) || !std::ranges::all_of(value_files(files.choice, files.picture), exists)) return false;
+  try {
+    const auto fits = [&](const auto& picture) { return picture.width() == files.size.width && picture.height() == files.size.height; };
+    return is_linear(files.format) ? fits(read_linear(files.picture)) : fits(read_image(files.picture));
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders a prepared scene to the files that `render` writes for one picture.
+#pragma once
+
+#include <filesystem>
+
+#include "cli/output_arguments.h"
+#include "cli/statistics.h"
+
+namespace halfspace {
+
+/// The files of one picture.
+struct PictureFiles {
+  std::filesystem::path picture;
+  ImageFile format;
+  const OutputChoice& choice;
+  PictureSize size;  ///< of the files: that of the crop, if there is one
+  ImageText text;
+};
+
+/// Renders the picture and its values, and writes them; the picture last. Adds times and counts to the report.
+void render_files(const PreparedScene& scene, const PictureFiles& files, const Workers& workers, RenderReport& report);
+
+/// Returns true if all files from an earlier run exist, and the picture is complete and has the requested size.
+bool are_complete(const PictureFiles& files);
+
+}  // namespace halfspace

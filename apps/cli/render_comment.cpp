@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_comment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "halfspace/core/text.h"
+
+namespace halfspace {
+
+namespace {
+
+// Removes the folders of a path, and quotes text that a shell would split.
+std::string shown(const std::string& text) {
+  const std::string name = text.substr(text.find_last_of("/\\") + 1);
+  const bool is_plain = !name.empty() && std::ranges::all_of(name, [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           std::string_view("._-+,:#%@").find(c) != std::string_view::npos;
+  });
+  return is_plain ? name : fmt::format("'{}'", name);
+}
+
+}  // namespace
+
+std::string render_comment(const RenderArguments& args, double seconds) {
+  std::string line = "halfspace render " + shown(args.scene);
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) line += fmt::format(" {} {}", option, shown(value));
+  };
+  const auto add_flag = [&](const char* option, bool given) {
+    if (given) line += fmt::format(" {}", option);
+  };
+  add("--size", args.size);
+  for (const std::string& setting : args.set) {
+    const std::size_t equals = setting.find('=');
+    line += fmt::format(" --set {}={}", setting.substr(0, equals), shown(setting.substr(equals + 1)));
+  }
+  add("--camera", args.camera);
+  add("--shading", args.shading);
+  if (seconds != 0.0) add("--time", number_text(seconds));
+  add("--max-error", args.max_error);
+  add("--max-error-color", args.max_error_color);
+  add("--crop", args.output.crop);
+  add("--bits", args.output.bits);
+  const ModelArguments& m = args.model;
+  const std::pair<const char*, const std::string*> options[] = {{"--yaw", &m.yaw},
+                                                                {"--pitch", &m.pitch},
+                                                                {"--zoom", &m.zoom},
+                                                                {"--fov", &m.fov},
+                                                                {"--eye", &m.eye},
+                                                                {"--look-at", &m.look_at},
+                                                                {"--up", &m.up},
+                                                                {"--turntable", &m.turntable},
+                                                                {"--environment", &m.environment},
+                                                                {"--background", &m.background},
+                                                                {"--up-axis", &m.up_axis},
+                                                                {"--scene", &m.model_scene},
+                                                                {"--animation", &m.animation},
+                                                                {"--variant", &m.variant}};
+  for (const auto& [option, value] : options) add(option, *value);
+  if (!m.turntable.empty()) add("--fps", args.fps);
+  if (!args.wireframe.empty()) line += args.wireframe == "hidden" ? " --wireframe=hidden" : " --wireframe";
+  add_flag("--inside", m.inside);
+  add_flag("--no-floor", m.no_floor);
+  add_flag("--allow-outside", m.allow_outside);
+  return line;
+}
+
+}  // namespace halfspace

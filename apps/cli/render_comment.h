@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/commands.h"
+
+namespace halfspace {
+
+/// Returns a command line that renders the same picture at a point in time, for the text in image files. It has all options that change
+/// pixels and no others: no output file, threads, statistics or frame numbers. Files are named without their folders.
+std::string render_comment(const RenderArguments& args, double seconds);
+
+}  // namespace halfspace
