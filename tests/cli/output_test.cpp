@@ -69,6 +69,23 @@ TEST_F(Outputs, ValuesCanHaveFilesOfTheirOwn) {
   EXPECT_LT(depth.at(4, 4), 5.0f);
 }
 
+// A blended surface in front of an opaque one changes the picture but not the values.
+TEST_F(Outputs, BlendedSurfacesHaveNoValues) {
+  std::ofstream(directory / "m.mtl") << "newmtl solid\nKd 0.8 0.2 0.2\nnewmtl glass\nKd 0.2 0.2 0.8\nd 0.5\n";
+  const std::string wall = "mtllib m.mtl\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nusemtl solid\nf 1 2 3 4\n";
+  const auto depth_of = [&](const std::string& name, const std::string& obj) {
+    std::ofstream(directory / (name + ".obj")) << obj;
+    const Outcome o = run({"render", name + ".obj", "--size", "96x64", "--eye", "0,0,5", "--look-at", "0,0,0", "--crop", "30,20,36,24",
+                           "--aov", "depth", "--aov-separate", "-o", name + ".png"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    return read_gray(directory / (name + "-depth.exr"));
+  };
+  const Image<float> alone = depth_of("alone", wall);
+  EXPECT_NEAR(alone.at(0, 0), 5.0f, 1e-5f);
+  EXPECT_TRUE(depth_of("both", wall + "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nusemtl glass\nf 5 6 7 8\n") == alone);
+  EXPECT_FALSE(picture("both.png") == picture("alone.png"));
+}
+
 TEST_F(Outputs, ResumeRendersMissingValues) {
   expect_success({"--frames", "0..1", "-o", "a.png"});
   expect_success({"--frames", "0..1", "-o", "a.png", "--resume", "--aov", "depth"});
