@@ -216,7 +216,7 @@ class TileWorker {
     list.count = 0;
     rasterize(d, chunk, index, &list, statistics);
     if (shades && list.count != 0)
-      shade_immediate(context_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, memory.layers, statistics);
+      shade_immediate(context_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, memory.layers, memory.shading.output, statistics);
   }
 
   // Blends the transparent layers over the colors of the tile. Pixels that are visible behind them have been shaded.
@@ -266,7 +266,7 @@ class TileWorker {
       }
     }
     if (occluder.is_visible() && attachments_.has_color) {
-      shade_full_tile(context_, occluder.triangle(), tile, statistics);
+      shade_full_tile(context_, occluder.triangle(), tile, memory.shading, statistics);
       return occluder.write_depth();
     }
     occluder.write();

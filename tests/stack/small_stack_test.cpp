@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "halfspace/core/parallel.h"
-#include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/frame.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/random.h"
 #include "support/sanitized.h"
@@ -174,7 +174,10 @@ void render_scene(const std::string& name, const std::vector<std::string>& setti
   const Workers workers(threads);
   SceneAssets assets(workers);
   Image<glm::u8vec4> picture(96, 54);
-  render(assets.prepare(file.at(0.0), picture.width(), picture.height()), picture, workers);
+  Image<float> depth(96, 54);
+  Image<glm::vec3> normal(96, 54), barycentrics(96, 54);
+  render_frame(assets.prepare(file.at(0.0), picture.width(), picture.height()),
+               {.picture = &picture, .depth = &depth, .normal = &normal, .barycentrics = &barycentrics}, workers);
   EXPECT_TRUE(std::ranges::any_of(picture.texels(), [&](const glm::u8vec4& c) { return c != picture.at(0, 0); })) << name;
 }
 

@@ -77,7 +77,7 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredSha
   // Sort by draw, so that each shader runs on full batches. The order does not affect the result, because pixels are independent.
   const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   if (!std::is_sorted(work.begin(), work.begin() + count, by_draw)) std::stable_sort(work.begin(), work.begin() + count, by_draw);
-  FragmentOutput out;
+  FragmentOutput& out = memory.output;
   std::array<PacketMask, kFragmentBatch> packets;
   std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
   for (int begin = 0; begin < count;) {
@@ -144,10 +144,10 @@ void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShad
 
 }  // namespace
 
-void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, PassStatistics& statistics) {
+void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
   const Draw& draw = draw_of(context, id);
   statistics.fragments_shaded += kMaxTilePixels;
-  FragmentOutput out;
+  FragmentOutput& out = memory.output;
   std::array<PacketMask, kFragmentBatch> packets;
   for (int first = 0; first < kPackets; first += kFragmentBatch) {
     for (int i = 0; i < kFragmentBatch; ++i)

@@ -15,6 +15,7 @@ struct ShadingWork {
 
 /// Scratch memory for shade_deferred().
 struct DeferredShading {
+  FragmentOutput output;  ///< not on the stack, because a kernel with many colors needs most of a small one
   std::array<ShadingWork, kMaxTilePixels> work;
   std::array<TriangleId, kMaxTilePixels> layer;  ///< one triangle of each multisampled pixel
   std::array<uint8_t, kMaxTilePixels> taken;     ///< bit mask of the samples that have been in a layer
@@ -24,6 +25,6 @@ struct DeferredShading {
 void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics);
 
 /// The same for a full-size tile in which all pixels show one triangle.
-void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, PassStatistics& statistics);
+void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, PassStatistics& statistics);
 
 }  // namespace halfspace

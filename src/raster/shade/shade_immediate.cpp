@@ -19,6 +19,7 @@ struct ImmediateShading {
   const CoverageList& list;
   Tile& tile;
   TransparentLayers& layers;
+  FragmentOutput& output;
   const StencilFace* stencil;  // null: no stencil test after shading
   PassStatistics& statistics;
 };
@@ -70,7 +71,7 @@ void finish_sample(const ImmediateShading& c, const FragmentOutput& out, std::si
 template <class F>
 void shade_packets(const ImmediateShading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at,
                    F finish) {
-  FragmentOutput out;
+  FragmentOutput& out = c.output;
   std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
   for (int begin = 0; begin < count; begin += kFragmentBatch) {
     const int n = std::min(kFragmentBatch, count - begin);
@@ -133,11 +134,11 @@ void shade_pixels(const ImmediateShading& c) {
 }  // namespace
 
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
-                     TransparentLayers& layers, PassStatistics& statistics) {
+                     TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics) {
   const Triangle& t = triangle_of(context, id);
   const bool late_stencil = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only;
   const StencilFace* stencil = late_stencil ? stencil_face(draw.state, tile, t.is(kFrontFacing)) : nullptr;
-  const ImmediateShading c{context, draw, id, mode, list, tile, layers, stencil, statistics};
+  const ImmediateShading c{context, draw, id, mode, list, tile, layers, output, stencil, statistics};
   if (tile.samples == 1 || draw.shades_samples) {
     shade_samples(c);
   } else {

@@ -9,8 +9,8 @@
 namespace halfspace {
 
 /// Shades the packets of one triangle: runs the remaining tests, and blends and writes colors, or adds them to `layers` for draws with
-/// DrawState::order_independent.
+/// DrawState::order_independent. output: scratch memory.
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
-                     TransparentLayers& layers, PassStatistics& statistics);
+                     TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics);
 
 }  // namespace halfspace
