@@ -59,6 +59,13 @@ void clear_progress() noexcept {
   if (line_shown.exchange(false)) (void)!::write(STDERR_FILENO, kClear, sizeof kClear);
 }
 
+void show_progress_line(const std::string& text) {
+  // A wrapped line could not be overwritten.
+  std::fputs(("\r\033[K" + text.substr(0, static_cast<std::size_t>(std::max(terminal_columns() - 1, 0)))).c_str(), stderr);
+  std::fflush(stderr);
+  line_shown = true;
+}
+
 Progress::Progress(int total)
     : on_terminal_(::isatty(STDERR_FILENO) == 1 && total > 1), total_(total), start_(std::chrono::steady_clock::now()) {
   show();

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace halfspace {
@@ -40,6 +41,9 @@ class Progress {
   int total_, done_ = 0, rendered_ = 0;
   std::chrono::steady_clock::time_point start_;
 };
+
+/// Shows a line on the terminal in place of the previous one. Standard error must be a terminal.
+void show_progress_line(const std::string& text);
 
 /// Clears the progress line if one is shown. Async-signal-safe.
 void clear_progress() noexcept;

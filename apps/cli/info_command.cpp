@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/model_info.h"
+#include "cli/stage_display.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "halfspace/core/parallel.h"
@@ -43,7 +44,11 @@ void print_json() {
 void info_command(const InfoArguments& args) {
   set_limits(args.limits);
   if (!args.model.empty()) {
-    std::cout << model_info(args.model, args.json);
+    const std::string text = [&] {
+      const StageDisplay reading("reading " + args.model);
+      return model_info(args.model, args.json);
+    }();
+    std::cout << text;
   } else {
     args.json ? print_json() : print_text();
   }

@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> input_files(SceneDescription scene,
     }
   }
   for (const auto& [file, model] : models) {
-    for (const ModelImage& image : model->model.images) add(image.file);
+    for (const std::filesystem::path& read : files_of(model->model)) add(read);
   }
   return files;
 }

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "halfspace/core/resource_limits.h"
+#include "halfspace/image/image_size.h"
 #include "halfspace/model/model.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/model/position_ids.h"
@@ -20,7 +22,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 // Counts of triangles that renderers and other programs may treat differently.
 struct Problems {
-  std::size_t degenerate_triangles = 0;
+  std::size_t degenerate_triangles = 0;  // without area
   std::size_t open_edges = 0;          // used by one triangle
   std::size_t non_manifold_edges = 0;  // used by more than two triangles
 };
@@ -30,7 +32,9 @@ void count_problems(const ModelMesh& mesh, Problems& problems) {
   std::unordered_map<uint64_t, int> edges;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const std::array<uint32_t, 3> corner{number[mesh.indices[i]], number[mesh.indices[i + 1]], number[mesh.indices[i + 2]]};
-    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) {
+    const glm::dvec3 origin(mesh.positions[corner[0]]);
+    const glm::dvec3 side = glm::dvec3(mesh.positions[corner[1]]) - origin, other = glm::dvec3(mesh.positions[corner[2]]) - origin;
+    if (glm::cross(side, other) == glm::dvec3(0.0)) {
       ++problems.degenerate_triangles;
       continue;
     }
@@ -61,8 +65,29 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
   return names;
 }
 
+// Describes the images. The size of one that cannot be read is null.
+OrderedJson images_of(Model& model) {
+  OrderedJson list = OrderedJson::array();
+  for (const ModelImage& image : model.images) {
+    OrderedJson json = {{"name", image.name}, {"width", nullptr}, {"height", nullptr}, {"embedded", image.bytes != nullptr}};
+    try {
+      if (image.bytes != nullptr || !image.file.empty()) {
+        const ImageSize size = image.bytes ? image_size(*image.bytes, image.name) : image_size(image.file);
+        json["width"] = size.width;
+        json["height"] = size.height;
+      }
+    } catch (const LimitError&) {
+      throw;
+    } catch (const InputError& e) {
+      model.warnings.emplace_back(e.what());
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 OrderedJson describe(const std::filesystem::path& file) {
-  const Model model = read_model(file);
+  Model model = read_model(file);
   const PosedModel posed = pose(model, {});
   std::size_t vertices = 0;
   Problems problems;
@@ -84,18 +109,30 @@ OrderedJson describe(const std::filesystem::path& file) {
   json["bounds"] =
       posed.low.x <= posed.high.x ? OrderedJson{{"low", vector(posed.low)}, {"high", vector(posed.high)}} : OrderedJson(nullptr);
   json["materials"] = names_of(model.materials);
-  json["images"] = names_of(model.images);
+  json["textures"] = model.textures.size();
+  json["images"] = images_of(model);
   json["cameras"] = names_of(model.cameras);
   json["lights"] = names_of(model.lights);
   json["scenes"] = names_of(model.scenes);
   json["animations"] = names_of(model.animations);
   json["variants"] = model.variants;
   json["extensions"] = model.extensions;
+  json["unsupported_extensions"] = model.unsupported_extensions;
+  json["meshes_without_normals"] = std::ranges::count_if(model.meshes, &ModelMesh::computed_normals);
   json["degenerate_triangles"] = problems.degenerate_triangles;
   json["open_edges"] = problems.open_edges;
   json["non_manifold_edges"] = problems.non_manifold_edges;
   json["warnings"] = model.warnings;
   return json;
+}
+
+// Returns the text of an item of a list: its name, and its size if it is an image.
+std::string item_text(const OrderedJson& item) {
+  const std::string name = (item.is_object() ? item.at("name") : item).get<std::string>();
+  const std::string shown = name.empty() ? "(no name)" : name;
+  if (!item.is_object()) return shown;
+  if (item.at("width").is_null()) return shown + " (not readable)";
+  return fmt::format("{} ({}x{})", shown, item.at("width").get<int>(), item.at("height").get<int>());
 }
 
 std::string value_text(const std::string& key, const OrderedJson& value) {
@@ -110,8 +147,7 @@ std::string value_text(const std::string& key, const OrderedJson& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.dump();
   std::string names;
-  for (const OrderedJson& name : value)
-    names += (names.empty() ? "" : ", ") + (name.get<std::string>().empty() ? "(no name)" : name.get<std::string>());
+  for (const OrderedJson& item : value) names += (names.empty() ? "" : ", ") + item_text(item);
   return value.empty() ? "0" : fmt::format("{}: {}", value.size(), names);
 }
 
@@ -128,7 +164,7 @@ std::string model_info(const std::filesystem::path& file, bool json) {
     }
     std::string label = key;
     std::ranges::replace(label, '_', ' ');
-    text += fmt::format("{:<21}{}\n", label, value_text(key, value));
+    text += fmt::format("{:<24}{}\n", label, value_text(key, value));
   }
   return text;
 }

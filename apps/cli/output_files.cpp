@@ -50,6 +50,7 @@ void render_files(const PreparedScene& scene, const PictureFiles& files, const W
   const double render_ms = milliseconds();
   values.write(files.picture, files.text);
   write(color, values, files);
+  report.draw_ms += render_ms;
   report.render_ms += render_ms;
   report.write_ms += milliseconds() - render_ms;
 }

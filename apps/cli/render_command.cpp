@@ -19,6 +19,7 @@
 #include "cli/output_files.h"
 #include "cli/render_comment.h"
 #include "cli/scene_arguments.h"
+#include "cli/stage_display.h"
 #include "cli/statistics.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/parallel.h"
@@ -178,8 +179,14 @@ void render_picture(const RenderJob& job, double seconds, const std::filesystem:
                     RenderReport& report) {
   const auto start = std::chrono::steady_clock::now();
   const PreparedScene scene = prepare(job, seconds, assets, report);
+  const double prepared_ms = milliseconds_since(start);
   report.counts += scene.shadow_statistics;
-  report.render_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  double shadow_ms = 0.0;
+  for (const PreparedLight& light : scene.lights) shadow_ms += light.map_ms;
+  report.images_ms += scene.images_ms;
+  report.shadow_ms += shadow_ms;
+  report.prepare_ms += prepared_ms - shadow_ms - scene.images_ms;
+  report.render_ms += prepared_ms;
   render_files(scene, files_of(job, seconds, path), workers, report);
 }
 
@@ -198,7 +205,10 @@ SceneFile chosen(const RenderJob& job) {
 
 double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
 
-void warn(const std::string& problem) { std::cerr << "halfspace: warning: " << problem << '\n'; }
+void warn(const std::string& problem) {
+  clear_progress();
+  std::cerr << "halfspace: warning: " << problem << '\n';
+}
 
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
@@ -207,6 +217,7 @@ RenderReport run(const RenderJob& job) {
   RenderReport report;
   if (!job.frames) {
     check_writable(job.out);
+    const StageDisplay rendering("rendering " + job.out.string());
     render_picture(job, job.time, job.out, assets, workers, report);
     return report;
   }
@@ -260,14 +271,19 @@ void protect_inputs(const RenderJob& job, const std::string& scene) {
 }  // namespace
 
 void render_command(const RenderArguments& args) {
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<StageDisplay> reading(std::in_place, "reading " + args.scene);
   RenderJob job = understand(args);
   if (args.print) {
     std::cout << chosen(job).print();
     return;
   }
   read_models(job);
+  reading.reset();
+  const double read_ms = milliseconds_since(start);
   protect_inputs(job, args.scene);
   RenderReport report = run(job);
+  report.read_ms = read_ms;
   if (report.spheres_without_wireframe) warn("spheres that are not meshes have no wireframe; they are drawn as surfaces");
   if (args.statistics.empty()) return;
   report.scene = args.scene;

@@ -39,15 +39,16 @@ static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts) + 
 std::string text_report(const RenderReport& r) {
   std::string text =
       fmt::format("{}, {}x{}, {} thread{}: {}\n", r.scene, r.width, r.height, r.threads, r.threads == 1 ? "" : "s", r.output);
-  text += fmt::format("{:20}{:.1f}\n{:20}{:.1f}\n", "render_ms", r.render_ms, "write_ms", r.write_ms);
+  for_each_stage(r, [&](const char* name, double ms) { text += fmt::format("{:20}{:.1f}\n", name, ms); });
   for (const Count& c : kCounts) text += fmt::format("{:20}{}\n", c.name, r.counts.*c.member);
   for (const ModelChoice& c : r.choices) text += fmt::format("{}={}  ({})\n", c.key, c.value, c.why);
   return text;
 }
 
 std::string json_report(const RenderReport& r) {
-  nlohmann::ordered_json json = {{"scene", r.scene},     {"output", r.output},       {"width", r.width},      {"height", r.height},
-                                 {"threads", r.threads}, {"render_ms", r.render_ms}, {"write_ms", r.write_ms}};
+  nlohmann::ordered_json json = {
+      {"scene", r.scene}, {"output", r.output}, {"width", r.width}, {"height", r.height}, {"threads", r.threads}};
+  for_each_stage(r, [&](const char* name, double ms) { json[name] = ms; });
   for (const Count& c : kCounts) json["counts"][c.name] = r.counts.*c.member;
   json["choices"] = nlohmann::ordered_json::array();
   for (const ModelChoice& c : r.choices) json["choices"].push_back({{"key", c.key}, {"value", c.value}, {"why", c.why}});

@@ -13,12 +13,29 @@ namespace halfspace {
 struct RenderReport {
   std::string scene, output;
   int width = 0, height = 0, threads = 0;
-  double render_ms = 0;  ///< loading or generating maps, and rendering
-  double write_ms = 0;   ///< encoding and writing the images
+  double read_ms = 0;     ///< reading the scene and its model files
+  double images_ms = 0;   ///< decoding the images of models
+  double shadow_ms = 0;   ///< rendering shadow maps
+  double prepare_ms = 0;  ///< all other preparation: meshes, other maps, environments
+  double draw_ms = 0;     ///< rendering the image
+  double render_ms = 0;   ///< the sum of the last four
+  double write_ms = 0;    ///< encoding and writing the images
   PassStatistics counts;
   bool spheres_without_wireframe = false;
   std::vector<ModelChoice> choices;  ///< settings chosen by --max-error for the last image
 };
+
+/// Calls visit(name, milliseconds) for each stage of a run.
+template <class F>
+void for_each_stage(const RenderReport& r, F&& visit) {
+  visit("read_ms", r.read_ms);
+  visit("images_ms", r.images_ms);
+  visit("prepare_ms", r.prepare_ms);
+  visit("shadow_ms", r.shadow_ms);
+  visit("draw_ms", r.draw_ms);
+  visit("render_ms", r.render_ms);
+  visit("write_ms", r.write_ms);
+}
 
 /// Formats the report as lines of name and value.
 std::string text_report(const RenderReport& report);

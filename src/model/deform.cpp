@@ -77,12 +77,15 @@ void apply_morph_targets(ModelMesh& mesh, std::span<const float> weights) {
 }
 
 void apply_skin(ModelMesh& mesh, std::span<const glm::dmat4> joint_matrices) {
+  const auto add_joints = [&](Affine& blend, const std::array<uint16_t, 4>& joints, const glm::vec4& weights) {
+    for (int k = 0; k < 4; ++k) {
+      if (weights[k] != 0.0f) blend.add(static_cast<double>(weights[k]), joint_matrices[joints[static_cast<std::size_t>(k)]]);
+    }
+  };
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     Affine blend;
-    for (int k = 0; k < 4; ++k) {
-      const float weight = mesh.weights[i][k];
-      if (weight != 0.0f) blend.add(static_cast<double>(weight), joint_matrices[mesh.joints[i][static_cast<std::size_t>(k)]]);
-    }
+    add_joints(blend, mesh.joints[i], mesh.weights[i]);
+    if (!mesh.more_joints.empty()) add_joints(blend, mesh.more_joints[i], mesh.more_weights[i]);
     mesh.positions[i] = rounded_position(blend.direction(mesh.origin + glm::dvec3(mesh.positions[i])) + blend.translation);
     if (!mesh.normals.empty()) mesh.normals[i] = unit_or(blend.normal(glm::dvec3(mesh.normals[i])), mesh.normals[i]);
     if (!mesh.tangents.empty()) {

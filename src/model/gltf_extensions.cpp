@@ -45,6 +45,7 @@ void read_gltf_extensions(GltfDocument& document, Model& model) {
   for (const GltfValue& item : document.array(document.root(), "extensionsUsed")) {
     model.extensions.push_back(name_of(item));
     if (!is_supported(model.extensions.back())) {
+      model.unsupported_extensions.push_back(model.extensions.back());
       document.warn("the extension " + gltf_quoted(model.extensions.back()) + " is not supported; the model is read without it");
     }
   }

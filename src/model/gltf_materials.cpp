@@ -71,6 +71,7 @@ void read_clearcoat(GltfDocument& document, GltfTextures& textures, const GltfVa
   material.clearcoat_roughness = document.factor(json, "clearcoatRoughnessFactor", 0.0f);
   material.clearcoat_roughness_map = textures.use(json, "clearcoatRoughnessTexture", Channel::green);
   material.clearcoat_normal_map = textures.use(json, "clearcoatNormalTexture");
+  material.clearcoat_normal_scale = document.factor(document.object(json, "clearcoatNormalTexture"), "scale", 1.0f, -1e6, 1e6);
 }
 
 void read_transmission(GltfDocument& document, const GltfValue& json, ModelMaterial& material) {

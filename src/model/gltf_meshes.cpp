@@ -127,6 +127,7 @@ class MeshReader {
     if (mesh.normals.empty()) {
       document_.take_memory(json, mesh.indices.size(), bytes_per_vertex(mesh) + kNormalBytes);
       add_flat_normals(mesh);
+      mesh.computed_normals = true;
     }
     const int uv_set = tangent_set(mesh);
     if (!mesh.tangents.empty() || uv_set < 0) return;

@@ -79,13 +79,19 @@ class NodeReader {
   // The result is the same for every node, and the number of vertices that are compared is limited by the memory taken above.
   void check_joints(const GltfValue& json, const GltfMesh& mesh, const ModelSkin& skin) {
     for (const int part : mesh.parts) {
-      for (const auto& joints : model_.meshes[static_cast<std::size_t>(part)].joints) {
-        const uint16_t joint = *std::ranges::max_element(joints);
-        if (joint >= skin.joints.size()) {
-          document_.fail(json, "skin",
-                         fmt::format("a vertex of the mesh has joint {}, but the skin has {} joints; expected a smaller number", joint,
-                                     skin.joints.size()));
-        }
+      const ModelMesh& m = model_.meshes[static_cast<std::size_t>(part)];
+      check_joints(json, m.joints, skin);
+      check_joints(json, m.more_joints, skin);
+    }
+  }
+
+  void check_joints(const GltfValue& json, const std::vector<std::array<uint16_t, 4>>& list, const ModelSkin& skin) {
+    for (const auto& joints : list) {
+      const uint16_t joint = *std::ranges::max_element(joints);
+      if (joint >= skin.joints.size()) {
+        document_.fail(json, "skin",
+                       fmt::format("a vertex of the mesh has joint {}, but the skin has {} joints; expected a smaller number", joint,
+                                   skin.joints.size()));
       }
     }
   }

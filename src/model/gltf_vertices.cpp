@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "halfspace/model/normals.h"
 #include "halfspace/model/text_lines.h"
 
 namespace halfspace {
@@ -72,7 +73,7 @@ class VertexReader {
     for (glm::vec3& n : values) {
       const double length = glm::length(glm::dvec3(n));
       replaced = replaced || length == 0.0;
-      n = length == 0.0 ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(glm::dvec3(n) / length);
+      n = length == 0.0 ? glm::vec3(0.0f, 1.0f, 0.0f) : unit_vector(glm::dvec3(n));
     }
     if (replaced) document_.warn_at(attributes_, "NORMAL", "has normals of length 0; they are replaced by (0, 1, 0)");
     return values;
@@ -88,7 +89,7 @@ class VertexReader {
         document_.warn_at(attributes_, "TANGENT", "has tangents of length 0; all tangents are computed");
         return {};
       }
-      t = glm::vec4(glm::vec3(direction / length), t.w < 0.0f ? -1.0f : 1.0f);
+      t = glm::vec4(unit_vector(direction), t.w < 0.0f ? -1.0f : 1.0f);
     }
     return values;
   }
@@ -105,8 +106,8 @@ class VertexReader {
     return values;
   }
 
-  std::vector<std::array<uint16_t, 4>> joints() {
-    const GltfAccessor source = accessor("JOINTS_0");
+  std::vector<std::array<uint16_t, 4>> joints(const char* key) {
+    const GltfAccessor source = accessor(key);
     const std::vector<uint32_t> numbers = accessors_.read_integers(source, 4, subset_);
     document_.take_memory(*source.json, numbers.size(), sizeof(uint16_t));
     std::vector<std::array<uint16_t, 4>> values(numbers.size() / 4);
@@ -127,22 +128,36 @@ class VertexReader {
 
 // Scales the weights of every vertex to the sum 1. Joints without weight become joint 0. A vertex without weights follows its first joint.
 void normalize_weights(ModelMesh& mesh) {
+  const auto sum_of = [](glm::vec4& w) {
+    w = glm::max(w, glm::vec4(0.0f));
+    return w.x + w.y + w.z + w.w;
+  };
+  const auto release = [](const glm::vec4& w, std::array<uint16_t, 4>& joints) {
+    for (int k = 0; k < 4; ++k) {
+      if (w[k] == 0.0f) joints[static_cast<std::size_t>(k)] = 0;
+    }
+  };
+  const bool more = !mesh.more_weights.empty();
   for (std::size_t i = 0; i < mesh.weights.size(); ++i) {
     glm::vec4& w = mesh.weights[i];
-    w = glm::max(w, glm::vec4(0.0f));
-    const float sum = w.x + w.y + w.z + w.w;
+    const float sum = sum_of(w) + (more ? sum_of(mesh.more_weights[i]) : 0.0f);
     w = sum > 0.0f ? w / sum : glm::vec4(1.0f, 0.0f, 0.0f, 0.0f);
-    for (int k = 0; k < 4; ++k) {
-      if (w[k] == 0.0f) mesh.joints[i][static_cast<std::size_t>(k)] = 0;
-    }
+    release(w, mesh.joints[i]);
+    if (!more) continue;
+    if (sum > 0.0f) mesh.more_weights[i] /= sum;
+    release(mesh.more_weights[i], mesh.more_joints[i]);
   }
 }
 
 void read_skin_attributes(GltfDocument& document, VertexReader& reader, ModelMesh& mesh) {
   if (!reader.has("JOINTS_0") || !reader.has("WEIGHTS_0")) return;
-  if (reader.has("JOINTS_1")) document.warn("more than four joints per vertex are not supported; using the first four");
-  mesh.joints = reader.joints();
+  if (reader.has("JOINTS_2")) document.warn("more than eight joints per vertex are not supported; using the first eight");
+  mesh.joints = reader.joints("JOINTS_0");
   mesh.weights = reader.bounded<glm::vec4>("WEIGHTS_0", 1e9f);
+  if (reader.has("JOINTS_1") && reader.has("WEIGHTS_1")) {
+    mesh.more_joints = reader.joints("JOINTS_1");
+    mesh.more_weights = reader.bounded<glm::vec4>("WEIGHTS_1", 1e9f);
+  }
   normalize_weights(mesh);
 }
 

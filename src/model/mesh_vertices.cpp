@@ -30,6 +30,8 @@ void copy_vertices(ModelMesh& mesh, std::span<const uint32_t> sources) {
   }
   copy_list(mesh.joints, sources);
   copy_list(mesh.weights, sources);
+  copy_list(mesh.more_joints, sources);
+  copy_list(mesh.more_weights, sources);
 }
 
 }  // namespace halfspace

@@ -74,9 +74,10 @@ struct ModelMaterial {
   float ior = 1.5f;  ///< index of refraction, ≥ 1
   float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
   TextureUse clearcoat_map, clearcoat_roughness_map, clearcoat_normal_map;
+  float clearcoat_normal_scale = 1.0f;
   TextureUse normal_map;      ///< tangent space, green up
   float normal_scale = 1.0f;  ///< scales x and y of the normal map
-  TextureUse bump_map;        ///< heights; not drawn yet
+  TextureUse bump_map;        ///< heights, used where there is no normal map; only the first channel counts
   float bump_scale = 1.0f;    ///< height of the value 1 in model units
   TextureUse occlusion_map;
   float occlusion_strength = 1.0f;
@@ -102,6 +103,7 @@ struct ModelMesh {
   glm::dvec3 origin{0.0};  ///< position of a vertex in the space of its node: origin + positions[i]
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;             ///< unit length; always present in triangle meshes that a reader returns
+  bool computed_normals = false;              ///< the file has no normals for this mesh
   std::vector<glm::vec4> tangents;            ///< as in Mesh: xyz along increasing u, w is the sign of the bitangent
   std::array<std::vector<glm::vec2>, 2> uvs;  ///< v = 0 is the top row of the image
   std::vector<glm::vec4> colors;              ///< linear, multiplied by the base color
@@ -110,7 +112,9 @@ struct ModelMesh {
   std::vector<int> variant_materials;  ///< one per Model::variants, or empty
   std::vector<MorphTarget> targets;
   std::vector<std::array<uint16_t, 4>> joints;  ///< indices into ModelSkin::joints
-  std::vector<glm::vec4> weights;               ///< of the joints
+  std::vector<glm::vec4> weights;               ///< of the joints; the sum over all joints of a vertex is 1
+  std::vector<std::array<uint16_t, 4>> more_joints;  ///< joints 5 to 8 of every vertex; empty: at most 4
+  std::vector<glm::vec4> more_weights;
 };
 
 // ---- nodes -----------------------------------------------------------------------------------------------------
@@ -206,8 +210,13 @@ struct Model {
   std::vector<ModelAnimation> animations;
   std::vector<std::string> variants;
   std::vector<std::string> extensions;  ///< extensions that the file says it uses
+  std::vector<std::string> unsupported_extensions;  ///< those of them that have no effect here
+  std::vector<std::filesystem::path> files;         ///< absolute: other files that were read, such as buffers and material libraries
   std::vector<std::string> warnings;    ///< one line each: what was left out or repaired
 };
+
+/// Returns all files that a model was read from and that its images are in, except for the model file itself.
+std::vector<std::filesystem::path> files_of(const Model& model);
 
 /// Limits and permissions for reading a model.
 struct ReadModelOptions {

@@ -19,6 +19,12 @@
 
 namespace halfspace {
 
+glm::vec3 unit_vector(const glm::dvec3& n) {
+  constexpr double kRounding = 2e-7;  // of the squared length of a unit vector whose components are floats
+  const double squared = glm::dot(n, n);
+  return std::fabs(squared - 1.0) <= kRounding ? glm::vec3(n) : glm::vec3(n / std::sqrt(squared));
+}
+
 namespace {
 
 constexpr glm::vec3 kDefaultNormal{0.0f, 1.0f, 0.0f};

@@ -9,6 +9,10 @@
 
 namespace halfspace {
 
+/// Returns the vector scaled to unit length, rounded to float. A vector that has this length up to the rounding of floats is returned
+/// unchanged, so that a file that was written from unit normals gives the same normals. n must be finite and not 0.
+glm::vec3 unit_vector(const glm::dvec3& n);
+
 /// Gives every triangle three vertices of its own with the normal of its plane. A degenerate triangle gets the normal (0, 1, 0).
 /// Requires MeshTopology::triangles. All other vertex data is copied; tangents are removed.
 void add_flat_normals(ModelMesh& mesh);

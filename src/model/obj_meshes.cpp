@@ -89,6 +89,7 @@ class MeshBuilder {
     first_vertex_ += static_cast<uint32_t>(corners_.size());
     if (mesh.topology == MeshTopology::triangles && !group.has_normals) {
       add_smooth_normals(mesh, crease_degrees_, smoothing_);
+      mesh.computed_normals = true;
     }
     return mesh;
   }

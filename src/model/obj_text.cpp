@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "halfspace/core/check.h"
+#include "halfspace/model/normals.h"
 #include "halfspace/model/text_lines.h"
 
 namespace halfspace {
@@ -115,7 +116,8 @@ class ObjParser {
       obj_.normals.emplace_back(0.0f);
       return;
     }
-    obj_.normals.emplace_back(glm::normalize(glm::dvec3(v[0], v[1], v[2]) / largest));
+    const glm::dvec3 n(v[0], v[1], v[2]);
+    obj_.normals.push_back(unit_vector(largest >= 0.5 && largest <= 1.0 ? n : n / largest));
   }
 
   // Reads one index of a corner. Returns kNoIndex for an optional index that is missing or out of range.

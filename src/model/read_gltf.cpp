@@ -64,6 +64,7 @@ Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> by
   read_gltf_cameras_and_lights(document, model);
   read_gltf_nodes(accessors, meshes, model);
   read_gltf_animations(accessors, model);
+  model.files = references.found();
   limit_warnings(model.warnings);
   return model;
 }

@@ -66,6 +66,14 @@ Reader reader_of(const std::filesystem::path& file, std::span<const std::byte> b
 
 }  // namespace
 
+std::vector<std::filesystem::path> files_of(const Model& model) {
+  std::vector<std::filesystem::path> files = model.files;
+  for (const ModelImage& image : model.images) {
+    if (!image.file.empty()) files.push_back(image.file);
+  }
+  return files;
+}
+
 Model read_model(const std::filesystem::path& file, const ReadModelOptions& options) {
   ReadModelOptions left = options;  // other models and images may be in memory
   left.max_memory = static_cast<std::size_t>(std::min<uint64_t>(options.max_memory, memory_left()));

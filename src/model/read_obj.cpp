@@ -64,6 +64,7 @@ class Libraries {
   }
 
   bool missing() const { return missing_; }
+  const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
   static constexpr std::string_view kWhat = "material library";
@@ -88,6 +89,7 @@ class Libraries {
       missing_ = true;
       return;
     }
+    files_.push_back(path);
     std::error_code ignored;
     const std::filesystem::path model_folder = std::filesystem::absolute(file_, ignored).parent_path();
     const std::filesystem::path folder = path.parent_path().lexically_relative(model_folder.lexically_normal());
@@ -103,6 +105,7 @@ class Libraries {
   std::vector<std::string>& warnings_;
   std::vector<MtlMaterial> materials_;
   std::map<std::string, std::size_t> numbers_;
+  std::vector<std::filesystem::path> files_;
   bool missing_ = false;
 };
 
@@ -151,6 +154,7 @@ Model read_obj(const std::filesystem::path& file, std::span<const std::byte> byt
   }
   Libraries libraries(file, options, model.warnings);
   for (const std::string& names : obj.libraries) libraries.add(names);
+  model.files = libraries.files();
   const std::vector<const MtlMaterial*> materials = resolve_materials(obj, libraries, model.warnings);
   ObjMeshes built = obj_meshes(obj, options.crease_degrees);
   model.meshes = std::move(built.meshes);

@@ -64,7 +64,7 @@ std::vector<glm::vec3> unit_normals(const std::vector<glm::dvec3>& normals) {
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double length = std::sqrt(glm::dot(normals[i], normals[i]));
     if (!(length > 0.0) || !std::isfinite(length)) return {};
-    units[i] = glm::vec3(normals[i] / length);
+    units[i] = unit_vector(normals[i]);
   }
   return units;
 }
@@ -87,7 +87,9 @@ void add_triangles(ModelMesh& mesh, const PlyContents& ply, std::vector<uint32_t
   } else {
     for (uint32_t& corner : mesh.indices) corner = ply.corners[corner];
   }
-  if (mesh.normals.empty()) add_smooth_normals(mesh, crease_degrees);
+  if (!mesh.normals.empty()) return;
+  add_smooth_normals(mesh, crease_degrees);
+  mesh.computed_normals = true;
 }
 
 void add_lines_or_points(ModelMesh& mesh, const PlyContents& ply) {

@@ -75,6 +75,7 @@ ModelMesh mesh_of(const StlTriangles& triangles, float crease_degrees) {
     join_vertices(mesh);
   }
   add_smooth_normals(mesh, crease_degrees);
+  mesh.computed_normals = true;
   return mesh;
 }
 

@@ -70,6 +70,12 @@ References::References(const fs::path& model, bool allow_outside, std::vector<st
 }
 
 std::optional<fs::path> References::find(std::string_view name, std::string_view what) {
+  std::optional<fs::path> file = search(name, what);
+  if (file) found_.push_back(*file);
+  return file;
+}
+
+std::optional<fs::path> References::search(std::string_view name, std::string_view what) {
   const auto warn = [&](const std::string& text) { warnings_.push_back(fmt::format("{}: {} {}", what, in_quotes(name), text)); };
   std::string text(name);
   std::ranges::replace(text, '\\', '/');

@@ -23,10 +23,16 @@ class References {
   /// with a warning. `what` describes the reference in warnings: "the texture of material 'wood'".
   std::optional<std::filesystem::path> find(std::string_view name, std::string_view what);
 
+  /// Returns the paths that find() has returned.
+  const std::vector<std::filesystem::path>& found() const { return found_; }
+
  private:
+  std::optional<std::filesystem::path> search(std::string_view name, std::string_view what);
+
   std::filesystem::path folder_;
   bool allow_outside_;
   std::vector<std::string>& warnings_;
+  std::vector<std::filesystem::path> found_;
 };
 
 }  // namespace halfspace

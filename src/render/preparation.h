@@ -168,6 +168,9 @@ class ScenePreparation {
   void add_blended();
   std::shared_ptr<const ModelAsset> model_asset(const ObjectDescription& o, const std::string& where);
 
+  // prepare_model_bumps.cpp
+  void add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Model& model, int mesh, const ModelMaterial& material);
+
   // prepare_model_materials.cpp
   void load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed);
   const Texture2D* model_texture(const std::filesystem::path& file, int image, bool color);

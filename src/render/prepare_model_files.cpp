@@ -14,7 +14,13 @@ namespace halfspace {
 
 namespace {
 
-bool has_normal_map(const ModelMaterial& m) { return m.normal_map.texture >= 0 || m.clearcoat_normal_map.texture >= 0; }
+// Returns a use of a map that needs tangents, or null.
+const TextureUse* tangent_map(const ModelMaterial& m) {
+  for (const TextureUse* use : {&m.normal_map, &m.bump_map, &m.clearcoat_normal_map}) {
+    if (use->texture >= 0) return use;
+  }
+  return nullptr;
+}
 
 // Streams with neutral values for a mesh that lacks them.
 struct NeutralStreams {
@@ -122,9 +128,8 @@ PoseOptions pose_options(const Model& model, const ObjectDescription& o, const s
 ModelAsset::ModelAsset(Model m) : model(std::move(m)) {
   for (ModelMesh& mesh : model.meshes) {
     if (mesh.material >= 0 && mesh.tangents.empty() && mesh.topology == MeshTopology::triangles) {
-      const ModelMaterial& material = model.materials[static_cast<std::size_t>(mesh.material)];
-      const int set = material.normal_map.texture >= 0 ? material.normal_map.uv_set : material.clearcoat_normal_map.uv_set;
-      if (has_normal_map(material) && !mesh.uvs[static_cast<std::size_t>(set)].empty()) add_tangents(mesh, set);
+      const TextureUse* use = tangent_map(model.materials[static_cast<std::size_t>(mesh.material)]);
+      if (use != nullptr && !mesh.uvs[static_cast<std::size_t>(use->uv_set)].empty()) add_tangents(mesh, use->uv_set);
     }
     if (mesh.indices.empty()) {
       indices.push_back(Indices::sequential(mesh.positions.size()));
@@ -189,6 +194,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     return add_replaced_part(object, replaced, path, {streams.positions, streams.normals, streams.tangents, streams.uvs}, indices, world);
   }
   MetallicMaterial surface = metallic_material(o, model->model, material, !streams.uvs.empty());
+  if (material.bump_map.texture >= 0 && material.normal_map.texture < 0) add_bumps(surface, o, model->model, part.mesh, material);
   place(surface, world);
   needs_light_ = needs_light_ || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
   const bool masked = material.alpha_mode == AlphaMode::mask;
@@ -213,6 +219,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     const bool second = alpha.map != nullptr ? alpha.uv_set == 1 : surface.maps[kOpacityMap].uv_set == 1;
     const std::span<const glm::vec2> uvs = second ? streams.second_uvs : streams.uvs;
     placed.uvs = uvs.empty() ? std::span<const glm::vec2>(neutral()->uvs) : uvs;
+    placed.colors = mesh.colors;
   }
   out_.meshes.push_back(placed);
 }

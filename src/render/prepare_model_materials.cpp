@@ -2,9 +2,11 @@
 //
 // Materials of model files: their images, and the uniforms of the shader.
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <set>
 
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/render/preparation.h"
 
@@ -59,6 +61,8 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
       if (image >= 0 && !assets_.cache_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
     }
   }
+  if (wanted.empty()) return;
+  const auto start = std::chrono::steady_clock::now();
   const std::vector<std::pair<int, bool>> list(wanted.begin(), wanted.end());
   std::vector<std::optional<Texture2D>> textures(list.size());
   std::vector<std::string> problems(list.size());
@@ -78,6 +82,7 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     if (!problems[i].empty()) assets_.warn_once(problems[i]);
     if (textures[i]) asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
   }
+  out_.images_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Returns a texture that load_images has loaded, or null if there is no such image.
@@ -101,6 +106,7 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
   out.clearcoat = m.clearcoat;
   out.clearcoat_roughness = m.clearcoat_roughness;
   out.normal_scale = m.normal_scale;
+  out.clearcoat_normal_scale = m.clearcoat_normal_scale;
   out.occlusion_strength = m.occlusion_strength;
   out.emissive = m.emissive;
   out.ambient = glm::vec3(ambient_);

@@ -137,8 +137,6 @@ void SceneAssets::add_model(const std::filesystem::path& file, std::shared_ptr<c
 
 void SceneAssets::warn_of(const std::filesystem::path& file, const ModelAsset& model) const {
   for (const std::string& warning : model.model.warnings) warn(file.string() + ": " + warning);
-  const auto has_bumps = [](const ModelMaterial& m) { return m.bump_map.texture >= 0 && m.normal_map.texture < 0; };
-  if (std::ranges::any_of(model.model.materials, has_bumps)) warn(file.string() + ": bump maps of models are not drawn");
 }
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {

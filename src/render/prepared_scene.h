@@ -95,7 +95,8 @@ struct PlacedMesh {
   int object = 0;  ///< index in the scene's objects
   /// Set for masked and blended surfaces: where they cast shadows. Ray tracing treats them as opaque.
   std::optional<OpacityTest> opacity{};
-  std::span<const glm::vec2> uvs{};  ///< for `opacity`; not owned
+  std::span<const glm::vec2> uvs{};     ///< for `opacity`; not owned
+  std::span<const glm::vec4> colors{};  ///< for `opacity`: their alpha multiplies it; empty: 1; not owned
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };
@@ -127,6 +128,7 @@ struct PreparedScene {
   std::vector<PlacedSpheres> spheres;
   std::vector<PreparedLight> lights;
   PassStatistics shadow_statistics;  ///< sum over the passes that rendered shadow maps
+  double images_ms = 0.0;            ///< time to decode images of models
   std::vector<std::shared_ptr<const void>> assets;
 };
 

@@ -17,6 +17,8 @@ struct OpacityTest {
   bool dithered = false;  ///< instead of the cutoff, a share of the texels equal to the opacity is covered, in an ordered pattern
 };
 
+/// colored: vertices have colors, whose alpha multiplies the opacity.
+template <bool colored>
 struct MaskedDepth {
   glm::mat4 clip_from_object;
   OpacityTest test;
@@ -25,15 +27,18 @@ struct MaskedDepth {
   struct Attributes {
     vec3<R> position_os;
     vec2<R> uv;
+    [[no_unique_address]] MemberIf<colored, vec4<R>, 0> color;
   };
   template <class R>
   struct Varyings {
     vec2<R> uv;
+    [[no_unique_address]] MemberIf<colored, R, 0> opacity;
   };
 
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.uv = in.uv;
+    if constexpr (colored) out.opacity = in.color.w;
     return clip_from_object * vec4<R>(in.position_os, R(1));
   }
   template <class R>
@@ -44,6 +49,7 @@ struct MaskedDepth {
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
     using V = Varyings<R>;
     R opacity(test.opacity);
+    if constexpr (colored) opacity *= in.opacity;
     for (const PlacedMap& map : test.maps) {
       if (map.map == nullptr) continue;
       const MapCoordinates<R> at = transformed(map.uv_transform, MapCoordinates<R>{in.uv, px.ddx(&V::uv), px.ddy(&V::uv)});

@@ -61,7 +61,7 @@ struct MetallicMaterial : PlacedSurface {
   glm::vec3 specular_color{1.0f};
   float normal_reflectance = 0.04f;  ///< of a non-metal at normal incidence: ((ior − 1) / (ior + 1))²
   float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
-  float normal_scale = 1.0f;
+  float normal_scale = 1.0f, clearcoat_normal_scale = 1.0f;
   float occlusion_strength = 1.0f;
   glm::vec3 emissive{0.0f};
   glm::vec3 ambient{0.0f};  ///< constant light from all directions, in addition to the environment
@@ -191,7 +191,7 @@ struct MetallicSurface : MetallicMaterial {
           case kSpecularColorMap: out.specular_color = vec3<R>(texel); break;
           case kEmissiveMap: out.emissive = vec3<R>(texel); break;
           case kNormalMap: out.normal = tilted(texel, normal_scale); break;
-          case kClearcoatNormalMap: out.clearcoat_normal = tilted(texel, 1.0f); break;
+          case kClearcoatNormalMap: out.clearcoat_normal = tilted(texel, clearcoat_normal_scale); break;
           default: out.number[i] = dot(texel, vec4<R>(m.channel));
         }
       }

@@ -2,6 +2,7 @@
 //
 // Rendering of model files by the program.
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/cli_run.h"
@@ -198,6 +199,73 @@ TEST_F(Models, InfoDescribesAModel) {
   EXPECT_EQ(info.at("triangles"), 13);
   EXPECT_EQ(info.at("non_manifold_edges"), 2 + 1);  // two sides of the added triangle, and the diagonal of the quad
   EXPECT_EQ(info.at("bounds").at("low"), (std::vector<double>{1.5, 1.5, 1.5}));
+}
+
+TEST_F(Models, InfoListsImagesAndProblems) {
+  write_image(directory / "a.png", Image<glm::u8vec4>(7, 5));
+  write_image(directory / "b.jpg", Image<glm::u8vec4>(9, 4));
+  write("c.png", "not an image");
+  write("a.mtl", "newmtl m\nmap_Kd a.png\nmap_Ks b.jpg\nmap_d c.png\n");
+  write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 4/1\nf 1/1 2/1 3/1\n");
+  const Outcome o = run({"info", "a.obj", "--json"});
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const auto info = nlohmann::json::parse(o.out);
+  std::map<std::string, nlohmann::json> images;
+  for (const auto& image : info.at("images")) images[image.at("name")] = image;
+  EXPECT_EQ(images.at("a.png").at("width"), 7);
+  EXPECT_EQ(images.at("a.png").at("height"), 5);
+  EXPECT_EQ(images.at("b.jpg").at("width"), 9);
+  EXPECT_EQ(images.at("b.jpg").at("height"), 4);
+  EXPECT_TRUE(images.at("c.png").at("width").is_null());
+  EXPECT_EQ(info.at("warnings").size(), 1u);
+  EXPECT_EQ(info.at("degenerate_triangles"), 1);  // its corners are on a line
+  EXPECT_EQ(info.at("meshes_without_normals"), 1);
+  const Outcome text = run({"info", "a.obj"});
+  EXPECT_NE(text.out.find("a.png (7x5)"), std::string::npos) << text.out;
+}
+
+TEST_F(Models, BumpMapsTiltNormals) {
+  Image<glm::u8vec4> heights(8, 8);  // ridges along v
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) heights.at(x, y) = glm::u8vec4(glm::u8vec3(x % 4 < 2 ? 0 : 255), 255);
+  }
+  write_image(directory / "bump.png", heights);
+  const auto picture_with = [&](const std::string& map) {
+    write("a.mtl", "newmtl m\nKs 0 0 0\nillum 1\n" + map);
+    write("a.obj", "mtllib a.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    write("scene.json", R"({"version": 1, "cameras": {"c": {"type": "orthographic", "height": 2}},
+      "lights": {"sun": {"direction": [1, 0, 1]}}, "objects": {"a": {"shape": "file", "file": "a.obj"}}})");
+    const Outcome o = run({"render", "scene.json", "--size", "16x16", "-o", "a.png"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    return picture("a.png");
+  };
+  const Image<glm::u8vec4> flat = picture_with(""), bumps = picture_with("map_bump -bm 8 bump.png\n");
+  // The height rises at u = 1/4, so the normal tilts to -x, away from the light; it falls at u = 1/2, where the normal tilts to the light.
+  EXPECT_EQ(flat.at(4, 8), flat.at(8, 8));
+  EXPECT_LT(bumps.at(4, 8).x + 10, flat.at(4, 8).x);
+  EXPECT_GT(bumps.at(8, 8).x, flat.at(8, 8).x + 10);
+  const Image<glm::u8vec4> inverted = picture_with("map_bump -bm -8 bump.png\n");
+  EXPECT_GT(inverted.at(4, 8).x, flat.at(4, 8).x + 10);
+}
+
+TEST_F(Models, VertexColorsThatAreTransparentCastFainterShadows) {
+  const auto shadow = [&](const char* alpha) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+        "property uchar green\nproperty uchar blue\nproperty uchar alpha\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "end_header\n";
+    for (const char* corner : {"-1 1 -1", "-1 1 1", "1 1 1", "1 1 -1"}) text += std::string(corner) + " 255 255 255 " + alpha + "\n";
+    write("a.ply", text + "4 0 1 2 3\n");
+    write("scene.json", R"({"version": 1, "cameras": {"c": {"position": [0, 3, 6]}},
+      "lights": {"sun": {"direction": [0, 1, 0]}}, "shadow": {"method": "pcf7", "resolution": 512},
+      "objects": {"floor": {"shape": "plane", "size": 6}, "a": {"shape": "file", "file": "a.ply", "receives_shadow": false}}})");
+    EXPECT_EQ(run({"render", "scene.json", "--size", "32x32", "-o", "a.png"}).exit_code, 0);
+    return int{picture("a.png").at(16, 16).x};
+  };
+  const int opaque = shadow("255"), half = shadow("128"), nearly_clear = shadow("10");
+  EXPECT_LT(opaque + 20, half);
+  EXPECT_LT(half + 20, nearly_clear);
 }
 
 TEST_F(Models, MistakesGiveOneLine) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bump maps of models, drawn as normal maps.
+#include <algorithm>
+#include <cmath>
+
+#include "halfspace/core/resource_limits.h"
+#include "halfspace/geometry/height_slopes.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/render/preparation.h"
+
+namespace halfspace {
+
+namespace {
+
+// A normal map whose slopes are those of the heights divided by `steepest`.
+struct ModelBumps {
+  Texture2D map;
+  float steepest;
+};
+
+ModelBumps bumps_of(const Image<float>& heights, const Sampler& sampler) {
+  constexpr float kFlat = 1e-6f;
+  Image<glm::vec4> normals = height_slopes(heights, sampler.wrap_s, sampler.wrap_t);
+  float steepest = kFlat;
+  for (const glm::vec4& slope : normals.texels()) steepest = std::max({steepest, std::fabs(slope.x), std::fabs(slope.y)});
+  std::transform(normals.data(), normals.data() + normals.texels().size(), normals.data(), [&](const glm::vec4& slope) {
+    const glm::vec3 normal(-slope.x / steepest, slope.y / steepest, 1.0f);  // green is up, v points down
+    return glm::vec4(normal / std::sqrt(glm::dot(normal, normal)) * 0.5f + 0.5f, 1.0f);
+  });
+  return {Texture2D(normals, TexelFormat::rgba16f), steepest};
+}
+
+// Returns the size of the unit square of texture coordinates on a mesh, in model units: the mean over all triangles.
+double uv_size(const ModelMesh& mesh, int set) {
+  const std::vector<glm::vec2>& uvs = mesh.uvs[static_cast<std::size_t>(set)];
+  double area = 0.0, uv_area = 0.0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+    const glm::dvec3 side(mesh.positions[b] - mesh.positions[a]), other(mesh.positions[c] - mesh.positions[a]);
+    const glm::dvec2 u(uvs[b] - uvs[a]), v(uvs[c] - uvs[a]);
+    area += glm::length(glm::cross(side, other));
+    uv_area += std::fabs(u.x * v.y - u.y * v.x);
+  }
+  return uv_area > 0.0 ? std::sqrt(area / uv_area) : 0.0;
+}
+
+}  // namespace
+
+// A normal map would need the size of the texture at every point; the mean over the mesh is used instead.
+void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Model& model, int mesh,
+                                 const ModelMaterial& material) {
+  const TextureUse& use = material.bump_map;
+  const ModelMesh& m = model.meshes[static_cast<std::size_t>(mesh)];
+  const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
+  if (material.unlit || texture.image < 0 || m.uvs[static_cast<std::size_t>(use.uv_set)].empty()) return;
+  const ModelImage& image = model.images[static_cast<std::size_t>(texture.image)];
+  if (image.file.empty() && image.bytes == nullptr) return;
+  const std::string file = o.file.path.string();
+  const double size = *asset<double>(recipe("model uv size", file, mesh, use.uv_set), [&] { return uv_size(m, use.uv_set); });
+  const glm::vec2 u = use.uv_transform[0], v = use.uv_transform[1];
+  const double map_scale = std::sqrt(std::fabs(double{u.x} * v.y - double{u.y} * v.x));
+  if (size == 0.0) return;
+  try {
+    const auto bumps = asset<ModelBumps>(recipe("model bumps", file, texture.image), [&] {
+      return bumps_of(image.bytes ? read_gray(*image.bytes, image.name) : read_gray(image.file), texture.sampler);
+    });
+    PlacedMap& map = surface.maps[kNormalMap];
+    map.map = &bumps->map;
+    map.sampler = texture.sampler;
+    map.uv_set = use.uv_set;
+    map.uv_transform = use.uv_transform;
+    surface.normal_scale = static_cast<float>(static_cast<double>(material.bump_scale * bumps->steepest) * map_scale / size);
+  } catch (const LimitError&) {
+    throw;
+  } catch (const InputError& e) {  // drawn without it
+    assets_.warn_once(file + ": " + e.what());
+  }
+}
+
+}  // namespace halfspace

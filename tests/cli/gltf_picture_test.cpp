@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Features of glTF, drawn: small files whose pictures are known. A camera looks along -z at the square [-4, 4]², of which every unit is one
+// pixel.
+#include <fstream>
+
+#include "cli/cli_run.h"
+#include "halfspace/image/image_io.h"
+#include "model/gltf_builder.h"
+
+namespace halfspace {
+namespace {
+
+using Art = std::vector<std::string>;
+
+class GltfPicture : public Cli {
+ protected:
+  // Renders the file and returns its pixels as letters: red, green, blue, white, half (linear 0.5 of white), '.' is the background.
+  Art art(const GltfBuilder& file, const std::string& keys = "") const {
+    std::ofstream(directory / "a.gltf") << file.text();
+    std::ofstream(directory / "scene.json") << R"({"version": 1, "cameras": {"c": {"type": "orthographic", "height": 8}}, "ambient": 1,
+               "objects": {"model": {"shape": "file", "file": "a.gltf")"
+                                            << keys << "}}}";
+    const Outcome o = run({"render", "scene.json", "--size", "8x8", "-o", "a.png"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    const Image<glm::u8vec4> image = read_image(directory / "a.png");
+    Art rows;
+    for (int y = 0; y < 8; ++y) {
+      std::string& row = rows.emplace_back();
+      for (int x = 0; x < 8; ++x) row += letter(image.at(x, y));
+    }
+    return rows;
+  }
+
+  static char letter(const glm::u8vec4& p) {
+    const std::pair<glm::u8vec4, char> letters[] = {{{0, 0, 0, 255}, '.'},   {{255, 0, 0, 255}, 'R'},     {{0, 255, 0, 255}, 'G'},
+                                                    {{0, 0, 255, 255}, 'B'}, {{255, 255, 255, 255}, 'W'}, {{188, 188, 188, 255}, 'h'}};
+    for (const auto& [color, name] : letters) {
+      if (color == p) return name;
+    }
+    return '?';
+  }
+
+  // A texture of 2x2 texels: red, green / blue, white.
+  int four_colors(GltfBuilder& file, uint8_t left_alpha = 255) const {
+    Image<glm::u8vec4> image(2, 2);
+    image.at(0, 0) = {255, 0, 0, left_alpha};
+    image.at(1, 0) = {0, 255, 0, 255};
+    image.at(0, 1) = {0, 0, 255, left_alpha};
+    image.at(1, 1) = {255, 255, 255, 255};
+    write_png(directory / "colors.png", image);
+    file.add("images", {{"uri", "colors.png"}});
+    file.add("samplers", {{"magFilter", 9728}, {"minFilter", 9728}});
+    return file.add("textures", {{"source", 0}, {"sampler", 0}});
+  }
+  static int unlit(GltfBuilder& file, GltfJson properties) {
+    properties["extensions"]["KHR_materials_unlit"] = GltfJson::object();
+    return file.add("materials", std::move(properties));
+  }
+  // The square [-2, 2]², counter-clockwise from +z.
+  static const std::vector<float>& corners() {
+    static const std::vector<float> values{-2, -2, 0, 2, -2, 0, 2, 2, 0, -2, 2, 0};
+    return values;
+  }
+  static GltfJson square(GltfBuilder& file, int material) {
+    return {{"attributes", {{"POSITION", file.accessor(corners(), 3)}, {"TEXCOORD_0", file.accessor(uvs(), 2)}}},
+            {"indices", file.accessor<uint16_t>({0, 1, 2, 0, 2, 3}, 1)},
+            {"material", material}};
+  }
+  static const std::vector<float>& uvs() {
+    static const std::vector<float> values{0, 1, 1, 1, 1, 0, 0, 0};
+    return values;
+  }
+  // A node with a white square.
+  static int white_square(GltfBuilder& file) { return file.mesh_node(square(file, unlit(file, GltfJson::object()))); }
+};
+
+// Rows of a picture in which the middle four rows are as given and the others empty.
+Art middle(const std::string& row) { return {"........", "........", row, row, row, row, "........", "........"}; }
+
+const Art kColors{"........", "........", "..RRGG..", "..RRGG..", "..BBWW..", "..BBWW..", "........", "........"};
+const Art kMirrored{"........", "........", "..GGRR..", "..GGRR..", "..WWBB..", "..WWBB..", "........", "........"};
+
+TEST_F(GltfPicture, TextureIsUpright) {
+  GltfBuilder file;
+  file.mesh_node(square(file, unlit(file, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", four_colors(file)}}}}}})));
+  EXPECT_EQ(art(file), kColors);
+}
+
+TEST_F(GltfPicture, SecondSetOfTextureCoordinates) {
+  GltfBuilder file;
+  GltfJson mesh =
+      square(file, unlit(file, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", four_colors(file)}, {"texCoord", 1}}}}}}));
+  mesh["attributes"]["TEXCOORD_1"] = file.accessor<float>({1, 1, 0, 1, 0, 0, 1, 0}, 2);
+  file.mesh_node(mesh);
+  EXPECT_EQ(art(file), kMirrored);
+}
+
+TEST_F(GltfPicture, NormalizedTextureCoordinates) {
+  GltfBuilder file;
+  GltfJson mesh = square(file, unlit(file, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", four_colors(file)}}}}}}));
+  mesh["attributes"]["TEXCOORD_0"] = file.accessor<uint16_t>({0, 65535, 65535, 65535, 65535, 0, 0, 0}, 2, true);
+  file.mesh_node(mesh);
+  EXPECT_EQ(art(file), kColors);
+}
+
+TEST_F(GltfPicture, TextureTransform) {
+  const auto transformed = [&](const GltfJson& transform) {
+    GltfBuilder file;
+    const GltfJson use = {{"index", four_colors(file)}, {"extensions", {{"KHR_texture_transform", transform}}}};
+    file.mesh_node(square(file, unlit(file, {{"pbrMetallicRoughness", {{"baseColorTexture", use}}}})));
+    return art(file);
+  };
+  EXPECT_EQ(transformed({{"offset", {0.5, 0.0}}}), kMirrored);
+  EXPECT_EQ(transformed({{"scale", {-1.0, 1.0}}}), kMirrored);
+  // A rotation of the coordinates by 90° counter-clockwise turns the image clockwise.
+  const Art turned{"........", "........", "..BBRR..", "..BBRR..", "..WWGG..", "..WWGG..", "........", "........"};
+  EXPECT_EQ(transformed({{"rotation", 1.5707963267948966}, {"offset", {0.0, 1.0}}}), turned);
+}
+
+TEST_F(GltfPicture, MaskAndBlend) {
+  GltfBuilder mask;
+  const GltfJson texture = {{"baseColorTexture", {{"index", four_colors(mask, 100)}}}};
+  mask.mesh_node(square(mask, unlit(mask, {{"alphaMode", "MASK"}, {"pbrMetallicRoughness", texture}})));
+  const Art right{"........", "........", "....GG..", "....GG..", "....WW..", "....WW..", "........", "........"};
+  EXPECT_EQ(art(mask), right);
+  GltfBuilder blend;
+  blend.mesh_node(square(blend, unlit(blend, {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}})));
+  EXPECT_EQ(art(blend), middle("..hhhh.."));
+}
+
+// The file has only front faces. The mirrored node must not cull them.
+TEST_F(GltfPicture, NegativeScaleMirrors) {
+  GltfBuilder file;
+  const int node =
+      file.mesh_node(square(file, unlit(file, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", four_colors(file)}}}}}})));
+  file.json["nodes"][static_cast<std::size_t>(node)]["scale"] = {-1, 1, 1};
+  EXPECT_EQ(art(file), kMirrored);
+  file.json["nodes"][static_cast<std::size_t>(node)]["scale"] = {-1, 1, -1};  // the back
+  EXPECT_EQ(art(file), middle("........"));
+}
+
+TEST_F(GltfPicture, Instances) {
+  GltfBuilder file;
+  const int node = white_square(file);
+  file.json["nodes"][static_cast<std::size_t>(node)]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", file.accessor<float>({-2, 0, 0, 3, 0, 0}, 3)}, {"SCALE", file.accessor<float>({1, 1, 1, 0.5, 1, 1}, 3)}};
+  EXPECT_EQ(art(file), middle("WWWW..WW"));
+}
+
+// Quantized positions are integers, which the node scales.
+TEST_F(GltfPicture, QuantizedPositions) {
+  GltfBuilder file;
+  file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+  std::vector<int16_t> corners;
+  for (const float x : GltfPicture::corners()) corners.push_back(static_cast<int16_t>(x * 1000.0f));
+  for (std::size_t i = 4; i > 0; --i) corners.insert(corners.begin() + static_cast<std::ptrdiff_t>(3 * i), 0);  // rows of 8 bytes
+  const int view = file.view(corners, 8);
+  const int positions = file.add("accessors", {{"bufferView", view}, {"componentType", 5122}, {"count", 4}, {"type", "VEC3"}});
+  const int node = file.mesh_node({{"attributes", {{"POSITION", positions}}},
+                                   {"indices", file.accessor<uint8_t>({0, 1, 2, 0, 2, 3}, 1)},
+                                   {"material", unlit(file, GltfJson::object())}});
+  file.json["nodes"][static_cast<std::size_t>(node)]["scale"] = {0.001, 0.001, 0.001};
+  EXPECT_EQ(art(file), middle("..WWWW.."));
+}
+
+TEST_F(GltfPicture, SparseAndInterleavedAccessors) {
+  GltfBuilder file;
+  const int base = file.accessor<float>({9, 9, 9, 2, -2, 0, 2, 2, 0, -2, 2, 0}, 3);
+  file.json["accessors"][static_cast<std::size_t>(base)]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", file.view(std::vector<uint16_t>{0})}, {"componentType", 5123}}},
+      {"values", {{"bufferView", file.view(std::vector<float>{-2, -2, 0})}}}};
+  std::vector<float> rows;  // of two attributes
+  for (std::size_t i = 0; i < 4; ++i) rows.insert(rows.end(), {uvs()[2 * i], uvs()[2 * i + 1], 7.0f});
+  const int interleaved =
+      file.add("accessors", {{"bufferView", file.view(rows, 12)}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}});
+  const int material = unlit(file, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", four_colors(file)}}}}}});
+  file.mesh_node({{"attributes", {{"POSITION", base}, {"TEXCOORD_0", interleaved}}},
+                  {"indices", file.accessor<uint32_t>({0, 1, 2, 0, 2, 3}, 1)},
+                  {"material", material}});
+  EXPECT_EQ(art(file), kColors);
+}
+
+TEST_F(GltfPicture, EveryInterpolation) {
+  const auto at = [&](const char* interpolation, const std::vector<float>& values, const char* time) {
+    GltfBuilder file;
+    const int node = white_square(file);
+    const GltfJson sampler = {
+        {"input", file.accessor<float>({0, 1}, 1)}, {"output", file.accessor(values, 3)}, {"interpolation", interpolation}};
+    const GltfJson channel = {{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}};
+    file.add("animations", {{"name", "move"}, {"samplers", {sampler}}, {"channels", {channel}}});
+    return art(file, std::string(R"(, "model_animation": "move", "model_time": )") + time)[3];
+  };
+  const std::vector<float> line{-2, 0, 0, 2, 0, 0};
+  EXPECT_EQ(at("STEP", line, "0.9"), "WWWW....");
+  EXPECT_EQ(at("STEP", line, "1"), "....WWWW");
+  EXPECT_EQ(at("LINEAR", line, "0"), "WWWW....");
+  EXPECT_EQ(at("LINEAR", line, "0.25"), ".WWWW...");
+  EXPECT_EQ(at("LINEAR", line, "0.75"), "...WWWW.");
+  // Hermite splines: with tangents 0 the value at 1/2 is the mean. An out-tangent of 16 adds 16 (t³ - 2t² + t) = 2.
+  EXPECT_EQ(at("CUBICSPLINE", {0, 0, 0, -2, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0}, "0.5"), "..WWWW..");
+  EXPECT_EQ(at("CUBICSPLINE", {0, 0, 0, -2, 0, 0, 16, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0}, "0.5"), "....WWWW");
+}
+
+TEST_F(GltfPicture, MorphTargets) {
+  GltfBuilder file;
+  GltfJson mesh = square(file, unlit(file, GltfJson::object()));
+  mesh["targets"] = {{{"POSITION", file.accessor<float>({2, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0}, 3)}},
+                     {{"POSITION", file.accessor<float>({0, 0, 0, 4, 0, 0, 4, 0, 0, 0, 0, 0}, 3)}}};
+  const int node = file.mesh_node(mesh);
+  file.json["nodes"][static_cast<std::size_t>(node)]["weights"] = {1.0, 0.25};
+  EXPECT_EQ(art(file), middle("....WWW."));
+}
+
+// Joints 0 to 4 stay, and joint 5, in the second set, moves by 4. Half of its weight moves the square by 2.
+TEST_F(GltfPicture, SkinsWithMoreThanFourJoints) {
+  GltfBuilder file;
+  GltfJson mesh = square(file, unlit(file, GltfJson::object()));
+  std::vector<uint8_t> joints, more_joints;
+  std::vector<float> weights, more_weights;
+  for (int i = 0; i < 4; ++i) {
+    joints.insert(joints.end(), {0, 1, 2, 3});
+    more_joints.insert(more_joints.end(), {4, 5, 0, 0});
+    weights.insert(weights.end(), {0.125f, 0.125f, 0.125f, 0.0f});
+    more_weights.insert(more_weights.end(), {0.125f, 0.5f, 0.0f, 0.0f});
+  }
+  mesh["attributes"]["JOINTS_0"] = file.accessor(joints, 4);
+  mesh["attributes"]["WEIGHTS_0"] = file.accessor(weights, 4);
+  mesh["attributes"]["JOINTS_1"] = file.accessor(more_joints, 4);
+  mesh["attributes"]["WEIGHTS_1"] = file.accessor(more_weights, 4);
+  const int node = file.mesh_node(mesh);
+  GltfJson list = GltfJson::array();
+  for (int i = 0; i < 6; ++i) list.push_back(file.add("nodes", {{"translation", {i == 5 ? 4 : 0, 0, 0}}}));
+  file.json["nodes"][static_cast<std::size_t>(node)]["skin"] = file.add("skins", {{"joints", list}});
+  EXPECT_EQ(art(file), middle("....WWWW"));
+}
+
+}  // namespace
+}  // namespace halfspace
