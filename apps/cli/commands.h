@@ -38,6 +38,14 @@ struct RenderArguments {
 };
 void render_command(const RenderArguments& args);
 
+struct ExportArguments {
+  std::string scene, out, threads;
+  std::vector<std::string> set;
+  bool allow_outside = false;
+  LimitArguments limits;
+};
+void export_command(const ExportArguments& args);
+
 struct ConvertNormalArguments {
   std::string height, out;
   std::string strength;  ///< default: 8

@@ -128,6 +128,22 @@ void add_render_command(CLI::App& program) {
   command->callback([args] { render_command(*args); });
 }
 
+void add_export_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("export", "Write a scene or a model as glTF, OBJ, PLY or STL");
+  const auto args = std::make_shared<ExportArguments>();
+  command->add_option("SCENE", args->scene, "Scene, scene file or model file")->required()->type_name("");
+  command->add_option("-o,--output", args->out, ".glb, .gltf, .obj, .ply or .stl")->required()->type_name("FILE");
+  add_set_option(command, args->set);
+  command->add_flag("--allow-outside", args->allow_outside, "Open files outside the folder of the model");
+  command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
+  add_limit_options(command, args->limits);
+  command->footer(
+      "Examples:\n"
+      "  halfspace export shapes -o shapes.glb\n"
+      "  halfspace export chair.obj -o chair.gltf");
+  command->callback([args] { export_command(*args); });
+}
+
 void add_convert_normal_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("convert-normal", "Convert a height map to a normal map");
   const auto args = std::make_shared<ConvertNormalArguments>();
@@ -235,6 +251,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   program.require_subcommand(0, 1);
   set_common_options(program);
   add_render_command(program);
+  add_export_command(program);
   add_convert_normal_command(program);
   add_validate_command(program);
   add_compare_command(program);

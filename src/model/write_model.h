@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writes models as glTF, OBJ, PLY and STL.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "halfspace/model/model.h"
+
+namespace halfspace {
+
+enum class ModelFormat : uint8_t { glb, gltf, obj, ply, stl };
+
+/// Returns the format for the extension of a file name (case-insensitive), or nothing if it is not that of a model.
+std::optional<ModelFormat> model_format_of(const std::filesystem::path& file);
+
+/// One of the files of a model.
+struct ModelFile {
+  std::string name;  ///< without folders
+  std::vector<std::byte> bytes;
+};
+
+/// A model as files, the main file first. Files refer to each other by name and belong in the same folder.
+struct WrittenModel {
+  std::vector<ModelFile> files;
+  std::vector<std::string> warnings;  ///< one line each: what the format cannot store
+};
+
+/// Converts a model to files of the format. `file` gives their names. Images must be in memory (ModelImage::bytes) as PNG or JPEG; others
+/// are left out with a warning.
+///
+/// glb, gltf: everything in Model. Positions are stored relative to ModelMesh::origin, which becomes the translation of a node, and a model
+///   with z up gets a node that turns it. Texture channels that glTF does not permit are left out with a warning.
+/// obj: all meshes in world space, materials as .mtl with the PBR statements where metals or their maps need them, and textures. Numbers
+///   have the shortest form that reads back as the same value.
+/// ply: all meshes in world space as one mesh, binary, with normals, and with colors and texture coordinates if a mesh has them.
+/// stl: the triangles in world space, binary, z up.
+///
+/// obj, ply and stl contain the default scene without animation. Throws OutputError if the model has nothing that the format can store, or
+/// more than it can address.
+WrittenModel written_model(const Model& model, const std::filesystem::path& file, ModelFormat format);
+
+/// Returns ".png" or ".jpg" for an image that all readers of glTF understand, else an empty text.
+std::string image_extension(std::span<const std::byte> image);
+
+}  // namespace halfspace

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writes materials as MTL. The conversion is the inverse of the one in mtl_materials.h: metals and materials with maps of roughness or
+// metalness are written with Pm and Pr, all others with Ns and Ks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "halfspace/model/model.h"
+
+namespace halfspace {
+
+/// Inverse of linear_from_srgb. The argument is clamped to [0, 1].
+float srgb_from_linear(float value);
+
+/// Returns the text of a material library. material_names: one per material, without spaces. image_names: the file name of each image;
+/// empty: the image is left out.
+std::string mtl_text(const Model& model, const std::vector<std::string>& material_names, const std::vector<std::string>& image_names);
+
+}  // namespace halfspace

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/model/write_formats.h"
+
+namespace halfspace {
+
+namespace {
+
+class PlyWriter {
+ public:
+  PlyWriter(const Model& model, const PosedModel& posed) {
+    for (const PosedMesh& part : posed.meshes) {
+      const WorldMesh mesh(model, part);
+      if (mesh.mesh().topology == MeshTopology::lines) continue;
+      meshes_.push_back(mesh);
+      faces_ += mesh.triangles();
+    }
+    // Points in a file with faces would have no meaning.
+    if (faces_ > 0) std::erase_if(meshes_, [](const WorldMesh& m) { return m.triangles() == 0; });
+    for (const WorldMesh& mesh : meshes_) look_at(mesh);
+  }
+
+  std::size_t vertices() const { return vertices_; }
+
+  std::vector<std::byte> bytes() const {
+    std::vector<std::byte> out;
+    append_text(out, header());
+    for (const WorldMesh& mesh : meshes_) {
+      for (std::size_t i = 0; i < mesh.mesh().positions.size(); ++i) append_vertex(out, mesh, i);
+    }
+    uint32_t first = 0;
+    for (const WorldMesh& mesh : meshes_) {
+      for (std::size_t t = 0; t < mesh.triangles(); ++t) {
+        append_value(out, uint8_t{3});
+        for (std::size_t k = 0; k < 3; ++k) append_value(out, first + mesh.corner(t, k));
+      }
+      first += static_cast<uint32_t>(mesh.mesh().positions.size());
+    }
+    return out;
+  }
+
+ private:
+  void look_at(const WorldMesh& mesh) {
+    const ModelMesh& m = mesh.mesh();
+    vertices_ += m.positions.size();
+    normals_ = normals_ && !m.normals.empty();
+    colors_ = colors_ || !m.colors.empty();
+    opacity_ = opacity_ || std::ranges::any_of(m.colors, [](const glm::vec4& c) { return c.w != 1.0f; });
+    uvs_ = uvs_ || !m.uvs[0].empty();
+    for (std::size_t i = 0; i < m.positions.size() && !doubles_; ++i) {
+      const glm::dvec3 p = mesh.position(i);
+      doubles_ = glm::dvec3(glm::vec3(p)) != p;
+    }
+  }
+
+  std::string header() const {
+    const char* number = doubles_ ? "double" : "float";
+    std::string text = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", vertices_);
+    for (const char* name : {"x", "y", "z"}) text += fmt::format("property {} {}\n", number, name);
+    if (normals_) text += "property float nx\nproperty float ny\nproperty float nz\n";
+    if (uvs_) text += "property double s\nproperty double t\n";
+    if (colors_) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    if (opacity_) text += "property uchar alpha\n";
+    if (faces_ > 0) text += fmt::format("element face {}\nproperty list uchar uint vertex_indices\n", faces_);
+    return text + "end_header\n";
+  }
+
+  void append_vertex(std::vector<std::byte>& out, const WorldMesh& mesh, std::size_t i) const {
+    const ModelMesh& m = mesh.mesh();
+    const glm::dvec3 p = mesh.position(i);
+    for (glm::length_t k = 0; k < 3; ++k) doubles_ ? append_value(out, p[k]) : append_value(out, static_cast<float>(p[k]));
+    if (normals_) append_value(out, mesh.normal(i));
+    if (uvs_) {
+      const glm::dvec2 uv(m.uvs[0].empty() ? glm::vec2(0.0f) : m.uvs[0][i]);
+      append_value(out, glm::dvec2(uv.x, 1.0 - uv.y));
+    }
+    if (!colors_) return;
+    const glm::vec4 color = m.colors.empty() ? glm::vec4(1.0f) : m.colors[i];
+    for (glm::length_t k = 0; k < 3; ++k) append_value(out, static_cast<uint8_t>(linear_to_srgb(color[k])));
+    if (opacity_) append_value(out, static_cast<uint8_t>(std::clamp(color.w, 0.0f, 1.0f) * 255.0f + 0.5f));
+  }
+
+  std::vector<WorldMesh> meshes_;
+  std::size_t vertices_ = 0, faces_ = 0;
+  bool normals_ = true, colors_ = false, opacity_ = false, uvs_ = false, doubles_ = false;
+};
+
+}  // namespace
+
+WrittenModel write_ply(const Model& model, const std::string& stem) {
+  const PosedModel posed = pose(model, {});
+  const PlyWriter writer(model, posed);
+  if (writer.vertices() == 0) throw OutputError(stem + ".ply: the model has neither triangles nor points; expected one of them");
+  if (writer.vertices() > 0xffffffffu) throw OutputError(stem + ".ply: more than 2^32 - 1 vertices; expected fewer");
+  WrittenModel written;
+  written.files.push_back({stem + ".ply", writer.bytes()});
+  if (model.materials.size() > 1 || !model.textures.empty())
+    written.warnings.emplace_back("PLY stores one mesh with vertex colors: no materials or textures");
+  return written;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/export/scene_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "halfspace/core/trig_double.h"
+#include "halfspace/core/units.h"
+#include "halfspace/image/png.h"
+#include "halfspace/model/normals.h"
+#include "halfspace/render/export/append_model.h"
+#include "halfspace/render/model_asset.h"
+
+namespace halfspace {
+
+namespace {
+
+// Generated maps get the resolution for this image size.
+constexpr int kExportWidth = 1920, kExportHeight = 1080;
+constexpr int kSphereLevel = 5;
+
+glm::dquat turn_about(int axis, double degrees) {
+  const auto [s, c] = sincos_turns(degrees / 720.0);  // half the angle
+  glm::dvec3 v(0.0);
+  v[axis] = s;
+  return {c, v.x, v.y, v.z};
+}
+
+NodeTransform transform_of(const Placement& p) {
+  const glm::dquat turn = turn_about(1, p.rotation.y) * turn_about(0, p.rotation.x) * turn_about(2, p.rotation.z);
+  return {p.position, turn, p.scale};
+}
+
+// Returns a matrix with this −z axis, and y as near to `up` as possible.
+glm::dmat4 looking_along(const glm::dvec3& position, const glm::dvec3& ahead, const glm::dvec3& up) {
+  const glm::dvec3 z = unit_or_zero(-ahead);
+  glm::dvec3 x = unit_or_zero(glm::cross(up, z));
+  if (x == glm::dvec3(0.0)) x = unit_or_zero(glm::cross(std::fabs(z.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), z));
+  return {glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), glm::dvec4(position, 1.0)};
+}
+
+// The vertex streams of a prepared draw that a model stores.
+struct DrawnMesh {
+  const LitSurface* surface = nullptr;  // null: not a mesh of the scene file
+  VertexStream tangents{}, uvs{};       // without data if the draw does not have them
+  bool flat = false, unlit = false, has_normal_map = false, has_other_detail = false;
+};
+
+DrawnMesh drawn_mesh(const PreparedDraw& draw) {
+  return std::visit(
+      [&]<class S>(const S& shader) -> DrawnMesh {
+        if constexpr (requires { S::kTangents; } && std::is_base_of_v<LitSurface, S>) {
+          DrawnMesh mesh;
+          mesh.surface = &shader;
+          std::size_t next = S::kNormals ? 2 : 1;
+          if constexpr (S::kTangents) mesh.tangents = draw.vertices.streams[next++];
+          if constexpr (S::kMapped) mesh.uvs = draw.vertices.streams[next];
+          mesh.flat = requires { typename S::template Primitive<float>; };
+          mesh.unlit = !S::kByVertex && !S::kByPixel && !mesh.flat;
+          mesh.has_normal_map = S::kTangents;
+          mesh.has_other_detail = shader.detail.map != nullptr && !S::kTangents;
+          return mesh;
+        }
+        return {};
+      },
+      draw.shader);
+}
+
+template <class V>
+std::vector<V> stream_rows(const VertexStream& stream) {
+  std::vector<V> rows(stream.data == nullptr ? 0 : stream.count);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (glm::length_t k = 0; k < V::length(); ++k)
+      rows[i][k] = stream.data[i * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)];
+  }
+  return rows;
+}
+
+Image<glm::u8vec4> picture_of(const Texture2D& texture, bool flip_green) {
+  const bool codes = texture.format() == TexelFormat::srgb8a8 || texture.format() == TexelFormat::rgba8;
+  Image<glm::u8vec4> picture(texture.width(), texture.height());
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      glm::u8vec4& texel = picture.at(x, y);
+      texel = codes ? texture.texel(0, x, y) : glm::u8vec4(glm::clamp(texture.value(0, x, y), 0.0f, 1.0f) * 255.0f + 0.5f);
+      if (flip_green) texel.y = static_cast<uint8_t>(255 - texel.y);
+    }
+  }
+  return picture;
+}
+
+class SceneExporter {
+ public:
+  SceneExporter(const SceneDescription& scene, const PreparedScene& prepared) : scene_(scene), prepared_(prepared) {
+    model_.format = "scene";
+    model_.scenes.push_back({scene.head.title, {}});
+    add_object_nodes();
+  }
+
+  Model model() {
+    add_meshes();
+    for (const auto& [name, camera] : scene_.cameras) add_camera(name, camera);
+    for (const auto& [name, light] : scene_.lights) add_light(name, light);
+    warn_of_the_rest();
+    return std::move(model_);
+  }
+
+  void add_file(const std::string& name, const ObjectDescription& o, const Model& file) {
+    const PoseOptions options = pose_options(file, o, "objects." + name);
+    const std::size_t copies = std::max<std::size_t>(o.instances.size(), 1);
+    const auto roots = append_model(model_, file, options.scene < 0 ? file.scene : options.scene, options.variant, copies);
+    const bool turned = o.up_axis == ModelUp::automatic ? file.up == UpAxis::z : o.up_axis == ModelUp::z;
+    std::vector<int> children;
+    for (std::size_t i = 0; i < copies; ++i) {
+      ModelNode copy;
+      if (!o.instances.empty()) place(copy, o.instances[i]);
+      copy.children = roots[i];
+      if (turned) {
+        ModelNode turn;
+        turn.transform.rotation = turn_about(0, -90.0);
+        turn.children = roots[i];
+        copy.children = {add_node(std::move(turn))};
+      }
+      children.push_back(add_node(std::move(copy)));
+    }
+    std::vector<int>& siblings = model_.nodes[node_of(name)].children;
+    siblings.insert(siblings.end(), children.begin(), children.end());
+    if (!o.model_materials.empty()) warn("materials that replace those of model files are left out");
+    for (const std::string& warning : file.warnings) warn(warning);
+  }
+
+ private:
+  void warn(const std::string& text) {
+    if (std::ranges::find(model_.warnings, text) == model_.warnings.end()) model_.warnings.push_back(text);
+  }
+
+  int add_node(ModelNode node) {
+    model_.nodes.push_back(std::move(node));
+    return static_cast<int>(model_.nodes.size()) - 1;
+  }
+  static void place(ModelNode& node, const Placement& p) {
+    node.transform = transform_of(p);
+    node.matrix = p.matrix;
+  }
+
+  // Returns the node of an object, which has the index of the object.
+  std::size_t node_of(const std::string& name) const {
+    const auto is_this = [&](const auto& object) { return object.first == name; };
+    return static_cast<std::size_t>(std::ranges::find_if(scene_.objects, is_this) - scene_.objects.begin());
+  }
+
+  // Adds a node for every object, also for hidden ones, which can be parents.
+  void add_object_nodes() {
+    for (const auto& [name, o] : scene_.objects) {
+      ModelNode node;
+      node.name = name;
+      place(node, o.placement);
+      add_node(std::move(node));
+    }
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+      const std::string& parent = scene_.objects[i].second.parent;
+      (parent.empty() ? model_.scenes[0].roots : model_.nodes[node_of(parent)].children).push_back(static_cast<int>(i));
+    }
+  }
+
+  void add_root(ModelNode node) { model_.scenes[0].roots.push_back(add_node(std::move(node))); }
+
+  // Draws and placed meshes of objects are in the same order. All copies of an object have the same mesh and material.
+  void add_meshes() {
+    std::size_t next = 0;
+    int last_object = -1;
+    for (const PreparedDraw& draw : prepared_.draws) {
+      const DrawnMesh drawn = drawn_mesh(draw);
+      if (drawn.surface == nullptr) continue;
+      while (!is_surface(prepared_.meshes[next].object)) ++next;
+      const PlacedMesh& placed = prepared_.meshes[next++];
+      if (placed.object == last_object) continue;
+      last_object = placed.object;
+      add_object(placed, drawn);
+    }
+  }
+
+  bool is_surface(int object) const {
+    const ObjectDescription& o = scene_.objects[static_cast<std::size_t>(object)].second;
+    return o.shape != Shape::file && !o.shadow_only;
+  }
+
+  void add_object(const PlacedMesh& placed, const DrawnMesh& drawn) {
+    const auto& [name, o] = scene_.objects[static_cast<std::size_t>(placed.object)];
+    const int mesh = add_mesh(name, placed, drawn, add_material(name, drawn));
+    ModelNode& node = model_.nodes[static_cast<std::size_t>(placed.object)];
+    for (const Placement& p : o.instances) node.instances.push_back(transform_of(p));
+    node.meshes = {mesh};
+  }
+
+  int add_mesh(const std::string& name, const PlacedMesh& placed, const DrawnMesh& drawn, int material) {
+    ModelMesh mesh;
+    mesh.name = name;
+    mesh.material = material;
+    mesh.positions.assign(placed.positions.begin(), placed.positions.end());
+    mesh.normals.assign(placed.normals.begin(), placed.normals.end());
+    mesh.tangents = stream_rows<glm::vec4>(drawn.tangents);
+    mesh.uvs[0] = stream_rows<glm::vec2>(drawn.uvs);
+    for (std::size_t i = 0; i < placed.indices->size(); ++i) mesh.indices.push_back((*placed.indices)[i]);
+    if (drawn.flat) add_flat_normals(mesh);
+    model_.meshes.push_back(std::move(mesh));
+    return static_cast<int>(model_.meshes.size()) - 1;
+  }
+
+  int add_material(const std::string& name, const DrawnMesh& drawn) {
+    const LitSurface& s = *drawn.surface;
+    ModelMaterial m;
+    m.name = name;
+    m.double_sided = s.two_sided;
+    m.unlit = drawn.unlit;
+    const glm::vec3 color = s.factors[kColor].constant * (drawn.unlit ? glm::vec3(1.0f) : s.factors[kDiffuse].constant);
+    m.base_color = glm::vec4(glm::min(color, 1.0f), 1.0f);
+    if (color != glm::vec3(m.base_color)) warn("colors above 1 are reduced to 1");
+    m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, false);
+    m.emissive = s.factors[kEmissive].constant;
+    if (m.emissive != glm::vec3(0.0f)) m.emissive_map = texture_use(s.factors[kEmissive].map, s.factors[kEmissive].sampler, false);
+    convert_highlight(s, m);
+    if (drawn.has_normal_map) {
+      m.normal_map = texture_use(s.detail.map, s.detail.sampler, s.detail.flip_green);
+      m.normal_scale = s.detail.strength;
+    }
+    if (drawn.has_other_detail) warn("bump maps and the slopes of displaced spheres are left out");
+    for (const MaterialFactor factor : {kAmbient, kDiffuse, kSpecular, kShininess}) {
+      if (s.factors[factor].map != nullptr && s.factors[factor].map != s.factors[kColor].map)
+        warn("maps of ambient, diffuse and specular light and of shininess are left out");
+    }
+    if (s.surroundings != nullptr) warn("reflections of the environment are left out");
+    model_.materials.push_back(std::move(m));
+    return static_cast<int>(model_.materials.size()) - 1;
+  }
+
+  static void convert_highlight(const LitSurface& s, ModelMaterial& m) {
+    m.roughness = 1.0f;
+    m.specular = 0.0f;
+    if (s.model == LightModel::lambert || m.unlit) return;
+    constexpr float kDielectric = 0.04f;  // reflectance for an index of refraction of 1.5
+    const float r2 = std::min(std::sqrt(2.0f / (std::max(s.factors[kShininess].constant.x, 0.0f) + 2.0f)), 1.0f);
+    m.roughness = std::sqrt(r2);
+    m.specular = 1.0f;
+    m.specular_color = glm::min(4.0f * r2 * r2 * s.factors[kSpecular].constant, 1.0f) / kDielectric;
+  }
+
+  // Returns a use of the texture, which is added to the model if it is new.
+  TextureUse texture_use(const Texture2D* texture, const Sampler& sampler, bool flip_green) {
+    TextureUse use;
+    if (texture == nullptr) return use;
+    const auto [known, added] = images_.try_emplace({texture, flip_green}, static_cast<int>(model_.images.size()));
+    if (added) {
+      const bool color = texture->format() == TexelFormat::srgb8a8;
+      auto png = encode_png(picture_of(*texture, flip_green), color ? PngCodes::srgb : PngCodes::numbers);
+      model_.images.push_back({"map" + std::to_string(known->second), {}, std::make_shared<const std::vector<std::byte>>(std::move(png))});
+    }
+    use.texture = static_cast<int>(model_.textures.size());
+    model_.textures.push_back({known->second, sampler});
+    return use;
+  }
+
+  void add_camera(const std::string& name, const CameraDescription& c) {
+    ModelCamera camera;
+    camera.name = name;
+    camera.perspective = c.type == Projection::perspective;
+    camera.fovy = c.fov * kRadiansPerDegree;
+    camera.height = c.height;
+    camera.near = c.near;
+    camera.far = c.far;
+    ModelNode node;
+    node.name = name;
+    node.camera = static_cast<int>(model_.cameras.size());
+    node.matrix = looking_along(c.position, c.target - c.position, c.up);
+    model_.cameras.push_back(camera);
+    add_root(std::move(node));
+  }
+
+  void add_light(const std::string& name, const LightDescription& d) {
+    ModelLight light;
+    light.name = name;
+    light.color = glm::vec3(d.color.linear * d.diffuse);
+    light.intensity = d.intensity * std::numbers::pi;
+    if (light.intensity <= 0.0 || light.color == glm::vec3(0.0f)) return;
+    light.type = d.type == LightType::directional ? ModelLightType::directional
+                 : d.type == LightType::spot      ? ModelLightType::spot
+                                                  : ModelLightType::point;
+    const float largest = std::max({light.color.x, light.color.y, light.color.z});
+    if (largest > 1.0f) {
+      light.color /= largest;
+      light.intensity *= static_cast<double>(largest);
+    }
+    constexpr double kLeastCone = 1e-4;
+    light.outer = std::clamp(d.outer * kRadiansPerDegree, kLeastCone, std::numbers::pi / 2.0);
+    light.inner = std::clamp(d.inner * kRadiansPerDegree, 0.0, light.outer - 0.5 * kLeastCone);
+    if (d.type != LightType::directional && d.falloff != Falloff::physical) warn("lights get physical falloff");
+    if (d.specular != d.diffuse) warn("lights shine with the same color for diffuse and specular light");
+    ModelNode node;
+    node.name = name;
+    node.light = static_cast<int>(model_.lights.size());
+    node.matrix = looking_along(d.type == LightType::directional ? glm::dvec3(0.0) : d.position, -d.direction, {0, 1, 0});
+    model_.lights.push_back(light);
+    add_root(std::move(node));
+  }
+
+  void warn_of_the_rest() {
+    const bool has_particles = scene_.particles.count > 0 || !scene_.particles.file.path.empty() || !scene_.particle_systems.empty();
+    if (has_particles) warn("particles are left out");
+    if (!scene_.environments.empty() || scene_.background.type != BackgroundType::color) warn("environments and backgrounds are left out");
+    const auto is_ambient = [](const auto& light) { return light.second.ambient > 0.0; };
+    if (scene_.head.ambient.linear != glm::dvec3(0.0) || std::ranges::any_of(scene_.lights, is_ambient)) warn("ambient light is left out");
+    if (!scene_.animations.empty()) warn("animations of the scene are left out");
+  }
+
+  const SceneDescription& scene_;
+  const PreparedScene& prepared_;
+  Model model_;
+  std::map<std::pair<const Texture2D*, bool>, int> images_;
+};
+
+}  // namespace
+
+Model scene_model(SceneDescription scene, SceneAssets& assets) {
+  scene.shadow.method = ShadowMethod::none;
+  for (auto& [name, object] : scene.objects) {
+    if (object.shape != Shape::sphere) continue;
+    object.shape = Shape::icosphere;
+    object.level = kSphereLevel;
+  }
+  SceneDescription meshes = scene;
+  for (auto& [name, object] : meshes.objects) object.visible = object.visible && object.shape != Shape::file;
+  const PreparedScene prepared = assets.prepare(meshes, kExportWidth, kExportHeight);
+  SceneExporter exporter(meshes, prepared);
+  for (const auto& [name, object] : scene.objects) {
+    if (object.shape == Shape::file && object.visible) exporter.add_file(name, object, read_model(object.file.path));
+  }
+  return exporter.model();
+}
+
+}  // namespace halfspace

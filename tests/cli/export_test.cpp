@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes and models that are exported and rendered again.
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "cli/cli_run.h"
+#include "halfspace/image/image_difference.h"
+#include "halfspace/image/image_io.h"
+
+namespace halfspace {
+namespace {
+
+class Export : public Cli {
+ protected:
+  void write(const std::string& name, const std::string& text) const { std::ofstream(directory / name) << text; }
+  void export_to(const std::string& scene, const std::string& file) const {
+    const Outcome o = run({"export", scene, "-o", file});
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(lines_of(o.err), file.ends_with(".obj") ? 1 : 0) << o.err;  // OBJ stores no lights
+  }
+  Image<glm::u8vec4> render(const std::string& scene) const {
+    const Outcome o = run({"render", scene, "--size", "320x180", "-o", "picture.png"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    return read_image(directory / "picture.png");
+  }
+};
+
+// Cameras and lights. The sun is the only light, as exported scenes lose ambient light.
+const std::string kHead = R"({"version": 1, "cameras": {"c": {"position": [2, 3, 6], "target": [0, 0.3, 0]}},
+  "lights": {"sun": {"direction": [1, 2, 2], "intensity": 1.2}}, "objects": {)";
+
+// Everything here is exported without loss but for the rounding of floats: diffuse light, textures, instances and all kinds of placement.
+const std::string kObjects = R"(
+  "floor": {"shape": "plane", "size": 6, "segments": 2, "position": [0, -1, 0], "color": "map.png", "specular": 0},
+  "ball": {"shape": "uv_sphere", "radius": 0.7, "color": [0.8, 0.3, 0.2], "position": [-1.5, 0, 0], "rotation": [10, 20, 30]},
+  "boxes": {"shape": "cube", "size": 0.8, "diffuse": 0.7, "position": [1, 0, 0], "rotation": [0, 30, 0], "scale": [1, 1.5, 1],
+            "instances": [{}, {"position": [1.2, 0, 0], "rotation": [0, 0, 40]}, {"position": [0, 1.2, 0], "scale": [-0.5, 0.5, 0.7]}]},
+  "lamp": {"shape": "torus", "radius": 0.5, "tube": 0.2, "position": [0, 1, -1], "rotation": [60, 0, 0], "emissive": [0.1, 0.2, 0.4]},
+  "top": {"shape": "cube", "size": 0.3, "parent": "ball", "position": [0, 0.9, 0]},
+  "flat": {"shape": "icosphere", "level": 1, "radius": 0.6, "position": [0, 0, 1.5], "shading": "flat"})";
+
+// The scene that shows an exported file with the same camera and light.
+std::string shown(const std::string& file, const std::string& more = "") {
+  return kHead + R"("model": {"shape": "file", "file": ")" + file + "\"" + more + "}}}";
+}
+
+TEST_F(Export, RenderOfTheExportMatches) {
+  Image<glm::u8vec4> map(16, 16);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) map.at(x, y) = {16 * x, 16 * y, (x + y) % 2 * 255, 255};
+  }
+  write_image(directory / "map.png", map);
+  write("scene.json", kHead + kObjects + "}}");
+  const Image<glm::u8vec4> expected = render("scene.json");
+  for (const std::string file : {"a.glb", "b.gltf", "c.obj"}) {
+    export_to("scene.json", file);
+    write("again.json", shown(file));
+    const ImageDifference d = compare_images(expected, render("again.json"));
+    // Silhouettes move by the rounding of positions, and shading by that of normals and of the reflection model: 1 code, and a few pixels.
+    EXPECT_LT(d.mean, 2e-3) << file;
+    EXPECT_LT(d.share_above, 0.01) << file;
+  }
+}
+
+TEST_F(Export, CamerasAndLightsAreThoseOfTheScene) {
+  write("scene.json", kHead + R"("ball": {"shape": "sphere"}}})");
+  export_to("scene.json", "a.glb");
+  const Outcome o = run({"info", "a.glb", "--json"});
+  const auto info = nlohmann::json::parse(o.out);
+  EXPECT_EQ(info.at("cameras"), std::vector<std::string>{"c"});
+  EXPECT_EQ(info.at("lights"), std::vector<std::string>{"sun"});
+  EXPECT_EQ(info.at("triangles"), 20 << 10);
+  EXPECT_EQ(info.at("warnings"), nlohmann::json::array());
+  export_to("scene.json", "a.gltf");
+  const auto gltf = nlohmann::json::parse(read_bytes(directory / "a.gltf"));
+  EXPECT_NEAR(gltf.at("extensions").at("KHR_lights_punctual").at("lights")[0].at("intensity").get<double>(), 1.2 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(gltf.at("cameras")[0].at("perspective").at("yfov").get<double>(), std::numbers::pi / 4.0, 1e-12);
+  std::map<std::string, std::vector<double>> matrices;
+  for (const auto& node : gltf.at("nodes")) {
+    if (node.contains("matrix")) matrices[node.at("name")] = node.at("matrix").get<std::vector<double>>();
+  }
+  // The z axes point back: towards the light, and from the target to the eye.
+  for (int k = 0; k < 3; ++k) {
+    const double to_light[] = {1.0, 2.0, 2.0}, to_eye[] = {2.0, 2.7, 6.0}, eye[] = {2.0, 3.0, 6.0};
+    EXPECT_NEAR(matrices.at("sun")[8 + k], to_light[k] / 3.0, 1e-12);
+    EXPECT_NEAR(matrices.at("c")[8 + k], to_eye[k] / std::sqrt(4.0 + 2.7 * 2.7 + 36.0), 1e-12);
+    EXPECT_NEAR(matrices.at("c")[12 + k], eye[k], 1e-12);
+  }
+}
+
+TEST_F(Export, ModelsAreConverted) {
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1.5 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
+  for (const std::string file : {"b.glb", "b.gltf", "b.ply", "b.stl", "c.obj"}) {
+    EXPECT_EQ(run({"export", "a.obj", "-o", file}).exit_code, 0) << file;
+    const auto info = nlohmann::json::parse(run({"info", file, "--json"}).out);
+    EXPECT_EQ(info.at("triangles"), 2) << file;
+    EXPECT_EQ(info.at("bounds").at("high"), (std::vector<double>{1, 1.5, 1})) << file;
+  }
+}
+
+TEST_F(Export, NamesWhatIsLeftOut) {
+  const Outcome o = run({"export", "day-night", "-o", "a.glb"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_NE(o.err.find("environments and backgrounds are left out"), std::string::npos) << o.err;
+}
+
+TEST_F(Export, NeverReplacesAFileThatItReads) {
+  write("a.mtl", "newmtl m\nKd 1 0 0\n");
+  write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("b.obj", "mtllib c.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("c.mtl", "newmtl m\nKd 0 1 0\n");
+  const std::string before = read_bytes(directory / "c.mtl");
+  for (const auto& [in, out] : {std::pair("a.obj", "a.obj"), std::pair("b.obj", "c.obj")}) {
+    const Outcome o = run({"export", in, "-o", out});
+    EXPECT_EQ(o.exit_code, 4) << in;
+    EXPECT_EQ(lines_of(o.err), 1);
+  }
+  EXPECT_EQ(read_bytes(directory / "c.mtl"), before);
+  EXPECT_FALSE(fs::exists(directory / "c.obj"));
+  // A render that would replace a material library.
+  write("d.png", "newmtl m\n");
+  write("d.obj", "mtllib d.png\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(run({"render", "d.obj", "--size", "32x32", "-o", "d.png"}).exit_code, 4);
+}
+
+TEST_F(Export, RejectsOtherFormats) {
+  EXPECT_EQ(run({"export", "shapes", "-o", "a.fbx"}).exit_code, 2);
+  EXPECT_EQ(run({"export", "shapes"}).exit_code, 2);
+  EXPECT_EQ(run({"export", "none.obj", "-o", "a.glb"}).exit_code, 3);
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(run({"export", "a.obj", "--set", "samples=4", "-o", "a.glb"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace halfspace
