@@ -18,7 +18,8 @@ function(halfspace_program name short)
     add_library(${library} SHARED ${ARGN})
     set_target_properties(${library} PROPERTIES
       OUTPUT_NAME halfspace-${short} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-      LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${folder} INSTALL_RPATH $ORIGIN/../.. DEFINE_SYMBOL "")
+      LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${folder} INSTALL_RPATH $ORIGIN/../..
+      BUILD_WITH_INSTALL_RPATH ON DEFINE_SYMBOL "")
     target_link_options(${library} PRIVATE LINKER:--version-script=${halfspace_SOURCE_DIR}/apps/launcher/entry.map)
     add_executable(${name} ${halfspace_SOURCE_DIR}/apps/launcher/launcher.cpp ${halfspace_start_check} ${halfspace_SOURCE_DIR}/src/core/cpu.cpp)
     add_dependencies(${name} ${library})

@@ -2,7 +2,8 @@
 # Runs the long tests: both compilers, all presets, SIMD widths and instruction sets, the mutation tests and the cost measurements.
 # Run it before an issue is resolved. The results of the last run are in docs/development/testing.md.
 #
-#   scripts/test_full.sh [STEP...]     default: all steps; "scripts/test_full.sh list" names them
+#   scripts/test_full.sh [--resume] [STEP...]     default: all steps; "scripts/test_full.sh list" names them
+#     --resume    skips the steps that have passed for exactly these sources
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_deps.sh --tests
@@ -71,6 +72,35 @@ benchmarks() {
   "$dir/bin/test-bench" --gtest_brief=1
 }
 
+# Builds shared libraries, checks the list of their symbols, and uses them from a project outside of the tree.
+shared() {
+  local dir=build/full/shared
+  cmake -S . -B "$dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF \
+    -DHALFSPACE_UNITY=OFF > /dev/null
+  cmake --build "$dir" --target installed -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  python3 tests/consumer/exports_test.py "$dir/bin" && python3 tests/consumer/consumer_test.py "$dir" c++
+}
+
+# Builds the programs of packages for both instruction sets and tests which of them is selected.
+portable() {
+  local level
+  for level in v3 v4; do
+    cmake -S . -B "build/full/portable-$level" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_PORTABLE=ON -DHALFSPACE_ARCH=x86-64-$level \
+      -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF > /dev/null
+  done
+  cmake --build build/full/portable-v3 --target installed -- -j "$jobs" > build/full/portable-v3/build.log 2>&1 || return 1
+  cmake --build build/full/portable-v4 --target isa -- -j "$jobs" > build/full/portable-v4/build.log 2>&1 || return 1
+  python3 tests/consumer/portable_test.py build/full/portable-v3 build/full/portable-v4
+}
+
+# Uses the installation of a native build from other projects, with the checks that are too long for every run.
+consumer() {
+  local dir=build/full/consumer
+  cmake -S . -B "$dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF > /dev/null
+  cmake --build "$dir" --target installed -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  python3 tests/consumer/consumer_test.py "$dir" c++
+}
+
 declare -A steps
 names=()
 step() { names+=("$1"); steps[$1]=$2; }
@@ -85,6 +115,12 @@ step gcc-O1            "build_and_test gcc-O1 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_B
 step dev               "sanitized dev -DCMAKE_CXX_COMPILER=g++"
 step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=address,undefined"
 step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_WITH_TBB=OFF"
+step without-tbb       "build_and_test without-tbb -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_TBB=OFF"
+step without-oiio      "build_and_test without-oiio -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_OPENIMAGEIO=OFF"
+step without-embree    "build_and_test without-embree -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_EMBREE=OFF"
+step shared            "shared"
+step portable          "portable"
+step consumer          "consumer"
 step fuzz              "fuzz"
 step benchmarks        "benchmarks"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
@@ -97,7 +133,20 @@ if [ "${1:-}" = list ]; then
   printf '%s\n' "${names[@]}"
   exit 0
 fi
+resume=false
+if [ "${1:-}" = --resume ]; then
+  resume=true
+  shift
+fi
 [ $# -gt 0 ] || set -- "${names[@]}"
+# Identifies the sources, including changes that are not committed.
+mkdir -p build/full
+index=$(mktemp)
+cp "$(git rev-parse --git-path index)" "$index"
+tree=$(GIT_INDEX_FILE=$index git add -A && GIT_INDEX_FILE=$index git write-tree)
+rm -f "$index"
+passed=build/full/passed.txt  # lines "TREE STEP"
+touch "$passed"
 failed=()
 for name in "$@"; do
   if [ -z "${steps[$name]:-}" ]; then
@@ -105,8 +154,12 @@ for name in "$@"; do
     exit 2
   fi
   echo "== $name"
+  if $resume && grep -qxF "$tree $name" "$passed"; then
+    echo "   has passed before"
+    continue
+  fi
   begin=$SECONDS
-  eval "${steps[$name]}" || failed+=("$name")
+  if eval "${steps[$name]}"; then echo "$tree $name" >> "$passed"; else failed+=("$name"); fi
   echo "   $((SECONDS - begin)) s"
 done
 if [ ${#failed[@]} -gt 0 ]; then

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests the programs of portable builds (HALFSPACE_PORTABLE), which select a library for the instruction set of the processor.
+
+    portable_test.py BUILD_V3 BUILD_V4     two portable builds, for x86-64-v3 and x86-64-v4
+
+Both are installed into one prefix, as scripts/package.sh packages them.
+"""
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+LOADER = "/lib64/ld-linux-x86-64.so.2"
+PREFIX = None
+CPU_FLAGS = set(re.search(r"^flags\s*:(.*)$", Path("/proc/cpuinfo").read_text(), re.M)[1].split())
+HAS_V4 = {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"} <= CPU_FLAGS
+QEMU = shutil.which("qemu-x86_64")
+
+
+def run(*command):
+    return subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=600)
+
+
+def arch_of(*command):
+    result = run(*command, "info", "--json")
+    assert result.returncode == 0, result.stderr
+    return json.loads(result.stdout)["arch"]
+
+
+class Selection(unittest.TestCase):
+    def setUp(self):
+        self.program = PREFIX / "bin" / "halfspace"
+
+    def test_the_best_library_for_the_processor_is_selected(self):
+        self.assertEqual(arch_of(self.program), "x86-64-v4" if HAS_V4 else "x86-64-v3")
+
+    def test_a_mask_selects_v3(self):
+        self.assertEqual(arch_of(LOADER, "--glibc-hwcaps-mask", "x86-64-v3", self.program), "x86-64-v3")
+
+    def test_prepending_prefers_v3(self):
+        self.assertEqual(arch_of(LOADER, "--glibc-hwcaps-prepend", "x86-64-v3", self.program), "x86-64-v3")
+
+    def test_a_mask_without_any_library_gives_one_line(self):
+        result = run(LOADER, "--glibc-hwcaps-mask", "x86-64-v2", self.program, "info")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, r"^halfspace: libhalfspace-cli\.so\.\S+: cannot open.*\n$")
+
+    @unittest.skipUnless(HAS_V4, "the processor has no AVX-512")
+    def test_both_libraries_render_the_same_picture(self):
+        pictures = []
+        for mask in ("x86-64-v3", "x86-64-v4"):
+            picture = PREFIX / f"{mask}.png"
+            result = run(LOADER, "--glibc-hwcaps-mask", mask, self.program, "render", "moon", "--size", "160x90", "-o", picture)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            pictures.append(picture.read_bytes())
+        self.assertEqual(*pictures)
+
+    def test_decoders_are_found(self):
+        picture = PREFIX / "picture.jpg"
+        for command in (("render", "earth", "--size", "64x36", "-o", picture), ("compare", picture, picture)):
+            result = run(self.program, *command)
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_the_benchmark_starts(self):
+        self.assertIn("Usage", run(PREFIX / "bin" / "halfspace-bench", "--help").stdout)
+
+
+@unittest.skipUnless(QEMU, "qemu-user is not installed")
+class Emulation(unittest.TestCase):
+    def test_a_processor_below_v3_is_refused_in_one_line(self):
+        for program in ("halfspace", "halfspace-bench"):
+            for cpu in ("qemu64", "Nehalem", "SandyBridge"):
+                result = run(QEMU, "-cpu", cpu, PREFIX / "bin" / program, "--help")
+                self.assertEqual((result.returncode, result.stdout), (1, ""), cpu)
+                lines = [line for line in result.stderr.splitlines() if "TCG doesn't support" not in line]
+                self.assertEqual(len(lines), 1, result.stderr)
+                self.assertRegex(lines[0], "^halfspace: this build needs .*AVX2.*processor does not support")
+
+    def test_a_v3_processor_runs_the_v3_library(self):
+        self.assertEqual(arch_of(QEMU, "-cpu", "Haswell", PREFIX / "bin" / "halfspace"), "x86-64-v3")
+
+
+class Libraries(unittest.TestCase):
+    def test_a_program_library_exports_one_function(self):
+        for level in ("v3", "v4"):
+            for name in ("cli", "bench"):
+                library = next(PREFIX.glob(f"lib/**/glibc-hwcaps/x86-64-{level}/libhalfspace-{name}.so.*"))
+                symbols = run("nm", "-D", "--defined-only", library).stdout.split("\n")
+                self.assertEqual([line.split()[-1] for line in symbols if line], [f"halfspace_{name}_main"])
+                # An empty entry would be the working directory.
+                runpath = re.search(r"R(?:UN)?PATH.*\[(.*)\]", run("readelf", "-d", library).stdout)
+                self.assertEqual(runpath[1], "$ORIGIN/../..")
+
+
+def main():
+    global PREFIX
+    with tempfile.TemporaryDirectory(prefix="halfspace-portable-") as folder:
+        PREFIX = Path(folder)
+        for build, component in ((sys.argv[1], []), (sys.argv[2], ["--component", "isa"])):
+            subprocess.run(["cmake", "--install", build, "--prefix", folder, *component], check=True, capture_output=True)
+        print(f"the processor has {'AVX-512' if HAS_V4 else 'no AVX-512'}; qemu-user is {'' if QEMU else 'not '}installed")
+        return not unittest.main(argv=sys.argv[:1], exit=False).result.wasSuccessful()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
