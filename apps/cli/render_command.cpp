@@ -174,6 +174,10 @@ PictureFiles files_of(const RenderJob& job, double seconds, const std::filesyste
           {.software = "Halfspace " HALFSPACE_VERSION, .comment = render_comment(job.arguments, seconds)}};
 }
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 // Renders one image to its files and adds its times and counts to the report.
 void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
                     RenderReport& report) {
