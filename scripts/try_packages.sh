@@ -12,7 +12,11 @@ cd "$(dirname "$0")/.."
 roots=${HALFSPACE_ROOTS:-$PWD/build/roots}
 mirror=${HALFSPACE_MIRROR:-http://deb.debian.org/debian}
 
-in_root() { chroot "$1" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive bash -euc "$2"; }
+# in_root FOLDER COMMANDS: runs a script in a root. /proc, which $ORIGIN in a RUNPATH needs, is mounted only for it.
+in_root() {
+  unshare --mount sh -euc 'mount -t proc proc "$1/proc"; exec chroot "$1" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+    DEBIAN_FRONTEND=noninteractive bash -euc "$2"' in_root "$@"
+}
 # new_root RELEASE FOLDER: copies the minimal root of a release, which is made once.
 new_root() {
   if [ ! -d "$roots/$1" ]; then
