@@ -171,7 +171,7 @@ TEST(Frame, CropsEqualTheWhole) {
     Image<glm::vec3> normal = frame_image<glm::vec3>(), part_normal(37, 21);
     render_frame(scene, {.picture = &whole, .light = &light, .normal = &normal}, two_workers());
     const ImageRect crop{41, 13, 37, 21};
-    const PassStatistics counts =
+    const PassStatistics statistics =
         render_frame(scene, {.picture = &part, .light = &part_light, .normal = &part_normal, .crop = crop}, two_workers());
     for (int y = 0; y < crop.height; ++y) {
       for (int x = 0; x < crop.width; ++x) {
@@ -181,7 +181,7 @@ TEST(Frame, CropsEqualTheWhole) {
       }
     }
     const bool draws_all = scene.post.auto_exposure;
-    EXPECT_LE(counts.fragments_shaded, draws_all ? 1000000u : 3u * 4u * 37u * 21u);
+    EXPECT_LE(statistics.fragments_shaded, draws_all ? 1000000u : 3u * 4u * 37u * 21u);
   }
 }
 
