@@ -194,8 +194,9 @@ TEST(Display, LinearOutputPrecedesExposureAndToneCurve) {
 
 // Returns how many allocations made during rendering have at least `bytes` bytes per pixel of the image.
 std::size_t large_blocks(const std::vector<std::string>& settings, std::size_t bytes) {
-  // Less than 4 MB at 16 bytes per pixel, because allocate_lines requests larger blocks directly from the system.
-  constexpr int kWidth = 480, kHeight = 360;
+  // Less than 4 MB at 16 bytes per pixel, because allocate_lines requests larger blocks directly from the system. More than 1 MB at 4 bytes
+  // per pixel, because the memory of a thread for one tile takes almost as much.
+  constexpr int kWidth = 512, kHeight = 511;
   const Workers workers(2);
   SceneAssets assets(workers);
   const PreparedScene scene = assets.prepare(bright_scene(settings), kWidth, kHeight);
