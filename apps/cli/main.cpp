@@ -118,6 +118,7 @@ void add_render_command(CLI::App& program) {
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");
   command->add_flag("--wireframe{lines}", args->wireframe, "Edges only; =hidden: without edges behind faces")->group(kUnlistedGroup);
+  command->add_flag("--naive", args->naive, "Draw with plain loops, and compare")->group(kUnlistedGroup);
   add_output_options(command, args->output);
   add_model_options(command, args->model);
   add_limit_options(command, args->limits, kUnlistedGroup);

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "halfspace/core/half.h"
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/render/display.h"
 
 namespace halfspace {
@@ -28,7 +30,7 @@ class FrameRenderer {
     Image<glm::vec4> encoded(width_, height_);
     const PassStatistics statistics =
         displayed([&](Pass& pass, double exposure) { show_fine(pass, post_, exposure, encoded, premultiplied()); });
-    for (int y = 0; y < height_; ++y) std::ranges::transform(encoded.row(y), picture.row(y).begin(), codes16_of);
+    round(encoded, picture);
     return statistics;
   }
 
@@ -37,6 +39,17 @@ class FrameRenderer {
     Pass pass = pass_of({.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, Draws::in_crop);
     show_light(pass, light);
     return pass.run(workers_);
+  }
+
+  // Converts light that has been drawn already, without a crop.
+  void display(const Image<glm::vec4>& light, Image<glm::u8vec4>& picture) const {
+    display_light(light, [&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied()); });
+  }
+
+  void display(const Image<glm::vec4>& light, Image<glm::u16vec4>& picture) const {
+    Image<glm::vec4> encoded(width_, height_);
+    display_light(light, [&](Pass& pass, double exposure) { show_fine(pass, post_, exposure, encoded, premultiplied()); });
+    round(encoded, picture);
   }
 
   PassStatistics render_values(const std::array<ColorTarget, kFrameValues>& targets) const {
@@ -55,6 +68,10 @@ class FrameRenderer {
     glm::u16vec4 codes;
     for (int k = 0; k < 4; ++k) codes[k] = static_cast<uint16_t>(std::clamp(encoded[k], 0.0f, 1.0f) * 65535.0f + 0.5f);
     return codes;
+  }
+
+  static void round(const Image<glm::vec4>& encoded, Image<glm::u16vec4>& picture) {
+    std::ranges::transform(encoded.texels(), picture.data(), codes16_of);
   }
 
   Premultiplied premultiplied() const { return scene_.transparent ? Premultiplied::yes : Premultiplied::no; }
@@ -92,19 +109,42 @@ class FrameRenderer {
     return pass.run(workers_);
   }
 
-  // Renders the light of the whole view, measures it, and displays it with a second pass without draws.
+  // Renders the light of the whole view, and displays it with a second pass.
   template <class Pixel, class F>
   PassStatistics metered(ColorTarget (*target)(Image<Pixel>&), F display) const {
+    const MemoryClaim claim(static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * sizeof(Pixel), "post.auto_exposure");
     Image<Pixel> light(width_, height_);
     const PassStatistics statistics = pass_of(target(light), Draws::everywhere).run(workers_);
-    const double exposure = post_.exposure * post_.key_value / log_average_luminance(light, workers_);
+    display_stored(light, target, display);
+    return statistics;
+  }
+
+  // Rounds light to the format in which the scene stores it, and displays it.
+  template <class F>
+  void display_light(const Image<glm::vec4>& light, F display) const {
+    if (post_.format == LightFormat::rgba32f) {
+      Image<glm::vec4> copy = light;
+      return display_stored(copy, rgba32f_target, display);
+    }
+    Image<U16Vec4> halves(width_, height_);
+    std::ranges::transform(light.texels(), halves.data(), [](const glm::vec4& c) {
+      return U16Vec4(float_to_finite_half(c.x), float_to_finite_half(c.y), float_to_finite_half(c.z), float_to_finite_half(c.w));
+    });
+    display_stored(halves, rgba16f_target, display);
+  }
+
+  // Converts light that is stored in an image to pixel values, in a pass that has no draws. Measures the light first if auto_exposure is
+  // on.
+  template <class Pixel, class F>
+  void display_stored(Image<Pixel>& light, ColorTarget (*target)(Image<Pixel>&), F display) const {
+    const double exposure =
+        post_.auto_exposure ? post_.exposure * post_.key_value / log_average_luminance(light, workers_) : post_.exposure;
     ColorTarget whole = target(light);
     whole.load = LoadOp::load;
     whole.store = StoreOp::dont_care;
     Pass pass(width_, height_, whole, {});
     display(pass, exposure);
     pass.run(workers_);
-    return statistics;
   }
 
   FrameCamera frame_camera() const {
@@ -218,6 +258,16 @@ PassStatistics render_frame(const PreparedScene& scene, const FrameImages& image
   render_color(renderer, images.light, images, size, statistics);
   if (wants_values(images)) statistics += render_values(renderer, images, size);
   return statistics;
+}
+
+void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, const FrameImages& images, const Workers& workers) {
+  HS_CHECK(!images.crop && !wants_values(images));
+  const glm::ivec2 size = view_size(scene, images);
+  HS_CHECK(light.width() == size.x && light.height() == size.y);
+  const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers);
+  if (images.picture != nullptr) renderer.display(light, *images.picture);
+  if (images.fine_picture != nullptr) renderer.display(light, *images.fine_picture);
+  if (images.light != nullptr) *images.light = light;
 }
 
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {

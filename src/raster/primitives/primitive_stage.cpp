@@ -70,7 +70,7 @@ void write_ids(const Draw& draw, const ShadedVertices& shaded, const DrawRange& 
     const auto source = primitives.source(i);
     if (source.is_first) {
       do {
-        HS_DCHECK(next < range.first + range.count);
+        HS_CHECK(next < range.first + range.count);
         vertex = assembly.next();
         for (uint32_t& v : vertex) v -= slot_base;
         ++next;
