@@ -1,6 +1,6 @@
-# Searches pybind11 and NumPy for the Python module. Sets HALFSPACE_PYTHON_FOUND, which is false in a subproject that does not ask for
-# the module, and with sanitizers, whose runtime an ordinary interpreter does not load. Python_EXECUTABLE selects the interpreter; the default is the one of the system, for
-# which packages install their modules.
+# Searches for pybind11 and NumPy, which the Python module needs, and sets HALFSPACE_PYTHON_FOUND. It is false in a subproject that does
+# not ask for the module, and with sanitizers, whose runtime an ordinary interpreter does not load. Python_EXECUTABLE selects the
+# interpreter; the default is the interpreter of the system, for which packages install their modules.
 set(HALFSPACE_PYTHON_FOUND OFF)
 if(HALFSPACE_PYTHON OR (PROJECT_IS_TOP_LEVEL AND NOT HALFSPACE_SANITIZE))
   if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)

@@ -70,7 +70,7 @@ foreach(header IN LISTS halfspace_public_headers)
 endforeach()
 set(halfspace_installed_headers ${headers})
 
-# Sets out to the headers that a program or another module includes.
+# Sets the variable named by `out` to the headers of a module that a program or another module includes.
 function(halfspace_headers_used_elsewhere out)
   set(used "")
   file(GLOB_RECURSE sources ${halfspace_SOURCE_DIR}/src/*.cpp ${halfspace_SOURCE_DIR}/src/*.h ${halfspace_SOURCE_DIR}/apps/*.cpp

@@ -66,7 +66,7 @@ class GltfDocument {
   /// Returns an index in a list of `size` items; −1 if it is missing.
   int index(const GltfValue& object, const char* key, std::size_t size) const;
   int required_index(const GltfValue& object, const char* key, std::size_t size) const;
-  /// Returns a list of different indices.
+  /// Returns a list of indices, each of which may occur only once.
   std::vector<int> indices(const GltfValue& object, const char* key, std::size_t size) const;
   /// Returns the value of an array item that must be an index.
   int index_value(const GltfValue& value, std::size_t size) const;

@@ -43,7 +43,7 @@ struct ShapeKind {
   /// Returns the maximum distance between the triangles and the smooth surface, in object space.
   ///
   /// The chord of an arc of 2π/n is r·(1 − cos(π/n)) below the arc. On a surface curved in both directions, the diagonal of a quad is
-  /// below the surface by the sum for both of its sides. (This is exact for the sphere, where the circumcenter of the triangle is the
+  /// below the surface by the sum of the chord errors of its two sides. (This is exact for the sphere, where the circumcenter of the triangle is the
   /// lowest point.)
   double (*chord_error)(const ObjectDescription& o);
   /// Returns the angle between the normals at the ends of a quad's diagonal, in radians.
