@@ -79,7 +79,8 @@ class GltfDocument {
   [[noreturn]] void fail(const GltfValue& object, std::string_view key, std::string_view problem) const;
   /// Adds a warning, unless there is an equal one.
   void warn(const std::string& text);
-  /// Adds a warning about a member of an object. After many of these, no more are added, because finding a place takes time.
+  /// Adds a warning about a member of an object. After many of these, no more are added, because locating the object in the file takes
+  /// time.
   void warn_at(const GltfValue& object, std::string_view key, std::string_view problem);
   /// Accounts for memory that `value` needs. Memory is not returned, so that the limit also bounds the time. Throws InputError if there
   /// is not enough left.

@@ -125,7 +125,7 @@ Section section_of(PostDescription& p) {
       key<&T::tone_on>("tone_on", "Whether the curve is applied to the luminance or to each channel"),
       key<&T::white>("white", "Light that reinhard_extended maps to 1", {.low = 1e-3, .high = 1e6}),
       key<&T::encode>("encode", "Encoding of linear values: exact sRGB, or a power"),
-      key<&T::gamma>("gamma", "The exponent of encode gamma is 1 / this", {.low = 0.1, .high = 10}),
+      key<&T::gamma>("gamma", "Display gamma of encode gamma; its exponent is 1/gamma", {.low = 0.1, .high = 10}),
       key<&T::dither>("dither", "Whether to hide banding with 8x8 ordered dithering"),
   };
   return {{keys, &p}};

@@ -267,7 +267,7 @@ double false_shadow(ShadowFilter filter, ShadowBias bias, double degrees) {
   return shaded / kPoints;
 }
 
-TEST(ShadowBias, AcneOccursWithoutABiasAndNotWithPlaneBiases) {
+TEST(ShadowBias, AcneOccursWithoutABiasButNotWithPlaneBiases) {
   for (const double degrees : {10.0, 45.0, 70.0, 80.0}) {
     EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::none, degrees), 0.4) << degrees;  // half of each texel is below its center
     for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::bilinear, ShadowFilter::pcf5}) {
