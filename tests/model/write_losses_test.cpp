@@ -8,6 +8,7 @@
 #include "halfspace/model/normals.h"
 #include "halfspace/model/write_model.h"
 #include "model/obj_reading.h"
+#include "model/ply_text.h"
 #include "model/test_meshes.h"
 
 namespace halfspace {
@@ -27,6 +28,14 @@ ModelMesh cube_of(int material) {
   ModelMesh mesh = cube();
   add_flat_normals(mesh);
   mesh.material = material;
+  return mesh;
+}
+
+ModelMesh primitives(MeshTopology topology) {
+  ModelMesh mesh;
+  mesh.topology = topology;
+  mesh.positions = {{1, 2, 3}, {4, 5, 6}};
+  if (topology == MeshTopology::lines) mesh.indices = {0, 1};
   return mesh;
 }
 
@@ -97,6 +106,29 @@ TEST(WriteLosses, ObjNamesWhatMaterialsLose) {
   for (const char* words :
        {"rotation", "one set of texture coordinates", "strength of normal maps", "occlusion", "opacity of vertex colors"})
     EXPECT_EQ(warnings_with(written, words), 1u) << words;
+}
+
+// The reader leaves points that are not finite out of the indices.
+TEST(WriteLosses, PlyContainsOnlyTheSelectedPoints) {
+  const Model model = ply_model(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 1 2\nnan 4 5\n"
+      "0.5 1.5 2.5\n");
+  const WrittenModel written = written_model(model, "a.ply", ModelFormat::ply);
+  const Model read = read_ply("a.ply", written.files[0].bytes, {});
+  EXPECT_EQ(read.meshes[0].positions, (std::vector<glm::vec3>{model.meshes[0].positions[0], model.meshes[0].positions[2]}));
+  EXPECT_TRUE(read.warnings.empty());
+}
+
+TEST(WriteLosses, PlyAndStlNameThePrimitivesThatTheyLeaveOut) {
+  const Model all = model_of({cube_of(-1), primitives(MeshTopology::lines), primitives(MeshTopology::points)});
+  const WrittenModel ply = written_model(all, "a.ply", ModelFormat::ply), stl = written_model(all, "a.stl", ModelFormat::stl);
+  EXPECT_EQ(warnings_with(ply, "lines are left out"), 1u);
+  EXPECT_EQ(warnings_with(ply, "points are left out"), 1u);
+  EXPECT_EQ(warnings_with(stl, "lines and points are left out"), 1u);
+  const Model points = model_of({primitives(MeshTopology::points)}), triangles = model_of({cube_of(-1)});
+  EXPECT_TRUE(written_model(points, "a.ply", ModelFormat::ply).warnings.empty());
+  EXPECT_TRUE(written_model(triangles, "a.ply", ModelFormat::ply).warnings.empty());
+  EXPECT_TRUE(written_model(triangles, "a.stl", ModelFormat::stl).warnings.empty());
 }
 
 }  // namespace
