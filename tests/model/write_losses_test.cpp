@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "halfspace/model/normals.h"
 #include "halfspace/model/write_model.h"
+#include "model/gltf_builder.h"
 #include "model/obj_reading.h"
 #include "model/ply_text.h"
 #include "model/test_meshes.h"
@@ -129,6 +131,22 @@ TEST(WriteLosses, PlyAndStlNameThePrimitivesThatTheyLeaveOut) {
   EXPECT_TRUE(written_model(points, "a.ply", ModelFormat::ply).warnings.empty());
   EXPECT_TRUE(written_model(triangles, "a.ply", ModelFormat::ply).warnings.empty());
   EXPECT_TRUE(written_model(triangles, "a.stl", ModelFormat::stl).warnings.empty());
+}
+
+TEST(WriteLosses, GltfLeavesOutEmptyMeshesAndTargets) {
+  Model model = model_of({ModelMesh{}, cube_of(-1)});
+  model.nodes.resize(2);
+  model.nodes[1].meshes = {0};
+  model.scenes[0].roots.push_back(1);
+  model.animations.resize(1);
+  model.animations[0].channels.resize(1);
+  model.animations[0].channels[0].node = 0;
+  const WrittenModel written = written_model(model, "a.glb", ModelFormat::glb);
+  uint32_t length = 0;
+  std::memcpy(&length, written.files[0].bytes.data() + 12, sizeof length);
+  const GltfJson json = GltfJson::parse(std::string_view(reinterpret_cast<const char*>(written.files[0].bytes.data()) + 20, length));
+  EXPECT_EQ(json.at("meshes").size(), 1u);
+  EXPECT_FALSE(json.at("nodes")[1].contains("mesh"));
 }
 
 }  // namespace
