@@ -198,6 +198,12 @@ class Host(unittest.TestCase):
             expect("cmake", "--build", folder, "--target", "own_shader", "-j", "2")
             self.assertIn("all pixels are as expected", expect(folder / "own_shader"))
 
+    def test_a_python_module_without_pybind11_is_refused(self):
+        _, result = configure(HERE / "host", "no-pybind11", f"-DHALFSPACE_SOURCE={ROOT}", "-DHALFSPACE_PYTHON=ON",
+                              "-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("HALFSPACE_PYTHON=ON needs pybind11", " ".join(result.stderr.split()))
+
     def test_fetch_content(self):
         self.configure("fetch", "-DFETCH=ON")
 
