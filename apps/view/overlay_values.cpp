@@ -99,7 +99,7 @@ std::string draw_mip_level_overlay(OverlayFrame frame) {
       pixel = glm::u8vec4(glm::u8vec3(static_cast<uint8_t>(light / 3)), 255);
       if (found == maps.end() || found->second.levels == 0 || !dx || !dy) continue;
       const glm::ivec3 color(level_color(level_of(found->second, *dx, *dy)));
-      pixel = glm::u8vec4(glm::u8vec3(color * (96 + light) / 352 + color / 4), 255);
+      pixel = glm::u8vec4(glm::u8vec3(color * (128 + light) / 383), 255);
     }
   }
   return "level of the color map: red 0, orange 1, yellow 2, green 3, cyan 4, blue 5, purple 6, pink 7; gray: no map";

@@ -30,7 +30,8 @@ std::string objects_text(int count) { return count == 1 ? "1 object" : fmt::form
 enum class Relief { none, map, bump };
 
 bool has_detail(const ObjectDescription& o) { return is_map(o.surface.normal_map) || is_map(o.surface.bump_map); }
-bool is_displaced(const ObjectDescription& o) { return is_map(o.height) && o.shape != Shape::sphere && o.shape != Shape::file; }
+// Whether the object has a key for the normals of its displacement.
+bool is_displaced(ObjectDescription o) { return is_map(o.height) && find_field(section_of(o), "normals").key != nullptr; }
 bool has_relief(const ObjectDescription& o) { return o.shape != Shape::file && (has_detail(o) || is_displaced(o)); }
 
 Relief relief_of(const ObjectDescription& o) {
