@@ -41,6 +41,7 @@ void render_command(const RenderArguments& args);
 
 struct ExplainArguments {
   std::string scene;
+  std::string out;  ///< default: SCENE.html, or MODEL-explain.html
   std::string size = "640x360";
   std::vector<std::string> set;
   std::string camera, shading, time, threads;  ///< as in RenderArguments

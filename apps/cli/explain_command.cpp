@@ -14,6 +14,7 @@
 #include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
 #include "halfspace/core/check.h"
+#include "halfspace/image/atomic_output.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
@@ -62,10 +63,14 @@ void explain_command(const ExplainArguments& args) {
   set_limits(args.limits);
   const PictureSize size = parse_size(args.size);
   const std::optional<glm::ivec2> pixel = parse_pixel(args.pixel, size);
-  if (args.text == args.json) throw UsageError("expected one of --text and --json");
+  if (args.text && args.json) throw UsageError("--text and --json were both given; expected at most one of them");
+  const bool is_page = !args.text && !args.json;
+  if (!is_page && !args.out.empty()) throw UsageError("-o applies only to the page; expected it without --text and --json");
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
   const Workers workers(parse_threads(args.threads));
   check_picture(size, sizeof(glm::vec4));
+  const std::filesystem::path out = is_page ? page_path(args) : std::filesystem::path();
+  if (is_page) check_writable(out);
   std::string output;
   {
     const StageDisplay explaining("explaining " + args.scene);
@@ -73,10 +78,14 @@ void explain_command(const ExplainArguments& args) {
     const SceneFile file = open_explained_scene(args, size, assets);
     const SceneDescription scene = file.at(time);
     const PreparedScene prepared = prepare_explained(scene, file.source(), size, assets);
-    const ExplainJob job{scene, prepared, pixel, {}, workers};
-    output = args.json ? history_json(job) : history_text(job);
+    const ExplainJob job{scene, prepared, pixel, explain_command_line(args, time), workers};
+    output = is_page ? page_of(job, args.scene) : args.json ? history_json(job) : history_text(job);
   }
-  std::cout << output;
+  if (!is_page) {
+    std::cout << output;
+    return;
+  }
+  write_file(out, std::as_bytes(std::span(output)));
 }
 
 }  // namespace halfspace
