@@ -11,8 +11,9 @@ namespace halfspace {
 
 namespace {
 
-// Triangles, points and clipped triangles that a page contains at most.
-constexpr std::size_t kMaxWireTriangles = 3000, kMaxClipped = 24;
+// Triangles of the wireframe and clipped triangles that a page contains at most. The wireframe consists of runs of consecutive triangles,
+// which are usually neighbors.
+constexpr std::size_t kMaxWireTriangles = 6000, kWireRun = 128, kMaxClipped = 24;
 
 PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Triangle& t) {
   PageJson json{{"x", t.x},           {"y", t.y},         {"z0", t.z0},
@@ -173,7 +174,7 @@ PageJson wireframe_json(const PageInput& in) {
   std::vector<uint16_t> draws;
   std::vector<uint8_t> outcomes;
   for (uint32_t i = 0; i < all.size(); ++i) {
-    if (i % step != 0 && i != in.primitive) continue;
+    if (i / kWireRun % step != 0 && i != in.primitive) continue;
     const auto corners = corners_ws(in, all[i]);
     if (!corners) continue;
     positions.insert(positions.end(), corners->begin(), corners->end());

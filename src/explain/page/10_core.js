@@ -29,12 +29,12 @@ function fmt(x, digits = 6) {
   if (!Number.isFinite(x)) return x > 0 ? "∞" : "−∞";
   if (Number.isInteger(x) && Math.abs(x) < 1e15) return group(x);
   const text = String(Number(x.toPrecision(digits)));
-  return text.replace("-", "−").replace(/e([+−-]?\d+)/, (_, e) => "·10^" + e.replace("+", ""));
+  return text.replace("-", "−").replace("e+", "e").replace("e-", "e−");
 }
 const group = (x) => (x < 0 ? "−" : "") + String(Math.abs(x)).replace(/\B(?=(\d{3})+$)/g, " ");
 const num = (x, digits) => `<span class="n">${fmt(x, digits)}</span>`;
 const vec = (v, digits = 5) => `(${v.map((x) => fmt(x, digits)).join(", ")})`;
-const plural = (n, word) => `${fmt(n)} ${word}${n === 1 ? "" : "s"}`;
+const plural = (n, one, many = one + "s") => `${fmt(n)} ${n === 1 ? one : many}`;
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 // Decodes the PNG files in which a page packs its numbers (page_encode.h).

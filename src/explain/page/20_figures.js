@@ -50,21 +50,25 @@ function polygon(pen, points, {stroke = null, fill = null, width = 1} = {}) {
   if (stroke) { pen.strokeStyle = stroke; pen.lineWidth = width; pen.stroke(); }
 }
 
+// Cells that start with ¶ are texts; the others are numbers.
+const isText = (cell) => typeof cell === "string" && cell.startsWith("¶");
 const tableOf = (head, rows, mark = -1) => el("div", {class: "table"}, el("table", {},
-  el("thead", {}, el("tr", {}, ...head.map((h) => el("th", {scope: "col", html: h})))),
-  el("tbody", {}, ...rows.map((r, i) => el("tr", {class: i === mark ? "mark" : null}, ...r.map((c) => el("td", {class: typeof c === "string" && c.startsWith("¶") ? "text" : null, html: typeof c === "number" ? fmt(c) : c.replace("¶", "")})))))));
+  el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", {scope: "col", html: h, class: isText(rows[0] && rows[0][i]) ? "text" : null})))),
+  el("tbody", {}, ...rows.map((r, i) => el("tr", {class: i === mark ? "mark" : null}, ...r.map((c) => el("td", {class: isText(c) ? "text" : null, html: typeof c === "number" ? fmt(c) : c.replace("¶", "")})))))));
 
 // A bar chart. bars: [{value, label, name, marked}].
 function bars(list, label, {width = 720, height = 240, unit = ""} = {}) {
-  const most = Math.max(...list.map((b) => b.value), 1), step = (width - 50) / list.length, root = svgFigure(width, height, label);
+  const sorted = list.map((b) => b.value).sort((a, b) => b - a), top = Math.max(sorted[0], 1), isCut = list.length > 20 && top > 4 * sorted[1];
+  const most = isCut ? Math.max(sorted[1] * 1.25, 1) : top, step = (width - 50) / list.length, root = svgFigure(width, height, label);
   list.forEach((b, i) => {
-    const h = b.value / most * (height - 50), x = 40 + i * step;
+    const h = Math.min(1, b.value / most) * (height - 50), x = 40 + i * step;
     const bar = svg("rect", {x: x + 0.5, y: height - 30 - h, width: Math.max(1, step - 1.5), height: Math.max(h, b.value > 0 ? 1 : 0), fill: b.marked ? "var(--accent)" : "var(--soft)", opacity: b.marked ? 1 : 0.55});
     bar.append(svg("title", {}, document.createTextNode(`${b.name}: ${fmt(b.value)}${unit}`)));
     root.append(bar);
+    if (b.value > most) root.append(svg("text", {x: x + step + 3, y: 30, "font-size": 13}, document.createTextNode("↑ " + fmt(b.value))));
     if (b.label !== undefined) root.append(svg("text", {x: x + step / 2, y: height - 10, "font-size": 13, "text-anchor": "middle"}, document.createTextNode(b.label)));
   });
   root.append(svg("line", {x1: 40, x2: width - 10, y1: height - 29.5, y2: height - 29.5, stroke: "var(--line)"}));
-  root.append(svg("text", {x: 36, y: 16, "font-size": 13, "text-anchor": "end"}, document.createTextNode(fmt(most))));
+  root.append(svg("text", {x: 6, y: 17, "font-size": 13}, document.createTextNode(fmt(Math.round(most)))));
   return el("div", {class: "stage"}, root);
 }

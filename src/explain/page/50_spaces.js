@@ -4,7 +4,7 @@ chapter({
   id: "frame", title: "One frame", kicker: "Start",
   lead: () => `This page opens up one frame of ${escapeHtml(DATA.title || DATA.scene)}, ${W} × ${H} pixels, as Halfspace rendered it. Every number below was computed by the renderer itself for this very picture. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
   steps: () => [
-    {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment")} compete for it. The one that you see belongs to ${exampleName}.`}`,
+    {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The one that you see belongs to ${exampleName}.`}`,
       draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
     {name: "Its triangles", caption: "The same picture with one color per triangle. The renderer never sees anything else: everything is made of these.",
       draw: () => picture(DATA.pictures.triangles, "The picture with one color per triangle", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
@@ -13,6 +13,7 @@ chapter({
   ],
   body: () => [
     el("p", {class: "keys", html: "<kbd>←</kbd> <kbd>→</kbd> go to the previous and next step, and on to the next chapter. The slider does the same within a chapter."}),
+    el("p", {class: "keys", html: `To follow another pixel: ${command(`${DATA.command} --pixel X,Y`)}`}),
     el("h3", {}, "What is drawn"),
     tableOf(["object", "kind", "vertices", "primitives", "culled faces"], DATA.draws.slice(0, 12).map((d) => [escapeHtml(d.object) + (d.copy ? ` (${d.copy})` : ""), `¶${d.kind}${d.layered ? ", transparent" : ""}`, d.vertices, d.primitives, `¶${d.cull}`])),
     DATA.draws.length > 12 ? el("p", {}, `… and ${DATA.draws.length - 12} more draws.`) : null],
@@ -156,7 +157,7 @@ const viewToWorld = () => { const i = inverseAffine(M.view_from_world); return (
 const exampleCorners = (to) => (EX && EX.vertices[0].ws ? EX.vertices.map((v) => to(v.ws)).filter((p) => p !== null) : null);
 
 function spaceSteps() {
-  const shown = DATA.wire.step > 1 ? ` Every ${DATA.wire.step}th primitive is shown.` : "";
+  const shown = DATA.wire.step > 1 ? ` One in ${DATA.wire.step} primitives is shown.` : "";
   const back = viewToWorld(), object = EX ? DATA.draws[EX.draw].world_from_object : null;
   const toObject = (p) => transform(inverseAffine(object), p).slice(0, 3);
   const size = (list) => Math.max(...list.flatMap((t) => t.corners).flat().map(Math.abs), 0.1);
@@ -211,8 +212,8 @@ chapter({
   id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",
   lead: () => "A vertex is a point in the coordinates of its mesh. Three matrices and one division bring it to the window. The renderer multiplies the matrices once per object, in double precision, and applies the product to each vertex.",
   absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain earth")}.` : DATA.wire.count === 0 ? `This frame has no mesh: its ${escapeHtml(EX.object)} is made of ${EX.corners === 1 ? "points, each a sphere drawn in a square" : "a single triangle over the whole window"}. A scene with meshes: ${command("halfspace explain earth")}.` : null),
-  arrives: () => [`${plural(DATA.statistics.vertices_in, "index")}`.replace("indexs", "indices"), `${plural(DATA.draws.length, "draw")}, each with a matrix`],
-  leaves: () => [`${plural(DATA.statistics.vertices_shaded, "shaded vertex")}`.replace("vertexs", "vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],
+  arrives: () => [plural(DATA.statistics.vertices_in, "index", "indices"), plural(DATA.draws.length, "draw with a matrix", "draws, each with a matrix")],
+  leaves: () => [plural(DATA.statistics.vertices_shaded, "shaded vertex", "shaded vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],
   steps: spaceSteps,
   formula: spaceFormulas,
   exercises: () => {

@@ -55,7 +55,7 @@ chapter({
   id: "binning", title: "Binning into tiles", kicker: "Tiles",
   lead: () => `The window is cut into tiles of ${TILE} × ${TILE} pixels. Each primitive is listed in the bins of the tiles that it may touch. After that, tiles are independent: a thread takes a tile, and everything it needs fits into its cache.`,
   arrives: () => [plural(DATA.statistics.triangles_binned, "primitive")],
-  leaves: () => [`${BINS.columns} × ${BINS.rows} bins`, `${plural(DATA.statistics.bin_entries, "entry")}`.replace("entrys", "entries") + ", in submission order"],
+  leaves: () => [`${BINS.columns} × ${BINS.rows} bins`, plural(DATA.statistics.bin_entries, "entry", "entries") + ", in submission order"],
   steps: () => [
     {name: "Tiles", caption: `${BINS.columns * BINS.rows} tiles cover the window. Those at the top and at the right may be smaller. Rows are counted from below, as in OpenGL.`, draw: () => tilePicture("grid")},
     {name: "Primitives per tile", caption: `The fullest tile has ${fmt(mostBinned)} primitives, and ${fmt(BINS.counts.filter((n) => n === 0).length)} tiles have none: they are filled with the background without looking at a pixel.`, draw: () => [tilePicture("heat"), legend("0", fmt(mostBinned))].flat()},
@@ -227,9 +227,8 @@ chapter({
     return [`pass = <em>z</em><sub>fragment</sub> &gt; <em>z</em><sub>stored</sub>\n\nstored at pixel (${PIXEL}): <b>${fmt(z, 9)}</b>\nits block of 8 × 8: farthest ${fmt(b.low, 9)}, nearest ${fmt(b.high, 9)}\n\nA triangle with <em>z</em><sub>max</sub> ≤ ${fmt(b.low, 7)} is rejected with the whole block.\nA triangle with <em>z</em><sub>0</sub> &gt; ${fmt(b.high, 7)} passes in the whole block.`];
   },
   exercises: () => {
-    const b = exampleBlock(), half = b.low / 2;
     return [
-      {ask: `A triangle has depths between ${num(half / 2, 4)} and ${num(half, 4)}. The farthest depth in the example's block is ${num(b.low, 4)}. Can any pixel of the block pass? (yes or no)`, answer: b.low > 0 ? "no" : "no", hint: "Larger is nearer.", why: "Its nearest point is not in front of the farthest pixel of the block."},
+      {ask: `The depths of a triangle are between 0.25 and 0.5, those stored in a block between 0.6 and 0.9. Can any pixel of the block pass? (yes or no)`, answer: "no", hint: "Larger is nearer.", why: "Its nearest point is behind the farthest pixel of the block, so one comparison rejects 64 pixels."},
       {ask: `What is the depth at the example pixel? (Three significant digits.)`, answer: depthAt(...PIXEL), tolerance: depthAt(...PIXEL) * 0.006 + 1e-9, hint: "Point at the ring in the first step.", why: "Read from the buffer."},
       {ask: "How many blocks of 8 × 8 pixels does one tile have?", answer: (TILE / 8) ** 2, hint: `A tile has ${TILE} × ${TILE} pixels.`, why: `${TILE / 8} · ${TILE / 8}.`},
     ];
