@@ -11,9 +11,9 @@ namespace halfspace {
 
 namespace {
 
-// Triangles of the wireframe and clipped triangles that a page contains at most. The wireframe consists of runs of consecutive triangles,
-// which are usually neighbors.
-constexpr std::size_t kMaxWireTriangles = 6000, kWireRun = 128, kMaxClipped = 24;
+// Triangles that a page contains at most: in the wireframe of the example's draw and in that of all others, and clipped ones. Wireframes
+// consist of runs of consecutive triangles, which are usually neighbors.
+constexpr std::size_t kMaxWireTriangles = 4000, kWireRun = 32, kMaxClipped = 24;
 
 PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Triangle& t) {
   PageJson json{{"x", t.x},           {"y", t.y},         {"z0", t.z0},
@@ -21,6 +21,7 @@ PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Tr
                 {"front", t.is(kFrontFacing)}, {"small", t.is(kSmall)}, {"clipped", t.is(kClipped)}};
   const PixelBounds box = pixel_bounds(draw, t, draw.bounds, context.samples_at);
   json["box"] = {box.x0, box.y0, box.x1, box.y1};
+  json["covered"] = covered_pixels(context, draw, t);
   if (t.is(kPointSprite | kLine)) return json;
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge e = edge_of(t, i);
@@ -169,12 +170,16 @@ PageJson clip_json(const PageInput& in) {
 
 PageJson wireframe_json(const PageInput& in) {
   const std::vector<StagePrimitive>& all = in.geometry.primitives;
-  const std::size_t step = (all.size() + kMaxWireTriangles - 1) / kMaxWireTriangles;
+  const uint32_t example = in.primitive == kNoPrimitive ? kNoPrimitive : all[in.primitive].draw;
+  const auto own = static_cast<std::size_t>(std::ranges::count(all, example, &StagePrimitive::draw));
+  const auto step_for = [](std::size_t count) { return (count + kMaxWireTriangles - 1) / kMaxWireTriangles; };
+  const std::size_t step = step_for(all.size() - own), own_step = step_for(own);
   std::vector<glm::vec3> positions;
   std::vector<uint16_t> draws;
   std::vector<uint8_t> outcomes;
   for (uint32_t i = 0; i < all.size(); ++i) {
-    if (i / kWireRun % step != 0 && i != in.primitive) continue;
+    const std::size_t every = all[i].draw == example ? own_step : step;
+    if (i / kWireRun % every != 0 && i != in.primitive) continue;
     const auto corners = corners_ws(in, all[i]);
     if (!corners) continue;
     positions.insert(positions.end(), corners->begin(), corners->end());
@@ -182,6 +187,7 @@ PageJson wireframe_json(const PageInput& in) {
     outcomes.push_back(static_cast<uint8_t>(all[i].outcome));
   }
   return {{"step", step},
+          {"own_step", own_step},
           {"count", draws.size()},
           {"positions", packed_planes(std::span<const glm::vec3>(positions))},
           {"draws", packed_planes(std::span<const uint16_t>(draws))},

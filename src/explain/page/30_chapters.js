@@ -154,7 +154,7 @@ function startNavigation() {
 const indexOfHash = () => Math.max(0, CHAPTERS.findIndex((c) => "#" + c.id === location.hash));
 
 async function start() {
-  document.getElementById("scene-name").textContent = DATA.scene;
+  document.getElementById("scene-name").textContent = sceneName;
   startTheme();
   await unpackFrame();
   startNavigation();

@@ -12,6 +12,7 @@ async function unpackFrame() {
 }
 
 const EX = DATA.example, PIXEL = DATA.pixel, TRI = EX && EX.triangles ? EX.triangles[0] : null;
+const sceneName = DATA.scene.split("/").pop();
 const isTriangle = EX !== null && EX.corners === 3 && TRI !== null;
 // The example pixel in window coordinates, whose origin is at the lower left.
 const WINDOW = [PIXEL[0], H - 1 - PIXEL[1]];

@@ -2,7 +2,7 @@
 
 chapter({
   id: "frame", title: "One frame", kicker: "Start",
-  lead: () => `This page opens up one frame of ${escapeHtml(DATA.title || DATA.scene)}, ${W} × ${H} pixels, as Halfspace rendered it. Every number below was computed by the renderer itself for this very picture. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
+  lead: () => `This page opens up one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title ? ` (${escapeHtml(DATA.title)})` : ""}: ${W} × ${H} pixels, as Halfspace rendered them. Every number below was computed by the renderer itself for this very picture. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
   steps: () => [
     {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The one that you see belongs to ${exampleName}.`}`,
       draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
@@ -30,15 +30,15 @@ chapter({
 function pipelineDiagram() {
   const s = DATA.statistics;
   const stages = [["vertices", s.vertices_shaded, "shaded"], ["primitives", s.primitives_in, "submitted"], ["set up", s.triangles_binned, "survive"], ["binned", s.bin_entries, "tile entries"], ["samples", s.samples_passed, "pass"], ["fragments", s.fragments_shaded, "shaded"]];
-  const root = svgFigure(720, 150, "Pipeline: " + stages.map(([a, n, b]) => `${fmt(n)} ${a} ${b}`).join(", "));
+  const narrow = innerWidth < 620, columns = narrow ? 3 : 6, root = svgFigure(24 + columns * 118, narrow ? 260 : 150, "Pipeline: " + stages.map(([a, n, b]) => `${fmt(n)} ${a} ${b}`).join(", "));
   stages.forEach(([name, count, what], i) => {
-    const x = 12 + i * 118;
-    root.append(svg("rect", {x, y: 32, width: 100, height: 84, rx: 10, fill: "var(--card)", stroke: i === 0 ? "var(--accent)" : "var(--line)", "stroke-width": 1.5}));
-    const text = (y, size, weight, value, color = "var(--ink)") => root.append(svg("text", {x: x + 50, y, "font-size": size, "font-weight": weight, "text-anchor": "middle", style: `fill:${color}`}, document.createTextNode(value)));
+    const x = 12 + i % columns * 118, top = Math.floor(i / columns) * 116;
+    root.append(svg("rect", {x, y: top + 32, width: 100, height: 84, rx: 10, fill: "var(--card)", stroke: i === 0 ? "var(--accent)" : "var(--line)", "stroke-width": 1.5}));
+    const text = (y, size, weight, value, color = "var(--ink)") => root.append(svg("text", {x: x + 50, y: top + y, "font-size": size, "font-weight": weight, "text-anchor": "middle", style: `fill:${color}`}, document.createTextNode(value)));
     text(56, 13, 400, name, "var(--soft)");
     text(80, 17, 650, fmt(count));
     text(102, 12.5, 400, what, "var(--soft)");
-    if (i < 5) root.append(svg("path", {d: `M${x + 102} 74 h12 m-4 -4 l4 4 l-4 4`, fill: "none", stroke: "var(--accent)", "stroke-width": 1.8}));
+    if (i < 5) root.append(svg("path", {d: `M${x + 102} ${top + 74} h12 m-4 -4 l4 4 l-4 4`, fill: "none", stroke: "var(--accent)", "stroke-width": 1.8}));
   });
   return root;
 }
@@ -157,14 +157,14 @@ const viewToWorld = () => { const i = inverseAffine(M.view_from_world); return (
 const exampleCorners = (to) => (EX && EX.vertices[0].ws ? EX.vertices.map((v) => to(v.ws)).filter((p) => p !== null) : null);
 
 function spaceSteps() {
-  const shown = DATA.wire.step > 1 ? ` One in ${DATA.wire.step} primitives is shown.` : "";
+  const some = (step) => (step > 1 ? ` One in ${step} primitives is shown.` : "");
   const back = viewToWorld(), object = EX ? DATA.draws[EX.draw].world_from_object : null;
   const toObject = (p) => transform(inverseAffine(object), p).slice(0, 3);
   const size = (list) => Math.max(...list.flatMap((t) => t.corners).flat().map(Math.abs), 0.1);
   return [
-    {name: "Object space", caption: `The mesh of <i>${escapeHtml(EX.object)}</i> as it was modeled, around its own origin.${shown}`,
+    {name: "Object space", caption: `The mesh of <i>${escapeHtml(EX.object)}</i> as it was modeled, around its own origin.${some(DATA.wire.own_step)}`,
       draw: () => { const own = wireIn(toObject).filter((t) => t.draw === EX.draw); return wireCanvas("Wireframe of the mesh in object space", own, axes(size(own) * 1.2), exampleCorners(toObject)); }},
-    {name: "World space", caption: `Every object is scaled, turned and moved to its place. The lines are the view volume of the camera at ${vec(M.eye, 4)}.`,
+    {name: "World space", caption: `Every object is scaled, turned and moved to its place. The lines are the view volume of the camera at ${vec(M.eye, 4)}.${some(DATA.wire.step)}`,
       draw: () => wireCanvas("Wireframe of all objects in world space, with the camera", wireIn((p) => p), frustumLines().map((l) => ({...l, points: l.points.map(back)})), exampleCorners((p) => p))},
     {name: "View space", caption: "The same, turned so that the camera is at the origin and looks along −z. x points to the right and y up.",
       draw: () => wireCanvas("Wireframe in view space, with the camera at the origin", wireIn((p) => toView(p).slice(0, 3)), [...frustumLines(), ...axes(visibleDepth() / 4)], exampleCorners((p) => toView(p).slice(0, 3)))},
@@ -211,7 +211,7 @@ function spaceFormulas() {
 chapter({
   id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",
   lead: () => "A vertex is a point in the coordinates of its mesh. Three matrices and one division bring it to the window. The renderer multiplies the matrices once per object, in double precision, and applies the product to each vertex.",
-  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain earth")}.` : DATA.wire.count === 0 ? `This frame has no mesh: its ${escapeHtml(EX.object)} is made of ${EX.corners === 1 ? "points, each a sphere drawn in a square" : "a single triangle over the whole window"}. A scene with meshes: ${command("halfspace explain earth")}.` : null),
+  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain earth")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it is made of points, each a sphere that is drawn inside of a rectangle" : "the background is a single triangle over the whole window"}. A scene with meshes: ${command("halfspace explain earth")}.` : null),
   arrives: () => [plural(DATA.statistics.vertices_in, "index", "indices"), plural(DATA.draws.length, "draw with a matrix", "draws, each with a matrix")],
   leaves: () => [plural(DATA.statistics.vertices_shaded, "shaded vertex", "shaded vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],
   steps: spaceSteps,
