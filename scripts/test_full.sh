@@ -6,7 +6,7 @@
 #     --resume    skips the steps that have passed for exactly these sources
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/install_deps.sh --tests
+scripts/install_deps.sh --view
 command -v clang++ > /dev/null || { echo "test_full.sh: clang++ is missing; install clang" >&2; exit 1; }
 
 export HALFSPACE_LONG_TESTS=1
