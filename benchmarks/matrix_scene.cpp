@@ -2,6 +2,7 @@
 #include "matrix_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -130,19 +131,40 @@ void shuffle_vertices(MatrixScene& scene) {
   for (uint32_t& i : scene.indices) i = place[i];
 }
 
-// Smooth waves of color; alpha is between 0.1 and 0.9.
-glm::vec4 texel_color(int texture, double u, double v) {
-  const auto wave = [](double x) { return static_cast<float>(0.5 + 0.4 * std::sin(6.283185307179586 * x)); };
-  const double k = texture;
-  return {wave(3 * u + v + 0.1 * k), wave(2 * v - u + 0.2 * k), wave(4 * u - 2 * v + 0.3 * k), wave(5 * u + 4 * v + 0.15 * k)};
+// Sine and cosine of k periods over `size` texels.
+struct Waves {
+  Waves(int k, int size) {
+    for (int i = 0; i < size; ++i) {
+      const double angle = 6.283185307179586 * k * (i + 0.5) / size;
+      sine.push_back(static_cast<float>(std::sin(angle)));
+      cosine.push_back(static_cast<float>(std::cos(angle)));
+    }
+  }
+  std::vector<float> sine, cosine;
+};
+
+// Smooth waves of color between 0.1 and 0.9 in all four channels; `index` shifts them.
+Image<glm::vec4> wave_image(int width, int height, int index) {
+  constexpr std::array<std::array<int, 2>, 4> periods{{{3, 1}, {-1, 2}, {4, -2}, {5, 4}}};
+  Image<glm::vec4> image(width, height);
+  for (int k = 0; k < 4; ++k) {
+    const Waves along_x(periods[static_cast<std::size_t>(k)][0], width), along_y(periods[static_cast<std::size_t>(k)][1], height);
+    const float turn = 0.7f * static_cast<float>(index * (k + 1)), s = std::sin(turn), c = std::cos(turn);
+    for (int y = 0; y < height; ++y) {
+      const float sin_y = along_y.sine[static_cast<std::size_t>(y)], cos_y = along_y.cosine[static_cast<std::size_t>(y)];
+      const float sin_at = sin_y * c + cos_y * s, cos_at = cos_y * c - sin_y * s;
+      for (int x = 0; x < width; ++x) {
+        const auto i = static_cast<std::size_t>(x);
+        image.at(x, y)[k] = 0.5f + 0.4f * (along_x.sine[i] * cos_at + along_x.cosine[i] * sin_at);
+      }
+    }
+  }
+  return image;
 }
 
 std::shared_ptr<const Texture2D> make_texture(MatrixTexture kind, int index) {
   const bool odd = kind == MatrixTexture::odd;
-  Image<glm::vec4> image(odd ? 1000 : 1024, odd ? 602 : 1024);
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) image.at(x, y) = texel_color(index, (x + 0.5) / image.width(), (y + 0.5) / image.height());
-  }
+  const Image<glm::vec4> image = wave_image(odd ? 1000 : 1024, odd ? 602 : 1024, index);
   if (kind == MatrixTexture::half_float) return std::make_shared<Texture2D>(image, TexelFormat::rgba16f);
   Image<glm::u8vec4> codes(image.width(), image.height());
   for (std::size_t i = 0; i < codes.texels().size(); ++i) codes.data()[i] = glm::u8vec4(glm::round(image.data()[i] * 255.0f));
@@ -179,15 +201,13 @@ MatrixScene matrix_scene(const MatrixRow& row, WorkloadSize size) {
     const double z = row.mesh == MatrixMesh::near ? kNearEyeZ : kEyeZ;
     scene.clip_from_world = glm::mat4(workload_projection(size, 0.25, 10.0) * look_at({0, 0, z}, {0, 0, z - 1}, {0, 1, 0}));
   }
-  for (int i = 0; i < kTextures; ++i) scene.textures.push_back(make_texture(row.texels, i));
+  for (int i = 0; i < std::min(kTextures, row.draws + row.textures - 1); ++i) scene.textures.push_back(make_texture(row.texels, i));
   return scene;
 }
 
 std::shared_ptr<const Texture2D> matrix_light(WorkloadSize size) {
-  Image<glm::vec4> image(size.width, size.height);
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) image.at(x, y) = 8.0f * texel_color(0, (x + 0.5) / image.width(), (y + 0.5) / image.height());
-  }
+  Image<glm::vec4> image = wave_image(size.width, size.height, 0);
+  for (std::size_t i = 0; i < image.texels().size(); ++i) image.data()[i] *= 8.0f;
   return std::make_shared<Texture2D>(std::span<const Image<glm::vec4>>(&image, 1), TexelFormat::rgba16f);
 }
 

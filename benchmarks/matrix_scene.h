@@ -23,7 +23,7 @@ struct MatrixScene {
   std::vector<MatrixVertex> vertices;
   std::vector<uint32_t> indices;  ///< 0xffffffff restarts a strip
   glm::mat4 clip_from_world{1.0f};
-  std::vector<std::shared_ptr<const Texture2D>> textures;  ///< eight
+  std::vector<std::shared_ptr<const Texture2D>> textures;  ///< as many as the row uses, at most eight
 
   /// Part i of n of the indices.
   std::span<const uint32_t> part(int i, int n) const;

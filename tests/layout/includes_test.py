@@ -39,7 +39,7 @@ RASTER_PHASES = [
     ["tile/"],
     ["visibility/"],
     ["shade/"],
-    ["constant_tiles", "tile_worker", "detail/"],
+    ["constant_tiles", "tile_draws", "tile_worker", "detail/"],
     ["pass", "naive", "naive_steps"],
 ]
 

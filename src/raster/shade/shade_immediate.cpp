@@ -10,17 +10,16 @@ namespace halfspace {
 
 namespace {
 
-// Data that all samples of a primitive share.
+// Data that all fragments share.
 struct ImmediateShading {
   const PassContext& context;
   const Draw& draw;
-  TriangleId id;
   VisibilityMode mode;
-  const CoverageList& list;
   Tile& tile;
   TransparentLayers& layers;
   FragmentOutput& output;
   const StencilFace* stencil;  // null: no stencil test after shading
+  bool tests_late;             // depth is tested after shading
   PassStatistics& statistics;
 };
 
@@ -29,23 +28,22 @@ Mask alpha_covers(Real alpha, int samples, int sample) {
   return alpha * Real(static_cast<float>(samples)) >= Real(static_cast<float>(sample) + 0.5f);
 }
 
-// Returns the depth of the fragments of packet i of a batch, as represented in the tile.
-Real late_depth(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet) {
-  if (c.mode != VisibilityMode::cover_only) return load<Real>(&c.list.depth[static_cast<std::size_t>(packet) * kLanes]);
+// Returns the depth of the fragments of packet i of a batch, as represented in the tile. z: depth of the triangle.
+Real late_depth(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, Real z) {
+  if (c.mode != VisibilityMode::cover_only) return z;
   return depth_value(c.tile.depth_format, clamp(out.depth[i], Real(c.draw.depth_low), Real(c.draw.depth_high)));
 }
 
-// Runs the tests that come after the shader. Returns the lanes to draw; writes depth and stencil.
-Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask) {
+// Runs the tests that come after the shader on packet i of a batch, with depth z. Returns the lanes to draw; writes depth and stencil.
+Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z) {
   const DepthState& state = c.draw.state.depth;
-  const Real z = late_depth(c, out, i, packet);
   if (c.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
   if (c.stencil != nullptr) {
     const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
     const Mask passed = depth_test(state, c.tile, packet, z, stencil_passed);
     update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
     mask = passed;
-  } else if (c.mode == VisibilityMode::cover_only) {
+  } else if (c.tests_late) {
     mask = depth_test(state, c.tile, packet, z, mask);
   }
   c.statistics.samples_passed += static_cast<uint64_t>(std::popcount(bits(mask)));
@@ -53,26 +51,41 @@ Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_
   return mask;
 }
 
+void add_to_layers(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z) {
+  const Mask merged = c.layers.add(packet, mask, z, out.packet_color(0, i));
+  c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
+}
+
+// Packets of one triangle.
+struct TriangleShading : ImmediateShading {
+  TriangleId id;
+  const CoverageList& list;
+};
+
 // Tests and writes sample s of packet i of a batch.
-void finish_sample(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
+void finish_sample(const TriangleShading& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
   Mask mask = mask_from_bits<Mask>(packet.lanes);
   if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
-  if (c.mode != VisibilityMode::early) mask = late_tests(c, out, i, packet.packet, mask);
-  if (c.draw.state.order_independent) {
-    const Mask merged = c.layers.add(packet.packet, mask, late_depth(c, out, i, packet.packet), out.packet_color(0, i));
-    c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
-    return;
-  }
+  const bool is_late = c.mode != VisibilityMode::early;
+  const Real z = is_late ? late_depth(c, out, i, load<Real>(&c.list.depth[static_cast<std::size_t>(packet.packet) * kLanes])) : Real(0.0f);
+  if (is_late) mask = late_tests(c, out, i, packet.packet, mask, z);
+  if (c.draw.state.order_independent) return add_to_layers(c, out, i, packet.packet, mask, z);
   const PacketMask drawn{packet.packet, static_cast<uint16_t>(bits(mask))};
   write_colors(c.draw, out, i, std::span(&drawn, 1), c.tile);
 }
 
+void count_fragments(const ImmediateShading& c, const PacketMask* packets, int count) {
+  for (int i = 0; i < count; ++i) c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[i].lanes));
+}
+
 // Runs the fragment function on packets, and calls finish(out, index in the batch, packet) for each of them.
 template <class F>
-void shade_packets(const ImmediateShading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at,
+void shade_packets(const TriangleShading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at,
                    F finish) {
   FragmentOutput& out = c.output;
   std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
+  std::array<TriangleId, kFragmentBatch> ids;
+  ids.fill(c.id);
   for (int begin = 0; begin < count; begin += kFragmentBatch) {
     const int n = std::min(kFragmentBatch, count - begin);
     const bool needs_centroid = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
@@ -81,18 +94,15 @@ void shade_packets(const ImmediateShading& c, const PacketMask* packets, int cou
       find_centroids(c.context, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
                      &centroids[static_cast<std::size_t>(i * kLanes)]);
     }
-    c.draw.kernels.fragment(c.draw.shader.get(), {&c.context, c.tile.x0 - plane.x, c.tile.y0 - plane.y, at, nullptr, c.id, packets + begin,
-                                                  n, needs_centroid ? centroids.data() : nullptr, &out});
-    for (int i = 0; i < n; ++i) {
-      const PacketMask& packet = packets[begin + i];
-      c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packet.lanes));
-      finish(out, static_cast<std::size_t>(i), packet);
-    }
+    c.draw.kernels.fragment(c.draw.shader.get(), {&c.context, c.tile.x0 - plane.x, c.tile.y0 - plane.y, at, nullptr, ids.data(),
+                                                  packets + begin, n, needs_centroid ? centroids.data() : nullptr, &out});
+    count_fragments(c, packets + begin, n);
+    for (int i = 0; i < n; ++i) finish(out, static_cast<std::size_t>(i), packets[begin + i]);
   }
 }
 
 // Shades each sample separately.
-void shade_samples(const ImmediateShading& c) {
+void shade_samples(const TriangleShading& c) {
   int begin = 0;
   for (int s = 0; s < c.tile.samples; ++s) {
     const int end = c.list.sample_end[static_cast<std::size_t>(s)];
@@ -104,7 +114,7 @@ void shade_samples(const ImmediateShading& c) {
 }
 
 // Shades each pixel that has a covered sample once.
-void shade_pixels(const ImmediateShading& c) {
+void shade_pixels(const TriangleShading& c) {
   std::array<uint16_t, kPackets> covered{};  // per packet of the tile's storage
   std::array<uint16_t, kPackets> any_sample{};
   int begin = 0;
@@ -131,14 +141,41 @@ void shade_pixels(const ImmediateShading& c) {
                 });
 }
 
+// Runs the tests of packet i of a batch, which is packet k of the queue. Returns the lanes whose color must be written.
+uint16_t finish_queued(const ImmediateShading& c, const PacketQueue& queue, std::size_t k, std::size_t i) {
+  const PacketMask& packet = queue.packets[k];
+  const Real z = late_depth(c, c.output, i, queue.depth[k]);
+  const Mask mask = late_tests(c, c.output, i, packet.packet, mask_from_bits<Mask>(packet.lanes), z);
+  if (!c.draw.state.order_independent) return static_cast<uint16_t>(bits(mask));
+  add_to_layers(c, c.output, i, packet.packet, mask, z);
+  return 0;
+}
+
 }  // namespace
+
+void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics) {
+  const ImmediateShading c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
+  const SamplePosition center{kSubPixels / 2, kSubPixels / 2};
+  for (int begin = 0; begin < queue.count; begin += kFragmentBatch) {
+    PacketMask* packets = &queue.packets[static_cast<std::size_t>(begin)];
+    const int n = std::min(kFragmentBatch, queue.count - begin);
+    d.draw.kernels.fragment(d.draw.shader.get(), {&d.context, d.tile.x0, d.tile.y0, center, nullptr,
+                                                  &queue.ids[static_cast<std::size_t>(begin)], packets, n, nullptr, &output});
+    count_fragments(c, packets, n);
+    for (int i = 0; d.mode != VisibilityMode::early && i < n; ++i)
+      packets[i].lanes = finish_queued(c, queue, static_cast<std::size_t>(begin + i), static_cast<std::size_t>(i));
+    if (!d.draw.state.order_independent) write_colors(d.draw, output, 0, std::span(packets, static_cast<std::size_t>(n)), d.tile);
+  }
+  queue.count = 0;
+}
 
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics) {
   const Triangle& t = triangle_of(context, id);
   const bool late_stencil = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only;
   const StencilFace* stencil = late_stencil ? stencil_face(draw.state, tile, t.is(kFrontFacing)) : nullptr;
-  const ImmediateShading c{context, draw, id, mode, list, tile, layers, output, stencil, statistics};
+  const bool tests_late = mode == VisibilityMode::cover_only;
+  const TriangleShading c{{context, draw, mode, tile, layers, output, stencil, tests_late, statistics}, id, list};
   if (tile.samples == 1 || draw.shades_samples) {
     shade_samples(c);
   } else {

@@ -13,4 +13,7 @@ namespace halfspace {
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics);
 
+/// The same for all packets of a queue, which become empty. d: the draw of the queue, which is shaded immediately.
+void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics);
+
 }  // namespace halfspace

@@ -32,19 +32,12 @@ class OpaqueWriter {
   template <class Z>
   HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
-    float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
-    uint32_t passed = covered;
-    if (tests_) {
-      const Real old = load<Real>(depth), z = z_at();
-      passed &= bits(compare(compare_, z, old));
-      if (writes_depth_) store(depth, select(mask_from_bits<Mask>(passed), z, old));
-    }
-    statistics_.samples_passed += static_cast<uint64_t>(std::popcount(passed));
-    if (writes_id_ && passed != 0) {
-      TriangleId* ids = &tile_.visibility[static_cast<std::size_t>(packet) * kLanes];
-      store(ids, select(mask_from_bits<Mask>(passed), Int(std::bit_cast<int32_t>(id)), load<Int>(ids)));
-    }
-    return passed != 0;
+    return test_and_write(id, packet, covered, z_at);
+  }
+
+  /// The same for lanes that the shader keeps, which have been counted as tested before. z: their depth.
+  bool write_decided(TriangleId id, int packet, uint32_t kept, const Real& z) {
+    return test_and_write(id, packet, kept, [&] { return z; });
   }
 
   /// Tests and writes one covered pixel of the tile, and updates the depth bounds of its block.
@@ -68,6 +61,23 @@ class OpaqueWriter {
   }
 
  private:
+  template <class Z>
+  HS_INLINE bool test_and_write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+    float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
+    uint32_t passed = covered;
+    if (tests_) {
+      const Real old = load<Real>(depth), z = z_at();
+      passed &= bits(compare(compare_, z, old));
+      if (writes_depth_) store(depth, select(mask_from_bits<Mask>(passed), z, old));
+    }
+    statistics_.samples_passed += static_cast<uint64_t>(std::popcount(passed));
+    if (writes_id_ && passed != 0) {
+      TriangleId* ids = &tile_.visibility[static_cast<std::size_t>(packet) * kLanes];
+      store(ids, select(mask_from_bits<Mask>(passed), Int(std::bit_cast<int32_t>(id)), load<Int>(ids)));
+    }
+    return passed != 0;
+  }
+
   Tile& tile_;
   PassStatistics& statistics_;
   CompareOp compare_;
