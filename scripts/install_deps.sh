@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Installs the packages that halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing if all are installed.
 #
-#   scripts/install_deps.sh [--tests | --benchmarks | --view]
+#   scripts/install_deps.sh [--tests | --benchmarks] [--view]
 #     --tests       also installs the packages that the tests need, among them matplotlib, which draws charts
-#     --view        also installs the browser that tests the page of `halfspace explain`
 #     --benchmarks  also installs the packages that scripts/bench.sh needs
+#     --view        also installs the packages that halfspace-view and the tests of its window and of web pages need
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopenexr-dev libjpeg-dev libspng-dev libcli11-dev nlohmann-json3-dev
@@ -12,15 +12,17 @@ packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopen
 benchmark_packages=(libvulkan1)
 test_packages=(patch python3-jsonschema python3-matplotlib python3-pytest libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
 document_packages=(doxygen man-db)
-view_packages=(chromium chromium-driver python3-selenium)
 
-case "${1:-}" in
-  "") ;;
-  --tests) packages+=("${test_packages[@]}" "${document_packages[@]}") ;;
-  --view) packages+=("${test_packages[@]}" "${document_packages[@]}" "${view_packages[@]}") ;;
-  --benchmarks) packages+=("${test_packages[@]}" "${document_packages[@]}" "${benchmark_packages[@]}") ;;
-  *) echo "install_deps.sh: unknown argument '$1'; expected --tests, --benchmarks, --view or nothing" >&2; exit 2 ;;
-esac
+view_packages=(libsdl2-dev libimgui-dev libx11-dev chromium chromium-driver python3-selenium xvfb openbox wmctrl xdotool imagemagick)
+
+for argument in "$@"; do
+  case "$argument" in
+    --tests) packages+=("${test_packages[@]}" "${document_packages[@]}") ;;
+    --benchmarks) packages+=("${test_packages[@]}" "${document_packages[@]}" "${benchmark_packages[@]}") ;;
+    --view) packages+=("${view_packages[@]}") ;;
+    *) echo "install_deps.sh: unknown argument '$argument'; expected --tests, --benchmarks, --view or nothing" >&2; exit 2 ;;
+  esac
+done
 
 fail() { echo "install_deps.sh: $*" >&2; exit 1; }
 

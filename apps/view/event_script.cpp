@@ -65,11 +65,17 @@ EventScript::EventScript(const std::filesystem::path& file) {
   std::ranges::stable_sort(lines_, {}, &Line::frame);
 }
 
-// Moves the real mouse, whose position widgets ask for. SDL pushes the event.
-void EventScript::move_mouse(int x, int y, SDL_Window* window) {
+void EventScript::push_mouse(int x, int y, SDL_Window* window) {
+  SDL_Event event{};
+  event.type = SDL_MOUSEMOTION;
+  event.motion.windowID = SDL_GetWindowID(window);
+  event.motion.x = x;
+  event.motion.y = y;
+  event.motion.xrel = x - mouse_x_;
+  event.motion.yrel = y - mouse_y_;
   mouse_x_ = x;
   mouse_y_ = y;
-  SDL_WarpMouseInWindow(window, x, y);
+  SDL_PushEvent(&event);
 }
 
 void EventScript::push_line(const Line& line, SDL_Window* window) {
@@ -80,7 +86,7 @@ void EventScript::push_line(const Line& line, SDL_Window* window) {
   if (line.event == "key" || line.event == "up") push_key(SDL_KEYUP, line.arguments, window);
   if (line.event == "text") push_text(line.arguments, window);
   if (line.event == "drop") push_drop(line.arguments);
-  if (line.event == "mouse" && words >> a >> b) move_mouse(a, b, window);
+  if (line.event == "mouse" && words >> a >> b) push_mouse(a, b, window);
   if (line.event == "size" && words >> a >> b) SDL_SetWindowSize(window, a, b);
   SDL_Event event{};
   if (line.event == "button" && words >> a >> word) {

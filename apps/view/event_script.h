@@ -16,7 +16,7 @@ namespace halfspace {
 ///   3 down w           press a key
 ///   9 up w             release a key
 ///   3 text abc         type text into the widget that has the focus
-///   3 mouse 40 50      move the mouse to a pixel
+///   3 mouse 40 50      move the mouse to a pixel, except for widgets, which ask where the mouse is
 ///   3 button 1 down    press or release (up) a mouse button: 1 left, 2 middle, 3 right
 ///   3 wheel -1         turn the mouse wheel
 ///   3 size 640 360     resize the window
@@ -42,7 +42,7 @@ class EventScript {
   int mouse_x_ = 0, mouse_y_ = 0;
 
   void push_line(const Line& line, SDL_Window* window);
-  void move_mouse(int x, int y, SDL_Window* window);
+  void push_mouse(int x, int y, SDL_Window* window);
 };
 
 }  // namespace halfspace
