@@ -223,13 +223,17 @@ function(halfspace_install_documents)
     return()
   endif()
   set(folder ${halfspace_BINARY_DIR}/share/generated)
-  set(bench "")
+  set(more "")
   if(TARGET halfspace-bench)
-    set(bench --bench $<TARGET_FILE:halfspace-bench>)
+    list(APPEND more --bench $<TARGET_FILE:halfspace-bench>)
+  endif()
+  if(TARGET halfspace-view)
+    list(APPEND more --view $<TARGET_FILE:halfspace-view>)
   endif()
   add_custom_command(OUTPUT ${folder}/man/man1/halfspace.1
-    COMMAND Python3::Interpreter ${halfspace_SOURCE_DIR}/scripts/generate_man.py --program $<TARGET_FILE:halfspace> ${bench} ${folder}
-    DEPENDS halfspace $<TARGET_NAME_IF_EXISTS:halfspace-bench> ${halfspace_SOURCE_DIR}/scripts/generate_man.py
+    COMMAND Python3::Interpreter ${halfspace_SOURCE_DIR}/scripts/generate_man.py --program $<TARGET_FILE:halfspace> ${more} ${folder}
+    DEPENDS halfspace $<TARGET_NAME_IF_EXISTS:halfspace-bench> $<TARGET_NAME_IF_EXISTS:halfspace-view>
+      ${halfspace_SOURCE_DIR}/scripts/generate_man.py
     COMMENT "Generating manual pages and completions" VERBATIM)
   add_custom_target(halfspace_documents ALL DEPENDS ${folder}/man/man1/halfspace.1)
   install(DIRECTORY ${folder}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT runtime)
@@ -250,7 +254,7 @@ function(halfspace_add_install_targets)
       add_dependencies(installed halfspace_${module})
     endif()
   endforeach()
-  foreach(target halfspace halfspace-bench halfspace_documents halfspace_python halfspace-image-tool halfspace-jpeg-tool)
+  foreach(target halfspace halfspace-bench halfspace-view halfspace_documents halfspace_python halfspace-image-tool halfspace-jpeg-tool)
     if(TARGET ${target})
       add_dependencies(installed ${target})
     endif()

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the manual pages and completion scripts that an installation contains, from the help of the built programs.
 
-    generate_man.py --program build/release/bin/halfspace [--bench build/release/bin/halfspace-bench] FOLDER
+    generate_man.py --program build/release/bin/halfspace [--bench build/release/bin/halfspace-bench]
+                    [--view build/release/bin/halfspace-view] FOLDER
 
 Writes FOLDER/man/man1/*.1 and the completions for bash, zsh and fish, in the folders where these shells search them below /usr/share.
 """
@@ -71,10 +72,24 @@ def write(path, text):
     path.write_text(text)
 
 
+def write_view_completions(folder, help_text, scenes):
+    """Writes completions of the options of halfspace-view and of scenes; other arguments are files."""
+    options = re.findall(r"^  (?:-\w,)?--([\w-]+)(?: [A-Z=]\S*)?(?:  +(.*))?$", help_text, re.M)
+    words = " ".join([f"--{name}" for name, _ in options] + scenes)
+    write(folder / "bash-completion" / "completions" / "halfspace-view", f"complete -o default -W '{words}' halfspace-view\n")
+    fish = [f"complete -c halfspace-view -l {name} -d '{text}'" for name, text in options]
+    fish.append(f"complete -c halfspace-view -a '{' '.join(scenes)}'")
+    write(folder / "fish" / "vendor_completions.d" / "halfspace-view.fish", "\n".join(fish) + "\n")
+    zsh = " ".join(f"'--{name}[{re.sub(r'[][]', '', text)}]'" for name, text in options)
+    write(folder / "zsh" / "site-functions" / "_halfspace-view",
+          f"#compdef halfspace-view\n_arguments {zsh} '*:scene:_files'\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True)
     parser.add_argument("--bench")
+    parser.add_argument("--view")
     parser.add_argument("folder", type=pathlib.Path)
     args = parser.parse_args()
 
@@ -88,6 +103,10 @@ def main():
         write(man / f"{name}.1", page(name, output_of(args.program, command, "--help"), version, ["halfspace"], more))
     if args.bench:
         write(man / "halfspace-bench.1", page("halfspace-bench", output_of(args.bench, "--help"), version, ["halfspace"]))
+    if args.view:
+        view_help = output_of(args.view, "--help")
+        write(man / "halfspace-view.1", page("halfspace-view", view_help, version, ["halfspace"]))
+        write_view_completions(args.folder, view_help, output_of(args.program, "list", "--names").split())
 
     write(args.folder / "bash-completion" / "completions" / "halfspace", output_of(args.program, "completion", "bash"))
     write(args.folder / "fish" / "vendor_completions.d" / "halfspace.fish", output_of(args.program, "completion", "fish"))

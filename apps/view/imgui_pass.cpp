@@ -10,8 +10,34 @@ namespace halfspace {
 
 namespace {
 
-struct ImGuiShader {
+// Draws triangles of one color per vertex, which are most of the pixels.
+struct SolidShader {
   glm::vec2 scale, offset;  // from pixels to NDC
+
+  template <class R>
+  struct Attributes {
+    vec2<R> position;
+    vec4<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    NoPerspective<vec4<R>> color;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color.value = in.color;
+    return vec4<R>(in.position.x * R(scale.x) + R(offset.x), in.position.y * R(scale.y) + R(offset.y), R(0), R(1));
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color.value};
+  }
+};
+
+// Draws text: the color is multiplied by a texel of the font.
+struct TextShader {
+  glm::vec2 scale, offset;
   const Texture2D* texture;
 
   template <class R>
@@ -21,20 +47,21 @@ struct ImGuiShader {
   };
   template <class R>
   struct Varyings {
-    vec2<R> uv;
-    vec4<R> color;
+    NoPerspective<vec2<R>> uv;
+    NoPerspective<vec4<R>> color;
   };
 
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
-    out.uv = in.uv;
-    out.color = in.color;
+    out.uv.value = in.uv;
+    out.color.value = in.color;
     return vec4<R>(in.position.x * R(scale.x) + R(offset.x), in.position.y * R(scale.y) + R(offset.y), R(0), R(1));
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    constexpr Sampler kSampler{.mag = Filter::bilinear, .min = Filter::bilinear, .wrap_s = Wrap::clamp, .wrap_t = Wrap::clamp};
-    return {in.color * texture->template sample_level<R>(kSampler, in.uv, R(0))};
+    constexpr Sampler kSampler{.wrap_s = Wrap::clamp, .wrap_t = Wrap::clamp};
+    const vec2<R> no_change(R(0), R(0));  // the texture has one level
+    return {in.color.value * texture->template sample<R>(kSampler, in.uv.value, no_change, no_change)};
   }
 };
 
@@ -57,23 +84,42 @@ Rect scissor_of(const ImDrawCmd& command, const ImVec2& origin, int height) {
 
 }  // namespace
 
-ImGuiPass::ImGuiPass(ImFontAtlas& fonts) : fonts_(font_texture(fonts)) {}
+ImGuiPass::ImGuiPass(ImFontAtlas& fonts) : fonts_(font_texture(fonts)), white_uv_(fonts.TexUvWhitePixel.x, fonts.TexUvWhitePixel.y) {}
+
+void ImGuiPass::add_command(Pass& pass, std::span<const Vertex> vertices, std::span<const uint16_t> indices, const Placement& placement,
+                            const DrawState& state) const {
+  const auto is_solid = [&](std::size_t triangle) {
+    const auto white = [&](std::size_t i) { return vertices[indices[i] + static_cast<std::size_t>(state.base_vertex)].uv == white_uv_; };
+    return white(triangle) && white(triangle + 1) && white(triangle + 2);
+  };
+  const auto position = stream(vertices, &Vertex::position);
+  const auto color = stream(vertices, &Vertex::color);
+  for (std::size_t begin = 0; begin + 2 < indices.size();) {
+    const bool solid = is_solid(begin);
+    std::size_t end = begin + 3;
+    while (end + 2 < indices.size() && is_solid(end) == solid) end += 3;
+    const std::span<const uint16_t> run = indices.subspan(begin, end - begin);
+    if (solid) {
+      pass.draw(SolidShader{placement.scale, placement.offset}, make_vertex_view(position, color), run, state);
+    } else {
+      pass.draw(TextShader{placement.scale, placement.offset, &fonts_}, make_vertex_view(position, stream(vertices, &Vertex::uv), color),
+                run, state);
+    }
+    begin = end;
+  }
+}
 
 void ImGuiPass::add_list(Pass& pass, const ImDrawList& list, const ImDrawData& data, std::span<const Vertex> vertices, int height) const {
-  const ImGuiShader shader{{2.0f / data.DisplaySize.x, -2.0f / data.DisplaySize.y},
-                           {-1.0f - 2.0f * data.DisplayPos.x / data.DisplaySize.x, 1.0f + 2.0f * data.DisplayPos.y / data.DisplaySize.y},
-                           &fonts_};
+  const ImVec2 &size = data.DisplaySize, &origin = data.DisplayPos;
+  const Placement placement{{2.0f / size.x, -2.0f / size.y}, {-1.0f - 2.0f * origin.x / size.x, 1.0f + 2.0f * origin.y / size.y}};
   DrawState state;
   state.depth.test = state.depth.write = false;
   state.blend = kAlphaBlend;
   for (const ImDrawCmd& command : list.CmdBuffer) {
-    state.scissor = scissor_of(command, data.DisplayPos, height);
-    if (command.UserCallback != nullptr || command.ElemCount == 0 || state.scissor->width <= 0 || state.scissor->height <= 0) continue;
+    state.scissor = scissor_of(command, origin, height);
+    if (command.UserCallback != nullptr || state.scissor->width <= 0 || state.scissor->height <= 0) continue;
     state.base_vertex = static_cast<int32_t>(command.VtxOffset);
-    const std::span<const ImDrawIdx> indices(list.IdxBuffer.Data + command.IdxOffset, command.ElemCount);
-    pass.draw(shader,
-              make_vertex_view(stream(vertices, &Vertex::position), stream(vertices, &Vertex::uv), stream(vertices, &Vertex::color)),
-              indices, state);
+    add_command(pass, vertices, std::span<const uint16_t>(list.IdxBuffer.Data + command.IdxOffset, command.ElemCount), placement, state);
   }
 }
 

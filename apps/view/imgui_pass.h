@@ -29,9 +29,17 @@ class ImGuiPass {
     glm::vec4 color;
   };
 
+  // From pixels to NDC.
+  struct Placement {
+    glm::vec2 scale, offset;
+  };
+
+  void add_command(Pass& pass, std::span<const Vertex> vertices, std::span<const uint16_t> indices, const Placement& placement,
+                   const DrawState& state) const;
   void add_list(Pass& pass, const ImDrawList& list, const ImDrawData& data, std::span<const Vertex> vertices, int height) const;
 
   Texture2D fonts_;
+  glm::vec2 white_uv_;            // of a white texel, which triangles without text use
   std::vector<Vertex> vertices_;  // of all lists of a frame
 };
 

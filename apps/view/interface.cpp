@@ -9,7 +9,9 @@
 #include <imgui_impl_sdl.h>
 #endif
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace halfspace {
 
@@ -18,10 +20,11 @@ namespace {
 constexpr ImGuiWindowFlags kLabelFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
                                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-// Opens a window for text. x and y: position in the display, 0 to 1; the window is inside. ImGui::End() must follow.
-void begin_label(const char* name, float x, float y) {
+// Opens a window for text. x and y: position in the display, 0 to 1; the window is inside and `above` pixels above it. ImGui::End() must
+// follow.
+void begin_label(const char* name, float x, float y, float above = 0.0f) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({x * display.x, y * display.y}, ImGuiCond_Always, {x, y});
+  ImGui::SetNextWindowPos({x * display.x, y * display.y - above}, ImGuiCond_Always, {x, y});
   ImGui::SetNextWindowBgAlpha(0.75f);
   ImGui::Begin(name, nullptr, kLabelFlags);
 }
@@ -35,7 +38,7 @@ void draw_label(const char* name, float x, float y, const std::string& text) {
 }
 
 void draw_picked(const PixelFragments& picked, float scale) {
-  begin_label("Pixel", 0.0f, 1.0f);
+  begin_label("Pixel", 0.0f, 1.0f, 40.0f * scale);  // above the message
   for (const std::string& line : lines_of(picked)) ImGui::TextUnformatted(line.c_str());
   ImGui::End();
   const ImVec2 at(static_cast<float>(picked.pixel.x) + 0.5f, static_cast<float>(picked.pixel.y) + 0.5f);
@@ -94,18 +97,18 @@ void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
 }
 
 void Interface::draw_help() const {
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const KeyBinding& b : key_bindings()) lines.emplace_back(b.key, b.help);
+  lines.insert(lines.end(), {{"drag", "left button: orbit; others: pan"}, {"wheel", "zoom"}, {"drop", "a model or scene file: open it"}});
+  const float fitting = ImGui::GetIO().DisplaySize.y / ImGui::GetTextLineHeightWithSpacing() - 1.0f;
+  const std::size_t rows = std::clamp(static_cast<std::size_t>(std::max(fitting, 1.0f)), std::size_t{8}, lines.size());
   begin_label("Keys", 0.5f, 0.5f);
-  const auto column = static_cast<float>(60.0 * scale_);
-  for (const KeyBinding& b : key_bindings()) {
-    ImGui::TextUnformatted(b.key.data(), b.key.data() + b.key.size());
-    ImGui::SameLine(column);
-    ImGui::TextUnformatted(b.help.data(), b.help.data() + b.help.size());
-  }
-  for (const auto& [what, help] : {std::pair("drag", "left button: orbit; others: pan"), std::pair("wheel", "zoom"),
-                                   std::pair("drop", "a model or scene file: open it")}) {
-    ImGui::TextUnformatted(what);
-    ImGui::SameLine(column);
-    ImGui::TextUnformatted(help);
+  for (std::size_t first = 0; first < lines.size(); first += rows) {
+    if (first > 0) ImGui::SameLine();
+    ImGui::BeginGroup();
+    for (std::size_t i = first; i < std::min(first + rows, lines.size()); ++i)
+      ImGui::TextUnformatted(fmt::format("{:<7}{}", lines[i].first, lines[i].second).c_str());
+    ImGui::EndGroup();
   }
   ImGui::End();
 }
@@ -115,9 +118,11 @@ bool Interface::draw(Viewer& viewer, const Contents& c, Image<glm::u8vec4>& fram
   ImGui::NewFrame();
   if (shows_panels_) panel_.draw(viewer, scale_);
   if (shows_statistics_) draw_statistics(viewer, c);
-  if (!c.frames.overlay_text().empty()) draw_label("Overlay", 0.5f, 0.0f, c.frames.overlay_text());
   if (c.picked) draw_picked(*c.picked, static_cast<float>(scale_));
-  if (c.show_message && !viewer.message().empty()) draw_label("Message", 0.5f, 1.0f, viewer.message());
+  std::string text = c.frames.overlay_text();
+  if (c.show_message && !viewer.message().empty()) text += (text.empty() ? "" : "\n") + viewer.message();
+  const float free = shows_panels_ ? 1.0f - ScenePanel::width(scale_) / ImGui::GetIO().DisplaySize.x : 1.0f;  // part of the width
+  if (!text.empty()) draw_label("Message", 0.5f * free, 1.0f, text);
   if (shows_help_) draw_help();
   ImGui::Render();
   const ImDrawData& data = *ImGui::GetDrawData();

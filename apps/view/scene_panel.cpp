@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace halfspace {
 
 void ScenePanel::read_scene(const Viewer& viewer) {
@@ -13,13 +15,14 @@ void ScenePanel::read_scene(const Viewer& viewer) {
   sections_ = sections_of(scene_);
 }
 
+float ScenePanel::width(double ui_scale) { return std::min(static_cast<float>(380.0 * ui_scale), 0.5f * ImGui::GetIO().DisplaySize.x); }
+
 void ScenePanel::draw(Viewer& viewer, double ui_scale) {
   read_scene(viewer);
   const auto scale = static_cast<float>(ui_scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float width = std::min(380.0f * scale, 0.5f * display.x);
-  ImGui::SetNextWindowPos({display.x - width, 0}, ImGuiCond_Always);
-  ImGui::SetNextWindowSize({width, display.y}, ImGuiCond_Always);
+  ImGui::SetNextWindowPos({display.x - width(ui_scale), 0}, ImGuiCond_Always);
+  ImGui::SetNextWindowSize({width(ui_scale), display.y}, ImGuiCond_Always);
   std::vector<std::string> settings;
   ImGui::Begin("Scene", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
   ImGui::PushItemWidth(-130.0f * scale);

@@ -16,6 +16,8 @@ class ScenePanel {
  public:
   /// Draws the panel at the right side of the display. Sets changed keys.
   void draw(Viewer& viewer, double ui_scale);
+  /// Returns its width in pixels.
+  static float width(double ui_scale);
 
  private:
   void read_scene(const Viewer& viewer);
