@@ -41,6 +41,7 @@ foreach(source IN LISTS view_without_window)
   list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${source})
 endforeach()
 halfspace_program(halfspace-view view ${sources})
+set_property(SOURCE view/ui_scale.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)  # the macros of X11 are common words
 add_library(halfspace_imgui INTERFACE)
 target_include_directories(halfspace_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR} ${IMGUI_BACKENDS_INCLUDE_DIR})
 target_link_libraries(halfspace_imgui INTERFACE ${IMGUI_LIBRARY})

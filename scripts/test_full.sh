@@ -6,7 +6,7 @@
 #     --resume    skips the steps that have passed for exactly these sources
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/install_deps.sh --view
+scripts/install_deps.sh --tests --view
 command -v clang++ > /dev/null || { echo "test_full.sh: clang++ is missing; install clang" >&2; exit 1; }
 
 export HALFSPACE_LONG_TESTS=1
@@ -105,6 +105,15 @@ lessons() {
   scripts/lesson_pictures.py check "$dir"
 }
 
+# Runs the tests of halfspace-view with AddressSanitizer. They fail if a leak has one of our functions in its stack.
+window() {
+  local dir=build/full/window
+  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF \
+    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON -DHALFSPACE_SANITIZE=address,undefined > /dev/null
+  cmake --build "$dir" --target halfspace halfspace-view -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  python3 tests/view/window_test.py "$dir/bin"
+}
+
 declare -A steps
 names=()
 step() { names+=("$1"); steps[$1]=$2; }
@@ -122,6 +131,8 @@ step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_
 step without-tbb       "build_and_test without-tbb -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_TBB=OFF"
 step without-oiio      "build_and_test without-oiio -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_OPENIMAGEIO=OFF"
 step without-embree    "build_and_test without-embree -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_EMBREE=OFF"
+step without-window    "build_and_test without-window -DCMAKE_BUILD_TYPE=Release -DCMAKE_DISABLE_FIND_PACKAGE_SDL2=ON"
+step window            "window"
 step shared            "shared"
 step portable          "portable"
 step consumer          "consumer"

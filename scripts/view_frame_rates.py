@@ -5,7 +5,8 @@
     view_frame_rates.py [--programs build/release/bin] [--frames 200] [NAME...]
 
 Each scene is rendered without a window, in a window with closed panels and in a window with open panels, three times in alternation; the
-table shows the medians. The window is on an X server of its own (Xvfb). Names select scenes; the default is all.
+table shows the medians. The own time of the window is that of its frames apart from rendering the scene. The window is on an X server of
+its own (Xvfb). Names select scenes; the default is all.
 """
 import argparse
 import os
@@ -41,10 +42,13 @@ def start_server():
         return server, ":" + number.readline().strip()
 
 
-def frame_ms(program, arguments, options, environment):
+def frame_times(program, arguments, options, environment):
+    """Returns the time of a frame, and the part of it that is not spent on rendering the scene."""
     command = [program, *arguments, "--size", "1280x720", "--threads", "2", *options]
     lines = subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout.splitlines()
-    return float(dict(line.split() for line in lines)["frame_ms"])
+    values = {name: value for name, value in (line.split() for line in lines)}
+    frame = float(values["frame_ms"])
+    return frame, frame - float(values["prepare_ms"]) - float(values["draw_ms"])
 
 
 def main():
@@ -57,7 +61,8 @@ def main():
     server, display = start_server()
     environment = {**os.environ, "DISPLAY": display}
     environment.pop("SDL_VIDEODRIVER", None)
-    print("| scene | without window, ms | window, ms | panels open, ms | frames per second | window adds | panels add |\n|---|---|---|---|---|---|---|")
+    print("| scene | without window | window | panels open | frames per second | own time of the window | with panels |\n"
+          "|---|---|---|---|---|---|---|")
     try:
         with tempfile.TemporaryDirectory() as folder:
             sphere, panels = pathlib.Path(folder) / "sphere.json", pathlib.Path(folder) / "panels"
@@ -70,10 +75,10 @@ def main():
                 times = {kind: [] for kind in kinds}
                 for _ in range(args.rounds):
                     for kind, options in kinds.items():
-                        times[kind].append(frame_ms(args.programs / "halfspace-view", scene, options, environment))
-                none, window, opened = (statistics.median(times[kind]) for kind in kinds)
-                print(f"| {name} | {none:.1f} | {window:.1f} | {opened:.1f} | {1000 / window:.0f} | {window - none:.1f} ms | "
-                      f"{opened - window:.1f} ms |", flush=True)
+                        times[kind].append(frame_times(args.programs / "halfspace-view", scene, options, environment))
+                none, window, opened = ([statistics.median(column) for column in zip(*times[kind])] for kind in kinds)
+                print(f"| {name} | {none[0]:.1f} ms | {window[0]:.1f} ms | {opened[0]:.1f} ms | {1000 / window[0]:.0f} | {window[1]:.1f} ms | "
+                      f"{opened[1]:.1f} ms |", flush=True)
     finally:
         server.terminate()
         server.wait()
