@@ -12,7 +12,6 @@ packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopen
 benchmark_packages=(libvulkan1)
 test_packages=(patch python3-jsonschema python3-matplotlib python3-pytest libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
 document_packages=(doxygen man-db)
-
 view_packages=(libsdl2-dev libimgui-dev libx11-dev chromium chromium-driver python3-selenium xvfb openbox wmctrl xdotool imagemagick)
 
 for argument in "$@"; do

@@ -108,9 +108,8 @@ lessons() {
 # Runs the tests of halfspace-view with AddressSanitizer. They fail if a leak has one of our functions in its stack.
 window() {
   local dir=build/full/window
-  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF \
-    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON -DHALFSPACE_SANITIZE=address,undefined > /dev/null
-  cmake --build "$dir" --target halfspace halfspace-view -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  build "$dir" "halfspace halfspace-view" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF \
+    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON -DHALFSPACE_SANITIZE=address,undefined || return 1
   python3 tests/view/window_test.py "$dir/bin"
 }
 
