@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <system_error>
 
-#include "halfspace/core/check.h"
 #include "halfspace/core/resource_limits.h"
 
 namespace halfspace {
@@ -37,7 +36,8 @@ std::size_t size_of(const std::filesystem::path& file, int descriptor, std::size
   if (S_ISDIR(status.st_mode)) fail(file, "is a directory; expected a file");
   if (!S_ISREG(status.st_mode)) fail(file, "is not a regular file; expected a regular file");
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (size > max_bytes) fail(file, fmt::format("has {} bytes; expected at most {} (--max-memory)", size, max_bytes));
+  if (size > max_bytes)
+    throw LimitError(fmt::format("{}: has {} bytes; expected at most {} (--max-memory)", file.string(), size, max_bytes));
   return size;
 }
 

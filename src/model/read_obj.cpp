@@ -8,7 +8,7 @@
 #include <numeric>
 #include <set>
 
-#include "halfspace/core/check.h"
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/model/file_bytes.h"
 #include "halfspace/model/mtl_materials.h"
 #include "halfspace/model/obj_meshes.h"
@@ -84,6 +84,8 @@ class Libraries {
     std::vector<std::byte> bytes;
     try {
       bytes = file_bytes(path, options_.max_memory / kMemoryPerByte);
+    } catch (const LimitError&) {
+      throw;
     } catch (const InputError& e) {
       warnings_.emplace_back(e.what());
       missing_ = true;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "halfspace/core/check.h"
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/geometry/relief_detail.h"
@@ -61,6 +61,8 @@ template <class F>
 auto read_for(const std::string& key, F read) {
   try {
     return read();
+  } catch (const LimitError& e) {
+    throw LimitError(key + ": " + e.what());
   } catch (const InputError& e) {
     throw InputError(key + ": " + e.what());
   }

@@ -78,5 +78,20 @@ TEST_F(Limits, RejectsInvalidValues) {
   EXPECT_EQ(run({"info", "--max-memory", "3G", "--max-pixels", "268435456"}).exit_code, 0);
 }
 
+// Other problems of these files are warnings.
+TEST_F(Limits, MaterialLibrary) {
+  write("a.mtl", "newmtl m\n#" + std::string(std::size_t{13} << 20, '#') + "\n");
+  write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  refuses({"render", "a.obj", "--size", "64x36", "--max-memory", "100M"}, {"a.mtl", "--max-memory"});
+}
+
+TEST_F(Limits, MapsThatExportCombines) {
+  write_png(directory / "a.png", Image<glm::u8vec4>(64, 64));
+  write("a.mtl", "newmtl m\nPr 1\nPm 1\nmap_Pr a.png\nmap_Pm a.png\n");
+  write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+  refuses({"export", "a.obj", "-o", "b.glb", "--max-pixels", "1000"}, {"a.png", "64x64", "--max-pixels"});
+  EXPECT_EQ(run({"export", "a.obj", "-o", "b.glb"}).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace halfspace

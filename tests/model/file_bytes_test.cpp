@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "halfspace/core/check.h"
+#include "halfspace/core/resource_limits.h"
 #include "support/files.h"
 
 namespace halfspace {
@@ -47,6 +47,7 @@ TEST_F(FileBytes, OfAnEmptyFileAreEmpty) {
 TEST_F(FileBytes, AreLimited) {
   write_bytes(folder_ / "file", "123456");
   EXPECT_EQ(error_for(folder_ / "file", 5), (folder_ / "file").string() + ": has 6 bytes; expected at most 5 (--max-memory)");
+  EXPECT_THROW(file_bytes(folder_ / "file", 5), LimitError);
 }
 
 TEST_F(FileBytes, RejectNonRegularFiles) {

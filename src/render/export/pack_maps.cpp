@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "halfspace/core/check.h"
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
@@ -64,6 +64,8 @@ class MapPacker {
       const ModelImage& source = model_.images[static_cast<std::size_t>(image)];
       try {
         known->second = read_image(*source.bytes, source.name);
+      } catch (const LimitError&) {
+        throw;
       } catch (const InputError& e) {
         model_.warnings.emplace_back(e.what());
       }
