@@ -31,6 +31,15 @@ ModelBumps bumps_of(const Image<float>& heights, const Sampler& sampler) {
   return {Texture2D(normals, TexelFormat::rgba16f), steepest};
 }
 
+// Returns the first channel of an image.
+Image<float> heights_of(const ModelImage& image) {
+  if (image.pixels == nullptr) return image.bytes != nullptr ? read_gray(*image.bytes, image.name) : read_gray(image.file);
+  Image<float> heights(image.pixels->width(), image.pixels->height());
+  std::ranges::transform(image.pixels->texels(), heights.data(),
+                         [](const glm::u8vec4& texel) { return static_cast<float>(texel.x) / 255.0f; });
+  return heights;
+}
+
 // Returns the size of the unit square of texture coordinates on a mesh, in model units: the mean over all triangles.
 double uv_size(const ModelMesh& mesh, int set) {
   const std::vector<glm::vec2>& uvs = mesh.uvs[static_cast<std::size_t>(set)];
@@ -55,19 +64,20 @@ void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescript
   const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
   if (material.unlit || texture.image < 0 || m.uvs[static_cast<std::size_t>(use.uv_set)].empty()) return;
   const ModelImage& image = model.images[static_cast<std::size_t>(texture.image)];
-  if (image.file.empty() && image.bytes == nullptr) return;
+  if (image.file.empty() && image.bytes == nullptr && image.pixels == nullptr) return;
   const std::string file = o.file.path.string();
   const double size = *asset<double>(recipe("model uv size", file, mesh, use.uv_set), [&] { return uv_size(m, use.uv_set); });
   const glm::vec2 u = use.uv_transform[0], v = use.uv_transform[1];
   const double map_scale = std::sqrt(std::fabs(double{u.x} * v.y - double{u.y} * v.x));
   if (size == 0.0) return;
   try {
-    const auto bumps = asset<ModelBumps>(recipe("model bumps", file, texture.image), [&] {
-      return bumps_of(image.bytes ? read_gray(*image.bytes, image.name) : read_gray(image.file), texture.sampler);
-    });
+    const Sampler& sampler = texture.sampler;
+    const auto bumps =
+        asset<ModelBumps>(recipe("model bumps", file, texture.image, static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)),
+                          [&] { return bumps_of(heights_of(image), sampler); });
     PlacedMap& map = surface.maps[kNormalMap];
     map.map = &bumps->map;
-    map.sampler = texture.sampler;
+    map.sampler = sampler;
     map.uv_set = use.uv_set;
     map.uv_transform = use.uv_transform;
     surface.normal_scale = static_cast<float>(static_cast<double>(material.bump_scale * bumps->steepest) * map_scale / size);

@@ -233,8 +233,8 @@ void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o,
   needs_light_ = needs_light_ || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
   LitSurface surface = surface_of(o, path);
   NormalDetail detail = add_detail(surface, o, {}, path);
-  if (detail != NormalDetail::none && streams.tangents.empty()) {
-    assets_.warn_once(path + ": the model has no tangents, so its replaced materials are drawn without normal and bump maps");
+  if (detail == NormalDetail::map && streams.tangents.empty()) {
+    assets_.warn_once(path + ": the model has no tangents, so its replaced materials are drawn without normal maps");
     detail = NormalDetail::none;
   }
   place(surface, world);

@@ -302,5 +302,24 @@ TEST_F(Models, MistakesGiveOneLine) {
   }
 }
 
+// Only normal maps need the tangents that this model does not have.
+TEST_F(Models, ReplacedMaterialsKeepTheirBumpMaps) {
+  Image<glm::u8vec4> bumps(16, 16);
+  for (int i = 0; i < 256; ++i) bumps.at(i % 16, i / 16) = glm::u8vec4(i * 37 % 256, 0, 0, 255);
+  write_image(directory / "bumps.png", bumps);
+  write("a.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+  const auto drawn = [&](const std::string& keys) {
+    write("scene.json", R"({"version": 1, "lights": {"sun": {"direction": [1, 2, 3]}}, "materials": {"m": {"color": [1, 1, 1])" + keys +
+                            R"(}}, "objects": {"a": {"shape": "file", "file": "a.obj", "material": "m"}}})");
+    const Outcome o = run({"render", "scene.json", "--size", "64x64", "-o", "a.png"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    return std::pair(picture("a.png").at(30, 30), o.err);
+  };
+  const auto flat = drawn(""), bumped = drawn(R"(, "bump_map": "bumps.png", "bump_scale": 0.2)");
+  EXPECT_NE(flat.first, bumped.first);
+  EXPECT_EQ(bumped.second, "");
+  EXPECT_NE(drawn(R"(, "normal_map": "bumps.png")").second.find("without normal maps"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace halfspace
