@@ -37,17 +37,13 @@ std::optional<ImageSize> jpeg_size(std::span<const std::byte> file) {
   return std::nullopt;
 }
 
-template <class Picture>
-ImageSize size_of(const Picture& picture) {
-  return {picture.width(), picture.height()};
-}
-
 }  // namespace
 
 ImageSize image_size(std::span<const std::byte> file, const std::string& name) {
   if (const std::optional<ImageSize> size = png_size(file)) return *size;
   if (const std::optional<ImageSize> size = jpeg_size(file)) return *size;
-  return size_of(read_linear(file, name));
+  const Image<glm::vec4> picture = read_linear(file, name);
+  return {picture.width(), picture.height()};
 }
 
 ImageSize image_size(const std::filesystem::path& path) {

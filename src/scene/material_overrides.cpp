@@ -44,7 +44,7 @@ const SurfaceDescription* override_of(const SceneDescription& scene, const Objec
   return found != nullptr || o.material.empty() ? found : &o.surface;
 }
 
-void check_material_overrides(SceneDescription& scene, const ObjectDescription& o, const std::string& where) {
+void check_material_overrides(const SceneDescription& scene, const ObjectDescription& o, const std::string& where) {
   for_each_override(o.model_materials, [&](std::string_view of, std::string_view material) {
     if (of.empty() || material.empty())
       throw InputError(where + ".model_materials: '" + o.model_materials +

@@ -16,6 +16,6 @@ const SurfaceDescription* override_of(const SceneDescription& scene, const Objec
 
 /// Throws InputError with a message that begins with `where` if `model_materials` is not of the form "NAME=MATERIAL, NAME=MATERIAL", or
 /// names a material that the scene does not have.
-void check_material_overrides(SceneDescription& scene, const ObjectDescription& o, const std::string& where);
+void check_material_overrides(const SceneDescription& scene, const ObjectDescription& o, const std::string& where);
 
 }  // namespace halfspace

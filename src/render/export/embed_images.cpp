@@ -17,9 +17,10 @@ void embed(ModelImage& image) {
     return;
   }
   if (image.bytes == nullptr && image.file.empty()) return;  // the reader has warned
-  std::vector<std::byte> bytes = image.bytes ? *image.bytes : file_bytes(image.file, memory_left());
-  if (image_extension(bytes).empty()) bytes = encode_png(read_image(bytes, image.name));
-  image.bytes = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+  const auto own = [](std::vector<std::byte> bytes) { return std::make_shared<const std::vector<std::byte>>(std::move(bytes)); };
+  auto bytes = image.bytes != nullptr ? image.bytes : own(file_bytes(image.file, memory_left()));
+  if (image_extension(*bytes).empty()) bytes = own(encode_png(read_image(*bytes, image.name)));
+  image.bytes = std::move(bytes);
 }
 
 }  // namespace
