@@ -40,6 +40,7 @@ ExportSource model_source(const ExportArguments& args) {
 }
 
 ExportSource scene_source(const ExportArguments& args, const Workers& workers) {
+  if (args.allow_outside) throw UsageError("--allow-outside applies only to models; expected a scene without it");
   SceneFile file = SceneFile::open(args.scene);
   set_scene(file, args.set, "");
   SceneAssets assets(workers);

@@ -108,6 +108,18 @@ TEST_F(Export, NamesWhatIsLeftOut) {
   EXPECT_NE(o.err.find("environments and backgrounds are left out"), std::string::npos) << o.err;
 }
 
+TEST_F(Export, NamesWhatObjectsWithModelsLose) {
+  write("a.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}, {"componentType": 5126, "count": 1, "type": "SCALAR"}],
+    "animations": [{"name": "walk", "samplers": [{"input": 1, "output": 1}], "channels": []}]})");
+  write("scene.json", R"({"version": 1, "materials": {"red": {"color": [1, 0, 0]}}, "objects": {
+    "a": {"shape": "file", "file": "a.gltf", "material": "red", "model_animation": "walk", "model_time": 1}}})");
+  const Outcome o = run({"export", "scene.json", "-o", "b.glb"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_NE(o.err.find("materials that replace those of model files"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("model_time"), std::string::npos) << o.err;
+}
+
 TEST_F(Export, NeverReplacesAFileThatItReads) {
   write("a.mtl", "newmtl m\nKd 1 0 0\n");
   write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -133,6 +145,7 @@ TEST_F(Export, RejectsOtherFormats) {
   EXPECT_EQ(run({"export", "none.obj", "-o", "a.glb"}).exit_code, 3);
   write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(run({"export", "a.obj", "--set", "samples=4", "-o", "a.glb"}).exit_code, 2);
+  EXPECT_EQ(run({"export", "shapes", "--allow-outside", "-o", "a.glb"}).exit_code, 2);
 }
 
 }  // namespace

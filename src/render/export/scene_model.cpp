@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
-#include "halfspace/image/png.h"
 #include "halfspace/model/normals.h"
 #include "halfspace/render/export/append_model.h"
+#include "halfspace/render/export/scene_materials.h"
 #include "halfspace/render/model_asset.h"
 
 namespace halfspace {
@@ -41,13 +40,6 @@ glm::dmat4 looking_along(const glm::dvec3& position, const glm::dvec3& ahead, co
   return {glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), glm::dvec4(position, 1.0)};
 }
 
-// The vertex streams of a prepared draw that a model stores.
-struct DrawnMesh {
-  const LitSurface* surface = nullptr;  // null: not a mesh of the scene file
-  VertexStream tangents{}, uvs{};       // without data if the draw does not have them
-  bool flat = false, unlit = false, has_normal_map = false, has_other_detail = false;
-};
-
 DrawnMesh drawn_mesh(const PreparedDraw& draw) {
   return std::visit(
       [&]<class S>(const S& shader) -> DrawnMesh {
@@ -76,19 +68,6 @@ std::vector<V> stream_rows(const VertexStream& stream) {
       rows[i][k] = stream.data[i * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)];
   }
   return rows;
-}
-
-Image<glm::u8vec4> picture_of(const Texture2D& texture, bool flip_green) {
-  const bool codes = texture.format() == TexelFormat::srgb8a8 || texture.format() == TexelFormat::rgba8;
-  Image<glm::u8vec4> picture(texture.width(), texture.height());
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      glm::u8vec4& texel = picture.at(x, y);
-      texel = codes ? texture.texel(0, x, y) : glm::u8vec4(glm::clamp(texture.value(0, x, y), 0.0f, 1.0f) * 255.0f + 0.5f);
-      if (flip_green) texel.y = static_cast<uint8_t>(255 - texel.y);
-    }
-  }
-  return picture;
 }
 
 class SceneExporter {
@@ -127,14 +106,13 @@ class SceneExporter {
     }
     std::vector<int>& siblings = model_.nodes[node_of(name)].children;
     siblings.insert(siblings.end(), children.begin(), children.end());
-    if (!o.model_materials.empty()) warn("materials that replace those of model files are left out");
+    if (!o.model_animation.empty()) warn("animations of models are written, but the pose at model_time is not");
+    if (!o.material.empty() || !o.model_materials.empty()) warn("materials that replace those of model files are left out");
     for (const std::string& warning : file.warnings) warn(warning);
   }
 
  private:
-  void warn(const std::string& text) {
-    if (std::ranges::find(model_.warnings, text) == model_.warnings.end()) model_.warnings.push_back(text);
-  }
+  void warn(const std::string& text) { warn_once(model_, text); }
 
   int add_node(ModelNode node) {
     model_.nodes.push_back(std::move(node));
@@ -189,7 +167,7 @@ class SceneExporter {
 
   void add_object(const PlacedMesh& placed, const DrawnMesh& drawn) {
     const auto& [name, o] = scene_.objects[static_cast<std::size_t>(placed.object)];
-    const int mesh = add_mesh(name, placed, drawn, add_material(name, drawn));
+    const int mesh = add_mesh(name, placed, drawn, materials_.add(name, drawn));
     ModelNode& node = model_.nodes[static_cast<std::size_t>(placed.object)];
     for (const Placement& p : o.instances) node.instances.push_back(transform_of(p));
     node.meshes = {mesh};
@@ -207,59 +185,6 @@ class SceneExporter {
     if (drawn.flat) add_flat_normals(mesh);
     model_.meshes.push_back(std::move(mesh));
     return static_cast<int>(model_.meshes.size()) - 1;
-  }
-
-  int add_material(const std::string& name, const DrawnMesh& drawn) {
-    const LitSurface& s = *drawn.surface;
-    ModelMaterial m;
-    m.name = name;
-    m.double_sided = s.two_sided;
-    m.unlit = drawn.unlit;
-    const glm::vec3 color = s.factors[kColor].constant * (drawn.unlit ? glm::vec3(1.0f) : s.factors[kDiffuse].constant);
-    m.base_color = glm::vec4(glm::min(color, 1.0f), 1.0f);
-    if (color != glm::vec3(m.base_color)) warn("colors above 1 are reduced to 1");
-    m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, false);
-    m.emissive = s.factors[kEmissive].constant;
-    if (m.emissive != glm::vec3(0.0f)) m.emissive_map = texture_use(s.factors[kEmissive].map, s.factors[kEmissive].sampler, false);
-    convert_highlight(s, m);
-    if (drawn.has_normal_map) {
-      m.normal_map = texture_use(s.detail.map, s.detail.sampler, s.detail.flip_green);
-      m.normal_scale = s.detail.strength;
-    }
-    if (drawn.has_other_detail) warn("bump maps and the slopes of displaced spheres are left out");
-    for (const MaterialFactor factor : {kAmbient, kDiffuse, kSpecular, kShininess}) {
-      if (s.factors[factor].map != nullptr && s.factors[factor].map != s.factors[kColor].map)
-        warn("maps of ambient, diffuse and specular light and of shininess are left out");
-    }
-    if (s.surroundings != nullptr) warn("reflections of the environment are left out");
-    model_.materials.push_back(std::move(m));
-    return static_cast<int>(model_.materials.size()) - 1;
-  }
-
-  static void convert_highlight(const LitSurface& s, ModelMaterial& m) {
-    m.roughness = 1.0f;
-    m.specular = 0.0f;
-    if (s.model == LightModel::lambert || m.unlit) return;
-    constexpr float kDielectric = 0.04f;  // reflectance for an index of refraction of 1.5
-    const float r2 = std::min(std::sqrt(2.0f / (std::max(s.factors[kShininess].constant.x, 0.0f) + 2.0f)), 1.0f);
-    m.roughness = std::sqrt(r2);
-    m.specular = 1.0f;
-    m.specular_color = glm::min(4.0f * r2 * r2 * s.factors[kSpecular].constant, 1.0f) / kDielectric;
-  }
-
-  // Returns a use of the texture, which is added to the model if it is new.
-  TextureUse texture_use(const Texture2D* texture, const Sampler& sampler, bool flip_green) {
-    TextureUse use;
-    if (texture == nullptr) return use;
-    const auto [known, added] = images_.try_emplace({texture, flip_green}, static_cast<int>(model_.images.size()));
-    if (added) {
-      const bool color = texture->format() == TexelFormat::srgb8a8;
-      auto png = encode_png(picture_of(*texture, flip_green), color ? PngCodes::srgb : PngCodes::numbers);
-      model_.images.push_back({"map" + std::to_string(known->second), {}, std::make_shared<const std::vector<std::byte>>(std::move(png))});
-    }
-    use.texture = static_cast<int>(model_.textures.size());
-    model_.textures.push_back({known->second, sampler});
-    return use;
   }
 
   void add_camera(const std::string& name, const CameraDescription& c) {
@@ -317,7 +242,7 @@ class SceneExporter {
   const SceneDescription& scene_;
   const PreparedScene& prepared_;
   Model model_;
-  std::map<std::pair<const Texture2D*, bool>, int> images_;
+  SceneMaterials materials_{model_};
 };
 
 }  // namespace

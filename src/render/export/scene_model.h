@@ -11,8 +11,6 @@
 // * Ambient light, environments, the background, the tone curve, bump maps and reflections have no equivalent and are left out.
 #pragma once
 
-#include <functional>
-
 #include "halfspace/model/model.h"
 #include "halfspace/render/prepared_scene.h"
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/export/scene_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "halfspace/image/png.h"
+
+namespace halfspace {
+
+namespace {
+
+Image<glm::u8vec4> picture_of(const Texture2D& texture, bool flip_green) {
+  const bool codes = texture.format() == TexelFormat::srgb8a8 || texture.format() == TexelFormat::rgba8;
+  Image<glm::u8vec4> picture(texture.width(), texture.height());
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      glm::u8vec4& texel = picture.at(x, y);
+      texel = codes ? texture.texel(0, x, y) : glm::u8vec4(glm::clamp(texture.value(0, x, y), 0.0f, 1.0f) * 255.0f + 0.5f);
+      if (flip_green) texel.y = static_cast<uint8_t>(255 - texel.y);
+    }
+  }
+  return picture;
+}
+
+void convert_highlight(const LitSurface& s, ModelMaterial& m) {
+  m.roughness = 1.0f;
+  m.specular = 0.0f;
+  if (s.model == LightModel::lambert || m.unlit) return;
+  constexpr float kDielectric = 0.04f;  // reflectance for an index of refraction of 1.5
+  const float r2 = std::min(std::sqrt(2.0f / (std::max(s.factors[kShininess].constant.x, 0.0f) + 2.0f)), 1.0f);
+  m.roughness = std::sqrt(r2);
+  m.specular = 1.0f;
+  m.specular_color = glm::min(4.0f * r2 * r2 * s.factors[kSpecular].constant, 1.0f) / kDielectric;
+}
+
+}  // namespace
+
+void warn_once(Model& model, const std::string& text) {
+  if (std::ranges::find(model.warnings, text) == model.warnings.end()) model.warnings.push_back(text);
+}
+
+int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
+  const LitSurface& s = *drawn.surface;
+  ModelMaterial m;
+  m.name = name;
+  m.double_sided = s.two_sided;
+  m.unlit = drawn.unlit;
+  const glm::vec3 color = s.factors[kColor].constant * (drawn.unlit ? glm::vec3(1.0f) : s.factors[kDiffuse].constant);
+  m.base_color = glm::vec4(glm::min(color, 1.0f), 1.0f);
+  if (color != glm::vec3(m.base_color)) warn_once(model_, "colors above 1 are reduced to 1");
+  m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, false);
+  m.emissive = s.factors[kEmissive].constant;
+  if (m.emissive != glm::vec3(0.0f)) m.emissive_map = texture_use(s.factors[kEmissive].map, s.factors[kEmissive].sampler, false);
+  convert_highlight(s, m);
+  if (drawn.has_normal_map) {
+    m.normal_map = texture_use(s.detail.map, s.detail.sampler, s.detail.flip_green);
+    m.normal_scale = s.detail.strength;
+  }
+  if (drawn.has_other_detail) warn_once(model_, "bump maps and the slopes of displaced spheres are left out");
+  for (const MaterialFactor factor : {kAmbient, kDiffuse, kSpecular, kShininess}) {
+    if (s.factors[factor].map != nullptr && s.factors[factor].map != s.factors[kColor].map)
+      warn_once(model_, "maps of ambient, diffuse and specular light and of shininess are left out");
+  }
+  if (s.surroundings != nullptr) warn_once(model_, "reflections of the environment are left out");
+  model_.materials.push_back(std::move(m));
+  return static_cast<int>(model_.materials.size()) - 1;
+}
+
+// Returns a use of the texture, which is added to the model if it is new.
+TextureUse SceneMaterials::texture_use(const Texture2D* texture, const Sampler& sampler, bool flip_green) {
+  TextureUse use;
+  if (texture == nullptr) return use;
+  const auto [known, added] = images_.try_emplace({texture, flip_green}, static_cast<int>(model_.images.size()));
+  if (added) {
+    const bool color = texture->format() == TexelFormat::srgb8a8;
+    auto png = encode_png(picture_of(*texture, flip_green), color ? PngCodes::srgb : PngCodes::numbers);
+    model_.images.push_back({"map" + std::to_string(known->second), {}, std::make_shared<const std::vector<std::byte>>(std::move(png))});
+  }
+  use.texture = static_cast<int>(model_.textures.size());
+  model_.textures.push_back({known->second, sampler});
+  return use;
+}
+
+}  // namespace halfspace
