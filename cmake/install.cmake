@@ -8,7 +8,8 @@ set(halfspace_modules core shading raster image geometry procedural scene model 
 
 # Public headers. The headers that these include are installed as well. docs/reference/api.md describes the same list.
 set(halfspace_public_headers
-  core/check.h core/cpu.h core/half.h core/image.h core/lane_math.h core/lanes.h core/parallel.h core/srgb.h core/units.h core/vec.h
+  core/check.h core/cpu.h core/half.h core/image.h core/lane_math.h core/lanes.h core/parallel.h core/srgb.h core/tool_folder.h core/units.h
+  core/vec.h
   shading/colored_primitives.h shading/contract.h shading/depth_only.h shading/environment.h shading/environment_sky.h shading/light_types.h
   shading/lighting.h shading/lit_surface.h shading/masked_depth.h shading/metallic_surface.h shading/packed_texels.h
   shading/placed_surface.h shading/sampler.h shading/shadow.h shading/shadow_catcher.h shading/shadow_map.h shading/sphere_depth.h
@@ -254,7 +255,8 @@ function(halfspace_add_install_targets)
       add_dependencies(installed halfspace_${module})
     endif()
   endforeach()
-  foreach(target halfspace halfspace-bench halfspace-view halfspace_documents halfspace_python halfspace-image-tool halfspace-jpeg-tool)
+  foreach(target halfspace halfspace-bench halfspace-view halfspace_documents halfspace_python halfspace-image-tool halfspace-jpeg-tool
+          halfspace-draco-tool)
     if(TARGET ${target})
       add_dependencies(installed ${target})
     endif()

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "halfspace/core/image.h"
+#include "halfspace/core/tool_folder.h"
 
 namespace halfspace {
 
@@ -109,10 +110,5 @@ struct ExrChannel {
 /// of channels must be positive, and names must be distinct and not empty. A build without OpenEXR throws OutputError unless the
 /// channels are R, G, B and possibly A as halves, or Z as floats.
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels, const ImageText& text = {});
-
-/// Sets the folder that contains halfspace-image-tool and halfspace-jpeg-tool, for the whole process. By default, and with an empty path,
-/// they are found relative to the program or shared library that contains this code. Thread-safe; images that are being read are not
-/// affected.
-void set_tool_folder(const std::filesystem::path& folder);
 
 }  // namespace halfspace

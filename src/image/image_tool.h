@@ -35,9 +35,7 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
 std::vector<std::byte> encode_codes_by_tool(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image,
                                             uint32_t channels);
 
-/// Returns the path of halfspace-image-tool, or an empty path if it is not installed. Searches the folder that set_tool_folder() set.
-/// Without one, searches the folder of the program or shared library that contains this code, its subfolder halfspace, and the library
-/// folder of an installation whose programs are there.
+/// Returns the path of halfspace-image-tool, or an empty path if it is not installed. See find_tool().
 std::filesystem::path find_image_tool();
 /// The same for halfspace-jpeg-tool.
 std::filesystem::path find_jpeg_tool();

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "halfspace/image/tool_process.h"
+#include "halfspace/core/tool_process.h"
 
 namespace halfspace {
 

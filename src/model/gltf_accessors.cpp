@@ -99,7 +99,7 @@ std::span<const std::byte> GltfAccessors::range(const GltfValue& place, int view
   return view.bytes.subspan(offset);
 }
 
-GltfAccessor GltfAccessors::find(const GltfValue& object, const char* key) {
+GltfAccessor GltfAccessors::describe(const GltfValue& object, const char* key) const {
   const GltfValue& list = document_.list("accessors");
   GltfAccessor accessor;
   accessor.index = static_cast<std::size_t>(document_.required_index(object, key, list.size()));
@@ -114,6 +114,19 @@ GltfAccessor GltfAccessors::find(const GltfValue& object, const char* key) {
   accessor.width = known->width;
   accessor.normalized = document_.boolean(json, "normalized");
   if (accessor.count >= std::numeric_limits<uint32_t>::max()) document_.fail(json, "count", "is too large; expected less than 2^32 - 1");
+  return accessor;
+}
+
+GltfAccessor GltfAccessors::find(const GltfValue& object, const char* key) {
+  GltfAccessor accessor = describe(object, key);
+  const GltfValue& json = *accessor.json;
+  if (const auto decoded = decoded_.find(accessor.index); decoded != decoded_.end()) {
+    accessor.bytes = decoded->second.bytes;
+    accessor.count = decoded->second.count;
+    accessor.component = decoded->second.component;
+    accessor.stride = size_of(accessor.component) * static_cast<std::size_t>(accessor.width);
+    return accessor;
+  }
   const int view = document_.index(json, "bufferView", document_.list("bufferViews").size());
   const uint64_t offset = document_.integer(json, "byteOffset", 0);
   const std::size_t element_size = size_of(accessor.component) * static_cast<std::size_t>(accessor.width);

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "halfspace/model/gltf_buffers.h"
@@ -37,6 +39,8 @@ class GltfAccessors {
 
   /// Returns the accessor that a member of an object refers to. The member must not be missing.
   GltfAccessor find(const GltfValue& object, const char* key);
+  /// The same without the data.
+  GltfAccessor describe(const GltfValue& object, const char* key) const;
 
   /// Reads floats or integers as floats. Normalized integers give values in [0, 1] or [−1, 1].
   std::vector<float> read_floats(const GltfAccessor& accessor, GltfSubset subset = {});
@@ -52,6 +56,19 @@ class GltfAccessors {
   /// Reads unsigned integers. The accessor must have `width` components per element.
   std::vector<uint32_t> read_integers(const GltfAccessor& accessor, int width, GltfSubset subset = {});
 
+  /// Values of an accessor that are not in a buffer view: tightly packed elements.
+  struct Decoded {
+    std::vector<std::byte> bytes;
+    std::size_t count = 0;
+    GltfComponent component = GltfComponent::float32;
+  };
+  /// Replaces the values of an accessor until clear_decoded() is called.
+  void set_decoded(std::size_t accessor, Decoded decoded) { decoded_.insert_or_assign(accessor, std::move(decoded)); }
+  void clear_decoded() { decoded_.clear(); }
+
+  /// Returns the bytes of a buffer view. The index must be valid.
+  std::span<const std::byte> view_bytes(std::size_t view) { return buffers_.view(view).bytes; }
+
   /// Throws InputError unless the accessor has this many components per element.
   void check_width(const GltfAccessor& accessor, int width) const;
   GltfDocument& document() { return document_; }
@@ -66,6 +83,7 @@ class GltfAccessors {
 
   GltfDocument& document_;
   GltfBuffers& buffers_;
+  std::map<std::size_t, Decoded> decoded_;  // by the index of the accessor
 };
 
 }  // namespace halfspace

@@ -5,6 +5,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "halfspace/model/gltf_draco.h"
+
 namespace halfspace {
 
 namespace {
@@ -23,7 +25,9 @@ constexpr std::array<std::string_view, 7> kAppearance = {
     "KHR_texture_basisu", "KHR_texture_procedurals", "MSFT_texture_dds",
 };
 
-bool is_supported(std::string_view name) { return std::ranges::find(kSupported, name) != kSupported.end(); }
+bool is_supported(std::string_view name) {
+  return name == "KHR_draco_mesh_compression" ? can_decode_draco() : std::ranges::find(kSupported, name) != kSupported.end();
+}
 
 bool changes_only_appearance(std::string_view name) {
   return name.find("_materials_") != std::string_view::npos || std::ranges::find(kAppearance, name) != kAppearance.end();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "halfspace/model/gltf_draco.h"
 #include "halfspace/model/gltf_indices.h"
 #include "halfspace/model/gltf_materials.h"
 #include "halfspace/model/gltf_vertices.h"
@@ -57,8 +58,9 @@ class MeshReader {
     const GltfValue& attributes = document_.object(json, "attributes");
     if (document_.find(attributes, "POSITION") == nullptr) return document_.warn_at(json, "", "has no positions; it is left out");
     document_.take_memory(json, 1, sizeof(ModelMesh));
+    const bool compressed = draco_.decode(json);
     const std::size_t count = accessors_.find(attributes, "POSITION").count;
-    const auto mode = static_cast<GltfMode>(document_.integer(json, "mode", 4, 6));
+    const auto mode = compressed ? GltfMode::triangles : static_cast<GltfMode>(document_.integer(json, "mode", 4, 6));
     ModelMesh mesh;
     mesh.name = name;
     mesh.topology = topology_of(mode);
@@ -154,6 +156,7 @@ class MeshReader {
   GltfAccessors& accessors_;
   GltfDocument& document_;
   Model& model_;
+  GltfDraco draco_{accessors_};
   int default_material_ = -1;
 };
 

@@ -51,6 +51,7 @@ THIRD_PARTY = {
     "spng.h": "image/png.cpp",
     "tbb/": "core/parallel.cpp",
     "meshoptimizer.h": "model/gltf_meshopt.cpp",
+    "draco/": "model/draco_tool/",
     "embree": "reference/ray_scene.cpp",
 }
 

@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-DECODERS = ("src/image/tool/", "src/image/jpeg_tool/")  # separate programs
+DECODERS = ("src/core/tool/", "src/image/tool/", "src/image/jpeg_tool/", "src/model/draco_tool/")  # separate programs
 
 # Calls that change or use the state of the host program, and the only files that may contain them.
 FORBIDDEN = {

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/image/tool/service.h"
 
-#include <poll.h>
-#include <signal.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
-#include <thread>
 
+#include "halfspace/core/tool/limits.h"
 #include "halfspace/image/image_limits.h"
 #include "halfspace/image/tool/failure.h"
 #include "halfspace/image/tool/protocol.h"
@@ -22,45 +17,12 @@ namespace halfspace {
 
 namespace {
 
-// Limits on CPU time. Elapsed time may be five times as long: it limits decoders that wait for something that never happens.
+// Limits on CPU time.
 constexpr unsigned kReadSeconds = 60;
-constexpr unsigned kWriteSeconds = 1200;           // images to write are our own, and 16384x16384 pixels take minutes
-constexpr rlim_t kAddressSpace = rlim_t{6} << 30;  // 2^28 pixels of 16 bytes, plus the libraries
+constexpr unsigned kWriteSeconds = 1200;               // images to write are our own, and 16384x16384 pixels take minutes
+constexpr uint64_t kAddressSpace = uint64_t{6} << 30;  // 2^28 pixels of 16 bytes, plus the libraries
 // Limit on the pixels per byte of file that a header may claim (a constant JPEG has about 100, a bilevel TIFF 8000).
 constexpr uint64_t kMaxPixelsPerByte = 8192;
-
-// Ends this process when the reader of standard output is gone. PR_SET_PDEATHSIG would not do: it follows the thread that started this
-// process, which may end long before its program.
-void end_with_the_reader() {
-  std::thread([] {
-    pollfd output = {STDOUT_FILENO, 0, 0};
-    while (::poll(&output, 1, -1) < 0 && errno == EINTR) {
-    }
-    ::_exit(0);
-  }).detach();
-}
-
-void limit_memory() {
-  if (!HALFSPACE_SANITIZED) {  // sanitizers reserve terabytes of address space
-    const rlimit memory = {kAddressSpace, kAddressSpace};
-    ::setrlimit(RLIMIT_AS, &memory);
-  }
-  const rlimit core = {0, 0};
-  ::setrlimit(RLIMIT_CORE, &core);
-  ::signal(SIGXCPU, SIG_DFL);
-  ::signal(SIGALRM, SIG_DFL);
-}
-
-// Limits the time from now on. Only the soft limit of CPU time is set, because the next request raises it again.
-void limit_time(unsigned seconds) {
-  timespec used = {};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-  rlimit cpu = {};
-  ::getrlimit(RLIMIT_CPU, &cpu);
-  cpu.rlim_cur = std::min(static_cast<rlim_t>(used.tv_sec) + seconds, cpu.rlim_max);
-  ::setrlimit(RLIMIT_CPU, &cpu);
-  ::alarm(5 * seconds);
-}
 
 // Receives a request and, for reading, the descriptor that comes with it. Returns false at the end of the input.
 bool receive_request(ToolRequest& request, int& file) {
@@ -102,7 +64,7 @@ bool handle(const ToolHandlers& handlers, const ToolRequest& request, int file) 
 }  // namespace
 
 int serve_requests(const ToolHandlers& handlers) {
-  limit_memory();
+  limit_memory(kAddressSpace);
   end_with_the_reader();
   ToolRequest request;
   int file = -1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A running decoder program (see tool/protocol.h).
+// A running decoder program.
 #pragma once
 
 #include <sys/types.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/image/tool_process.h"
+#include "halfspace/core/tool_process.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The protocol between halfspace-draco-tool and the program that started it.
+//
+//   halfspace-draco-tool serve
+//
+// reads requests from standard input, which is a socket, until it is closed. A request is a DracoRequest, the unique ids of the wanted
+// attributes (uint32_t each) and the compressed stream. The answer on standard output is a DracoHeader. It is followed by a message of
+// message_bytes bytes, if that is not 0, or else by a DracoAttributeHeader for each wanted attribute, three indices (uint32_t) per
+// triangle, and the values of the attributes, one after the other, for all points. A message is one line: the problem; what was expected.
+#pragma once
+
+#include <cstdint>
+
+namespace halfspace {
+
+inline constexpr const char* kDracoToolName = "halfspace-draco-tool";
+inline constexpr uint32_t kDracoToolMagic = 0x31544448;  // "HDT1": the digit is the protocol version
+inline constexpr uint32_t kMaxDracoAttributes = 64;
+
+struct DracoRequest {
+  uint32_t magic = kDracoToolMagic;
+  uint32_t attributes = 0;  ///< at most kMaxDracoAttributes
+  uint64_t stream_bytes = 0;
+  uint64_t max_bytes = 0;  ///< of the decoded indices and attributes
+};
+
+struct DracoHeader {
+  uint32_t magic = kDracoToolMagic;
+  uint32_t message_bytes = 0;
+  uint32_t exceeds_limit = 0;  ///< 1: the message is about max_bytes
+  uint32_t points = 0;
+  uint64_t triangles = 0;
+};
+
+struct DracoAttributeHeader {
+  uint32_t component = 0;  ///< as in glTF: 5120 to 5126
+  uint32_t width = 0;      ///< components per point, 1 to 4
+};
+
+}  // namespace halfspace
