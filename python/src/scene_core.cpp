@@ -131,18 +131,23 @@ void SceneCore::expect(std::span<const double> times, PictureSize size) {
 }
 
 // The first shot is rendered by all threads and loads the assets. Afterwards, each thread renders whole images with its own list of the
-// shared assets. The lock is not held meanwhile, because render() may call Python code that uses the scene.
+// shared assets. The lock is not held meanwhile, because render() may call Python code that uses the scene. All shots show the state of the
+// scene at the time of the call.
 void SceneCore::for_each_shot(std::span<const Shot> shots, PictureSize size,
                               const std::function<void(std::size_t, const PreparedScene&, const Workers&)>& render) {
   if (shots.empty()) return;
-  render(0, prepare(shots[0], size), workers_);
   std::unique_lock lock(mutex_);
   const State state = state_;
+  auto first = std::make_optional(state.prepare(shots[0], size, assets_));
   const SceneAssets shared(assets_, workers_, {});
   lock.unlock();
+  render(0, *first, workers_);
+  first.reset();
   const int teams = static_cast<int>(std::min<std::size_t>(shots.size() - 1, static_cast<std::size_t>(workers_.threads())));
   std::atomic<std::size_t> next = 1;
-  workers_.for_each(teams, [&](int) {
+  // A team of its own: threads that wait for the lock in render() must not take the places of the threads that hold it in prepare().
+  const Workers team(workers_.threads());
+  team.for_each(teams, [&](int) {
     const Workers own(1);
     SceneAssets assets(shared, own, warner());
     try {

@@ -111,6 +111,36 @@ def in_process(connection):
     connection.close()
 
 
+def batch_in_process(connection):
+    scene, done = ball_scene(threads=2), threading.Event()
+
+    def render():
+        while not done.is_set():
+            scene.render(SMALL)
+
+    other = threading.Thread(target=render)
+    other.start()
+    batch = scene.render_batch([None] * 60, size=SMALL, progress=lambda done, total: scene["samples"])
+    done.set()
+    other.join()
+    connection.send_bytes(batch[59].tobytes())
+    connection.close()
+
+
+def test_a_batch_and_a_picture_do_not_wait_for_each_other():
+    context = multiprocessing.get_context("spawn")
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=batch_in_process, args=(sender,))
+    process.start()
+    try:
+        assert receiver.poll(60), "the process does not answer"
+        assert receiver.recv_bytes() == ball_scene(threads=2).render(SMALL).tobytes()
+        process.join(60)
+        assert process.exitcode == 0
+    finally:
+        process.kill()
+
+
 @pytest.mark.parametrize("method", ["fork", "spawn"])
 def test_other_processes_render(method):
     expected = ball_scene(threads=2).render(SMALL)

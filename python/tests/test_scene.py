@@ -75,6 +75,10 @@ def test_progress_can_use_the_scene_and_end_the_batch():
     def stop(done, total):
         raise KeyError("enough")
 
+    before = scene.render((16, 16))
+    batch = scene.render_batch(cameras, size=(16, 16), progress=lambda done, total: scene.set({"moon.radius": 0.25}))
+    assert all(np.array_equal(picture, before) for picture in batch)  # a batch shows the scene at the time of the call
+    assert not np.array_equal(scene.render((16, 16)), before)
     with pytest.raises(KeyError, match="enough"):
         scene.render_batch(cameras, size=(16, 16), progress=stop)
     assert scene.render_batch([], size=(16, 16)).shape == (0, 16, 16, 3)
