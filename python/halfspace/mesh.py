@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any, Optional
+from typing import Any, Optional, Tuple
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from .material import Material, Texture, srgb
 _numbers = itertools.count(1)
 _WIDTHS = {"triangles": 3, "lines": 2, "points": None}
 _MAX_VERTICES = 2**31
+_UNSET_DIFFUSE = (102, 102, 102, 255)  # of a trimesh.visual.material.SimpleMaterial that was made without one
 
 
 class Mesh:
@@ -130,20 +131,24 @@ def _picture_of(image: Any) -> Optional[Texture]:
     return Texture(np.asarray(image))
 
 
-def _factor(value: Any) -> Any:
-    """Returns a color of trimesh, uint8 sRGB or linear floats, as linear numbers."""
-    array = np.asarray(value).ravel()
-    return srgb(array) if array.dtype == np.uint8 else array
+def _base_color_of(m: Any) -> Tuple[Any, Any]:
+    """Returns the texture and the linear factor of a material of trimesh. None: it has none."""
+    if hasattr(m, "baseColorFactor"):
+        factor = None if m.baseColorFactor is None else np.asarray(m.baseColorFactor).ravel()
+        # trimesh stores the factor of glTF, which is linear, as uint8.
+        return m.baseColorTexture, factor / 255.0 if factor is not None and factor.dtype == np.uint8 else factor
+    image, diffuse = getattr(m, "image", None), getattr(m, "diffuse", None)
+    if diffuse is None or (image is not None and np.array_equal(diffuse, _UNSET_DIFFUSE)):
+        return image, None
+    color = np.asarray(diffuse).ravel()
+    return image, srgb(color) if color.dtype == np.uint8 else color
 
 
 def _material_of(m: Any) -> Optional[Material]:
     if m is None:
         return None
-    if hasattr(m, "baseColorFactor"):
-        texture, color = m.baseColorTexture, m.baseColorFactor
-    else:
-        texture, color = getattr(m, "image", None), getattr(m, "diffuse", None)
+    texture, factor = _base_color_of(m)
     white = (1.0, 1.0, 1.0) if texture is not None else (0.8, 0.8, 0.8)
     metallic, roughness = getattr(m, "metallicFactor", None), getattr(m, "roughnessFactor", None)
-    return Material(white if color is None else _factor(color), metallic=0.0 if metallic is None else metallic,
+    return Material(white if factor is None else factor, metallic=0.0 if metallic is None else metallic,
                     roughness=0.6 if roughness is None else roughness, base_color_texture=_picture_of(texture))

@@ -203,6 +203,32 @@ def test_trimesh_like_objects_are_meshes():
         assert pixels[0] > 100 and pixels[1] < 60, mesh.visual.kind
 
 
+def test_materials_of_trimesh_have_their_colors():
+    vertices, faces, _, uvs = sphere(8, 16)
+    texels = np.full((2, 2, 3), (200, 150, 100), np.uint8)
+
+    def shown_with(material):
+        mesh = SimpleNamespace(vertices=vertices, faces=faces, visual=SimpleNamespace(kind="texture", uv=uvs, material=material))
+        scene = dark(halfspace.Mesh.from_trimesh(mesh))
+        scene["ambient"] = 1
+        return scene.render((32, 32), linear=True)
+
+    def expected(*color, **keys):
+        scene = dark(halfspace.Mesh(vertices, faces, uvs=uvs, material=halfspace.Material(color, **keys)))
+        scene["ambient"] = 1
+        return scene.render((32, 32), linear=True)
+
+    codes = np.array([128, 64, 32, 255], np.uint8)
+    for texture in (None, texels):
+        metallic = SimpleNamespace(baseColorFactor=codes, baseColorTexture=texture, metallicFactor=None, roughnessFactor=None)
+        assert np.array_equal(shown_with(metallic), expected(*(codes[:3] / 255), base_color_texture=texture))
+        simple = SimpleNamespace(image=texture, diffuse=codes)
+        assert np.array_equal(shown_with(simple), expected(*halfspace.srgb(codes)[:3], base_color_texture=texture))
+    unset = np.array([102, 102, 102, 255], np.uint8)  # what trimesh sets if there is no diffuse color
+    assert np.array_equal(shown_with(SimpleNamespace(image=texels, diffuse=unset)), expected(1, 1, 1, base_color_texture=texels))
+    assert np.array_equal(shown_with(SimpleNamespace(image=None, diffuse=unset)), expected(*halfspace.srgb(unset)[:3]))
+
+
 NAN = np.where(np.arange(12).reshape(4, 3) == 7, np.nan, 0.5)
 
 
