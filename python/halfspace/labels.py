@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, Iterable, Set
+from typing import Dict, Iterable, Set, Tuple
 
 import numpy as np
 
@@ -15,11 +15,15 @@ LABELS = ("color", "depth", "distance", "normal", "camera_normal", "albedo", "po
 NO_ID: int = _core.no_id  #: id where there is no surface
 
 
-def images_of(outputs: Iterable[str]) -> Set[str]:
-    """Returns the names of the images that _core renders."""
+def checked_outputs(outputs: Iterable[str]) -> Tuple[str, ...]:
     if isinstance(outputs, str):
         raise fail("outputs", f"is {outputs!r}", "a list of names, for example ['depth', 'object']")
-    wanted = {_check.choice("outputs", name, LABELS) for name in outputs}
+    return tuple(_check.choice("outputs", name, LABELS) for name in outputs)
+
+
+def images_of(outputs: Tuple[str, ...]) -> Set[str]:
+    """Returns the names of the images that _core renders."""
+    wanted = set(outputs)
     return wanted - {"mask"} | ({"object"} if "mask" in wanted else set())
 
 
@@ -29,7 +33,7 @@ def checked_background(depth: float) -> float:
     return float(depth)
 
 
-def finished(arrays: Dict[str, np.ndarray], outputs: Iterable[str]) -> Dict[str, np.ndarray]:
+def finished(arrays: Dict[str, np.ndarray], outputs: Tuple[str, ...]) -> Dict[str, np.ndarray]:
     """Adds the mask, and removes what was only needed for it."""
     arrays["mask"] = arrays["object"] != NO_ID if "object" in arrays else None
     if "color" in arrays:

@@ -14,7 +14,7 @@ from . import _check, _core
 from ._check import fail
 from ._options import LIGHTING, emit, pixel_kind, setting_text, times_of, view_options
 from .camera import Camera
-from .labels import LABELS, checked_background, finished, images_of
+from .labels import LABELS, checked_background, checked_outputs, finished, images_of
 from .mesh import Mesh
 from .picture import Picture
 
@@ -176,10 +176,11 @@ class Scene:
         points = np.concatenate(corners)
         return np.array([points.min(axis=0), points.max(axis=0)])
 
-    def fit(self, *, yaw: float = 35.0, pitch: float = 18.0, fov: float = 35.0) -> Camera:
+    def fit(self, *, yaw: float = 35.0, pitch: float = 18.0, fov: float = 35.0, aspect: float = 1.0) -> Camera:
         """Returns a camera that shows all objects of add().
 
         yaw, pitch: degrees; position of the eye around the objects, from the front (+z) to the right, and upwards.   fov: vertical, degrees.
+        aspect: width / height of the picture, if it is less than 1.
         """
         box = self.bounds
         if box is None:
@@ -187,7 +188,9 @@ class Scene:
         center, radius = box.mean(axis=0), float(np.linalg.norm(box[1] - box[0])) / 2.0 or 1.0
         yaw, pitch = np.radians(_check.number("yaw", yaw)), np.radians(_check.number("pitch", pitch, -89.0, 89.0))
         towards = np.array([np.sin(yaw) * np.cos(pitch), np.sin(pitch), np.cos(yaw) * np.cos(pitch)])
-        distance = radius / float(np.sin(np.radians(_check.number("fov", fov, 1.0, 170.0)) / 2.0))
+        tan_y = np.tan(np.radians(_check.number("fov", fov, 1.0, 170.0)) / 2.0)
+        narrow = np.arctan(tan_y * min(1.0, _check.number("aspect", aspect, 1e-5, 1e5)))  # half of the smaller angle of view
+        distance = radius / float(np.sin(narrow))
         return Camera.look_at(center + towards * distance, center, fov=fov, near=max(1e-3 * radius, 0.5 * (distance - 1.5 * radius)),
                               far=distance + 20.0 * radius)
 
@@ -268,11 +271,11 @@ class Scene:
         Blended surfaces are left out. background_depth=0 gives the depth of pyrender.
         """
         width, height = _check.size(size)
-        wanted, depth = images_of(outputs), checked_background(background_depth)
+        names, depth = checked_outputs(outputs), checked_background(background_depth)
         self._flush()
         view = self._camera(camera, width, height)
         try:
-            return finished(_core.labels(self._core, width, height, _check.number("time", time), view, wanted, depth), outputs)
+            return finished(_core.labels(self._core, width, height, _check.number("time", time), view, images_of(names), depth), names)
         finally:
             emit(self._core)
 
@@ -284,12 +287,12 @@ class Scene:
         time, progress: as in render_batch().
         """
         width, height = _check.size(size)
-        wanted, depth = images_of(outputs), checked_background(background_depth)
+        names, depth = checked_outputs(outputs), checked_background(background_depth)
         times = times_of(time, cameras)
         self._flush()
         views = [self._camera(camera, width, height) for camera in cameras]
         try:
-            return finished(_core.label_batch(self._core, width, height, times, views, wanted, depth, progress), outputs)
+            return finished(_core.label_batch(self._core, width, height, times, views, images_of(names), depth, progress), names)
         finally:
             emit(self._core)
 
@@ -313,7 +316,7 @@ class Scene:
     def _camera(self, camera: Optional[Camera], width: int, height: int) -> Any:
         camera = camera if camera is not None else self.camera
         if camera is None and self._fits and self.bounds is not None:
-            camera = self.fit()
+            camera = self.fit(aspect=width / height)
         if camera is None:
             return None
         if not isinstance(camera, Camera):

@@ -165,6 +165,8 @@ def test_a_scene_without_a_camera_shows_everything():
     scene.add(halfspace.Mesh(*sphere()[:2], material=flat()), np.diag([5.0, 5, 5, 1]))
     covered = scene.render((60, 60))[..., 0] > 0
     assert covered.sum() > 800 and not covered[0].any() and not covered[:, -1].any()
+    narrow = scene.render((30, 90))[..., 0] > 0
+    assert narrow.sum() > 200 and not narrow[:, 0].any() and not narrow[:, -1].any()
     scene.merge({"cameras": {"own": {"position": [0, 0, 900], "far": 2000}}})
     assert (scene.render((60, 60))[..., 0] > 0).sum() < 20
 

@@ -44,6 +44,8 @@ def test_all_labels_have_their_shapes_and_types(quads):
         assert array.dtype == dtype and array.shape == (30, 40) + ((channels,) if channels else ()), name
     assert np.array_equal(labels["color"], quads.render(SIZE, camera=look_down_z()))
     assert list(quads.labels(["uv", "mask"], size=SIZE)) == ["uv", "mask"]
+    assert list(quads.labels(iter(["uv", "mask"]), size=SIZE)) == ["uv", "mask"]
+    assert list(quads.label_batch([None], (name for name in ("depth", "mask")), size=SIZE)) == ["depth", "mask"]
 
 
 def test_labels_follow_from_the_projection(quads):
