@@ -22,6 +22,13 @@ Size = Tuple[int, int]
 _MAX_COPIES = 65536
 
 
+def _check_name(name: Any) -> None:
+    """Raises InputError if no object of a scene file can have this name."""
+    if not isinstance(name, str):
+        raise fail("name", f"is {name!r}", "a string")
+    _core.Scene.parse(json.dumps({"version": 1, "objects": {name: {}}}), "scene", 1)
+
+
 class Scene:
     """A scene that can be changed and rendered. Textures, meshes and maps are kept from one picture to the next.
 
@@ -42,7 +49,7 @@ class Scene:
     def _start(self, core: Any) -> None:
         self._core = core
         self._lock = threading.RLock()  # guards the following members
-        self._pending: Dict[str, Any] = {}
+        self._pending: Dict[str, Any] = {}  # objects that are not yet in the scene of _core, which reads all of its objects for each change
         self._meshes: Dict[str, Tuple[Mesh, np.ndarray]] = {}
         self._names = 0
         self._fits = False  # no camera has been given: all objects are shown
@@ -103,7 +110,7 @@ class Scene:
 
         mesh: a Mesh, or an object like trimesh.Trimesh.
         transform: object to world space, (4, 4), or (N, 4, 4) for N copies; affine, float. None: the identity.
-        name: a letter a to z followed by a to z, 0 to 9 and _. None: chosen.
+        name: a letter a to z followed by a to z, 0 to 9 and _, which no object has yet and which is not the name of a section. None: chosen.
 
         The name is a section of the scene: scene[name + ".visible"] = False hides the object. Object ids in labels count objects in the
         order in which they were added.
@@ -113,12 +120,13 @@ class Scene:
         places = np.eye(4)[np.newaxis] if transform is None else self._transforms(transform)
         with self._lock:
             if name is None:
-                self._names += 1
-                name = f"object_{self._names}"
-            elif name in self._meshes:
-                raise fail("name", f"an object '{name}' exists", "another name")
-            self._pending.setdefault("objects", {})[name] = {"shape": "file", "file": mesh._file, "casts_shadow": bool(casts_shadow),
-                                                             "receives_shadow": bool(receives_shadow)}
+                name = self._new_name("object", self._has_object)
+            else:
+                _check_name(name)
+                if self._has_object(name):
+                    raise fail("name", f"an object '{name}' exists", "another name")
+            self._pending[name] = {"shape": "file", "file": mesh._file, "casts_shadow": bool(casts_shadow),
+                                   "receives_shadow": bool(receives_shadow)}
             self._core.provide(mesh._file, mesh._model)
             self._core.place(name, places)
             self._meshes[name] = (mesh, places)
@@ -135,13 +143,10 @@ class Scene:
     def remove(self, name: str) -> None:
         """Removes an object of add()."""
         with self._lock:
-            mesh, _ = self._mesh(name)
+            self._mesh(name)
             self._flush()
             self._core.merge(json.dumps({"objects": {name: None}}))
-            self._core.forget_object(name)
-            del self._meshes[name]
-            if all(other is not mesh for other, _ in self._meshes.values()):
-                self._core.forget_model(mesh._file)
+            self._forget(name)
 
     def add_light(self, type: str = "directional", *, name: Optional[str] = None, **keys: Any) -> str:
         """Adds a light and returns its name.
@@ -151,8 +156,9 @@ class Scene:
         """
         if name is None:
             with self._lock:
-                self._names += 1
-                name = f"light_{self._names}"
+                name = self._new_name("light", self._core.has_light)
+        elif self._core.has_light(name):
+            raise fail("name", f"a light '{name}' exists", "another name")
         light = {"type": type}
         for key, value in keys.items():
             light[key] = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
@@ -324,18 +330,44 @@ class Scene:
         return camera._for_size(width, height)
 
     def _flush(self) -> None:
-        """Adds the objects that were given to add(). Other threads wait until they are there."""
+        """Adds the objects that were given to add(). Other threads wait until they are there.
+
+        Raises InputError if the scene refuses one of them, which is then dropped. Those after it are added by the next call.
+        """
         with self._lock:
-            pending, self._pending = self._pending, {}
-            if not pending:
-                return
-            try:
-                self._core.merge(json.dumps(pending))
-            except _core.InputError:
-                for name in pending["objects"]:
-                    self._meshes.pop(name, None)
-                    self._core.forget_object(name)
+            if self._pending:
+                self._add_pending(list(self._pending))
+
+    def _add_pending(self, names: List[str]) -> None:
+        try:
+            self._core.merge(json.dumps({"objects": {name: self._pending[name] for name in names}}))
+        except _core.InputError:
+            if len(names) == 1:
+                del self._pending[names[0]]
+                self._forget(names[0])
                 raise
+            self._add_pending(names[: len(names) // 2])
+            self._add_pending(names[len(names) // 2:])
+            return
+        for name in names:
+            del self._pending[name]
+
+    def _forget(self, name: str) -> None:
+        """Drops an object of add() that is not in the scene, and its mesh if no other object shows it."""
+        mesh, _ = self._meshes.pop(name)
+        self._core.forget_object(name)
+        if all(other is not mesh for other, _ in self._meshes.values()):
+            self._core.forget_model(mesh._file)
+
+    def _has_object(self, name: str) -> bool:
+        return name in self._meshes or self._core.has_object(name)
+
+    def _new_name(self, kind: str, exists: Callable[[str], bool]) -> str:
+        while True:
+            self._names += 1
+            name = f"{kind}_{self._names}"
+            if not exists(name):
+                return name
 
     def _mesh(self, name: str) -> Tuple[Mesh, np.ndarray]:
         if name not in self._meshes:

@@ -159,6 +159,8 @@ void bind_scene(py::module_& m) {
       .def("value", &SceneCore::value, Release())
       .def("merge", &SceneCore::merge, Release())
       .def("objects", &SceneCore::objects, Release())
+      .def("has_object", &SceneCore::has_object, Release())
+      .def("has_light", &SceneCore::has_light, Release())
       .def("print", &SceneCore::print, Release())
       .def(
           "provide",

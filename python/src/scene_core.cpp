@@ -57,6 +57,16 @@ std::vector<std::string> SceneCore::objects() const {
   return names;
 }
 
+bool SceneCore::has_object(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return find_named(state_.scene.description().objects, name) != nullptr;
+}
+
+bool SceneCore::has_light(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return find_named(state_.scene.description().lights, name) != nullptr;
+}
+
 std::string SceneCore::print() const {
   const std::lock_guard lock(mutex_);
   return state_.scene.print();

@@ -47,6 +47,8 @@ class SceneCore {
   void merge(const std::string& patch);
   /// Returns the names of all objects, in the order of their ids.
   std::vector<std::string> objects() const;
+  bool has_object(const std::string& name) const;
+  bool has_light(const std::string& name) const;
   /// Returns the whole scene as the text of a scene file.
   std::string print() const;
 

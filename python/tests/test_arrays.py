@@ -273,10 +273,44 @@ def test_wrong_arrays_are_named(make, words):
     assert str(error.value).startswith(words) and "\n" not in str(error.value)
 
 
-def test_a_wrong_name_does_not_spoil_the_scene():
+@pytest.mark.parametrize("name, words", [("Wrong Name", "invalid name"), ("post", "is a reserved word"), (7, "name: is 7; expected a string"),
+                                         ("object_1", "name: an object 'object_1' exists; expected another name")])
+def test_a_wrong_name_is_refused_at_once(name, words):
     scene = halfspace.Scene(lighting="none")
-    scene.add(halfspace.Mesh(*QUAD, material=flat()), name="Wrong Name")
-    with pytest.raises(halfspace.InputError, match="Wrong Name: invalid name"):
-        scene.render((4, 4))
     scene.add(halfspace.Mesh(*QUAD, material=flat()))
-    assert (scene.render((4, 4), camera=CAMERA) == 255).all()
+    with pytest.raises(halfspace.InputError, match=words):
+        scene.add(halfspace.Mesh(*QUAD, material=flat()), name=name)
+    assert (scene.render((4, 4), camera=CAMERA) == 255).all() and scene.objects == ["object_1"]
+
+
+def test_objects_and_lights_of_a_file_are_not_changed_by_adding():
+    scene = halfspace.Scene.load("moon")
+    with pytest.raises(halfspace.InputError, match="name: an object 'moon' exists; expected another name"):
+        scene.add(halfspace.Mesh(*QUAD), name="moon")
+    with pytest.raises(halfspace.InputError, match="name: a light 'sun' exists; expected another name"):
+        scene.add_light(name="sun")
+    scene.merge({"objects": {"object_1": {"shape": "sphere"}}})
+    assert scene.add(halfspace.Mesh(*QUAD)) == "object_2"
+
+
+def test_more_objects_than_one_patch_can_have():
+    scene, mesh = halfspace.Scene(lighting="none"), halfspace.Mesh(*QUAD, material=flat())
+    for _ in range(4100):
+        scene.add(mesh)
+    assert len(scene.objects) == 4100
+
+
+def test_only_refused_objects_are_dropped():
+    """A scene has at most 65,536 objects with their copies. Those that fit are added."""
+    scene = halfspace.Scene(lighting="none")
+    copies = [4096] * 15 + [4094]
+    scene.merge({"objects": {f"many_{i}": {"shape": "plane", "instances": [{}] * count} for i, count in enumerate(copies)}})
+    before = scene.objects
+    for name in ("first", "second", "third", "fourth"):
+        scene.add(halfspace.Mesh(*QUAD, material=flat()), name=name)
+    for _ in range(2):
+        with pytest.raises(halfspace.InputError, match="65537 objects including instances"):
+            scene.render((4, 4))
+    assert scene.objects == before + ["first", "second"]
+    with pytest.raises(halfspace.InputError, match="no object 'third'"):
+        scene.remove("third")
