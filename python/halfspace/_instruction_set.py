@@ -10,7 +10,7 @@ _SETS = (("x86-64-v4", _V4), ("x86-64-v3", _V3))
 
 
 def processor_flags(path="/proc/cpuinfo"):
-    """Returns the features of the processor as Linux names them; none if they are unknown."""
+    """Returns the features of the processor as Linux names them, or None if they are unknown."""
     try:
         with open(path) as file:
             for line in file:
@@ -18,12 +18,17 @@ def processor_flags(path="/proc/cpuinfo"):
                     return set(line.split(":", 1)[1].split())
     except OSError:
         pass
-    return set()
+    return None
 
 
 def extension_folder(package, flags):
-    """Returns the folder of the extension, or None if the package has only one. Raises ImportError if the processor can run none."""
+    """Returns the folder of the extension, or None if the package has only one. Raises ImportError if the processor can run none.
+
+    flags: of processor_flags().
+    """
     present = [(name, needed) for name, needed in _SETS if os.path.isdir(os.path.join(package, name))]
+    if present and flags is None:
+        raise ImportError("halfspace: the features of this processor are unknown, because /proc/cpuinfo cannot be read; expected /proc")
     for name, needed in present:
         if needed <= flags:
             return os.path.join(package, name)

@@ -217,3 +217,9 @@ def test_the_custom_shader_of_the_examples():
     stripes.draw(np.array([[-1, -1, 0], [3, -1, 0], [-1, 3, 0]], np.float32), image, count=2)
     assert image[0, :, 0].tolist() == [255, 0] * 4  # a pixel is 0.25 wide, and a stripe as well
     assert np.array_equal(image[0], image[1])
+    for positions, shape in ((np.zeros((3, 3), np.float32), (0, 8, 4)), (np.zeros((0, 3), np.float32), (2, 8, 4)),
+                             (np.zeros((4, 3), np.float32), (2, 8, 4))):
+        with pytest.raises(ValueError, match=r"expected positions of shape \(3 N, 3\)"):
+            stripes.draw(positions, np.zeros(shape, np.uint8))
+    with pytest.raises(RuntimeError, match="width"):
+        stripes.draw(np.zeros((3, 3), np.float32), np.zeros((1, 20000, 4), np.uint8))  # a check of the library that fails

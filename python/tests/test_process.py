@@ -230,6 +230,7 @@ def test_the_extension_is_chosen_by_the_processor(tmp_path):
 
     v3, v4 = sets._V3 | {"sse"}, sets._V4
     assert sets.extension_folder(str(tmp_path), set()) is None  # only one extension
+    assert sets.extension_folder(str(tmp_path), None) is None
     (tmp_path / "x86-64-v3").mkdir()
     (tmp_path / "x86-64-v4").mkdir()
     assert sets.extension_folder(str(tmp_path), v4) == str(tmp_path / "x86-64-v4")
@@ -238,7 +239,9 @@ def test_the_extension_is_chosen_by_the_processor(tmp_path):
         sets.extension_folder(str(tmp_path), v3 - {"avx2", "movbe"})
     (tmp_path / "cpuinfo").write_text("processor : 0\nflags\t\t: fpu avx2 movbe\n")
     assert sets.processor_flags(tmp_path / "cpuinfo") == {"fpu", "avx2", "movbe"}
-    assert sets.processor_flags(tmp_path / "missing") == set()
+    assert sets.processor_flags(tmp_path / "missing") is None
+    with pytest.raises(ImportError, match="/proc/cpuinfo cannot be read; expected"):
+        sets.extension_folder(str(tmp_path), None)
     assert sets.processor_flags()
 
 

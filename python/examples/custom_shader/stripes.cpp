@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <stdexcept>
 
+#include "halfspace/core/check.h"
 #include "halfspace/core/lane_math.h"
 #include "halfspace/raster/pass.h"
 
@@ -45,10 +46,11 @@ struct Stripes {
 template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 
-// positions: (N, 3), three rows per triangle. image: (H, W, 4), written in place.
+// positions: (3 N, 3), three rows per triangle. image: (H, W, 4), written in place.
 void draw(const Array<float>& positions, Array<uint8_t> image, float count) {
-  if (positions.ndim() != 2 || positions.shape(1) != 3 || image.ndim() != 3 || image.shape(2) != 4)
-    throw std::invalid_argument("expected positions of shape (N, 3) and an image of shape (H, W, 4)");
+  if (positions.ndim() != 2 || positions.shape(1) != 3 || positions.shape(0) % 3 != 0 || positions.size() == 0 || image.ndim() != 3 ||
+      image.shape(2) != 4 || image.size() == 0)
+    throw std::invalid_argument("expected positions of shape (3 N, 3) and an image of shape (H, W, 4), neither of them empty");
   const std::span rows(reinterpret_cast<const glm::vec3*>(positions.data()), static_cast<std::size_t>(positions.shape(0)));
   const halfspace::ColorTarget target{.format = halfspace::ColorFormat::srgb8a8,
                                       .data = reinterpret_cast<std::byte*>(image.mutable_data())};
@@ -59,9 +61,13 @@ void draw(const Array<float>& positions, Array<uint8_t> image, float count) {
   pass.run(halfspace::Workers(halfspace::Workers::cores()));
 }
 
+// A precondition of the library that does not hold becomes an exception of Python. Otherwise, it would end the process.
+[[noreturn]] void throw_failed_check(const halfspace::CheckFailure& failure) { throw std::runtime_error(failure.message); }
+
 }  // namespace
 
 PYBIND11_MODULE(stripes, m) {
+  halfspace::set_check_handler(throw_failed_check);
   m.doc() = "Draws triangles with stripes.";
   m.def("draw", &draw, py::arg("positions").noconvert(), py::arg("image").noconvert(), py::arg("count") = 8.0f);
 }
