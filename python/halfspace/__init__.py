@@ -9,7 +9,8 @@
     scene.add(halfspace.Mesh(vertices, faces))
     picture = scene.render((640, 480))
 
-All problems with arguments and files are InputError, a ValueError of one line. Results have the same bits for any number of threads.
+Invalid values and files raise InputError, a ValueError of one line; files that cannot be written raise OutputError, an OSError. Results have
+the same bits for any number of threads.
 """
 
 import os as _os

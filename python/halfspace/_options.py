@@ -38,6 +38,16 @@ _VIEW_OPTIONS = ("aspect", "yaw", "pitch", "zoom", "fov", "eye", "look_at", "up"
 _MODELS = (".obj", ".gltf", ".glb", ".ply", ".stl")
 
 
+def _numbers(key: str, value: Any) -> np.ndarray:
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows of different lengths
+        array = np.empty(0, object)
+    if array.dtype.kind not in "biuf":
+        raise fail(key, "has elements that are not numbers", "a sequence of numbers")
+    return array
+
+
 def setting_text(key: str, value: Any) -> str:
     """Returns "KEY=VALUE" for a value of Python or NumPy."""
     if isinstance(value, (bool, np.bool_)):
@@ -51,7 +61,7 @@ def setting_text(key: str, value: Any) -> str:
     elif isinstance(value, (float, np.floating)):
         text = repr(float(value))
     elif isinstance(value, (list, tuple, np.ndarray)):
-        array = np.asarray(value)
+        array = _numbers(key, value)
         text = ",".join(repr(float(x)) for x in array) if array.ndim == 1 else json.dumps(array.tolist())
     else:
         raise fail(key, f"is a {type(value).__name__}", "a bool, a number, a string or a sequence of numbers")
@@ -99,5 +109,3 @@ def emit(core: Any) -> None:
         level, frame = level + 1, frame.f_back  # type: ignore[assignment]
     for line in lines:
         warnings.warn(line, RenderWarning, stacklevel=level)
-
-

@@ -157,8 +157,14 @@ def colored(clip_from_object: Any, color: Sequence[float] = (1.0, 1.0, 1.0, 1.0)
 
 def _placing(clip_from_world: Any, world_from_object: Any, eye: Any, lights: Iterable[Any], two_sided: bool) -> Any:
     world = np.eye(4) if world_from_object is None else world_from_object
+    if not isinstance(lights, Iterable):
+        raise fail("lights", f"is a {type(lights).__name__}", "a list of lights")
+    lights = list(lights)
+    for i, one in enumerate(lights):
+        if not isinstance(one, _core.Light):
+            raise fail(f"lights[{i}]", f"is a {type(one).__name__}", "a light of draw.light()")
     return _core.Placing(_check.numbers("clip_from_world", clip_from_world, (4, 4)), _check.transforms("world_from_object", world)[0],
-                         _check.vector("eye", eye), list(lights), bool(two_sided))
+                         _check.vector("eye", eye), lights, bool(two_sided))
 
 
 def _texels(texture: Any) -> Tuple[Any, Any]:
@@ -207,7 +213,8 @@ class Pass:
     samples: per pixel: 1, 2, 4 or 8.
     load: start with the contents of the arrays; without a depth array, depth is cleared. Otherwise they are cleared to clear_color (linear), clear_depth and clear_stencil.
 
-    Arrays of draws are not copied if they are C-contiguous and have the types that draw() states. Do not change them before run().
+    Arrays of draws, except indices, are not copied if they are C-contiguous and have the types that draw() states. Do not change them
+    before run().
     """
 
     def __init__(self, color: np.ndarray, depth: Optional[np.ndarray] = None, *, color_format: Optional[str] = None,
@@ -251,7 +258,8 @@ class Pass:
             raise fail("arrays", f"have {', '.join(map(str, counts.values()))} rows", "the same number, at least 1")
         index = None
         if indices is not None:
-            index = _check.indices("indices", np.asarray(indices).reshape(-1), None, len(streams[0]))
+            # A copy: an index that is changed after the check would read outside of the arrays.
+            index = _check.indices("indices", np.array(indices).reshape(-1), None, len(streams[0]))
         chosen = state._core if state is not None else _core.DrawState()
         self._core.draw(shader, streams, index, chosen)
 

@@ -179,6 +179,15 @@ def test_arrays_are_kept_until_the_pass_runs():
     assert image[0, 0].tolist() == [1, 0, 0, 1]
 
 
+def test_indices_are_copied():
+    image, indices = np.zeros((1, 1, 4), np.float32), np.arange(6, dtype=np.uint32)
+    p = draw.Pass(image)
+    p.draw(draw.colored(np.eye(4), RED), positions=plane(), colors=np.ones((6, 4), np.float32), indices=indices)
+    indices[:] = 0  # a triangle without area; larger values would be read outside of the arrays
+    p.run()
+    assert image[0, 0].tolist() == [1, 0, 0, 1]
+
+
 IMAGE = np.zeros((2, 2, 4), np.uint8)
 
 
@@ -196,6 +205,8 @@ IMAGE = np.zeros((2, 2, 4), np.uint8)
     (lambda: draw.Pass(IMAGE).draw(draw.colored(np.eye(4)), positions=plane(), colors=np.ones((5, 4))), "arrays: have 6, 5 rows; expected"),
     (lambda: draw.Pass(IMAGE).draw(draw.colored(np.eye(4)), positions=plane(), colors=np.ones((6, 4)), indices=[6, 0, 0]),
      "indices: has the index 6; expected indices from 0 to 5"),
+    (lambda: draw.phong(np.eye(4), eye=(0, 0, 1), lights=["sun"]), "lights[0]: is a str; expected a light of draw.light()"),
+    (lambda: draw.metallic(np.eye(4), eye=(0, 0, 1), lights=draw.light()), "lights: is a Light; expected a list of lights"),
     (lambda: draw.colored(np.eye(3)), "clip_from_object: has the shape (3, 3); expected (4, 4)"),
 ])
 def test_wrong_draws_are_named(make, words):

@@ -75,6 +75,8 @@ def test_errors_have_the_line_of_the_command_line(program, call, arguments):
     ({"time": float("nan")}, "time: is nan; expected"),
     ({"yaw": 3}, "yaw: applies only to model files"),
     ({"set": {"moon.radius": object()}}, "moon.radius: is a object; expected"),
+    ({"set": {"moon.color": ["a", "b"]}}, "moon.color: has elements that are not numbers; expected a sequence of numbers"),
+    ({"set": {"moon.color": [[1, 2], [3]]}}, "moon.color: has elements that are not numbers; expected a sequence of numbers"),
     ({"camera": 5}, "camera: is a int; expected"),
 ])
 def test_wrong_arguments_are_named(arguments, words):
