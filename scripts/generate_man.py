@@ -47,11 +47,16 @@ def entries(lines):
             yield line.strip(), ""
 
 
-def page(name, help_text, version, see_also, more_options=""):
-    """Returns a page. more_options is the output of --help-model: a line that ends in a colon, and a list."""
+def option_group(title, text):
+    """Returns a section of the output of --help-model or --help-output: sentences, and a list whose lines are indented."""
+    lines = text.rstrip("\n").split("\n")
+    return title, [" ".join(line for line in lines if not line.startswith("  "))] + [line for line in lines if line.startswith("  ")]
+
+
+def page(name, help_text, version, see_also, groups=()):
+    """Returns a page. groups: further sections of options."""
     description, usage, parts = sections(help_text)
-    if more_options:
-        parts.insert(2, ("Options for model files", more_options.rstrip("\n").split("\n")[1:]))
+    parts[2:2] = groups
     summary = re.sub(r"^\w+: (a )?", "", description)
     out = [f'.TH {name.upper()} 1 "" "Halfspace {version}" "User Commands"', ".SH NAME", f"{escape(name)} \\- {escape(summary)}",
            ".SH SYNOPSIS", f".B {escape(usage)}"]
@@ -99,8 +104,11 @@ def main():
     names = [f"halfspace-{command}" for command in commands]
     write(man / "halfspace.1", page("halfspace", output_of(args.program, "--help"), version, names))
     for command, name in zip(commands, names):
-        more = output_of(args.program, command, "--help-model") if command == "render" else ""
-        write(man / f"{name}.1", page(name, output_of(args.program, command, "--help"), version, ["halfspace"], more))
+        groups = []
+        if command == "render":
+            groups = [option_group("Options for model files", output_of(args.program, command, "--help-model")),
+                      option_group("Options for what is written", output_of(args.program, command, "--help-output"))]
+        write(man / f"{name}.1", page(name, output_of(args.program, command, "--help"), version, ["halfspace"], groups))
     if args.bench:
         write(man / "halfspace-bench.1", page("halfspace-bench", output_of(args.bench, "--help"), version, ["halfspace"]))
     if args.view:

@@ -25,7 +25,7 @@ void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void add_limit_options(CLI::App* command, LimitArguments& args, const std::string& group = "OPTIONS") {
+void add_limit_options(CLI::App* command, LimitArguments& args, const std::string& group = "Options") {
   command->add_option("--max-memory", args.memory, "Memory for files and images, e.g. 4G")->type_name("SIZE")->group(group);
   command->add_option("--max-pixels", args.pixels, "Pixels of an image (default 268435456)")->type_name("N")->group(group);
 }

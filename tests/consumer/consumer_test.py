@@ -107,6 +107,8 @@ class Installation(unittest.TestCase):
         for page in pages:
             result = run("man", "--warnings", "-E", "UTF-8", "-Tutf8", "-l", page, env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "80"})
             self.assertEqual((result.returncode, result.stderr), (0, ""), page)
+            self.assertLessEqual(page.read_text().count(".SH OPTIONS\n"), 1, page)
+        self.assertIn(r"\-\-aov", (PREFIX / "share" / "man" / "man1" / "halfspace-render.1").read_text())
 
 
 class Package(unittest.TestCase):
