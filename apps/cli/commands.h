@@ -38,6 +38,18 @@ struct RenderArguments {
 };
 void render_command(const RenderArguments& args);
 
+struct ExplainArguments {
+  std::string scene;
+  std::string size = "640x360";
+  std::vector<std::string> set;
+  std::string camera, shading, time, threads;  ///< as in RenderArguments
+  std::string pixel;                           ///< default: the pixel with the most fragments
+  bool text = false, json = false;
+  ModelArguments model;
+  LimitArguments limits;
+};
+void explain_command(const ExplainArguments& args);
+
 struct ExportArguments {
   std::string scene, out, threads;
   std::vector<std::string> set;

@@ -128,6 +128,28 @@ void add_render_command(CLI::App& program) {
   command->callback([args] { render_command(*args); });
 }
 
+void add_explain_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("explain", "Show what the pipeline did with the fragments of a pixel");
+  const auto args = std::make_shared<ExplainArguments>();
+  command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")->required()->type_name("");
+  command->add_option("--pixel", args->pixel, "From 0,0 at the upper left (default: most fragments)")->type_name("X,Y");
+  command->add_flag("--text", args->text, "Print the history of the pixel as text");
+  command->add_flag("--json", args->json, "Print the history of the pixel as JSON");
+  command->add_option("--size", args->size, "Size in pixels (default 640x360)")->type_name("WxH");
+  add_set_option(command, args->set);
+  command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
+  command->add_option("--shading", args->shading, "none, flat, provoking, gouraud or phong")->type_name("RATE");
+  command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
+  command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
+  add_model_options(command, args->model);
+  add_limit_options(command, args->limits, kUnlistedGroup);
+  command->footer(
+      "Examples:\n"
+      "  halfspace explain earth --text\n"
+      "  halfspace explain day-night --pixel 320,180 --json");
+  command->callback([args] { explain_command(*args); });
+}
+
 void add_export_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("export", "Write a scene or a model as glTF, OBJ, PLY or STL");
   const auto args = std::make_shared<ExportArguments>();
@@ -251,6 +273,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   program.require_subcommand(0, 1);
   set_common_options(program);
   add_render_command(program);
+  add_explain_command(program);
   add_export_command(program);
   add_convert_normal_command(program);
   add_validate_command(program);

@@ -62,19 +62,6 @@ ImageFile output_format(const std::filesystem::path& path) {
   throw UsageError("-o is '" + path.string() + "'; expected a file name ending in .png, .jpg, .tif, .exr or .hdr");
 }
 
-// Sets the shading rate of every object.
-void set_shading(SceneFile& scene, const std::string& rate) {
-  if (rate.empty()) return;
-  ObjectDescription any;
-  const std::span<const std::string_view> rates = find_field(section_of(any), "shading").key->choices;
-  if (std::ranges::find(rates, rate) == rates.end()) {
-    throw UsageError("--shading is '" + rate + "'" + suggestion(rate, rates));
-  }
-  std::vector<std::string> settings;
-  for (const auto& [name, object] : scene.description().objects) settings.push_back("objects." + name + ".shading=" + rate);
-  scene.set(settings);
-}
-
 std::optional<AllowedError> allowed_error(const RenderArguments& args) {
   if (args.max_error.empty() && args.max_error_color.empty()) return std::nullopt;
   AllowedError allowed;

@@ -33,6 +33,16 @@ void set_scene(SceneFile& file, const std::vector<std::string>& settings, const 
   set_camera(file, camera);
 }
 
+void set_shading(SceneFile& scene, const std::string& rate) {
+  if (rate.empty()) return;
+  ObjectDescription any;
+  const std::span<const std::string_view> rates = find_field(section_of(any), "shading").key->choices;
+  if (std::ranges::find(rates, rate) == rates.end()) throw UsageError("--shading is '" + rate + "'" + suggestion(rate, rates));
+  std::vector<std::string> settings;
+  for (const auto& [name, object] : scene.description().objects) settings.push_back("objects." + name + ".shading=" + rate);
+  scene.set(settings);
+}
+
 SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera) {
   SceneFile file = is_model_file(scene) ? open_scene_or_model(scene, {}, 16.0 / 9.0, 30.0).scene : SceneFile::open(scene);
   set_scene(file, settings, camera);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The arguments that select a scene: SCENE, --set and --camera.
+// The arguments that select a scene: SCENE, --set, --camera and --shading.
 #pragma once
 
 #include <string>
@@ -16,5 +16,8 @@ SceneFile open_scene(const std::string& scene, const std::vector<std::string>& s
 
 /// Applies the settings to a scene and selects a camera unless `camera` is empty.
 void set_scene(SceneFile& scene, const std::vector<std::string>& settings, const std::string& camera);
+
+/// Sets the shading rate of every object unless `rate` is empty. Throws UsageError.
+void set_shading(SceneFile& scene, const std::string& rate);
 
 }  // namespace halfspace

@@ -24,6 +24,7 @@ MODULES = {
     "scene": ["core"],
     "model": ["core"],
     "render": ["raster", "image", "procedural", "scene", "model"],
+    "explain": ["render"],
     "reference": ["render"],
     "study": ["reference"],
 }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `halfspace explain SCENE`: shows what the pipeline did in one frame.
+#include "cli/explain_command.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/errors.h"
+#include "cli/frames.h"
+#include "cli/scene_arguments.h"
+#include "cli/stage_display.h"
+#include "halfspace/core/check.h"
+#include "halfspace/scene/scene_file.h"
+
+namespace halfspace {
+
+namespace {
+
+// Parses a pixel such as "12,34".
+std::optional<glm::ivec2> parse_pixel(const std::string& text, const PictureSize& size) {
+  if (text.empty()) return std::nullopt;
+  const std::size_t comma = text.find(',');
+  const std::string_view all = text;
+  const int x = parse_number(all.substr(0, comma)), y = comma == std::string::npos ? -1 : parse_number(all.substr(comma + 1));
+  if (x < 0 || y < 0 || x >= size.width || y >= size.height) {
+    throw UsageError(
+        fmt::format("--pixel is '{}'; expected X,Y from 0,0 at the upper left to {},{}", text, size.width - 1, size.height - 1));
+  }
+  return glm::ivec2(x, y);
+}
+
+SceneFile open_explained_scene(const ExplainArguments& args, const PictureSize& size, SceneAssets& assets) {
+  if (!args.model.turntable.empty()) throw UsageError("--turntable does not apply to explain; expected --yaw or --time");
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, 30.0);
+  if (opened.model != nullptr) assets.add_model(opened.model_file, opened.model);
+  const auto camera = opened.camera_names.find(args.camera);
+  set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
+  set_shading(opened.scene, args.shading);
+  return std::move(opened.scene);
+}
+
+PreparedScene prepare_explained(const SceneDescription& scene, const std::string& source, const PictureSize& size, SceneAssets& assets) {
+  try {
+    return assets.prepare(scene, size.width, size.height);
+  } catch (const InputError& e) {
+    throw InputError(source + ": " + e.what());
+  }
+}
+
+void print_warning(const std::string& problem) {
+  clear_progress();
+  std::cerr << "halfspace: warning: " << problem << '\n';
+}
+
+}  // namespace
+
+void explain_command(const ExplainArguments& args) {
+  set_limits(args.limits);
+  const PictureSize size = parse_size(args.size);
+  const std::optional<glm::ivec2> pixel = parse_pixel(args.pixel, size);
+  if (args.text == args.json) throw UsageError("expected one of --text and --json");
+  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
+  const Workers workers(parse_threads(args.threads));
+  check_picture(size, sizeof(glm::vec4));
+  std::string output;
+  {
+    const StageDisplay explaining("explaining " + args.scene);
+    SceneAssets assets(workers, print_warning);
+    const SceneFile file = open_explained_scene(args, size, assets);
+    const SceneDescription scene = file.at(time);
+    const PreparedScene prepared = prepare_explained(scene, file.source(), size, assets);
+    const ExplainJob job{scene, prepared, pixel, {}, workers};
+    output = args.json ? history_json(job) : history_text(job);
+  }
+  std::cout << output;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The parts of `halfspace explain`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "halfspace/core/parallel.h"
+#include "halfspace/explain/pixel_history.h"
+
+namespace halfspace {
+
+/// What `halfspace explain` explains.
+struct ExplainJob {
+  const SceneDescription& scene;
+  const PreparedScene& prepared;
+  std::optional<glm::ivec2> pixel;  ///< the pixel that the user chose, from the upper left
+  std::string command;              ///< command line that shows the history of a pixel if "--pixel X,Y --text" is appended
+  const Workers& workers;
+};
+
+/// Returns the history of the chosen or busiest pixel as text or JSON (explain_history.cpp).
+std::string history_text(const ExplainJob& job);
+std::string history_json(const ExplainJob& job);
+
+}  // namespace halfspace
