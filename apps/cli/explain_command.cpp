@@ -73,8 +73,7 @@ void explain_command(const ExplainArguments& args) {
     const SceneFile file = open_explained_scene(args, size, assets);
     const SceneDescription scene = file.at(time);
     const PreparedScene prepared = prepare_explained(scene, file.source(), size, assets);
-    const ExplainJob job{scene, prepared, pixel, {}, workers};
-    output = args.json ? history_json(job) : history_text(job);
+    output = explained_history({scene, prepared, args.scene, pixel, {}, workers}, args.json);
   }
   std::cout << output;
 }

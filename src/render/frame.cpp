@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "halfspace/render/display.h"
+#include "halfspace/render/scene_pass.h"
 
 namespace halfspace {
 
@@ -13,14 +14,27 @@ namespace {
 
 constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
 
+template <class Pixel>
+double automatic_exposure(const PostDescription& post, const Image<Pixel>& light, const Workers& workers) {
+  return post.exposure * post.key_value / log_average_luminance(light, workers);
+}
+
 // A scene, and the part of the view that is rendered.
 class FrameRenderer {
  public:
-  FrameRenderer(const PreparedScene& scene, const std::optional<ImageRect>& crop, int width, int height, const Workers& workers)
-      : scene_(scene), post_(post_of(scene)), crop_(crop), width_(width), height_(height), workers_(workers) {}
+  // run_pass: runs the passes that draw the scene.
+  FrameRenderer(const PreparedScene& scene, const std::optional<ImageRect>& crop, int width, int height, const Workers& workers,
+                PassRunner run_pass)
+      : scene_(scene),
+        post_(display_of(scene)),
+        crop_(crop),
+        width_(width),
+        height_(height),
+        workers_(workers),
+        run_(std::move(run_pass)) {}
 
   PassStatistics render(Image<glm::u8vec4>& picture) const {
-    if (!scene_.post.hdr && !scene_.transparent) return pass_of(srgb8a8_target(picture), Draws::in_crop).run(workers_);
+    if (!scene_.post.hdr && !scene_.transparent) return run(pass_of(srgb8a8_target(picture), Draws::in_crop));
     return displayed([&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied()); });
   }
 
@@ -33,10 +47,10 @@ class FrameRenderer {
   }
 
   PassStatistics render(Image<glm::vec4>& light) const {
-    if (!scene_.transparent) return pass_of(rgba32f_target(light), Draws::in_crop).run(workers_);
+    if (!scene_.transparent) return run(pass_of(rgba32f_target(light), Draws::in_crop));
     Pass pass = pass_of({.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, Draws::in_crop);
     show_light(pass, light);
-    return pass.run(workers_);
+    return run_(pass);
   }
 
   PassStatistics render_values(const std::array<ColorTarget, kFrameValues>& targets) const {
@@ -45,7 +59,7 @@ class FrameRenderer {
     Pass pass(width_, height_, targets, kDepth);
     const FrameCamera camera = frame_camera();
     for (const PreparedDraw& draw : scene_.draws) add_value_draw(pass, draw, camera, wanted, state_of(draw, Draws::in_crop));
-    return pass.run(workers_);
+    return run_(pass);
   }
 
  private:
@@ -57,16 +71,9 @@ class FrameRenderer {
     return codes;
   }
 
-  Premultiplied premultiplied() const { return scene_.transparent ? Premultiplied::yes : Premultiplied::no; }
+  PassStatistics run(Pass pass) const { return run_(pass); }
 
-  // Returns how light is displayed. Without `hdr` it is only encoded.
-  static PostDescription post_of(const PreparedScene& scene) {
-    if (scene.post.hdr) return scene.post;
-    PostDescription plain;
-    plain.format = LightFormat::rgba32f;
-    plain.tone = ToneCurve::none;
-    return plain;
-  }
+  Premultiplied premultiplied() const { return scene_.transparent ? Premultiplied::yes : Premultiplied::no; }
 
   // Returns the state of a draw. Cropping is a scissor test, so that all pixels keep their window coordinates.
   DrawState state_of(const PreparedDraw& draw, Draws where) const {
@@ -89,15 +96,15 @@ class FrameRenderer {
     if (post_.auto_exposure) return half ? metered<U16Vec4>(rgba16f_target, display) : metered<glm::vec4>(rgba32f_target, display);
     Pass pass = pass_of({.format = half ? ColorFormat::rgba16f : ColorFormat::rgba32f, .store = StoreOp::dont_care}, Draws::in_crop);
     display(pass, post_.exposure);
-    return pass.run(workers_);
+    return run_(pass);
   }
 
   // Renders the light of the whole view, measures it, and displays it with a second pass without draws.
   template <class Pixel, class F>
   PassStatistics metered(ColorTarget (*target)(Image<Pixel>&), F display) const {
     Image<Pixel> light(width_, height_);
-    const PassStatistics statistics = pass_of(target(light), Draws::everywhere).run(workers_);
-    const double exposure = post_.exposure * post_.key_value / log_average_luminance(light, workers_);
+    const PassStatistics statistics = run(pass_of(target(light), Draws::everywhere));
+    const double exposure = automatic_exposure(post_, light, workers_);
     ColorTarget whole = target(light);
     whole.load = LoadOp::load;
     whole.store = StoreOp::dont_care;
@@ -124,6 +131,7 @@ class FrameRenderer {
   const std::optional<ImageRect>& crop_;
   int width_, height_;  // of the view
   const Workers& workers_;
+  PassRunner run_;
 };
 
 // The image that a pass writes to: the caller's or, with a crop, a whole one of which a part is copied to the caller's.
@@ -211,13 +219,31 @@ bool wants_values(const FrameImages& i) {
 
 PassStatistics render_frame(const PreparedScene& scene, const FrameImages& images, const Workers& workers) {
   const glm::ivec2 size = view_size(scene, images);
-  const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers);
+  const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers, [&workers](Pass& pass) { return pass.run(workers); });
   PassStatistics statistics;
   render_color(renderer, images.picture, images, size, statistics);
   render_color(renderer, images.fine_picture, images, size, statistics);
   render_color(renderer, images.light, images, size, statistics);
   if (wants_values(images)) statistics += render_values(renderer, images, size);
   return statistics;
+}
+
+PostDescription display_of(const PreparedScene& scene) {
+  if (scene.post.hdr) return scene.post;
+  PostDescription plain;
+  plain.format = LightFormat::rgba32f;
+  plain.tone = ToneCurve::none;
+  return plain;
+}
+
+double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light, const Workers& workers) {
+  const PostDescription post = display_of(scene);
+  return post.auto_exposure ? automatic_exposure(post, light, workers) : post.exposure;
+}
+
+PassStatistics render_with(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers, const PassRunner& run_pass) {
+  const std::optional<ImageRect> whole;
+  return FrameRenderer(scene, whole, scene.view.width_px, scene.view.height_px, workers, run_pass).render(picture);
 }
 
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {

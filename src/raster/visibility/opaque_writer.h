@@ -5,6 +5,7 @@
 
 #include <bit>
 
+#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
@@ -13,9 +14,10 @@
 namespace halfspace {
 
 /// Tests and writes the triangles of an opaque draw in a tile.
+template <class Statistics>
 class OpaqueWriter {
  public:
-  OpaqueWriter(const DrawInTile& d, PassStatistics& statistics)
+  OpaqueWriter(const DrawInTile& d, Statistics& statistics)
       : tile_(d.tile),
         statistics_(statistics),
         compare_(d.draw.state.depth.compare),
@@ -37,7 +39,10 @@ class OpaqueWriter {
     if (tests_) {
       const Real old = load<Real>(depth), z = z_at();
       passed &= bits(compare(compare_, z, old));
+      if constexpr (kTraces<Statistics>) trace(id, packet, covered, passed, z);
       if (writes_depth_) store(depth, select(mask_from_bits<Mask>(passed), z, old));
+    } else if constexpr (kTraces<Statistics>) {
+      trace(id, packet, covered, passed, z_at());
     }
     statistics_.samples_passed += static_cast<uint64_t>(std::popcount(passed));
     if (writes_id_ && passed != 0) {
@@ -50,6 +55,7 @@ class OpaqueWriter {
   /// Tests and writes one covered pixel of the tile, and updates the depth bounds of its block.
   HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
     ++statistics_.samples_tested;
+    if constexpr (kTraces<Statistics>) trace_pixel(id, pixel, z);
     if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
     ++statistics_.samples_passed;
     if (writes_id_) tile_.visibility[pixel] = id;
@@ -63,13 +69,27 @@ class OpaqueWriter {
   HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) {
     statistics_.samples_tested += kLanes;
     statistics_.samples_passed += kLanes;
+    if constexpr (kTraces<Statistics>) trace(id, packet, kAllBits<Mask>, kAllBits<Mask>, z_at());
     if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z_at());
     if (writes_id_) store(&tile_.visibility[static_cast<std::size_t>(packet) * kLanes], Int(std::bit_cast<int32_t>(id)));
   }
 
  private:
+  // Call these before depth is written.
+  void trace(TriangleId id, int packet, uint32_t covered, uint32_t passed, Real z) {
+    const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
+    statistics_.trace->add(id, packet, passed, writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only, z, old,
+                           tests_);
+    statistics_.trace->add(id, packet, covered & ~passed, FragmentOutcome::depth_failed, z, old, tests_);
+  }
+  void trace_pixel(TriangleId id, std::size_t pixel, float z) {
+    const bool passes = !tests_ || compare(compare_, z, tile_.depth[pixel]);
+    const uint32_t lane = 1u << pixel % kLanes;
+    trace(id, static_cast<int>(pixel / kLanes), lane, passes ? lane : 0, Real(z));
+  }
+
   Tile& tile_;
-  PassStatistics& statistics_;
+  Statistics& statistics_;
   CompareOp compare_;
   bool tests_, writes_depth_, writes_id_;
 };

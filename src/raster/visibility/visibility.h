@@ -52,16 +52,21 @@ struct DrawInTile {
   bool is_opaque;          ///< one sample per pixel, and only coverage and depth determine visibility
 };
 
+// Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).
+
 /// Rasterizes triangle `index` of chunk `chunk` in the tile. list can only be null for VisibilityMode::deferred and depth_only.
-void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics);
+template <class Statistics>
+void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 
 /// The same for a triangle of an opaque draw (visibility_blocks.cpp).
-void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
+template <class Statistics>
+void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
 
 /// Returns true if the triangle can be drawn by rasterize_small().
 inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
 /// Rasterizes small triangles of an opaque draw in order. indices: 1 to W triangles of the chunk.
-void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics);
+template <class Statistics>
+void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
 
 /// Returns true if a triangle of an opaque draw covers all pixels of the tile's storage.
 bool covers_tile(const DrawInTile& d, const Triangle& t);

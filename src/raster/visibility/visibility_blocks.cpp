@@ -6,6 +6,7 @@
 
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/trace_rejected.h"
 
 namespace halfspace {
 
@@ -19,9 +20,9 @@ void set_hiz(Tile& tile, int block, float low, float high) {
   tile.hiz_writes[b] = 0;
 }
 
-template <bool small>
+template <bool small, class Statistics>
 void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& tile_edges, const SampleGrid& grid, const TileRect& rect,
-                      TriangleId id, PassStatistics& statistics) {
+                      TriangleId id, Statistics& statistics) {
   Tile& tile = d.tile;
   const DepthPlane<small> plane(t, tile_edges, d.draw, grid, tile.depth_format);
   const BlockEdges edges(tile_edges);
@@ -29,7 +30,10 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
   const bool needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine);
   OpaqueWriter writer(d, statistics);
   const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
-  if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) return;
+  if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) {
+    if constexpr (kTraces<Statistics>) trace_rejected_tile({d, t, id, grid, low, high}, *statistics.trace);
+    return;
+  }
   constexpr int mask_to_block = ~(kBlockSize - 1);
   for (int y = rect.y0 & mask_to_block; y < rect.y1; y += kBlockSize) {
     for (int x = rect.x0 & mask_to_block; x < rect.x1; x += kBlockSize) {
@@ -37,7 +41,10 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       if (coverage == BlockCoverage::none) continue;
       const int block = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
       const BlockTest test = writer.tests() ? test_block(writer.compare_op(), tile, block, low, high) : BlockTest::all_pass;
-      if (test == BlockTest::none_passes) continue;
+      if (test == BlockTest::none_passes) {
+        if constexpr (kTraces<Statistics>) trace_rejected_block({d, t, id, grid, low, high}, block, *statistics.trace);
+        continue;
+      }
       const int first = block * kPacketsPerBlock;
       if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !needs_bounds_test) {
         for (int p = first; p < first + kPacketsPerBlock; ++p)
@@ -79,7 +86,8 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, cons
   for (int b = 0; b < kBlocks; ++b) set_hiz(d.tile, b, bounds.low, bounds.high);
 }
 
-void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
+template <class Statistics>
+void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   const SampleGrid grid(d.tile, 0);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
   if (b.empty()) return;
@@ -92,5 +100,7 @@ void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Pas
     rasterize_blocks<false>(d, t, edges, grid, rect, id, statistics);
   }
 }
+template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
+template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
 
 }  // namespace halfspace

@@ -40,7 +40,7 @@ struct SmallDepth {
 class SmallTriangles {
  public:
   // indices: 1 to W triangles of the chunk.
-  SmallTriangles(const DrawInTile& d, const Chunk& chunk, std::span<const uint16_t> indices) {
+  HS_INLINE SmallTriangles(const DrawInTile& d, const Chunk& chunk, std::span<const uint16_t> indices) {
     const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
     static_assert(offsetof(Triangle, z_edge1) == offsetof(Triangle, z0) + sizeof(float) &&
                   offsetof(Triangle, z_max) == offsetof(Triangle, z0) + 3 * sizeof(float));
@@ -119,11 +119,12 @@ class SmallTriangles {
 };
 
 // Finds and writes the packets of one of the triangles.
+template <class Statistics>
 class TrianglePackets {
  public:
   // t: triangle k of `triangles`.
   TrianglePackets(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, const Triangle& t, TriangleId id,
-                  OpaqueWriter& writer)
+                  OpaqueWriter<Statistics>& writer)
       : d_(d),
         id_(id),
         writer_(writer),
@@ -222,7 +223,7 @@ class TrianglePackets {
 
   const DrawInTile& d_;
   TriangleId id_;
-  OpaqueWriter& writer_;
+  OpaqueWriter<Statistics>& writer_;
   TileRect rect_;
   std::array<SmallEdge, 3> edge_;
   int32_t bias1_, bias2_;
@@ -235,7 +236,8 @@ class TrianglePackets {
 
 }  // namespace
 
-void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
+template <class Statistics>
+void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
   const Chunk& c = d.context.chunks[chunk];
   const SmallTriangles triangles(d, c, indices);
   OpaqueWriter writer(d, statistics);
@@ -250,5 +252,7 @@ void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16
     }
   }
 }
+template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
+template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
 
 }  // namespace halfspace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders the color of a frame with another function in place of Pass::run(), for example one that traces the pass.
+#pragma once
+
+#include <functional>
+
+#include "halfspace/render/prepared_scene.h"
+
+namespace halfspace {
+
+/// Runs a pass that draws a scene.
+using PassRunner = std::function<PassStatistics(Pass& pass)>;
+
+/// The same as render(), but calls run_pass for the pass that draws the scene. Its attachment 0 has linear colors: those of the picture or,
+/// if the scene has a tone curve or a transparent background, light that a post step displays. The picture must have the size for which the
+/// scene was prepared.
+PassStatistics render_with(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers, const PassRunner& run_pass);
+
+/// Returns how the light of a scene is displayed. Without `hdr` it is only encoded.
+PostDescription display_of(const PreparedScene& scene);
+
+/// Returns the exposure with which the scene's light is displayed. light: attachment 0 of its pass, for automatic exposure.
+double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light, const Workers& workers);
+
+}  // namespace halfspace
