@@ -41,6 +41,7 @@ OrderedJson fragment_json(const FragmentDetail& d) {
                      {"copy", d.copy},
                      {"instance", f.instance},
                      {"primitive", f.primitive},
+                     {"front_facing", d.is_front},
                      {"sample", f.sample},
                      {"outcome", outcome_name(f.outcome)},
                      {"depth", number_json(f.depth)}};
@@ -71,6 +72,7 @@ std::string history_json(const PixelHistory& h, const FrameTrace& trace) {
   const OrderedJson out = {{"pixel", {h.pixel.x, h.pixel.y}},
                            {"window", vector_json(h.window)},
                            {"size", {trace.width, trace.height}},
+                           {"stored_as", storage_text(trace.format)},
                            {"clear_color", vector_json(h.clear_color)},
                            {"fragments", fragments},
                            {"fragments_left_out", h.others},

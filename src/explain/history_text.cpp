@@ -9,6 +9,11 @@ namespace halfspace {
 
 namespace {
 
+const char* primitive_text(Topology topology) {
+  if (topology == Topology::points) return "point";
+  return is_lines(topology) ? "line" : "triangle";
+}
+
 std::string number_text(float x) { return fmt::format("{:.6g}", x); }
 
 // Returns numbers in columns.
@@ -26,24 +31,26 @@ std::string row_text(const std::string& name, const std::string& values, const s
 std::string alpha_text(const glm::vec4& c) { return c.w == 1.0f ? std::string() : fmt::format("alpha {}", number_text(c.w)); }
 
 // Returns how depths were compared, for example "depth 0.5 against 0.4".
-std::string depth_text(const TracedFragment& f) {
+std::string depth_text(const TracedFragment& f, const char* primitive) {
   if (!f.is_tested) return fmt::format("depth {}, not tested", number_text(f.depth));
   const char* stored = f.outcome == FragmentOutcome::block_rejected  ? "the farthest depth of the block"
                        : f.outcome == FragmentOutcome::tile_rejected ? "the farthest depth of the tile"
                                                                      : "the stored depth";
   std::string out = fmt::format("depth {}", number_text(f.depth));
-  if (f.outcome <= FragmentOutcome::block_rejected) out += fmt::format("; the nearest of the triangle, {},", number_text(f.tested_depth));
+  if (f.outcome <= FragmentOutcome::block_rejected)
+    out += fmt::format("; the nearest of the {}, {},", primitive, number_text(f.tested_depth));
   return out + fmt::format(" compared with {} {}", stored, number_text(f.stored_depth));
 }
 
-const char* outcome_sentence(FragmentOutcome outcome) {
+std::string outcome_sentence(FragmentOutcome outcome, const char* primitive) {
   switch (outcome) {
-    case FragmentOutcome::tile_rejected: return "rejected with its tile: nothing of the triangle can be visible there";
-    case FragmentOutcome::block_rejected: return "rejected with its 8x8 block: nothing of the triangle can be visible there";
+    case FragmentOutcome::tile_rejected: return fmt::format("rejected with its tile, where nothing of the {} can be visible", primitive);
+    case FragmentOutcome::block_rejected:
+      return fmt::format("rejected with its block of 8x8 pixels, where nothing of the {} can be visible", primitive);
     case FragmentOutcome::depth_failed: return "failed the depth test: something nearer was drawn before";
     case FragmentOutcome::stencil_failed: return "failed the stencil test";
     case FragmentOutcome::discarded: return "discarded by the shader";
-    case FragmentOutcome::hidden_before_shading: return "passed, but hidden by a later triangle before it was shaded";
+    case FragmentOutcome::hidden_before_shading: return "passed, but hidden by a later fragment before it was shaded";
     case FragmentOutcome::depth_only: return "passed and wrote its depth";
     case FragmentOutcome::shaded: return "shaded; its color replaced the stored one";
     case FragmentOutcome::blended: return "shaded and blended";
@@ -53,9 +60,20 @@ const char* outcome_sentence(FragmentOutcome outcome) {
   return "";
 }
 
-std::string outcome_line(const TracedFragment& f, int samples) {
+std::string outcome_line(const FragmentDetail& d, int samples) {
+  const TracedFragment& f = d.fragment;
+  const char* primitive = primitive_text(d.topology);
   const std::string sample = samples == 1 ? std::string() : fmt::format("sample {}: ", f.sample);
-  return fmt::format("   {}{}\n     {}\n", sample, outcome_sentence(f.outcome), depth_text(f));
+  return fmt::format("   {}{}\n     {}\n", sample, outcome_sentence(f.outcome, primitive), depth_text(f, primitive));
+}
+
+// Returns why a light has no effect, or an empty string.
+std::string darkness_text(const FragmentDetail& d, const NamedValue& term) {
+  constexpr std::string_view prefix = "diffuse, light ";
+  if (!term.name.starts_with(prefix) || std::ranges::any_of(term.values, [](float x) { return x != 0.0f; })) return {};
+  const std::string shadow = fmt::format("shadow, light {}", term.name.substr(prefix.size()));
+  const bool shadowed = std::ranges::any_of(d.factors, [&](const NamedValue& v) { return v.name == shadow && v.values[0] == 0.0f; });
+  return shadowed ? "in shadow" : "the surface faces away from the light, or reflects nothing diffusely";
 }
 
 std::string values_text(const std::vector<NamedValue>& values) {
@@ -66,13 +84,15 @@ std::string values_text(const std::vector<NamedValue>& values) {
 
 std::string shader_text(const FragmentDetail& d) {
   std::string out = fmt::format("   shader: {}{}\n", d.shader, d.fragment.is_shaded ? "" : " (not shaded in this frame)");
-  out += row_text("weights of the vertices", columns_text(&d.barycentrics.x, 3));
+  const bool is_outside = d.barycentrics.x < 0.0f || d.barycentrics.y < 0.0f || d.barycentrics.z < 0.0f;
+  out += row_text("weights of the vertices", columns_text(&d.barycentrics.x, 3),
+                  is_outside ? "the center of the pixel, which is shaded, is outside of the triangle" : "");
   out += row_text("1/w", columns_text(&d.inv_w, 1));
   out += values_text(d.varyings);
   out += values_text(d.factors);
   if (d.terms.size() > 1) {
     out += "   linear light, term by term\n";
-    out += values_text(d.terms);
+    for (const NamedValue& t : d.terms) out += row_text(t.name, columns_text(t.values.data(), t.values.size()), darkness_text(d, t));
     out += row_text("sum: color", color_text(d.color), alpha_text(d.color));
   } else {
     out += row_text("color", color_text(d.color), alpha_text(d.color));
@@ -92,8 +112,9 @@ std::string fragments_text(std::size_t number, std::span<const FragmentDetail> s
   const TracedFragment& f = d.fragment;
   const std::string copy = d.copy == 0 ? std::string() : fmt::format(", copy {}", d.copy);
   const std::string instance = f.instance == 0 ? std::string() : fmt::format(", instance {}", f.instance);
-  std::string out = fmt::format("{}. {}{}: primitive {} of draw {}{}\n", number, d.object, copy, f.primitive, f.draw, instance);
-  for (const FragmentDetail& s : same) out += outcome_line(s.fragment, samples);
+  std::string out = fmt::format("{}. {}{}: {} {} of draw {}{}{}\n", number, d.object, copy, primitive_text(d.topology), f.primitive, f.draw,
+                                instance, d.is_front ? "" : ", seen from behind");
+  for (const FragmentDetail& s : same) out += outcome_line(s, samples);
   out += shader_text(d);
   for (const FragmentDetail& s : same) {
     if (s.fragment.outcome < FragmentOutcome::shaded) continue;
@@ -119,11 +140,17 @@ std::string result_text(const PixelHistory& h) {
 
 }  // namespace
 
+const char* storage_text(ColorFormat format) {
+  if (format == ColorFormat::srgb8a8) return "sRGB codes with 8 bits";
+  return format == ColorFormat::rgba16f ? "half floats" : "floats";
+}
+
 std::string history_text(const std::string& title, const PixelHistory& h, const FrameTrace& trace) {
   std::string out = fmt::format("{}, {}x{}, pixel {},{} from the upper left (GL window coordinates {}, {})\n", title, trace.width,
                                 trace.height, h.pixel.x, h.pixel.y, h.window.x, h.window.y);
   const auto total = h.fragments.size() + h.others;
   out += fmt::format("{} fragment{} in submission order; depth 1 is near and 0 is far\n", total, total == 1 ? "" : "s");
+  out += fmt::format("stored colors are {}\n", storage_text(trace.format));
   if (trace.samples > 1) out += fmt::format("{} samples per pixel; each sample of a triangle is a fragment\n", trace.samples);
   out += fmt::format("\n{}\n", row_text("color before the first one", color_text(h.clear_color), alpha_text(h.clear_color)));
   std::size_t number = 0;

@@ -9,6 +9,9 @@
 
 namespace halfspace {
 
+/// Returns how a tile stores colors, for example "half floats".
+const char* storage_text(ColorFormat format);
+
 /// Returns the history as text for readers. title: first line, for example the name of the scene.
 std::string history_text(const std::string& title, const PixelHistory& history, const FrameTrace& trace);
 

@@ -15,8 +15,9 @@ namespace halfspace {
 namespace {
 
 // As documented at FrameImages::object.
-std::string object_name(const SceneDescription& scene, int object) {
-  if (object < 0) return "background";
+std::string object_name(const SceneDescription& scene, const PreparedDraw& draw) {
+  const int object = draw.source.object;
+  if (object < 0) return std::holds_alternative<ShadowCatcher>(draw.shader) ? "floor" : "background";
   const auto i = static_cast<std::size_t>(object);
   if (i < scene.objects.size()) return scene.objects[i].first;
   const std::size_t system = i - scene.objects.size();
@@ -79,7 +80,9 @@ class DetailFinder {
     const SamplePosition at = triangle.draw->shades_samples ? sample_position(trace_.samples, f.sample) : center;
     FragmentValues v = fragment_values(draw.shader, {triangle, {pixel.x, trace_.height - 1 - pixel.y}, at, f.depth}, light_names_);
     return {.fragment = f,
-            .object = object_name(scene_, draw.source.object),
+            .object = object_name(scene_, draw),
+            .is_front = triangle.source.triangle->is(kFrontFacing),
+            .topology = draw.state.topology,
             .copy = draw.source.instance,
             .shader = std::move(v.shader),
             .barycentrics = v.barycentrics,

@@ -37,8 +37,9 @@ struct FrameTrace {
   static constexpr uint32_t kMaxFragments = 64;  ///< per pixel
 
   int width = 0, height = 0, samples = 1;
-  std::vector<uint32_t> first;            ///< width · height + 1 offsets into `fragments`, by row from the upper left
-  std::vector<TracedFragment> fragments;  ///< of each pixel in submission order, and for each primitive by sample
+  ColorFormat format = ColorFormat::none;  ///< in which tiles store colors
+  std::vector<uint32_t> first;             ///< width · height + 1 offsets into `fragments`, by row from the upper left
+  std::vector<TracedFragment> fragments;   ///< of each pixel in submission order, and for each primitive by sample
   /// Of each pixel: fragments that are left out because there are more than kMaxFragments. Those that were shaded are kept first.
   std::vector<uint32_t> others;
   Image<glm::u8vec4> picture;     ///< as rendered without tracing
@@ -67,7 +68,9 @@ struct NamedValue {
 /// All values of a fragment.
 struct FragmentDetail {
   TracedFragment fragment;
-  std::string object;      ///< name of the object in the scene, "particles" or "background"
+  std::string object;    ///< name of the object in the scene, "particles", "floor" (with only shadows) or "background"
+  bool is_front = true;  ///< the winding of the triangle as seen from the eye
+  Topology topology = Topology::triangles;
   int copy = 0;            ///< copy of the object; for models with several parts, copy · parts + part
   std::string shader;      ///< for example "phong surface"
   glm::vec3 barycentrics;  ///< weights of the vertices of the submitted primitive, perspective-correct; (1, 0, 0) for points

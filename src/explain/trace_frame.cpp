@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// Returns the pixel of each tile row, from the upper left, as calls f(pixel of the image, fragments).
+// Calls f(index of the pixel by row from the upper left, its fragments) for each pixel of a tile.
 template <class F>
 void for_each_traced_pixel(const TileFragments& tile, const PassTrace& trace, const F& f) {
   if (tile.first.empty()) return;
@@ -70,6 +70,7 @@ FrameTrace trace_frame(const PreparedScene& scene, const Workers& workers) {
   out.picture = Image<glm::u8vec4>(out.width, out.height);
   PassTrace trace;
   out.statistics = render_with(scene, out.picture, workers, [&](Pass& pass) { return run_traced(pass, workers, trace); });
+  out.format = trace.format;
   collect_fragments(trace, out);
   out.values = std::move(trace.values);
   out.light = Image<glm::vec4>(out.width, out.height);

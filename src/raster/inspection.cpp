@@ -11,14 +11,18 @@ class TraceTiles : public TileRunner {
 
   void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
            PassStatistics& statistics) override {
-    if (round.first) begin(context);
+    if (round.first) begin(context, attachments);
     run_tiles(context, attachments, round, workers, statistics, trace_);
     name_primitives(context);
   }
 
  private:
-  void begin(const PassContext& context) {
-    trace_ = {.width = context.width, .height = context.height, .samples = context.samples, .rounds = {}, .values = {}, .resolved = {}};
+  void begin(const PassContext& context, const Attachments& attachments) {
+    trace_ = {};
+    trace_.width = context.width;
+    trace_.height = context.height;
+    trace_.samples = context.samples;
+    if (!attachments.colors.empty()) trace_.format = attachments.colors[0].format;
     trace_.resolved.resize(static_cast<std::size_t>(context.width) * static_cast<std::size_t>(context.height));
     trace_.values.resize(trace_.resolved.size() * static_cast<std::size_t>(context.samples));
   }

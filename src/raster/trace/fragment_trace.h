@@ -8,6 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include "halfspace/raster/target.h"
+
 namespace halfspace {
 
 /// What became of a fragment.
@@ -54,6 +56,7 @@ struct TileFragments {
 /// The trace of a pass.
 struct PassTrace {
   int width = 0, height = 0, samples = 1;
+  ColorFormat format = ColorFormat::none;          ///< of the first attachment
   std::vector<std::vector<TileFragments>> rounds;  ///< one element per tile, in each round
   /// Linear color of each sample of each pixel at the end of the pass, before samples are resolved. By row from the upper left.
   std::vector<glm::vec4> values;
