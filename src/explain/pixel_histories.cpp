@@ -6,7 +6,6 @@
 
 #include "halfspace/explain/fragment_values.h"
 #include "halfspace/explain/pixel_history.h"
-#include "halfspace/render/display.h"
 #include "halfspace/render/scene_pass.h"
 #include "halfspace/shading/tone.h"
 
@@ -101,24 +100,11 @@ class DetailFinder {
   std::vector<std::string> light_names_;
 };
 
-// Displays the light of the trace, like the renderer.
-Image<glm::u8vec4> displayed(const PreparedScene& scene, const FrameTrace& trace, const Workers& workers) {
-  Image<glm::vec4> light = trace.light;
-  Image<glm::u8vec4> picture(trace.width, trace.height);
-  ColorTarget target = rgba32f_target(light);
-  target.load = LoadOp::load;
-  target.store = StoreOp::dont_care;
-  Pass pass(trace.width, trace.height, target, {});
-  show(pass, display_of(scene), trace.exposure, picture, scene.transparent ? Premultiplied::yes : Premultiplied::no);
-  pass.run(workers);
-  return picture;
-}
-
 DisplayDetail display_detail(const PreparedScene& scene, const FrameTrace& trace, const Image<glm::u8vec4>& picture,
                              const glm::ivec2& pixel) {
   DisplayDetail d;
   d.light = trace.light.at(pixel.x, pixel.y);
-  const ToneMapping tone = tone_of(display_of(scene), trace.exposure);
+  const ToneMapping tone = frame_tone(scene, trace.exposure);
   d.exposure = tone.exposure;
   const float alpha = scene.transparent && d.light.w > 0.0f ? d.light.w : 1.0f;
   d.tone_mapped = tone_map(SceneLight<float>{vec3<float>(glm::vec3(d.light) / alpha)}, tone).rgb;
@@ -131,7 +117,8 @@ DisplayDetail display_detail(const PreparedScene& scene, const FrameTrace& trace
 std::vector<PixelHistory> pixel_histories(const SceneDescription& scene, const PreparedScene& prepared, const FrameTrace& trace,
                                           std::span<const glm::ivec2> pixels, const Workers& workers) {
   const DetailFinder finder(scene, prepared, trace);
-  const Image<glm::u8vec4> picture = displayed(prepared, trace, workers);
+  Image<glm::u8vec4> picture(trace.width, trace.height);
+  display_light(prepared, trace.light, trace.exposure, picture, workers);
   std::vector<PixelHistory> out(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const glm::ivec2& p = pixels[i];

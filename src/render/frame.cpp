@@ -14,6 +14,15 @@ namespace {
 
 constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
 
+// Returns how light is displayed. Without `hdr` it is only encoded.
+PostDescription display_of(const PreparedScene& scene) {
+  if (scene.post.hdr) return scene.post;
+  PostDescription plain;
+  plain.format = LightFormat::rgba32f;
+  plain.tone = ToneCurve::none;
+  return plain;
+}
+
 template <class Pixel>
 double automatic_exposure(const PostDescription& post, const Image<Pixel>& light, const Workers& workers) {
   return post.exposure * post.key_value / log_average_luminance(light, workers);
@@ -228,17 +237,22 @@ PassStatistics render_frame(const PreparedScene& scene, const FrameImages& image
   return statistics;
 }
 
-PostDescription display_of(const PreparedScene& scene) {
-  if (scene.post.hdr) return scene.post;
-  PostDescription plain;
-  plain.format = LightFormat::rgba32f;
-  plain.tone = ToneCurve::none;
-  return plain;
-}
-
 double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light, const Workers& workers) {
   const PostDescription post = display_of(scene);
   return post.auto_exposure ? automatic_exposure(post, light, workers) : post.exposure;
+}
+
+ToneMapping frame_tone(const PreparedScene& scene, double exposure) { return tone_of(display_of(scene), exposure); }
+
+void display_light(const PreparedScene& scene, const Image<glm::vec4>& light, double exposure, Image<glm::u8vec4>& picture,
+                   const Workers& workers) {
+  Image<glm::vec4> loaded = light;
+  ColorTarget target = rgba32f_target(loaded);
+  target.load = LoadOp::load;
+  target.store = StoreOp::dont_care;
+  Pass pass(light.width(), light.height(), target, {});
+  show(pass, display_of(scene), exposure, picture, scene.transparent ? Premultiplied::yes : Premultiplied::no);
+  pass.run(workers);
 }
 
 PassStatistics render_with(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers, const PassRunner& run_pass) {

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/shading/tone_types.h"
 
 namespace halfspace {
 
@@ -17,10 +18,14 @@ using PassRunner = std::function<PassStatistics(Pass& pass)>;
 /// scene was prepared.
 PassStatistics render_with(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers, const PassRunner& run_pass);
 
-/// Returns how the light of a scene is displayed. Without `hdr` it is only encoded.
-PostDescription display_of(const PreparedScene& scene);
-
 /// Returns the exposure with which the scene's light is displayed. light: attachment 0 of its pass, for automatic exposure.
 double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light, const Workers& workers);
+
+/// Returns the tone mapping with which the scene's light is displayed. Without `hdr`, light is only clamped to [0, 1].
+ToneMapping frame_tone(const PreparedScene& scene, double exposure);
+
+/// Displays light, which has the size of the picture, like the renderer.
+void display_light(const PreparedScene& scene, const Image<glm::vec4>& light, double exposure, Image<glm::u8vec4>& picture,
+                   const Workers& workers);
 
 }  // namespace halfspace
