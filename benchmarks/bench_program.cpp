@@ -30,6 +30,7 @@ namespace {
 struct BenchArguments {
   std::vector<std::string> only;  // empty: all workloads
   std::string sweep;              // empty: the table of workloads instead of a series
+  bool matrix = false;            // the rows of the matrix instead of the table of workloads
   std::string size = "1920x1080";
   std::string threads;  // empty: one per core
   std::string seconds = "1";
@@ -105,6 +106,18 @@ std::string text_of(const PictureErrors& e) {
   return fmt::format("  {:.3f}% within 1/255, rms {:.3f}/255", 100.0 - 100.0 * e.colors_off / std::max(e.covered, 1), e.rms_color);
 }
 
+std::string text_of(const PictureDifference& d) {
+  return fmt::format("  {:.3f}% beyond 2/255 of Halfspace away from edges", 100.0 * d.off / std::max(d.compared, 1));
+}
+
+// Compares the picture with the one that Halfspace draws, if the workload has such a twin.
+std::optional<PictureDifference> difference_from_twin(const Workload& workload, int threads) {
+  const std::unique_ptr<Workload> twin = workload.twin();
+  if (twin == nullptr) return std::nullopt;
+  twin->frame(Workers(threads));
+  return picture_difference(*workload.picture().color, *twin->picture().color);
+}
+
 // Formats the identity of the renderer for the text output. Each value is preceded by ", ".
 std::string identity_text(const BenchProgram& program) {
   std::string text;
@@ -127,7 +140,9 @@ double resident_mb() {
 void report(const BenchProgram& program, const BenchArguments& args, const WorkloadKind& kind, const Workload& workload, PictureSize size,
             int threads, const FrameTimes& times, std::optional<double> frames_mb) {
   std::optional<PictureErrors> errors;
-  if (!args.check.empty()) {
+  std::optional<PictureDifference> difference;
+  if (!args.check.empty()) difference = difference_from_twin(workload, threads);
+  if (!args.check.empty() && workload.has_truth()) {
     const WorkloadTruth truth = kept_truth(args.check, kind.name, workload, {size.width, size.height});
     errors = picture_errors(workload.picture(), truth, kDepthTolerance);
   }
@@ -135,14 +150,19 @@ void report(const BenchProgram& program, const BenchArguments& args, const Workl
     nlohmann::ordered_json line = json_line(program.identity(), kind.name, size, threads, times);
     if (frames_mb) line["frames_mb"] = *frames_mb;
     if (errors) line["picture"] = json_of(*errors);
+    if (difference) line["difference"] = {{"compared", difference->compared}, {"off", difference->off}};
     std::cout << line.dump() << '\n' << std::flush;
   } else {
-    std::cout << row(kind.name, times) << (errors ? text_of(*errors) : "") << '\n' << std::flush;
+    std::cout << row(kind.name, times) << (errors ? text_of(*errors) : "") << (difference ? text_of(*difference) : "") << '\n'
+              << std::flush;
   }
   if (!args.out.empty()) write_pictures(args.out, kind.name, workload.picture());
 }
 
-std::span<const WorkloadKind> kinds_of(const BenchProgram& program, const std::string& sweep) {
+std::span<const WorkloadKind> kinds_of(const BenchProgram& program, const BenchArguments& args) {
+  if (args.matrix && !program.matrix) throw UsageError("--matrix: " + program.name + " does not draw the matrix");
+  if (args.matrix) return program.matrix();
+  const std::string& sweep = args.sweep;
   if (sweep.empty()) return program.kinds();
   std::vector<std::string_view> names;
   for (const Sweep& s : program.sweeps()) {
@@ -152,33 +172,42 @@ std::span<const WorkloadKind> kinds_of(const BenchProgram& program, const std::s
   throw UsageError("--sweep: unknown series '" + sweep + "'" + suggestion(sweep, names));
 }
 
-void run_bench(const BenchProgram& program, const BenchArguments& args) {
-  const PictureSize size = parse_size(args.size);
-  const int threads = parse_threads(args.threads);
-  const double seconds = parse_real("--seconds", args.seconds, 0.0, 3600.0, "0 to 3600, for example 2.5");
-  const std::span<const WorkloadKind> all = kinds_of(program, args.sweep);
-  const std::vector<const WorkloadKind*> kinds = chosen_workloads(all, args.only);
-  if (args.list) return list_workloads(all);
-  if (!args.out.empty()) make_directory(args.out);
-
-  if (program.start) program.start(threads);
+// Prepares the workloads together, measures them and prints their results.
+void measure(const BenchProgram& program, const BenchArguments& args, std::span<const WorkloadKind* const> kinds, PictureSize size,
+             const Workers& workers, double seconds) {
   WorkloadAssets assets;
   std::vector<std::unique_ptr<Workload>> prepared;
   for (const WorkloadKind* kind : kinds) prepared.push_back(kind->prepare({size.width, size.height}, assets));
-  const Workers workers(threads);
   std::vector<FrameTimes> times;
   const double mb_before = resident_mb();
   {
     Progress progress(Runner::steps(prepared.size(), seconds));
     times = Runner(workers).run(prepared, seconds, [&] { progress.advance(false); });
   }
+  std::optional<double> frames_mb;
+  if (kinds.size() == 1) frames_mb = resident_mb() - mb_before;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    report(program, args, *kinds[i], *prepared[i], size, workers.threads(), times[i], frames_mb);
+}
+
+void run_bench(const BenchProgram& program, const BenchArguments& args) {
+  const PictureSize size = parse_size(args.size);
+  const int threads = parse_threads(args.threads);
+  const double seconds = parse_real("--seconds", args.seconds, 0.0, 3600.0, "0 to 3600, for example 2.5");
+  const std::span<const WorkloadKind> all = kinds_of(program, args);
+  std::vector<const WorkloadKind*> kinds = chosen_workloads(all, args.only);
+  if (args.list) return list_workloads(all);
+  if (!args.out.empty()) make_directory(args.out);
+
+  if (program.start) program.start(threads);
+  const Workers workers(threads);
   if (!args.json) {
     std::cout << size.width << 'x' << size.height << ", threads: " << threads << identity_text(program)
               << "\nworkload                     ms median       min       max       cpu  frames\n";
   }
-  std::optional<double> frames_mb;
-  if (kinds.size() == 1) frames_mb = resident_mb() - mb_before;
-  for (std::size_t i = 0; i < kinds.size(); ++i) report(program, args, *kinds[i], *prepared[i], size, threads, times[i], frames_mb);
+  if (!args.matrix) return measure(program, args, kinds, size, workers, seconds);
+  // All rows of the matrix together would take gigabytes.
+  for (const WorkloadKind*& kind : kinds) measure(program, args, std::span(&kind, 1), size, workers, seconds);
 }
 
 void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** argv) {
@@ -187,6 +216,7 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   BenchArguments args;
   app.add_option("--only", args.only, "Run only these workloads (see --list)")->type_name("NAME,")->allow_extra_args(false)->delimiter(',');
   app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
+  app.add_flag("--matrix", args.matrix, "Run one scene under many states, one at a time, instead of the workloads");
   app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
   app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");
   app.add_option("--seconds", args.seconds, "Time per workload; 0: one frame each (default: 1)")->type_name("S");

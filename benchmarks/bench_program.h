@@ -29,6 +29,7 @@ struct BenchProgram {
   /// The workloads and sweeps that the program can draw.
   std::function<std::span<const WorkloadKind>()> kinds;
   std::function<std::span<const Sweep>()> sweeps;
+  std::function<std::span<const WorkloadKind>()> matrix;  ///< empty if the program does not draw the matrix
   /// The first fields of each line of --json output, which identify the renderer.
   std::function<nlohmann::ordered_json()> identity;
 };

@@ -4,6 +4,7 @@
 #include "bench_program.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
+#include "matrix.h"
 
 // The launcher of a portable build calls this function (see cmake/program.cmake).
 extern "C" int halfspace_bench_main(int argc, char** argv) {
@@ -14,6 +15,7 @@ extern "C" int halfspace_bench_main(int argc, char** argv) {
                             .start = {},
                             .kinds = [] { return workloads(); },
                             .sweeps = [] { return sweeps(); },
+                            .matrix = [] { return matrix_workloads(); },
                             .identity =
                                 [] {
                                   return nlohmann::ordered_json{{"program", "halfspace"}, {"arch", build_arch()}, {"lanes", kLanes}};

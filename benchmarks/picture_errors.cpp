@@ -53,6 +53,19 @@ void write_truth(const std::filesystem::path& path, const WorkloadTruth& truth) 
   if (!out.flush()) throw OutputError(path.string() + ": cannot write the file");
 }
 
+// Returns true if a channel varies by more than 16/255 in the 3 x 3 neighborhood of a pixel that is not on the border.
+bool is_at_edge(const Image<glm::u8vec4>& image, int x, int y) {
+  glm::ivec4 low(image.at(x, y)), high = low;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      low = glm::min(low, glm::ivec4(image.at(x + dx, y + dy)));
+      high = glm::max(high, glm::ivec4(image.at(x + dx, y + dy)));
+    }
+  }
+  const glm::ivec4 range = high - low;
+  return std::max({range.x, range.y, range.z, range.w}) > 16;
+}
+
 }  // namespace
 
 PictureErrors picture_errors(const WorkloadPicture& picture, const WorkloadTruth& truth, double depth_tolerance) {
@@ -80,6 +93,19 @@ PictureErrors picture_errors(const WorkloadPicture& picture, const WorkloadTruth
   }
   errors.rms_color = std::sqrt(squares / (4.0 * std::max(errors.covered, 1)));
   return errors;
+}
+
+PictureDifference picture_difference(const Image<glm::u8vec4>& a, const Image<glm::u8vec4>& b) {
+  PictureDifference difference;
+  for (int y = 1; y + 1 < a.height(); ++y) {
+    for (int x = 1; x + 1 < a.width(); ++x) {
+      if (is_at_edge(a, x, y) || is_at_edge(b, x, y)) continue;
+      ++difference.compared;
+      const glm::ivec4 off = glm::abs(glm::ivec4(a.at(x, y)) - glm::ivec4(b.at(x, y)));
+      difference.off += std::max({off.x, off.y, off.z, off.w}) > 2 ? 1 : 0;
+    }
+  }
+  return difference;
 }
 
 WorkloadTruth kept_truth(const std::filesystem::path& directory, std::string_view name, const Workload& workload, WorkloadSize size) {

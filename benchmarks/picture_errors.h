@@ -24,6 +24,15 @@ struct PictureErrors {
 
 PictureErrors picture_errors(const WorkloadPicture& picture, const WorkloadTruth& truth, double depth_tolerance);
 
+/// Differences between the images of two renderers. Pixels next to an edge in either image are ignored: pixels with a channel that varies
+/// by more than 16/255 in their 3 x 3 neighborhood, and the border of the image.
+struct PictureDifference {
+  int compared = 0;  ///< number of pixels away from edges
+  int off = 0;       ///< of these, pixels with a channel that differs by more than 2/255
+};
+
+PictureDifference picture_difference(const Image<glm::u8vec4>& a, const Image<glm::u8vec4>& b);
+
 /// Returns the reference image of a workload, rendered in double precision. Rendering it is slow, so the result is cached in
 /// directory/NAME.WxH.truth, rounded to float.
 WorkloadTruth kept_truth(const std::filesystem::path& directory, std::string_view name, const Workload& workload, WorkloadSize size);

@@ -14,7 +14,7 @@ HS_INLINE vec3<R> unit(const vec3<R>& v) {
   return v * inverse_sqrt(dot(v, v));
 }
 
-/// The factor of the surface color, and the term that is added to it.
+/// The factor by which the surface color is multiplied, and the term added to the product.
 template <class R>
 struct WorkloadLight {
   R diffuse, specular;

@@ -1,16 +1,22 @@
-# Searches pybind11 and NumPy for the Python module. Sets HALFSPACE_PYTHON_FOUND, which is false in a subproject that does not ask for
-# the module, and with sanitizers, whose runtime an ordinary interpreter does not load. Python_EXECUTABLE selects the interpreter; the default is the one of the system, for
-# which packages install their modules.
+# Searches for pybind11 and NumPy, which the Python module needs, and sets HALFSPACE_PYTHON_FOUND. HALFSPACE_PYTHON=AUTO builds the module
+# if they are found, but not in a subproject, and not with sanitizers, whose runtime an ordinary interpreter does not load.
+# Python_EXECUTABLE selects the interpreter; the default is the interpreter of the system, for which packages install their modules.
+set(HALFSPACE_PYTHON AUTO CACHE STRING "Build the Python module (needs pybind11 and NumPy): AUTO, ON or OFF")
+set_property(CACHE HALFSPACE_PYTHON PROPERTY STRINGS AUTO ON OFF)
 set(HALFSPACE_PYTHON_FOUND OFF)
-if(HALFSPACE_PYTHON OR (PROJECT_IS_TOP_LEVEL AND NOT HALFSPACE_SANITIZE))
-  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
-    set(Python_EXECUTABLE /usr/bin/python3)
-  endif()
-  find_package(Python 3.9 COMPONENTS Interpreter Development.Module NumPy)
-  find_package(pybind11 2.10 CONFIG QUIET)
-  if(Python_FOUND AND pybind11_FOUND)
-    set(HALFSPACE_PYTHON_FOUND ON)
-  else()
-    message(STATUS "pybind11 or NumPy was not found: the Python module is not built")
-  endif()
+if(NOT HALFSPACE_PYTHON OR (HALFSPACE_PYTHON STREQUAL "AUTO" AND (HALFSPACE_SANITIZE OR NOT PROJECT_IS_TOP_LEVEL)))
+  return()
+endif()
+if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python 3.9 COMPONENTS Interpreter Development.Module NumPy)
+find_package(pybind11 2.10 CONFIG QUIET)
+if(Python_FOUND AND pybind11_FOUND)
+  set(HALFSPACE_PYTHON_FOUND ON)
+elseif(HALFSPACE_PYTHON STREQUAL "AUTO")
+  message(STATUS "pybind11 or NumPy was not found: the Python module is not built")
+else()
+  message(FATAL_ERROR "HALFSPACE_PYTHON=${HALFSPACE_PYTHON} needs pybind11 2.10, NumPy and the headers of Python 3.9 or later "
+    "(Debian and Ubuntu: pybind11-dev, python3-numpy, python3-dev)")
 endif()

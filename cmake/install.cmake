@@ -70,7 +70,7 @@ foreach(header IN LISTS halfspace_public_headers)
 endforeach()
 set(halfspace_installed_headers ${headers})
 
-# Sets out to the headers that a program or another module includes.
+# Sets the variable named by `out` to the headers of a module that a program or another module includes.
 function(halfspace_headers_used_elsewhere out)
   set(used "")
   file(GLOB_RECURSE sources ${halfspace_SOURCE_DIR}/src/*.cpp ${halfspace_SOURCE_DIR}/src/*.h ${halfspace_SOURCE_DIR}/apps/*.cpp
@@ -234,10 +234,15 @@ function(halfspace_install_documents)
     COMMENT "Generating manual pages and completions" VERBATIM)
   add_custom_target(halfspace_documents ALL DEPENDS ${folder}/man/man1/halfspace.1)
   install(DIRECTORY ${folder}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT runtime)
-  install(DIRECTORY ${folder}/bash-completion ${folder}/fish ${folder}/zsh DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT runtime)
+  install(DIRECTORY ${folder}/bash-completion ${folder}/fish DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT runtime)
+  set(zsh_folder site-functions)
+  if(HALFSPACE_PORTABLE)
+    set(zsh_folder vendor-completions)  # Debian's zsh searches site-functions only below /usr/local
+  endif()
+  install(DIRECTORY ${folder}/zsh/site-functions/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder} COMPONENT runtime)
 endfunction()
 
-# Targets that build what is installed and nothing else: `installed` for everything, `isa` for the programs of a portable build.
+# Targets that build what is installed and nothing else: `installed` for everything, `isa` for what a portable build has once per instruction set.
 function(halfspace_add_install_targets)
   add_custom_target(isa)
   add_custom_target(installed)
@@ -251,7 +256,7 @@ function(halfspace_add_install_targets)
       add_dependencies(installed ${target})
     endif()
   endforeach()
-  foreach(target halfspace-program-cli halfspace-program-bench)
+  foreach(target halfspace-program-cli halfspace-program-bench halfspace_python)
     if(TARGET ${target})
       add_dependencies(isa ${target})
     endif()

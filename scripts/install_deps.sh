@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs the packages that halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing if all are installed.
 #
-#   scripts/install_deps.sh [--tests | --benchmarks]
+#   scripts/install_deps.sh [--tests | --benchmarks | --view]
 #     --tests       also installs the packages that the tests need, among them matplotlib, which draws charts
+#     --view        also installs the browser that tests the page of `halfspace explain`
 #     --benchmarks  also installs the packages that scripts/bench.sh needs
 set -euo pipefail
 
@@ -11,12 +12,14 @@ packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopen
 benchmark_packages=(libvulkan1)
 test_packages=(patch python3-jsonschema python3-matplotlib python3-pytest libgtest-dev libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri)
 document_packages=(doxygen man-db)
+view_packages=(chromium chromium-driver python3-selenium)
 
 case "${1:-}" in
   "") ;;
   --tests) packages+=("${test_packages[@]}" "${document_packages[@]}") ;;
+  --view) packages+=("${test_packages[@]}" "${document_packages[@]}" "${view_packages[@]}") ;;
   --benchmarks) packages+=("${test_packages[@]}" "${document_packages[@]}" "${benchmark_packages[@]}") ;;
-  *) echo "install_deps.sh: unknown argument '$1'; expected --tests, --benchmarks or nothing" >&2; exit 2 ;;
+  *) echo "install_deps.sh: unknown argument '$1'; expected --tests, --benchmarks, --view or nothing" >&2; exit 2 ;;
 esac
 
 fail() { echo "install_deps.sh: $*" >&2; exit 1; }

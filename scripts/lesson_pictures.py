@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the pictures of the lessons, and applies the changes that the lessons show to their programs.
 
-  scripts/lesson_pictures.py draw BUILD            builds and runs all programs and variants, and writes docs/tutorial/lessons/images
-  scripts/lesson_pictures.py check BUILD           the same, but compares with the pictures that are there
+  scripts/lesson_pictures.py draw BUILD            builds and runs all programs and variants, and writes docs/tutorial/lessons/images with
+                                                   `convert` of ImageMagick
+  scripts/lesson_pictures.py check BUILD           the same, but compares with the pictures that are there, with `halfspace compare`
   scripts/lesson_pictures.py write NAME VARIANT OUT  writes the source of one variant; CMake calls this
 
 A lesson shows changes to its program as diff blocks: "wrong" is the block in the section "What goes wrong without it" of the lesson, and
@@ -76,8 +77,9 @@ def write_png(picture, out):
     subprocess.run(["convert", str(picture), "-strip", "-define", "png:compression-level=9", f"png:{out}"], check=True)
 
 
-def draw(build, folder):
-    subprocess.run(["cmake", "--build", str(build), "--target", "lessons", "lesson-variants"], check=True, stdout=subprocess.DEVNULL)
+def pictures(build):
+    """Builds and runs all programs and variants. Yields the name of each picture in the lessons and the file that the program wrote."""
+    subprocess.run(["cmake", "--build", str(build), "--target", "lessons", "lesson-variants", "halfspace"], check=True, stdout=subprocess.DEVNULL)
     with tempfile.TemporaryDirectory() as temporary:
         for name in names():
             for variant in ("", *VARIANTS):
@@ -89,19 +91,23 @@ def draw(build, folder):
                 run = subprocess.run([str(program), str(picture)], stdout=subprocess.DEVNULL, check=False)
                 if run.returncode != 0 and variant != "wrong":
                     raise LessonError(f"{program.name} failed")
-                write_png(picture, folder / (f"{name[:2]}-{variant}.png" if variant else f"{name[:2]}.png"))
+                yield f"{name[:2]}-{variant}.png" if variant else f"{name[:2]}.png", picture
+
+
+def draw(build):
+    for name, picture in pictures(build):
+        write_png(picture, PAGES / "images" / name)
 
 
 def check(build):
-    with tempfile.TemporaryDirectory() as temporary:
-        draw(build, Path(temporary))
-        for path in sorted(Path(temporary).glob("*.png")):
-            if path.name == "11-wrong.png":  # its blocks are as wide as a register
-                continue
-            kept = PAGES / "images" / path.name
-            same = subprocess.run(["compare", "-metric", "AE", str(path), str(kept), "null:"], capture_output=True, check=False)
-            if same.returncode != 0:
-                raise LessonError(f"{kept.relative_to(ROOT)} is not what the program draws")
+    for name, picture in pictures(build):
+        if name == "11-wrong.png":  # its blocks are as wide as a register
+            continue
+        kept = PAGES / "images" / name
+        compare = [str(build / "bin" / "halfspace"), "compare", str(picture), str(kept), "--tolerance", "0"]
+        result = subprocess.run(compare, capture_output=True, text=True, check=False)
+        if result.returncode != 0:
+            raise LessonError(f"{kept.relative_to(ROOT)} is not what the program draws. {result.stderr.strip()}")
 
 
 def main(arguments):
@@ -109,7 +115,7 @@ def main(arguments):
         if len(arguments) == 4 and arguments[0] == "write" and arguments[2] in VARIANTS:
             Path(arguments[3]).write_text(source_of(arguments[1], arguments[2]), encoding="utf-8")
         elif len(arguments) == 2 and arguments[0] == "draw":
-            draw(Path(arguments[1]), PAGES / "images")
+            draw(Path(arguments[1]))
         elif len(arguments) == 2 and arguments[0] == "check":
             check(Path(arguments[1]))
         else:

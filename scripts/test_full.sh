@@ -6,17 +6,24 @@
 #     --resume    skips the steps that have passed for exactly these sources
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/install_deps.sh --tests
+scripts/install_deps.sh --view
 command -v clang++ > /dev/null || { echo "test_full.sh: clang++ is missing; install clang" >&2; exit 1; }
 
 export HALFSPACE_LONG_TESTS=1
 jobs=$(nproc)
+# build DIR "TARGET..." CMAKE_ARGUMENTS...    configures and builds. The result must be checked: set -e has no effect within steps.
+build() {
+  local dir=$1 targets=$2
+  mkdir -p "$dir"
+  # shellcheck disable=SC2086
+  { cmake -S . -B "$dir" -G Ninja "${@:3}" && cmake --build "$dir" ${targets:+--target $targets} -- -j "$jobs"; } > "$dir/build.log" 2>&1 && return
+  grep -E -m 20 'error|Error|FAILED' "$dir/build.log" || tail -20 "$dir/build.log"
+  return 1
+}
 # build_and_test NAME CMAKE_ARGUMENTS...
 build_and_test() {
   local dir=build/full/$1
-  shift
-  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_OPTIMIZE_TESTS=ON "$@" > /dev/null
-  cmake --build "$dir" -- -j "$jobs" > "$dir/build.log" 2>&1 || { grep -E 'error|FAILED' "$dir/build.log" | head -20; return 1; }
+  build "$dir" "" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_OPTIMIZE_TESTS=ON "${@:2}" || return 1
   run_tests "$dir"
 }
 # Runs whole test programs, one per core, because starting a program for each of thousands of tests under a sanitizer takes longer than the
@@ -36,24 +43,21 @@ sanitized() { build_and_test "$1" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_
 # Renders 100,000 blended points 100 times with 1, 2 and 64 threads; all images must have the same hash.
 blended_order() {
   local dir=build/full/gcc-native
-  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release > /dev/null
-  cmake --build "$dir" --target test-conformance -- -j "$jobs" > "$dir/build.log" 2>&1
+  build "$dir" test-conformance -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release || return 1
   HALFSPACE_RUNS=100 "$dir/bin/test-conformance" --gtest_filter='ConformanceOrder.*'
 }
 
 # Checks the guarantees of --max-error on 208 random views.
 random_views() {
   local dir=build/full/gcc-native
-  cmake -S . -B "$dir" -G Ninja -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release > /dev/null
-  cmake --build "$dir" --target test-reference -- -j "$jobs" > "$dir/build.log" 2>&1
+  build "$dir" test-reference -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release || return 1
   HALFSPACE_VIEWS=208 "$dir/bin/test-reference" --gtest_filter='MaxError.*'
 }
 
 # Feeds mutated model files to the readers, one minute per format, with AddressSanitizer and UBSan.
 fuzz() {
   local dir=build/full/fuzz format status=0
-  cmake -S . -B "$dir" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_FUZZ=ON -DHALFSPACE_BUILD_BENCHMARKS=OFF > /dev/null
-  cmake --build "$dir" --target fuzz -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  build "$dir" fuzz -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_FUZZ=ON -DHALFSPACE_BUILD_BENCHMARKS=OFF || return 1
   for format in obj gltf ply stl; do
     mkdir -p "$dir/corpus-$format"
     find ../shared/data -size -64k \( -name "*.$format" -o -name "*.${format/gltf/glb}" \) -exec cp -t "$dir/corpus-$format" {} + 2> /dev/null || true
@@ -67,38 +71,38 @@ fuzz() {
 # Builds the programs that the default target leaves out, and runs the tests of all benchmarks.
 benchmarks() {
   local dir=build/full/benchmarks
-  cmake -S . -B "$dir" -G Ninja -DCMAKE_BUILD_TYPE=Release > /dev/null
-  cmake --build "$dir" --target benchmarks test-bench -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  build "$dir" "benchmarks test-bench" -DCMAKE_BUILD_TYPE=Release || return 1
   "$dir/bin/test-bench" --gtest_brief=1
 }
 
 # Builds shared libraries, checks the list of their symbols, and uses them from a project outside of the tree.
 shared() {
   local dir=build/full/shared
-  cmake -S . -B "$dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF \
-    -DHALFSPACE_UNITY=OFF > /dev/null
-  cmake --build "$dir" --target installed -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  build "$dir" installed -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF \
+    -DHALFSPACE_UNITY=OFF || return 1
   python3 tests/consumer/exports_test.py "$dir/bin" && python3 tests/consumer/consumer_test.py "$dir" c++
 }
 
 # Builds the programs of packages for both instruction sets and tests which of them is selected.
 portable() {
-  local level
-  for level in v3 v4; do
-    cmake -S . -B "build/full/portable-$level" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_PORTABLE=ON -DHALFSPACE_ARCH=x86-64-$level \
-      -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF > /dev/null
-  done
-  cmake --build build/full/portable-v3 --target installed -- -j "$jobs" > build/full/portable-v3/build.log 2>&1 || return 1
-  cmake --build build/full/portable-v4 --target isa -- -j "$jobs" > build/full/portable-v4/build.log 2>&1 || return 1
+  local arguments=(-DCMAKE_BUILD_TYPE=Release -DHALFSPACE_PORTABLE=ON -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF)
+  build build/full/portable-v3 installed -DHALFSPACE_ARCH=x86-64-v3 "${arguments[@]}" || return 1
+  build build/full/portable-v4 isa -DHALFSPACE_ARCH=x86-64-v4 "${arguments[@]}" || return 1
   python3 tests/consumer/portable_test.py build/full/portable-v3 build/full/portable-v4
 }
 
 # Uses the installation of a native build from other projects, with the checks that are too long for every run.
 consumer() {
   local dir=build/full/consumer
-  cmake -S . -B "$dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF > /dev/null
-  cmake --build "$dir" --target installed -- -j "$jobs" > "$dir/build.log" 2>&1 || { tail -20 "$dir/build.log"; return 1; }
+  build "$dir" installed -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF || return 1
   python3 tests/consumer/consumer_test.py "$dir" c++
+}
+
+# Builds the programs of the lessons and their variants, and compares what they draw with the pictures of the lessons.
+lessons() {
+  local dir=build/full/gcc-native
+  build "$dir" "lessons lesson-variants halfspace" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release || return 1
+  scripts/lesson_pictures.py check "$dir"
 }
 
 declare -A steps
@@ -121,6 +125,7 @@ step without-embree    "build_and_test without-embree -DCMAKE_BUILD_TYPE=Release
 step shared            "shared"
 step portable          "portable"
 step consumer          "consumer"
+step lessons           "lessons"
 step fuzz              "fuzz"
 step benchmarks        "benchmarks"
 step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"

@@ -59,8 +59,11 @@ for release in "$@"; do
     cmake --build build > /dev/null; build/own_shader; build/scene /usr/lib/x86_64-linux-gnu/halfspace /root/scene.jpg'
   if ls "$use"/root/python3-halfspace_*.deb > /dev/null 2>&1; then
     in_root "$use" 'apt-get install -q -y --no-install-recommends /root/python3-halfspace_*.deb' >> "$roots/$release-use.log" 2>&1
-    in_root "$use" 'python3 -c "import halfspace; print(halfspace.render(\"moon\", size=(64, 36)).shape)"'
+    in_root "$use" 'python3 -c "import halfspace; print(halfspace._core.arch, halfspace.render(\"moon\", size=(64, 36)).shape)"
+      python3 -c "import halfspace; print(halfspace.render(\"earth\", size=(64, 36), set={\"earth.color\": \"/root/earth.jpg\"}).shape)"'
   fi
   echo "== $release: removing"
-  in_root "$use" 'apt-get purge -q -y "halfspace*" "libhalfspace*" "python3-halfspace*" > /dev/null 2>&1; find / -xdev -path /root -prune -o -path /proc -prune -o -name "*halfspace*" -print'
+  left=$(in_root "$use" 'apt-get purge -q -y "halfspace*" "libhalfspace*" "python3-halfspace*" > /root/purge.log 2>&1
+    find / -xdev -path /root -prune -o -path /proc -prune -o -name "*halfspace*" -print')
+  [ -z "$left" ] || { echo "try_packages.sh: files of the packages are left: $left" >&2; exit 1; }
 done

@@ -30,6 +30,7 @@ struct RenderArguments {
   std::string statistics;
   std::string max_error, max_error_color;  ///< if both are empty, the scene is rendered as it is
   std::string wireframe;                   ///< "lines", "hidden", or empty: surfaces
+  bool naive = false;  ///< draw with the naive pipeline
   bool resume = false;
   bool print = false;
   ModelArguments model;
@@ -40,6 +41,7 @@ void render_command(const RenderArguments& args);
 
 struct ExplainArguments {
   std::string scene;
+  std::string out;  ///< default: SCENE.html, or MODEL-explain.html
   std::string size = "640x360";
   std::vector<std::string> set;
   std::string camera, shading, time, threads;  ///< as in RenderArguments

@@ -33,6 +33,7 @@ std::string text_report(const CompareArguments& args, const Comparison& c) {
   const std::string psnr = std::isinf(d.psnr_db) ? "infinite" : fmt::format("{:.2f} dB", d.psnr_db);
   return fmt::format(
       "{} vs. {}, {}x{}, {}{}\n"
+      "differing    {} of {} pixels\n"
       "rmse         {:.6g}\n"
       "mean         {:.6g}\n"
       "psnr         {}\n"
@@ -40,8 +41,8 @@ std::string text_report(const CompareArguments& args, const Comparison& c) {
       "p99.9        {:.6g}\n"
       "above 1/255  {:.4f} %\n"
       "ssim         {:.6f}\n",
-      args.a, args.b, c.width, c.height, c.linear ? "linear light" : "8-bit codes / 255", d.channels == 4 ? ", with alpha" : "", d.rmse,
-      d.mean, psnr, d.max, d.p999, 100.0 * d.share_above, d.ssim);
+      args.a, args.b, c.width, c.height, c.linear ? "linear light" : "8-bit codes / 255", d.channels == 4 ? ", with alpha" : "",
+      d.differing, int64_t{c.width} * c.height, d.rmse, d.mean, psnr, d.max, d.p999, 100.0 * d.share_above, d.ssim);
 }
 
 std::string json_report(const CompareArguments& args, const Comparison& c) {
@@ -52,6 +53,7 @@ std::string json_report(const CompareArguments& args, const Comparison& c) {
                                  {"height", c.height},
                                  {"values", c.linear ? "linear" : "codes"},
                                  {"channels", d.channels},
+                                 {"differing_pixels", d.differing},
                                  {"rmse", d.rmse},
                                  {"mean", d.mean},
                                  {"psnr_db", nullptr},

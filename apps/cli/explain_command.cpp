@@ -6,14 +6,17 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <map>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
 #include "cli/frames.h"
+#include "cli/input_files.h"
 #include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
 #include "halfspace/core/check.h"
+#include "halfspace/image/atomic_output.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
@@ -33,10 +36,15 @@ std::optional<glm::ivec2> parse_pixel(const std::string& text, const PictureSize
   return glm::ivec2(x, y);
 }
 
-SceneFile open_explained_scene(const ExplainArguments& args, const PictureSize& size, SceneAssets& assets) {
+using Models = std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>>;
+
+SceneFile open_explained_scene(const ExplainArguments& args, const PictureSize& size, SceneAssets& assets, Models& models) {
   if (!args.model.turntable.empty()) throw UsageError("--turntable does not apply to explain; expected --yaw or --time");
   OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, 30.0);
-  if (opened.model != nullptr) assets.add_model(opened.model_file, opened.model);
+  if (opened.model != nullptr) {
+    assets.add_model(opened.model_file, opened.model);
+    models.emplace(opened.model_file, opened.model);
+  }
   const auto camera = opened.camera_names.find(args.camera);
   set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
   set_shading(opened.scene, args.shading);
@@ -51,6 +59,13 @@ PreparedScene prepare_explained(const SceneDescription& scene, const std::string
   }
 }
 
+// Throws OutputError if the page would replace a file that the scene reads.
+void protect_page_inputs(const SceneDescription& scene, const std::string& name, const Models& models, const std::filesystem::path& out) {
+  std::vector<std::filesystem::path> inputs = input_files(scene, models);
+  inputs.emplace_back(name);
+  refuse_overwriting(out, inputs);
+}
+
 void print_warning(const std::string& problem) {
   clear_progress();
   std::cerr << "halfspace: warning: " << problem << '\n';
@@ -62,20 +77,31 @@ void explain_command(const ExplainArguments& args) {
   set_limits(args.limits);
   const PictureSize size = parse_size(args.size);
   const std::optional<glm::ivec2> pixel = parse_pixel(args.pixel, size);
-  if (args.text == args.json) throw UsageError("expected one of --text and --json");
+  if (args.text && args.json) throw UsageError("--text and --json were both given; expected at most one of them");
+  const bool is_page = !args.text && !args.json;
+  if (!is_page && !args.out.empty()) throw UsageError("-o applies only to the page; expected it without --text and --json");
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
   const Workers workers(parse_threads(args.threads));
   check_picture(size, sizeof(glm::vec4));
+  const std::filesystem::path out = is_page ? page_path(args) : std::filesystem::path();
+  if (is_page) check_writable(out);
   std::string output;
   {
     const StageDisplay explaining("explaining " + args.scene);
     SceneAssets assets(workers, print_warning);
-    const SceneFile file = open_explained_scene(args, size, assets);
+    Models models;
+    const SceneFile file = open_explained_scene(args, size, assets, models);
     const SceneDescription scene = file.at(time);
+    if (is_page) protect_page_inputs(scene, args.scene, models, out);
     const PreparedScene prepared = prepare_explained(scene, file.source(), size, assets);
-    output = explained_history({scene, prepared, args.scene, pixel, {}, workers}, args.json);
+    const ExplainJob job{scene, prepared, pixel, explain_command_line(args, time), workers};
+    output = is_page ? page_of(job, args.scene) : args.json ? history_json(job) : history_text(job);
   }
-  std::cout << output;
+  if (!is_page) {
+    std::cout << output;
+    return;
+  }
+  write_file(out, std::as_bytes(std::span(output)));
 }
 
 }  // namespace halfspace

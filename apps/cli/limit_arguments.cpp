@@ -36,7 +36,7 @@ std::optional<uint64_t> parse_bytes(std::string_view text) {
 }  // namespace
 
 void set_limits(const LimitArguments& args) {
-  ResourceLimits limits;
+  ResourceLimits limits{.counts_resident = true};
   if (!args.memory.empty()) {
     const std::optional<uint64_t> bytes = parse_bytes(args.memory);
     if (!bytes || *bytes < kLeastMemory)

@@ -118,6 +118,7 @@ void add_render_command(CLI::App& program) {
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");
   command->add_flag("--wireframe{lines}", args->wireframe, "Edges only; =hidden: without edges behind faces")->group(kUnlistedGroup);
+  command->add_flag("--naive", args->naive, "Draw with plain loops, and compare")->group(kUnlistedGroup);
   add_output_options(command, args->output);
   add_model_options(command, args->model);
   add_limit_options(command, args->limits, kUnlistedGroup);
@@ -129,9 +130,10 @@ void add_render_command(CLI::App& program) {
 }
 
 void add_explain_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("explain", "Show what the pipeline did with the fragments of a pixel");
+  CLI::App* command = program.add_subcommand("explain", "Explain how a frame is made, as an HTML page");
   const auto args = std::make_shared<ExplainArguments>();
   command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")->required()->type_name("");
+  command->add_option("-o,--output", args->out, "Page (default SCENE.html)")->type_name("PAGE");
   command->add_option("--pixel", args->pixel, "From 0,0 at the upper left (default: most fragments)")->type_name("X,Y");
   command->add_flag("--text", args->text, "Print the history of the pixel as text");
   command->add_flag("--json", args->json, "Print the history of the pixel as JSON");
@@ -145,7 +147,7 @@ void add_explain_command(CLI::App& program) {
   add_limit_options(command, args->limits, kUnlistedGroup);
   command->footer(
       "Examples:\n"
-      "  halfspace explain earth --text\n"
+      "  halfspace explain earth -o earth.html\n"
       "  halfspace explain day-night --pixel 320,180 --json");
   command->callback([args] { explain_command(*args); });
 }

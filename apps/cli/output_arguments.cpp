@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "cli/errors.h"
 #include "halfspace/core/text.h"
+#include "halfspace/image/exr_header.h"
 
 namespace halfspace {
 
@@ -70,19 +72,36 @@ std::filesystem::path beside(const std::filesystem::path& picture, std::string_v
   return picture.parent_path() / fmt::format("{}-{}.exr", picture.stem().string(), what);
 }
 
+// Returns the name of channel k of a value, for example "normal.X".
+std::string channel_name(FrameValue value, std::size_t k) {
+  const ValueName& v = name_of(value);
+  return fmt::format("{}.{}", v.name, v.channels.empty() ? "id" : v.channels.substr(k, 1));
+}
+
+std::vector<std::string> channel_names(FrameValue value) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::max<std::size_t>(name_of(value).channels.size(), 1); ++k) names.push_back(channel_name(value, k));
+  return names;
+}
+
+bool has_channels(const std::filesystem::path& file, std::span<const FrameValue> values) {
+  const std::vector<std::string> present = exr_channel_names(file);
+  return std::ranges::all_of(values, [&](FrameValue value) {
+    return std::ranges::all_of(channel_names(value), [&](const std::string& name) { return std::ranges::count(present, name) > 0; });
+  });
+}
+
 // Adds the channels of a value, whose image has `count` 32-bit numbers per pixel.
 template <class T>
 void add_channels(std::vector<ExrChannel>& channels, FrameValue value, const Image<T>& image) {
-  const ValueName& name = name_of(value);
   constexpr std::size_t count = sizeof(T) / 4;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::string channel = name.channels.empty() ? "id" : std::string(1, name.channels[k]);
     const auto fill = [&image, k](int y, std::span<std::byte> row) {
       const auto* from = reinterpret_cast<const std::byte*>(image.row(y).data());
       for (std::size_t x = 0; x < static_cast<std::size_t>(image.width()); ++x)
         std::memcpy(row.data() + 4 * x, from + 4 * (x * count + k), 4);
     };
-    channels.push_back({fmt::format("{}.{}", name.name, channel), std::is_same_v<T, uint32_t> ? ExrSample::id : ExrSample::number, fill});
+    channels.push_back({channel_name(value, k), std::is_same_v<T, uint32_t> ? ExrSample::id : ExrSample::number, fill});
   }
 }
 
@@ -159,6 +178,16 @@ void ValueImages::write(const std::filesystem::path& path, const ImageText& text
 
 bool share_file(const OutputChoice& choice, const std::filesystem::path& picture) {
   return !choice.values.empty() && !choice.separate && image_file_of(picture) == ImageFile::exr;
+}
+
+bool has_values(const OutputChoice& choice, const std::filesystem::path& picture) {
+  if (share_file(choice, picture)) return has_channels(picture, choice.values);
+  const std::vector<std::filesystem::path> files = value_files(choice, picture);
+  if (!choice.separate) return files.empty() || has_channels(files[0], choice.values);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!has_channels(files[i], std::span(choice.values).subspan(i, 1))) return false;
+  }
+  return true;
 }
 
 std::vector<std::filesystem::path> value_files(const OutputChoice& choice, const std::filesystem::path& picture) {

@@ -57,11 +57,14 @@ class ValueImages {
   std::vector<AnyImage> images_;  // parallel to choice_.values
 };
 
-/// Returns whether the values are channels of the picture itself: if that is an OpenEXR file, unless separate files are wanted.
+/// Returns true if the values are stored as channels of the picture, which is so for OpenEXR files unless separate files are wanted.
 bool share_file(const OutputChoice& choice, const std::filesystem::path& picture);
 
 /// Returns the files of the values, next to the picture: NAME-aov.exr, or NAME-VALUE.exr for each value if separate files are wanted. Empty
 /// if there are no values or they are in the picture's own file.
 std::vector<std::filesystem::path> value_files(const OutputChoice& choice, const std::filesystem::path& picture);
+
+/// Returns whether the files of an earlier run have the channels of all values.
+bool has_values(const OutputChoice& choice, const std::filesystem::path& picture);
 
 }  // namespace halfspace

@@ -46,7 +46,7 @@ void render_files(const PreparedScene& scene, const PictureFiles& files, const W
   FrameImages images{.crop = files.choice.crop};
   bind(color, files, images);
   values.bind(images);
-  report.counts += render_frame(scene, images, workers);
+  report.counts += files.naive != nullptr ? draw_naive_picture(scene, images, workers, *files.naive) : render_frame(scene, images, workers);
   const double render_ms = milliseconds();
   values.write(files.picture, files.text);
   write(color, values, files);
@@ -56,11 +56,8 @@ void render_files(const PreparedScene& scene, const PictureFiles& files, const W
 }
 
 bool are_complete(const PictureFiles& files) {
-  const auto exists = [](const std::filesystem::path& file) {
-    std::error_code error;
-    return std::filesystem::exists(file, error);
-  };
-  if (!exists(files.picture) || !std::ranges::all_of(value_files(files.choice, files.picture), exists)) return false;
+  std::error_code error;
+  if (!std::filesystem::exists(files.picture, error) || !has_values(files.choice, files.picture)) return false;
   try {
     const auto fits = [&](const auto& picture) { return picture.width() == files.size.width && picture.height() == files.size.height; };
     return is_linear(files.format) ? fits(read_linear(files.picture)) : fits(read_image(files.picture));

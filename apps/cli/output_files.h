@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "cli/naive_picture.h"
 #include "cli/output_arguments.h"
 #include "cli/statistics.h"
 
@@ -17,6 +18,7 @@ struct PictureFiles {
   const OutputChoice& choice;
   PictureSize size;  ///< of the files: that of the crop, if there is one
   ImageText text;
+  NaiveReport* naive = nullptr;  ///< set: draw the picture with the naive pipeline, and add to this report
 };
 
 /// Renders the picture and its values, and writes them; the picture last. Adds times and counts to the report.

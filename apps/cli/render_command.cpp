@@ -26,6 +26,7 @@
 #include "halfspace/core/text.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
+#include "halfspace/render/naive_render.h"
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/render/wireframe.h"
 #include "halfspace/scene/scene_file.h"
@@ -110,6 +111,8 @@ RenderJob understand(const RenderArguments& args) {
   const OutputChoice output = parse_output(args.output, size, out, format);
   if (!output.values.empty() && !args.wireframe.empty())
     throw UsageError("--aov does not apply to --wireframe; expected only one of the two");
+  if (args.naive && (!output.values.empty() || output.crop))
+    throw UsageError("--naive draws whole pictures; expected it without --aov and --crop");
   check_picture(size, bytes_per_pixel(output, format));
   OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps);
   const auto camera = opened.camera_names.find(args.camera);
@@ -134,7 +137,12 @@ RenderJob understand(const RenderArguments& args) {
           args};
 }
 
-// Prepares the scene at a point in time. Adds the name of the scene to the messages of errors.
+// Throws InputError if the naive pipeline cannot draw the scene.
+void check_naive(const PreparedScene& scene, const SceneDescription& description) {
+  if (const std::string obstacle = naive_obstacle(scene, description); !obstacle.empty()) throw InputError(obstacle);
+}
+
+// Prepares the scene at a point in time. Adds the name of the scene to error messages.
 PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets, RenderReport& report) {
   SceneDescription scene = job.scene.at(seconds);
   try {
@@ -146,19 +154,21 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
     if (job.wireframe) scene.shadow.method = ShadowMethod::none;
     PreparedScene prepared = assets.prepare(scene, job.size.width, job.size.height);
     if (job.wireframe) report.spheres_without_wireframe |= make_wireframe(prepared, scene, *job.wireframe);
+    if (job.arguments.naive) check_naive(prepared, scene);
     return prepared;
   } catch (const InputError& e) {
     throw InputError(job.scene.source() + ": " + e.what());
   }
 }
 
-PictureFiles files_of(const RenderJob& job, double seconds, const std::filesystem::path& path) {
+PictureFiles files_of(const RenderJob& job, double seconds, const std::filesystem::path& path, NaiveReport* naive = nullptr) {
   const std::optional<ImageRect>& crop = job.output.crop;
   return {path,
           job.format,
           job.output,
           crop ? PictureSize{crop->width, crop->height} : job.size,
-          {.software = "Halfspace " HALFSPACE_VERSION, .comment = render_comment(job.arguments, seconds)}};
+          {.software = "Halfspace " HALFSPACE_VERSION, .comment = render_comment(job.arguments, seconds)},
+          naive};
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -178,7 +188,7 @@ void render_picture(const RenderJob& job, double seconds, const std::filesystem:
   report.shadow_ms += shadow_ms;
   report.prepare_ms += prepared_ms - shadow_ms - scene.images_ms;
   report.render_ms += prepared_ms;
-  render_files(scene, files_of(job, seconds, path), workers, report);
+  render_files(scene, files_of(job, seconds, path, job.arguments.naive ? &report.naive : nullptr), workers, report);
 }
 
 // Returns the scene, including the settings that --max-error chooses.
@@ -225,9 +235,10 @@ RenderReport run(const RenderJob& job) {
   return report;
 }
 
-// Returns the frame number in a file name such as "moon_0007" or "moon_0007-aov", if there is one.
-std::optional<int> frame_in(const std::string& name) {
-  const std::string end = name.substr(name.find_last_of('_') + 1);
+// Returns the frame number in a file name such as "moon_0007" or "moon_0007-camera_normal", if the output is "moon".
+std::optional<int> frame_in(const std::string& name, const std::string& output) {
+  if (!name.starts_with(output + "_")) return std::nullopt;
+  const std::string end = name.substr(output.size() + 1);
   const int number = parse_number(end.substr(0, end.find('-')));
   return number < 0 ? std::nullopt : std::optional(number);
 }
@@ -254,7 +265,7 @@ void protect_inputs(const RenderJob& job, const std::string& scene) {
   };
   if (!job.frames) return check(job.out);
   for (const std::filesystem::path& input : inputs) {
-    const std::optional<int> frame = frame_in(input.stem().string());
+    const std::optional<int> frame = frame_in(input.stem().string(), job.out.stem().string());
     if (frame && *frame >= job.frames->first && *frame <= job.frames->last) check(frame_path(job.out, *frame, *job.frames));
   }
 }
@@ -276,6 +287,9 @@ void render_command(const RenderArguments& args) {
   RenderReport report = run(job);
   report.read_ms = read_ms;
   if (report.spheres_without_wireframe) warn("spheres that are not meshes have no wireframe; they are drawn as surfaces");
+  // If the image goes to standard output, print the reports to standard error.
+  std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;
+  if (args.naive && report.naive.pixels > 0) out << naive_line(report.naive, job.threads);
   if (args.statistics.empty()) return;
   report.scene = args.scene;
   report.output = job.out.string();
@@ -283,8 +297,6 @@ void render_command(const RenderArguments& args) {
   report.width = size.width;
   report.height = size.height;
   report.threads = job.threads;
-  // If the image goes to standard output, print the report to standard error.
-  std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;
   out << (args.statistics == "json" ? json_report(report) : text_report(report));
 }
 

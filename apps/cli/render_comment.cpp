@@ -11,22 +11,27 @@ namespace halfspace {
 
 namespace {
 
-// Removes the folders of a path, and quotes text that a shell would split.
-std::string shown(const std::string& text) {
-  const std::string name = text.substr(text.find_last_of("/\\") + 1);
-  const bool is_plain = !name.empty() && std::ranges::all_of(name, [](char c) {
+// Quotes text that a shell would split or change. Image formats do not store control characters, so they become question marks.
+std::string quoted(const std::string& text) {
+  const bool is_plain = !text.empty() && std::ranges::all_of(text, [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           std::string_view("._-+,:#%@").find(c) != std::string_view::npos;
+           std::string_view("._-+,:#%@/").find(c) != std::string_view::npos;
   });
-  return is_plain ? name : fmt::format("'{}'", name);
+  if (is_plain) return text;
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, (c >= 0 && c < ' ') || c == 0x7f ? '?' : c);
+  return result + "'";
 }
+
+// The same for a file, without its folders.
+std::string quoted_file(const std::string& file) { return quoted(file.substr(file.find_last_of("/\\") + 1)); }
 
 }  // namespace
 
 std::string render_comment(const RenderArguments& args, double seconds) {
-  std::string line = "halfspace render " + shown(args.scene);
+  std::string line = "halfspace render " + quoted_file(args.scene);
   const auto add = [&](const char* option, const std::string& value) {
-    if (!value.empty()) line += fmt::format(" {} {}", option, shown(value));
+    if (!value.empty()) line += fmt::format(" {} {}", option, quoted(value));
   };
   const auto add_flag = [&](const char* option, bool given) {
     if (given) line += fmt::format(" {}", option);
@@ -34,7 +39,7 @@ std::string render_comment(const RenderArguments& args, double seconds) {
   add("--size", args.size);
   for (const std::string& setting : args.set) {
     const std::size_t equals = setting.find('=');
-    line += fmt::format(" --set {}={}", setting.substr(0, equals), shown(setting.substr(equals + 1)));
+    line += fmt::format(" --set {}={}", setting.substr(0, equals), quoted_file(setting.substr(equals + 1)));
   }
   add("--camera", args.camera);
   add("--shading", args.shading);
@@ -52,13 +57,13 @@ std::string render_comment(const RenderArguments& args, double seconds) {
                                                                 {"--look-at", &m.look_at},
                                                                 {"--up", &m.up},
                                                                 {"--turntable", &m.turntable},
-                                                                {"--environment", &m.environment},
                                                                 {"--background", &m.background},
                                                                 {"--up-axis", &m.up_axis},
                                                                 {"--scene", &m.model_scene},
                                                                 {"--animation", &m.animation},
                                                                 {"--variant", &m.variant}};
   for (const auto& [option, value] : options) add(option, *value);
+  if (!m.environment.empty()) line += " --environment " + quoted_file(m.environment);
   if (!m.turntable.empty()) add("--fps", args.fps);
   if (!args.wireframe.empty()) line += args.wireframe == "hidden" ? " --wireframe=hidden" : " --wireframe";
   add_flag("--inside", m.inside);

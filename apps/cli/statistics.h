@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/naive_picture.h"
 #include "halfspace/raster/statistics.h"
 #include "halfspace/render/model/model_choice.h"
 
@@ -22,6 +23,7 @@ struct RenderReport {
   double write_ms = 0;    ///< encoding and writing the images
   PassStatistics counts;
   bool spheres_without_wireframe = false;
+  NaiveReport naive;               ///< of --naive
   std::vector<ModelChoice> choices;  ///< settings chosen by --max-error for the last image
 };
 

@@ -15,7 +15,8 @@ struct Color {
   double red, green, blue;  // 0 to 1
 };
 
-// Twice the signed area of the triangle a, b, p. It is positive if p is to the right of the line from a to b, as seen in the image.
+// Twice the signed area of the triangle a, b, p. It is positive if p is to the right of the line for someone who goes from a to b in the
+// image, in which y points down.
 double edge(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
 uint8_t code_of(double value) { return static_cast<uint8_t>(255.0 * std::clamp(value, 0.0, 1.0) + 0.5); }
@@ -25,14 +26,14 @@ int main(int argc, char** argv) {
   const Color red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
   std::vector<uint8_t> image(3 * kWidth * kHeight, 30);
 
-  const double area = edge(a, b, c);
+  const double twice_area = edge(a, b, c);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const Point center{x + 0.5, y + 0.5};
-      // The edge function of the edge opposite a vertex, divided by the area, is the weight of that vertex: its barycentric coordinate.
-      const double wa = edge(b, c, center) / area;
-      const double wb = edge(c, a, center) / area;
-      const double wc = edge(a, b, center) / area;
+      // The weight of a vertex comes from the edge opposite to it. The three weights are the barycentric coordinates of the center.
+      const double wa = edge(b, c, center) / twice_area;
+      const double wb = edge(c, a, center) / twice_area;
+      const double wc = edge(a, b, center) / twice_area;
       if (wa < 0 || wb < 0 || wc < 0) continue;
       uint8_t* pixel = &image[3 * static_cast<std::size_t>(y * kWidth + x)];
       pixel[0] = code_of(wa * red.red + wb * green.red + wc * blue.red);

@@ -24,12 +24,12 @@ struct Image {
 };
 
 void draw(Image& image, const Triangle& t) {
-  const double area = edge(t.a, t.b, t.c.x, t.c.y);
+  const double twice_area = edge(t.a, t.b, t.c.x, t.c.y);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const double wa = edge(t.b, t.c, x + 0.5, y + 0.5) / area;
-      const double wb = edge(t.c, t.a, x + 0.5, y + 0.5) / area;
-      const double wc = edge(t.a, t.b, x + 0.5, y + 0.5) / area;
+      const double wa = edge(t.b, t.c, x + 0.5, y + 0.5) / twice_area;
+      const double wb = edge(t.c, t.a, x + 0.5, y + 0.5) / twice_area;
+      const double wc = edge(t.a, t.b, x + 0.5, y + 0.5) / twice_area;
       if (wa < 0 || wb < 0 || wc < 0) continue;
       const double depth = wa * t.a.depth + wb * t.b.depth + wc * t.c.depth;
       const auto i = static_cast<std::size_t>(y * kWidth + x);
@@ -43,12 +43,12 @@ void draw(Image& image, const Triangle& t) {
 }
 
 int main(int argc, char** argv) {
-  // Each bar is in front of the next one at one end and behind it at the other, so no order of drawing is correct.
+  // Each bar is in front of the next one, and the last is in front of the first, so no order of drawing is correct.
   const Triangle bars[]{
-      {{20, 60, 0.2}, {300, 80, 0.8}, {20, 100, 0.2}, 230, 90, 60},
-      {{210, 15, 0.2}, {250, 15, 0.2}, {190, 225, 0.8}, 90, 180, 90},
-      {{300, 160, 0.2}, {300, 200, 0.2}, {20, 140, 0.8}, 80, 120, 220},
       {{70, 225, 0.2}, {110, 225, 0.2}, {120, 15, 0.8}, 230, 200, 70},
+      {{300, 160, 0.2}, {300, 200, 0.2}, {20, 140, 0.8}, 80, 120, 220},
+      {{210, 15, 0.2}, {250, 15, 0.2}, {190, 225, 0.8}, 90, 180, 90},
+      {{20, 60, 0.2}, {300, 80, 0.8}, {20, 100, 0.2}, 230, 90, 60},
   };
   Image image;
   for (const Triangle& bar : bars) draw(image, bar);

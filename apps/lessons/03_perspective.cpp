@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 3: perspective divides by the distance, and varyings must be interpolated accordingly. Uses no library.
+// Lesson 3: perspective divides by the distance, and values at vertices must be interpolated accordingly. Uses no library.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,32 +15,32 @@ struct Vertex {
   double u, v;     // position on the floor, in tiles
 };
 struct Projected {
-  double x, y;  // pixels from the upper left corner of the image
-  double w;     // distance along the view axis
+  double x, y;      // pixels from the upper left corner of the image
+  double distance;  // along the view axis
   double u, v;
 };
 
 Projected project(const Vertex& p) {
-  const double w = -p.z;
-  const double x = kFocal * kHeight / kWidth * p.x / w, y = kFocal * p.y / w;  // -1 to 1 within the image
-  return {(x + 1) * 0.5 * kWidth, (1 - y) * 0.5 * kHeight, w, p.u, p.v};
+  const double distance = -p.z;
+  const double x = kFocal * kHeight / kWidth * p.x / distance, y = kFocal * p.y / distance;  // -1 to 1 within the image
+  return {(x + 1) * 0.5 * kWidth, (1 - y) * 0.5 * kHeight, distance, p.u, p.v};              // y points down in the image
 }
 
 double edge(const Projected& a, const Projected& b, double x, double y) { return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x); }
 
 void draw(std::vector<uint8_t>& image, const Projected& a, const Projected& b, const Projected& c) {
-  const double area = edge(a, b, c.x, c.y);
+  const double twice_area = edge(a, b, c.x, c.y);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      double wa = edge(b, c, x + 0.5, y + 0.5) / area;
-      double wb = edge(c, a, x + 0.5, y + 0.5) / area;
-      double wc = edge(a, b, x + 0.5, y + 0.5) / area;
+      const double wa = edge(b, c, x + 0.5, y + 0.5) / twice_area;
+      const double wb = edge(c, a, x + 0.5, y + 0.5) / twice_area;
+      const double wc = edge(a, b, x + 0.5, y + 0.5) / twice_area;
       if (wa < 0 || wb < 0 || wc < 0) continue;
-      // u/w, v/w and 1/w are linear in the image, u and v are not.
-      wa /= a.w, wb /= b.w, wc /= c.w;
-      const double sum = wa + wb + wc;
-      const double u = (wa * a.u + wb * b.u + wc * c.u) / sum;
-      const double v = (wa * a.v + wb * b.v + wc * c.v) / sum;
+      // u/distance, v/distance and 1/distance are linear in the image; u and v are not.
+      const double qa = wa / a.distance, qb = wb / b.distance, qc = wc / c.distance;
+      const double sum = qa + qb + qc;  // 1/distance of the pixel
+      const double u = (qa * a.u + qb * b.u + qc * c.u) / sum;
+      const double v = (qa * a.v + qb * b.v + qc * c.v) / sum;
       const bool dark = (static_cast<int>(std::floor(u)) + static_cast<int>(std::floor(v))) % 2 != 0;
       uint8_t* pixel = &image[3 * static_cast<std::size_t>(y * kWidth + x)];
       pixel[0] = dark ? 40 : 230;

@@ -34,7 +34,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   bool json = false;
   program.add_option("--threads", threads_text, "Threads, including the main one (default: one per core)")->type_name("N");
   program.add_option("--seconds", seconds_text, "Duration of a trial (default: 0.03)")->type_name("S");
-  program.add_flag("--json", json, "Print one JSON object per line for each limit");
+  program.add_flag("--json", json, "Print each limit as a JSON object on its own line");
   program.footer(
       "Each figure is the best of 15 trials and the total of all threads.\n"
       "Examples:\n"

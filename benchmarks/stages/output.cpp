@@ -53,7 +53,7 @@ struct CurveStep {
   }
 };
 
-// Applies a tone curve, followed by the exact sRGB encoding in the store.
+// Applies a tone curve, followed by the exact sRGB encoding of the target.
 void tone(benchmark::State& state, ToneCurve curve) {
   Image<glm::u8vec4> shown(kStageSize.width, kStageSize.height);
   measure_post(state, CurveStep{{.curve = curve}}, srgb8a8_target(shown));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Passes that draw arrays with the shaders of the library. The variants of the shaders are those of scenes, which are compiled already.
+// Passes that draw arrays with the shaders of the library. They use the shader variants of scenes, which are already compiled.
 #include <algorithm>
 #include <array>
 #include <cstring>

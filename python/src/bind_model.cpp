@@ -171,7 +171,7 @@ void bind_model(py::module_& m) {
         const py::gil_scoped_release release;
         return make_model(std::move(mesh), materials, crease_degrees);
       }))
-      // Indices of the triangles into the vertices that are drawn, which are more than those given where normals or tangents differ.
+      // The number of vertices that are drawn. Vertices are split where normals or tangents differ, so there can be more than were given.
       .def("vertex_count", [](const ModelAsset& self) { return self.model.meshes[0].positions.size(); });
 }
 

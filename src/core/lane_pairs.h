@@ -64,7 +64,7 @@ struct MaskPair {
   }
 };
 
-/// Integers that belong to a RealPair<H>.
+/// The integer counterpart of RealPair<H>.
 template <class H>
 struct IntPair {
   using Half = IntOf<H>;
@@ -180,7 +180,7 @@ HS_INLINE auto& half(T& pair) {
   }
 }
 
-/// The number type of fragment shading: two packets of the lanes of this build.
+/// The number type of fragment shading: two SIMD packets of the width of this build.
 using FragmentReal = RealPair<Real>;
 
 template <class H>

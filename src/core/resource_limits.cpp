@@ -25,8 +25,9 @@ LimitState& limit_state() {
   return state;
 }
 
-// Returns the resident memory of this process in bytes, or 0 if the system does not tell.
-uint64_t resident_memory() {
+// Returns the resident memory of this process in bytes if it counts; otherwise, or if the system does not tell, 0.
+uint64_t counted_resident_memory() {
+  if (!resource_limits().counts_resident) return 0;
   std::ifstream file("/proc/self/statm");
   uint64_t size = 0, resident = 0;
   file >> size >> resident;
@@ -62,14 +63,14 @@ void set_resource_limits(const ResourceLimits& limits) {
 }
 
 uint64_t memory_left() {
-  const uint64_t resident = resident_memory();
+  const uint64_t resident = counted_resident_memory();
   LimitState& state = limit_state();
   const std::lock_guard lock(state.mutex);
   return left(state, resident);
 }
 
 MemoryClaim::MemoryClaim(uint64_t bytes, const std::string& place) : bytes_(bytes) {
-  const uint64_t resident = resident_memory();
+  const uint64_t resident = counted_resident_memory();
   LimitState& state = limit_state();
   const std::lock_guard lock(state.mutex);
   if (bytes > left(state, resident)) {

@@ -19,8 +19,11 @@ class LimitError : public InputError {
 
 /// Limits of this process.
 struct ResourceLimits {
-  uint64_t max_memory = default_max_memory();  ///< bytes of memory in use, all files together
+  uint64_t max_memory = default_max_memory();  ///< bytes, all files together
   uint64_t max_pixels = kMostPixels;           ///< in one image
+  /// Whether max_memory also covers the resident memory of the process. Programs set this; in a library, most of that memory may belong to
+  /// the host.
+  bool counts_resident = false;
 
   static constexpr uint64_t kMostPixels = uint64_t{1} << 28;
   /// Returns half of the memory of the machine, but at most 8 GiB.
@@ -33,14 +36,15 @@ ResourceLimits resource_limits();
 /// Sets the limits for files that are read from now on. max_pixels must be at most kMostPixels. Thread-safe.
 void set_resource_limits(const ResourceLimits& limits);
 
-/// Returns how many bytes may still be allocated: max_memory minus the resident memory of the process and the claims of other threads.
+/// Returns how many bytes may still be allocated: max_memory minus the claims of all threads and, with counts_resident, the resident memory
+/// of the process.
 uint64_t memory_left();
 
 /// Reserves memory that is about to be allocated and filled, so that threads that load files in parallel do not exceed the limit together.
-/// Release it when the memory has been filled: then the operating system counts it.
+/// Release it when the memory has been filled: then it counts as resident.
 class MemoryClaim {
  public:
-  /// Throws LimitError, which begins with `place`, if the memory is not available.
+  /// Throws LimitError, whose message begins with `place`, if the memory is not available.
   MemoryClaim(uint64_t bytes, const std::string& place);
   ~MemoryClaim();
   MemoryClaim(const MemoryClaim&) = delete;
@@ -50,7 +54,7 @@ class MemoryClaim {
   uint64_t bytes_;
 };
 
-/// Throws LimitError, which begins with `place`, if an image has more pixels than permitted.
+/// Throws LimitError, whose message begins with `place`, if an image has more pixels than permitted.
 void check_pixel_limit(uint64_t width, uint64_t height, const std::string& place);
 
 }  // namespace halfspace

@@ -6,7 +6,6 @@
 
 namespace halfspace {
 
-// Computes the optimal string alignment distance. Only three rows of the table of prefix distances are kept.
 bool has_word(std::string_view text, std::string_view word) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(' '), text.size());
@@ -16,6 +15,7 @@ bool has_word(std::string_view text, std::string_view word) {
   return false;
 }
 
+// Computes the optimal string alignment distance. Only three rows of the table of prefix distances are kept.
 int edit_distance(std::string_view a, std::string_view b) {
   const std::size_t n = b.size();
   std::vector<int> before(n + 1), last(n + 1), row(n + 1);

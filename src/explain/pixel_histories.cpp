@@ -6,6 +6,7 @@
 
 #include "halfspace/explain/fragment_values.h"
 #include "halfspace/explain/pixel_history.h"
+#include "halfspace/render/frame.h"
 #include "halfspace/render/scene_pass.h"
 #include "halfspace/shading/tone.h"
 
@@ -118,7 +119,7 @@ std::vector<PixelHistory> pixel_histories(const SceneDescription& scene, const P
                                           std::span<const glm::ivec2> pixels, const Workers& workers) {
   const DetailFinder finder(scene, prepared, trace);
   Image<glm::u8vec4> picture(trace.width, trace.height);
-  display_light(prepared, trace.light, trace.exposure, picture, workers);
+  display_frame(prepared, trace.light, {.picture = &picture}, workers);
   std::vector<PixelHistory> out(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const glm::ivec2& p = pixels[i];

@@ -28,10 +28,10 @@ namespace halfspace {
 /// Whether the vertex normals of a displaced sphere are computed from the displaced surface or, for comparison, the undisplaced sphere.
 enum class ReliefNormals { displaced, undisplaced };
 
-/// Returns the mesh of uv_sphere, with the same vertices, texture coordinates and triangles in the same order, displaced by g. g
-/// has the unit of `radius`, and r + g must stay positive. Normals are computed from the smooth surface; tangents point along P'u. Each
-/// pole has a single height, the mean over its vertices, and keeps the tangent frame of the sphere. Positions and normals on both
-/// sides of the seam are bit-identical. Pass a field filtered to `longitudes`.
+/// Returns the mesh of uv_sphere displaced by g. Vertices, texture coordinates and triangles have the same order. g is in the units of
+/// `radius`, and r + g must stay positive. Normals are computed from the smooth surface; tangents point along P'u. Each pole has a single
+/// height, the mean over its vertices, and keeps the tangent frame of the sphere. Positions and normals on both sides of the seam are
+/// bit-identical. The field should be filtered to `longitudes` columns.
 Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const HeightField& field, double height_scale, double zero_level,
                          const Workers& workers, ReliefNormals normals = ReliefNormals::displaced);
 

@@ -123,6 +123,7 @@ ImageDifference compare(const Image<Texel>& a, const Image<Texel>& b) {
   d.rmse = std::sqrt(squares / (count * d.channels));
   d.psnr_db = d.rmse > 0.0 ? -20.0 / std::numbers::ln10 * log(d.rmse) : std::numeric_limits<double>::infinity();
   d.share_above = static_cast<double>(std::ranges::count_if(largest, [](double e) { return e > 1.0 / 255.0; })) / count;
+  d.differing = std::ranges::count_if(largest, [](double e) { return e > 0.0; });
   d.max = std::ranges::max(largest);
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.999 * count)) - 1;
   std::ranges::nth_element(largest, largest.begin() + rank);

@@ -3,6 +3,7 @@
 // Measures the difference between two images, as numbers and as an image.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "halfspace/core/image.h"
@@ -12,6 +13,7 @@ namespace halfspace {
 /// Differences over red, green and blue, and over alpha unless both images are fully opaque. 8-bit codes count as code/255.
 struct ImageDifference {
   int channels = 3;
+  int64_t differing = 0;     ///< pixels with a channel that differs at all
   double rmse = 0.0;         ///< root of the mean squared difference, over all channels
   double mean = 0.0;         ///< mean absolute difference
   double psnr_db = 0.0;      ///< 20·log10(1/rmse); infinite for identical images

@@ -30,7 +30,7 @@ class ImageSource {
   /// The format, or nothing for PNG.
   const std::optional<ToolFormat>& tool_format() const { return tool_format_; }
 
-  /// Returns the whole file. Valid as long as this object.
+  /// Returns the whole file. Valid as long as this object exists.
   std::span<const std::byte> bytes();
   /// Returns an open descriptor of the whole file, which this object closes.
   int descriptor();

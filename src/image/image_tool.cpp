@@ -199,6 +199,8 @@ std::vector<std::filesystem::path> tool_folders() {
   if (folder.empty()) return {};
   // The loader selects a library for the processor in LIB/glibc-hwcaps/LEVEL.
   if (folder.parent_path().filename() == "glibc-hwcaps") folder = folder.parent_path().parent_path();
+  // The Python module of a package has one extension per instruction set, in halfspace/LEVEL.
+  if (folder.filename() == "x86-64-v3" || folder.filename() == "x86-64-v4") folder = folder.parent_path();
   // An installed Python module is in PREFIX/lib/python3/dist-packages/halfspace or PREFIX/lib/python3.N/site-packages/halfspace.
   const std::filesystem::path parent = folder.parent_path().filename();
   const bool is_python = parent == "dist-packages" || parent == "site-packages";

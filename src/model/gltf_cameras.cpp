@@ -28,7 +28,7 @@ void read_perspective(const GltfDocument& document, const GltfValue& json, Model
 void read_orthographic(const GltfDocument& document, const GltfValue& json, ModelCamera& camera) {
   camera.perspective = false;
   camera.height = 2.0 * std::abs(document.number(json, "ymag"));
-  if (camera.height == 0.0) document.fail(json, "ymag", "is 0; expected another number");
+  if (camera.height == 0.0) document.fail(json, "ymag", "is 0; expected a nonzero number");
   camera.near = document.number(json, "znear");
   camera.far = document.number(json, "zfar");
 }

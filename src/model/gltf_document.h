@@ -66,7 +66,7 @@ class GltfDocument {
   /// Returns an index in a list of `size` items; −1 if it is missing.
   int index(const GltfValue& object, const char* key, std::size_t size) const;
   int required_index(const GltfValue& object, const char* key, std::size_t size) const;
-  /// Returns a list of different indices.
+  /// Returns a list of indices, each of which may occur only once.
   std::vector<int> indices(const GltfValue& object, const char* key, std::size_t size) const;
   /// Returns the value of an array item that must be an index.
   int index_value(const GltfValue& value, std::size_t size) const;
@@ -79,7 +79,8 @@ class GltfDocument {
   [[noreturn]] void fail(const GltfValue& object, std::string_view key, std::string_view problem) const;
   /// Adds a warning, unless there is an equal one.
   void warn(const std::string& text);
-  /// Adds a warning about a member of an object. After many of these, no more are added, because finding a place takes time.
+  /// Adds a warning about a member of an object. After many of these, no more are added, because locating the object in the file takes
+  /// time.
   void warn_at(const GltfValue& object, std::string_view key, std::string_view problem);
   /// Accounts for memory that `value` needs. Memory is not returned, so that the limit also bounds the time. Throws InputError if there
   /// is not enough left.

@@ -25,6 +25,8 @@ std::size_t bytes_per_vertex(const ModelMesh& mesh) {
   for (const MorphTarget& target : mesh.targets) {
     bytes += sizeof(glm::vec3) * static_cast<std::size_t>(!target.positions.empty() + !target.normals.empty() + !target.tangents.empty());
   }
+  if (!mesh.joints.empty()) bytes += sizeof mesh.joints[0];
+  if (!mesh.more_joints.empty()) bytes += sizeof mesh.more_joints[0] + sizeof mesh.more_weights[0];
   return bytes;
 }
 

@@ -55,6 +55,7 @@ int GltfOutput::joint_accessor(const std::vector<std::array<uint16_t, 4>>& value
 }
 
 void GltfOutput::set_bounds(int accessor, std::span<const float> values, int width) {
+  if (values.empty()) return;
   const auto components = static_cast<std::size_t>(width);
   std::vector<float> low(values.begin(), values.begin() + width), high = low;
   for (std::size_t i = 0; i < values.size(); ++i) {

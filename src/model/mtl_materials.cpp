@@ -16,7 +16,6 @@ namespace {
 
 constexpr float kDefaultGray = 0.8f, kDefaultRoughness = 0.6f;
 constexpr float kMinIor = 1.1f, kMaxIor = 4.0f;
-constexpr double kBumpHeight = 0.01;  // of the diagonal
 
 constexpr std::string_view kMapNames[kMtlMaps] = {"map_Kd",     "map_Ks", "map_Ns", "map_Ke", "map_d",  "bump map",
                                                   "normal map", "map_Pr", "map_Pm", "map_Pc", "map_Pcr"};
@@ -141,7 +140,7 @@ void MtlConverter::convert_reflection(const MtlMaterial& mtl, ModelMaterial& mat
 void MtlConverter::convert_relief(const MtlMaterial& mtl, ModelMaterial& material) {
   material.normal_map = texture(mtl, MtlMap::norm);
   material.bump_map = texture(mtl, MtlMap::bump);
-  material.bump_scale = static_cast<float>(kBumpHeight * diagonal_) * mtl.map(MtlMap::bump).bump_multiplier;
+  material.bump_scale = static_cast<float>(kMtlBumpHeight * diagonal_) * mtl.map(MtlMap::bump).bump_multiplier;
 }
 
 int MtlConverter::image(const MtlMaterial& mtl, MtlMap which) {

@@ -34,6 +34,9 @@ struct ModelMaterial;
 struct ReadModelOptions;
 struct TextureUse;
 
+/// Height of the value 1 in a bump map without -bm, as a fraction of the diagonal of the model's bounds.
+inline constexpr double kMtlBumpHeight = 0.01;
+
 /// The material of elements without one, or whose material is not defined: roughness 0.6 and 0.8 gray, or white for vertex colors.
 ModelMaterial default_mtl_material(bool vertex_colors);
 

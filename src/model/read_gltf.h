@@ -12,9 +12,9 @@ namespace halfspace {
 /// Returns whether a file is a binary glTF file, by its first four bytes.
 bool is_glb(std::span<const std::byte> bytes);
 
-/// Reads a glTF 2.0 file, text or binary, whose contents are `bytes`, and the buffers that it refers to. Images are only located.
-/// Primitives without material get the default material of glTF. Throws InputError "FILE: PLACE: problem; expected ...", where PLACE is the
-/// path of the value in the file, for example "accessors[3].count".
+/// Reads a glTF 2.0 file, text or binary, whose contents are `bytes`, and the buffers that it refers to. Images are located but not read.
+/// Primitives without a material get the default material of glTF. Throws InputError "FILE: PLACE: problem; expected ...", where PLACE is
+/// the path of the value in the file, for example "accessors[3].count".
 Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options);
 
 }  // namespace halfspace

@@ -133,7 +133,7 @@ Model model_of(PlyContents ply, const std::filesystem::path& file, const ReadMod
   const auto warn = [&](std::ptrdiff_t count, std::string_view what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}; left out", count, what));
   };
-  warn(std::ranges::count_if(ply.positions, [](const glm::dvec3& p) { return !is_finite(p); }), "vertices without finite coordinates");
+  warn(std::ranges::count_if(ply.positions, [](const glm::dvec3& p) { return !is_finite(p); }), "vertices whose coordinates are not finite");
   ModelMesh mesh;
   set_positions(mesh, ply.positions);
   ignore_zero_opacity(ply.colors, warnings);

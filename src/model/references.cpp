@@ -111,7 +111,7 @@ std::optional<fs::path> References::search(std::string_view name, std::string_vi
     }
   }
   if (outside && !allow_outside_) {
-    warn("is outside the folder of the model and not opened; --allow-outside permits it");
+    warn("is outside the folder of the model and was not opened; use --allow-outside to allow it");
   } else {
     warn("does not exist");
   }

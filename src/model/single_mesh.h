@@ -14,7 +14,7 @@ namespace halfspace {
 
 bool is_finite(const glm::dvec3& v);
 
-/// Sets the origin of the mesh to the center of the bounds of the finite positions, and its positions to the rounded differences from it.
+/// Sets the origin of the mesh to the center of the bounds of the finite positions. Stores the positions relative to it, rounded to float.
 /// Positions that are not finite become the origin. Throws InputError without a place if no position is finite, or if the coordinates are
 /// so large that squares of floats would overflow.
 void set_positions(ModelMesh& mesh, std::span<const glm::dvec3> positions);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Work is in double and rounded once. Only the angles are rounded to float (atan2 in lane_math.h), so that the function gives the same
+// All computation is in double, and the result is rounded once. Only the angles are rounded to float (atan2 in lane_math.h), so that the function gives the same
 // bits on every machine. Differences from MikkTSpace: all triangles around a vertex are averaged, even if they are not connected by edges;
-// triangles without area in space do not count, where MikkTSpace copies tangents to them from other triangles.
+// triangles with zero area are ignored, whereas MikkTSpace copies tangents to them from other triangles.
 #include "halfspace/model/tangents.h"
 
 #include <array>

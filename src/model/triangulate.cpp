@@ -4,7 +4,7 @@
 // polygon it differs from the projection along the normal only by an affine map, which preserves all orientations. The orientation of
 // three corners is computed exactly.
 //
-// A corner is an ear if it turns left and no other corner is in its triangle. Only corners that do not turn left can be there, so these
+// A corner is an ear if it turns left and no other corner is in its triangle. Only corners that do not turn left can lie inside it, so these
 // are sorted into a grid. The number of steps is limited to a multiple of the number of corners: a polygon that intersects itself could
 // take quadratic time or worse. Beyond the limit, corners are clipped without tests.
 #include "halfspace/model/triangulate.h"

@@ -38,7 +38,7 @@ OutputJson sampler_json(const Sampler& s, GltfOutput& out) {
           {"wrapT", gl_wrap(s.wrap_t, out)}};
 }
 
-// Returns the index of an equal sampler, which is added if there is none.
+// Returns the index of an equal sampler. Adds the sampler if there is none.
 int sampler_index(const Sampler& sampler, GltfOutput& out) {
   OutputJson item = sampler_json(sampler, out);
   const int count = out.count("samplers");

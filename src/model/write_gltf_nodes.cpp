@@ -43,7 +43,7 @@ class NodeWriter {
       }
     }
     for (std::size_t i = 0; i < used.size(); ++i) {
-      if (!used[i]) lists.push_back({static_cast<int>(i)});
+      if (!used[i] && !is_empty(static_cast<int>(i))) lists.push_back({static_cast<int>(i)});
     }
     std::ranges::sort(lists);
     for (const std::vector<int>& list : lists) {
@@ -58,10 +58,14 @@ class NodeWriter {
 
   const ModelMesh& mesh(int index) const { return model_.meshes[static_cast<std::size_t>(index)]; }
 
+  // glTF has no meshes without vertices; they are left out.
+  bool is_empty(int index) const { return mesh(index).positions.empty(); }
+
   // Returns the meshes of a node, grouped by their origin.
   std::vector<std::vector<int>> lists_of(const ModelNode& node) const {
     std::vector<std::vector<int>> lists;
     for (const int part : node.meshes) {
+      if (is_empty(part)) continue;
       const auto same = std::ranges::find_if(lists, [&](const auto& list) { return mesh(list[0]).origin == mesh(part).origin; });
       if (same == lists.end()) {
         lists.push_back({part});

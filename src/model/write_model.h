@@ -38,7 +38,8 @@ struct WrittenModel {
 ///   with z up gets a node that turns it. Texture channels that glTF does not permit are left out with a warning.
 /// obj: all meshes in world space, materials as .mtl with the PBR statements where metals or their maps need them, and textures. Numbers
 ///   have the shortest form that reads back as the same value.
-/// ply: all meshes in world space as one mesh, binary, with normals, and with colors and texture coordinates if a mesh has them.
+/// ply: all triangles in world space as one mesh, or all points if there are none, binary, with normals, and with colors and texture
+///   coordinates if a mesh has them.
 /// stl: the triangles in world space, binary, z up.
 ///
 /// obj, ply and stl contain the default scene without animation. Throws OutputError if the model has nothing that the format can store, or

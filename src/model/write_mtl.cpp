@@ -7,6 +7,7 @@
 #include <array>
 
 #include "halfspace/core/srgb.h"
+#include "halfspace/model/mtl_materials.h"
 
 namespace halfspace {
 
@@ -25,7 +26,8 @@ float exponent_of(float roughness) {
 
 class MtlWriter {
  public:
-  MtlWriter(const Model& model, const std::vector<std::string>& image_names) : model_(model), image_names_(image_names) {}
+  MtlWriter(const Model& model, const std::vector<std::string>& image_names, double diagonal, std::vector<std::string>& warnings)
+      : model_(model), image_names_(image_names), diagonal_(diagonal), warnings_(warnings) {}
 
   std::string text(const ModelMaterial& m, const std::string& name) {
     text_ = "newmtl " + name + "\n";
@@ -36,6 +38,8 @@ class MtlWriter {
     add_emissive(m);
     add_reflection(m);
     add_map("norm", m.normal_map);
+    add_bump_map(m);
+    warn_of_the_rest(m);
     if (m.ior != 1.5f) add("Ni", fmt::format("{}", m.ior));
     if (m.clearcoat > 0.0f) {
       add("Pc", fmt::format("{}", m.clearcoat));
@@ -56,10 +60,15 @@ class MtlWriter {
     return image < 0 ? kNone : image_names_[static_cast<std::size_t>(image)];
   }
 
-  void add_map(const char* key, const TextureUse& use, bool with_channel = false) {
+  void warn(const std::string& text) {
+    if (std::ranges::find(warnings_, text) == warnings_.end()) warnings_.push_back(text);
+  }
+
+  void add_map(const char* key, const TextureUse& use, bool with_channel = false, std::string options = "") {
     if (!has_image(use)) return;
-    std::string options;
     const glm::mat3x2& t = use.uv_transform;
+    if (t[0].y != 0.0f || t[1].x != 0.0f) warn("OBJ stores no rotation of textures");
+    if (use.uv_set != 0) warn("OBJ stores one set of texture coordinates; maps that use the second one are written with the first");
     if (t[0].x != 1.0f || t[1].y != 1.0f) options += fmt::format("-s {} {} 1 ", t[0].x, t[1].y);
     const float y = 1.0f - t[1].y - t[2].y;  // v points up
     if (t[2].x != 0.0f || y != 0.0f) options += fmt::format("-o {} {} 0 ", t[2].x, y);
@@ -67,6 +76,19 @@ class MtlWriter {
     if (with_channel) options += fmt::format("-imfchan {} ", kLetters[static_cast<std::size_t>(use.channel)]);
     if (model_.textures[static_cast<std::size_t>(use.texture)].sampler.wrap_s == Wrap::clamp) options += "-clamp on ";
     add(key, options + image_name(use));
+  }
+
+  void add_bump_map(const ModelMaterial& m) {
+    if (diagonal_ <= 0.0) return;
+    add_map("map_bump", m.bump_map, false, fmt::format("-bm {} ", static_cast<float>(m.bump_scale / (kMtlBumpHeight * diagonal_))));
+  }
+
+  void warn_of_the_rest(const ModelMaterial& m) {
+    if (has_image(m.normal_map) && m.normal_scale != 1.0f) warn("OBJ stores no strength of normal maps");
+    for (const TextureUse* use : {&m.occlusion_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map, &m.clearcoat_roughness_map,
+                                  &m.clearcoat_normal_map}) {
+      if (has_image(*use)) warn("maps of occlusion, specular reflection and clearcoat are left out");
+    }
   }
 
   // Opaque materials ignore the alpha channel of their base color.
@@ -103,6 +125,8 @@ class MtlWriter {
 
   const Model& model_;
   const std::vector<std::string>& image_names_;
+  double diagonal_;
+  std::vector<std::string>& warnings_;
   std::string text_;
 };
 
@@ -116,10 +140,12 @@ float srgb_from_linear(float value) {
   return (static_cast<float>(low) + fraction) / 255.0f;
 }
 
-std::string mtl_text(const Model& model, const std::vector<std::string>& material_names, const std::vector<std::string>& image_names) {
-  MtlWriter writer(model, image_names);
+std::string mtl_text(const Model& model, const std::vector<std::string>& material_names, const std::vector<std::string>& image_names,
+                     double diagonal, std::vector<std::string>& warnings) {
+  MtlWriter writer(model, image_names, diagonal, warnings);
   std::string text;
   for (std::size_t i = 0; i < model.materials.size(); ++i) text += writer.text(model.materials[i], material_names[i]);
+  if (material_names.size() > model.materials.size()) text += writer.text({}, material_names.back());
   return text;
 }
 

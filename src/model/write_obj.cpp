@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "halfspace/core/check.h"
@@ -25,13 +26,15 @@ std::string obj_name(const std::string& name, const char* fallback, std::set<std
 
 class ObjWriter {
  public:
+  /// material_names: the last one is that of meshes without a material.
   explicit ObjWriter(const std::vector<std::string>& material_names) : material_names_(material_names) {}
 
   void add(const WorldMesh& mesh) {
     const ModelMesh& m = mesh.mesh();
     if (m.positions.empty()) return;
     line("o {}\n", obj_name(m.name, "mesh", names_));
-    if (mesh.material() >= 0) line("usemtl {}\n", material_names_[static_cast<std::size_t>(mesh.material())]);
+    has_default_material_ = has_default_material_ || mesh.material() < 0;
+    line("usemtl {}\n", mesh.material() < 0 ? material_names_.back() : material_names_[static_cast<std::size_t>(mesh.material())]);
     for (std::size_t i = 0; i < m.positions.size(); ++i) add_vertex(mesh, i);
     for (const glm::vec2& uv : m.uvs[0]) line("vt {} {}\n", uv.x, 1.0 - static_cast<double>(uv.y));
     for (std::size_t i = 0; i < m.normals.size(); ++i) {
@@ -46,6 +49,11 @@ class ObjWriter {
 
   const std::string& text() const { return text_; }
   bool empty() const { return positions_ == 0; }
+  bool has_default_material() const { return has_default_material_; }
+  bool has_opacity() const { return has_opacity_; }
+
+  /// Returns the length of the diagonal of the bounds of all positions.
+  double diagonal() const { return glm::length(high_ - low_); }
 
  private:
   template <class... T>
@@ -55,10 +63,13 @@ class ObjWriter {
 
   void add_vertex(const WorldMesh& mesh, std::size_t i) {
     const glm::dvec3 p = mesh.position(i);
+    low_ = glm::min(low_, p);
+    high_ = glm::max(high_, p);
     line("v {} {} {}", p.x, p.y, p.z);
     if (!mesh.mesh().colors.empty()) {
       const glm::vec4 c = mesh.mesh().colors[i];
       line(" {} {} {}", srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z));
+      has_opacity_ = has_opacity_ || c.w != 1.0f;
     }
     text_ += '\n';
   }
@@ -94,6 +105,8 @@ class ObjWriter {
   std::string text_;
   std::set<std::string> names_;
   std::size_t positions_ = 0, uvs_ = 0, normals_ = 0;
+  glm::dvec3 low_{std::numeric_limits<double>::infinity()}, high_ = -low_;
+  bool has_default_material_ = false, has_opacity_ = false;
 };
 
 ModelFile text_file(const std::string& name, const std::string& text) {
@@ -110,6 +123,7 @@ WrittenModel write_obj(const Model& model, const std::string& stem) {
   std::set<std::string> used;
   std::vector<ModelFile> images;
   for (const ModelMaterial& m : model.materials) material_names.push_back(obj_name(m.name, "material", used));
+  material_names.push_back(obj_name("default", "", used));
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const ModelImage& image = model.images[i];
     const std::string extension = image.bytes ? image_extension(*image.bytes) : "";
@@ -122,10 +136,14 @@ WrittenModel write_obj(const Model& model, const std::string& stem) {
   for (const PosedMesh& part : posed.meshes) writer.add(WorldMesh(model, part));
   if (writer.empty()) throw OutputError(stem + ".obj: the model has no vertices; expected a mesh");
   std::string text;
-  if (!model.materials.empty()) text = "mtllib " + stem + ".mtl\n";
+  const bool has_library = !model.materials.empty() || writer.has_default_material();
+  if (has_library) text = "mtllib " + stem + ".mtl\n";
   written.files.push_back(text_file(stem + ".obj", text + writer.text()));
-  if (!model.materials.empty()) written.files.push_back(text_file(stem + ".mtl", mtl_text(model, material_names, image_names)));
+  if (!writer.has_default_material()) material_names.pop_back();
+  if (has_library)
+    written.files.push_back(text_file(stem + ".mtl", mtl_text(model, material_names, image_names, writer.diagonal(), written.warnings)));
   std::ranges::move(images, std::back_inserter(written.files));
+  if (writer.has_opacity()) written.warnings.emplace_back("OBJ stores no opacity of vertex colors");
   if (!model.lights.empty() || !model.cameras.empty()) written.warnings.emplace_back("OBJ stores no lights or cameras");
   if (!model.animations.empty()) written.warnings.emplace_back("OBJ stores no animations; the model is written at rest");
   return written;

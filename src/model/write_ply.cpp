@@ -16,7 +16,9 @@ class PlyWriter {
   PlyWriter(const Model& model, const PosedModel& posed) {
     for (const PosedMesh& part : posed.meshes) {
       const WorldMesh mesh(model, part);
-      if (mesh.mesh().topology == MeshTopology::lines) continue;
+      const MeshTopology topology = mesh.mesh().topology;
+      (topology == MeshTopology::lines ? has_lines_ : has_points_) |= topology != MeshTopology::triangles;
+      if (topology == MeshTopology::lines) continue;
       meshes_.push_back(mesh);
       faces_ += mesh.triangles();
     }
@@ -26,12 +28,14 @@ class PlyWriter {
   }
 
   std::size_t vertices() const { return vertices_; }
+  bool leaves_out_lines() const { return has_lines_; }
+  bool leaves_out_points() const { return has_points_ && faces_ > 0; }
 
   std::vector<std::byte> bytes() const {
     std::vector<std::byte> out;
     append_text(out, header());
     for (const WorldMesh& mesh : meshes_) {
-      for (std::size_t i = 0; i < mesh.mesh().positions.size(); ++i) append_vertex(out, mesh, i);
+      for (std::size_t i = 0; i < vertex_count(mesh); ++i) append_vertex(out, mesh, vertex(mesh, i));
     }
     uint32_t first = 0;
     for (const WorldMesh& mesh : meshes_) {
@@ -45,15 +49,24 @@ class PlyWriter {
   }
 
  private:
+  // Only the points that indices select are drawn; the others may have no valid position.
+  static bool selects(const ModelMesh& m) { return m.topology == MeshTopology::points && !m.indices.empty(); }
+
+  static std::size_t vertex_count(const WorldMesh& mesh) {
+    return selects(mesh.mesh()) ? mesh.mesh().indices.size() : mesh.mesh().positions.size();
+  }
+
+  static std::size_t vertex(const WorldMesh& mesh, std::size_t i) { return selects(mesh.mesh()) ? mesh.mesh().indices[i] : i; }
+
   void look_at(const WorldMesh& mesh) {
     const ModelMesh& m = mesh.mesh();
-    vertices_ += m.positions.size();
+    vertices_ += vertex_count(mesh);
     normals_ = normals_ && !m.normals.empty();
     colors_ = colors_ || !m.colors.empty();
     opacity_ = opacity_ || std::ranges::any_of(m.colors, [](const glm::vec4& c) { return c.w != 1.0f; });
     uvs_ = uvs_ || !m.uvs[0].empty();
-    for (std::size_t i = 0; i < m.positions.size() && !doubles_; ++i) {
-      const glm::dvec3 p = mesh.position(i);
+    for (std::size_t i = 0; i < vertex_count(mesh) && !doubles_; ++i) {
+      const glm::dvec3 p = mesh.position(vertex(mesh, i));
       doubles_ = glm::dvec3(glm::vec3(p)) != p;
     }
   }
@@ -88,6 +101,7 @@ class PlyWriter {
   std::vector<WorldMesh> meshes_;
   std::size_t vertices_ = 0, faces_ = 0;
   bool normals_ = true, colors_ = false, opacity_ = false, uvs_ = false, doubles_ = false;
+  bool has_lines_ = false, has_points_ = false;
 };
 
 }  // namespace
@@ -101,6 +115,8 @@ WrittenModel write_ply(const Model& model, const std::string& stem) {
   written.files.push_back({stem + ".ply", writer.bytes()});
   if (model.materials.size() > 1 || !model.textures.empty())
     written.warnings.emplace_back("PLY stores one mesh with vertex colors: no materials or textures");
+  if (writer.leaves_out_lines()) written.warnings.emplace_back("lines are left out");
+  if (writer.leaves_out_points()) written.warnings.emplace_back("points are left out, because the file has faces");
   return written;
 }
 

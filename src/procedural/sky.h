@@ -26,8 +26,8 @@ struct NightSky {
 /// luminance is 0.2 to 2. The result depends only on the arguments, bit for bit. size ≥ 1 is the width of a face in texels.
 SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers);
 
-/// Returns a dark blue sky with the Milky Way and ground. It has no stars; StarSky draws sharper ones. Its luminance is 1e-3 to
-/// 1e-2.
+/// Returns a dark blue sky with the Milky Way and ground. It has no stars; StarSky draws them more sharply than a map could. Its luminance
+/// is 1e-3 to 1e-2.
 SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& workers);
 
 /// Returns a neutral photo studio for product pictures: gray walls, a dark floor, a large soft light above and two at the sides. The

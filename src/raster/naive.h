@@ -136,7 +136,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 
 /// Draws an indexed triangle list. The vertex function must return a vec4<R>, and the fragment function must return a single color.
 ///
-/// Only these parts of the state are used: viewport, scissor, cull, front, provoking, and depth except for clamp. In particular, there is
+/// Only these parts of the state are used: viewport, scissor, cull, front, provoking and depth; in double, depth.clamp is ignored. There is
 /// no blending, no stencil test, no polygon offset and no instancing.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {

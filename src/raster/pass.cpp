@@ -168,7 +168,8 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   const bool replaces = set_color_writes(d);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
   const bool covers_by_alpha = state.alpha_to_coverage && context_.samples > 1;
-  const bool defers = options_.defer && replaces && !state.order_independent && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
+  const bool defers =
+      options_.defer && replaces && !state.order_independent && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   d.deferred = defers || !attachments_.has_color;  // without color attachments there is nothing to blend or to shade immediately
   std::vector<uint64_t>& queries = plan_.submitted.queries;
   if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));

@@ -7,13 +7,10 @@
 
 #include "halfspace/raster/constant_tiles.h"
 #include "halfspace/raster/primitives/bin.h"
-#include "halfspace/raster/shade/shade_deferred.h"
-#include "halfspace/raster/shade/shade_immediate.h"
 #include "halfspace/raster/shade/tile_memory.h"
 #include "halfspace/raster/tile/resolve.h"
+#include "halfspace/raster/tile_draws.h"
 #include "halfspace/raster/trace/tile_trace.h"
-#include "halfspace/raster/visibility/full_tile.h"
-#include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace {
 
@@ -27,37 +24,6 @@ Target between_flushes(Target target, const std::vector<std::byte>& spill) {
   target.store = StoreOp::store;
   return target;
 }
-
-// The triangles of a tile and their vertices are scattered in memory. Prefetch distances, in triangles:
-constexpr std::size_t kTrianglesAhead = 16, kVerticesAhead = 3;
-
-HS_INLINE void prefetch(const Triangle& t) {
-  __builtin_prefetch(&t);
-  __builtin_prefetch(&t.flags);  // may be in the next cache line
-}
-
-// Prefetches the data of a triangle's first vertex, for shading or for a visibility function. It must be inlined: GCC 12 regards a local
-// function that only prefetches as free of side effects and removes calls to it, which makes points_100k 20 % slower.
-HS_INLINE void prefetch_vertex(const PassContext& context, const Chunk& chunk, const Triangle& t) {
-  if (t.is(kClipped)) return;
-  const ShadedVertices& shaded = context.shaded[chunk.ranges[t.range()].draw];
-  const auto count = static_cast<std::size_t>(shaded.varying_count);
-  const float* row = shaded.varyings.get() + t.vertex[0] * count;
-  __builtin_prefetch(&shaded.screen[t.vertex[0]]);
-  __builtin_prefetch(row);
-  __builtin_prefetch(row + count);
-}
-
-// Returns the number of small triangles at the start of a bin that belong to the same draw, at most W.
-std::size_t small_run(const Chunk& chunk, std::span<const uint16_t> bin) {
-  const std::size_t max_count = std::min(bin.size(), static_cast<std::size_t>(kLanes));
-  const uint32_t range = chunk.triangles[bin[0]].range();
-  std::size_t n = 0;
-  while (n < max_count && is_small_triangle(chunk.triangles[bin[n]]) && chunk.triangles[bin[n]].range() == range) ++n;
-  return n;
-}
-
-bool prefers_greater(CompareOp compare) { return compare == CompareOp::greater || compare == CompareOp::greater_equal; }
 
 // Statistics: as in visibility/visibility.h.
 template <class Statistics>
@@ -141,6 +107,12 @@ class TileWorker {
     return std::any_of(context_.chunks.begin(), context_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
   }
 
+  void finish_trace(const Tile& tile, int tile_x, int tile_y, TileTrace& trace) const {
+    const auto index = static_cast<std::size_t>(tile_y * context_.tiles_x + tile_x);
+    trace.finish(tile, static_cast<uint16_t>(trace_->rounds.size() - 1), trace_->rounds.back()[index]);
+    if (round_.last) record_values(tile, *trace_);
+  }
+
   void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
     if (drawn) ++statistics.tiles_touched;
     const std::vector<ColorTarget>& colors = attachments_.colors;
@@ -158,7 +130,7 @@ class TileWorker {
     Tile& tile = memory.tile;
     place_tile(tile, tile_x, tile_y);
     load(tile);
-    if (drawn) draw_tile(memory, tile_x, tile_y, statistics);
+    if (drawn) draw_tile(context_, attachments_.has_color, tile_x, tile_y, memory, statistics);
     if constexpr (kTraces<Statistics>) finish_trace(tile, tile_x, tile_y, *statistics.trace);
     store(tile, changes_color, changes_depth);
     if constexpr (kTraces<Statistics>) {
@@ -208,86 +180,6 @@ class TileWorker {
     if (!changes_depth) return;
     if (round_.last) store_depth(attachments_.depth, width, height, ImageSamples::one, tile);
     if (!round_.last) store_depth(between_flushes(attachments_.depth, attachments_.depth_spill), width, height, spilled_samples(), tile);
-  }
-
-  // pending is true if the tile has visible pixels that have not been shaded yet.
-  void draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index, bool& pending, TileMemory& memory, Statistics& statistics) const {
-    if (d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only) {
-      rasterize(d, chunk, index, nullptr, statistics);
-      pending |= d.mode == VisibilityMode::deferred;
-      return;
-    }
-    // A draw that does not write color does not affect pending pixels.
-    const bool shades = d.mode != VisibilityMode::early || d.draw.writes_color;
-    if (shades && pending && attachments_.has_color) shade_deferred(context_, d.tile, memory.shading, statistics);
-    if (shades) pending = false;
-    CoverageList& list = memory.coverage;
-    list.count = 0;
-    rasterize(d, chunk, index, &list, statistics);
-    if (shades && list.count != 0)
-      shade_immediate(context_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, memory.layers, memory.shading.output, statistics);
-  }
-
-  // Blends the transparent layers over the colors of the tile. Pixels that are visible behind them have been shaded.
-  static void write_layers(TileMemory& memory, [[maybe_unused]] Statistics& statistics) {
-    if (!memory.layers.empty()) memory.layers.write(memory.tile.color[0]);
-    if constexpr (kTraces<Statistics>) statistics.trace->write_layers(memory.tile.color[0]);
-  }
-
-  void finish_trace(const Tile& tile, int tile_x, int tile_y, TileTrace& trace) const {
-    const auto index = static_cast<std::size_t>(tile_y * context_.tiles_x + tile_x);
-    trace.finish(tile, static_cast<uint16_t>(trace_->rounds.size() - 1), trace_->rounds.back()[index]);
-    if (round_.last) record_values(tile, *trace_);
-  }
-
-  void draw_tile(TileMemory& memory, int tile_x, int tile_y, Statistics& statistics) const {
-    Tile& tile = memory.tile;
-    bool pending = false;
-    tile.visibility.fill(kNoTriangle);
-    std::optional<DrawInTile> here;
-    FullTileOccluder occluder;
-    for (uint32_t c = 0; c < context_.chunks.size(); ++c) {
-      const Chunk& chunk = context_.chunks[c];
-      const std::span<const uint16_t> bin = bin_of(chunk, tile_x, tile_y);
-      const auto ahead = [&](std::size_t i) -> const Triangle& { return chunk.triangles[bin[std::min(i, bin.size() - 1)]]; };
-      for (std::size_t i = 0; i < bin.size();) {
-        const uint16_t t = bin[i];
-        const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
-        if (!here || &here->draw != &draw) {
-          here.emplace(context_, draw, visibility_mode(draw), tile);
-          if (!draw.state.order_independent) {
-            write_layers(memory, statistics);
-          } else if (memory.layers.empty()) {
-            memory.layers.clear(prefers_greater(draw.state.depth.compare));
-          }
-        }
-        const uint64_t passed_before = statistics.samples_passed;
-        const std::size_t small = here->is_opaque && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
-        for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
-          prefetch(ahead(k + kTrianglesAhead));
-          if (here->fetches_vertices) prefetch_vertex(context_, chunk, ahead(k + kVerticesAhead));
-        }
-        if (small != 0) {
-          rasterize_small(*here, c, bin.subspan(i, small), statistics);
-          pending |= here->mode == VisibilityMode::deferred;
-          i += small;
-        } else {
-          const bool was_visible = occluder.is_visible();
-          const bool is_done = occluder.draw(*here, c, t, statistics);
-          pending |= was_visible && !occluder.is_visible();
-          if (!is_done) draw_triangle(*here, c, t, pending, memory, statistics);
-          ++i;
-        }
-        if (draw.state.query) statistics.add_to_query(*draw.state.query, statistics.samples_passed - passed_before);
-      }
-    }
-    if (occluder.is_visible() && attachments_.has_color) {
-      shade_full_tile(context_, occluder.triangle(), tile, memory.shading, statistics);
-      return occluder.write_depth();
-    }
-    occluder.write();
-    if (pending && attachments_.has_color) shade_deferred(context_, tile, memory.shading, statistics);
-    write_layers(memory, statistics);
   }
 
   const PassContext& context_;

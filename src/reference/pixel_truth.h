@@ -61,7 +61,7 @@ struct LightTruth {
 struct RayLight {
   Light light;
   double size;  ///< radius in world units; for a directional light, the tangent of half its angular diameter
-  int rays;     ///< rays per surface point of a light with size, a square number; otherwise one ray is cast
+  int rays;     ///< rays per surface point if size is not 0, a square number; otherwise, one ray is cast
 };
 /// Casts shadow rays from a surface point to the light. The rays start on the lit side of the surface, at a distance of 2^-20 times the
 /// largest coordinate: the float origin and Embree's hit are accurate to a few 2^-24 of it. `seed` selects the random sample positions.

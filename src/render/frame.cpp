@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "halfspace/core/half.h"
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/render/display.h"
 #include "halfspace/render/scene_pass.h"
 
@@ -51,7 +53,7 @@ class FrameRenderer {
     Image<glm::vec4> encoded(width_, height_);
     const PassStatistics statistics =
         displayed([&](Pass& pass, double exposure) { show_fine(pass, post_, exposure, encoded, premultiplied()); });
-    for (int y = 0; y < height_; ++y) std::ranges::transform(encoded.row(y), picture.row(y).begin(), codes16_of);
+    round(encoded, picture);
     return statistics;
   }
 
@@ -60,6 +62,17 @@ class FrameRenderer {
     Pass pass = pass_of({.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, Draws::in_crop);
     show_light(pass, light);
     return run_(pass);
+  }
+
+  // Converts light that has been drawn already, without a crop.
+  void display(const Image<glm::vec4>& light, Image<glm::u8vec4>& picture) const {
+    display_light(light, [&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied()); });
+  }
+
+  void display(const Image<glm::vec4>& light, Image<glm::u16vec4>& picture) const {
+    Image<glm::vec4> encoded(width_, height_);
+    display_light(light, [&](Pass& pass, double exposure) { show_fine(pass, post_, exposure, encoded, premultiplied()); });
+    round(encoded, picture);
   }
 
   PassStatistics render_values(const std::array<ColorTarget, kFrameValues>& targets) const {
@@ -81,6 +94,10 @@ class FrameRenderer {
   }
 
   PassStatistics run(Pass pass) const { return run_(pass); }
+
+  static void round(const Image<glm::vec4>& encoded, Image<glm::u16vec4>& picture) {
+    std::ranges::transform(encoded.texels(), picture.data(), codes16_of);
+  }
 
   Premultiplied premultiplied() const { return scene_.transparent ? Premultiplied::yes : Premultiplied::no; }
 
@@ -108,19 +125,41 @@ class FrameRenderer {
     return run_(pass);
   }
 
-  // Renders the light of the whole view, measures it, and displays it with a second pass without draws.
+  // Renders the light of the whole view, and displays it with a second pass.
   template <class Pixel, class F>
   PassStatistics metered(ColorTarget (*target)(Image<Pixel>&), F display) const {
+    const MemoryClaim claim(static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * sizeof(Pixel), "post.auto_exposure");
     Image<Pixel> light(width_, height_);
     const PassStatistics statistics = run(pass_of(target(light), Draws::everywhere));
-    const double exposure = automatic_exposure(post_, light, workers_);
+    display_stored(light, target, display);
+    return statistics;
+  }
+
+  // Rounds light to the format in which the scene stores it, and displays it.
+  template <class F>
+  void display_light(const Image<glm::vec4>& light, F display) const {
+    if (post_.format == LightFormat::rgba32f) {
+      Image<glm::vec4> copy = light;
+      return display_stored(copy, rgba32f_target, display);
+    }
+    Image<U16Vec4> halves(width_, height_);
+    std::ranges::transform(light.texels(), halves.data(), [](const glm::vec4& c) {
+      return U16Vec4(float_to_finite_half(c.x), float_to_finite_half(c.y), float_to_finite_half(c.z), float_to_finite_half(c.w));
+    });
+    display_stored(halves, rgba16f_target, display);
+  }
+
+  // Converts light that is stored in an image to pixel values, in a pass that has no draws. Measures the light first if auto_exposure is
+  // on.
+  template <class Pixel, class F>
+  void display_stored(Image<Pixel>& light, ColorTarget (*target)(Image<Pixel>&), F display) const {
+    const double exposure = post_.auto_exposure ? automatic_exposure(post_, light, workers_) : post_.exposure;
     ColorTarget whole = target(light);
     whole.load = LoadOp::load;
     whole.store = StoreOp::dont_care;
     Pass pass(width_, height_, whole, {});
     display(pass, exposure);
     pass.run(workers_);
-    return statistics;
   }
 
   FrameCamera frame_camera() const {
@@ -244,20 +283,19 @@ double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light,
 
 ToneMapping frame_tone(const PreparedScene& scene, double exposure) { return tone_of(display_of(scene), exposure); }
 
-void display_light(const PreparedScene& scene, const Image<glm::vec4>& light, double exposure, Image<glm::u8vec4>& picture,
-                   const Workers& workers) {
-  Image<glm::vec4> loaded = light;
-  ColorTarget target = rgba32f_target(loaded);
-  target.load = LoadOp::load;
-  target.store = StoreOp::dont_care;
-  Pass pass(light.width(), light.height(), target, {});
-  show(pass, display_of(scene), exposure, picture, scene.transparent ? Premultiplied::yes : Premultiplied::no);
-  pass.run(workers);
-}
-
 PassStatistics render_with(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers, const PassRunner& run_pass) {
   const std::optional<ImageRect> whole;
   return FrameRenderer(scene, whole, scene.view.width_px, scene.view.height_px, workers, run_pass).render(picture);
+}
+
+void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, const FrameImages& images, const Workers& workers) {
+  HS_CHECK(!images.crop && !wants_values(images));
+  const glm::ivec2 size = view_size(scene, images);
+  HS_CHECK(light.width() == size.x && light.height() == size.y);
+  const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers, [&workers](Pass& pass) { return pass.run(workers); });
+  if (images.picture != nullptr) renderer.display(light, *images.picture);
+  if (images.fine_picture != nullptr) renderer.display(light, *images.fine_picture);
+  if (images.light != nullptr) *images.light = light;
 }
 
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers) {

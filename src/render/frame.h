@@ -55,10 +55,14 @@ inline constexpr uint32_t kNoId = 0xffffffffu;
 /// Returns true if an image other than the color images is wanted.
 bool wants_values(const FrameImages& images);
 
-/// Renders all wanted images. The result does not depend on the number of workers. Light is stored for the whole image only if it is
+/// Renders the requested images. Throws LimitError if auto_exposure needs more memory than permitted. The result does not depend on the number of workers. Light is stored for the whole image only if it is
 /// wanted, or if auto_exposure has to measure it first; otherwise it only exists in tiles. The returned statistics are the sums over all
 /// passes that draw the scene.
 PassStatistics render_frame(const PreparedScene& scene, const FrameImages& images, const Workers& workers);
+
+/// Converts light that has been drawn already to the color images of a frame. The result has the same bits as that of render_frame(). The
+/// light must be opaque and have the size for which the scene was prepared. There must be no crop, and only color images can be wanted.
+void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, const FrameImages& images, const Workers& workers);
 
 /// Adds a draw to a pass whose attachment n stores FrameValue n. Draws without values are left out: the background and blended surfaces.
 /// wanted: the values that are needed; others may be wrong. Compiled once, in add_value_draw.cpp.

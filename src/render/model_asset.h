@@ -16,7 +16,7 @@ struct ModelAsset {
   explicit ModelAsset(Model m);
 
   Model model;
-  std::vector<Indices> indices;  ///< one per Model::meshes; refers to their indices
+  std::vector<Indices> indices;  ///< one per mesh of the model; refers to the indices of the mesh
 };
 
 /// Returns the pose that an object of shape `file` asks for. Throws InputError, which begins with `path`, if the file has no scene,

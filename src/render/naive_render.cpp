@@ -4,26 +4,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 
 #include "halfspace/render/naive_draws.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 
-std::string naive_obstacle(const PreparedScene& scene) {
-  const std::string expected = "; the naive pipeline draws opaque triangles with one sample per pixel";
-  if (scene.samples != 1) return fmt::format("samples: {} per pixel{}", scene.samples, expected);
+namespace {
+
+constexpr const char* kNaiveDraws = "expected opaque triangles with one sample per pixel, which is all that the naive pipeline draws";
+
+// Returns what the naive pipeline does not draw, or null if it draws the draw.
+const char* missing_feature(const PreparedDraw& draw) {
+  const DrawState& s = draw.state;
+  if (!std::visit([]<class S>(const S&) { return kDrawsTriangles<S>; }, draw.shader) || s.topology == Topology::points) return "points";
+  if (is_lines(s.topology)) return "lines";
+  if (s.topology != Topology::triangles) return "strips or fans";
+  if (s.polygon_mode != PolygonMode::fill) return "outlines";
+  if (s.order_independent || s.blend) return "blending";
+  if (s.offset.slope != 0.0f || s.offset.constant != 0.0f) return "a polygon offset";
+  return nullptr;
+}
+
+}  // namespace
+
+std::string naive_obstacle(const PreparedScene& scene, const SceneDescription& description) {
+  if (scene.samples != 1) return fmt::format("samples: is {}; {}", scene.samples, kNaiveDraws);
   for (const PreparedDraw& draw : scene.draws) {
-    const DrawState& s = draw.state;
-    const bool points = std::visit([]<class S>(const S&) { return !kDrawsTriangles<S>; }, draw.shader);
-    const char* kind = points || s.topology == Topology::points              ? "points"
-                       : is_lines(s.topology)                                ? "lines"
-                       : s.topology != Topology::triangles                   ? "strips or fans"
-                       : s.polygon_mode != PolygonMode::fill                 ? "outlines"
-                       : s.order_independent || s.blend.has_value()          ? "transparent surfaces"
-                       : s.offset.slope != 0.0f || s.offset.constant != 0.0f ? "a polygon offset"
-                                                                             : nullptr;
-    if (kind == nullptr) continue;
-    return fmt::format("a draw has {}{}", kind, expected);
+    if (const char* feature = missing_feature(draw))
+      return fmt::format("{}: is drawn with {}; {}", object_path(description, draw.source.object), feature, kNaiveDraws);
   }
   return {};
 }

@@ -2,6 +2,7 @@
 //
 // Objects of shape `file`: model files with their own meshes and materials.
 #include <algorithm>
+#include <span>
 
 #include "halfspace/core/text.h"
 #include "halfspace/model/pose.h"
@@ -156,9 +157,10 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   int instance = 0;
   for (const glm::dmat4& place : places_of(scene_, o)) {
     for (const PosedMesh& part : posed->meshes) {
-      const std::size_t before = out_.draws.size();
+      const std::size_t opaque = out_.draws.size(), blended = blended_.size();
       add_part(object, o, path, model, part, place * turn * part.world_from_mesh);
-      for (std::size_t i = before; i < out_.draws.size(); ++i) out_.draws[i].source.instance = instance;
+      for (PreparedDraw& draw : std::span(out_.draws).subspan(opaque)) draw.source.instance = instance;
+      for (PreparedDraw& draw : std::span(blended_).subspan(blended)) draw.source.instance = instance;
       ++instance;
     }
   }
@@ -207,6 +209,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     state.order_independent = true;
     state.depth.write = false;
     blended_.push_back(draw_of(surface, variant, false, streams, indices, state));
+    blended_.back().source = {object, 0, streams, world};
   } else {
     out_.draws.push_back(draw_of(surface, variant, masked, streams, indices, state));
     out_.draws.back().source = {object, 0, streams, world};
@@ -246,12 +249,14 @@ void ScenePreparation::add_shadow_catcher(const ObjectDescription& o, const Mesh
   catcher.to_eye_ws = glm::vec3(view_.to_eye_ws);
   catcher.lights = lights_;
   catcher.inverse_radius = static_cast<float>(2.0 / o.size);
+  int copy = 0;
   for (const glm::dmat4& world : places_of(scene_, o)) {
     place(catcher, world);
     DrawState state = opaque_state(CullMode::none, false);
     state.order_independent = true;
     state.depth.write = false;
     blended_.push_back({catcher, make_vertex_view(stream(mesh.mesh.positions)), indices, state});
+    blended_.back().source = {object, copy++, {mesh.mesh.positions, mesh.mesh.normals, {}, {}, {}, {}}, world};
     out_.meshes.push_back({mesh.mesh.positions, mesh.mesh.normals, indices, world, true, false, true, object});
   }
 }

@@ -24,8 +24,4 @@ double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light,
 /// Returns the tone mapping with which the scene's light is displayed. Without `hdr`, light is only clamped to [0, 1].
 ToneMapping frame_tone(const PreparedScene& scene, double exposure);
 
-/// Displays light, which has the size of the picture, like the renderer.
-void display_light(const PreparedScene& scene, const Image<glm::vec4>& light, double exposure, Image<glm::u8vec4>& picture,
-                   const Workers& workers);
-
 }  // namespace halfspace

@@ -37,7 +37,8 @@ glm::vec4 line_color(const glm::vec4& background) {
 // Draws the triangles of a mesh in one color. `color` must outlive the draw.
 PreparedDraw plain_draw(const PlacedMesh& mesh, const View& view, const Palette& color, const DrawState& state) {
   const ColoredPrimitives shader{glm::mat4(view.clip_from_world * mesh.world_from_object)};
-  return {shader, make_vertex_view(stream(mesh.positions), per_instance(stream(std::span<const glm::vec4>(color)))), mesh.indices, state};
+  return {shader, make_vertex_view(stream(mesh.positions), per_instance(stream(std::span<const glm::vec4>(color)))), mesh.indices, state,
+          {mesh.object, 0, {mesh.positions, mesh.normals, {}, {}, {}, {}}, mesh.world_from_object}};
 }
 
 // Moves surfaces away from the eye, so that they do not hide their own edges. Depth is reversed. The center of a pixel of a line can be

@@ -178,10 +178,10 @@ Section section_of(SurfaceDescription& s) {
       key<&T::shading>("shading", "How often lighting is computed: never, per triangle, per vertex, per pixel"),
       key<&T::two_sided>("two_sided", "Whether both sides are visible; planes are always two-sided"),
       key<&T::normal>("normal", "Source of normal detail; auto: normal_map if given, otherwise bump_map"),
-      key<&T::normal_map>("normal_map", "Tangent-space normal map, green up; a color: none", {.low = 0}),
+      key<&T::normal_map>("normal_map", "Tangent-space normal map, green up; a color instead of a map turns it off", {.low = 0}),
       key<&T::normal_strength>("normal_strength", "Scale of the slopes in the normal map", {.low = 0, .high = 1000}),
       key<&T::normal_flip_green>("normal_flip_green", "Whether green points down in the normal map"),
-      key<&T::bump_map>("bump_map", "Height map for bump mapping; a color: none", {.low = 0}),
+      key<&T::bump_map>("bump_map", "Height map for bump mapping; a color instead of a map turns it off", {.low = 0}),
       key<&T::bump_scale>("bump_scale", "Height difference between map values 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
       key<&T::bump_method>("bump_method", "Slope of bumps: gradient of the filtered heights, or differences within 2x2 pixels"),
   };

@@ -60,7 +60,7 @@ Section section_of(ParticlesDescription& p) {
       key<&T::specular>("specular", "Specular highlight factor, from the reflected ray", {.low = 0}),
       key<&T::shininess>("shininess", "Specular exponent; larger values give smaller and sharper highlights", {.low = 0, .high = 1e5}),
       key<&T::casts_shadow>("casts_shadow", "Whether exact spheres cast shadows"),
-      key<&T::receives_shadow>("receives_shadow", "Whether exact spheres receive shadows, including those of each other"),
+      key<&T::receives_shadow>("receives_shadow", "Whether exact spheres receive shadows, also from one another"),
   };
   return {{keys, &p}};
 }
@@ -71,12 +71,12 @@ Section section_of(EnvironmentDescription& e) {
       key<&T::type>("type", "Panorama, map of a globe seen from its center, six cube map faces, or a generated sky"),
       key<&T::map>("map", "Panorama or map of a globe; a color: uniform light", {.low = 0, .only = "equirect globe"}),
       key<&T::folder>("folder", "Folder with files named right, left, top, bottom, front and back", {.only = "cube"}),
-      key<&T::right>("right", "Face at +x; empty: from the folder", {.only = "cube"}),
-      key<&T::left>("left", "Face at -x; empty: from the folder", {.only = "cube"}),
-      key<&T::top>("top", "Face at +y; empty: from the folder", {.only = "cube"}),
-      key<&T::bottom>("bottom", "Face at -y; empty: from the folder", {.only = "cube"}),
-      key<&T::front>("front", "Face at -z; empty: from the folder", {.only = "cube"}),
-      key<&T::back>("back", "Face at +z; empty: from the folder", {.only = "cube"}),
+      key<&T::right>("right", "Face at +x; if empty, read from the folder", {.only = "cube"}),
+      key<&T::left>("left", "Face at -x; if empty, read from the folder", {.only = "cube"}),
+      key<&T::top>("top", "Face at +y; if empty, read from the folder", {.only = "cube"}),
+      key<&T::bottom>("bottom", "Face at -y; if empty, read from the folder", {.only = "cube"}),
+      key<&T::front>("front", "Face at -z; if empty, read from the folder", {.only = "cube"}),
+      key<&T::back>("back", "Face at +z; if empty, read from the folder", {.only = "cube"}),
       key<&T::size>("size", "Width of a generated face; 0: chosen for the view",
                     {.unit = "texels", .low = 0, .high = 4096, .only = "day_sky night_sky studio"}),
       key<&T::sun>("sun", "Direction towards the sun, any length; near the horizon: dusk", {.only = "day_sky"}),
@@ -117,7 +117,7 @@ Section section_of(PostDescription& p) {
   using T = PostDescription;
   static const std::vector<Key> keys{
       key<&T::hdr>("hdr", "Keep light above 1 for exposure and tone mapping; off: the other keys of post are ignored"),
-      key<&T::format>("format", "Format in which light is stored; half floats end at 65504"),
+      key<&T::format>("format", "Format in which light is stored; the largest half float is 65504"),
       key<&T::exposure>("exposure", "Multiplier for the light", {.low = 0, .high = 1e9}),
       key<&T::auto_exposure>("auto_exposure", "Whether to also multiply by key_value / log-average luminance of the image"),
       key<&T::key_value>("key_value", "Value to which auto_exposure maps the log-average luminance", {.low = 0, .high = 1e3}),
@@ -125,7 +125,7 @@ Section section_of(PostDescription& p) {
       key<&T::tone_on>("tone_on", "Whether the curve is applied to the luminance or to each channel"),
       key<&T::white>("white", "Light that reinhard_extended maps to 1", {.low = 1e-3, .high = 1e6}),
       key<&T::encode>("encode", "Encoding of linear values: exact sRGB, or a power"),
-      key<&T::gamma>("gamma", "The exponent of encode gamma is 1 / this", {.low = 0.1, .high = 10}),
+      key<&T::gamma>("gamma", "Display gamma of encode gamma; its exponent is 1/gamma", {.low = 0.1, .high = 10}),
       key<&T::dither>("dither", "Whether to hide banding with 8x8 ordered dithering"),
   };
   return {{keys, &p}};

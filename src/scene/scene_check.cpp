@@ -105,7 +105,7 @@ void check_parents(SceneDescription& scene, const ObjectDescription& object, con
     if (++generations > scene.objects.size())
       refuse(where + ".parent", "the object is among its own ancestors; expected an object that does not depend on it");
     if (object.shape == Shape::sphere && !is_even(parent->placement))
-      refuse(where + ".parent", "'" + o->parent + "' is not scaled uniformly, as the shape sphere needs; expected the shape uv_sphere");
+      refuse(where + ".parent", "'" + o->parent + "' is not scaled uniformly, which the shape sphere requires; expected the shape uv_sphere");
     o = parent;
   }
 }
@@ -134,6 +134,12 @@ std::string_view key_for_meshes(const ObjectDescription& o) {
   if (s.two_sided) return "two_sided";
   if (!is_even(o.placement)) return "scale";
   return std::ranges::all_of(o.instances, is_even) ? "" : kInstances;
+}
+
+bool has_even_ancestors(const SceneDescription& scene, const ObjectDescription& o) {
+  if (o.parent.empty()) return true;
+  const ObjectDescription* parent = find_named(scene.objects, o.parent);
+  return is_even(parent->placement) && has_even_ancestors(scene, *parent);
 }
 
 void check_room(const Named<ObjectDescription>& objects, const std::string& source) {

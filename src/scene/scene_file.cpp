@@ -128,7 +128,7 @@ class Reader {
   const Json& collection(const char* name) const {
     static const Json none = Json::object();
     if (!json_.contains(name)) return none;
-    if (!json_[name].is_object()) fail(context_.source, std::string(name) + ": expected an object with names, { \"name\": { … }, … }");
+    if (!json_[name].is_object()) fail(context_.source, std::string(name) + ": expected an object that maps names to objects: { \"name\": { … }, … }");
     return json_[name];
   }
 

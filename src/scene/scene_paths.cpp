@@ -149,4 +149,11 @@ FoundKey find_key(SceneDescription& scene, std::string_view path, const std::str
   throw InputError(where + "unknown key '" + words.back() + "'" + suggestion(words.back(), names));
 }
 
+std::string object_path(const SceneDescription& scene, int object) {
+  if (object < 0) return "background";
+  const auto i = static_cast<std::size_t>(object), objects = scene.objects.size();
+  if (i < objects) return "objects." + scene.objects[i].first;
+  return i == objects ? "particles" : "particle_systems." + scene.particle_systems.at(i - objects - 1).first;
+}
+
 }  // namespace halfspace

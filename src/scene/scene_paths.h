@@ -45,6 +45,10 @@ Section section_at(SceneDescription& scene, std::span<const std::string> words);
 /// Returns the reserved words at the top level of a scene file.
 std::vector<std::string_view> top_words(SceneDescription& scene);
 
+/// Returns the path of the object, particles or background that a number stands for, as in FrameImages::object (render/frame.h); −1 is the
+/// background.
+std::string object_path(const SceneDescription& scene, int object);
+
 /// Returns the item with that name, or null.
 template <class List>
 auto* find_named(List& list, std::string_view name) {

@@ -16,10 +16,10 @@ struct ChoiceNames<Shape> {
   static const std::array<std::string_view, kShapes> names;
 };
 
-/// Sizes of an object in object space, without its heights.
+/// Sizes of an object in object space, without displacement.
 struct ShapeExtent {
   double map_width;  ///< width of a map on the surface, in scene units; 0: the shape has no maps
-  double radius;     ///< of a ball around the origin that contains the shape
+  double radius;     ///< of a bounding sphere around the origin
 };
 
 /// One row of the table. Functions that do not apply to a shape return 0.
@@ -43,8 +43,8 @@ struct ShapeKind {
   /// Returns the maximum distance between the triangles and the smooth surface, in object space.
   ///
   /// The chord of an arc of 2π/n is r·(1 − cos(π/n)) below the arc. On a surface curved in both directions, the diagonal of a quad is
-  /// below the surface by the sum for both of its sides. (This is exact for the sphere, where the circumcenter of the triangle is the
-  /// lowest point.)
+  /// below the surface by the sum of the chord errors of its two sides. (This is exact for the sphere, where the circumcenter of the
+  /// triangle is the lowest point.)
   double (*chord_error)(const ObjectDescription& o);
   /// Returns the angle between the normals at the ends of a quad's diagonal, in radians.
   double (*diagonal_angle)(const ObjectDescription& o);

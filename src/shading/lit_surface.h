@@ -55,7 +55,7 @@ struct LitSurface : PlacedSurface {
     return m;
   }
 
-  /// Returns the factors with their maps. A map that is shared with the color is sampled only once.
+  /// Returns the material factors, multiplied by their maps. A map that is shared with the color is sampled only once.
   template <class R>
   HS_INLINE Material<R> material_at(const MapCoordinates<R>& place) const {
     Material<R> m;

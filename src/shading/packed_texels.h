@@ -63,8 +63,8 @@ HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
   return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f), lerp(a.w, b.w, f)};
 }
 
-/// Channel k of a packed 8-bit texel plus an offset. Masking the channel and setting the exponent bits of the offset above it
-/// gives a float without a conversion.
+/// Channel k of a packed 8-bit texel plus an offset. Masking the channel and combining it with the exponent bits of the offset gives a
+/// float without a conversion instruction.
 template <class R>
 struct OffsetCode {
   R value, offset;

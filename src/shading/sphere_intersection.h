@@ -153,9 +153,9 @@ struct SphereIntersection {
   }
 
  private:
-  /// Returns the term under the root of hit, computed in double. It is positive if the ray hits the sphere.
+  /// Returns the discriminant of the intersection, computed in double. It is positive if the ray hits the sphere.
   double root_in_double(const glm::vec3& center_cs, float radius, float x, float y) const;
-  // Decides the rare cases that two floats leave open, about one in many millions of pixels.
+  // Resolves the rare cases that the precision of two floats cannot decide, about one in many millions of pixels.
   template <class R>
   HS_INLINE void decide_in_double(MaskOf<R> which, const vec3<R>& c, R radius, R x, R y, R& root) const {
     if constexpr (std::is_same_v<decltype(lane(radius, 0)), float>) {

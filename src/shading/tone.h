@@ -108,7 +108,7 @@ HS_INLINE Encoded<R> encode_gamma(const DisplayLight<R>& light, float gamma) {
 }
 
 /// Returns the threshold at pixel (x, y) of the 8x8 matrix of ordered dithering (Bayer, "An optimum method for two-level rendition of
-/// continuous-tone pictures", 1973). Each of (0 … 63 + 1/2)/64 occurs once in every aligned 8x8 block.
+/// continuous-tone pictures", 1973). Each value (k + 1/2)/64, k = 0 … 63, occurs once in every aligned 8x8 block.
 template <Number R>
 HS_INLINE R dither_threshold(IntOf<R> x, IntOf<R> y) {
   const IntOf<R> a = x ^ y;

@@ -23,7 +23,7 @@ constexpr const char* kLitScene = R"({{
                          "diffuse": 0.7, "specular": 0.5, "shininess": 40 }} }}
 }})";
 
-// Excludes the silhouette from the comparison: where only one of the two images shows the sphere, replaces the pixel by the truth.
+// Excludes the silhouette from the comparison: where only one of the two images shows the sphere, replaces the pixel with the reference.
 // Returns the number of these pixels as a fraction of the sphere's pixels.
 double leave_silhouette_out(Image<glm::vec4>& light, const Image<double>& truth) {
   int moved = 0, sphere = 0;

@@ -483,12 +483,14 @@ TEST_F(Cli, CompareReportsNumbersAndChecksTheTolerance) {
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "--shading", "flat", "-o", "flat.png"}).exit_code, 0);
   const Outcome same = run({"compare", "64x36.png", "64x36.png", "--tolerance", "0"});
   EXPECT_EQ(same.exit_code, 0) << same.err;
-  EXPECT_TRUE(same.out.starts_with("64x36.png vs. 64x36.png, 64x36, 8-bit codes / 255\nrmse         0\n")) << same.out;
+  EXPECT_TRUE(same.out.starts_with("64x36.png vs. 64x36.png, 64x36, 8-bit codes / 255\ndiffering    0 of 2304 pixels\nrmse         0\n"))
+      << same.out;
   EXPECT_NE(same.out.find("\npsnr         infinite\n"), std::string::npos) << same.out;
   const Outcome json = run({"compare", "64x36.png", "flat.png", "--json", "-o", "d.png"});
   EXPECT_EQ(json.exit_code, 0) << "without --tolerance, differences are not an error";
   const auto parsed = nlohmann::json::parse(json.out);
-  for (const char* key : {"rmse", "psnr_db", "max", "p999", "share_above_1_255", "ssim"}) EXPECT_TRUE(parsed.at(key).is_number()) << key;
+  for (const char* key : {"differing_pixels", "rmse", "psnr_db", "max", "p999", "share_above_1_255", "ssim"})
+    EXPECT_TRUE(parsed.at(key).is_number()) << key;
   EXPECT_TRUE(fs::exists(directory / "d.png"));
   const double most = parsed.at("max");
   EXPECT_GT(most, 0.01);

@@ -34,7 +34,7 @@ TEST_F(Limits, TextureOfSixtyThousandPixelsPerSide) {
   refuses({"render", "a.obj", "--size", "64x36"}, {"bomb.png", "60000x60000"});
 }
 
-TEST_F(Limits, TextureWithinTheFormatButAboveTheLimits) {
+TEST_F(Limits, TextureThatIsValidButExceedsTheLimits) {
   write_png(directory / "large.png", Image<glm::u8vec4>(4096, 4096));
   write_model("large.png");
   refuses({"render", "a.obj", "--size", "64x36", "--max-memory", "100M"}, {"large.png", "160 MiB", "100 MiB (--max-memory)"});

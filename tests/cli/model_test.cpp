@@ -144,7 +144,7 @@ std::string crossing_quads(const std::string& material) {
          material + "\nf 5 6 7 8\nusemtl other\nf 9 10 11 12\n";
 }
 
-// A pixel left of the line where the quads cross shows the other quad in front than a pixel right of it.
+// Pixels left and right of the line where the quads cross show different quads in front.
 TEST_F(Models, TransparentSurfacesMayIntersect) {
   write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl red\nKd 1 0 0\nd 0.5\nnewmtl other\nKd 0 0 1\nd 0.5\n");
   write("quads.obj", crossing_quads("red"));

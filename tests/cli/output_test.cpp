@@ -90,6 +90,23 @@ TEST_F(Outputs, ResumeRendersMissingValues) {
   expect_success({"--frames", "0..1", "-o", "a.png"});
   expect_success({"--frames", "0..1", "-o", "a.png", "--resume", "--aov", "depth"});
   EXPECT_TRUE(fs::exists(directory / "a_0000-aov.exr") && fs::exists(directory / "a_0001-aov.exr"));
+  // Files that exist, but without all values.
+  expect_success({"--frames", "0..1", "-o", "a.png", "--resume", "--aov", "depth,normal"});
+  EXPECT_TRUE(has("a_0001-aov.exr", std::string("normal.Z\0", 9)));
+  expect_success({"--frames", "0..1", "-o", "b.exr"});
+  expect_success({"--frames", "0..1", "-o", "b.exr", "--resume", "--aov", "object"});
+  EXPECT_TRUE(has("b_0001.exr", std::string("object.id\0", 10)));
+}
+
+TEST_F(Outputs, ResumeKeepsFramesWithAllValues) {
+  for (const char* separate : {"--aov-separate", "--resume"}) {
+    const auto render = [&] { expect_success({"--frames", "0..1", "-o", "a.exr", "--aov", "depth,normal", "--resume", separate}); };
+    render();
+    const auto before = fs::last_write_time(directory / "a_0001.exr");
+    render();
+    EXPECT_EQ(fs::last_write_time(directory / "a_0001.exr"), before) << separate;
+    fs::remove(directory / "a_0001.exr");
+  }
 }
 
 TEST_F(Outputs, ValuesDoNotReplaceInputs) {
@@ -97,6 +114,18 @@ TEST_F(Outputs, ValuesDoNotReplaceInputs) {
   const Outcome o = run({"render", "scene-aov.exr", "--size", "96x64", "--aov", "depth", "-o", "scene.png"});
   EXPECT_EQ(o.exit_code, 4) << o.err;
   EXPECT_NE(o.err.find("scene-aov.exr"), std::string::npos) << o.err;
+  fs::copy_file(directory / "scene.json", directory / "a_0007-camera_normal.exr");
+  EXPECT_EQ(run({"render", "a_0007-camera_normal.exr", "--size", "96x64", "--aov", "camera_normal", "--aov-separate", "--frames", "0..9",
+                 "-o", "a.png"})
+                .exit_code,
+            4);
+}
+
+TEST_F(Outputs, TextOfPicturesIsPrintable) {
+  fs::copy_file(directory / "scene.json", directory / "it's a\ttab.json");
+  const Outcome o = run({"render", "it's a\ttab.json", "--size", "96x64", "-o", "a.png"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_TRUE(has("a.png", R"(halfspace render 'it'\''s a?tab.json')")) << bytes("a.png");
 }
 
 TEST_F(Outputs, OptionsAreChecked) {

@@ -4,9 +4,10 @@
 
     portable_test.py BUILD_V3 BUILD_V4     two portable builds, for x86-64-v3 and x86-64-v4
 
-Both are installed into one prefix, as scripts/package.sh packages them.
+The Python module is tested if both builds have it. Both are installed into one prefix, as scripts/package.sh packages them.
 """
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -70,6 +71,35 @@ class Selection(unittest.TestCase):
         self.assertIn("Usage", run(PREFIX / "bin" / "halfspace-bench", "--help").stdout)
 
 
+class PythonModule(unittest.TestCase):
+    def setUp(self):
+        self.packages = PREFIX / "lib" / "python3" / "dist-packages"
+        if not (self.packages / "halfspace").exists():
+            self.skipTest("the builds have no Python module")
+
+    def python(self, code, folder=""):
+        result = subprocess.run(["/usr/bin/python3", "-c", code], capture_output=True, text=True, cwd=PREFIX,
+                                env={**os.environ, "PYTHONPATH": str(self.packages / folder)})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout.strip()
+
+    def test_the_best_extension_for_the_processor_is_selected(self):
+        self.assertEqual(self.python("import halfspace; print(halfspace._core.arch)"), "x86-64-v4" if HAS_V4 else "x86-64-v3")
+
+    def test_each_folder_has_the_extension_of_its_name(self):
+        for level in ("x86-64-v3", "x86-64-v4"):
+            folder = f"halfspace/{level}"
+            self.assertEqual(len(list((self.packages / folder).glob("_core*.so"))), 1, level)
+            if level == "x86-64-v3" or HAS_V4:
+                self.assertEqual(self.python("import _core; print(_core.arch)", folder), level)
+
+    def test_decoders_are_found(self):
+        picture = PREFIX / "map.jpg"
+        self.assertEqual(run(PREFIX / "bin" / "halfspace", "render", "earth", "--size", "64x36", "-o", picture).returncode, 0)
+        code = f"import halfspace; print(halfspace.render('earth', size=(8, 8), set={{'earth.color': {str(picture)!r}}}).shape)"
+        self.assertEqual(self.python(code), "(8, 8, 3)")
+
+
 @unittest.skipUnless(QEMU, "qemu-user is not installed")
 class Emulation(unittest.TestCase):
     def test_a_processor_below_v3_is_refused_in_one_line(self):
@@ -101,7 +131,7 @@ def main():
     global PREFIX
     with tempfile.TemporaryDirectory(prefix="halfspace-portable-") as folder:
         PREFIX = Path(folder)
-        for build, component in ((sys.argv[1], []), (sys.argv[2], ["--component", "isa"])):
+        for build, component in ((sys.argv[1], []), (sys.argv[2], ["--component", "isa"]), (sys.argv[2], ["--component", "python"])):
             subprocess.run(["cmake", "--install", build, "--prefix", folder, *component], check=True, capture_output=True)
         print(f"the processor has {'AVX-512' if HAS_V4 else 'no AVX-512'}; qemu-user is {'' if QEMU else 'not '}installed")
         return not unittest.main(argv=sys.argv[:1], exit=False).result.wasSuccessful()

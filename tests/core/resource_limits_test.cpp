@@ -18,8 +18,7 @@ class ResourceLimitsTest : public testing::Test {
 
   // Permits `bytes` in addition to the memory in use.
   static void permit(uint64_t bytes) {
-    ResourceLimits limits;
-    limits.max_memory = uint64_t{1} << 50;
+    ResourceLimits limits{.max_memory = uint64_t{1} << 50, .counts_resident = true};
     set_resource_limits(limits);
     limits.max_memory -= memory_left() - bytes;
     set_resource_limits(limits);
@@ -47,6 +46,14 @@ TEST_F(ResourceLimitsTest, CountsMemoryThatIsInUse) {
   const uint64_t before = memory_left();
   const std::vector<char> used(128 * kMebibyte, 1);
   EXPECT_LT(memory_left(), before - 100 * kMebibyte) << int{used[5]};
+}
+
+TEST_F(ResourceLimitsTest, TheHostProgramMayUseMoreThanTheLimit) {
+  set_resource_limits({.max_memory = 64 * kMebibyte});
+  const std::vector<char> used(128 * kMebibyte, 1);
+  EXPECT_EQ(memory_left(), 64 * kMebibyte) << int{used[5]};
+  EXPECT_NO_THROW(MemoryClaim(40 * kMebibyte, "a.png"));
+  EXPECT_THROW(MemoryClaim(65 * kMebibyte, "a.png"), LimitError);
 }
 
 TEST_F(ResourceLimitsTest, PixelsAreCountedWithoutOverflow) {

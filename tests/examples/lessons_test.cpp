@@ -90,7 +90,7 @@ TEST(Lesson, FourDrawsThePictureOfThree) {
   EXPECT_EQ(differing_pixels(own, library), 156);
 }
 
-TEST(Lesson, MeasurementsCompareEqualImages) {
+TEST(Lesson, MeasuredVariantsDrawEqualImages) {
   EXPECT_NE(run_lesson(11).output.find("the same image"), std::string::npos);
   EXPECT_NE(run_lesson(12).output.find("all images are the same"), std::string::npos);
 }

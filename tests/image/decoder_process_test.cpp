@@ -273,7 +273,7 @@ TEST_F(DecoderProcess, OutlivesTheThreadThatStartedIt) {
   EXPECT_EQ(tools(), before);
 }
 
-TEST_F(DecoderProcess, EndsWithTheProgramThatStartedIt) {
+TEST_F(DecoderProcess, ExitsWhenItsParentExits) {
   int ends[2] = {};
   ASSERT_EQ(::pipe(ends), 0);
   const pid_t child = ::fork();

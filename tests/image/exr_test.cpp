@@ -6,11 +6,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "halfspace/core/half.h"
+#include "halfspace/image/exr_header.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_tool.h"
 #include "image/image_files.h"
@@ -48,6 +50,21 @@ std::vector<uint16_t> finite_halves() {
     if ((h & 0x7c00) != 0x7c00) halves.push_back(static_cast<uint16_t>(h));
   }
   return halves;
+}
+
+TEST_F(Exr, ChannelNamesAreReadFromTheHeader) {
+  const std::vector<float> zeros(6);
+  const std::vector<ExrChannel> channels{channel("normal.X", ExrSample::number, zeros), channel("depth.Z", ExrSample::number, zeros)};
+  write_exr(directory / "a.exr", 3, 2, channels, {.software = "test", .comment = "chlist"});
+  EXPECT_EQ(exr_channel_names(directory / "a.exr"), (std::vector<std::string>{"depth.Z", "normal.X"}));
+  const std::string whole = read_bytes(directory / "a.exr");
+  for (std::size_t length = 0; length < 120; ++length) {
+    std::ofstream(directory / "part.exr", std::ios::binary) << whole.substr(0, length);
+    const std::vector<std::string> names = exr_channel_names(directory / "part.exr");
+    EXPECT_TRUE(names.empty() || names.size() == 2) << length;
+  }
+  EXPECT_TRUE(exr_channel_names(directory / "missing.exr").empty());
+  EXPECT_TRUE(exr_channel_names(directory).empty());
 }
 
 TEST_F(Exr, HalfsAreBitExact) {

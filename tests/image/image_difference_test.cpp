@@ -22,6 +22,7 @@ Image<glm::u8vec4> gray(int width, int height, uint8_t code) { return filled(wid
 TEST(ImageDifference, IsZeroForIdenticalImages) {
   const Image<glm::u8vec4> image = gray(7, 5, 93);
   const ImageDifference d = compare_images(image, image);
+  EXPECT_EQ(d.differing, 0);
   EXPECT_EQ(d.rmse, 0.0);
   EXPECT_TRUE(std::isinf(d.psnr_db));
   EXPECT_EQ(d.max, 0.0);
@@ -59,10 +60,12 @@ TEST(ImageDifference, ReportsFewDifferingPixels) {
   EXPECT_NEAR(d.mean, e / (3.0 * 2000.0), 1e-15);
   EXPECT_EQ(d.max, e);
   EXPECT_EQ(d.p999, 0.0);
+  EXPECT_EQ(d.differing, 1);
   EXPECT_EQ(d.share_above, 1.0 / 2000.0);
   EXPECT_LT(d.ssim, 1.0);
   for (const int x : {10, 20}) b.at(x, 30).x = 60;  // 3 of 2,000: more than 0.1 %
   d = compare_images(a, b);
+  EXPECT_EQ(d.differing, 3);
   EXPECT_EQ(d.p999, 10.0 / 255.0);
   EXPECT_EQ(d.max, e);
 }

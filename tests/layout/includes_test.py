@@ -40,7 +40,7 @@ RASTER_PHASES = [
     ["trace/"],
     ["visibility/"],
     ["shade/"],
-    ["constant_tiles", "tile_worker", "detail/"],
+    ["constant_tiles", "tile_draws", "tile_worker", "detail/"],
     ["pass", "naive", "naive_steps"],
     ["inspection"],
 ]

@@ -49,7 +49,7 @@ TEST_F(FileBytes, AreLimited) {
   EXPECT_EQ(error_for(folder_ / "file", 5), (folder_ / "file").string() + ": has 6 bytes; expected at most 5 (--max-memory)");
 }
 
-TEST_F(FileBytes, RejectWhatIsNotARegularFile) {
+TEST_F(FileBytes, RejectNonRegularFiles) {
   EXPECT_EQ(error_for(folder_), folder_.string() + ": is a directory; expected a file");
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_NE(error_for(folder_ / "pipe").find("regular file"), std::string::npos);

@@ -247,6 +247,38 @@ TEST(GltfHostile, LimitsMemory) {
   EXPECT_NE(error_of(file.text(), {.max_memory = 64u << 20}).find("too much memory"), std::string::npos);
 }
 
+// Returns the smallest limit with which a mesh of 100,000 vertices can be read.
+std::size_t least_memory(bool with_normals, bool with_joints) {
+  constexpr int kVertices = 99'999;
+  GltfBuilder file;
+  const auto zeros = [&](int component, const char* type) {
+    return file.add("accessors", {{"componentType", component}, {"count", kVertices}, {"type", type}});
+  };
+  GltfJson attributes = {{"POSITION", zeros(5126, "VEC3")}};
+  if (with_normals) attributes["NORMAL"] = zeros(5126, "VEC3");
+  for (const char* set : {"0", "1"}) {
+    if (!with_joints) continue;
+    attributes[std::string("JOINTS_") + set] = zeros(5123, "VEC4");
+    attributes[std::string("WEIGHTS_") + set] = zeros(5126, "VEC4");
+  }
+  file.mesh_node({{"attributes", attributes}});
+  const std::string text = file.text();
+  std::size_t low = 0, high = std::size_t{256} << 20;
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (error_of(text, {.max_memory = middle}).empty() ? high : low) = middle;
+  }
+  return high;
+}
+
+// Flat normals copy the vertices. The copies of two sets of joints and weights have 48 bytes per vertex, and 16 of them are in the bound
+// for meshes without joints.
+TEST(GltfHostile, CountsTheJointsOfCopiedVertices) {
+  const std::size_t joints = least_memory(true, true) - least_memory(true, false);
+  const std::size_t copied_joints = least_memory(false, true) - least_memory(false, false);
+  EXPECT_EQ(copied_joints - joints, 99'999u * 32);
+}
+
 TEST(GltfHostile, LimitsWarnings) {
   GltfBuilder file;
   for (int i = 0; i < 10'000; ++i) file.add("materials", {{"alphaCutoff", -1}});

@@ -189,7 +189,7 @@ TEST(Obj, MakesOneMeshPerMaterialAndTopology) {
   EXPECT_EQ(model.nodes[0].meshes, (std::vector<int>{0, 1, 2}));
 }
 
-// The positions relative to the origin must not depend on the place, and scale with the size.
+// The positions relative to the origin must not depend on where the cube is, and must be proportional to its size.
 TEST(Obj, KeepsPrecisionFarAwayAndAtAllSizes) {
   const ModelMesh near = read_obj_text(cube(0.75, glm::dvec3(0.0))).meshes[0];
   const ModelMesh far = read_obj_text(cube(0.75, glm::dvec3(5e6))).meshes[0];

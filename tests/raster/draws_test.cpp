@@ -79,7 +79,7 @@ void expect_any_parts_are_the_same(const Primitives& p, const std::vector<std::v
   }
 }
 
-// 45,000 triangles fill chunks up to the 4369 that always fit. Draws of more than 2048 vertices are split.
+// 45,000 triangles fill several chunks, each with the 4369 triangles that always fit. Draws of more than 2048 vertices are split.
 TEST(Draws, SplitTrianglesAreDrawnInOrder) {
   expect_any_parts_are_the_same(many(Topology::triangles, 3, 45000), {{1}, {1, 0, 5, 1000, 2, 3000, 0, 0, 700}, {683, 682}, {0, 20000}});
 }

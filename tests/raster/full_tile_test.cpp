@@ -24,7 +24,8 @@ struct Step {
   bool depth_only;
 };
 
-// Returns a triangle that covers the whole picture, at one depth or two, a small one at a random position, or one that covers about half.
+// Returns one of three triangles: one that covers the whole picture, at one depth or with two; a small one at a random position; or one
+// that covers about half of the picture.
 std::vector<glm::vec4> random_positions(Random& r) {
   const auto depth = [&] { return 0.125f * static_cast<float>(r.integer(-7, 7)); };
   const float z = depth(), far_z = r.coin() ? z : depth();

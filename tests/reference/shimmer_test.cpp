@@ -71,7 +71,8 @@ Shimmer of_a_turning_light(const std::string& method, int resolution) {
   return sum;
 }
 
-// Visible points of the scene, away from the border of the image. Counts how often their light crosses 1/2 according to the maps.
+// Visible points of the scene, away from the border of the image. Counts how often the visibility of the light, as given by the shadow
+// maps, crosses 1/2 at these points.
 class WatchedPoints {
  public:
   explicit WatchedPoints(const PreparedScene& scene) {

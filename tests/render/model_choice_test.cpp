@@ -8,9 +8,9 @@
 #include <map>
 
 #include "halfspace/core/check.h"
-#include "halfspace/scene/shapes.h"
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/scene_file.h"
+#include "halfspace/scene/shapes.h"
 #include "support/errors.h"
 
 namespace halfspace {
@@ -50,6 +50,17 @@ TEST(ModelChoice, UsesTheFewestSufficientBands) {
   const int fewer = o.latitudes == part_step(o.latitudes * 3 / 4) ? o.latitudes / 2 : o.latitudes * 3 / 4;
   EXPECT_GT(chord_error(with_parts(o, fewer, false)) * per_unit, 0.5) << o.latitudes;
   EXPECT_EQ(f.choices.size(), 2u) << "only latitudes and longitudes change";
+}
+
+// A parent can turn a sphere into an ellipsoid, which is not ray traced.
+TEST(ModelChoice, KeepsTheMeshOfSpheresWithUnevenlyScaledParents) {
+  const auto shape_with = [](const std::string& scale) {
+    const std::string objects = R"("objects": {"b": {"shape": "cube", "scale": )" + scale + R"(}, "m": {"parent": "b", "shape": "cube"},
+                                   "a": {"shape": "uv_sphere", "parent": "m"}})";
+    return fitted(objects, kHalfPixel).scene.objects[2].second.shape;
+  };
+  EXPECT_EQ(shape_with("[1, 2, 1]"), Shape::uv_sphere);
+  EXPECT_EQ(shape_with("[2, 2, 2]"), Shape::sphere);
 }
 
 TEST(ModelChoice, KeepsIntendedSettings) {

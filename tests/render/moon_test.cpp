@@ -39,11 +39,11 @@ TEST(Moon, IsBitIdenticalForAnyThreadCount) {
   EXPECT_EQ(picture_of(scene, 160, 90, 7), one);
 }
 
-// The distance of the ray through a pixel from the origin, and whether the pixel is covered.
+// The distance from the origin to the ray through a pixel, and whether the pixel is covered.
 struct Sighting {
   double distance;
   bool covered;
-  double pixel;  // size of a pixel in world units at the distance of the origin
+  double pixel;  // its size in world units at the distance of the origin
 };
 
 std::vector<Sighting> sightings(const SceneDescription& scene, int width, int height) {

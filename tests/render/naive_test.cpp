@@ -37,7 +37,7 @@ Comparison compare_pipelines(const SceneDescription& scene, int width, int heigh
   const Workers workers(2);
   SceneAssets assets(workers);
   const PreparedScene prepared = assets.prepare(scene, width, height);
-  if (!naive_obstacle(prepared).empty()) return {-1, {}};
+  if (!naive_obstacle(prepared, scene).empty()) return {-1, {}};
   Image<glm::vec4> tiles(width, height), naive(width, height);
   render(prepared, tiles, workers);
   render_naive(prepared, naive);

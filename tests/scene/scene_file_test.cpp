@@ -45,7 +45,7 @@ TEST_P(EveryScene, PrintedSceneReadsBackUnchanged) {
   EXPECT_NE(SceneFile::open(GetParam()).description().head.title, "");
 }
 
-// Returns another value of the type and range of the key.
+// Returns a different value that is valid for the key.
 std::string another_value(const Field& field) {
   const Key& key = *field.key;
   const Json now = value_of(field);

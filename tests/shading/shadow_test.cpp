@@ -134,7 +134,7 @@ TEST(ShadowFilter, DiskIsUnbiasedForAnyRotation) {
 }
 
 TEST(ShadowFilter, PenumbraWidthMatchesTheLightSize) {
-  // An occluder edge is h above the floor and the light has the tangent t. Light rises from 0 to 1 over a width of 2·h·t, like the area of
+  // An occluder edge is h above the floor, and t is the tangent of the angular radius of the light. Light rises from 0 to 1 over a width of 2·h·t, like the area of
   // a disk cut by a line.
   Map map(512);
   constexpr double kFloor = -0.8, kEdge = 0.2, kTangent = 0.1;
@@ -267,7 +267,7 @@ double false_shadow(ShadowFilter filter, ShadowBias bias, double degrees) {
   return shaded / kPoints;
 }
 
-TEST(ShadowBias, AcneOccursWithoutABiasAndNotWithPlaneBiases) {
+TEST(ShadowBias, AcneOccursWithoutABiasButNotWithPlaneBiases) {
   for (const double degrees : {10.0, 45.0, 70.0, 80.0}) {
     EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::none, degrees), 0.4) << degrees;  // half of each texel is below its center
     for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::bilinear, ShadowFilter::pcf5}) {

@@ -199,7 +199,7 @@ TEST(TextureFormats, EveryWrapModeMatchesOpenGl) {
               ASSERT_EQ(got[c], static_cast<float>(want.value[c])) << uv.x << ' ' << uv.y;
             } else {
               // The tolerance is derived as in texture_test.cpp: the rounding of the fraction on two axes and two levels, and the snapping
-              // of the level. The rounding of codes to the nearest does not matter, because the reference reads the same levels.
+              // of the level. Rounding codes to the nearest integer does not matter, because the reference reads the same levels.
               ASSERT_NEAR(static_cast<double>(got[c]), want.value[c], 2 * scale[c] * (2 * 0x1p-16 + 0x1p-14)) << uv.x << ' ' << uv.y;
               ASSERT_NEAR(in_double[c], want.value[c], scale[c] * 1e-7) << uv.x << ' ' << uv.y;
             }

@@ -48,8 +48,8 @@ bool expect_hash(const std::string& name, uint64_t hash);
 /// Fails the test if the program's file contains names that no test has used. Call it only from a test that uses all of them.
 void expect_no_other_hashes();
 
-/// Compares the hash of the codes of a picture. If it differs, writes the picture to the folder test-output of the build. If `expected` is
-/// given, it must return the correct or a similar picture; the difference from that picture is then also written.
+/// Compares the hash of the pixel values of a picture with the stored one. If it differs, writes the picture to the folder test-output of
+/// the build. If `expected` is given, it must return a reference picture; the difference from that picture is then also written.
 bool expect_picture(const std::string& name, const Image<glm::u8vec4>& picture, const std::function<Image<glm::u8vec4>()>& expected = {});
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The amount of work of tests that draw random cases or read many files. scripts/test_full.sh sets HALFSPACE_LONG_TESTS.
+// Controls how much work is done by tests that draw random cases or read many files. scripts/test_full.sh sets HALFSPACE_LONG_TESTS.
 #pragma once
 
 #include <cstdlib>

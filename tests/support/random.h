@@ -25,7 +25,7 @@ class Random {
   int below(int n) { return static_cast<int>((uint64_t{bits()} * static_cast<uint64_t>(n)) >> 32); }
   /// Returns an integer in [low, high].
   int between(int low, int high) { return low + below(high - low + 1); }
-  /// Returns an integer in [low, high] as a remainder of 64 bits. The sequence differs from the sequence of between().
+  /// Returns an integer in [low, high], the remainder of a 64-bit random number. The sequence differs from the sequence of between().
   int integer(int low, int high) {
     return static_cast<int>(low + static_cast<int64_t>(next() % static_cast<uint64_t>(int64_t{high} - low + 1)));
   }

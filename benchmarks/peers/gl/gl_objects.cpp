@@ -6,6 +6,7 @@
 #include <string>
 
 #include "halfspace/core/check.h"
+#include "peers/gl/gl_state.h"
 
 namespace halfspace {
 
@@ -99,16 +100,39 @@ void GlMesh::draw(GLenum topology) const {
   }
 }
 
-GlTexture::GlTexture(const Texture2D& texels, GLint wrap_t, float anisotropy) {
+void GlMesh::draw_part(GLenum topology, std::size_t first, std::size_t count, std::size_t instances) const {
+  bind();
+  glDrawElementsInstanced(topology, static_cast<GLsizei>(count), GL_UNSIGNED_INT, reinterpret_cast<const void*>(first * sizeof(uint32_t)),
+                          static_cast<GLsizei>(instances));
+}
+
+void GlTexture::upload(const Texture2D& texels) {
   glGenTextures(1, &id_);
   bind();
-  for (int level = 0; level < texels.levels(); ++level) {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, texels.levels() - 1);
+  for (int level = 0; level < texels.levels() && texels.format() == TexelFormat::rgba16f; ++level) {
+    Image<glm::vec4> image(texels.width(level), texels.height(level));
+    for (int row = 0; row < image.height(); ++row) {
+      for (int x = 0; x < image.width(); ++x) image.at(x, row) = texels.value(level, x, row);
+    }
+    glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA16F, image.width(), image.height(), 0, GL_RGBA, GL_FLOAT, image.data());
+  }
+  for (int level = 0; level < texels.levels() && texels.format() == TexelFormat::rgba8; ++level) {
     Image<glm::u8vec4> image(texels.width(level), texels.height(level));
     for (int row = 0; row < image.height(); ++row) {
       for (int x = 0; x < image.width(); ++x) image.at(x, row) = texels.texel(level, x, row);
     }
     glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, image.width(), image.height(), 0, GL_RGBA, GL_UNSIGNED_BYTE, image.data());
   }
+}
+
+GlTexture::GlTexture(const Texture2D& texels, const Sampler& sampler) {
+  upload(texels);
+  set_gl_sampler(sampler, texels.levels() > 1);
+}
+
+GlTexture::GlTexture(const Texture2D& texels, GLint wrap_t, float anisotropy) {
+  upload(texels);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
@@ -116,7 +140,8 @@ GlTexture::GlTexture(const Texture2D& texels, GLint wrap_t, float anisotropy) {
   if (anisotropy > 1.0f) glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
 }
 
-GlTarget::GlTarget(WorkloadSize size, GLenum color_format, bool has_depth, int samples) : size_(size) {
+GlTarget::GlTarget(WorkloadSize size, GLenum color_format, GLenum depth_format, int samples)
+    : size_(size), has_stencil_(depth_format == GL_DEPTH24_STENCIL8) {
   const GLenum kind = samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
   const auto texture = [&](GLenum internal, GLenum format, GLenum type) {
     GLuint id = 0;
@@ -136,14 +161,17 @@ GlTarget::GlTarget(WorkloadSize size, GLenum color_format, bool has_depth, int s
   glGenFramebuffers(1, &framebuffer_);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   if (color_format != 0) {
-    color_ = texture(color_format, GL_RGBA, color_format == GL_RGBA8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT);
+    color_ = texture(color_format, GL_RGBA, color_format == GL_RGBA16F ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, kind, color_, 0);
   } else {
     glDrawBuffer(GL_NONE);
     glReadBuffer(GL_NONE);
   }
-  if (has_depth) {
-    depth_ = texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+  if (has_stencil_) {
+    depth_ = texture(depth_format, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, kind, depth_, 0);
+  } else if (depth_format != 0) {
+    depth_ = texture(depth_format, GL_DEPTH_COMPONENT, GL_FLOAT);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, kind, depth_, 0);
   }
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw InputError("OpenGL: the framebuffer is incomplete");
@@ -170,7 +198,8 @@ void GlTarget::bind() const {
 void GlTarget::clear(const glm::vec4& color) const {
   glClearColor(color.x, color.y, color.z, color.w);
   glClearDepth(1.0);
-  glClear((color_ != 0 ? GL_COLOR_BUFFER_BIT : 0u) | (depth_ != 0 ? GL_DEPTH_BUFFER_BIT : 0u));
+  glClear((color_ != 0 ? GL_COLOR_BUFFER_BIT : 0u) | (depth_ != 0 ? GL_DEPTH_BUFFER_BIT : 0u) |
+          (has_stencil_ ? GL_STENCIL_BUFFER_BIT : 0u));
 }
 
 void GlTarget::resolve_into(const GlTarget& to) const {

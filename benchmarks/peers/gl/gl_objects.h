@@ -51,6 +51,8 @@ class GlMesh {
 
   void bind() const { glBindVertexArray(array_); }
   void draw(GLenum topology) const;
+  /// Draws `count` of the indices from `first` on.
+  void draw_part(GLenum topology, std::size_t first, std::size_t count, std::size_t instances) const;
 
  private:
   GLuint array_ = 0;
@@ -66,9 +68,11 @@ std::span<const float> floats_of(std::span<const T> structs) {
   return {reinterpret_cast<const float*>(structs.data()), structs.size() * (sizeof(T) / sizeof(float))};
 }
 
-/// An rgba8 texture with all mip levels and trilinear filtering. wrap_t: GL_REPEAT or GL_CLAMP_TO_EDGE.
+/// An rgba8 or rgba16f texture with all its mip levels.
 class GlTexture {
  public:
+  GlTexture(const Texture2D& texels, const Sampler& sampler);
+  /// The same with trilinear filtering. wrap_t: GL_REPEAT or GL_CLAMP_TO_EDGE.
   GlTexture(const Texture2D& texels, GLint wrap_t, float anisotropy = 1.0f);
   ~GlTexture() { glDeleteTextures(1, &id_); }
   GlTexture(const GlTexture&) = delete;
@@ -76,13 +80,18 @@ class GlTexture {
   void bind() const { glBindTexture(GL_TEXTURE_2D, id_); }
 
  private:
+  void upload(const Texture2D& texels);
+
   GLuint id_ = 0;
 };
 
-/// A framebuffer with a color texture, unless color_format is 0, and an optional float depth texture.
+/// A framebuffer with a color texture, unless color_format is 0, and an optional depth texture.
 class GlTarget {
  public:
-  GlTarget(WorkloadSize size, GLenum color_format, bool has_depth, int samples = 1);
+  GlTarget(WorkloadSize size, GLenum color_format, bool has_depth, int samples = 1)
+      : GlTarget(size, color_format, has_depth ? GLenum{GL_DEPTH_COMPONENT32F} : GLenum{0}, samples) {}
+  /// depth_format: GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8 or 0.
+  GlTarget(WorkloadSize size, GLenum color_format, GLenum depth_format, int samples = 1);
   ~GlTarget();
   GlTarget(const GlTarget&) = delete;
   GlTarget& operator=(const GlTarget&) = delete;
@@ -102,6 +111,7 @@ class GlTarget {
  private:
   WorkloadSize size_;
   GLuint framebuffer_ = 0, color_ = 0, depth_ = 0;
+  bool has_stencil_ = false;
 };
 
 }  // namespace halfspace

@@ -7,6 +7,7 @@
 #include "bench_program.h"
 #include "cli/errors.h"
 #include "peers/gl/gl_context.h"
+#include "peers/gl/gl_matrix.h"
 #include "peers/gl/gl_workload.h"
 
 namespace halfspace {
@@ -29,6 +30,7 @@ int run(int argc, char** argv) {
                                 },
                             .kinds = [] { return gl_workloads(); },
                             .sweeps = [] { return gl_sweeps(); },
+                            .matrix = [] { return gl_matrix_workloads(); },
                             .identity =
                                 [&] {
                                   return nlohmann::ordered_json{{"program", driver}, {"renderer", context->description()}};

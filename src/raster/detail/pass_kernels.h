@@ -25,6 +25,10 @@ enum class DrawKind : uint8_t {
   depth_only  ///< ignores the fragment function but not the visibility function
 };
 
+/// Whether the fragment function discards fragments or replaces their depth.
+template <class S>
+inline constexpr bool kDecidesVisibility = kDiscards<S> || kWritesDepth<S>;
+
 /// Returns the kernels of a shader. Kernels for functions that do not exist, or that the draw ignores, are null.
 template <class S, DrawKind kind>
 constexpr ShaderKernels kernels_of() {
@@ -53,10 +57,15 @@ constexpr ShaderKernels kernels_of() {
       k.primitive_count = static_cast<int>(kIdRow);
     }
     static_assert(kColors<S> <= kMaxColorTargets, "a fragment function returns at most 12 colors");
-    k.fragment = fragment_kernel<S>;
+    k.fragment = fragment_kernel<S, true>;
+    k.color = fragment_kernel<S, !kDecidesVisibility<S>>;
     k.color_count = static_cast<int>(kColors<S>);
     k.discards = kDiscards<S>;
     k.is_constant = kIsConstant<S>;
+    // Without a visibility function, the fragment function is compiled a second time, for the keep mask and the depth only. This pays where
+    // depth is replaced: no fragment can be rejected before it is shaded. A shader that only discards usually decides by a texture, which
+    // is most of its work, so it is faster to shade it once.
+    if constexpr (kWritesDepth<S> && !HasPrimitive<S> && !kUsesPrimitiveId<S>) k.visibility = visibility_kernel<S>;
   }
   if constexpr (HasFragmentFunction<S>) k.writes_depth = kWritesDepth<S>;
   if constexpr (HasVisibilityFunction<S>) k.visibility = visibility_kernel<S>;

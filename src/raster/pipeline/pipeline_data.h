@@ -183,7 +183,7 @@ struct Triangle {
 };
 
 /// Vertex created or copied by the clipper. Its flat varyings are copied from the provoking vertex. For shaders that use a PrimitiveId,
-/// two more values follow the varyings: the weights of the second and third submitted vertex at this one.
+/// two more values follow the varyings: the barycentric weights of the second and third submitted vertex at this vertex.
 struct ClipVertex {
   ScreenVertex screen;
   uint32_t first_varying;  ///< index into Chunk::clip_varyings

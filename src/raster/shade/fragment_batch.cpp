@@ -11,7 +11,7 @@ void constant_colors(const Draw& draw, FragmentOutput& out) {
                                             .tile_y0 = 0,
                                             .position = {},
                                             .ids = nullptr,
-                                            .uniform_id = kNoTriangle,
+                                            .packet_ids = nullptr,
                                             .packets = nullptr,
                                             .count = 1,
                                             .centroids = nullptr,

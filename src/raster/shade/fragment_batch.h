@@ -31,10 +31,10 @@ struct FragmentOutput {
 /// Packets for a fragment kernel.
 struct FragmentBatch {
   const PassContext* context;
-  int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's storage
-  SamplePosition position;  ///< position within the pixel at which the shader is evaluated
-  const TriangleId* ids;    ///< triangle of each pixel of the tile; null if all pixels show uniform_id
-  TriangleId uniform_id;
+  int tile_x0, tile_y0;          ///< window coordinates of pixel (0, 0) of the tile's storage
+  SamplePosition position;       ///< position within the pixel at which the shader is evaluated
+  const TriangleId* ids;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
+  const TriangleId* packet_ids;  ///< triangle of each packet; only used if ids is null
   const PacketMask* packets;
   int count;                        ///< ≤ kFragmentBatch
   const SamplePosition* centroids;  ///< positions of centroid varyings, W for each packet; null if the same as position

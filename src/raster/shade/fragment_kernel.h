@@ -73,7 +73,8 @@ HS_INLINE PrimitiveId<FragmentReal> primitive_id(const PacketTriangles<N, kIdRow
   return {as_int(t.primitive[kIdPrimitive]), as_int(t.primitive[kIdInstance]), vec3<R>(R(1) - (second + third), second, third)};
 }
 
-template <class S>
+/// decides: the keep mask and the depth are needed as well.
+template <class S, bool decides>
 HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) {
   using R = FragmentReal;
   using V = typename S::template Varyings<R>;
@@ -100,13 +101,14 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);  // if the count is odd, the last packet is shaded twice
     const PacketMask a = batch.packets[first], b = batch.packets[second];
-    find_triangles<0>(batch, a, recent, triangles);
-    find_triangles<1>(batch, b, recent, triangles);
-    const auto ids_of = [&](PacketMask packet) {
-      const TriangleId* ids = batch.ids == nullptr ? nullptr : batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
-      return PacketTriangleIds{batch.context, ids, batch.uniform_id, packet.lanes};
+    find_triangles<0>(batch, first, recent, triangles);
+    find_triangles<1>(batch, second, recent, triangles);
+    const auto ids_of = [&](int packet_index) {
+      const PacketMask packet = batch.packets[packet_index];
+      if (batch.ids == nullptr) return PacketTriangleIds{batch.context, nullptr, batch.packet_ids[packet_index], packet.lanes};
+      return PacketTriangleIds{batch.context, batch.ids + static_cast<std::size_t>(packet.packet) * kLanes, kNoTriangle, packet.lanes};
     };
-    const std::array<PacketTriangleIds, 2> ids{ids_of(a), ids_of(b)};
+    const std::array<PacketTriangleIds, 2> ids{ids_of(first), ids_of(second)};
     Pixel<R> px;
     const V in =
         begin_packets<S>({origin_of(batch, first, a.packet), origin_of(batch, second, b.packet)}, batch.position, triangles, ids, px);
@@ -123,14 +125,28 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
       batch.out->packet_color(n_color, i) = {color.x.low, color.y.low, color.z.low, color.w.low};
       batch.out->packet_color(n_color, i + 1) = {color.x.high, color.y.high, color.z.high, color.w.high};
     }
-    if constexpr (kDiscards<S>) {
+    if constexpr (decides && kDiscards<S>) {
       batch.out->keep[i] = static_cast<uint16_t>(bits(fragment.keep.low));
       batch.out->keep[i + 1] = static_cast<uint16_t>(bits(fragment.keep.high));
     }
-    if constexpr (kWritesDepth<S>) {
+    if constexpr (decides && kWritesDepth<S>) {
       batch.out->depth[i] = fragment.depth.low;
       batch.out->depth[i + 1] = fragment.depth.high;
     }
+  }
+}
+
+/// Returns the keep mask and the depth of the fragments, from the visibility function or else from the fragment function.
+template <class S, class R>
+HS_INLINE Visibility<R> call_visibility(const S& s, const typename S::template Varyings<R>& in, const Pixel<R>& px) {
+  if constexpr (HasVisibilityFunction<S>) {
+    return s.visibility(in, px);
+  } else {
+    const auto fragment = call_fragment<S, R>(s, in, PrimitiveOf<S, R>{}, px);
+    Visibility<R> v{MaskOf<R>(true), R(0.0f)};
+    if constexpr (kDiscards<S>) v.keep = fragment.keep;
+    if constexpr (kWritesDepth<S>) v.depth = fragment.depth;
+    return v;
   }
 }
 
@@ -140,18 +156,22 @@ HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
   using V = typename S::template Varyings<R>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
-  const TriangleScalars<kComponents<V>> scalars = scalars_of<F>(*batch.context, batch.id);
-  spread_triangle<0>(scalars, triangles);
-  spread_triangle<1>(scalars, triangles);
-  const PacketTriangleIds id{batch.context, nullptr, batch.id, kAllBits<Mask>};
-  const std::array<PacketTriangleIds, 2> ids{id, id};
+  RecentTriangles<F> recent;
+  // Initializes all values, which GCC 12 cannot derive from `only`.
+  triangles.only = {batch.ids[0], batch.ids[0]};
+  spread_triangle<0>(recent.of(*batch.context, batch.ids[0]), triangles);
+  spread_triangle<1>(recent.of(*batch.context, batch.ids[0]), triangles);
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);
     const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
+    show_triangle<0>(*batch.context, batch.ids[a], recent, triangles);
+    show_triangle<1>(*batch.context, batch.ids[b], recent, triangles);
+    const std::array<PacketTriangleIds, 2> ids{PacketTriangleIds{batch.context, nullptr, batch.ids[a], kAllBits<Mask>},
+                                               PacketTriangleIds{batch.context, nullptr, batch.ids[b], kAllBits<Mask>}};
     Pixel<R> px;
     const V in = begin_packets<S>({origin_of(batch, first, batch.packets[a]), origin_of(batch, second, batch.packets[b])}, batch.position,
                                   triangles, ids, px);
-    const Visibility<R> v = static_cast<const S*>(shader)->visibility(in, px);
+    const Visibility<R> v = call_visibility<S, R>(*static_cast<const S*>(shader), in, px);
     if constexpr (kWritesDepth<S>) {
       batch.depth[a] = v.depth.low;
       batch.depth[b] = v.depth.high;

@@ -208,18 +208,21 @@ __attribute__((noinline)) void merge_many(const PassContext& context, const Tria
   }
 }
 
-/// Finds the triangles of a packet and stores their values as packet i of t. Does nothing if t already contains the only triangle, as
-/// recorded in t.only[i].
+/// Stores the values of one triangle as packet i of t, unless t already contains it, as recorded in t.only[i].
 template <int i, class V, std::size_t N, std::size_t P, bool with_id>
-HS_INLINE void find_triangles(const FragmentBatch& batch, PacketMask packet, RecentTriangles<V, with_id>& recent,
-                              PacketTriangles<N, P, with_id>& t) {
+HS_INLINE void show_triangle(const PassContext& context, TriangleId id, RecentTriangles<V, with_id>& recent,
+                             PacketTriangles<N, P, with_id>& t) {
+  if (t.only[i] != id) spread_triangle<i>(recent.of(context, id), t);
+  t.only[i] = id;
+}
+
+/// Finds the triangles of packet n of the batch and stores their values as packet i of t.
+template <int i, class V, std::size_t N, std::size_t P, bool with_id>
+HS_INLINE void find_triangles(const FragmentBatch& batch, int n, RecentTriangles<V, with_id>& recent, PacketTriangles<N, P, with_id>& t) {
   TriangleId& only = t.only[i];
   const PassContext& context = *batch.context;
-  if (batch.ids == nullptr) {
-    if (only != batch.uniform_id) spread_triangle<i>(recent.of(context, batch.uniform_id), t);
-    only = batch.uniform_id;
-    return;
-  }
+  if (batch.ids == nullptr) return show_triangle<i>(context, batch.packet_ids[n], recent, t);
+  const PacketMask packet = batch.packets[n];
   const TriangleId* ids = batch.ids + static_cast<std::size_t>(packet.packet) * kLanes;
   const Int packet_ids = load<Int>(ids);
   const uint32_t firsts = first_lane_of_each(packet_ids, ids, packet.lanes, kGatherFrom);

@@ -104,8 +104,8 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredSha
       const int p = packets[i].packet;
       find_centroids(context, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
     }
-    draw.kernels.fragment(draw.shader.get(), {&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, kNoTriangle,
-                                              packets.data(), n, needs_centroid ? centroids.data() : nullptr, &out});
+    draw.kernels.color(draw.shader.get(), {&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, nullptr,
+                                           packets.data(), n, needs_centroid ? centroids.data() : nullptr, &out});
     if (job.share == Share::per_pixel && tile.samples > 1) {
       for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) write_samples(draw, out, i, packets[i], job.ids, tile, statistics);
     } else {
@@ -164,11 +164,13 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
   statistics.fragments_shaded += kMaxTilePixels;
   FragmentOutput& out = memory.output;
   std::array<PacketMask, kFragmentBatch> packets;
+  std::array<TriangleId, kFragmentBatch> ids;
+  ids.fill(id);
   for (int first = 0; first < kPackets; first += kFragmentBatch) {
     for (int i = 0; i < kFragmentBatch; ++i)
       packets[static_cast<std::size_t>(i)] = {static_cast<uint16_t>(first + i), static_cast<uint16_t>(kAllBits<Mask>)};
-    draw.kernels.fragment(draw.shader.get(),
-                          {&context, tile.x0, tile.y0, kPixelCenter, nullptr, id, packets.data(), kFragmentBatch, nullptr, &out});
+    draw.kernels.color(draw.shader.get(),
+                       {&context, tile.x0, tile.y0, kPixelCenter, nullptr, ids.data(), packets.data(), kFragmentBatch, nullptr, &out});
     write_colors(draw, out, 0, packets, tile);
     if constexpr (kTraces<Statistics>) trace_visible(id, packets, out, tile, *statistics.trace);
   }

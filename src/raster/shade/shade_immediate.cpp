@@ -11,87 +11,108 @@ namespace halfspace {
 
 namespace {
 
-// Data that all samples of a primitive share.
+// Data that all fragments share.
 template <class S>
 struct ImmediateShading {
   using Statistics = S;
 
   const PassContext& context;
   const Draw& draw;
-  TriangleId id;
   VisibilityMode mode;
-  const CoverageList& list;
   Tile& tile;
   TransparentLayers& layers;
   FragmentOutput& output;
   const StencilFace* stencil;  // null: no stencil test after shading
+  bool tests_late;             // depth is tested after shading
   Statistics& statistics;
 };
-
 template <class Shading>
 inline constexpr bool kTracesShading = kTraces<typename Shading::Statistics>;
+
+// Records that the fragment function ran for packet i of a batch. If no other outcome follows, the fragments were discarded.
+template <class Shading>
+void trace_shaded(const Shading& c, const FragmentOutput& out, std::size_t i, const PacketMask& packet, TriangleId id) {
+  c.statistics.trace->set_shaded(id, packet.packet, packet.lanes, out.packet_color(0, i));
+  c.statistics.trace->set_outcome(id, packet.packet, packet.lanes, FragmentOutcome::discarded);
+}
+
+// Records that packet i was written.
+template <class Shading>
+void trace_written(const Shading& c, const PacketMask& packet, TriangleId id) {
+  c.statistics.trace->set_outcome(id, packet.packet, packet.lanes,
+                                  blend_of(c.draw.state, 0) ? FragmentOutcome::blended : FragmentOutcome::shaded);
+  c.statistics.trace->set_value(id, packet.packet, packet.lanes, c.tile.color[0]);
+}
 
 // OpenGL 4.6, section 17.3.1: alpha to coverage enables the first round(alpha · samples) samples.
 Mask alpha_covers(Real alpha, int samples, int sample) {
   return alpha * Real(static_cast<float>(samples)) >= Real(static_cast<float>(sample) + 0.5f);
 }
 
-// Returns the depth of the fragments of packet i of a batch, as represented in the tile.
+// Returns the depth of the fragments of packet i of a batch, as represented in the tile. z: depth of the triangle.
 template <class Shading>
-Real late_depth(const Shading& c, const FragmentOutput& out, std::size_t i, int packet) {
-  if (c.mode != VisibilityMode::cover_only) return load<Real>(&c.list.depth[static_cast<std::size_t>(packet) * kLanes]);
+Real late_depth(const Shading& c, const FragmentOutput& out, std::size_t i, Real z) {
+  if (c.mode != VisibilityMode::cover_only) return z;
   return depth_value(c.tile.depth_format, clamp(out.depth[i], Real(c.draw.depth_low), Real(c.draw.depth_high)));
 }
 
-// Runs the tests that come after the shader. Returns the lanes to draw; writes depth and stencil.
+// Runs the tests that come after the shader on packet i of a batch, with depth z. Returns the lanes to draw; writes depth and stencil.
 template <class Shading>
-Mask late_tests(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask) {
+Mask late_tests(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z, [[maybe_unused]] TriangleId id) {
   const DepthState& state = c.draw.state.depth;
-  const Real z = late_depth(c, out, i, packet);
   if (c.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
-  [[maybe_unused]] const Mask kept = mask;
+  if constexpr (kTracesShading<Shading>) {
+    c.statistics.trace->set_depth(id, packet, bits(mask), z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+    c.statistics.trace->set_outcome(id, packet, bits(mask), FragmentOutcome::depth_failed);  // unless something else follows
+  }
   if (c.stencil != nullptr) {
     const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
     const Mask passed = depth_test(state, c.tile, packet, z, stencil_passed);
     if constexpr (kTracesShading<Shading>)
-      c.statistics.trace->set_outcome(c.id, packet, bits(mask & !stencil_passed), FragmentOutcome::stencil_failed);
+      c.statistics.trace->set_outcome(id, packet, bits(mask & !stencil_passed), FragmentOutcome::stencil_failed);
     update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
-    if constexpr (kTracesShading<Shading>)
-      c.statistics.trace->set_outcome(c.id, packet, bits(stencil_passed & !passed), FragmentOutcome::depth_failed);
     mask = passed;
-  } else if (c.mode == VisibilityMode::cover_only) {
+  } else if (c.tests_late) {
     mask = depth_test(state, c.tile, packet, z, mask);
-    if constexpr (kTracesShading<Shading>) c.statistics.trace->set_outcome(c.id, packet, bits(kept & !mask), FragmentOutcome::depth_failed);
   }
-  if constexpr (kTracesShading<Shading>) c.statistics.trace->set_depth(c.id, packet, bits(kept), z);
   c.statistics.samples_passed += static_cast<uint64_t>(std::popcount(bits(mask)));
   write_depth(state, c.tile, packet, z, mask);
   return mask;
 }
+
+template <class Shading>
+void add_to_layers(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z,
+                   [[maybe_unused]] TriangleId id) {
+  const Mask merged = c.layers.add(packet, mask, z, out.packet_color(0, i));
+  c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
+  if constexpr (kTracesShading<Shading>) c.statistics.trace->add_layers(id, packet, bits(mask), bits(merged));
+}
+
+// Packets of one triangle.
+template <class Statistics>
+struct TriangleShading : ImmediateShading<Statistics> {
+  TriangleId id;
+  const CoverageList& list;
+};
 
 // Tests and writes sample s of packet i of a batch.
 template <class Shading>
 void finish_sample(const Shading& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
   Mask mask = mask_from_bits<Mask>(packet.lanes);
   if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
-  if constexpr (kTracesShading<Shading>) {
-    c.statistics.trace->set_shaded(c.id, packet.packet, packet.lanes, out.packet_color(0, i));
-    c.statistics.trace->set_outcome(c.id, packet.packet, packet.lanes, FragmentOutcome::discarded);  // unless something else follows
-  }
-  if (c.mode != VisibilityMode::early) mask = late_tests(c, out, i, packet.packet, mask);
-  if (c.draw.state.order_independent) {
-    const Mask merged = c.layers.add(packet.packet, mask, late_depth(c, out, i, packet.packet), out.packet_color(0, i));
-    c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
-    if constexpr (kTracesShading<Shading>) c.statistics.trace->add_layers(c.id, packet.packet, bits(mask), bits(merged));
-    return;
-  }
+  if constexpr (kTracesShading<Shading>) trace_shaded(c, out, i, packet, c.id);
+  const bool is_late = c.mode != VisibilityMode::early;
+  const Real z = is_late ? late_depth(c, out, i, load<Real>(&c.list.depth[static_cast<std::size_t>(packet.packet) * kLanes])) : Real(0.0f);
+  if (is_late) mask = late_tests(c, out, i, packet.packet, mask, z, c.id);
+  if (c.draw.state.order_independent) return add_to_layers(c, out, i, packet.packet, mask, z, c.id);
   const PacketMask drawn{packet.packet, static_cast<uint16_t>(bits(mask))};
   write_colors(c.draw, out, i, std::span(&drawn, 1), c.tile);
-  if constexpr (kTracesShading<Shading>) {
-    c.statistics.trace->set_outcome(c.id, drawn.packet, drawn.lanes,
-                                    blend_of(c.draw.state, 0) ? FragmentOutcome::blended : FragmentOutcome::shaded);
-    c.statistics.trace->set_value(c.id, drawn.packet, drawn.lanes, c.tile.color[0]);
-  }
+  if constexpr (kTracesShading<Shading>) trace_written(c, drawn, c.id);
+}
+
+template <class Shading>
+void count_fragments(const Shading& c, const PacketMask* packets, int count) {
+  for (int i = 0; i < count; ++i) c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[i].lanes));
 }
 
 // Runs the fragment function on packets, and calls finish(out, index in the batch, packet) for each of them.
@@ -99,6 +120,8 @@ template <class Shading, class F>
 void shade_packets(const Shading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at, F finish) {
   FragmentOutput& out = c.output;
   std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
+  std::array<TriangleId, kFragmentBatch> ids;
+  ids.fill(c.id);
   for (int begin = 0; begin < count; begin += kFragmentBatch) {
     const int n = std::min(kFragmentBatch, count - begin);
     const bool needs_centroid = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
@@ -107,13 +130,10 @@ void shade_packets(const Shading& c, const PacketMask* packets, int count, const
       find_centroids(c.context, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
                      &centroids[static_cast<std::size_t>(i * kLanes)]);
     }
-    c.draw.kernels.fragment(c.draw.shader.get(), {&c.context, c.tile.x0 - plane.x, c.tile.y0 - plane.y, at, nullptr, c.id, packets + begin,
-                                                  n, needs_centroid ? centroids.data() : nullptr, &out});
-    for (int i = 0; i < n; ++i) {
-      const PacketMask& packet = packets[begin + i];
-      c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packet.lanes));
-      finish(out, static_cast<std::size_t>(i), packet);
-    }
+    c.draw.kernels.fragment(c.draw.shader.get(), {&c.context, c.tile.x0 - plane.x, c.tile.y0 - plane.y, at, nullptr, ids.data(),
+                                                  packets + begin, n, needs_centroid ? centroids.data() : nullptr, &out});
+    count_fragments(c, packets + begin, n);
+    for (int i = 0; i < n; ++i) finish(out, static_cast<std::size_t>(i), packets[begin + i]);
   }
 }
 
@@ -159,7 +179,56 @@ void shade_pixels(const Shading& c) {
                 });
 }
 
+// Runs the tests of packet i of a batch, which is packet k of the queue. Returns the lanes whose color must be written.
+template <class Shading>
+uint16_t finish_queued(const Shading& c, const PacketQueue& queue, std::size_t k, std::size_t i) {
+  const PacketMask& packet = queue.packets[k];
+  const Real z = late_depth(c, c.output, i, queue.depth[k]);
+  const Mask mask = late_tests(c, c.output, i, packet.packet, mask_from_bits<Mask>(packet.lanes), z, queue.ids[k]);
+  if (!c.draw.state.order_independent) return static_cast<uint16_t>(bits(mask));
+  add_to_layers(c, c.output, i, packet.packet, mask, z, queue.ids[k]);
+  return 0;
+}
+
+// Writes packets one by one, so that the color after each of them is known.
+template <class Shading>
+void write_traced(const Shading& c, std::span<const PacketMask> packets, const TriangleId* ids) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    write_colors(c.draw, c.output, i, packets.subspan(i, 1), c.tile);
+    trace_written(c, packets[i], ids[i]);
+  }
+}
+
 }  // namespace
+
+template <class Statistics>
+void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, Statistics& statistics) {
+  const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
+  const SamplePosition center{kSubPixels / 2, kSubPixels / 2};
+  for (int begin = 0; begin < queue.count; begin += kFragmentBatch) {
+    PacketMask* packets = &queue.packets[static_cast<std::size_t>(begin)];
+    const int n = std::min(kFragmentBatch, queue.count - begin);
+    d.draw.kernels.fragment(d.draw.shader.get(), {&d.context, d.tile.x0, d.tile.y0, center, nullptr,
+                                                  &queue.ids[static_cast<std::size_t>(begin)], packets, n, nullptr, &output});
+    count_fragments(c, packets, n);
+    if constexpr (kTraces<Statistics>) {
+      for (int i = 0; i < n; ++i)
+        trace_shaded(c, output, static_cast<std::size_t>(i), packets[i], queue.ids[static_cast<std::size_t>(begin + i)]);
+    }
+    for (int i = 0; d.mode != VisibilityMode::early && i < n; ++i)
+      packets[i].lanes = finish_queued(c, queue, static_cast<std::size_t>(begin + i), static_cast<std::size_t>(i));
+    if (d.draw.state.order_independent) continue;
+    const std::span<const PacketMask> written(packets, static_cast<std::size_t>(n));
+    if constexpr (kTraces<Statistics>) {
+      write_traced(c, written, &queue.ids[static_cast<std::size_t>(begin)]);
+    } else {
+      write_colors(d.draw, output, 0, written, d.tile);
+    }
+  }
+  queue.count = 0;
+}
+template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PassStatistics&);
+template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, TracedStatistics&);
 
 template <class Statistics>
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
@@ -167,7 +236,8 @@ void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id
   const Triangle& t = triangle_of(context, id);
   const bool late_stencil = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only;
   const StencilFace* stencil = late_stencil ? stencil_face(draw.state, tile, t.is(kFrontFacing)) : nullptr;
-  const ImmediateShading<Statistics> c{context, draw, id, mode, list, tile, layers, output, stencil, statistics};
+  const bool tests_late = mode == VisibilityMode::cover_only;
+  const TriangleShading<Statistics> c{{context, draw, mode, tile, layers, output, stencil, tests_late, statistics}, id, list};
   if (tile.samples == 1 || draw.shades_samples) {
     shade_samples(c);
   } else {

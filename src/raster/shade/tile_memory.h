@@ -15,6 +15,7 @@ namespace halfspace {
 struct TileMemory {
   Tile tile;
   CoverageList coverage;
+  PacketQueue queue;
   DeferredShading shading;
   TransparentLayers layers;
   ColorBuffer post_color;                 ///< in the format of the post step's target

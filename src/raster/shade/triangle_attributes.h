@@ -31,7 +31,7 @@ struct TriangleRows {
   std::array<const float*, kLanes> primitive;  ///< rows of the primitive stage
 };
 /// Gathers the triangles of `lanes`. lanes must not be empty, and all triangles must belong to the same draw. Other lanes repeat the first
-/// triangle. Returns false if a triangle is clipped, a point or a line, or if the draw has too many vertices; outputs are then unspecified.
+/// triangle. Returns false if a primitive is clipped or is a point or a line, or if the draw has too many vertices; outputs are then unspecified.
 bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
                  TriangleRows& rows);
 
@@ -43,8 +43,8 @@ struct PacketTriangleIds {
   uint32_t lanes;
 };
 /// Returns the depth of a packet's pixels. x and y are window coordinates in pixels. The depth differs from the value used in the depth
-/// test by at most one ulp.
-Real packet_depth(Real x, Real y, const PacketTriangleIds& ids);
+/// test by at most one ulp. The attribute lets the compiler drop calls whose result a shader does not use.
+__attribute__((pure)) Real packet_depth(Real x, Real y, const PacketTriangleIds& ids);
 
 namespace detail {
 

@@ -1,58 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/tile/blend.h"
 
+#include "halfspace/raster/tile/blend_formulas.h"
+#include "halfspace/raster/tile/blend_programs.h"
 #include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace {
 
 namespace {
-
-// Values that blend factors refer to. With a fixed-point attachment, src1 and constant must be clamped before use.
-struct BlendSources {
-  const PacketColor &src, &dst, &src1;
-  const glm::vec4& constant;
-  bool fixed_point;
-
-  Real clamped(Real x) const { return fixed_point ? clamp(x, Real(0.0f), Real(1.0f)) : x; }
-};
-
-Real factor(BlendFactor f, const BlendSources& s, std::size_t k) {
-  const Real one(1.0f);
-  const auto constant = [&](std::size_t i) { return s.clamped(Real(s.constant[static_cast<int>(i)])); };
-  switch (f) {
-    case BlendFactor::zero: return Real(0.0f);
-    case BlendFactor::one: return one;
-    case BlendFactor::src_color: return s.src[k];
-    case BlendFactor::one_minus_src_color: return one - s.src[k];
-    case BlendFactor::dst_color: return s.dst[k];
-    case BlendFactor::one_minus_dst_color: return one - s.dst[k];
-    case BlendFactor::src_alpha: return s.src[3];
-    case BlendFactor::one_minus_src_alpha: return one - s.src[3];
-    case BlendFactor::dst_alpha: return s.dst[3];
-    case BlendFactor::one_minus_dst_alpha: return one - s.dst[3];
-    case BlendFactor::constant_color: return constant(k);
-    case BlendFactor::one_minus_constant_color: return one - constant(k);
-    case BlendFactor::constant_alpha: return constant(3);
-    case BlendFactor::one_minus_constant_alpha: return one - constant(3);
-    case BlendFactor::src_alpha_saturate: return k == 3 ? one : min(s.src[3], one - s.dst[3]);
-    case BlendFactor::src1_color: return s.clamped(s.src1[k]);
-    case BlendFactor::one_minus_src1_color: return one - s.clamped(s.src1[k]);
-    case BlendFactor::src1_alpha: return s.clamped(s.src1[3]);
-    case BlendFactor::one_minus_src1_alpha: return one - s.clamped(s.src1[3]);
-  }
-  return one;
-}
-
-Real combine(BlendEquation e, Real src, Real src_factor, Real dst, Real dst_factor) {
-  switch (e) {
-    case BlendEquation::add: return src * src_factor + dst * dst_factor;
-    case BlendEquation::subtract: return src * src_factor - dst * dst_factor;
-    case BlendEquation::reverse_subtract: return dst * dst_factor - src * src_factor;
-    case BlendEquation::min: return min(src, dst);
-    case BlendEquation::max: return max(src, dst);
-  }
-  return src;
-}
 
 PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
   PacketColor out;
@@ -60,7 +15,8 @@ PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
     const bool alpha = k == 3;
     const BlendFactor sf = alpha ? s.source_alpha : s.source_color;
     const BlendFactor df = alpha ? s.destination_alpha : s.destination_color;
-    out[k] = combine(alpha ? s.alpha_equation : s.color_equation, from.src[k], factor(sf, from, k), from.dst[k], factor(df, from, k));
+    out[k] = blend_sum(alpha ? s.alpha_equation : s.color_equation, from.src[k], blend_factor(sf, from, k), from.dst[k],
+                       blend_factor(df, from, k));
   }
   return out;
 }
@@ -158,6 +114,9 @@ void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const
   if (!state.blend && state.mask.all()) {
     if (buffer.format == ColorFormat::rgba8) return replace_packed<ColorFormat::rgba8>(buffer, packets, src);
     if (buffer.format == ColorFormat::srgb8a8) return replace_packed<ColorFormat::srgb8a8>(buffer, packets, src);
+  }
+  if (state.blend && state.mask.all()) {
+    if (const BlendProgram program = blend_program(buffer.format, *state.blend)) return program(buffer, packets, src);
   }
   for (std::size_t i = 0; i < packets.size(); ++i)
     write_color(buffer, packets[i].packet, mask_from_bits<Mask>(packets[i].lanes), src[i], src1[i], state);

@@ -19,7 +19,7 @@ class TransparentLayers {
   void clear(bool nearer_is_greater);
   bool empty() const { return used_.empty(); }
 
-  /// Inserts a fragment in front of the layers that are at most as near. color has straight alpha. Returns the lanes in which there were
+  /// Inserts a fragment in front of the layers that are at the same depth or farther away. color has straight alpha. Returns the lanes in which there were
   /// already kMaxLayers layers.
   Mask add(int packet, Mask mask, Real depth, const PacketColor& color);
 

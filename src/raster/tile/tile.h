@@ -101,7 +101,7 @@ struct Tile {
 
   /// Bounds of the depth in each block (hierarchical Z). They may be wider than necessary, but never too narrow.
   std::array<float, kBlocks> hiz_min, hiz_max;
-  /// Number of writes since the bounds were exact.
+  /// Number of writes since the bounds were last exact.
   std::array<uint8_t, kBlocks> hiz_writes;
 };
 

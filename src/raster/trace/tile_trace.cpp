@@ -75,10 +75,11 @@ void TileTrace::set_outcome(TriangleId id, int packet, uint32_t lanes, FragmentO
   for_each_lane(packet, lanes, [&](std::size_t slot, int) { find(id, slot).outcome = outcome; });
 }
 
-void TileTrace::set_depth(TriangleId id, int packet, uint32_t lanes, Real z) {
+void TileTrace::set_depth(TriangleId id, int packet, uint32_t lanes, Real z, Real stored) {
   for_each_lane(packet, lanes, [&](std::size_t slot, int i) {
     TracedFragment& f = find(id, slot);
     f.depth = f.tested_depth = lane(z, i);
+    if (f.is_tested) f.stored_depth = lane(stored, i);
   });
 }
 

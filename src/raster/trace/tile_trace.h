@@ -25,7 +25,7 @@ class TileTrace {
 
   /// These change fragments that have been added.
   void set_outcome(TriangleId id, int packet, uint32_t lanes, FragmentOutcome outcome);
-  void set_depth(TriangleId id, int packet, uint32_t lanes, Real z);
+  void set_depth(TriangleId id, int packet, uint32_t lanes, Real z, Real stored);
   void set_shaded(TriangleId id, int packet, uint32_t lanes, const PacketColor& color);
   /// Sets the color of the samples after the fragments were written.
   void set_value(TriangleId id, int packet, uint32_t lanes, const ColorBuffer& buffer);

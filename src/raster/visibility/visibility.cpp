@@ -125,7 +125,7 @@ void ask_shader(const Visit& c) {
                    &centroids[i * kLanes]);
   }
   batch.context = &c.context;
-  batch.id = c.id;
+  batch.ids.fill(c.id);
   batch.tile_x0 = c.grid.x0;
   batch.tile_y0 = c.grid.y0;
   batch.position = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
@@ -254,6 +254,9 @@ void visit_point_sprite(Visit& c, const TileRect& rect) {
 VisibilityMode visibility_mode(const Draw& draw) {
   if (draw.deferred) return VisibilityMode::deferred;
   if (draw.kernels.fragment == nullptr) return VisibilityMode::depth_only;
+  const bool needs_fragments = draw.state.alpha_to_coverage || draw.state.order_independent;
+  const bool is_undecided = (draw.kernels.discards || draw.kernels.writes_depth) && draw.kernels.visibility == nullptr;
+  if (!draw.writes_color && !needs_fragments && !is_undecided) return VisibilityMode::depth_only;
   if (draw.kernels.writes_depth) return VisibilityMode::cover_only;
   if (draw.kernels.discards || draw.state.alpha_to_coverage || draw.state.order_independent) return VisibilityMode::test_only;
   return VisibilityMode::early;
@@ -283,7 +286,8 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       asks_shader((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && d.kernels.visibility != nullptr),
       fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
       is_opaque((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && t.samples == 1 && (d.sample_mask & 1) != 0 &&
-                !asks_shader && !(d.state.stencil && t.has_stencil)) {}
+                !asks_shader && !(d.state.stencil && t.has_stencil)),
+      is_queued(!is_opaque && t.samples == 1 && (d.sample_mask & 1) != 0 && !(d.state.stencil && t.has_stencil)) {}
 
 namespace {
 

@@ -12,6 +12,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/visibility/depth_plane.h"
+#include "halfspace/raster/visibility/packet_queue.h"
 
 namespace halfspace {
 
@@ -50,23 +51,36 @@ struct DrawInTile {
   bool asks_shader;        ///< the shader's visibility function must be called
   bool fetches_vertices;   ///< prefetch vertices: they belong to points, or are shared by several triangles
   bool is_opaque;          ///< one sample per pixel, and only coverage and depth determine visibility
+  bool is_queued;          ///< one sample per pixel and no stencil test; packets are listed in a PacketQueue until the shader runs
 };
 
 // Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).
 
-/// Rasterizes triangle `index` of chunk `chunk` in the tile. list can only be null for VisibilityMode::deferred and depth_only.
+/// Rasterizes triangle `index` of chunk `chunk` in the tile. list can only be null for VisibilityMode::deferred and depth_only. The draw
+/// must not be a queued one.
 template <class Statistics>
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 
 /// The same for a triangle of an opaque draw (visibility_blocks.cpp).
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
-
+/// The same for a triangle of a queued draw, which is added to the queue.
+template <class Statistics>
+void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
 /// Returns true if the triangle can be drawn by rasterize_small().
 inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
 /// Rasterizes small triangles of an opaque draw in order. indices: 1 to W triangles of the chunk.
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
+/// The same for a queued draw. Stops when the queue is full. Returns the number of triangles that were added to the queue, at least 1.
+template <class Statistics>
+std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+                                   Statistics& statistics);
+
+/// Runs the visibility function for all packets of a queue, tests and writes them, and empties the queue (visibility_queue.cpp). d: the
+/// draw of the queue, which is deferred or depth_only.
+template <class Statistics>
+void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics);
 
 /// Returns true if a triangle of an opaque draw covers all pixels of the tile's storage.
 bool covers_tile(const DrawInTile& d, const Triangle& t);
@@ -84,10 +98,10 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
 /// Maximum number of packets per call of a visibility kernel.
 inline constexpr int kVisibilityBatch = 16;
 
-/// Packets of one triangle for a shader's visibility function.
+/// Packets for a shader's visibility function. Each packet shows one triangle.
 struct VisibilityBatch {
   const PassContext* context;
-  TriangleId id;
+  std::array<TriangleId, kVisibilityBatch> ids;
   int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's storage
   SamplePosition position;  ///< position within the pixel at which the shader is evaluated
   int count = 0;            ///< ≤ kVisibilityBatch

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
 
@@ -20,18 +21,17 @@ void set_hiz(Tile& tile, int block, float low, float high) {
   tile.hiz_writes[b] = 0;
 }
 
-template <bool small, class Statistics>
+template <bool small, class Writer>
 void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& tile_edges, const SampleGrid& grid, const TileRect& rect,
-                      TriangleId id, Statistics& statistics) {
+                      TriangleId id, Writer& writer) {
   Tile& tile = d.tile;
   const DepthPlane<small> plane(t, tile_edges, d.draw, grid, tile.depth_format);
   const BlockEdges edges(tile_edges);
   const auto [low, high] = depth_bounds(t, d.draw, tile.depth_format);
   const bool needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine);
-  OpaqueWriter writer(d, statistics);
   const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
   if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) {
-    if constexpr (kTraces<Statistics>) trace_rejected_tile({d, t, id, grid, low, high}, *statistics.trace);
+    if constexpr (kTraces<typename Writer::Statistics>) trace_rejected_tile({d, t, id, grid, low, high}, *writer.statistics().trace);
     return;
   }
   constexpr int mask_to_block = ~(kBlockSize - 1);
@@ -42,7 +42,8 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       const int block = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
       const BlockTest test = writer.tests() ? test_block(writer.compare_op(), tile, block, low, high) : BlockTest::all_pass;
       if (test == BlockTest::none_passes) {
-        if constexpr (kTraces<Statistics>) trace_rejected_block({d, t, id, grid, low, high}, block, *statistics.trace);
+        if constexpr (kTraces<typename Writer::Statistics>)
+          trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
         continue;
       }
       const int first = block * kPacketsPerBlock;
@@ -61,6 +62,45 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
         if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, low, high);
       }
     }
+  }
+}
+
+// A point covers a rectangle and has a constant depth.
+template <class Writer>
+void rasterize_point(const DrawInTile& d, const Triangle& t, const TileRect& rect, TriangleId id, Writer& writer) {
+  const auto [low, high] = depth_bounds(t, d.draw, d.tile.depth_format);
+  const Real z(low);
+  for (int by = rect.y0 & ~(kBlockSize - 1); by < rect.y1; by += kBlockSize) {
+    for (int bx = rect.x0 & ~(kBlockSize - 1); bx < rect.x1; bx += kBlockSize) {
+      const int block = by / kBlockSize * kBlocksPerRow + bx / kBlockSize;
+      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high) == BlockTest::none_passes) {
+        if constexpr (kTraces<typename Writer::Statistics>)
+          trace_rejected_block({d, t, id, SampleGrid(d.tile, 0), low, high}, block, *writer.statistics().trace);
+        continue;
+      }
+      const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
+      for (int y = std::max(by, rect.y0 & ~(kPacketHeight - 1)); y < y1; y += kPacketHeight) {
+        for (int x = std::max(bx, rect.x0 & ~(kPacketWidth - 1)); x < x1; x += kPacketWidth)
+          writer.write(id, packet_at(x, y), bits(inside(rect, x, y)), [&] { return z; });
+      }
+      if (writer.writes_depth()) widen_hiz(writer.compare_op(), d.tile, block, low, high);
+    }
+  }
+}
+
+template <class Writer>
+void rasterize_triangle(const DrawInTile& d, const Triangle& t, TriangleId id, Writer& writer) {
+  const SampleGrid grid(d.tile, 0);
+  const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
+  if (b.empty()) return;
+  const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
+  if (t.is(kPointSprite)) return rasterize_point(d, t, rect, id, writer);
+  const TileEdges edges = tile_edges(d.draw, t, grid, d.tile.size);
+  if (edges.outside) return;
+  if (t.is(kSmall)) {
+    rasterize_blocks<true>(d, t, edges, grid, rect, id, writer);
+  } else {
+    rasterize_blocks<false>(d, t, edges, grid, rect, id, writer);
   }
 }
 
@@ -88,19 +128,18 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, cons
 
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
-  const SampleGrid grid(d.tile, 0);
-  const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
-  if (b.empty()) return;
-  const TileEdges edges = tile_edges(d.draw, t, grid, d.tile.size);
-  if (edges.outside) return;
-  const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
-  if (t.is(kSmall)) {
-    rasterize_blocks<true>(d, t, edges, grid, rect, id, statistics);
-  } else {
-    rasterize_blocks<false>(d, t, edges, grid, rect, id, statistics);
-  }
+  OpaqueWriter writer(d, statistics);
+  rasterize_triangle(d, t, id, writer);
 }
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
+
+template <class Statistics>
+void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
+  ListWriter writer(d, queue, statistics);
+  rasterize_triangle(d, t, id, writer);
+}
+template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, PassStatistics&);
+template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, TracedStatistics&);
 
 }  // namespace halfspace

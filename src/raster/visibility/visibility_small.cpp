@@ -8,6 +8,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/primitives/small_coverage.h"
+#include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 
 namespace halfspace {
@@ -119,12 +120,11 @@ class SmallTriangles {
 };
 
 // Finds and writes the packets of one of the triangles.
-template <class Statistics>
+template <class Writer>
 class TrianglePackets {
  public:
   // t: triangle k of `triangles`.
-  TrianglePackets(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, const Triangle& t, TriangleId id,
-                  OpaqueWriter<Statistics>& writer)
+  TrianglePackets(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, const Triangle& t, TriangleId id, Writer& writer)
       : d_(d),
         id_(id),
         writer_(writer),
@@ -223,7 +223,7 @@ class TrianglePackets {
 
   const DrawInTile& d_;
   TriangleId id_;
-  OpaqueWriter<Statistics>& writer_;
+  Writer& writer_;
   TileRect rect_;
   std::array<SmallEdge, 3> edge_;
   int32_t bias1_, bias2_;
@@ -234,25 +234,47 @@ class TrianglePackets {
   std::array<Covered, kMaxPackets + 1> list_;  // the element after the last one may be written
 };
 
+// Draws triangle k of `triangles`, which is `index` of the chunk.
+template <class Writer, class Large>
+HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangles, std::size_t k, uint32_t chunk, uint16_t index,
+                              Writer& writer, const Large& rasterize_large) {
+  const TriangleId id = triangle_id(chunk, index);
+  const Triangle& t = d.context.chunks[chunk].triangles[index];
+  if (triangles.is_known(k)) {
+    triangles.for_each_pixel(k, [&](std::size_t pixel, float z) { writer.write_pixel(id, pixel, z); });
+  } else if (triangles.is_wide(k)) {
+    rasterize_large(t, id);
+  } else {
+    TrianglePackets<Writer>(d, triangles, k, t, id, writer).visit();
+  }
+}
+
 }  // namespace
 
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
-  const Chunk& c = d.context.chunks[chunk];
-  const SmallTriangles triangles(d, c, indices);
+  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   OpaqueWriter writer(d, statistics);
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    const TriangleId id = triangle_id(chunk, indices[k]);
-    if (triangles.is_known(k)) {
-      triangles.for_each_pixel(k, [&](std::size_t pixel, float z) { writer.write_pixel(id, pixel, z); });
-    } else if (triangles.is_wide(k)) {
-      rasterize_opaque(d, c.triangles[indices[k]], id, statistics);
-    } else {
-      TrianglePackets(d, triangles, k, c.triangles[indices[k]], id, writer).visit();
-    }
-  }
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
+  for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
 }
+
 template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
 template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
+
+template <class Statistics>
+std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+                                   Statistics& statistics) {
+  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
+  ListWriter writer(d, queue, statistics);
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
+  std::size_t k = 0;
+  do {
+    write_triangle(d, triangles, k, chunk, indices[k], writer, large);
+  } while (++k < indices.size() && !queue.is_full());
+  return k;
+}
+template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
+template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, TracedStatistics&);
 
 }  // namespace halfspace

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/frame_maker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "halfspace/render/opened_scene.h"
+
+namespace halfspace {
+
+namespace {
+
+class Stopwatch {
+ public:
+  // Returns the time since the last call or the construction.
+  double lap_ms() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
+    start_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Fills an image with enlarged pixels of another one.
+void enlarge(const Image<glm::u8vec4>& from, int factor, Image<glm::u8vec4>& to) {
+  for (int y = 0; y < to.height(); ++y) {
+    const std::span<const glm::u8vec4> source = from.row(y / factor);
+    const std::span<glm::u8vec4> row = to.row(y);
+    for (std::size_t x = 0; x < row.size(); ++x) row[x] = source[x / static_cast<std::size_t>(factor)];
+  }
+}
+
+}  // namespace
+
+int CoarseControl::divisor(bool moving) const {
+  if (!moving || full_ms_ <= kLongFrameMs) return 1;
+  return std::min(static_cast<int>(std::ceil(std::sqrt(full_ms_ / kLongFrameMs))), kCoarsest);
+}
+
+void CoarseControl::add_frame(int divisor, double milliseconds) { full_ms_ = milliseconds * divisor * divisor; }
+
+void FrameMaker::open(const OpenedScene& opened) {
+  scene_.reset();
+  assets_ = std::make_unique<SceneAssets>(workers_, warn_);
+  if (opened.model != nullptr) assets_->add_model(opened.model_file, opened.model);
+}
+
+void FrameMaker::render(const SceneDescription& scene, int divisor, Overlay overlay, Image<glm::u8vec4>& frame) {
+  Stopwatch watch;
+  description_ = scene;
+  divisor_ = divisor;
+  if (divisor > 1) {
+    description_.head.samples = 1;
+    assets_->expect(scene, frame.width(), frame.height());  // so that a coarse frame does not choose smaller maps
+    small_ = Image<glm::u8vec4>((frame.width() + divisor - 1) / divisor, (frame.height() + divisor - 1) / divisor);
+  }
+  Image<glm::u8vec4>& picture = divisor > 1 ? small_ : frame;
+  scene_ = assets_->prepare(description_, picture.width(), picture.height());
+  times_.prepare_ms = watch.lap_ms();
+  statistics_ = scene_->shadow_statistics;
+  statistics_ += halfspace::render(*scene_, picture, workers_);
+  times_.draw_ms = watch.lap_ms();
+  overlay_text_.clear();
+  if (overlay != Overlay::none) overlay_text_ = draw_overlay(overlay, {description_, *scene_, picture, *assets_, workers_});
+  if (divisor > 1) enlarge(small_, divisor, frame);
+  times_.overlay_ms = watch.lap_ms();
+}
+
+PixelFragments FrameMaker::fragments_at(const glm::ivec2& pixel) {
+  HS_CHECK(scene_.has_value());
+  const glm::ivec2 at = pixel / divisor_;
+  Image<glm::u8vec4> picture(scene_->view.width_px, scene_->view.height_px);
+  halfspace::render(*scene_, picture, workers_);
+  PixelFragments fragments = pixel_fragments(*scene_, description_, picture, at, workers_);
+  fragments.pixel = pixel;
+  return fragments;
+}
+
+}  // namespace halfspace

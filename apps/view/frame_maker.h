@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders the frames that are shown: in full quality, or coarse while something moves and a frame takes long.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "halfspace/core/image.h"
+#include "halfspace/render/prepared_scene.h"
+#include "view/overlay.h"
+#include "view/pixel_fragments.h"
+
+namespace halfspace {
+
+struct OpenedScene;
+
+/// Chooses how coarse frames are.
+class CoarseControl {
+ public:
+  static constexpr double kLongFrameMs = 50.0;
+  static constexpr int kCoarsest = 4;
+
+  /// Returns by what the width and height of the next frame are divided. moving: whether something moves.
+  int divisor(bool moving) const;
+  /// Reports the time of a frame.
+  void add_frame(int divisor, double milliseconds);
+
+ private:
+  double full_ms_ = 0.0;  // estimated time of a frame in full quality
+};
+
+struct FrameTimes {
+  double prepare_ms = 0.0;  ///< maps, meshes and shadow maps
+  double draw_ms = 0.0;
+  double overlay_ms = 0.0;
+  double total() const { return prepare_ms + draw_ms + overlay_ms; }
+};
+
+class FrameMaker {
+ public:
+  /// warn: called with one line for each problem that does not prevent a picture.
+  FrameMaker(const Workers& workers, std::function<void(const std::string&)> warn) : workers_(workers), warn_(std::move(warn)) {}
+
+  /// Forgets the maps and meshes of the previous scene.
+  void open(const OpenedScene& opened);
+
+  /// Renders to the frame, whose size is that of the picture. With a divisor greater than 1, renders fewer pixels with one sample and
+  /// enlarges them. Throws InputError.
+  void render(const SceneDescription& scene, int divisor, Overlay overlay, Image<glm::u8vec4>& frame);
+
+  /// Returns what was drawn at a pixel of the last frame. There must have been one.
+  PixelFragments fragments_at(const glm::ivec2& pixel);
+
+  const FrameTimes& times() const { return times_; }
+  /// Sum over the passes of the last frame and its shadow maps.
+  const PassStatistics& statistics() const { return statistics_; }
+  const std::string& overlay_text() const { return overlay_text_; }
+
+ private:
+  const Workers& workers_;
+  std::function<void(const std::string&)> warn_;
+  std::unique_ptr<SceneAssets> assets_;
+  SceneDescription description_;  // of the last frame
+  std::optional<PreparedScene> scene_;
+  int divisor_ = 1;
+  Image<glm::u8vec4> small_;  // of a coarse frame
+  FrameTimes times_;
+  PassStatistics statistics_;
+  std::string overlay_text_;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/interface.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#if __has_include(<imgui_impl_sdl2.h>)
+#include <imgui_impl_sdl2.h>
+#else
+#include <imgui_impl_sdl.h>
+#endif
+
+#include <cmath>
+
+namespace halfspace {
+
+namespace {
+
+constexpr ImGuiWindowFlags kLabelFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
+                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+
+// Opens a window for text. x and y: position in the display, 0 to 1; the window is inside. ImGui::End() must follow.
+void begin_label(const char* name, float x, float y) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({x * display.x, y * display.y}, ImGuiCond_Always, {x, y});
+  ImGui::SetNextWindowBgAlpha(0.75f);
+  ImGui::Begin(name, nullptr, kLabelFlags);
+}
+
+void draw_label(const char* name, float x, float y, const std::string& text) {
+  begin_label(name, x, y);
+  ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x * 0.9f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+}
+
+void draw_picked(const PixelFragments& picked, float scale) {
+  begin_label("Pixel", 0.0f, 1.0f);
+  for (const std::string& line : lines_of(picked)) ImGui::TextUnformatted(line.c_str());
+  ImGui::End();
+  const ImVec2 at(static_cast<float>(picked.pixel.x) + 0.5f, static_cast<float>(picked.pixel.y) + 0.5f);
+  for (const auto& [color, width] : {std::pair(IM_COL32(0, 0, 0, 255), 3.0f), std::pair(IM_COL32(255, 255, 255, 255), 1.0f)})
+    ImGui::GetBackgroundDrawList()->AddCircle(at, 6.0f * scale, color, 24, width * scale);
+}
+
+}  // namespace
+
+Interface::Context::Context(double scale) {
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // no file with the positions of windows
+  ImFontConfig font;
+  font.SizePixels = static_cast<float>(std::floor(13.0 * scale));
+  io.Fonts->AddFontDefault(&font);
+  ImGui::StyleColorsDark();
+  ImGui::GetStyle().ScaleAllSizes(static_cast<float>(scale));
+  ImGui::GetStyle().AntiAliasedLinesUseTex = false;
+}
+
+Interface::Context::~Context() { ImGui::DestroyContext(); }
+
+Interface::Interface(SDL_Window* window, double scale) : context_(scale), scale_(scale), pass_(*ImGui::GetIO().Fonts) {
+  ImGui_ImplSDL2_InitForVulkan(window);  // any function will do: only the input is used, and this one has no other arguments
+}
+
+Interface::~Interface() { ImGui_ImplSDL2_Shutdown(); }
+
+void Interface::handle(const SDL_Event& event) { ImGui_ImplSDL2_ProcessEvent(&event); }
+bool Interface::takes_keyboard() const { return ImGui::GetIO().WantTextInput; }
+bool Interface::takes_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+
+void Interface::toggle(Action action) {
+  if (action == Action::toggle_help) shows_help_ = !shows_help_;
+  if (action == Action::toggle_panels) shows_panels_ = !shows_panels_;
+  if (action == Action::toggle_statistics) shows_statistics_ = !shows_statistics_;
+}
+
+void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
+  const FrameTimes& t = c.frames.times();
+  const PassStatistics& s = c.frames.statistics();
+  begin_label("Statistics", 0.0f, 0.0f);
+  ImGui::TextUnformatted(fmt::format("{:6.1f} ms per frame, {:.1f} frames per second", c.times.frame, 1000.0 / c.times.frame).c_str());
+  ImGui::TextUnformatted(fmt::format("{:6.1f} ms maps and shadows\n{:6.1f} ms drawing\n{:6.1f} ms overlay\n{:6.1f} ms interface\n"
+                                     "{:6.1f} ms copy to the window",
+                                     t.prepare_ms, t.draw_ms, t.overlay_ms, c.times.interface, c.times.present)
+                             .c_str());
+  ImGui::TextUnformatted(fmt::format("{} triangles, {} after culling\n{} vertices shaded\n{} samples passed\n{} fragments shaded",
+                                     s.primitives_in, s.triangles_binned, s.vertices_shaded, s.samples_passed, s.fragments_shaded)
+                             .c_str());
+  ImGui::TextUnformatted(fmt::format("time {:.2f} s{}{}", viewer.seconds(), viewer.is_paused() ? ", paused" : "",
+                                     c.divisor > 1 ? fmt::format("; coarse: 1/{} of the width and height", c.divisor) : std::string())
+                             .c_str());
+  ImGui::End();
+}
+
+void Interface::draw_help() const {
+  begin_label("Keys", 0.5f, 0.5f);
+  const auto column = static_cast<float>(60.0 * scale_);
+  for (const KeyBinding& b : key_bindings()) {
+    ImGui::TextUnformatted(b.key.data(), b.key.data() + b.key.size());
+    ImGui::SameLine(column);
+    ImGui::TextUnformatted(b.help.data(), b.help.data() + b.help.size());
+  }
+  for (const auto& [what, help] : {std::pair("drag", "left button: orbit; others: pan"), std::pair("wheel", "zoom"),
+                                   std::pair("drop", "a model or scene file: open it")}) {
+    ImGui::TextUnformatted(what);
+    ImGui::SameLine(column);
+    ImGui::TextUnformatted(help);
+  }
+  ImGui::End();
+}
+
+bool Interface::draw(Viewer& viewer, const Contents& c, Image<glm::u8vec4>& frame, const Workers& workers) {
+  ImGui_ImplSDL2_NewFrame();
+  ImGui::NewFrame();
+  if (shows_panels_) panel_.draw(viewer, scale_);
+  if (shows_statistics_) draw_statistics(viewer, c);
+  if (!c.frames.overlay_text().empty()) draw_label("Overlay", 0.5f, 0.0f, c.frames.overlay_text());
+  if (c.picked) draw_picked(*c.picked, static_cast<float>(scale_));
+  if (c.show_message && !viewer.message().empty()) draw_label("Message", 0.5f, 1.0f, viewer.message());
+  if (shows_help_) draw_help();
+  ImGui::Render();
+  const ImDrawData& data = *ImGui::GetDrawData();
+  if (data.TotalVtxCount == 0) return false;
+  pass_.draw(data, frame, workers);
+  return true;
+}
+
+}  // namespace halfspace

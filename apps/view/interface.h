@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The user interface that is drawn over a frame: panels, statistics, the list of keys, the picked pixel and messages.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/frame_maker.h"
+#include "view/imgui_pass.h"
+#include "view/scene_panel.h"
+#include "view/viewer.h"
+
+struct SDL_Window;
+union SDL_Event;
+struct ImGuiContext;
+
+namespace halfspace {
+
+/// Times of the last frame, in milliseconds.
+struct WindowTimes {
+  double frame = 0.0;      ///< from the start of a frame to that of the next
+  double interface = 0.0;  ///< drawing the user interface
+  double present = 0.0;    ///< copying the frame to the window
+};
+
+class Interface {
+ public:
+  /// scale: 1 for text that is 13 pixels high.
+  Interface(SDL_Window* window, double scale);
+  ~Interface();
+  Interface(const Interface&) = delete;
+  Interface& operator=(const Interface&) = delete;
+
+  /// Passes an event to the widgets.
+  void handle(const SDL_Event& event);
+  bool takes_keyboard() const;  ///< a text field has the focus
+  bool takes_mouse() const;     ///< the mouse is over a panel
+
+  /// Shows or hides help, panels or statistics.
+  void toggle(Action action);
+
+  /// What is shown besides the panels.
+  struct Contents {
+    const FrameMaker& frames;
+    const WindowTimes& times;
+    int divisor;                                  ///< of the last frame
+    const std::optional<PixelFragments>& picked;  ///< nothing: no pixel is picked
+    bool show_message;
+  };
+
+  /// Draws the user interface over the frame, whose size is that of the window. Returns false if nothing is shown and the frame is
+  /// unchanged.
+  bool draw(Viewer& viewer, const Contents& contents, Image<glm::u8vec4>& frame, const Workers& workers);
+
+ private:
+  void draw_statistics(const Viewer& viewer, const Contents& contents) const;
+  void draw_help() const;
+
+  struct Context {
+    explicit Context(double scale);
+    ~Context();
+  };
+
+  Context context_;
+  double scale_;
+  ImGuiPass pass_;
+  ScenePanel panel_;
+  bool shows_help_ = false, shows_panels_ = false, shows_statistics_ = false;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/scene_changes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "halfspace/core/check.h"
+#include "halfspace/scene/scene_paths.h"
+
+namespace halfspace {
+
+namespace {
+
+// Sets a key of all objects for which value_of returns a value. Returns the number of objects that accepted it.
+template <class F>
+int set_for_objects(SceneFile& scene, const char* key, const F& value_of) {
+  int accepted = 0;
+  const Named<ObjectDescription> objects = scene.description().objects;
+  for (const auto& [name, object] : objects) {
+    const std::string value = value_of(object);
+    if (!value.empty() && try_set(scene, fmt::format("objects.{}.{}={}", name, key, value)).empty()) ++accepted;
+  }
+  return accepted;
+}
+
+std::string objects_text(int count) { return count == 1 ? "1 object" : fmt::format("{} objects", count); }
+
+enum class Relief { none, map, bump };
+
+bool has_detail(const ObjectDescription& o) { return is_map(o.surface.normal_map) || is_map(o.surface.bump_map); }
+// Whether the object has a key for the normals of its displacement.
+bool is_displaced(ObjectDescription o) { return is_map(o.height) && find_field(section_of(o), "normals").key != nullptr; }
+bool has_relief(const ObjectDescription& o) { return o.shape != Shape::file && (has_detail(o) || is_displaced(o)); }
+
+Relief relief_of(const ObjectDescription& o) {
+  if (!has_detail(o))
+    return o.normals == NormalSource::undisplaced ? Relief::none : o.normals == NormalSource::pixel ? Relief::map : Relief::bump;
+  switch (o.surface.normal) {
+    case DetailChoice::none: return Relief::none;
+    case DetailChoice::map: return Relief::map;
+    case DetailChoice::bump: return Relief::bump;
+    case DetailChoice::automatic: break;
+  }
+  return is_map(o.surface.normal_map) ? Relief::map : Relief::bump;
+}
+
+bool offers(const ObjectDescription& o, Relief relief) {
+  if (relief == Relief::none || !has_detail(o)) return true;
+  return is_map(relief == Relief::map ? o.surface.normal_map : o.surface.bump_map);
+}
+
+// Returns the setting of an object for a relief. An object that lacks the map has none.
+std::string relief_setting(const std::string& name, const ObjectDescription& o, Relief relief) {
+  static constexpr const char* kDetail[] = {"none", "map", "bump"};
+  static constexpr const char* kNormals[] = {"undisplaced", "pixel", "vertex"};
+  const auto i = static_cast<std::size_t>(relief);
+  if (!has_detail(o)) return fmt::format("objects.{}.normals={}", name, kNormals[i]);
+  return fmt::format("objects.{}.normal={}", name, offers(o, relief) ? kDetail[i] : "none");
+}
+
+}  // namespace
+
+std::string try_set(SceneFile& scene, const std::string& setting) {
+  try {
+    scene.set(setting);
+    return {};
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+std::string set_shading_rate(SceneFile& scene, const std::string& rate) {
+  const int accepted = set_for_objects(scene, "shading", [&](const ObjectDescription& o) { return o.shape == Shape::file ? "" : rate; });
+  if (accepted == 0) return "no object of this scene has a shading rate";
+  return fmt::format("shading {}: {}", rate, objects_text(accepted));
+}
+
+std::string cycle_relief(SceneFile& scene) {
+  const Named<ObjectDescription> objects = scene.description().objects;
+  const auto first = std::ranges::find_if(objects, [](const auto& entry) { return has_relief(entry.second); });
+  if (first == objects.end()) return "no object of this scene has a normal, bump or height map";
+  Relief next = relief_of(first->second);
+  do {
+    next = static_cast<Relief>((static_cast<int>(next) + 1) % 3);
+  } while (std::ranges::none_of(objects, [&](const auto& entry) { return has_relief(entry.second) && offers(entry.second, next); }));
+  std::vector<std::string> settings;
+  for (const auto& [name, object] : objects) {
+    if (has_relief(object)) settings.push_back(relief_setting(name, object, next));
+  }
+  scene.set(settings);
+  return settings.front();
+}
+
+std::string toggle_color_maps(SceneFile& scene) {
+  const auto has_color_map = [](const ObjectDescription& o) { return !first_map(o.surface).empty(); };
+  const Named<ObjectDescription>& objects = scene.description().objects;
+  const bool on = std::ranges::any_of(objects, [&](const auto& e) { return has_color_map(e.second) && e.second.surface.textured; });
+  const char* value = on ? "false" : "true";
+  const int accepted = set_for_objects(scene, "textured", [&](const ObjectDescription& o) { return has_color_map(o) ? value : ""; });
+  if (accepted == 0) return "no object of this scene has a texture that can be switched off";
+  return fmt::format("textures {}: {}", on ? "off" : "on", objects_text(accepted));
+}
+
+std::string VisibilityToggle::toggle(SceneFile& scene, const std::string& object) {
+  if (!object.empty()) {
+    const ObjectDescription* o = find_named(scene.description().objects, object);
+    if (o == nullptr) return "the picked object no longer exists";
+    const bool visible = o->visible;
+    scene.set(fmt::format("objects.{}.visible={}", object, !visible));
+    return fmt::format("{} {}", visible ? "hidden:" : "visible:", object);
+  }
+  const SceneDescription& d = scene.description();
+  const bool on = std::ranges::any_of(d.objects, [](const auto& e) { return e.second.visible; });
+  const char* value = on ? "false" : "true";
+  const int objects = set_for_objects(scene, "visible", [&](const ObjectDescription&) { return value; });
+  if (!hidden_particles_.empty()) {
+    scene.set(hidden_particles_);
+    hidden_particles_.clear();
+    return "all particles are visible";
+  }
+  if (d.particles.count > 0 || !d.particles.file.path.empty()) {
+    hidden_particles_ = {fmt::format("particles.count={}", d.particles.count), "particles.file=" + d.particles.file.path.string()};
+    scene.set(std::vector<std::string>{"particles.count=0", "particles.file="});
+    return "all particles are hidden";
+  }
+  return objects == 0 ? "this scene has no objects" : fmt::format("{}: {}", on ? "hidden" : "visible", objects_text(objects));
+}
+
+std::string ShadowToggle::toggle(SceneFile& scene) {
+  SceneDescription d = scene.description();
+  const std::string method = value_text(find_key(d, "shadow.method", "view").field);
+  if (method != "none") method_ = method;
+  const std::string next = method == "none" ? method_ : "none";
+  const std::string problem = try_set(scene, "shadow.method=" + next);
+  return problem.empty() ? "shadow.method=" + next : problem;
+}
+
+std::string change_exposure(SceneFile& scene, double factor) {
+  const PostDescription& post = scene.description().post;
+  const double exposure = post.hdr ? std::clamp(post.exposure * factor, 1e-6, 1e6) : factor;
+  std::vector<std::string> settings{"post.exposure=" + number_text(exposure)};
+  if (!post.hdr) settings.insert(settings.end(), {"post.hdr=true", "post.tone=none", "post.auto_exposure=false"});
+  scene.set(settings);
+  return fmt::format("post.exposure={:.4g}", exposure);
+}
+
+void set_camera_keys(SceneFile& scene, const std::string& name, CameraDescription camera) {
+  std::vector<std::string> settings;
+  const Section section = section_of(camera);
+  for (const Field& field : fields_of(section))
+    settings.push_back(fmt::format("cameras.{}.{}={}", name, field.key->name, value_text(field)));
+  scene.set(settings);
+}
+
+bool is_animated_camera(const SceneFile& scene, const std::string& name) {
+  SceneDescription d = scene.description();
+  return std::ranges::any_of(scene.description().animations, [&](const auto& entry) {
+    const std::vector<std::string> words = find_key(d, entry.second.target, "view").words;
+    return words.size() == 3 && words[0] == "cameras" && words[1] == name;
+  });
+}
+
+std::string add_camera(SceneFile& scene, CameraDescription camera) {
+  SceneDescription d = scene.description();
+  std::string name = "free";
+  for (int i = 1; find_named(d.cameras, name) != nullptr; ++i) name = fmt::format("free_{}", i);
+  const Json patch = {{"camera", name}, {"cameras", {{name, json_of(section_of(camera))}}}};
+  scene.merge(patch.dump(), "view");
+  return name;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes and textures of the matrix.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "halfspace/raster/vertex_input.h"
+#include "halfspace/shading/texture.h"
+#include "matrix.h"
+
+namespace halfspace {
+
+struct MatrixVertex {
+  glm::vec3 position, normal;
+  glm::vec2 uv;
+};
+
+/// What all draw calls of a row share. The positions are in world space; for MatrixMesh::triangles and quad that is clip space.
+struct MatrixScene {
+  std::vector<MatrixVertex> vertices;
+  std::vector<uint32_t> indices;  ///< 0xffffffff restarts a strip
+  glm::mat4 clip_from_world{1.0f};
+  std::vector<std::shared_ptr<const Texture2D>> textures;  ///< as many as the row uses, at most eight
+
+  /// Part i of n of the indices.
+  std::span<const uint32_t> part(int i, int n) const;
+};
+
+MatrixScene matrix_scene(const MatrixRow& row, WorkloadSize size);
+
+/// A half-float image of the size of the target with colors from 0 to 8, without mip levels.
+std::shared_ptr<const Texture2D> matrix_light(WorkloadSize size);
+
+/// The scissor rectangle of a row with half_scissor.
+Rect matrix_scissor(WorkloadSize size);
+
+/// Direction to the light.
+inline constexpr glm::vec3 kMatrixLight{0.48f, 0.6f, 0.64f};
+/// Texture i of a row with several is repeated 1 + i · kMatrixRepeat times as often as the first one.
+inline constexpr float kMatrixRepeat = 0.25f;
+/// Columns and rows of the instances in MatrixMesh::tiles, and their scale.
+inline constexpr int kMatrixColumns = 14, kMatrixRows = 7;
+inline constexpr float kMatrixScale = 0.125f;
+
+}  // namespace halfspace

@@ -1,0 +1,227 @@
+// The frame as a whole, and the spaces that a vertex passes through.
+
+chapter({
+  id: "frame", title: "One frame", kicker: "Start",
+  lead: () => `This page opens up one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title ? ` (${escapeHtml(DATA.title)})` : ""}: ${W} × ${H} pixels, as Halfspace rendered them. Every number below was computed by the renderer itself for this very picture. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
+  steps: () => [
+    {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The one that you see belongs to ${exampleName}.`}`,
+      draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
+    {name: "Its triangles", caption: "The same picture with one color per triangle. The renderer never sees anything else: everything is made of these.",
+      draw: () => picture(DATA.pictures.triangles, "The picture with one color per triangle", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
+    {name: "The pipeline", caption: "Work flows from left to right. Numbers are those of this frame. A tile is owned by one thread, so no pixel needs a lock, and the picture does not depend on the number of threads.",
+      draw: () => el("div", {class: "stage"}, pipelineDiagram())},
+  ],
+  body: () => [
+    el("p", {class: "keys", html: "<kbd>←</kbd> <kbd>→</kbd> go to the previous and next step, and on to the next chapter. The slider does the same within a chapter."}),
+    el("p", {class: "keys", html: `To follow another pixel: ${command(`${DATA.command} --pixel X,Y`)}`}),
+    el("h3", {}, "What is drawn"),
+    tableOf(["object", "kind", "vertices", "primitives", "culled faces"], DATA.draws.slice(0, 12).map((d) => [escapeHtml(d.object) + (d.copy ? ` (${d.copy})` : ""), `¶${d.kind}${d.layered ? ", transparent" : ""}`, d.vertices, d.primitives, `¶${d.cull}`])),
+    DATA.draws.length > 12 ? el("p", {}, `… and ${DATA.draws.length - 12} more draws.`) : null],
+  exercises: () => {
+    const s = DATA.statistics;
+    return [
+      {ask: "How many pixels does this frame have?", answer: W * H, hint: "Multiply the width by the height.", why: `${W} · ${H} pixels.`},
+      {ask: "On average, how many fragments were drawn per pixel? (Two digits after the point.)", answer: DATA.overdraw.total / (W * H), tolerance: 0.01, hint: `There were ${fmt(DATA.overdraw.total)} fragments in all.`, why: `${fmt(DATA.overdraw.total)} fragments for ${fmt(W * H)} pixels.`},
+      {ask: "How many of the submitted primitives never reached a tile?", answer: s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample, hint: "The chapter on culling lists the reasons. The diagram gives the number before and after.", why: "They were culled: outside, facing away, without area, or between the samples."},
+    ];
+  },
+});
+
+function pipelineDiagram() {
+  const s = DATA.statistics;
+  const stages = [["vertices", s.vertices_shaded, "shaded"], ["primitives", s.primitives_in, "submitted"], ["set up", s.triangles_binned, "survive"], ["binned", s.bin_entries, "tile entries"], ["samples", s.samples_passed, "pass"], ["fragments", s.fragments_shaded, "shaded"]];
+  const narrow = innerWidth < 620, columns = narrow ? 3 : 6, root = svgFigure(24 + columns * 118, narrow ? 260 : 150, "Pipeline: " + stages.map(([a, n, b]) => `${fmt(n)} ${a} ${b}`).join(", "));
+  stages.forEach(([name, count, what], i) => {
+    const x = 12 + i % columns * 118, top = Math.floor(i / columns) * 116;
+    root.append(svg("rect", {x, y: top + 32, width: 100, height: 84, rx: 10, fill: "var(--card)", stroke: i === 0 ? "var(--accent)" : "var(--line)", "stroke-width": 1.5}));
+    const text = (y, size, weight, value, color = "var(--ink)") => root.append(svg("text", {x: x + 50, y: top + y, "font-size": size, "font-weight": weight, "text-anchor": "middle", style: `fill:${color}`}, document.createTextNode(value)));
+    text(56, 13, 400, name, "var(--soft)");
+    text(80, 17, 650, fmt(count));
+    text(102, 12.5, 400, what, "var(--soft)");
+    if (i < 5) root.append(svg("path", {d: `M${x + 102} ${top + 74} h12 m-4 -4 l4 4 l-4 4`, fill: "none", stroke: "var(--accent)", "stroke-width": 1.8}));
+  });
+  return root;
+}
+
+// ---- wireframes ------------------------------------------------------------------------------------------------------
+
+// The positions of the wire triangles in one space. to(position, triangle) returns three coordinates, or null.
+function wireIn(to) {
+  const out = [];
+  for (let t = 0; t < DATA.wire.count; ++t) {
+    const corners = [0, 1, 2].map((k) => to([...FRAME.positions.subarray(9 * t + 3 * k, 9 * t + 3 * k + 3)], t));
+    if (corners.every((c) => c !== null && c.every(Number.isFinite))) out.push({corners, draw: FRAME.wireDraws[t], outcome: FRAME.outcomes[t]});
+  }
+  return out;
+}
+
+const M = DATA.transforms;
+const toView = (p) => transform(M.view_from_world, p);
+const toClip = (p) => transform(M.clip_from_view, toView(p));
+const toNdc = (c) => (c[3] > 1e-9 ? [c[0] / c[3], c[1] / c[3], c[2] / c[3]] : null);
+const toPixels = (n) => (n === null ? null : [(n[0] + 1) / 2 * W, (1 - n[1]) / 2 * H, 0]);
+
+// A view of a set of points from the front right and above; dragging turns it.
+const ORBIT = {yaw: 0.6, pitch: 0.42};
+function projector(points, width, height) {
+  const [cy, sy, cp, sp] = [Math.cos(ORBIT.yaw), Math.sin(ORBIT.yaw), Math.cos(ORBIT.pitch), Math.sin(ORBIT.pitch)];
+  const turn = ([x, y, z]) => [cy * x - sy * z, cp * y - sp * (sy * x + cy * z), sp * y + cp * (sy * x + cy * z)];
+  const box = [[Infinity, Infinity], [-Infinity, -Infinity]];
+  for (const p of points.map(turn)) for (const k of [0, 1]) { box[0][k] = Math.min(box[0][k], p[k]); box[1][k] = Math.max(box[1][k], p[k]); }
+  const scale = 0.86 * Math.min(width / Math.max(box[1][0] - box[0][0], 1e-9), height / Math.max(box[1][1] - box[0][1], 1e-9));
+  const [cx, cyy] = [0, 1].map((k) => (box[0][k] + box[1][k]) / 2);
+  return (p) => { const q = turn(p); return [width / 2 + (q[0] - cx) * scale, height / 2 - (q[1] - cyy) * scale, q[2]]; };
+}
+
+// Draws triangles and lines in three dimensions. The triangle of the example is filled.
+function wireCanvas(label, triangles, lines, example, points = []) {
+  const width = 1000, height = 560, {canvas, pen} = canvasFigure(width, height, label);
+  const all = [...triangles.flatMap((t) => t.corners), ...lines.flatMap((l) => l.points), ...points, ...(example || [])];
+  const draw = () => {
+    const to = projector(all, width, height);
+    pen.clearRect(0, 0, width, height);
+    pen.lineJoin = "round";
+    const alpha = Math.max(0.12, Math.min(0.6, 600 / Math.max(triangles.length, 1)));
+    pen.globalAlpha = alpha;
+    for (const t of triangles) polygon(pen, t.corners.map(to), {stroke: css("--ink"), width: 1});
+    pen.globalAlpha = 0.7;
+    for (const p of points) { const [x, y] = to(p); pen.fillStyle = css("--ink"); pen.fillRect(x - 1, y - 1, 2, 2); }
+    pen.globalAlpha = 1;
+    for (const l of lines) {
+      pen.setLineDash(l.dash || []);
+      pen.strokeStyle = css(l.color || "--soft");
+      pen.lineWidth = l.width || 1.5;
+      pen.beginPath();
+      l.points.map(to).forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+      pen.stroke();
+      pen.setLineDash([]);
+      if (l.name) { const [x, y] = to(l.points[l.points.length - 1]); pen.fillStyle = css(l.color || "--soft"); pen.font = "600 19px system-ui"; pen.fillText(l.name, x + 7, y + 5); }
+    }
+    if (example) markExample(pen, example.map(to));
+  };
+  draggable(canvas, draw);
+  draw();
+  return [el("div", {class: "stage"}, canvas), turnControl(draw)];
+}
+
+function markExample(pen, points) {
+  if (points.length === 3) polygon(pen, points, {fill: css("--accent"), stroke: css("--accent"), width: 2});
+  const [x, y] = points[0];
+  pen.strokeStyle = css("--accent");
+  pen.lineWidth = 3;
+  pen.beginPath();
+  pen.arc(x, y, 14, 0, 7);
+  pen.stroke();
+}
+
+function draggable(canvas, draw) {
+  let last = null;
+  canvas.style.cursor = "grab";
+  canvas.style.touchAction = "pan-y";
+  canvas.addEventListener("pointerdown", (e) => { last = [e.clientX, e.clientY]; canvas.setPointerCapture(e.pointerId); });
+  canvas.addEventListener("pointerup", () => { last = null; });
+  canvas.addEventListener("pointermove", (e) => {
+    if (!last) return;
+    ORBIT.yaw -= (e.clientX - last[0]) * 0.008;
+    ORBIT.pitch = Math.max(-1.5, Math.min(1.5, ORBIT.pitch + (e.clientY - last[1]) * 0.008));
+    last = [e.clientX, e.clientY];
+    draw();
+  });
+}
+
+function turnControl(draw) {
+  const range = el("input", {type: "range", min: -180, max: 180, value: Math.round(ORBIT.yaw * 180 / Math.PI), "aria-label": "Turn the view, in degrees"});
+  range.addEventListener("input", () => { ORBIT.yaw = range.value * Math.PI / 180; draw(); });
+  return el("div", {class: "legend"}, el("span", {}, "turn"), range, el("span", {}, "or drag the picture"));
+}
+
+const axes = (length, at = [0, 0, 0]) => [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]].map(([name, d]) => ({name, color: "--soft", points: [at, at.map((v, k) => v + d[k] * length)]}));
+
+// The edges of the view volume in view space.
+function frustumLines() {
+  const inverse = (x, y, depth) => { const s = 1 / M.clip_from_view[0], t = 1 / M.clip_from_view[5]; return M.perspective ? [x * s * depth, y * t * depth, -depth] : [x * s, y * t, -depth]; };
+  const far = Math.min(M.far, visibleDepth() * 1.05), rect = (d) => [[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]].map(([x, y]) => inverse(x, y, d));
+  const sides = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => ({color: "--accent", points: [M.perspective ? [0, 0, 0] : inverse(x, y, M.near), inverse(x, y, far)]}));
+  return [{color: "--accent", points: rect(M.near)}, {color: "--accent", points: rect(far)}, ...sides];
+}
+function visibleDepth() {
+  let depth = M.near * 2;
+  for (let i = 0; i < FRAME.positions.length; i += 3) {
+    const v = toView(FRAME.positions.subarray(i, i + 3)), c = transform(M.clip_from_view, v);
+    if (Math.abs(c[0]) <= c[3] && Math.abs(c[1]) <= c[3]) depth = Math.max(depth, -v[2]);
+  }
+  return Math.min(depth, M.far);
+}
+
+const viewToWorld = () => { const i = inverseAffine(M.view_from_world); return (p) => transform(i, p).slice(0, 3); };
+const exampleCorners = (to) => (EX && EX.vertices[0].ws ? EX.vertices.map((v) => to(v.ws)).filter((p) => p !== null) : null);
+
+function spaceSteps() {
+  const some = (step) => (step > 1 ? ` One in ${step} primitives is shown.` : "");
+  const back = viewToWorld(), object = EX ? DATA.draws[EX.draw].world_from_object : null;
+  const toObject = (p) => transform(inverseAffine(object), p).slice(0, 3);
+  const size = (list) => Math.max(...list.flatMap((t) => t.corners).flat().map(Math.abs), 0.1);
+  return [
+    {name: "Object space", caption: `The mesh of <i>${escapeHtml(EX.object)}</i> as it was modeled, around its own origin.${some(DATA.wire.own_step)}`,
+      draw: () => { const own = wireIn(toObject).filter((t) => t.draw === EX.draw); return wireCanvas("Wireframe of the mesh in object space", own, axes(size(own) * 1.2), exampleCorners(toObject)); }},
+    {name: "World space", caption: `Every object is scaled, turned and moved to its place. The lines are the view volume of the camera at ${vec(M.eye, 4)}.${some(DATA.wire.step)}`,
+      draw: () => wireCanvas("Wireframe of all objects in world space, with the camera", wireIn((p) => p), frustumLines().map((l) => ({...l, points: l.points.map(back)})), exampleCorners((p) => p))},
+    {name: "View space", caption: "The same, turned so that the camera is at the origin and looks along −z. x points to the right and y up.",
+      draw: () => wireCanvas("Wireframe in view space, with the camera at the origin", wireIn((p) => toView(p).slice(0, 3)), [...frustumLines(), ...axes(visibleDepth() / 4)], exampleCorners((p) => toView(p).slice(0, 3)))},
+    {name: "Clip space", caption: `Four coordinates. Drawn are x, y and w, upside down: ${M.perspective ? "w is the distance along the view axis, and the visible part is the cone |x| ≤ w, |y| ≤ w" : "w is 1 for all vertices in an orthographic view"}.`,
+      draw: () => wireCanvas("Wireframe in clip space, with w as the third axis", wireIn((p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; }), clipCone(), exampleCorners((p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; }))},
+    {name: "Normalized device coordinates", caption: "After the division by w the view volume is a box: x and y from −1 to 1, depth from 0 (far) to 1 (near). Near things have grown and far things have shrunk.",
+      draw: () => wireCanvas("Wireframe in normalized device coordinates", wireIn((p) => toNdc(toClip(p))).filter(isInBox), boxLines(), exampleCorners((p) => toNdc(toClip(p))))},
+    {name: "Window space", caption: "The box is stretched over the pixels, and positions are rounded to 1/256 of a pixel. From here on, x and y are integers.",
+      draw: () => picture(DATA.pictures.final, "Wireframe over the picture", {overlay: windowWires})},
+  ];
+}
+const isInBox = (t) => t.corners.every(([x, y, z]) => Math.abs(x) < 1.6 && Math.abs(y) < 1.6 && z > -0.2 && z < 1.2);
+function clipCone() {
+  const w = M.perspective ? visibleDepth() : 1.2, at = (x, y, d) => [x * d, y * d, -d];
+  return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y], i, all) => ({color: "--accent", points: [[0, 0, 0], at(x, y, w), at(...all[(i + 1) % 4], w)]}));
+}
+function boxLines() {
+  const rect = (z) => ({color: "--accent", points: [[-1, -1, z], [1, -1, z], [1, 1, z], [-1, 1, z], [-1, -1, z]]});
+  return [rect(0), rect(1), ...[[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => ({color: "--accent", points: [[x, y, 0], [x, y, 1]]})), {name: "near, z = 1", color: "--accent", points: [[1, 1, 1]]}, {name: "far, z = 0", color: "--accent", points: [[1, -1, 0]]}];
+}
+function windowWires(pen, s) {
+  pen.fillStyle = css("--paper");
+  pen.globalAlpha = 0.72;
+  pen.fillRect(0, 0, W * s, H * s);
+  pen.globalAlpha = Math.max(0.25, Math.min(0.8, 900 / Math.max(DATA.wire.count, 1)));
+  const scaled = ([x, y]) => [x * s, y * s];
+  for (const t of wireIn((p) => toPixels(toNdc(toClip(p))))) if (t.outcome < 2 || t.outcome > 3) polygon(pen, t.corners.map(scaled), {stroke: css("--ink")});
+  pen.globalAlpha = 1;
+  if (EX) markExample(pen, EX.vertices.map((v) => scaled([v.x / SUB, H - v.y / SUB])));
+}
+
+const column = (name, values, digits = 6) => `${name.padEnd(8)}${values.map((v) => fmt(v, digits).padStart(14)).join("")}`;
+const matrixRows = (m) => [0, 1, 2, 3].map((r) => [0, 1, 2, 3].map((c) => fmt(m[4 * c + r], 5).padStart(11)).join(" "));
+
+function spaceFormulas() {
+  const v = EX.vertices[0], rows = (v.ws ? [["object", [...v.os, 1]], ["world", [...v.ws, 1]], ["view", [...v.vs, 1]]] : []).concat([["clip", v.clip], ["NDC", v.ndc]]);
+  const chain = rows.map(([n, values]) => column(n, values)).join("\n") + "\n" + column("window", [v.x / SUB, v.y / SUB, v.z], 9);
+  const formula = `<em>p</em><sub>clip</sub> = P · V · M · <em>p</em><sub>object</sub>        <em>p</em><sub>ndc</sub> = (<em>x</em>, <em>y</em>, <em>z</em>) / <em>w</em>\n\nThe first vertex of ${exampleName}:\n`;
+  const x = `\n\n<em>x</em><sub>window</sub> = round(256 · (<em>x</em>/<em>w</em> · ${fmt(W / 2)} + ${fmt(W / 2)})) / 256\n         = round(256 · (${fmt(v.ndc[0], 7)} · ${fmt(W / 2)} + ${fmt(W / 2)})) / 256 = <b>${fmt(v.x)}/256 = ${fmt(v.x / SUB, 9)}</b>`;
+  const matrices = EX.vertices[0].ws ? [`V (view from world)\n${matrixRows(M.view_from_world).join("\n")}\n\nP (clip from view)\n${matrixRows(M.clip_from_view).join("\n")}`] : [];
+  return [formula + chain + x, ...matrices];
+}
+
+chapter({
+  id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",
+  lead: () => "A vertex is a point in the coordinates of its mesh. Three matrices and one division bring it to the window. The renderer multiplies the matrices once per object, in double precision, and applies the product to each vertex.",
+  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain earth")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it is made of points, each a sphere that is drawn inside of a rectangle" : "the background is a single triangle over the whole window"}. A scene with meshes: ${command("halfspace explain earth")}.` : null),
+  arrives: () => [plural(DATA.statistics.vertices_in, "index", "indices"), plural(DATA.draws.length, "draw with a matrix", "draws, each with a matrix")],
+  leaves: () => [plural(DATA.statistics.vertices_shaded, "shaded vertex", "shaded vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],
+  steps: spaceSteps,
+  formula: spaceFormulas,
+  exercises: () => {
+    const v = EX.vertices[0];
+    return [
+      {ask: `The first vertex has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], tolerance: Math.abs(v.ndc[0]) * 1e-3 + 1e-6, hint: "Divide by w.", why: "x / w."},
+      {ask: `Its window position is x = ${num(v.x)} in 1/256 pixel. In which pixel column is it?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
+      {ask: `Every vertex was shaded once, although ${fmt(DATA.statistics.vertices_in)} indices refer to them. How many vertices were shaded?`, answer: DATA.statistics.vertices_shaded, hint: "See “What leaves”.", why: "Vertices that several triangles share are not computed again."},
+    ];
+  },
+});

@@ -1,0 +1,148 @@
+// Clipping, culling and triangle setup.
+
+const CLIPPED = DATA.clipped;
+
+// A triangle against the planes, seen from the side: w (the distance along the axis) to the right, x or y up.
+function clipPicture(c, axis, after) {
+  const name = "xy"[axis], points = [...c.before.map((p) => [p[3], p[axis]]), [0, 0]], shown = c.after.map((a) => [a.clip[3], a.clip[axis]]);
+  const width = 720, height = 400, span = (k) => { const v = points.map((p) => p[k]); return [Math.min(...v), Math.max(...v)]; };
+  const [[w0, w1], [y0, y1]] = [span(0), span(1)], scale = Math.min((width - 90) / Math.max(w1 - w0, 1e-9), (height - 60) / Math.max(y1 - y0, 1e-9));
+  const to = ([w, y]) => [50 + (w - w0) * scale, 30 + (y1 - y) * scale], path = (list) => list.map(to).map((p) => p.map((v) => v.toFixed(1)).join(",")).join(" ");
+  const root = svgFigure(width, height, `A clipped triangle in clip space, ${after ? "after" : "before"} clipping: w to the right, ${name} up`);
+  const line = (a, b, color, dash) => { const [p, q] = [to(a), to(b)]; root.append(svg("line", {x1: p[0], y1: p[1], x2: q[0], y2: q[1], stroke: color, "stroke-width": 1.5, "stroke-dasharray": dash || "none"})); };
+  const far = Math.max(w1, Math.abs(w0));
+  line([0, 0], [far, far], "var(--soft)", "5 4");
+  line([0, 0], [far, -far], "var(--soft)", "5 4");
+  const near = M.perspective ? M.near : 1;
+  line([near, y0 - 9e3], [near, y1 + 9e3], "var(--accent)");
+  root.append(svg("polygon", {points: path(c.before.map((p) => [p[3], p[axis]])), fill: "var(--soft)", "fill-opacity": after ? 0.08 : 0.22, stroke: "var(--soft)", "stroke-width": 1.5}));
+  if (after) root.append(svg("polygon", {points: path(shown), fill: "var(--accent)", "fill-opacity": 0.25, stroke: "var(--accent)", "stroke-width": 2}));
+  if (after) c.after.forEach((a) => { const [x, y] = to([a.clip[3], a.clip[axis]]); root.append(svg("circle", {cx: x, cy: y, r: a.vertex < 0 ? 6 : 4, fill: a.vertex < 0 ? "var(--accent)" : "var(--ink)"})); });
+  const label = (at, text) => { const [x, y] = to(at); root.append(svg("text", {x: Math.min(x, width - 120), y: Math.max(18, Math.min(y, height - 8)), "font-size": 14}, document.createTextNode(text))); };
+  label([near, y1], " near plane");
+  label([far * 0.8, far * 0.8], `${name} = w`);
+  return el("div", {class: "stage"}, root);
+}
+
+function clipFormula(c) {
+  const cut = c.after.find((a) => a.vertex < 0);
+  if (!cut) return [];
+  const used = [0, 1, 2].filter((k) => cut.weights[k] !== 0);
+  return [`A corner on a plane is a weighted sum of the vertices. The first new corner of this triangle:\n\n<em>p</em> = ${used.map((k) => `${fmt(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
+}
+
+chapter({
+  id: "clipping", title: "Clipping", kicker: "Primitive setup",
+  lead: () => "Points behind the eye cannot be divided by w. Triangles that cross the near plane, the far plane or the limits of the integer grid are cut to a polygon first. Triangles that only leave the window at its sides are not cut: the rasterizer just does not visit pixels outside.",
+  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are outside of the view as a whole, the others need no cut. A frame with clipped triangles: ${command("halfspace explain day-night --camera street")}.` : null),
+  arrives: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: one bit per plane that a vertex is outside of"],
+  leaves: () => [`${plural(DATA.statistics.clipped, "primitive")} cut`, `${plural(DATA.statistics.culled_outside, "primitive")} dropped, because they are entirely outside`],
+  steps: () => CLIPPED.slice(0, 4).flatMap((c, i) => [
+    {name: `Triangle ${fmt(c.primitive)} of ${escapeHtml(c.object)}, before`, caption: `Seen from above: the eye is at the left end, where the dashed sides of the view volume meet. Vertices with w below ${fmt(M.near)} are in front of the near plane, and those with negative w behind the eye.`, draw: () => clipPicture(c, 0, false)},
+    {name: "After", caption: `${c.after.length} corners are left, ${c.after.filter((a) => a.vertex < 0).length} of them new. The polygon is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
+  formula: () => clipFormula(CLIPPED[0]),
+  body: () => [el("h3", {}, "Corners of the first polygon"), tableOf(["corner", "x", "y", "z", "w", "made of"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(" · ")}`]))],
+  exercises: () => {
+    const c = CLIPPED[0];
+    return [
+      {ask: "How many corners does the polygon of the first clipped triangle have?", answer: c.after.length, hint: "Count them in the table.", why: "Each plane can add at most one corner to a triangle."},
+      {ask: "Into how many triangles is that polygon split?", answer: c.after.length - 2, hint: "A fan with n corners has n − 2 triangles.", why: "n corners make n − 2 triangles."},
+      {ask: "How many vertices of this triangle are outside the near plane (w smaller than the near distance)?", answer: c.before.filter((p) => p[2] > p[3]).length, hint: "Depth is reversed: a vertex is in front of the near plane if z > w.", why: "z > w there."},
+    ];
+  },
+});
+
+// ---- culling ----------------------------------------------------------------------------------------------------------
+
+function cullPicture(outcome) {
+  return picture(DATA.pictures.final, `Triangles that are ${OUTCOMES[outcome]}, drawn over the picture`, {overlay: (pen, s) => {
+    pen.fillStyle = css("--paper");
+    pen.globalAlpha = 0.75;
+    pen.fillRect(0, 0, W * s, H * s);
+    pen.globalAlpha = 0.8;
+    for (const t of wireIn((p) => toPixels(toNdc(toClip(p))))) {
+      if (t.outcome === outcome) polygon(pen, t.corners.map(([x, y]) => [x * s, y * s]), {stroke: css(outcome === 0 ? "--ink" : "--accent")});
+    }
+    pen.globalAlpha = 1;
+  }});
+}
+
+const area2 = (t) => (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
+const submitted = () => ({x: EX.vertices.map((v) => v.x), y: EX.vertices.map((v) => v.y)});
+
+chapter({
+  id: "culling", title: "Culling", kicker: "Primitive setup",
+  lead: () => "Most triangles that cannot be seen are dropped before any pixel is touched: those that show their back, those without area, and those that slip between the samples.",
+  arrives: () => [plural(DATA.statistics.primitives_in, "primitive"), "the winding that counts as front"],
+  leaves: () => [`${plural(DATA.statistics.triangles_binned, "primitive")} to draw`, "the reason for each of the others"],
+  steps: () => [
+    {name: "What became of them", caption: OUTCOMES.map((name, i) => [name, DATA.outcomes[i]]).filter(([, n]) => n > 0).map(([name, n]) => `${fmt(n)} ${name}`).join(", ") + ".",
+      draw: () => bars(OUTCOMES.map((name, i) => ({value: DATA.outcomes[i], name, label: ["kept", "clipped", "outside", "back", "no area", "no sample", "NaN"][i], marked: i === 0})), "Number of primitives by outcome: " + OUTCOMES.map((n, i) => `${n} ${DATA.outcomes[i]}`).join(", "))},
+    ...[0, 3, 5].filter((i) => DATA.outcomes[i] > 0 && FRAME.outcomes.includes(i)).map((i) => ({name: `Primitives that are ${OUTCOMES[i]}`.replace("that are covers", "that cover").replace("are set", "were set"), caption: i === 3 ? "The far side of every closed surface. About half of all triangles of a solid object end here." : i === 5 ? "Triangles so small, or so thin, that they pass between the centers of the pixels." : "The triangles that go on to the rasterizer.", draw: () => cullPicture(i)})),
+  ],
+  formula: () => (isTriangle ? [`2 · area = (<em>x</em><sub>1</sub> − <em>x</em><sub>0</sub>)(<em>y</em><sub>2</sub> − <em>y</em><sub>0</sub>) − (<em>y</em><sub>1</sub> − <em>y</em><sub>0</sub>)(<em>x</em><sub>2</sub> − <em>x</em><sub>0</sub>)\n\nfor ${exampleName}, in 1/256 pixel:\n\n= (${fmt(submitted().x[1] - submitted().x[0])}) · (${fmt(submitted().y[2] - submitted().y[0])}) − (${fmt(submitted().y[1] - submitted().y[0])}) · (${fmt(submitted().x[2] - submitted().x[0])}) = <b>${fmt(area2(submitted()))}</b>\n\n${area2(submitted()) > 0 ? "Positive: counter-clockwise." : "Negative: clockwise."} The area is ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`] : []),
+  exercises: () => [
+    {ask: "How many primitives were culled because they face away?", answer: DATA.statistics.culled_face, hint: "The bar “back”.", why: "They have the opposite winding in the window."},
+    {ask: "What percentage of the submitted primitives is drawn? (Rounded to a whole number.)", answer: Math.round((DATA.outcomes[0] + DATA.outcomes[1]) / Math.max(1, DATA.statistics.primitives_in) * 100), tolerance: 0.5, hint: "Kept and clipped primitives, divided by all of them.", why: `${fmt(DATA.outcomes[0] + DATA.outcomes[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
+    isTriangle ? {ask: `The doubled area of the example is ${num(Math.abs(area2(submitted())))} in (1/256 pixel)². How many pixels is its area? (Two digits after the point.)`, answer: Math.abs(area2(submitted())) / 131072, tolerance: 0.0051, hint: "Divide by 2 and by 256².", why: "One pixel is 256 · 256 = 65 536 units."} : {ask: "How many primitives have no area?", answer: DATA.statistics.culled_degenerate, hint: "The bar “no area”.", why: "They are lines or points after snapping."},
+  ],
+});
+
+// ---- setup ------------------------------------------------------------------------------------------------------------
+
+// Draws the edges of the example triangle on the grid of pixels around it.
+function edgePicture(highlight) {
+  const t = TRI, margin = 1.2, box = t.box, x0 = Math.min(...t.x) / SUB - margin, x1 = Math.max(...t.x) / SUB + margin, y0 = Math.min(...t.y) / SUB - margin, y1 = Math.max(...t.y) / SUB + margin;
+  const size = Math.max(x1 - x0, (y1 - y0) * 1.6), scale = 720 / size, width = 720, height = Math.max(240, (y1 - y0) * scale), left = (width - (x1 - x0) * scale) / 2, top = (height - (y1 - y0) * scale) / 2;
+  const to = (x, y) => [left + (x / SUB - x0) * scale, top + (y1 - y / SUB) * scale];
+  const root = svgFigure(width, height, "The example triangle with its three edges on the grid of pixels");
+  if (scale > 5) gridLines(root, to, Math.floor(x0), Math.ceil(x1), Math.floor(y0), Math.ceil(y1));
+  root.append(svg("polygon", {points: t.x.map((x, i) => to(x, t.y[i]).join(",")).join(" "), fill: "var(--accent)", "fill-opacity": 0.16}));
+  t.edges.forEach((e, i) => edgeArrow(root, to, e, i, highlight === i || highlight === 3));
+  t.x.forEach((x, i) => { const [a, b] = to(x, t.y[i]); root.append(svg("circle", {cx: a, cy: b, r: 4.5, fill: "var(--ink)"}), svg("text", {x: a + 8, y: b - 8, "font-size": 15, "font-weight": 650}, document.createTextNode("v" + i))); });
+  if (scale > 5) for (let y = box[1]; y < box[3]; ++y) for (let x = box[0]; x < box[2]; ++x) { const [a, b] = to(center(x), center(y)); root.append(svg("circle", {cx: a, cy: b, r: Math.min(3.5, scale / 8), fill: covered(t, x, y) ? "var(--accent)" : "var(--soft)"})); }
+  return el("div", {class: "stage"}, root);
+}
+
+function gridLines(root, to, x0, x1, y0, y1) {
+  const line = (a, b) => root.append(svg("line", {x1: a[0], y1: a[1], x2: b[0], y2: b[1], stroke: "var(--line)"}));
+  for (let x = x0; x <= x1; ++x) line(to(x * SUB, y0 * SUB), to(x * SUB, y1 * SUB));
+  for (let y = y0; y <= y1; ++y) line(to(x0 * SUB, y * SUB), to(x1 * SUB, y * SUB));
+}
+
+function edgeArrow(root, to, e, i, strong) {
+  const a = to(e.x0, e.y0), b = to(e.x0 + e.ex, e.y0 + e.ey), length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1, d = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+  const color = strong ? "var(--accent)" : "var(--soft)", m = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+  root.append(svg("line", {x1: a[0], y1: a[1], x2: b[0], y2: b[1], stroke: color, "stroke-width": strong ? 3 : 1.5}));
+  const tip = (s, t) => [m[0] + d[0] * s - d[1] * t, m[1] + d[1] * s + d[0] * t].join(",");
+  root.append(svg("polygon", {points: `${tip(8, 0)} ${tip(-5, 6)} ${tip(-5, -6)}`, fill: color}));
+  root.append(svg("text", {x: m[0] + d[1] * 20 - 8, y: m[1] - d[0] * 20 + 5, "font-size": 15, "font-weight": 650, style: `fill:${color}`}, document.createTextNode("E" + i)));
+}
+
+const edgeLine = (e, i) => `E<sub>${i}</sub>(x, y) = ${fmt(e.ex)} · (y − ${fmt(e.y0)}) − (${fmt(e.ey)}) · (x − ${fmt(e.x0)})${e.bias ? " − 1" : ""}`;
+const edgesAtPixel = () => TRI.edges.map((e) => edgeAt(e, center(WINDOW[0]), center(WINDOW[1])));
+
+chapter({
+  id: "setup", title: "Triangle setup", kicker: "Primitive setup",
+  lead: () => "Three straight lines bound a triangle. Each is an edge function: positive on the inside, zero on the line, negative outside. Because positions are integers, the functions are exact, and a pixel is never drawn twice or forgotten where triangles meet.",
+  absent: () => (isTriangle ? null : `The visible primitive of this frame's example pixel is ${EX === null ? "none" : "a point: it covers a rectangle, and needs no edges"}. A frame of triangles: ${command("halfspace explain earth")}.`),
+  arrives: () => ["three window positions in 1/256 pixel", "three depths"],
+  leaves: () => ["three edge functions", "depth as z₀ + E₁ · a + E₂ · b", TRI && TRI.small ? "marked as small: all values fit in 32 bits" : "large: values are shifted to fit in 32 bits"],
+  steps: () => [
+    {name: "Three edges", caption: `${exampleName[0].toUpperCase() + exampleName.slice(1)}. Its vertices are put in counter-clockwise order, starting with the one that is farthest away (v0). Dots are the centers of the pixels.`, draw: () => edgePicture(3)},
+    ...TRI.edges.map((e, i) => ({name: `Edge E${i}`, caption: `From v${(i + 1) % 3} to v${(i + 2) % 3}, opposite of v${i}. ${e.bias ? "Samples exactly on this edge belong to the neighbor, so 1 is subtracted." : "Samples exactly on this edge belong to this triangle."}`, draw: () => edgePicture(i)})),
+  ],
+  formula: () => {
+    const at = edgesAtPixel();
+    return [`${TRI.edges.map(edgeLine).join("\n")}\n\nat the center of pixel (${WINDOW}), (${fmt(center(WINDOW[0]))}, ${fmt(center(WINDOW[1]))}) in 1/256 pixel:\n\n${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(at[i])}${e.bias ? " − 1" : ""} → <b>${at[i] - e.bias >= 0 ? "inside" : "outside"}</b>`).join("\n")}`,
+      `<em>z</em>(x, y) = z<sub>0</sub> + E<sub>1</sub> · ${fmt(TRI.z_edge1, 9)} + E<sub>2</sub> · ${fmt(TRI.z_edge2, 9)}\n     = ${fmt(TRI.z0, 9)} + ${fmt(at[1])} · ${fmt(TRI.z_edge1, 5)} + ${fmt(at[2])} · ${fmt(TRI.z_edge2, 5)} = <b>${fmt(TRI.z0 + at[1] * TRI.z_edge1 + at[2] * TRI.z_edge2, 8)}</b>`];
+  },
+  exercises: () => {
+    const at = edgesAtPixel();
+    return [
+      {ask: "What is E₀ at the center of the example pixel, before the fill rule?", answer: at[0], hint: "The formula above has the numbers.", why: "Exact: no rounding anywhere."},
+      {ask: "What is E₀ + E₁ + E₂ at that pixel?", answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is the doubled area of the triangle, wherever the point is."},
+      {ask: "Which barycentric weight has v1 there? (E₁ divided by the doubled area, three digits.)", answer: at[1] / area2(TRI), tolerance: 0.0011, hint: "Divide E₁ by the sum of the previous exercise.", why: "Edge functions are barycentric coordinates that are not normalized."},
+    ];
+  },
+});

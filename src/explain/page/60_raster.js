@@ -1,0 +1,236 @@
+// Binning, coverage and depth.
+
+const BINS = DATA.bins, TILE = BINS.tile;
+const binCount = (tx, ty) => BINS.counts[ty * BINS.columns + tx];
+const mostBinned = Math.max(...BINS.counts, 1);
+// Tile of the example pixel, in window coordinates.
+const EXTILE = [Math.floor(WINDOW[0] / TILE), Math.floor(WINDOW[1] / TILE)];
+const heat = (t) => { const stops = [[24, 18, 62], [42, 56, 128], [28, 106, 146], [34, 152, 134], [112, 190, 92], [230, 216, 88], [255, 250, 214]], x = Math.max(0, Math.min(1, t)) * 6, i = Math.min(5, Math.floor(x)), f = x - i; return `rgb(${stops[i].map((v, k) => Math.round(v + (stops[i + 1][k] - v) * f)).join(" ")})`; };
+
+function eachTile(f) {
+  for (let ty = 0; ty < BINS.rows; ++ty) for (let tx = 0; tx < BINS.columns; ++tx) f(tx, ty, tx * TILE, H - Math.min(H, (ty + 1) * TILE), Math.min(TILE, W - tx * TILE), Math.min(TILE, H - ty * TILE));
+}
+
+// Tiles over the picture. mode: "grid", "heat" or "example".
+function tilePicture(mode) {
+  const read = (x, y) => { const tx = Math.floor(x / TILE), ty = Math.floor((H - 1 - y) / TILE); return `tile (${tx}, ${ty}): ${plural(binCount(tx, ty), "primitive")}`; };
+  return picture(DATA.pictures.final, `Tiles over the picture${mode === "heat" ? ", colored by their number of primitives" : ""}`, {read, overlay: (pen, s) => {
+    eachTile((tx, ty, x, y, w, h) => {
+      const n = binCount(tx, ty), marked = mode === "example" && touches(tx, ty);
+      pen.globalAlpha = mode === "heat" ? 0.86 : 1;
+      if (mode === "heat") { pen.fillStyle = heat(n / mostBinned); pen.fillRect(x * s, y * s, w * s, h * s); }
+      pen.globalAlpha = marked ? 0.45 : 1;
+      if (marked) { pen.fillStyle = css("--accent"); pen.fillRect(x * s, y * s, w * s, h * s); }
+      pen.globalAlpha = 1;
+      pen.strokeStyle = "rgb(255 255 255 / .45)";
+      pen.lineWidth = 1;
+      pen.strokeRect(x * s + 0.5, y * s + 0.5, w * s - 1, h * s - 1);
+      if (mode !== "heat" || w < 24 || h < 12) return;
+      pen.fillStyle = n / mostBinned > 0.55 ? "#111" : "#fff";
+      pen.font = `${Math.round(TILE / 4 * s / 2)}px system-ui`;
+      pen.textAlign = "center";
+      pen.fillText(fmt(n), (x + w / 2) * s, (y + h / 2 + TILE / 12) * s);
+    });
+    if (mode === "example" && isTriangle) polygon(pen, TRI.x.map((v, i) => [v / SUB * s, (H - TRI.y[i] / SUB) * s]), {stroke: "#fff", fill: css("--accent"), width: 2});
+  }});
+}
+
+// The largest value of an edge function over the sample positions of a tile, as bin.cpp computes it for one sample per pixel.
+function maxInTile(e, tx, ty) {
+  const px = tx * TILE + (e.ey < 0 ? TILE - 1 : 0), py = ty * TILE + (e.ex > 0 ? TILE - 1 : 0);
+  const at = DATA.sample_positions.flat(), low = Math.min(...at), high = Math.max(...at);
+  return edgeAt(e, px * SUB + (e.ey < 0 ? high : low), py * SUB + (e.ex > 0 ? high : low));
+}
+const tileBox = (t) => [Math.floor(t.box[0] / TILE), Math.floor(t.box[1] / TILE), Math.floor((t.box[2] - 1) / TILE), Math.floor((t.box[3] - 1) / TILE)];
+function touches(tx, ty) {
+  if (TRI === null) return tx === EXTILE[0] && ty === EXTILE[1];
+  const [x0, y0, x1, y1] = tileBox(TRI);
+  if (tx < x0 || ty < y0 || tx > x1 || ty > y1) return false;
+  if (!TRI.edges || x0 === x1 || y0 === y1) return true;
+  return TRI.edges.every((e) => maxInTile(e, tx, ty) - e.bias >= 0);
+}
+function touchedTiles() { const list = []; eachTile((tx, ty) => { if (touches(tx, ty)) list.push([tx, ty]); }); return list; }
+
+chapter({
+  id: "binning", title: "Binning into tiles", kicker: "Tiles",
+  lead: () => `The window is cut into tiles of ${TILE} × ${TILE} pixels. Each primitive is listed in the bins of the tiles that it may touch. After that, tiles are independent: a thread takes a tile, and everything it needs fits into its cache.`,
+  arrives: () => [plural(DATA.statistics.triangles_binned, "primitive")],
+  leaves: () => [`${BINS.columns} × ${BINS.rows} bins`, plural(DATA.statistics.bin_entries, "entry", "entries") + ", in submission order"],
+  steps: () => [
+    {name: "Tiles", caption: `${BINS.columns * BINS.rows} tiles cover the window. Those at the top and at the right may be smaller. Rows are counted from below, as in OpenGL.`, draw: () => tilePicture("grid")},
+    {name: "Primitives per tile", caption: `The fullest tile has ${fmt(mostBinned)} primitives, and ${fmt(BINS.counts.filter((n) => n === 0).length)} tiles have none: they are filled with the background without looking at a pixel.`, draw: () => [tilePicture("heat"), legend("0", fmt(mostBinned))].flat()},
+    {name: "The tiles of the example", caption: `The ${exampleName} is listed in ${plural(touchedTiles().length, "tile")}.`, draw: () => tilePicture("example")},
+  ],
+  formula: () => (isTriangle ? [`A tile is skipped if an edge function is negative in its best corner.\n\nTile (${EXTILE}), with the example pixel:\n${TRI.edges.map((e, i) => `max E<sub>${i}</sub> = ${fmt(maxInTile(e, ...EXTILE))} → <b>${maxInTile(e, ...EXTILE) - e.bias >= 0 ? "may touch" : "cannot touch"}</b>`).join("\n")}`] : []),
+  exercises: () => [
+    {ask: "How many primitives are in the fullest tile?", answer: mostBinned, hint: "Look at the heat map.", why: "Its thread has the most to do."},
+    {ask: "In how many tiles is the average primitive listed? (Two digits after the point.)", answer: DATA.statistics.bin_entries / Math.max(1, DATA.statistics.triangles_binned), tolerance: 0.0051, hint: "Entries divided by primitives.", why: `${fmt(DATA.statistics.bin_entries)} entries for ${fmt(DATA.statistics.triangles_binned)} primitives.`},
+    {ask: `How many tiles does the ${exampleName} touch?`, answer: touchedTiles().length, hint: "The third step marks them.", why: "The same test as in the quoted code."},
+  ],
+});
+
+// ---- coverage -----------------------------------------------------------------------------------------------------------
+
+const PACKET = DATA.build.packet;
+const blockOf = (v) => Math.floor(v / 8) * 8;
+
+// Coverage of the 8x8 block whose lower left pixel is (x, y): "none", "some" or "whole", from the edge functions in its corners.
+function blockCoverage(t, x, y) {
+  let whole = true;
+  for (const e of t.edges) {
+    const values = [[0, 0], [7, 0], [0, 7], [7, 7]].map(([i, j]) => edgeAt(e, center(x + i), center(y + j)) - e.bias);
+    if (Math.max(...values) < 0) return "none";
+    if (Math.min(...values) < 0) whole = false;
+  }
+  return whole ? "whole" : "some";
+}
+
+function gridPicture(x0, y0, columns, rows, label, cell) {
+  const size = Math.min(720 / columns, 460 / rows), width = 720, height = rows * size + 8, left = (width - columns * size) / 2;
+  const root = svgFigure(width, height, label);
+  const to = (x, y) => [left + (x / SUB - x0) * size, 4 + (y0 + rows - y / SUB) * size];
+  for (let y = y0; y < y0 + rows; ++y) for (let x = x0; x < x0 + columns; ++x) {
+    const [px, py] = to(x * SUB, (y + 1) * SUB), c = cell(x, y);
+    root.append(svg("rect", {x: px, y: py, width: size, height: size, fill: c.fill || "transparent", "fill-opacity": c.opacity ?? 1, stroke: "var(--line)", "stroke-width": size > 6 ? 0.7 : 0}));
+  }
+  return {root, to, size};
+}
+
+function outline(root, to, points, width = 2) {
+  root.append(svg("polygon", {points: points.map(([x, y]) => to(x, y).join(",")).join(" "), fill: "none", stroke: "var(--ink)", "stroke-width": width, "stroke-linejoin": "round"}));
+}
+const corners = (t) => (t.edges ? t.x.map((x, i) => [x, t.y[i]]) : [[t.x[0], t.y[0]], [t.x[1], t.y[0]], [t.x[1], t.y[1]], [t.x[0], t.y[1]]]);
+
+function blocksPicture() {
+  const [x0, y0] = EXTILE.map((t) => t * TILE), n = {none: 0, some: 0, whole: 0};
+  const g = gridPicture(x0 / 8, y0 / 8, TILE / 8, TILE / 8, "The blocks of the tile: outside, crossed by an edge, or whole", (bx, by) => {
+    const kind = blockCoverage(TRI, bx * 8, by * 8);
+    ++n[kind];
+    return {fill: kind === "none" ? "transparent" : "var(--accent)", opacity: kind === "whole" ? 0.75 : 0.3};
+  });
+  const scaled = (x, y) => g.to(x / 8, y / 8), clip = svg("clipPath", {id: "tile"}, svg("rect", {x: scaled(x0 * SUB, 0)[0], y: 4, width: g.size * TILE / 8, height: g.size * TILE / 8}));
+  const inner = svg("g", {"clip-path": "url(#tile)"});
+  outline(inner, scaled, corners(TRI));
+  g.root.append(clip, inner);
+  return [el("div", {class: "stage"}, g.root), el("div", {class: "readout"}, `${n.none} blocks outside · ${n.some} crossed by an edge · ${n.whole} whole`)];
+}
+
+function packetPicture() {
+  const [x0, y0] = WINDOW.map(blockOf), [pw, ph] = PACKET;
+  const g = gridPicture(x0, y0, 8, 8, "One block of 8 by 8 pixels with its packets", (x, y) => ({fill: covered(TRI, x, y) ? "var(--accent)" : "transparent", opacity: 0.55}));
+  for (let y = y0; y < y0 + 8; y += ph) for (let x = x0; x < x0 + 8; x += pw) {
+    const [a, b] = g.to(x * SUB, (y + ph) * SUB);
+    g.root.append(svg("rect", {x: a, y: b, width: g.size * pw, height: g.size * ph, fill: "none", stroke: "var(--ink)", "stroke-width": 1.8}));
+  }
+  const block = svg("clipPath", {id: "block"}, svg("rect", {x: g.to(x0 * SUB, 0)[0], y: 4, width: g.size * 8, height: g.size * 8})), inner = svg("g", {"clip-path": "url(#block)"});
+  outline(inner, g.to, corners(TRI));
+  g.root.append(block, inner);
+  return el("div", {class: "stage"}, g.root);
+}
+
+// Sample by sample: the values of the edges at the pixel under the pointer.
+function samplePicture() {
+  const [x0, y0] = WINDOW.map((v) => blockOf(v));
+  const readout = el("div", {class: "readout", "aria-live": "polite"});
+  const show = (x, y) => { readout.innerHTML = `pixel (${x}, ${y}) from below: ` + (TRI.edges ? TRI.edges.map((e, i) => `E${i} = ${fmt(edgeAt(e, center(x), center(y)) - e.bias)}`).join(" · ") : "") + ` → ${covered(TRI, x, y) ? "covered" : "not covered"}`; };
+  const g = gridPicture(x0, y0, 8, 8, "The samples of one block", (x, y) => ({fill: covered(TRI, x, y) ? "var(--accent)" : "transparent", opacity: 0.3}));
+  for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) {
+    const [a, b] = g.to(center(x), center(y)), example = x === WINDOW[0] && y === WINDOW[1];
+    const dot = svg("circle", {cx: a, cy: b, r: example ? 9 : 6, fill: covered(TRI, x, y) ? "var(--accent)" : "var(--soft)", stroke: example ? "var(--ink)" : "none", "stroke-width": 2.5});
+    const hit = svg("rect", {x: a - g.size / 2, y: b - g.size / 2, width: g.size, height: g.size, fill: "transparent"});
+    for (const type of ["pointermove", "click"]) hit.addEventListener(type, () => show(x, y));
+    g.root.append(dot, hit);
+  }
+  outline(g.root, g.to, corners(TRI), 1.5);
+  g.root.setAttribute("overflow", "hidden");
+  show(...WINDOW);
+  return [el("div", {class: "stage"}, g.root), readout];
+}
+
+// Two triangles that share an edge through sample positions, made up for the fill rule.
+const SHARED = (() => {
+  const p = [[128, 128], [1664, 128], [1664, 1664], [128, 1664]], make = (a, b, c) => ({x: [a, b, c].map((i) => p[i][0]), y: [a, b, c].map((i) => p[i][1])});
+  return [make(0, 1, 2), make(0, 2, 3)].map((t) => ({...t, box: [0, 0, 7, 7], edges: [0, 1, 2].map((i) => { const a = (i + 1) % 3, b = (i + 2) % 3, ex = t.x[b] - t.x[a], ey = t.y[b] - t.y[a]; return {x0: t.x[a], y0: t.y[a], ex, ey, bias: ey < 0 || (ey === 0 && ex > 0) ? 0 : 1}; })}));
+})();
+function sharedPicture() {
+  const g = gridPicture(0, 0, 7, 7, "Two triangles that share an edge through the centers of pixels: each center belongs to exactly one of them", (x, y) => ({fill: covered(SHARED[0], x, y) ? "var(--accent)" : covered(SHARED[1], x, y) ? "var(--soft)" : "transparent", opacity: 0.55}));
+  for (const t of SHARED) outline(g.root, g.to, corners(t));
+  for (let y = 0; y < 7; ++y) for (let x = 0; x < 7; ++x) { const [a, b] = g.to(center(x), center(y)); g.root.append(svg("circle", {cx: a, cy: b, r: 4.5, fill: "var(--ink)"})); }
+  return el("div", {class: "stage"}, g.root);
+}
+
+function countCovered() {
+  let n = 0;
+  for (let y = TRI.box[1]; y < TRI.box[3]; ++y) for (let x = TRI.box[0]; x < TRI.box[2]; ++x) n += covered(TRI, x, y);
+  return n;
+}
+const inBlock = () => { let n = 0; const [x0, y0] = WINDOW.map(blockOf); for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) n += covered(TRI, x, y); return n; };
+
+chapter({
+  id: "coverage", title: "Coverage", kicker: "Tiles",
+  lead: () => "Which samples are inside of the triangle? The answer is found from coarse to fine: tile, block of 8 × 8 pixels, packet, sample. Whole blocks need no test per pixel.",
+  absent: () => (TRI === null ? `No primitive is visible at the example pixel. A frame of triangles: ${command("halfspace explain earth")}.` : null),
+  arrives: () => ["a bin of primitives", "three edge functions each"],
+  leaves: () => [`packets of ${PACKET[0]} × ${PACKET[1]} pixels with a mask, one bit per lane`, `this build has ${DATA.build.lanes} lanes (${escapeHtml(DATA.build.description)})`],
+  steps: () => [
+    ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, in blocks of 8 × 8 pixels. Only blocks that an edge crosses are looked at more closely.`, draw: blocksPicture}] : []),
+    {name: "Packets", caption: `The block of the example pixel. ${DATA.build.lanes} pixels are computed at once, in packets of ${PACKET[0]} × ${PACKET[1]}: this is how many numbers fit into a register of this build (${escapeHtml(DATA.build.description)}). Filled pixels are covered.`, draw: packetPicture},
+    {name: "Sample by sample", caption: "All three edge functions must not be negative, after the fill rule. Point at a sample to see its values.", draw: samplePicture},
+    {name: "A shared edge", caption: "A made-up square of two triangles, whose diagonal goes exactly through the centers of pixels. Each center belongs to one of them, never to both or none: to the one for which the edge is a left edge, or has the inside above it.", draw: sharedPicture},
+  ],
+  formula: () => (isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${TRI.edges.map((e, i) => `${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\nbias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1`] : []),
+  exercises: () => [
+    {ask: `How many pixel centers does the ${exampleName} cover?`, answer: countCovered(), hint: "Count the filled pixels. Larger triangles reach beyond the block that is shown.", why: "Counted with the exact edge functions."},
+    {ask: "How many pixels of the block that is shown are covered?", answer: inBlock(), hint: "Count the filled squares of the packet step.", why: "At most 64."},
+    {ask: `How many packets has a block of 8 × 8 pixels in this build?`, answer: 64 / DATA.build.lanes, hint: `A packet has ${DATA.build.lanes} pixels.`, why: `64 / ${DATA.build.lanes}.`},
+  ],
+});
+
+// ---- depth --------------------------------------------------------------------------------------------------------------
+
+// Smallest and largest depth of each block of 8x8 pixels of the final depth buffer, counted from the lower left as tiles are.
+function hierarchicalZ() {
+  const columns = Math.ceil(W / 8), rows = Math.ceil(H / 8), low = new Float32Array(columns * rows).fill(2), high = new Float32Array(columns * rows).fill(-1);
+  for (let y = 0; y < H; ++y) for (let x = 0; x < W; ++x) {
+    const b = Math.floor((H - 1 - y) / 8) * columns + Math.floor(x / 8), z = FRAME.depth[y * W + x];
+    low[b] = Math.min(low[b], z);
+    high[b] = Math.max(high[b], z);
+  }
+  return {columns, rows, low, high};
+}
+const depthHeat = (z) => (z <= 0 ? "transparent" : heat((Math.log2(z) - Math.log2(DATA.depth.low)) / Math.max(1e-6, Math.log2(DATA.depth.high) - Math.log2(DATA.depth.low))));
+
+function hizPicture(which) {
+  const z = hierarchicalZ(), {canvas, pen} = canvasFigure(W * 2, H * 2, `The ${which === "low" ? "farthest" : "nearest"} depth of each block of 8 by 8 pixels`);
+  for (let by = 0; by < z.rows; ++by) for (let bx = 0; bx < z.columns; ++bx) {
+    pen.fillStyle = depthHeat(z[which][by * z.columns + bx]);
+    pen.fillRect(bx * 16, H * 2 - (by + 1) * 16, 15.5, 15.5);
+  }
+  return [el("div", {class: "stage"}, canvas), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)];
+}
+const depthAt = (x, y) => FRAME.depth[y * W + x];
+const exampleBlock = () => { const z = hierarchicalZ(), b = Math.floor(WINDOW[1] / 8) * z.columns + Math.floor(WINDOW[0] / 8); return {low: z.low[b], high: z.high[b]}; };
+
+chapter({
+  id: "depth", title: "Depth", kicker: "Tiles",
+  lead: () => "Of all surfaces at a sample, the nearest wins. The depth buffer remembers its depth. Depth is reversed here: 1 is at the near plane and 0 far away, which gives distant surfaces the finest steps of a float.",
+  absent: () => (DATA.depth.high <= 0 ? `Nothing in this frame writes depth. A frame that does: ${command("halfspace explain earth")}.` : null),
+  arrives: () => ["covered packets", "a depth plane per triangle"],
+  leaves: () => [`${fmt(DATA.statistics.samples_passed)} of ${fmt(DATA.statistics.samples_tested)} tested samples pass`, "the identity of the visible triangle, per sample"],
+  steps: () => [
+    {name: "The depth buffer", caption: "After the last triangle, on a logarithmic scale. Point at it to read the exact value.", draw: () => [picture(DATA.depth.picture, "The depth buffer as a heat map", {read: (x, y) => `pixel (${x}, ${y}): depth ${fmt(depthAt(x, y), 9)}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)].flat()},
+    {name: "Farthest depth of each block", caption: "Hierarchical Z: a triangle whose nearest point is behind the farthest depth of a block cannot change any of its 64 pixels. One comparison rejects them all.", draw: () => hizPicture("low")},
+    {name: "Nearest depth of each block", caption: "The other bound: a triangle that is nearer than the nearest depth of a block passes everywhere, without a test per pixel.", draw: () => hizPicture("high")},
+  ],
+  formula: () => {
+    const b = exampleBlock(), z = depthAt(...PIXEL);
+    return [`pass = <em>z</em><sub>fragment</sub> &gt; <em>z</em><sub>stored</sub>\n\nstored at pixel (${PIXEL}): <b>${fmt(z, 9)}</b>\nits block of 8 × 8: farthest ${fmt(b.low, 9)}, nearest ${fmt(b.high, 9)}\n\nA triangle with <em>z</em><sub>max</sub> ≤ ${fmt(b.low, 7)} is rejected with the whole block.\nA triangle with <em>z</em><sub>0</sub> &gt; ${fmt(b.high, 7)} passes in the whole block.`];
+  },
+  exercises: () => {
+    return [
+      {ask: `The depths of a triangle are between 0.25 and 0.5, those stored in a block between 0.6 and 0.9. Can any pixel of the block pass? (yes or no)`, answer: "no", hint: "Larger is nearer.", why: "Its nearest point is behind the farthest pixel of the block, so one comparison rejects 64 pixels."},
+      {ask: `What is the depth at the example pixel? (Three significant digits.)`, answer: depthAt(...PIXEL), tolerance: depthAt(...PIXEL) * 0.006 + 1e-9, hint: "Point at the ring in the first step.", why: "Read from the buffer."},
+      {ask: "How many blocks of 8 × 8 pixels does one tile have?", answer: (TILE / 8) ** 2, hint: `A tile has ${TILE} × ${TILE} pixels.`, why: `${TILE / 8} · ${TILE / 8}.`},
+    ];
+  },
+});

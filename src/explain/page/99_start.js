@@ -1,0 +1,2 @@
+// Begins when all chapters are registered.
+start();

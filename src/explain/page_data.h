@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The data of a page as JSON, one function per group of chapters. Private header of the page_*.cpp files.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "halfspace/explain/page.h"
+#include "halfspace/explain/stage_example.h"
+#include "halfspace/explain/stage_geometry.h"
+#include "halfspace/explain/stage_pictures.h"
+
+namespace halfspace {
+
+using PageJson = nlohmann::ordered_json;
+
+/// What the functions below read.
+struct PageInput {
+  const SceneDescription& description;
+  const PreparedScene& scene;
+  const PassContext& context;
+  const StageGeometry& geometry;
+  const Image<glm::vec4>& light;
+  const ValuePictures& values;
+  glm::ivec2 pixel;      ///< the example pixel, from the upper left
+  uint32_t primitive;    ///< the example primitive, visible at the pixel; kNoPrimitive: none
+  const Workers& workers;
+};
+inline constexpr uint32_t kNoPrimitive = 0xffffffffu;
+
+/// Returns the name of the object that a draw belongs to: "particles", "background" or its name in the scene.
+std::string object_name(const SceneDescription& scene, const PreparedDraw& draw);
+
+PageJson json_of(const glm::dvec2& v);
+PageJson json_of(const glm::dvec3& v);
+PageJson json_of(const glm::dvec4& v);
+PageJson json_of(const glm::dmat4& m);  ///< 16 numbers, column by column
+
+// page_geometry.cpp
+PageJson draws_json(const PageInput& in);
+PageJson transforms_json(const PageInput& in);
+PageJson example_json(const PageInput& in);
+PageJson outcomes_json(const PageInput& in);
+PageJson clip_json(const PageInput& in);
+PageJson wireframe_json(const PageInput& in);
+PageJson bins_json(const PageInput& in);
+PageJson perspective_json(const PageInput& in);
+
+// page_light.cpp
+PageJson terms_json(const PageInput& in);
+PageJson shadow_json(const PageInput& in);
+PageJson tone_json(const PageInput& in);
+PageJson samples_json(const PageInput& in);
+
+// page_pictures.cpp
+PageJson pictures_json(const PageInput& in, const Image<glm::u8vec4>& picture);
+PageJson depth_json(const PageInput& in);
+PageJson mip_json(const PageInput& in);
+PageJson overdraw_json(const PageInput& in, const Image<uint32_t>& fragments);
+
+PageJson statistics_json(const PassStatistics& s);
+
+}  // namespace halfspace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures and numbers in a form that a page can contain.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "halfspace/core/image.h"
+
+namespace halfspace {
+
+/// Returns a data URI of a PNG file.
+std::string picture_uri(const Image<glm::u8vec4>& picture);
+
+/// Returns bytes as base64 of a PNG file whose pixels are the bytes, three per pixel, padded with zeros. PNG compresses them, and pages can
+/// decompress it without a library.
+std::string packed_bytes(std::span<const std::byte> bytes);
+
+/// Returns the bytes of an array of numbers, as planes: the first byte of all elements, then the second, and so on. They compress better.
+template <class T>
+std::string packed_planes(std::span<const T> values) {
+  const std::span<const std::byte> bytes = std::as_bytes(values);
+  std::vector<std::byte> planes(bytes.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i) planes[i % sizeof(T) * values.size() + i / sizeof(T)] = bytes[i];
+  return packed_bytes(planes);
+}
+
+/// Returns the color of a heat map for t in [0, 1]: from dark blue to light yellow. Its lightness rises with t.
+glm::u8vec4 heat_color(float t);
+
+/// Returns 8-bit sRGB codes of linear light in [0, 1].
+glm::u8vec4 srgb_code(const glm::vec3& linear);
+
+/// Escapes a text for JSON inside of a <script> element: no "</" remains.
+std::string script_safe(std::string_view json);
+
+}  // namespace halfspace

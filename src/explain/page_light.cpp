@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "halfspace/explain/page_data.h"
+#include "halfspace/explain/page_encode.h"
+#include "halfspace/explain/stage_shadow.h"
+#include "halfspace/explain/stage_terms.h"
+#include "halfspace/explain/stage_tone.h"
+#include "halfspace/raster/pipeline/sample_pattern.h"
+
+namespace halfspace {
+
+namespace {
+
+glm::vec3 rgb(const glm::vec4& c) { return glm::vec3(c); }
+
+Image<glm::u8vec4> displayed(const PreparedScene& scene, const ToneMapping& tone, const Image<glm::vec4>& light) {
+  Image<glm::u8vec4> out(light.width(), light.height());
+  std::ranges::transform(light.texels(), out.data(),
+                         [&](const glm::vec4& c) { return glm::u8vec4(tone_steps(scene, tone, rgb(c)).code, 255); });
+  return out;
+}
+
+glm::dvec3 mean_of(const Image<glm::vec4>& light) {
+  glm::dvec3 sum(0.0);
+  for (const glm::vec4& c : light.texels()) sum += glm::dvec3(c);
+  return sum / static_cast<double>(light.texels().size());
+}
+
+// The share of a light that arrives, from its diffuse light with and without shadows; 1 where the light does not reach.
+Image<glm::u8vec4> shadow_factors(const Image<glm::vec4>& with, const Image<glm::vec4>& without) {
+  Image<glm::u8vec4> out(with.width(), with.height());
+  std::ranges::transform(with.texels(), without.texels(), out.data(), [](const glm::vec4& a, const glm::vec4& b) {
+    const float full = b.x + b.y + b.z;
+    if (!(full > 0.0f)) return glm::u8vec4(0, 0, 0, 0);
+    const auto code = static_cast<uint8_t>(std::clamp((a.x + a.y + a.z) / full, 0.0f, 1.0f) * 255.0f + 0.5f);
+    return glm::u8vec4(code, code, code, 255);
+  });
+  return out;
+}
+
+struct SurfaceAt {
+  glm::vec3 position_rws, face_ws, normal_ws;
+};
+
+const PreparedDraw* draw_at(const PageInput& in, int x, int y) {
+  const uint32_t object = in.values.object.at(x, y), instance = in.values.instance.at(x, y);
+  for (const PreparedDraw& d : in.scene.draws) {
+    const auto first = static_cast<uint32_t>(d.source.instance);
+    if (d.source.object == static_cast<int>(object) && instance == first && !d.source.streams.positions.empty()) return &d;
+  }
+  return nullptr;
+}
+
+// The surface at a pixel, if it is a mesh.
+std::optional<SurfaceAt> surface_at(const PageInput& in, int x, int y) {
+  const PreparedDraw* draw = draw_at(in, x, y);
+  if (draw == nullptr || draw->state.topology != Topology::triangles) return std::nullopt;
+  const std::size_t first = std::size_t{in.values.triangle.at(x, y)} * 3;
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::vec3 os = draw->source.streams.positions[(*draw->indices)[first + k]];
+    corners[k] = glm::dvec3(draw->source.world_from_object * glm::dvec4(os, 1.0)) - in.scene.view.eye_ws;
+  }
+  const glm::dvec3 position = glm::dvec3(in.values.position.at(x, y)) - in.scene.view.eye_ws;
+  glm::dvec3 face = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  if (glm::dot(face, position) > 0.0) face = -face;
+  return SurfaceAt{glm::vec3(position), glm::vec3(face), in.values.normal.at(x, y)};
+}
+
+std::optional<ShadowLookup> lookup_at(const PageInput& in, const Light& light, int x, int y) {
+  const std::optional<SurfaceAt> s = surface_at(in, x, y);
+  if (!s) return std::nullopt;
+  const glm::vec2 window(static_cast<float>(x) + 0.5f, static_cast<float>(in.scene.view.height_px - y) - 0.5f);
+  return shadow_lookup(light, s->position_rws, s->face_ws, s->normal_ws, window);
+}
+
+// The pixel whose look-up a page shows: the example pixel if its shadow is partial; otherwise the nearest with a partial shadow among every
+// fourth pixel in x and y; otherwise the example pixel, or any that is in a view of the light.
+glm::ivec2 shadow_pixel(const PageInput& in, const Light& light) {
+  glm::ivec2 best = in.pixel;
+  int64_t nearest = INT64_MAX;
+  for (int y = 0; y < in.scene.view.height_px; y += 4) {
+    for (int x = 0; x < in.scene.view.width_px; x += 4) {
+      const std::optional<ShadowLookup> at = lookup_at(in, light, x, y);
+      if (!at || at->view < 0 || glm::dot(at->normal_ws, at->to_light_ws) <= 0.0f) continue;
+      const bool partial = at->factor > 0.0f && at->factor < 1.0f;
+      const int64_t dx = x - in.pixel.x, dy = y - in.pixel.y, distance = dx * dx + dy * dy + (partial ? 0 : int64_t{1} << 40);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      best = {x, y};
+    }
+  }
+  return best;
+}
+
+PageJson json_of_lookup(const ShadowLookup& s) {
+  return {{"view", s.view},
+          {"position_rws", json_of(glm::dvec3(s.position_rws))},
+          {"normal", json_of(glm::dvec3(s.normal_ws))},
+          {"to_light", json_of(glm::dvec3(s.to_light_ws))},
+          {"x", s.x},
+          {"y", s.y},
+          {"i", s.i},
+          {"j", s.j},
+          {"depth", s.depth},
+          {"biased", s.biased},
+          {"dx", s.depth_dx},
+          {"dy", s.depth_dy},
+          {"factor", s.factor},
+          {"texels", s.texels},
+          {"lit", s.lit},
+          {"side", kShadowSide}};
+}
+
+const char* name_of(ShadowFilter f) {
+  static constexpr std::array kNames{"hard", "bilinear", "pcf3", "pcf5", "pcf7", "vogel", "pcss", "vsm", "moments"};
+  return kNames[static_cast<std::size_t>(f)];
+}
+
+}  // namespace
+
+PageJson terms_json(const PageInput& in) {
+  const StageTone tone = stage_tone(in.scene, in.light, in.workers);
+  PageJson json = PageJson::array();
+  for (const LightTerm& term : light_terms(in.scene)) {
+    const Image<glm::vec4> light = render_term(in.scene, term, TermShadow::with, in.workers);
+    PageJson item{{"name", term.name},
+                  {"picture", picture_uri(displayed(in.scene, tone.tone, light))},
+                  {"mean", json_of(mean_of(light))},
+                  {"value", json_of(glm::dvec3(rgb(light.at(in.pixel.x, in.pixel.y))))}};
+    const bool shadowed = term.light >= 0 && in.scene.lights[static_cast<std::size_t>(term.light)].light.shadow != nullptr;
+    if (shadowed && term.kind == TermKind::diffuse)
+      item["shadow"] = picture_uri(shadow_factors(light, render_term(in.scene, term, TermShadow::without, in.workers)));
+    json.push_back(item);
+  }
+  return json;
+}
+
+PageJson shadow_json(const PageInput& in) {
+  for (const PreparedLight& l : in.scene.lights) {
+    if (l.light.shadow == nullptr || l.light.shadow->views.empty()) continue;
+    const glm::ivec2 pixel = shadow_pixel(in, l.light);
+    const std::optional<ShadowLookup> at = lookup_at(in, l.light, pixel.x, pixel.y);
+    const int shown = at && at->view >= 0 ? at->view : 0;
+    const ShadowView& view = l.light.shadow->views[static_cast<std::size_t>(shown)];
+    PageJson json{{"light", l.name},
+                  {"pixel", {pixel.x, pixel.y}},
+                  {"views", l.light.shadow->views.size()},
+                  {"view", shown},
+                  {"size", view.size},
+                  {"filter", name_of(l.light.shadow->settings.filter)},
+                  {"map", picture_uri(shadow_map_picture(view, 512))}};
+    if (at) json["lookup"] = json_of_lookup(*at);
+    return json;
+  }
+  return nullptr;
+}
+
+PageJson tone_json(const PageInput& in) {
+  static constexpr std::array kCurves{"none", "reinhard", "reinhard_extended", "exponential", "aces"};
+  const StageTone t = stage_tone(in.scene, in.light, in.workers);
+  const ToneSteps s = tone_steps(in.scene, t.tone, rgb(in.light.at(in.pixel.x, in.pixel.y)));
+  return {{"hdr", t.hdr},
+          {"exposure", t.tone.exposure},
+          {"auto", in.scene.post.hdr && in.scene.post.auto_exposure},
+          {"log_average", t.log_average},
+          {"key", in.scene.post.key_value},
+          {"curve", kCurves[static_cast<std::size_t>(t.tone.curve)]},
+          {"white", t.tone.white},
+          {"gamma", in.scene.post.hdr && in.scene.post.encode == DisplayEncoding::gamma ? in.scene.post.gamma : 0.0},
+          {"dither", in.scene.post.hdr && in.scene.post.dither},
+          {"low", kLowStop},
+          {"high", kHighStop},
+          {"bins", kBinsPerStop},
+          {"histogram", t.histogram},
+          {"dark", t.dark},
+          {"bright", t.bright},
+          {"points", t.curve},
+          {"pixel",
+           {{"light", json_of(glm::dvec3(s.light))},
+            {"exposed", json_of(glm::dvec3(s.exposed))},
+            {"display", json_of(glm::dvec3(s.display))},
+            {"encoded", json_of(glm::dvec3(s.encoded))},
+            {"code", {s.code.x, s.code.y, s.code.z}}}}};
+}
+
+PageJson samples_json(const PageInput& in) {
+  PageJson json = PageJson::array();
+  for (int s = 0; s < in.scene.samples; ++s) {
+    const SamplePosition p = sample_position(in.scene.samples, s);
+    json.push_back({p.x, p.y});
+  }
+  return json;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One primitive on its way through the pipeline: its vertices in every space, what clipping leaves of it, and its setup.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "halfspace/explain/stage_geometry.h"
+#include "halfspace/raster/primitives/clip.h"
+
+namespace halfspace {
+
+/// A vertex in every space. The renderer computes clip, window and outcode; the other positions are the same transform step by step, in
+/// double.
+struct StageVertex {
+  uint32_t index = 0;                        ///< in the mesh
+  std::optional<glm::dvec3> position_os, position_ws, position_vs;  ///< not for the background, which has no mesh
+  glm::vec4 clip{0.0f};
+  glm::vec3 ndc{0.0f};  ///< clip / w
+  ScreenVertex window{};
+  Outcode outcode = 0;
+};
+
+struct StageExample {
+  StagePrimitive primitive{};
+  int corners = 3;  ///< 3: triangle, 2: line, 1: point
+  std::array<StageVertex, 3> vertices;
+  std::vector<Triangle> triangles;  ///< after setup
+  std::optional<PointSpriteRect> sprite;
+};
+
+/// Returns the values of a primitive.
+StageExample stage_example(const PreparedScene& scene, const PassContext& context, const StageGeometry& geometry, uint32_t primitive);
+
+/// The transforms from world to clip space, as the example shows them.
+struct StageTransforms {
+  glm::dmat4 view_from_world, clip_from_view;
+};
+StageTransforms stage_transforms(const View& view);
+
+/// What clipping leaves of a triangle.
+struct StageClip {
+  uint32_t primitive;
+  std::array<glm::vec4, 3> clip;  ///< vertices in clip space
+  ClipPolygon polygon;
+  std::vector<glm::dvec2> window;  ///< corners of the polygon in pixels
+};
+StageClip stage_clip(const PassContext& context, const StageGeometry& geometry, uint32_t primitive);
+
+}  // namespace halfspace

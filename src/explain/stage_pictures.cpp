@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/explain/stage_pictures.h"
+
+#include "halfspace/render/frame.h"
+#include "halfspace/shading/footprint.h"
+
+namespace halfspace {
+
+namespace {
+
+// Rows of texture coordinates that are bound to a mesh without them.
+constexpr std::array<float, 2> kNoUv{0, 0};
+
+// Computes the level of detail of a map, with the formulas of the texture unit.
+struct MipLevels {
+  glm::mat4 clip_from_object;
+  PlacedMap map;
+
+  template <class R>
+  struct Attributes {
+    vec3<R> position_os;
+    vec2<R> uv, second_uv;
+  };
+  template <class R>
+  struct Varyings {
+    vec2<R> uv, second_uv;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.uv = in.uv;
+    out.second_uv = in.second_uv;
+    return clip_from_object * vec4<R>(in.position_os, R(1));
+  }
+
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    using V = Varyings<R>;
+    if (map.map == nullptr) return {vec4<R>(R(0))};
+    const MapCoordinates<R> first{in.uv, px.ddx(&V::uv), px.ddy(&V::uv)};
+    const MapCoordinates<R> second{in.second_uv, px.ddx(&V::second_uv), px.ddy(&V::second_uv)};
+    const MapCoordinates<R> at = transformed(map.uv_transform, map.uv_set == 1 ? second : first);
+    const int width = map.map->width(), height = map.map->height();
+    const vec2<R> size(static_cast<float>(width), static_cast<float>(height));
+    const vec2<R> dx = at.duv_dx * size, dy = at.duv_dy * size;
+    R lod = level_of_detail(width, height, at.duv_dx, at.duv_dy), probes(1);
+    if (map.sampler.anisotropy > 1) {
+      const Footprint<R> f = footprint(width, height, at.duv_dx, at.duv_dy, map.sampler.anisotropy);
+      lod = f.lod;
+      probes = to_real<R>(f.probes);
+    }
+    return {vec4<R>(clamp(lod, R(-99), R(99)), probes, sqrt(dot(dx, dx)), sqrt(dot(dy, dy)))};
+  }
+};
+
+struct ColorMapOf {
+  template <class S>
+  requires std::derived_from<S, LitSurface>
+  MipLevels operator()(const S& s) const {
+    PlacedMap map;
+    map.map = s.factors[kColor].map;
+    map.sampler = s.factors[kColor].sampler;
+    return {s.clip_from_object, map};
+  }
+  template <class S>
+  requires std::derived_from<S, MetallicMaterial>
+  MipLevels operator()(const S& s) const { return {s.clip_from_object, s.maps[kBaseColorMap]}; }
+  template <class S>
+  MipLevels operator()(const S&) const { return {glm::mat4(0.0f), {}}; }
+};
+
+VertexStream uv_stream(std::span<const glm::vec2> uvs, std::size_t vertices) {
+  if (!uvs.empty()) return stream(uvs);
+  return {.data = kNoUv.data(), .stride = 0, .components = 2, .count = vertices};
+}
+
+}  // namespace
+
+Image<float> depth_buffer(const PreparedScene& scene, const Workers& workers) {
+  Image<float> depth(scene.view.width_px, scene.view.height_px);
+  Pass pass(depth.width(), depth.height(), ColorTarget{.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, d32f_target(depth, 0.0f),
+            {.samples = scene.samples});
+  for (const PreparedDraw& draw : scene.draws) add_draw(pass, draw, draw.state);
+  pass.run(workers);
+  return depth;
+}
+
+ValuePictures value_pictures(const PreparedScene& scene, const Workers& workers) {
+  const int w = scene.view.width_px, h = scene.view.height_px;
+  ValuePictures v{Image<glm::vec3>(w, h), Image<glm::vec3>(w, h), Image<glm::vec3>(w, h), Image<glm::vec2>(w, h),
+                  Image<uint32_t>(w, h),  Image<uint32_t>(w, h),  Image<uint32_t>(w, h),  Image<glm::vec3>(w, h)};
+  render_frame(scene,
+               {.normal = &v.normal,
+                .albedo = &v.albedo,
+                .position = &v.position,
+                .uv = &v.uv,
+                .object = &v.object,
+                .instance = &v.instance,
+                .triangle = &v.triangle,
+                .barycentrics = &v.barycentrics},
+               workers);
+  return v;
+}
+
+Image<MipLookup> mip_levels(const PreparedScene& scene, const Workers& workers) {
+  Image<glm::vec4> values(scene.view.width_px, scene.view.height_px);
+  Pass pass(values.width(), values.height(), rgba32f_target(values), {.format = DepthFormat::d32f, .clear_value = 0.0f});
+  for (const PreparedDraw& draw : scene.draws) {
+    const MeshStreams& s = draw.source.streams;
+    if (draw.source.object < 0 || draw.state.order_independent || s.positions.empty()) continue;
+    const MipLevels shader = std::visit(ColorMapOf{}, draw.shader);
+    if (shader.clip_from_object == glm::mat4(0.0f)) continue;
+    const std::size_t n = s.positions.size();
+    const std::array list{static_cast<VertexStream>(stream(s.positions)), uv_stream(s.uvs, n),
+                          uv_stream(s.second_uvs.empty() ? s.uvs : s.second_uvs, n)};
+    pass.draw(shader, detail::bind_streams(list), *draw.indices, draw.state);
+  }
+  pass.run(workers);
+  Image<MipLookup> out(values.width(), values.height());
+  for (int y = 0; y < values.height(); ++y) {
+    for (int x = 0; x < values.width(); ++x) {
+      const glm::vec4& v = values.at(x, y);
+      out.at(x, y) = {v.x, v.y, v.z, v.w};
+    }
+  }
+  return out;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The header of OpenEXR files, without decoding them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace halfspace {
+
+/// Returns the names of the channels of a single-part OpenEXR file, sorted. Returns an empty list if the file cannot be read or its header is
+/// invalid. Source: "OpenEXR File Layout", sections Header and Channel List.
+std::vector<std::string> exr_channel_names(const std::filesystem::path& file);
+
+}  // namespace halfspace

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Blend functions that are compiled for one state and one format. They return the same bits as the general code in blend.cpp.
+#pragma once
+
+#include <span>
+
+#include "halfspace/raster/tile/tile.h"
+
+namespace halfspace {
+
+/// Blends a color for each packet with the existing ones, in the order of the packets.
+using BlendProgram = void (*)(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src);
+
+/// Returns the function for a state, or null if there is none. It writes all four channels.
+BlendProgram blend_program(ColorFormat format, const BlendState& state);
+
+}  // namespace halfspace

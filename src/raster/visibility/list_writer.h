@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lists the packets of triangles whose visibility or color depends on the shader in a PacketQueue. Has the same interface as OpaqueWriter.
+#pragma once
+
+#include <bit>
+
+#include "halfspace/raster/trace/tile_trace.h"
+#include "halfspace/raster/visibility/block_edges.h"
+#include "halfspace/raster/visibility/depth_bounds.h"
+#include "halfspace/raster/visibility/depth_stencil_test.h"
+#include "halfspace/raster/visibility/packet_queue.h"
+#include "halfspace/raster/visibility/visibility.h"
+
+namespace halfspace {
+
+/// Lists packets of a draw with one sample per pixel. In VisibilityMode::early, packets are tested and their depth is written before they
+/// are listed. In all other modes, depth is tested after the shader. Lanes that fail the test now are not listed if they cannot pass later.
+template <class S>
+class ListWriter {
+ public:
+  using Statistics = S;
+
+  ListWriter(const DrawInTile& d, PacketQueue& queue, Statistics& statistics)
+      : tile_(d.tile),
+        queue_(queue),
+        statistics_(statistics),
+        compare_(d.draw.state.depth.compare),
+        is_final_(d.mode == VisibilityMode::early),
+        tests_(d.tests && (is_final_ || (!d.draw.kernels.writes_depth && fails_for_good(compare_)))),
+        writes_depth_(is_final_ && d.tests && d.draw.state.depth.write),
+        lists_depth_(!is_final_ && d.mode != VisibilityMode::cover_only),
+        has_test_(d.tests) {}
+
+  Statistics& statistics() const { return statistics_; }
+  bool tests() const { return tests_; }
+  bool writes_depth() const { return writes_depth_; }
+  CompareOp compare_op() const { return compare_; }
+
+  /// See OpaqueWriter.
+  template <class Z>
+  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+    statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
+    if constexpr (kTraces<Statistics>) trace(id, packet, covered, z_at());
+    uint32_t passed = covered;
+    Real z(0.0f);
+    if (tests_ || lists_depth_) z = z_at();
+    if (tests_) {
+      float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
+      const Real old = load<Real>(depth);
+      passed &= bits(compare(compare_, z, old));
+      if (writes_depth_) store(depth, select(mask_from_bits<Mask>(passed), z, old));
+    }
+    add(id, packet, passed, z);
+    return passed != 0;
+  }
+
+  HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
+    ++statistics_.samples_tested;
+    if constexpr (kTraces<Statistics>) trace(id, static_cast<int>(pixel) / kLanes, 1u << pixel % kLanes, Real(z));
+    if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
+    const int packet = static_cast<int>(pixel) / kLanes, lane = static_cast<int>(pixel) % kLanes;
+    add_pixel(id, packet, lane, z);
+    if (!writes_depth_) return;
+    tile_.depth[pixel] = z;
+    widen_hiz(compare_, tile_, static_cast<int>(pixel / kPixelsPerBlock), z, z);
+  }
+
+  template <class Z>
+  HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) {
+    statistics_.samples_tested += kLanes;
+    if constexpr (kTraces<Statistics>) trace(id, packet, kAllBits<Mask>, z_at());
+    Real z(0.0f);
+    if (writes_depth_ || lists_depth_) z = z_at();
+    if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z);
+    add(id, packet, kAllBits<Mask>, z);
+  }
+
+ private:
+  // Records fragments before they are tested and listed. What becomes of listed ones is recorded when the queue is emptied.
+  void trace(TriangleId id, int packet, uint32_t covered, Real z) {
+    const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
+    const uint32_t passed = tests_ ? covered & bits(compare(compare_, z, old)) : covered;
+    statistics_.trace->add(id, packet, passed, FragmentOutcome::hidden_before_shading, z, old, has_test_);
+    statistics_.trace->add(id, packet, covered & ~passed, FragmentOutcome::depth_failed, z, old, has_test_);
+  }
+
+  /// Returns true if a sample that fails the test also fails after other samples of the draw have passed and were written.
+  static bool fails_for_good(CompareOp op) { return op != CompareOp::not_equal && op != CompareOp::always; }
+
+  HS_INLINE void add(TriangleId id, int packet, uint32_t lanes, const Real& z) {
+    if (is_final_) statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
+    const auto i = static_cast<std::size_t>(queue_.count);
+    queue_.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
+    queue_.ids[i] = id;
+    if (lists_depth_) queue_.depth[i] = z;
+    queue_.count += lanes != 0 ? 1 : 0;
+  }
+  /// Adds a pixel to the last packet if it is the same one, otherwise as a new packet.
+  HS_INLINE void add_pixel(TriangleId id, int packet, int lane, float z) {
+    if (is_final_) ++statistics_.samples_passed;
+    const auto bit = static_cast<uint16_t>(1u << lane);
+    const bool is_same = queue_.count != 0 && queue_.ids[static_cast<std::size_t>(queue_.count) - 1] == id &&
+                         queue_.packets[static_cast<std::size_t>(queue_.count) - 1].packet == packet;
+    const auto i = static_cast<std::size_t>(is_same ? queue_.count - 1 : queue_.count++);
+    PacketMask& p = queue_.packets[i];
+    if (!is_same) {
+      p = {static_cast<uint16_t>(packet), 0};
+      queue_.ids[i] = id;
+      if (lists_depth_) queue_.depth[i] = Real(0.0f);
+    }
+    p.lanes = static_cast<uint16_t>(p.lanes | bit);
+    if (lists_depth_) set_lane(queue_.depth[i], lane, z);
+  }
+
+  Tile& tile_;
+  PacketQueue& queue_;
+  Statistics& statistics_;
+  CompareOp compare_;
+  bool is_final_, tests_, writes_depth_, lists_depth_;
+  bool has_test_;  // there is a depth test, now or later
+};
+
+}  // namespace halfspace

@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Opens pages of `halfspace explain` in headless Chromium: no errors, steps, exercises, names of all controls and pictures, narrow windows.
+
+  page_test.py PROGRAM [SCREENSHOTS]
+
+Needs chromium, chromium-driver and python3-selenium of Debian. If a folder is given, it receives a screenshot of every chapter.
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SKIPPED = 77  # ctest shows the test as skipped
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
+except ImportError:
+    if sys.executable != "/usr/bin/python3" and os.path.exists("/usr/bin/python3"):
+        os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
+    print("page_test.py: skipped: selenium is absent (Debian: python3-selenium)")
+    sys.exit(SKIPPED)
+
+CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+PROGRAM = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
+SCREENSHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
+# Scenes that together have every stage: clipped triangles, shadows, HDR, points, several samples, transparent layers.
+SCENES = {"earth": ["earth"], "day-night": ["day-night", "--camera", "street"], "particles": ["particles"],
+          "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"]}
+BOX = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+
+
+def browser():
+    options = Options()
+    options.binary_location = CHROMIUM
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1200,900"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(options=options, service=Service(DRIVER))
+
+
+def set_window(driver, width, dark=False):
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+    features = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+
+
+# Calls look(chapter, step) for every step of every chapter, and returns the results.
+TOUR = """
+const done = arguments[arguments.length - 1], look = LOOK, results = [];
+const pause = () => new Promise((resolve) => setTimeout(() => requestAnimationFrame(resolve), 25));
+(async () => {
+  for (let chapter = 0; chapter < CHAPTERS.length; ++chapter) {
+    for (let step = 0; step === 0 || step < CHAPTERS[chapter].stepCount; ++step) {
+      if (step === 0) goTo(chapter); else goToStep(step);
+      await pause();
+      results.push([CHAPTERS[chapter].id, step + 1, look()]);
+    }
+  }
+  done(results);
+})();
+"""
+# The controls and pictures without a name that a screen reader could say.
+NAMELESS = """() => [...document.querySelectorAll('button, input, select, a, summary, canvas, img, svg, [tabindex="0"]')].filter((e) => {
+  if (e.closest('[aria-hidden=true]')) return false;
+  const name = e.getAttribute('aria-label') || e.getAttribute('alt') || e.textContent.trim();
+  const isPicture = ['CANVAS', 'svg'].includes(e.tagName);
+  return !name || (isPicture && (e.getAttribute('role') !== 'img' || !e.getAttribute('aria-label')));
+}).map((e) => e.outerHTML.slice(0, 120))"""
+# A text that changes if the picture of the step changes; null if the chapter is absent.
+PICTURE = """() => {
+  if (document.querySelector('.absent-note')) return null;
+  const text = [...document.querySelectorAll('figure .step canvas')].map((c) => c.toDataURL()).join() + document.querySelector('figure .step').innerHTML;
+  let hash = 0;
+  for (let i = 0; i < text.length; ++i) hash = (Math.imul(hash, 31) + text.charCodeAt(i)) | 0;
+  return `${text.length} ${hash}`;
+}"""
+# The number of exercises, those whose answer is refused or missing, and those that accept a wrong one. Or what an absent chapter says.
+EXERCISES = """() => {
+  const c = CHAPTERS[state.chapter], note = document.querySelector('.absent-note');
+  if (note) return {note: note.textContent};
+  const accepts = (x, text) => { const p = document.createElement('p'); judge(x, text, p); return p.className.includes('right'); };
+  const all = c.exercises();
+  return {count: document.querySelectorAll('.exercise').length, bad: all.filter((x) => !accepts(x, String(x.answer)) || accepts(x, '-12345.5') || accepts(x, '')).map((x) => x.ask)};
+}"""
+WIDTH = "() => document.documentElement.scrollWidth"
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.driver = browser()
+        cls.driver.set_script_timeout(120)
+        cls.pages = {}
+        (Path(cls.folder.name) / "box.obj").write_text(BOX)
+        for name, arguments in SCENES.items():
+            page = Path(cls.folder.name) / f"{name}.html"
+            subprocess.run([PROGRAM, "explain", *arguments, "--size", "320x180", "-o", page], check=True, cwd=cls.folder.name)
+            cls.pages[name] = page
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.driver.quit()
+        cls.folder.cleanup()
+
+    def open(self, name, chapter="", width=1200, dark=False):
+        set_window(self.driver, width, dark)
+        self.driver.get("about:blank")
+        self.driver.get(f"file://{self.pages[name]}#{chapter}")
+        WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("return document.querySelector('article') !== null"))
+
+    def run_script(self, text):
+        return self.driver.execute_script(text)
+
+    def chapters(self):
+        return self.run_script("return CHAPTERS.map((c) => c.id)")
+
+    def go_to(self, index, step=0):
+        self.run_script(f"goTo({index}, {step})")
+        self.wait_for_pictures()
+
+    def wait_for_pictures(self):
+        self.driver.execute_async_script("const done = arguments[0]; setTimeout(() => requestAnimationFrame(done), 60)")
+
+    def errors(self):
+        return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+    def tour(self, look):
+        return self.driver.execute_async_script(TOUR.replace("LOOK", look))
+
+    def test_no_errors_and_all_steps_show_something_else(self):
+        for name in SCENES:
+            self.open(name)
+            seen = {}
+            for chapter, step, picture in self.tour(PICTURE):
+                if picture is not None:
+                    self.assertNotIn(picture, seen.setdefault(chapter, []), f"{name}, {chapter}: step {step} shows what was shown before")
+                    seen[chapter].append(picture)
+            self.assertEqual(self.errors(), [], name)
+
+    def test_every_control_and_picture_has_a_name(self):
+        for name in SCENES:
+            self.open(name)
+            for chapter, step, nameless in self.tour(NAMELESS):
+                self.assertEqual(nameless, [], f"{name}, {chapter}, step {step}")
+
+    def test_nothing_is_wider_than_a_phone(self):
+        for name in SCENES:
+            self.open(name, width=390)
+            for chapter, step, width in self.tour(WIDTH):
+                self.assertLessEqual(width, 390, f"{name}, {chapter}, step {step}")
+
+    def test_each_chapter_has_three_exercises_or_says_what_is_missing(self):
+        for name in SCENES:
+            self.open(name)
+            for chapter, _, found in self.tour(EXERCISES):
+                if "note" in found:
+                    self.assertIn("halfspace explain", found["note"], f"{name}, {chapter}")
+                else:
+                    self.assertEqual(found, {"count": 3, "bad": []}, f"{name}, {chapter}")
+
+    def test_answers_can_be_typed(self):
+        self.open("earth", "frame")
+        form = self.driver.find_element(By.CSS_SELECTOR, ".exercise form")
+        for text, expected in (("57 600", "right"), ("57601", "wrong")):
+            field = form.find_element(By.TAG_NAME, "input")
+            field.clear()
+            field.send_keys(text + Keys.ENTER)
+            self.assertIn(expected, form.find_element(By.CLASS_NAME, "verdict").get_attribute("class"), text)
+
+    def test_arrow_keys_and_slider_change_the_step(self):
+        self.open("earth", "spaces")
+        body = self.driver.find_element(By.TAG_NAME, "body")
+        self.assertEqual(self.run_script("return state.step"), 0)
+        body.send_keys(Keys.ARROW_RIGHT)
+        self.assertEqual(self.run_script("return state.step"), 1)
+        slider = self.driver.find_element(By.CSS_SELECTOR, ".stepper input[type=range]")
+        slider.send_keys(Keys.ARROW_RIGHT)
+        self.assertEqual(self.run_script("return state.step"), 2)
+        self.run_script("document.activeElement.blur()")
+        for _ in range(3):
+            body.send_keys(Keys.ARROW_LEFT)
+        self.assertEqual(self.run_script("return [CHAPTERS[state.chapter].id, state.step]"), ["frame", 2])
+
+    def test_together_the_scenes_show_every_chapter(self):
+        absent = None
+        for name in SCENES:
+            self.open(name)
+            here = set(self.run_script("return CHAPTERS.filter((c) => c.absent && c.absent()).map((c) => c.id)"))
+            absent = here if absent is None else absent & here
+        self.assertEqual(absent, set())
+
+    def test_the_switch_changes_the_colors(self):
+        self.open("earth")
+        background = "return getComputedStyle(document.body).backgroundColor"
+        light = self.run_script(background)
+        self.driver.find_element(By.ID, "theme").click()
+        self.assertNotEqual(self.run_script(background), light)
+        self.open("earth", dark=True)
+        self.assertNotEqual(self.run_script(background), light, "prefers-color-scheme: dark")
+
+    def test_coverage_of_the_page_is_that_of_the_renderer(self):
+        self.open("earth")
+        own, expected = self.run_script("return [countCovered(), DATA.example.triangles[0].covered]")
+        self.assertEqual(own, expected)
+
+    def test_screenshots(self):
+        if SCREENSHOTS is None:
+            self.skipTest("no folder for screenshots was given")
+        SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+        for name in SCENES:
+            for kind, width, dark in (("light", 1200, False), ("dark", 1200, True), ("narrow", 390, False)):
+                self.open(name, width=width, dark=dark)
+                for index, chapter in enumerate(self.chapters()):
+                    self.go_to(index)
+                    self.driver.save_screenshot(str(SCREENSHOTS / f"{name}-{kind}-{index + 1:02}-{chapter}.png"))
+
+
+if __name__ == "__main__":
+    if PROGRAM is None:
+        sys.exit("usage: page_test.py PROGRAM [SCREENSHOTS]")
+    for path, package in ((CHROMIUM, "chromium"), (DRIVER, "chromium-driver")):
+        if path is None:
+            print(f"page_test.py: skipped: {package} is absent (Debian: {package})")
+            sys.exit(SKIPPED)
+    unittest.main(argv=sys.argv[:1])

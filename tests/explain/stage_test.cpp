@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The data of the stages: against values computed by hand, and against the pipeline itself.
+#include <gtest/gtest.h>
+
+#include "halfspace/explain/stage_example.h"
+#include "halfspace/explain/stage_geometry.h"
+#include "halfspace/explain/stage_shadow.h"
+#include "halfspace/explain/stage_terms.h"
+#include "halfspace/explain/stage_tone.h"
+#include "explain/prepared.h"
+
+namespace halfspace {
+namespace {
+
+// One triangle in front of an orthographic camera. The view is 4 x 4 units and 64 x 64 pixels, so that a unit is 16 pixels.
+constexpr const char* kPlane = R"({"version": 1, "ambient": 0.25,
+  "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "target": [0, 0, 0], "height": 4, "near": 1, "far": 21}},
+  "lights": {"sun": {"direction": [0, 0, 1], "intensity": 0.5}},
+  "objects": {"square": {"shape": "plane", "size": 2, "rotation": [90, 0, 0], "specular": 0, "color": [0.5, 0.5, 0.5]}}})";
+
+TEST(Stages, AVertexPassesThroughAllSpaces) {
+  const PreparedText s(kPlane, 64, 64);
+  s.visit([&](const PassContext& context, const StageGeometry& g) {
+    ASSERT_EQ(g.primitives.size() % 2, 0u);
+    const StageExample e = stage_example(s.prepared, context, g, 0);
+    for (const StageVertex& v : e.vertices) {
+      ASSERT_TRUE(v.position_ws.has_value());
+      EXPECT_NEAR(v.position_ws->z, 0.0, 1e-12);
+      EXPECT_NEAR(v.position_vs->z, -10.0, 1e-12) << "10 units in front of the camera";
+      EXPECT_NEAR(v.ndc.x, v.position_ws->x / 2.0, 1e-6);
+      EXPECT_EQ(v.window.x, static_cast<int32_t>(std::lround((v.position_ws->x * 16.0 + 32.0) * 256.0)));
+      EXPECT_EQ(v.window.y, static_cast<int32_t>(std::lround((v.position_ws->y * 16.0 + 32.0) * 256.0)));
+      EXPECT_NEAR(v.window.z, 11.0 / 20.0, 1e-6) << "reversed: 1 at the near plane, 0 at the far plane";
+      EXPECT_EQ(v.window.inv_w, 1.0f);
+      EXPECT_EQ(v.outcode, 0);
+    }
+  });
+}
+
+TEST(Stages, TheTrianglesOfASquareCoverEachPixelOnce) {
+  const PreparedText s(kPlane, 64, 64);
+  s.visit([&](const PassContext& context, const StageGeometry& g) {
+    uint64_t sum = 0;
+    for (std::size_t i = 0; i < g.triangles.size(); ++i)
+      sum += covered_pixels(context, context.draws[g.primitives[g.primitive_of[i]].draw], g.triangles[i]);
+    EXPECT_EQ(sum, 32u * 32u);
+  });
+}
+
+TEST(Stages, BinsHoldTheTrianglesOfTheirTiles) {
+  const PreparedText s(kPlane, 128, 64);  // the square is 32 x 32 pixels in the middle: 16 columns in each of the two tiles
+  s.visit([&](const PassContext& context, const StageGeometry& g) {
+    const std::vector<uint32_t> counts = triangles_per_tile(context);
+    ASSERT_EQ(counts.size(), 2u);
+    std::array<uint32_t, 2> expected{};
+    for (std::size_t i = 0; i < g.triangles.size(); ++i) {
+      const Draw& draw = context.draws[g.primitives[g.primitive_of[i]].draw];
+      for (int tile = 0; tile < 2; ++tile) {
+        bool touches = false;
+        for (int y = 0; y < 64; ++y) {
+          for (int x = 64 * tile; x < 64 * tile + 64; ++x) touches |= covers(context, draw, g.triangles[i], x, y, 0);
+        }
+        expected[static_cast<std::size_t>(tile)] += touches;
+      }
+    }
+    EXPECT_EQ(counts[0], expected[0]);
+    EXPECT_EQ(counts[1], expected[1]);
+  });
+}
+
+// Every primitive is set up on its own to find its outcome. The sums must be the counters of the pass.
+TEST(Stages, OutcomesAddUpToTheStatisticsOfThePass) {
+  for (const char* name : {"earth", "day-night", "particles", "shadow-plane"}) {
+    const PreparedText s(SceneFile::open(name).at(0.0), 160, 90);
+    Image<glm::u8vec4> picture(160, 90);
+    const PassStatistics expected = render(s.prepared, picture, s.workers);
+    s.visit([&](const PassContext&, const StageGeometry& g) {
+      std::array<uint64_t, kStageOutcomes> n{};
+      for (const StagePrimitive& p : g.primitives) ++n[static_cast<std::size_t>(p.outcome)];
+      EXPECT_EQ(g.primitives.size(), expected.primitives_in) << name;
+      EXPECT_EQ(n[static_cast<std::size_t>(StageOutcome::outside)], expected.culled_outside) << name;
+      EXPECT_EQ(n[static_cast<std::size_t>(StageOutcome::face)], expected.culled_face) << name;
+      EXPECT_EQ(n[static_cast<std::size_t>(StageOutcome::degenerate)], expected.culled_degenerate) << name;
+      EXPECT_EQ(n[static_cast<std::size_t>(StageOutcome::no_sample)], expected.culled_no_sample) << name;
+      EXPECT_EQ(n[static_cast<std::size_t>(StageOutcome::clipped)], expected.clipped) << name;
+      EXPECT_EQ(g.triangles.size(), expected.triangles_binned) << name;
+    });
+  }
+}
+
+TEST(Stages, TilesHoldAsManyEntriesAsThePassBins) {
+  const PreparedText s(SceneFile::open("earth").at(0.0), 160, 90);
+  Image<glm::u8vec4> picture(160, 90);
+  const PassStatistics expected = render(s.prepared, picture, s.workers);
+  s.visit([&](const PassContext& context, const StageGeometry&) {
+    uint64_t sum = 0;
+    for (const uint32_t n : triangles_per_tile(context)) sum += n;
+    EXPECT_EQ(sum, expected.bin_entries);
+  });
+}
+
+TEST(Stages, AClippedTriangleEndsAtTheNearPlane) {
+  const PreparedText s(R"({"version": 1, "cameras": {"c": {"position": [0, 0.5, 0], "target": [0, 0.5, -1], "near": 0.5, "far": 50}},
+    "lights": {"sun": {}}, "objects": {"floor": {"shape": "plane", "size": 20}}})",
+                       96, 64);
+  s.visit([&](const PassContext& context, const StageGeometry& g) {
+    uint32_t clipped = 0;
+    for (uint32_t i = 0; i < g.primitives.size(); ++i) {
+      if (g.primitives[i].outcome != StageOutcome::clipped) continue;
+      ++clipped;
+      const StageClip c = stage_clip(context, g, i);
+      EXPECT_GE(c.polygon.count, 3);
+      for (int k = 0; k < c.polygon.count; ++k) {
+        const ClipCorner& corner = c.polygon.corners[static_cast<std::size_t>(k)];
+        EXPECT_GE(corner.pos_clip.w, 0.5 - 1e-6) << "behind the near plane";
+        EXPECT_NEAR(corner.weights.x + corner.weights.y + corner.weights.z, 1.0, 1e-12);
+      }
+    }
+    EXPECT_GE(clipped, 1u);
+  });
+}
+
+// ---- light ------------------------------------------------------------------------------------------------------------
+
+// Ambient light 0.25 and a frontal light of 0.5 on a gray of 0.5.
+TEST(Stages, TermsAreThoseOfTheMaterial) {
+  const PreparedText s(kPlane, 64, 64);
+  const std::vector<LightTerm> terms = light_terms(s.prepared);
+  ASSERT_EQ(terms.size(), 3u);
+  const auto center = [&](const LightTerm& t) { return render_term(s.prepared, t, TermShadow::with, s.workers).at(32, 32).x; };
+  const float albedo = render_term(s.prepared, terms[0], TermShadow::with, s.workers).at(32, 32).x / 0.25f;
+  EXPECT_EQ(terms[0].name, "ambient");
+  EXPECT_EQ(terms[1].name, "diffuse, sun");
+  EXPECT_NEAR(center(terms[1]), albedo * 0.5f, 1e-6f);
+  EXPECT_EQ(center(terms[2]), 0.0f) << "the background is hidden there";
+}
+
+// Terms are rendered separately, so their sum differs from the light of the frame only by rounding: 1e-5 of values around 1.
+TEST(Stages, TermsAddUpToTheLight) {
+  for (const char* name : {"earth", "day-night", "three-lights", "shadow-knot", "particles", "environment"}) {
+    const PreparedText s(SceneFile::open(name).at(0.0), 96, 54);
+    Image<glm::vec4> expected(96, 54), sum(96, 54);
+    render(s.prepared, expected, s.workers);
+    for (const LightTerm& t : light_terms(s.prepared)) {
+      const Image<glm::vec4> part = render_term(s.prepared, t, TermShadow::with, s.workers);
+      for (std::size_t i = 0; i < part.texels().size(); ++i) sum.data()[i] += part.texels()[i];
+    }
+    float worst = 0.0f;
+    for (std::size_t i = 0; i < sum.texels().size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const float a = sum.texels()[i][k], b = expected.texels()[i][k];
+        worst = std::max(worst, std::fabs(a - b) / std::max(1.0f, std::fabs(b)));
+      }
+    }
+    EXPECT_LT(worst, 1e-5f) << name;
+  }
+}
+
+TEST(Stages, ToneStepsEndInTheCodesOfThePicture) {
+  const PreparedText s(SceneFile::open("day-night").at(0.0), 96, 54);
+  Image<glm::vec4> light(96, 54);
+  Image<glm::u8vec4> picture(96, 54);
+  render(s.prepared, light, s.workers);
+  render(s.prepared, picture, s.workers);
+  const StageTone tone = stage_tone(s.prepared, light, s.workers);
+  int far_off = 0;
+  for (std::size_t i = 0; i < light.texels().size(); ++i) {
+    const ToneSteps steps = tone_steps(s.prepared, tone.tone, glm::vec3(light.texels()[i]));
+    for (int k = 0; k < 3; ++k) far_off += std::abs(steps.code[k] - int{picture.texels()[i][k]}) > 1;
+  }
+  EXPECT_EQ(far_off, 0) << "the pass rounds light to half precision, which changes a code by at most 1";
+}
+
+TEST(Stages, TheHistogramCountsEveryPixel) {
+  const PreparedText s(kPlane, 64, 64);
+  Image<glm::vec4> light(4, 1);
+  light.at(0, 0) = glm::vec4(0.0f);
+  light.at(1, 0) = glm::vec4(1.0f);    // first bin of stop 0
+  light.at(2, 0) = glm::vec4(1.126f);  // second bin
+  light.at(3, 0) = glm::vec4(1e9f);
+  const StageTone tone = stage_tone(s.prepared, light, s.workers);
+  const auto bin = static_cast<std::size_t>(-kLowStop * kBinsPerStop);
+  EXPECT_EQ(tone.histogram[bin], 1u);
+  EXPECT_EQ(tone.histogram[bin + 1], 1u);
+  EXPECT_EQ(tone.dark, 1u);
+  EXPECT_EQ(tone.bright, 1u);
+}
+
+// A square of 2 x 2 units hovers one unit above a floor, and the light is vertical.
+TEST(Stages, ALookUpFindsTheOccluder) {
+  const PreparedText s(R"({"version": 1, "cameras": {"c": {"position": [0, 4, 9], "target": [0, 0, 0]}},
+    "lights": {"sun": {"direction": [0, 1, 0]}},
+    "objects": {"floor": {"shape": "plane", "size": 8}, "lid": {"shape": "plane", "size": 2, "position": [0, 1, 0]}},
+    "shadow": {"method": "hard", "resolution": 512}})",
+                       96, 64);
+  ASSERT_EQ(s.prepared.lights.size(), 1u);
+  const Light& light = s.prepared.lights[0].light;
+  ASSERT_NE(light.shadow, nullptr);
+  const auto at = [&](float x) {
+    const glm::vec3 rws = glm::vec3(x, 0.0f, 0.0f) - glm::vec3(s.prepared.view.eye_ws);
+    return shadow_lookup(light, rws, {0, 1, 0}, {0, 1, 0}, {0.5f, 0.5f});
+  };
+  const std::size_t middle = kShadowSide * kShadowSide / 2;
+  EXPECT_EQ(at(0.0f).factor, 0.0f);
+  EXPECT_EQ(at(0.0f).lit[middle], 0.0f);
+  EXPECT_GT(at(0.0f).texels[middle], at(0.0f).biased) << "the lid is nearer to the light";
+  EXPECT_EQ(at(3.0f).factor, 1.0f);
+  EXPECT_EQ(at(3.0f).lit[middle], 1.0f);
+}
+
+}  // namespace
+}  // namespace halfspace

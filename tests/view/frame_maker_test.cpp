@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/frame_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "halfspace/render/frame.h"
+#include "halfspace/render/opened_scene.h"
+#include "support/workers.h"
+#include "view/save_view.h"
+
+namespace halfspace {
+namespace {
+
+// Two squares that face the camera, one behind the other and twice as large, which fills the picture.
+constexpr const char* kSquares = R"({
+  "version": 1, "camera": "front",
+  "cameras": { "front": { "type": "orthographic", "height": 2, "position": [0, 0, 5], "near": 1, "far": 10 } },
+  "textures": { "checks": { "source": "checkerboard", "width": 256 } },
+  "objects": {
+    "back": { "shape": "plane", "size": 4, "rotation": [90, 0, 0], "position": [0, 0, -1], "shading": "none", "color": "checks" },
+    "front": { "shape": "plane", "size": 1, "rotation": [90, 0, 0], "shading": "none", "color": [1, 0, 0] }
+  }
+})";
+
+constexpr int kSize = 128;
+
+struct Frame {
+  const Workers& workers = two_workers();
+  FrameMaker maker{workers, {}};
+  SceneFile scene = SceneFile::parse(kSquares, "test", {});
+  Image<glm::u8vec4> picture{kSize, kSize};
+
+  Frame() { maker.open({scene, {}, nullptr, {}}); }
+  void render(Overlay overlay, int divisor = 1) { maker.render(scene.at(0.0), divisor, overlay, picture); }
+};
+
+TEST(CoarseControl, frames_are_coarse_only_while_something_moves_and_frames_are_long) {
+  CoarseControl control;
+  EXPECT_EQ(control.divisor(true), 1) << "nothing is known yet";
+  control.add_frame(1, 49.0);
+  EXPECT_EQ(control.divisor(true), 1);
+  control.add_frame(1, 150.0);
+  EXPECT_EQ(control.divisor(true), 2);
+  EXPECT_EQ(control.divisor(false), 1);
+  control.add_frame(2, 45.0);
+  EXPECT_EQ(control.divisor(true), 2);
+  control.add_frame(2, 10.0);
+  EXPECT_EQ(control.divisor(true), 1);
+  control.add_frame(1, 5000.0);
+  EXPECT_EQ(control.divisor(true), CoarseControl::kCoarsest);
+}
+
+TEST(FrameMaker, a_full_frame_is_the_picture_that_render_makes) {
+  Frame frame;
+  frame.render(Overlay::none);
+  SceneAssets assets(frame.workers);
+  Image<glm::u8vec4> expected(kSize, kSize);
+  render(assets.prepare(frame.scene.at(0.0), kSize, kSize), expected, frame.workers);
+  EXPECT_EQ(frame.picture, expected);
+}
+
+TEST(FrameMaker, a_coarse_frame_has_enlarged_pixels) {
+  Frame frame;
+  frame.render(Overlay::none, 4);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) ASSERT_EQ(frame.picture.at(x, y), frame.picture.at(x / 4 * 4, y / 4 * 4)) << x << ' ' << y;
+  }
+}
+
+TEST(FrameMaker, overdraw_counts_the_surfaces_of_a_pixel) {
+  Frame frame;
+  frame.render(Overlay::overdraw);
+  EXPECT_EQ(frame.picture.at(4, 4), heat_color(1.0 / 8.0));
+  EXPECT_EQ(frame.picture.at(kSize / 2, kSize / 2), heat_color(2.0 / 8.0));
+}
+
+TEST(FrameMaker, wireframe_shows_edges_and_keeps_the_rest) {
+  Frame frame;
+  frame.render(Overlay::none);
+  const Image<glm::u8vec4> plain = frame.picture;
+  frame.render(Overlay::wireframe);
+  const auto is_green = [](const glm::u8vec4& c) { return c.y > 240 && c.x < 120; };
+  int green = 0, other = 0;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const glm::u8vec4 c = frame.picture.at(x, y);
+      green += is_green(c);
+      other += !is_green(c) && c != plain.at(x, y);
+    }
+  }
+  EXPECT_GT(green, 4 * kSize / 2) << "the four edges of the small square, and the diagonals";
+  EXPECT_EQ(other, 0);
+}
+
+TEST(FrameMaker, tiles_show_their_borders) {
+  Frame frame;
+  frame.render(Overlay::tiles);
+  EXPECT_EQ(frame.picture.at(64, 10), glm::u8vec4(255));
+  EXPECT_EQ(frame.picture.at(10, 64), glm::u8vec4(255));
+  EXPECT_NE(frame.picture.at(70, 10), glm::u8vec4(255));
+  EXPECT_NE(frame.maker.overlay_text().find("largest 4"), std::string::npos) << frame.maker.overlay_text();
+}
+
+TEST(FrameMaker, normals_are_colors) {
+  Frame frame;
+  frame.render(Overlay::normals);
+  EXPECT_EQ(frame.picture.at(4, 4), glm::u8vec4(128, 128, 255, 255)) << "both squares face +z";
+}
+
+// The large square is 256 pixels high and has a texture of 256 texels; at half the scale it selects level 1.
+TEST(FrameMaker, mip_levels_follow_the_footprint) {
+  Frame frame;
+  frame.scene.set("cameras.front.height=2");
+  frame.render(Overlay::mip_levels);
+  const glm::u8vec4 level0 = frame.picture.at(4, 4);
+  EXPECT_GT(level0.x, level0.y) << "level 0 is red";
+  EXPECT_EQ(frame.picture.at(kSize / 2, kSize / 2).x, frame.picture.at(kSize / 2, kSize / 2).y) << "no map: gray";
+  frame.scene.set("cameras.front.height=16");
+  frame.render(Overlay::mip_levels);
+  const glm::u8vec4 level3 = frame.picture.at(52, 52);
+  EXPECT_GT(level3.y, level3.x) << "level 3 is green";
+}
+
+TEST(FrameMaker, fragments_are_listed_in_the_order_of_draws) {
+  Frame frame;
+  frame.render(Overlay::none);
+  const PixelFragments center = frame.maker.fragments_at({kSize / 2, kSize / 2});
+  ASSERT_EQ(center.fragments.size(), 2u);
+  EXPECT_EQ(center.fragments[0].object, "back");
+  EXPECT_EQ(center.fragments[0].depth, 6.0f);
+  EXPECT_FALSE(center.fragments[0].visible);
+  EXPECT_EQ(center.fragments[1].object, "front");
+  EXPECT_EQ(center.fragments[1].depth, 5.0f);
+  EXPECT_TRUE(center.fragments[1].visible);
+  EXPECT_EQ(center.visible_object(), "front");
+  EXPECT_EQ(center.color, frame.picture.at(kSize / 2, kSize / 2));
+  const PixelFragments corner = frame.maker.fragments_at({0, 0});
+  ASSERT_EQ(corner.fragments.size(), 1u);
+  EXPECT_EQ(corner.visible_object(), "back");
+}
+
+TEST(FrameMaker, fragments_leave_the_frame_unchanged) {
+  Frame frame;
+  frame.render(Overlay::none);
+  const PixelFragments first = frame.maker.fragments_at({10, 10});
+  EXPECT_EQ(lines_of(first), lines_of(frame.maker.fragments_at({10, 10})));
+}
+
+TEST(SaveView, the_saved_scene_starts_at_the_time_that_was_shown) {
+  const SceneFile scene = SceneFile::open("day-night");
+  for (const double seconds : {0.0, 3.25, 100.0}) {
+    const SceneDescription saved = SceneFile::parse(scene_text_at(scene, seconds), "test", {}).at(0.0), shown = scene.at(seconds);
+    // The time is divided by the length of a day and multiplied by it again.
+    EXPECT_NEAR(saved.lights[0].second.direction.x, shown.lights[0].second.direction.x, 1e-12) << seconds;
+    EXPECT_NEAR(saved.post.exposure, shown.post.exposure, 1e-12) << seconds;
+  }
+}
+
+TEST(SaveView, a_time_before_zero_is_refused) {
+  SceneFile scene = SceneFile::open("earth");
+  scene.set("animation.speed=-1");
+  EXPECT_THROW(scene_text_at(scene, 1.0), OutputError);
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/imgui_pass.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include "support/workers.h"
+
+namespace halfspace {
+namespace {
+
+constexpr int kWidth = 200, kHeight = 120;
+
+// Draws with a fresh ImGui context over a gray frame.
+class ImGuiPassTest : public testing::Test {
+ protected:
+  ImGuiPassTest() {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().Fonts->AddFontDefault();
+    ImGui::GetIO().DisplaySize = {kWidth, kHeight};
+    std::fill_n(frame_.data(), frame_.texels().size(), kGray);
+  }
+  ~ImGuiPassTest() override { ImGui::DestroyContext(); }
+
+  template <class F>
+  void draw(const F& add) {
+    ImGuiPass pass(*ImGui::GetIO().Fonts);
+    ImGui::NewFrame();
+    add(*ImGui::GetForegroundDrawList());
+    ImGui::Render();
+    pass.draw(*ImGui::GetDrawData(), frame_, two_workers());
+  }
+
+  static constexpr glm::u8vec4 kGray{100, 100, 100, 255};
+  Image<glm::u8vec4> frame_{kWidth, kHeight};
+};
+
+TEST_F(ImGuiPassTest, a_rectangle_covers_its_pixels_and_no_others) {
+  draw([](ImDrawList& list) { list.AddRectFilled({20, 30}, {60, 50}, IM_COL32(255, 0, 0, 255)); });
+  int covered = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const bool inside = x >= 20 && x < 60 && y >= 30 && y < 50;
+      const glm::u8vec4 expected = inside ? glm::u8vec4(255, 0, 0, 255) : kGray;
+      // A solid rectangle has antialiased edges of one pixel, which ImGui adds outside of it.
+      const bool edge = !inside && x >= 19 && x <= 60 && y >= 29 && y <= 50;
+      ASSERT_TRUE(edge || frame_.at(x, y) == expected) << x << " " << y;
+      covered += inside;
+    }
+  }
+  EXPECT_EQ(covered, 40 * 20);
+}
+
+TEST_F(ImGuiPassTest, codes_are_blended) {
+  draw([](ImDrawList& list) { list.AddRectFilled({0, 0}, {50, 50}, IM_COL32(200, 0, 255, 128)); });
+  // 100 + (200 − 100) · 128/255 = 150.2; linear blending would give 158.
+  EXPECT_NEAR(frame_.at(10, 10).x, 150, 1);
+  EXPECT_NEAR(frame_.at(10, 10).y, 50, 1);
+  EXPECT_NEAR(frame_.at(10, 10).z, 178, 1);
+}
+
+TEST_F(ImGuiPassTest, the_scissor_limits_what_is_drawn) {
+  draw([](ImDrawList& list) {
+    list.PushClipRect({10, 20}, {30, 40});
+    list.AddRectFilled({0, 0}, {kWidth, kHeight}, IM_COL32_WHITE);
+    list.PopClipRect();
+  });
+  EXPECT_EQ(frame_.at(10, 20), glm::u8vec4(255));
+  EXPECT_EQ(frame_.at(29, 39), glm::u8vec4(255));
+  for (const glm::ivec2 outside : {glm::ivec2(9, 20), glm::ivec2(10, 19), glm::ivec2(30, 39), glm::ivec2(29, 40)})
+    EXPECT_EQ(frame_.at(outside.x, outside.y), kGray) << outside.x << ' ' << outside.y;
+}
+
+TEST_F(ImGuiPassTest, text_has_the_texels_of_the_font) {
+  draw([](ImDrawList& list) { list.AddText({5, 5}, IM_COL32_WHITE, "H"); });
+  // The default font is 13 pixels high and made of whole pixels, so that each pixel of the letter is white or unchanged.
+  int white = 0, other = 0;
+  for (const glm::u8vec4& c : frame_.texels()) {
+    white += c == glm::u8vec4(255);
+    other += c != glm::u8vec4(255) && c != kGray;
+  }
+  EXPECT_GT(white, 15);
+  EXPECT_EQ(other, 0);
+}
+
+TEST_F(ImGuiPassTest, without_triangles_the_frame_is_unchanged) {
+  const Image<glm::u8vec4> before = frame_;
+  draw([](ImDrawList&) {});
+  EXPECT_EQ(frame_, before);
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/scene_changes.h"
+
+#include <gtest/gtest.h>
+
+#include "halfspace/scene/scene_paths.h"
+
+namespace halfspace {
+namespace {
+
+const char* const kCourseScenes[] = {"moon", "particles", "day-night", "three-lights", "earth"};
+
+std::string value_in(const SceneFile& scene, const std::string& path) {
+  SceneDescription d = scene.description();
+  return value_text(find_key(d, path, "test").field);
+}
+
+TEST(SceneChanges, relief_of_the_earth_cycles_through_map_bump_and_none) {
+  SceneFile scene = SceneFile::open("earth");
+  EXPECT_EQ(value_in(scene, "earth.normal"), "map");
+  for (const char* expected : {"bump", "none", "map"}) {
+    cycle_relief(scene);
+    EXPECT_EQ(value_in(scene, "earth.normal"), expected);
+  }
+}
+
+TEST(SceneChanges, relief_of_a_displaced_surface_cycles_through_its_normals) {
+  SceneFile scene = SceneFile::open("moon");
+  for (const char* expected : {"vertex", "undisplaced", "pixel"}) {
+    cycle_relief(scene);
+    EXPECT_EQ(value_in(scene, "moon.normals"), expected);
+  }
+}
+
+TEST(SceneChanges, shading_is_set_for_every_object) {
+  SceneFile scene = SceneFile::open("day-night");
+  EXPECT_EQ(set_shading_rate(scene, "flat"), "shading flat: 7 objects");
+  for (const auto& [name, object] : scene.description().objects) EXPECT_EQ(object.surface.shading, ShadingRate::flat) << name;
+}
+
+TEST(SceneChanges, textures_go_off_and_on) {
+  SceneFile scene = SceneFile::open("earth");
+  toggle_color_maps(scene);
+  EXPECT_EQ(value_in(scene, "earth.textured"), "false");
+  toggle_color_maps(scene);
+  EXPECT_EQ(value_in(scene, "earth.textured"), "true");
+}
+
+TEST(SceneChanges, shadows_come_back_with_their_method) {
+  SceneFile scene = SceneFile::open("moon");
+  scene.set("shadow.method=vogel");
+  ShadowToggle toggle;
+  toggle.toggle(scene);
+  EXPECT_EQ(value_in(scene, "shadow.method"), "none");
+  toggle.toggle(scene);
+  EXPECT_EQ(value_in(scene, "shadow.method"), "vogel");
+}
+
+TEST(SceneChanges, visibility_applies_to_the_picked_object_or_to_all) {
+  SceneFile scene = SceneFile::open("three-lights");
+  VisibilityToggle toggle;
+  toggle.toggle(scene, "cube");
+  EXPECT_EQ(value_in(scene, "cube.visible"), "false");
+  EXPECT_EQ(value_in(scene, "globe.visible"), "true");
+  toggle.toggle(scene, "");
+  EXPECT_EQ(value_in(scene, "globe.visible"), "false");
+  toggle.toggle(scene, "");
+  EXPECT_EQ(value_in(scene, "cube.visible"), "true");
+  EXPECT_EQ(value_in(scene, "globe.visible"), "true");
+}
+
+TEST(SceneChanges, particles_disappear_and_come_back) {
+  SceneFile scene = SceneFile::open("particles");
+  VisibilityToggle toggle;
+  toggle.toggle(scene, "");
+  EXPECT_EQ(value_in(scene, "particles.count"), "0");
+  toggle.toggle(scene, "");
+  EXPECT_EQ(value_in(scene, "particles.count"), "12");
+}
+
+TEST(SceneChanges, exposure_is_multiplied) {
+  SceneFile scene = SceneFile::open("day-night");
+  change_exposure(scene, 2.0);
+  EXPECT_EQ(value_in(scene, "post.exposure"), "1.6");
+  EXPECT_EQ(value_in(scene, "post.tone"), "exponential");
+}
+
+TEST(SceneChanges, a_scene_without_exposure_keeps_its_colors_otherwise) {
+  SceneFile scene = SceneFile::open("earth");
+  change_exposure(scene, 2.0);
+  EXPECT_EQ(value_in(scene, "post.hdr"), "true");
+  EXPECT_EQ(value_in(scene, "post.tone"), "none");
+  EXPECT_EQ(value_in(scene, "post.exposure"), "2.0");
+}
+
+TEST(SceneChanges, every_change_leaves_each_course_scene_valid_and_says_something) {
+  for (const char* name : kCourseScenes) {
+    SceneFile scene = SceneFile::open(name);
+    VisibilityToggle visibility;
+    ShadowToggle shadows;
+    for (int round = 0; round < 3; ++round) {
+      for (const char* rate : {"none", "flat", "gouraud", "phong"}) EXPECT_FALSE(set_shading_rate(scene, rate).empty()) << name;
+      EXPECT_FALSE(cycle_relief(scene).empty()) << name;
+      EXPECT_FALSE(toggle_color_maps(scene).empty()) << name;
+      EXPECT_FALSE(shadows.toggle(scene).empty()) << name;
+      EXPECT_FALSE(visibility.toggle(scene, "").empty()) << name;
+      EXPECT_FALSE(change_exposure(scene, 1.5).empty()) << name;
+      EXPECT_NO_THROW(scene.at(2.5)) << name;
+    }
+  }
+}
+
+TEST(SceneChanges, camera_keys_keep_all_bits) {
+  SceneFile scene = SceneFile::open("earth");
+  CameraDescription camera = scene.description().cameras.front().second;
+  camera.position = {1.0 / 3.0, -2e-7 / 7.0, 1e5 / 3.0};
+  set_camera_keys(scene, "equator", camera);
+  EXPECT_EQ(scene.description().cameras.front().second.position, camera.position);
+}
+
+TEST(SceneChanges, animated_cameras_are_recognized) {
+  SceneFile scene = SceneFile::open("earth");
+  EXPECT_FALSE(is_animated_camera(scene, "equator"));
+  scene.merge(R"({"animations": {"fly": {"type": "rate", "target": "equator.position", "rate": [0, 1, 0]}}})", "test");
+  EXPECT_TRUE(is_animated_camera(scene, "equator"));
+  EXPECT_FALSE(is_animated_camera(scene, "north"));
+  EXPECT_EQ(add_camera(scene, scene.description().cameras.front().second), "free");
+  EXPECT_EQ(scene.description().head.camera, "free");
+  EXPECT_FALSE(is_animated_camera(scene, "free"));
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/viewer.h"
+
+#include <gtest/gtest.h>
+
+#include "halfspace/scene/scene_paths.h"
+
+namespace halfspace {
+namespace {
+
+Viewer viewer_of(const std::string& scene) { return Viewer({SceneFile::open(scene), {}, nullptr, {}}, 0.0); }
+
+const CameraDescription& camera_of(const Viewer& viewer) {
+  const SceneDescription& d = viewer.scene().description();
+  return *find_named(d.cameras, d.head.camera);
+}
+
+TEST(Viewer, x_resets_the_camera_and_then_takes_the_next_one) {
+  Viewer viewer = viewer_of("earth");
+  const glm::dvec3 original = camera_of(viewer).position;
+  viewer.move(Action::left, 0.2);
+  viewer.orbit(10, 5);
+  EXPECT_NE(camera_of(viewer).position, original);
+  viewer.press(Action::reset_camera);
+  EXPECT_EQ(camera_of(viewer).position, original);
+  EXPECT_EQ(viewer.scene().description().head.camera, "equator");
+  viewer.press(Action::reset_camera);
+  EXPECT_EQ(viewer.scene().description().head.camera, "inside");
+  viewer.press(Action::reset_camera);
+  viewer.press(Action::reset_camera);
+  EXPECT_EQ(viewer.scene().description().head.camera, "equator");
+}
+
+TEST(Viewer, an_animated_camera_is_left_where_it_is_and_a_free_one_moves) {
+  SceneFile scene = SceneFile::open("earth");
+  scene.merge(R"({"animations": {"fly": {"type": "rate", "target": "equator.position", "rate": [0, 1, 0]}}})", "test");
+  Viewer viewer({scene, {}, nullptr, {}}, 0.0);
+  viewer.advance(0.5);
+  viewer.zoom(1.0);
+  EXPECT_EQ(viewer.scene().description().head.camera, "free");
+  EXPECT_EQ(camera_of(viewer).position, glm::dvec3(0, 1.05, 2.75)) << "it starts where the animation was";
+  viewer.move(Action::forward, 0.1);
+  EXPECT_EQ(viewer.scene().description().cameras.size(), 4u) << "there is only one free camera";
+  viewer.press(Action::reset_camera);
+  EXPECT_EQ(viewer.scene().description().head.camera, "equator");
+  EXPECT_EQ(viewer.scene().description().cameras.size(), 3u);
+}
+
+TEST(Viewer, time_stops_while_paused) {
+  Viewer viewer = viewer_of("earth");
+  viewer.advance(0.5);
+  EXPECT_TRUE(viewer.is_running());
+  viewer.press(Action::pause);
+  viewer.advance(0.5);
+  EXPECT_EQ(viewer.seconds(), 0.5);
+  EXPECT_FALSE(viewer.is_running());
+  viewer.press(Action::pause);
+  viewer.advance(0.25);
+  EXPECT_EQ(viewer.seconds(), 0.75);
+}
+
+TEST(Viewer, a_scene_without_animations_does_not_change_with_time) {
+  Viewer viewer = viewer_of("three-lights");
+  viewer.advance(1.0);
+  EXPECT_FALSE(viewer.is_running());
+  EXPECT_EQ(viewer.animation_seconds(), 0.0);
+}
+
+TEST(Viewer, a_value_that_is_refused_leaves_the_scene_unchanged_and_is_explained) {
+  Viewer viewer = viewer_of("earth");
+  viewer.set({"earth.shininess=abc"});
+  EXPECT_NE(viewer.message().find("shininess"), std::string::npos);
+  EXPECT_EQ(viewer.scene().print(), SceneFile::open("earth").print());
+}
+
+TEST(Viewer, overlays_go_around_in_both_directions) {
+  Viewer viewer = viewer_of("earth");
+  viewer.press(Action::next_overlay);
+  EXPECT_EQ(viewer.overlay(), Overlay::wireframe);
+  viewer.press(Action::next_overlay, true);
+  EXPECT_EQ(viewer.overlay(), Overlay::none);
+  viewer.press(Action::next_overlay, true);
+  viewer.press(Action::next_overlay);
+  EXPECT_EQ(viewer.overlay(), Overlay::none);
+}
+
+}  // namespace
+}  // namespace halfspace

@@ -1,0 +1,349 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests halfspace-view from outside: what each key and the mouse change in the picture, saving, dropping files, and its window.
+
+  window_test.py PROGRAM_FOLDER [TEST...]
+
+Events are pushed by --events, and the frames are written by --record. The class Desktop uses real key presses under Xvfb with openbox,
+wmctrl and xdotool. A test that needs a program that is not installed is skipped with the name of its package.
+"""
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from png_rows import read_rows  # noqa: E402
+
+SKIPPED = 77  # ctest shows the test as skipped
+PROGRAMS = Path(".")
+WIDTH, HEIGHT = 320, 180
+MESSAGE_ROWS = 40  # at the bottom, where messages are shown
+STILL = ["--set", "animation.speed=0"]
+
+
+def program(name):
+    return str(PROGRAMS / name)
+
+
+def picture_of(path):
+    """Returns the rows of a picture above the messages."""
+    return read_rows(path)[2][:HEIGHT - MESSAGE_ROWS]
+
+
+class Folder(unittest.TestCase):
+    """Tests with a temporary working folder."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="halfspace-view-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def rendered(self, scene, *options):
+        """Returns the picture that `halfspace render` makes."""
+        out = self.folder / "rendered.png"
+        subprocess.run([program("halfspace"), "render", scene, "-o", out, "--size", f"{WIDTH}x{HEIGHT}", *options], check=True)
+        return picture_of(out)
+
+
+class Events(Folder):
+    """Events that are pushed before a frame, with SDL's driver that needs no display."""
+
+    def run_events(self, scene, events, frames, *options):
+        """Runs the program and returns the recorded frames' files. events: lines of an event file."""
+        (self.folder / "events").write_text("".join(line + "\n" for line in events))
+        record = self.folder / "record"
+        shutil.rmtree(record, ignore_errors=True)
+        record.mkdir()
+        environment = {**os.environ, "SDL_VIDEODRIVER": "dummy", "LSAN_OPTIONS": "exitcode=0"}
+        done = subprocess.run(
+            [program("halfspace-view"), scene, "--size", f"{WIDTH}x{HEIGHT}", "--frames", str(frames), "--threads", "2", "--ui-scale", "1",
+             "--events", "events", "--record", "record", *options], cwd=self.folder, env=environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # Libraries of the system may leak; a leak of ours has one of our functions in its stack.
+        self.assertNotIn("halfspace::", done.stderr)
+        return sorted(record.iterdir())
+
+    def pictures(self, *arguments):
+        return [picture_of(file) for file in self.run_events(*arguments)]
+
+    def test_keys_set_what_render_sets(self):
+        cases = [
+            ("earth", "0", ["--shading", "none"]),
+            ("earth", "1", ["--shading", "flat"]),
+            ("earth", "2", ["--shading", "gouraud"]),
+            ("earth", "3", ["--shading", "phong"]),
+            ("earth", "n", ["--set", "earth.normal=bump"]),
+            ("earth", "t", ["--set", "earth.textured=false"]),
+            ("earth", "v", ["--set", "earth.visible=false"]),
+            ("earth", "x", ["--camera", "inside"]),
+            ("earth", "]", ["--set", "post.hdr=true", "--set", "post.tone=none", "--set", "post.exposure=1.189207115002721"]),
+            ("three-lights", "y", ["--set", "shadow.method=none"]),
+            ("three-lights", "[", ["--set", "post.hdr=true", "--set", "post.tone=none", "--set", "post.exposure=0.8408964152537145"]),
+            ("moon", "n", ["--set", "moon.normals=vertex"]),
+            ("moon", "y", ["--set", "shadow.method=none"]),
+            ("day-night", "1", ["--shading", "flat"]),
+            ("day-night", "t", [part for name in ("ground", "houses", "trunks", "crowns", "boulder", "wall")
+                                for part in ("--set", f"{name}.textured=false")]),
+            ("particles", "v", ["--set", "particles.count=0"]),
+        ]
+        for scene, key, settings in cases:
+            with self.subTest(scene=scene, key=key):
+                before, after = self.pictures(scene, [f"1 key {key}"], 2, *STILL)
+                self.assertEqual(before, self.rendered(scene, *STILL), "the first frame is the picture of the scene")
+                self.assertEqual(after, self.rendered(scene, *STILL, *settings))
+                if key != "3":  # the rate that the scene has already
+                    self.assertNotEqual(before, after)
+
+    def test_a_key_is_visible_in_the_frame_before_which_it_is_pushed(self):
+        frames = self.pictures("earth", ["2 key t", "4 key t", "5 down a", "7 up a"], 9, *STILL)
+        changes = [a != b for a, b in zip(frames, frames[1:])]
+        self.assertEqual(changes, [False, True, False, True, True, True, False, False])
+
+    def test_movements_change_the_view_and_x_restores_it(self):
+        keys = "wasdrfqezc"
+        events = [line for i, key in enumerate(keys) for line in (f"{2 * i + 1} key {key}", f"{2 * i + 2} key x")]
+        frames = self.pictures("earth", events, 2 * len(keys) + 1, *STILL)
+        for i, key in enumerate(keys):
+            with self.subTest(key=key):
+                self.assertNotEqual(frames[2 * i + 1], frames[0])
+                self.assertEqual(frames[2 * i + 2], frames[0])
+        moved = frames[1::2]
+        self.assertEqual(len({tuple(picture) for picture in moved}), len(keys), "each key has a view of its own")
+
+    def test_the_mouse_orbits_pans_and_zooms(self):
+        for name, events in [("orbit", ["1 mouse 100 80", "2 button 1 down", "3 mouse 130 90", "4 button 1 up"]),
+                             ("pan", ["1 mouse 100 80", "2 button 3 down", "3 mouse 130 90", "4 button 3 up"]),
+                             ("zoom", ["3 wheel 2"])]:
+            with self.subTest(name):
+                frames = self.pictures("earth", [*events, "5 mouse 10 10"], 7, *STILL)
+                changes = [a != b for a, b in zip(frames, frames[1:])]
+                self.assertEqual(changes, [False, False, True, False, False, False])
+
+    def test_space_stops_time(self):
+        frames = self.pictures("earth", ["2 key space", "5 key space"], 7)
+        changes = [a != b for a, b in zip(frames, frames[1:])]
+        self.assertEqual(changes, [True, False, False, False, True, True])
+
+    def test_overlays_and_panels_are_drawn_over_the_picture(self):
+        for key, shown in [("o", 6), ("h", 1), ("tab", 1), ("i", 1), ("p", 1)]:
+            with self.subTest(key=key):
+                frames = [read_rows(f)[2] for f in self.run_events("three-lights", [f"{i + 1} key {key}" for i in range(shown + 1)], shown + 2)]
+                pictures = {tuple(frame[:HEIGHT - MESSAGE_ROWS] if key != "p" else frame) for frame in frames[1:-1]}
+                self.assertEqual(len(pictures), shown, "each step has a picture of its own")
+                self.assertNotIn(tuple(frames[0][:HEIGHT - MESSAGE_ROWS]), pictures)
+                self.assertEqual(frames[-1][:HEIGHT - MESSAGE_ROWS], frames[0][:HEIGHT - MESSAGE_ROWS], "the last press restores it")
+
+    def test_v_hides_the_picked_object(self):
+        # The cube is at the center of the picture.
+        events = [f"1 mouse {WIDTH // 2} {HEIGHT // 2}", "2 key p", "3 key v", "4 key p"]
+        frames = self.pictures("three-lights", events, 6)
+        self.assertEqual(frames[5], self.rendered("three-lights", "--set", "cube.visible=false"))
+
+    def test_f12_saves_what_render_reproduces(self):
+        for scene, options in [("earth", []), ("day-night", ["--time", "30.3"]), ("particles", [])]:
+            with self.subTest(scene):
+                events = ["2 key q", "3 key w", "4 key 1", "5 key ]", "6 key f12"]
+                frames = self.pictures(scene, events, 7, *options)
+                saved, text = self.folder / f"{scene}-view-1.png", self.folder / f"{scene}-view-1.json"
+                again = self.folder / "again.png"
+                subprocess.run([program("halfspace"), "render", text, "-o", again, "--size", f"{WIDTH}x{HEIGHT}"], check=True)
+                self.assertEqual(read_rows(saved), read_rows(again))
+                self.assertNotEqual(picture_of(saved), self.rendered(scene))
+                if scene != "day-night":  # whose time is divided by the length of a day, which can change the last bit
+                    self.assertEqual(picture_of(saved), frames[6])
+
+    def test_f12_never_replaces_a_file(self):
+        self.run_events("particles", ["1 key f12", "2 key f12"], 3)
+        self.assertTrue((self.folder / "particles-view-2.png").exists())
+
+    def test_a_dropped_model_is_opened_and_a_bad_file_is_not(self):
+        model = self.folder / "box.obj"
+        model.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        (self.folder / "bad.obj").write_text("f 1 2 3\n")
+        frames = self.pictures("earth", [f"1 drop {model}", f"2 drop {self.folder / 'bad.obj'}", "3 drop nothing.json"], 4, *STILL)
+        self.assertNotEqual(frames[1], frames[0])
+        self.assertEqual(frames[2], frames[1])
+        self.assertEqual(frames[3], frames[1])
+
+    def test_the_picture_follows_the_size_of_the_window(self):
+        sizes = [read_rows(file)[:2] for file in self.run_events("earth", ["1 size 200 120"], 4, *STILL)]
+        self.assertEqual(sizes[0], (WIDTH, HEIGHT))
+        self.assertEqual(sizes[-1], (200, 120))
+
+    def test_the_interface_has_the_scale_that_is_asked_for(self):
+        def box(scale):
+            """The width and height of the list of keys: the pixels that h changes."""
+            first, second = [read_rows(f)[2] for f in self.run_events("earth", ["1 key h"], 2, *STILL, "--size", "1000x900", "--ui-scale", scale)]
+            rows = [y for y in range(800) if first[y] != second[y]]
+            row = rows[len(rows) // 2]
+            columns = [x for x in range(1000) if first[row][3 * x:3 * x + 3] != second[row][3 * x:3 * x + 3]]
+            return columns[-1] - columns[0], rows[-1] - rows[0]
+
+        small, large = box("0.75"), box("1.5")
+        # The font is rounded to whole pixels: 9 and 19.
+        self.assertAlmostEqual(large[0] / small[0], 19 / 9, delta=0.2)
+        self.assertAlmostEqual(large[1] / small[1], 19 / 9, delta=0.3)
+
+    def test_a_timed_run_reports_its_times(self):
+        for option in ([], ["--no-window"]):
+            done = subprocess.run([program("halfspace-view"), "earth", "--size", "64x64", "--frames", "3", *option],
+                                  env={**os.environ, "SDL_VIDEODRIVER": "dummy"}, capture_output=True, text=True, check=True)
+            lines = dict(line.split() for line in done.stdout.splitlines())
+            self.assertEqual(lines["frames"], "3")
+            self.assertGreater(float(lines["frame_ms"]), 0.0)
+
+    def test_mistakes_are_one_line(self):
+        environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
+        for arguments, code, words in [(["earth"], 3, "display"), (["erth"], 3, "earth"), (["earth", "--size", "0x0"], 2, "--size"),
+                                       (["earth", "--no-window"], 2, "--frames"), (["earth", "--ui-scale", "9"], 2, "--ui-scale"),
+                                       (["earth", "--frames", "0"], 2, "--frames"), (["earth", "--camera", "nort"], 3, "north"),
+                                       (["earth", "--set", "earth.x=1"], 3, "earth.x"), ([], 2, "SCENE")]:
+            with self.subTest(arguments):
+                done = subprocess.run([program("halfspace-view"), *arguments], env=environment, capture_output=True, text=True)
+                self.assertEqual(done.returncode, code)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assertIn(words, done.stderr)
+
+
+@unittest.skipIf(any(shutil.which(tool) is None for tool in ("Xvfb", "openbox", "wmctrl", "xdotool", "import", "xrdb")),
+                 "a program is absent (Debian and Ubuntu: xvfb openbox wmctrl xdotool imagemagick x11-xserver-utils)")
+class Desktop(Folder):
+    """A window on an X server with a window manager."""
+
+    @classmethod
+    def setUpClass(cls):
+        read_end, write_end = os.pipe()
+        cls.server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x1024x24", "-dpi", "96"],
+                                      pass_fds=[write_end], stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        with os.fdopen(read_end) as number:
+            cls.environment = {**os.environ, "DISPLAY": ":" + number.readline().strip()}
+        cls.environment.pop("SDL_VIDEODRIVER", None)
+        cls.manager = subprocess.Popen(["openbox"], env=cls.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    @classmethod
+    def tearDownClass(cls):
+        for process in (cls.manager, cls.server):
+            process.terminate()
+            process.wait()
+
+    def tool(self, *command, check=True):
+        return subprocess.run([str(word) for word in command], env=self.environment, check=check, capture_output=True, text=True).stdout
+
+    def wait_for(self, condition, what):
+        """Waits until the condition holds. The limit is for machines that do other work at the same time."""
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            if value := condition():
+                return value
+            time.sleep(0.05)
+        self.fail(f"{what}: did not happen within 60 s")
+
+    def start(self, scene, *options):
+        self.process = subprocess.Popen([program("halfspace-view"), scene, "--size", f"{WIDTH}x{HEIGHT}", "--threads", "2", *options],
+                                        cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.stop)
+        find = ("xdotool", "search", "--onlyvisible", "--name", "^halfspace-view")
+        self.window = self.wait_for(lambda: self.tool(*find, check=False).split()[:1], "window opens")[0]
+        self.tool("xdotool", "windowactivate", "--sync", self.window)
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGTERM)
+        self.process.communicate()
+
+    def screenshot(self):
+        out = self.folder / "screen.png"
+        self.tool("import", "-silent", "-window", self.window, "-depth", "8", f"PNG24:{out}")
+        return read_rows(out)
+
+    def wait_for_picture(self, expected, what):
+        self.wait_for(lambda: self.screenshot()[2][:HEIGHT - MESSAGE_ROWS] == expected, what)
+
+    def press(self, key):
+        self.tool("xdotool", "key", "--window", self.window, key)
+
+    def test_each_key_changes_the_picture_as_render_does(self):
+        self.start("earth", *STILL)
+        plain = self.rendered("earth", *STILL)
+        self.wait_for_picture(plain, "first frame")
+        for key, settings, back in [("0", ["--shading", "none"], "3"), ("1", ["--shading", "flat"], "3"), ("2", ["--shading", "gouraud"], "3"),
+                                    ("t", ["--set", "earth.textured=false"], "t"), ("v", ["--set", "earth.visible=false"], "v")]:
+            with self.subTest(key=key):
+                self.press(key)
+                self.wait_for_picture(self.rendered("earth", *STILL, *settings), f"key {key}")
+                self.press(back)
+                self.wait_for_picture(plain, f"key {back} after {key}")
+        self.press("n")
+        self.wait_for_picture(self.rendered("earth", *STILL, "--set", "earth.normal=bump"), "key n")
+        self.press("n")
+        self.wait_for_picture(self.rendered("earth", *STILL, "--set", "earth.normal=none"), "key n again")
+        self.press("n")
+        for key in ("w", "a", "s", "d", "r", "f", "q", "e", "z", "c", "h", "Tab", "i", "o"):
+            with self.subTest(key=key):
+                self.press(key)
+                self.wait_for(lambda: self.screenshot()[2][:HEIGHT - MESSAGE_ROWS] != plain, f"key {key}")
+                self.press({"o": "shift+o", "h": "h", "Tab": "Tab", "i": "i"}.get(key, "x"))
+                self.wait_for_picture(plain, f"restored after {key}")
+
+    def test_keys_do_nothing_while_a_text_field_has_the_focus(self):
+        self.start("earth", *STILL)
+        plain = self.rendered("earth", *STILL)
+        self.wait_for_picture(plain, "first frame")
+        left = lambda rows: [row[:3 * WIDTH // 2] for row in rows]  # noqa: E731  beside the panel
+        self.press("Tab")
+        self.wait_for(lambda: self.screenshot()[2][:HEIGHT - MESSAGE_ROWS] != plain, "panel opens")
+        self.tool("xdotool", "mousemove", "--window", self.window, WIDTH // 2 + 15, 60, "click", "1")
+        time.sleep(0.5)
+        self.tool("xdotool", "type", "--window", self.window, "ttv1")
+        time.sleep(1.0)
+        self.assertEqual(left(self.screenshot()[2][:HEIGHT - MESSAGE_ROWS]), left(plain))
+        self.press("Return")
+        self.press("v")
+        hidden = left(self.rendered("earth", *STILL, "--set", "earth.visible=false"))
+        self.wait_for(lambda: left(self.screenshot()[2][:HEIGHT - MESSAGE_ROWS]) == hidden, "key v after the focus is gone")
+
+    def test_the_window_manager_resizes_and_closes_the_window(self):
+        self.start("earth", *STILL)
+        self.tool("wmctrl", "-i", "-r", self.window, "-e", "0,20,20,400,300")
+        self.wait_for(lambda: self.screenshot()[:2] == (400, 300), "window has the new size")
+        out = self.folder / "large.png"
+        subprocess.run([program("halfspace"), "render", "earth", "-o", out, "--size", "400x300", *STILL], check=True)
+        expected = read_rows(out)[2][:300 - MESSAGE_ROWS]
+        self.wait_for(lambda: self.screenshot()[2][:300 - MESSAGE_ROWS] == expected, "picture has the new size")
+        self.tool("wmctrl", "-i", "-c", self.window)
+        self.assertEqual(self.process.wait(60), 0)
+
+    def test_the_default_scale_is_that_of_the_desktop(self):
+        def panel_width(*options):
+            self.start("earth", *STILL, "--size", "1000x400", *options)
+            before = self.wait_for(lambda: self.screenshot() if self.screenshot()[0] == 1000 else None, "first frame")[2]
+            self.press("Tab")
+            changed = self.wait_for(lambda: [x for x in range(1000) if any(
+                a[3 * x:3 * x + 3] != b[3 * x:3 * x + 3] for a, b in zip(before[::20], self.screenshot()[2][::20]))], "panel opens")
+            self.stop()
+            return 1000 - changed[0]
+
+        self.assertAlmostEqual(panel_width("--ui-scale", "1"), 380, delta=3)
+        subprocess.run(["xrdb", "-merge"], input="Xft.dpi: 120\n", env=self.environment, text=True, check=True)
+        try:
+            self.assertAlmostEqual(panel_width(), 475, delta=3)
+        finally:
+            subprocess.run(["xrdb", "-remove"], env=self.environment, check=True)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2 or not Path(sys.argv[1]).is_dir():
+        sys.exit("window_test.py: expected the folder of the built programs")
+    PROGRAMS = Path(sys.argv.pop(1)).resolve()
+    if not (PROGRAMS / "halfspace-view").exists():
+        print("window_test.py: skipped: halfspace-view is not built (Debian and Ubuntu: libsdl2-dev libimgui-dev)")
+        sys.exit(SKIPPED)
+    unittest.main()
