@@ -222,6 +222,23 @@ void draw_random(Traced& t, uint32_t seed) {
   }
 }
 
+// The last fragment that changed a sample has the value that the sample has at the end of the pass.
+void expect_last_values(const Traced& t, int samples) {
+  int compared = 0;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      std::map<int, glm::vec4> last;
+      for (const TracedFragment& f : t.at(x, y)) {
+        if (f.outcome >= shaded) last[f.sample] = f.value;
+      }
+      const int pixel = (kSize - 1 - y) * kSize + x;
+      for (const auto& [sample, value] : last) EXPECT_EQ(value, t.trace.values[static_cast<std::size_t>(pixel * samples + sample)]);
+      compared += static_cast<int>(last.size());
+    }
+  }
+  EXPECT_GE(compared, kSize * kSize / 2);
+}
+
 TEST(PassTrace, CountsMatchTheStatisticsAndTheImage) {
   for (const int samples : {1, 4}) {
     Traced traced(samples), plain(samples);
@@ -231,6 +248,7 @@ TEST(PassTrace, CountsMatchTheStatisticsAndTheImage) {
     const PassStatistics want = plain.pass.run(one_worker());
     EXPECT_EQ(traced.statistics, want);
     EXPECT_TRUE(std::ranges::equal(traced.image.texels(), plain.image.texels()));
+    expect_last_values(traced, samples);
     uint64_t rejected = 0, all = 0, failed = 0;
     for (const TileFragments& tile : traced.trace.rounds[0]) {
       for (const TracedFragment& f : tile.fragments) {

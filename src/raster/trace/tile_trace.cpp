@@ -45,12 +45,14 @@ TileTrace::Entry& TileTrace::add_entry(TriangleId id, std::size_t slot, Fragment
   return e;
 }
 
-TracedFragment& TileTrace::find(TriangleId id, std::size_t slot) {
+std::size_t TileTrace::find_index(TriangleId id, std::size_t slot) const {
   int32_t i = last_[slot];
   while (i != kNone && entries_[static_cast<std::size_t>(i)].fragment.id != id) i = entries_[static_cast<std::size_t>(i)].previous;
   HS_CHECK(i != kNone);
-  return entries_[static_cast<std::size_t>(i)].fragment;
+  return static_cast<std::size_t>(i);
 }
+
+TracedFragment& TileTrace::find(TriangleId id, std::size_t slot) { return entries_[find_index(id, slot)].fragment; }
 
 void TileTrace::add(TriangleId id, int packet, uint32_t lanes, FragmentOutcome outcome, Real z, Real stored, bool is_tested) {
   for_each_lane(packet, lanes, [&](std::size_t slot, int i) {
@@ -100,12 +102,12 @@ void TileTrace::set_value(TriangleId id, int packet, uint32_t lanes, const Color
 void TileTrace::add_layers(TriangleId id, int packet, uint32_t lanes, uint32_t merged) {
   set_outcome(id, packet, lanes & ~merged, FragmentOutcome::layered);
   set_outcome(id, packet, merged, FragmentOutcome::layer_merged);
-  for_each_lane(packet, lanes, [&](std::size_t slot, int) { layers_.push_back(last_[slot]); });
+  for_each_lane(packet, lanes, [&](std::size_t slot, int) { layers_.push_back(find_index(id, slot)); });
 }
 
 void TileTrace::write_layers(const ColorBuffer& buffer) {
-  for (const int32_t i : layers_) {
-    Entry& e = entries_[static_cast<std::size_t>(i)];
+  for (const std::size_t i : layers_) {
+    Entry& e = entries_[i];
     e.fragment.value = color_of(read_color(buffer, e.slot / kLanes), e.slot % kLanes);
   }
   layers_.clear();

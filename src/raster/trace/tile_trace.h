@@ -51,12 +51,13 @@ class TileTrace {
   };
 
   Entry& add_entry(TriangleId id, std::size_t slot, FragmentOutcome outcome);
-  // Returns the fragment of a triangle, which must have been added.
+  // These return the fragment of a triangle, which must have been added.
+  std::size_t find_index(TriangleId id, std::size_t slot) const;
   TracedFragment& find(TriangleId id, std::size_t slot);
 
   std::vector<Entry> entries_;
   std::array<int32_t, kMaxTilePixels> last_;  // latest entry of each slot
-  std::vector<int32_t> layers_;               // entries in transparent layers that have not been written
+  std::vector<std::size_t> layers_;           // entries in transparent layers that have not been written
 };
 
 /// Statistics of a task whose fragments are traced.
