@@ -105,7 +105,8 @@ function(halfspace_hide_private_functions sources)
   foreach(source IN LISTS sources)
     file(RELATIVE_PATH header ${halfspace_SOURCE_DIR}/src ${source})
     string(REGEX REPLACE "[.]cpp$" ".h" header ${header})
-    if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_exported_headers
+    # `halfspace explain` uses raster/inspection.h, which is not installed.
+    if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_exported_headers AND NOT header STREQUAL "raster/inspection.h"
         AND (EXISTS ${halfspace_SOURCE_DIR}/src/${header} OR header MATCHES "^raster/.*/"))
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fvisibility=hidden)
     endif()

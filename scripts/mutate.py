@@ -37,10 +37,12 @@ FAULTS = ROOT / "tests" / "faults"
 # Test programs that can detect a fault in a folder, in the order in which they run. Most faults are detected by the first one.
 TESTS = {
     "src/core/": ["core", "raster", "property", "conformance", "shading"],
+    "src/explain/": ["explain"],
     "src/geometry/": ["geometry", "render"],
     "src/image/": ["image", "cli"],
     "src/model/": ["model"],
     "src/procedural/": ["procedural", "render"],
+    "src/raster/trace/": ["explain"],
     "src/raster/": ["raster", "property", "conformance", "shading"],
     "src/reference/": ["reference"],
     "src/render/": ["render", "reference"],

@@ -54,18 +54,4 @@ glm::ivec2 FrameTrace::busiest_pixel() const {
   return {static_cast<int>(best % row), static_cast<int>(best / row)};
 }
 
-FrameTrace trace_frame(const PreparedScene& scene, const Workers&) {
-  FrameTrace trace;
-  trace.width = scene.view.width_px;
-  trace.height = scene.view.height_px;
-  return trace;
-}
-
-std::vector<PixelHistory> pixel_histories(const SceneDescription&, const PreparedScene&, const FrameTrace&, std::span<const glm::ivec2>,
-                                          const Workers&) {
-  return {};
-}
-
-void visit_set_up_scene(const PreparedScene&, const Workers&, const std::function<void(const PassContext& context, int round)>&) {}
-
 }  // namespace halfspace

@@ -18,6 +18,7 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
+#include "halfspace/raster/trace/fragment_trace.h"
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/description.h"
 
@@ -25,54 +26,26 @@ namespace halfspace {
 
 struct PassContext;
 
-/// What became of a fragment.
-enum class FragmentOutcome : uint8_t {
-  tile_rejected,          ///< hierarchical Z: nothing of the primitive can pass in this tile
-  block_rejected,         ///< hierarchical Z: nothing of the primitive can pass in this block of 8x8 pixels
-  depth_failed,           ///< failed the depth test
-  stencil_failed,         ///< failed the stencil test
-  discarded,              ///< the shader discarded it, or its alpha did not cover the sample
-  hidden_before_shading,  ///< passed, but a later primitive replaced it before it was shaded
-  depth_only,             ///< passed and wrote depth; the draw has no color
-  shaded,                 ///< shaded; its color replaced that of the sample
-  blended,                ///< shaded and blended with the color of the sample
-  layered,                ///< shaded and kept as a transparent layer; layers are sorted and blended when all are known
-  layer_merged            ///< the same, but the sample already had the maximum number of layers, so two of them were merged
-};
-inline constexpr std::size_t kFragmentOutcomes = 11;
-
-/// Returns the name of the enumerator, for example "block_rejected".
+/// Returns the name of an enumerator, for example "block_rejected".
 const char* outcome_name(FragmentOutcome outcome);
-/// Returns a sentence part for readers, for example "rejected with its block".
+/// Returns an outcome for readers, for example "rejected with its block".
 const char* outcome_text(FragmentOutcome outcome);
 
-/// A fragment, as far as the renderer computed it. Depths are window depths as stored: 1 is near and 0 is far in all scenes.
-struct TracedFragment {
-  uint32_t draw;       ///< index in PreparedScene::draws
-  uint32_t instance;   ///< of the draw
-  uint32_t primitive;  ///< triangle, point or line of the draw, in submission order
-  uint32_t id;         ///< TriangleId, valid in its round
-  uint16_t round;      ///< see visit_set_up_scene(); 0 unless the scene is very large
-  uint8_t sample;
-  FragmentOutcome outcome;
-  bool is_shaded;      ///< the fragment function ran for it
-  float depth;         ///< at the sample
-  float tested_depth;  ///< the depth that was compared: `depth`, or the nearest of the primitive for blocks and tiles
-  float stored_depth;  ///< what it was compared with: the sample's depth, or the farthest of the block or tile
-  glm::vec4 color;     ///< output of the fragment function, linear with straight alpha; 0 if !is_shaded
-  glm::vec4 value;     ///< linear color of the sample after the fragment; see PixelHistory. 0 if it did not change
-};
-
-/// The trace of a frame.
+/// The trace of a frame. Depths are window depths: 1 is near and 0 is far in all scenes. TracedFragment::draw is an index in
+/// PreparedScene::draws.
 struct FrameTrace {
   static constexpr uint32_t kMaxFragments = 64;  ///< per pixel
 
   int width = 0, height = 0, samples = 1;
-  std::vector<uint32_t> first;            ///< width · height + 1 offsets into `fragments`, by row from the upper left
-  std::vector<TracedFragment> fragments;  ///< of each pixel in submission order, and for each primitive by sample
-  std::vector<uint32_t> others;           ///< of each pixel: fragments that are left out because there are more than kMaxFragments
-  Image<glm::u8vec4> picture;             ///< as rendered without tracing
-  std::vector<glm::vec4> values;          ///< of each sample of each pixel: linear color at the end of the pass, before they are resolved
+  ColorFormat format = ColorFormat::none;  ///< in which tiles store colors
+  std::vector<uint32_t> first;             ///< width · height + 1 offsets into `fragments`, by row from the upper left
+  std::vector<TracedFragment> fragments;   ///< of each pixel in submission order, and for each primitive by sample
+  /// Of each pixel: fragments that are left out because there are more than kMaxFragments. Those that were shaded are kept first.
+  std::vector<uint32_t> others;
+  Image<glm::u8vec4> picture;     ///< as rendered without tracing
+  std::vector<glm::vec4> values;  ///< of each sample of each pixel: linear color at the end of the pass, before resolving
+  Image<glm::vec4> light;         ///< linear color of each pixel after resolving, before exposure and tone curve
+  double exposure = 1.0;          ///< of the whole frame
   PassStatistics statistics;
 
   /// x and y of a pixel from the upper left.
@@ -95,7 +68,9 @@ struct NamedValue {
 /// All values of a fragment.
 struct FragmentDetail {
   TracedFragment fragment;
-  std::string object;      ///< name of the object in the scene, "particles" or "background"
+  std::string object;    ///< name of the object in the scene, "particles", "floor" (with only shadows) or "background"
+  bool is_front = true;  ///< the winding of the triangle as seen from the eye
+  Topology topology = Topology::triangles;
   int copy = 0;            ///< copy of the object; for models with several parts, copy · parts + part
   std::string shader;      ///< for example "phong surface"
   glm::vec3 barycentrics;  ///< weights of the vertices of the submitted primitive, perspective-correct; (1, 0, 0) for points

@@ -75,7 +75,7 @@ class PassState {
   void add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
                 const DrawState& state);
   void set_post_step(PostStep post);
-  PassStatistics run(const Workers& workers);
+  PassStatistics run(TileRunner& tiles, const Workers& workers);
 
  private:
   // Work for one thread: part of the vertices of a large draw, or all vertices of the small draws [draw, end_draw).
@@ -168,7 +168,8 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   const bool replaces = set_color_writes(d);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
   const bool covers_by_alpha = state.alpha_to_coverage && context_.samples > 1;
-  const bool defers = options_.defer && replaces && !state.order_independent && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
+  const bool defers =
+      options_.defer && replaces && !state.order_independent && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   d.deferred = defers || !attachments_.has_color;  // without color attachments there is nothing to blend or to shade immediately
   std::vector<uint64_t>& queries = plan_.submitted.queries;
   if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));
@@ -294,7 +295,7 @@ std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, PassMemory& m
   return next;
 }
 
-PassStatistics PassState::run(const Workers& workers) {
+PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   Plan plan = std::exchange(plan_, {});
   PassStatistics statistics = std::move(plan.submitted);
   PassMemory memory = take_pass_memory();
@@ -310,7 +311,7 @@ PassStatistics PassState::run(const Workers& workers) {
       keep_between_flushes(context_, attachments_);
       ++statistics.flushes;
     }
-    run_tiles(context_, attachments_, round, workers, statistics);
+    tiles.run(context_, attachments_, round, workers, statistics);
     round.first = false;
   } while (!round.last);
   return_draw_list(std::exchange(context_.draws, {}));
@@ -344,6 +345,27 @@ Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const Dep
 Pass::Pass(Pass&&) noexcept = default;
 Pass::~Pass() = default;
 
-PassStatistics Pass::run(const Workers& workers) { return state_->run(workers); }
+namespace {
+
+class DrawTiles : public TileRunner {
+ public:
+  void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
+           PassStatistics& statistics) override {
+    run_tiles(context, attachments, round, workers, statistics);
+  }
+};
+
+}  // namespace
+
+PassStatistics Pass::run(const Workers& workers) {
+  DrawTiles tiles;
+  return state_->run(tiles, workers);
+}
+
+inline namespace HS_LANES_NAMESPACE {
+
+PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) { return pass.state_->run(tiles, workers); }
+
+}  // namespace HS_LANES_NAMESPACE
 
 }  // namespace halfspace

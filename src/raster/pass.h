@@ -42,6 +42,8 @@ struct PassOptions {
   bool defer = true;
 };
 
+class TileRunner;
+
 inline namespace HS_LANES_NAMESPACE {
 
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be
@@ -113,6 +115,8 @@ class Pass {
   PassStatistics run(const Workers& workers);
 
  private:
+  friend PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);  // raster/inspection.h
+
   Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options);
 
   template <class I>

@@ -7,6 +7,7 @@
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/shade/shade_deferred.h"
 #include "halfspace/raster/shade/shade_immediate.h"
+#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/full_tile.h"
 #include "halfspace/raster/visibility/visibility.h"
 
@@ -45,9 +46,10 @@ std::size_t small_run(const Chunk& chunk, std::span<const uint16_t> bin) {
 
 bool prefers_greater(CompareOp compare) { return compare == CompareOp::greater || compare == CompareOp::greater_equal; }
 
+template <class Statistics>
 class TileDraws {
  public:
-  TileDraws(const PassContext& context, bool has_color, TileMemory& memory, PassStatistics& statistics)
+  TileDraws(const PassContext& context, bool has_color, TileMemory& memory, Statistics& statistics)
       : context_(context), has_color_(has_color), memory_(memory), statistics_(statistics) {}
 
   void run(int tile_x, int tile_y) {
@@ -165,19 +167,23 @@ class TileDraws {
   // Blends the transparent layers over the colors of the tile. Pixels that are visible behind them have been shaded.
   void write_layers() {
     if (!memory_.layers.empty()) memory_.layers.write(memory_.tile.color[0]);
+    if constexpr (kTraces<Statistics>) statistics_.trace->write_layers(memory_.tile.color[0]);
   }
 
   const PassContext& context_;
   bool has_color_;
   TileMemory& memory_;
-  PassStatistics& statistics_;
+  Statistics& statistics_;
   bool pending_ = false;  // the tile has visible pixels that have not been shaded yet
 };
 
 }  // namespace
 
-void draw_tile(const PassContext& context, bool has_color, int tile_x, int tile_y, TileMemory& memory, PassStatistics& statistics) {
-  TileDraws(context, has_color, memory, statistics).run(tile_x, tile_y);
+template <class Statistics>
+void draw_tile(const PassContext& context, bool has_color, int tile_x, int tile_y, TileMemory& memory, Statistics& statistics) {
+  TileDraws<Statistics>(context, has_color, memory, statistics).run(tile_x, tile_y);
 }
+template void draw_tile(const PassContext&, bool, int, int, TileMemory&, PassStatistics&);
+template void draw_tile(const PassContext&, bool, int, int, TileMemory&, TracedStatistics&);
 
 }  // namespace halfspace

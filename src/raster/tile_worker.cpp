@@ -10,6 +10,7 @@
 #include "halfspace/raster/shade/tile_memory.h"
 #include "halfspace/raster/tile/resolve.h"
 #include "halfspace/raster/tile_draws.h"
+#include "halfspace/raster/trace/tile_trace.h"
 
 namespace halfspace {
 
@@ -24,10 +25,13 @@ Target between_flushes(Target target, const std::vector<std::byte>& spill) {
   return target;
 }
 
+// Statistics: as in visibility/visibility.h.
+template <class Statistics>
 class TileWorker {
  public:
-  TileWorker(const PassContext& context, const Attachments& attachments, Round round)
-      : context_(context), attachments_(attachments), round_(round) {}
+  // trace: null unless fragments are traced.
+  TileWorker(const PassContext& context, const Attachments& attachments, Round round, PassTrace* trace = nullptr)
+      : context_(context), attachments_(attachments), round_(round), trace_(trace) {}
 
   void run(const Workers& workers, PassStatistics& statistics) const {
     std::vector<int> rows(static_cast<std::size_t>(context_.tiles_y));
@@ -36,13 +40,13 @@ class TileWorker {
     const int row_count = static_cast<int>(rows.size());
     const int length = std::clamp(context_.tiles_x * row_count / (workers.threads() * kTasksPerThread), 1, kMaxTilesPerTask);
     const int strips_x = (context_.tiles_x + length - 1) / length;
-    std::vector<PassStatistics> by_strip(static_cast<std::size_t>(strips_x * row_count));
+    std::vector<Statistics> by_strip(static_cast<std::size_t>(strips_x * row_count));
     workers.for_each(strips_x * row_count, [&](int i) {
       const int x0 = i % strips_x * length;
       run_strip(x0, std::min(x0 + length, context_.tiles_x), rows[static_cast<std::size_t>(i / strips_x)],
                 by_strip[static_cast<std::size_t>(i)]);
     });
-    for (const PassStatistics& s : by_strip) statistics += s;
+    for (const Statistics& s : by_strip) statistics += s;
   }
 
  private:
@@ -51,7 +55,7 @@ class TileWorker {
   static constexpr int kMaxTilesPerTask = 8, kTasksPerThread = 8;
 
   // Returns true if this is the only round and there is no post step, so that constant colors can be written directly to the images.
-  bool is_alone() const { return round_.first && round_.last && attachments_.post.kernel == nullptr; }
+  bool is_alone() const { return !kTraces<Statistics> && round_.first && round_.last && attachments_.post.kernel == nullptr; }
 
   // Fills all rows of tiles with a constant color. This is faster than filling them tile by tile. Returns the remaining rows.
   std::vector<int> fill_constant_rows(const Workers& workers, PassStatistics& statistics) const {
@@ -76,8 +80,9 @@ class TileWorker {
   }
 
   // Processes tiles [tile_x0, tile_x1) of a row.
-  void run_strip(int tile_x0, int tile_x1, int tile_y, PassStatistics& statistics) const {
+  void run_strip(int tile_x0, int tile_x1, int tile_y, Statistics& statistics) const {
     const TileMemoryLease memory;
+    if constexpr (kTraces<Statistics>) statistics.trace = std::make_unique<TileTrace>();
     const bool alone = is_alone();
     ConstantArea area{};  // area of the preceding tiles that is not filled yet
     for (int x = tile_x0; x < tile_x1; ++x) {
@@ -95,13 +100,20 @@ class TileWorker {
       if (!constant) run_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics);
     }
     fill_images(context_, attachments_, area);
+    if constexpr (kTraces<Statistics>) statistics.trace.reset();
   }
 
   bool is_drawn(int tile_x, int tile_y) const {
     return std::any_of(context_.chunks.begin(), context_.chunks.end(), [&](const Chunk& c) { return !bin_of(c, tile_x, tile_y).empty(); });
   }
 
-  void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, PassStatistics& statistics) const {
+  void finish_trace(const Tile& tile, int tile_x, int tile_y, TileTrace& trace) const {
+    const auto index = static_cast<std::size_t>(tile_y * context_.tiles_x + tile_x);
+    trace.finish(tile, static_cast<uint16_t>(trace_->rounds.size() - 1), trace_->rounds.back()[index]);
+    if (round_.last) record_values(tile, *trace_);
+  }
+
+  void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
     if (drawn) ++statistics.tiles_touched;
     const std::vector<ColorTarget>& colors = attachments_.colors;
     // If nothing is drawn in a tile, its attachments are only stored if they are cleared. Otherwise the image already has the correct
@@ -119,7 +131,11 @@ class TileWorker {
     place_tile(tile, tile_x, tile_y);
     load(tile);
     if (drawn) draw_tile(context_, attachments_.has_color, tile_x, tile_y, memory, statistics);
+    if constexpr (kTraces<Statistics>) finish_trace(tile, tile_x, tile_y, *statistics.trace);
     store(tile, changes_color, changes_depth);
+    if constexpr (kTraces<Statistics>) {
+      if (round_.last) record_resolved(tile, *trace_);
+    }
     if (has_post_step) run_post_step(attachments_.post, context_.width, context_.height, tile, memory.post_color);
   }
 
@@ -169,6 +185,7 @@ class TileWorker {
   const PassContext& context_;
   const Attachments& attachments_;
   Round round_;
+  PassTrace* trace_;
 };
 
 }  // namespace
@@ -187,7 +204,13 @@ void keep_between_flushes(const PassContext& context, Attachments& attachments) 
 
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
                PassStatistics& statistics) {
-  TileWorker(context, attachments, round).run(workers, statistics);
+  TileWorker<PassStatistics>(context, attachments, round).run(workers, statistics);
+}
+
+void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
+               PassTrace& trace) {
+  trace.rounds.emplace_back(static_cast<std::size_t>(context.tiles_x * context.tiles_y));
+  TileWorker<TracedStatistics>(context, attachments, round, &trace).run(workers, statistics);
 }
 
 }  // namespace halfspace

@@ -7,6 +7,7 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/tile/attachments.h"
+#include "halfspace/raster/trace/fragment_trace.h"
 
 namespace halfspace {
 
@@ -15,5 +16,18 @@ void keep_between_flushes(const PassContext& context, Attachments& attachments);
 
 /// Runs all tiles of one round.
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics);
+
+/// The same, and adds the round to the trace. The draw, instance and primitive of the fragments are not set. Tiles with a constant color
+/// are drawn like all others.
+void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
+               PassTrace& trace);
+
+/// Runs the tiles of each round of a pass.
+class TileRunner {
+ public:
+  virtual ~TileRunner() = default;
+  virtual void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
+                   PassStatistics& statistics) = 0;
+};
 
 }  // namespace halfspace

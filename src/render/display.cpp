@@ -50,11 +50,6 @@ double log_average(const Image<Pixel>& light, const Workers& workers) {
   return static_cast<double>(exp(static_cast<float>(sum / (static_cast<double>(light.width()) * light.height()))));
 }
 
-ToneMapping tone_of(const PostDescription& post, double exposure) {
-  // An exposure above 1e9 makes no visible difference. Infinity would turn black into NaN.
-  return {static_cast<float>(std::min(exposure, 1e9)), post.tone, post.tone_on, static_cast<float>(post.white)};
-}
-
 // Converts to display light, for targets that encode sRGB exactly.
 struct ToDisplayLight {
   ToneMapping tone;
@@ -128,6 +123,11 @@ void add_post(Pass& pass, const F& function, const ColorTarget& target, Premulti
 }
 
 }  // namespace
+
+ToneMapping tone_of(const PostDescription& post, double exposure) {
+  // An exposure above 1e9 makes no visible difference. Infinity would turn black into NaN.
+  return {static_cast<float>(std::min(exposure, 1e9)), post.tone, post.tone_on, static_cast<float>(post.white)};
+}
 
 double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers) { return log_average(light, workers); }
 double log_average_luminance(const Image<glm::vec4>& light, const Workers& workers) { return log_average(light, workers); }

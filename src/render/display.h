@@ -5,6 +5,7 @@
 
 #include "halfspace/raster/pass.h"
 #include "halfspace/scene/description.h"
+#include "halfspace/shading/tone_types.h"
 
 namespace halfspace {
 
@@ -16,6 +17,9 @@ inline constexpr float kMinLuminance = 1e-6f;
 /// number of workers. The image must not be empty.
 double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers);
 double log_average_luminance(const Image<glm::vec4>& light, const Workers& workers);
+
+/// Returns the tone mapping of an image that is displayed with the given exposure.
+ToneMapping tone_of(const PostDescription& post, double exposure);
 
 /// Whether the colors of a pass have been multiplied by alpha; if so, they are divided by it before the tone curve.
 enum class Premultiplied : bool { no, yes };

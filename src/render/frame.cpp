@@ -8,6 +8,7 @@
 #include "halfspace/core/half.h"
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/render/display.h"
+#include "halfspace/render/scene_pass.h"
 
 namespace halfspace {
 
@@ -15,14 +16,36 @@ namespace {
 
 constexpr DepthTarget kDepth{.format = DepthFormat::d32f, .clear_value = 0.0f};
 
+// Returns how light is displayed. Without `hdr` it is only encoded.
+PostDescription display_of(const PreparedScene& scene) {
+  if (scene.post.hdr) return scene.post;
+  PostDescription plain;
+  plain.format = LightFormat::rgba32f;
+  plain.tone = ToneCurve::none;
+  return plain;
+}
+
+template <class Pixel>
+double automatic_exposure(const PostDescription& post, const Image<Pixel>& light, const Workers& workers) {
+  return post.exposure * post.key_value / log_average_luminance(light, workers);
+}
+
 // A scene, and the part of the view that is rendered.
 class FrameRenderer {
  public:
-  FrameRenderer(const PreparedScene& scene, const std::optional<ImageRect>& crop, int width, int height, const Workers& workers)
-      : scene_(scene), post_(post_of(scene)), crop_(crop), width_(width), height_(height), workers_(workers) {}
+  // run_pass: runs the passes that draw the scene.
+  FrameRenderer(const PreparedScene& scene, const std::optional<ImageRect>& crop, int width, int height, const Workers& workers,
+                PassRunner run_pass)
+      : scene_(scene),
+        post_(display_of(scene)),
+        crop_(crop),
+        width_(width),
+        height_(height),
+        workers_(workers),
+        run_(std::move(run_pass)) {}
 
   PassStatistics render(Image<glm::u8vec4>& picture) const {
-    if (!scene_.post.hdr && !scene_.transparent) return pass_of(srgb8a8_target(picture), Draws::in_crop).run(workers_);
+    if (!scene_.post.hdr && !scene_.transparent) return run(pass_of(srgb8a8_target(picture), Draws::in_crop));
     return displayed([&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied()); });
   }
 
@@ -35,10 +58,10 @@ class FrameRenderer {
   }
 
   PassStatistics render(Image<glm::vec4>& light) const {
-    if (!scene_.transparent) return pass_of(rgba32f_target(light), Draws::in_crop).run(workers_);
+    if (!scene_.transparent) return run(pass_of(rgba32f_target(light), Draws::in_crop));
     Pass pass = pass_of({.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, Draws::in_crop);
     show_light(pass, light);
-    return pass.run(workers_);
+    return run_(pass);
   }
 
   // Converts light that has been drawn already, without a crop.
@@ -58,7 +81,7 @@ class FrameRenderer {
     Pass pass(width_, height_, targets, kDepth);
     const FrameCamera camera = frame_camera();
     for (const PreparedDraw& draw : scene_.draws) add_value_draw(pass, draw, camera, wanted, state_of(draw, Draws::in_crop));
-    return pass.run(workers_);
+    return run_(pass);
   }
 
  private:
@@ -70,20 +93,13 @@ class FrameRenderer {
     return codes;
   }
 
+  PassStatistics run(Pass pass) const { return run_(pass); }
+
   static void round(const Image<glm::vec4>& encoded, Image<glm::u16vec4>& picture) {
     std::ranges::transform(encoded.texels(), picture.data(), codes16_of);
   }
 
   Premultiplied premultiplied() const { return scene_.transparent ? Premultiplied::yes : Premultiplied::no; }
-
-  // Returns how light is displayed. Without `hdr` it is only encoded.
-  static PostDescription post_of(const PreparedScene& scene) {
-    if (scene.post.hdr) return scene.post;
-    PostDescription plain;
-    plain.format = LightFormat::rgba32f;
-    plain.tone = ToneCurve::none;
-    return plain;
-  }
 
   // Returns the state of a draw. Cropping is a scissor test, so that all pixels keep their window coordinates.
   DrawState state_of(const PreparedDraw& draw, Draws where) const {
@@ -106,7 +122,7 @@ class FrameRenderer {
     if (post_.auto_exposure) return half ? metered<U16Vec4>(rgba16f_target, display) : metered<glm::vec4>(rgba32f_target, display);
     Pass pass = pass_of({.format = half ? ColorFormat::rgba16f : ColorFormat::rgba32f, .store = StoreOp::dont_care}, Draws::in_crop);
     display(pass, post_.exposure);
-    return pass.run(workers_);
+    return run_(pass);
   }
 
   // Renders the light of the whole view, and displays it with a second pass.
@@ -114,7 +130,7 @@ class FrameRenderer {
   PassStatistics metered(ColorTarget (*target)(Image<Pixel>&), F display) const {
     const MemoryClaim claim(static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * sizeof(Pixel), "post.auto_exposure");
     Image<Pixel> light(width_, height_);
-    const PassStatistics statistics = pass_of(target(light), Draws::everywhere).run(workers_);
+    const PassStatistics statistics = run(pass_of(target(light), Draws::everywhere));
     display_stored(light, target, display);
     return statistics;
   }
@@ -137,8 +153,7 @@ class FrameRenderer {
   // on.
   template <class Pixel, class F>
   void display_stored(Image<Pixel>& light, ColorTarget (*target)(Image<Pixel>&), F display) const {
-    const double exposure =
-        post_.auto_exposure ? post_.exposure * post_.key_value / log_average_luminance(light, workers_) : post_.exposure;
+    const double exposure = post_.auto_exposure ? automatic_exposure(post_, light, workers_) : post_.exposure;
     ColorTarget whole = target(light);
     whole.load = LoadOp::load;
     whole.store = StoreOp::dont_care;
@@ -164,6 +179,7 @@ class FrameRenderer {
   const std::optional<ImageRect>& crop_;
   int width_, height_;  // of the view
   const Workers& workers_;
+  PassRunner run_;
 };
 
 // The image that a pass writes to: the caller's or, with a crop, a whole one of which a part is copied to the caller's.
@@ -251,7 +267,7 @@ bool wants_values(const FrameImages& i) {
 
 PassStatistics render_frame(const PreparedScene& scene, const FrameImages& images, const Workers& workers) {
   const glm::ivec2 size = view_size(scene, images);
-  const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers);
+  const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers, [&workers](Pass& pass) { return pass.run(workers); });
   PassStatistics statistics;
   render_color(renderer, images.picture, images, size, statistics);
   render_color(renderer, images.fine_picture, images, size, statistics);
@@ -260,11 +276,23 @@ PassStatistics render_frame(const PreparedScene& scene, const FrameImages& image
   return statistics;
 }
 
+double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light, const Workers& workers) {
+  const PostDescription post = display_of(scene);
+  return post.auto_exposure ? automatic_exposure(post, light, workers) : post.exposure;
+}
+
+ToneMapping frame_tone(const PreparedScene& scene, double exposure) { return tone_of(display_of(scene), exposure); }
+
+PassStatistics render_with(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers, const PassRunner& run_pass) {
+  const std::optional<ImageRect> whole;
+  return FrameRenderer(scene, whole, scene.view.width_px, scene.view.height_px, workers, run_pass).render(picture);
+}
+
 void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, const FrameImages& images, const Workers& workers) {
   HS_CHECK(!images.crop && !wants_values(images));
   const glm::ivec2 size = view_size(scene, images);
   HS_CHECK(light.width() == size.x && light.height() == size.y);
-  const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers);
+  const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers, [&workers](Pass& pass) { return pass.run(workers); });
   if (images.picture != nullptr) renderer.display(light, *images.picture);
   if (images.fine_picture != nullptr) renderer.display(light, *images.fine_picture);
   if (images.light != nullptr) *images.light = light;

@@ -37,10 +37,12 @@ RASTER_PHASES = [
     ["pipeline/"],
     ["primitives/"],
     ["tile/"],
+    ["trace/"],
     ["visibility/"],
     ["shade/"],
     ["constant_tiles", "tile_draws", "tile_worker", "detail/"],
     ["pass", "naive", "naive_steps"],
+    ["inspection"],
 ]
 
 # Third-party headers and the only files or folders of src/ that may include them.

@@ -56,17 +56,18 @@ class DrawRangePrimitives {
   const ShadedVertices& shaded_;
 };
 
-// Writes the ids of the triangles [range.first_triangle, end). Setup keeps the order of the primitives, but drops some and splits others.
-// Whether a primitive is dropped depends only on its vertices and their order. Therefore the next submitted primitive with the vertices of
-// a triangle is the one that it was created from.
-void write_ids(const Draw& draw, const ShadedVertices& shaded, const DrawRange& range, const DrawRangePrimitives& primitives, uint32_t end,
-               float* row) {
+// Calls f(primitive, slots of its vertices) for the triangles [range.first_triangle, end). Setup keeps the order of the primitives, but
+// drops some and splits others. Whether a primitive is dropped depends only on its vertices and their order. Therefore the next submitted
+// primitive with the vertices of a triangle is the one that it was created from.
+template <class F>
+void for_each_triangle(const PassContext& context, const Chunk& chunk, const DrawRange& range, uint32_t end, const F& f) {
+  const DrawRangePrimitives primitives(context, chunk, range);
+  const ShadedVertices& shaded = context.shaded[range.draw];
   const uint32_t slot_base = shaded.first - range.instance * shaded.count;
-  const bool has_second = !draws_points(draw.state), has_third = has_second && !is_lines(draw.state.topology);
-  Assembly assembly(draw, range.first);
+  Assembly assembly(context.draws[range.draw], range.first);
   std::array<uint32_t, 3> vertex{};
   uint32_t next = range.first;
-  for (uint32_t i = range.first_triangle; i < end; ++i, row += kIdRow) {
+  for (uint32_t i = range.first_triangle; i < end; ++i) {
     const auto source = primitives.source(i);
     if (source.is_first) {
       do {
@@ -76,11 +77,25 @@ void write_ids(const Draw& draw, const ShadedVertices& shaded, const DrawRange& 
         ++next;
       } while (vertex != source.vertex);
     }
-    row[kIdPrimitive] = std::bit_cast<float>(next - 1);
+    f(next - 1, vertex);
+  }
+}
+
+// Writes the ids of the triangles [range.first_triangle, end).
+void write_ids(const PassContext& context, const Chunk& chunk, const DrawRange& range, uint32_t end, float* row) {
+  const DrawState& state = context.draws[range.draw].state;
+  const bool has_second = !draws_points(state), has_third = has_second && !is_lines(state.topology);
+  for_each_triangle(context, chunk, range, end, [&](uint32_t primitive, const std::array<uint32_t, 3>& vertex) {
+    row[kIdPrimitive] = std::bit_cast<float>(primitive);
     row[kIdInstance] = std::bit_cast<float>(range.instance);
     row[kIdSecond] = std::bit_cast<float>(has_second ? vertex[1] : kNoSlot);
     row[kIdThird] = std::bit_cast<float>(has_third ? vertex[2] : kNoSlot);
-  }
+    row += kIdRow;
+  });
+}
+
+uint32_t end_triangle(const Chunk& chunk, std::size_t range) {
+  return range + 1 < chunk.ranges.size() ? chunk.ranges[range + 1].first_triangle : static_cast<uint32_t>(chunk.triangles.size());
 }
 
 }  // namespace
@@ -90,14 +105,14 @@ void run_primitive_stage(const PassContext& context, Chunk& chunk) {
   for (std::size_t s = 0; s < chunk.ranges.size(); ++s) {
     DrawRange& range = chunk.ranges[s];
     const Draw& draw = context.draws[range.draw];
-    const auto end = s + 1 < chunk.ranges.size() ? chunk.ranges[s + 1].first_triangle : static_cast<uint32_t>(chunk.triangles.size());
+    const uint32_t end = end_triangle(chunk, s);
     if (draw.kernels.primitive_count == 0 || range.first_triangle == end) continue;
     const DrawRangePrimitives range_rows(context, chunk, range);
     range.first_primitive = static_cast<uint32_t>(chunk.primitives.size());
     chunk.primitives.resize(chunk.primitives.size() +
                             std::size_t{end - range.first_triangle} * static_cast<std::size_t>(draw.kernels.primitive_count));
     if (draw.kernels.uses_id) {
-      write_ids(draw, context.shaded[range.draw], range, range_rows, end, chunk.primitives.data() + range.first_primitive);
+      write_ids(context, chunk, range, end, chunk.primitives.data() + range.first_primitive);
       continue;
     }
     rows.clear();
@@ -105,6 +120,18 @@ void run_primitive_stage(const PassContext& context, Chunk& chunk) {
     draw.kernels.primitive(draw.shader.get(),
                            {rows.data(), static_cast<int>(rows.size()), chunk.primitives.data() + range.first_primitive});
   }
+}
+
+std::vector<SubmittedPrimitive> submitted_primitives(const PassContext& context, const Chunk& chunk) {
+  std::vector<SubmittedPrimitive> out;
+  out.reserve(chunk.triangles.size());
+  for (std::size_t s = 0; s < chunk.ranges.size(); ++s) {
+    for_each_triangle(context, chunk, chunk.ranges[s], end_triangle(chunk, s),
+                      [&](uint32_t primitive, const std::array<uint32_t, 3>& vertex) {
+                        out.push_back({primitive, vertex});
+                      });
+  }
+  return out;
 }
 
 }  // namespace halfspace

@@ -22,6 +22,14 @@ struct PrimitiveBatch {
 /// Fills chunk.primitives for the draw ranges whose shader has a primitive function or uses a PrimitiveId.
 void run_primitive_stage(const PassContext& context, Chunk& chunk);
 
+/// The primitive that a triangle of a chunk was created from.
+struct SubmittedPrimitive {
+  uint32_t primitive;              ///< index in its draw
+  std::array<uint32_t, 3> vertex;  ///< slots of its vertices, in the order of OpenGL 4.6, table 13.2
+};
+/// Returns the primitive of each triangle of the chunk.
+std::vector<SubmittedPrimitive> submitted_primitives(const PassContext& context, const Chunk& chunk);
+
 namespace detail {
 
 template <class V>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/centroid.h"
 
 namespace halfspace {
@@ -24,7 +25,7 @@ struct Job {
 bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
 
 // Lists the pending pixels by packet. A packet that shows several draws has an entry for each. Returns the number of entries.
-int list_work(const PassContext& context, const Tile& tile, const Job& job, std::array<ShadingWork, kMaxTilePixels>& work) {
+HS_INLINE int list_work(const PassContext& context, const Tile& tile, const Job& job, std::array<ShadingWork, kMaxTilePixels>& work) {
   int count = 0;
   const bool whole = tile.size == kMaxTileSize;
   const int shift = packet_shift(job.plane);
@@ -58,8 +59,9 @@ int list_work(const PassContext& context, const Tile& tile, const Job& job, std:
 }
 
 // Writes the color of a pixel to all its samples in which the shaded triangle is visible.
-void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, const PacketMask& packet, const TriangleId* ids,
-                   Tile& tile) {
+template <class Statistics>
+void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, const PacketMask& packet, const TriangleId* ids, Tile& tile,
+                   [[maybe_unused]] Statistics& statistics) {
   const Int shaded = load<Int>(ids + static_cast<std::size_t>(packet.packet) * kLanes);
   for (int s = 0; s < tile.samples; ++s) {
     const int sample_packet = packet.packet + packet_shift(sample_plane(tile.samples, s, tile.size));
@@ -68,10 +70,19 @@ void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, c
     if (!any(mask)) continue;
     const PacketMask sample{static_cast<uint16_t>(sample_packet), static_cast<uint16_t>(bits(mask))};
     write_colors(draw, out, i, std::span(&sample, 1), tile);
+    if constexpr (kTraces<Statistics>)
+      statistics.trace->set_visible(kNoTriangle, tile, sample_packet, sample.lanes, out.packet_color(0, i));
   }
 }
 
-void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredShading& memory, PassStatistics& statistics) {
+// Records packets that were shaded, and written as packets 0, 1, ... of `out`.
+void trace_visible(TriangleId uniform, std::span<const PacketMask> packets, const FragmentOutput& out, const Tile& tile, TileTrace& trace) {
+  for (std::size_t i = 0; i < packets.size(); ++i)
+    trace.set_visible(uniform, tile, packets[i].packet, packets[i].lanes, out.packet_color(0, i));
+}
+
+template <class Statistics>
+void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredShading& memory, Statistics& statistics) {
   std::array<ShadingWork, kMaxTilePixels>& work = memory.work;
   const int count = list_work(context, tile, job, work);
   // Sort by draw, so that each shader runs on full batches. The order does not affect the result, because pixels are independent.
@@ -96,9 +107,11 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredSha
     draw.kernels.color(draw.shader.get(), {&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, nullptr,
                                            packets.data(), n, needs_centroid ? centroids.data() : nullptr, &out});
     if (job.share == Share::per_pixel && tile.samples > 1) {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) write_samples(draw, out, i, packets[i], job.ids, tile);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) write_samples(draw, out, i, packets[i], job.ids, tile, statistics);
     } else {
       write_colors(draw, out, 0, std::span(packets).first(static_cast<std::size_t>(n)), tile);
+      if constexpr (kTraces<Statistics>)
+        trace_visible(kNoTriangle, std::span(packets).first(static_cast<std::size_t>(n)), out, tile, *statistics.trace);
     }
     begin += n;
   }
@@ -108,8 +121,8 @@ constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
 
 // Selects one unshaded triangle of each pixel, in the order of its samples. Returns false if there is none left. taken: bit mask of the
 // samples whose triangle was selected before.
-bool next_layer(const PassContext& context, const Tile& tile, std::array<uint8_t, kMaxTilePixels>& taken,
-                std::array<TriangleId, kMaxTilePixels>& layer) {
+HS_INLINE bool next_layer(const PassContext& context, const Tile& tile, std::array<uint8_t, kMaxTilePixels>& taken,
+                          std::array<TriangleId, kMaxTilePixels>& layer) {
   bool found = false;
   for (int packet = 0; packet < kPackets; ++packet) {
     if (!is_in_cell(tile, packet)) continue;
@@ -130,7 +143,8 @@ bool next_layer(const PassContext& context, const Tile& tile, std::array<uint8_t
   return found;
 }
 
-void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
+template <class Statistics>
+void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics) {
   for (int s = 0; s < tile.samples; ++s) {
     run_job(context, tile,
             {tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample}, memory,
@@ -144,7 +158,8 @@ void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShad
 
 }  // namespace
 
-void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
+template <class Statistics>
+void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, Statistics& statistics) {
   const Draw& draw = draw_of(context, id);
   statistics.fragments_shaded += kMaxTilePixels;
   FragmentOutput& out = memory.output;
@@ -157,10 +172,14 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
     draw.kernels.color(draw.shader.get(),
                        {&context, tile.x0, tile.y0, kPixelCenter, nullptr, ids.data(), packets.data(), kFragmentBatch, nullptr, &out});
     write_colors(draw, out, 0, packets, tile);
+    if constexpr (kTraces<Statistics>) trace_visible(id, packets, out, tile, *statistics.trace);
   }
 }
+template void shade_full_tile(const PassContext&, TriangleId, Tile&, DeferredShading&, PassStatistics&);
+template void shade_full_tile(const PassContext&, TriangleId, Tile&, DeferredShading&, TracedStatistics&);
 
-void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics) {
+template <class Statistics>
+void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics) {
   if (tile.samples == 1) {
     run_job(context, tile, {tile.visibility.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
   } else {
@@ -168,5 +187,7 @@ void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& mem
   }
   tile.visibility.fill(kNoTriangle);
 }
+template void shade_deferred(const PassContext&, Tile&, DeferredShading&, PassStatistics&);
+template void shade_deferred(const PassContext&, Tile&, DeferredShading&, TracedStatistics&);
 
 }  // namespace halfspace

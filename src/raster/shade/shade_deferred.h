@@ -21,10 +21,12 @@ struct DeferredShading {
   std::array<uint8_t, kMaxTilePixels> taken;     ///< bit mask of the samples that have been in a layer
 };
 
-/// Shades all pending pixels of the tile and writes their colors.
-void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics);
+/// Shades all pending pixels of the tile and writes their colors. Statistics: as in visibility/visibility.h.
+template <class Statistics>
+void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics);
 
 /// The same for a full-size tile in which all pixels show one triangle.
-void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, PassStatistics& statistics);
+template <class Statistics>
+void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, Statistics& statistics);
 
 }  // namespace halfspace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/centroid.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
@@ -11,7 +12,10 @@ namespace halfspace {
 namespace {
 
 // Data that all fragments share.
+template <class S>
 struct ImmediateShading {
+  using Statistics = S;
+
   const PassContext& context;
   const Draw& draw;
   VisibilityMode mode;
@@ -20,8 +24,25 @@ struct ImmediateShading {
   FragmentOutput& output;
   const StencilFace* stencil;  // null: no stencil test after shading
   bool tests_late;             // depth is tested after shading
-  PassStatistics& statistics;
+  Statistics& statistics;
 };
+template <class Shading>
+inline constexpr bool kTracesShading = kTraces<typename Shading::Statistics>;
+
+// Records that the fragment function ran for packet i of a batch. If no other outcome follows, the fragments were discarded.
+template <class Shading>
+void trace_shaded(const Shading& c, const FragmentOutput& out, std::size_t i, const PacketMask& packet, TriangleId id) {
+  c.statistics.trace->set_shaded(id, packet.packet, packet.lanes, out.packet_color(0, i));
+  c.statistics.trace->set_outcome(id, packet.packet, packet.lanes, FragmentOutcome::discarded);
+}
+
+// Records that packet i was written.
+template <class Shading>
+void trace_written(const Shading& c, const PacketMask& packet, TriangleId id) {
+  c.statistics.trace->set_outcome(id, packet.packet, packet.lanes,
+                                  blend_of(c.draw.state, 0) ? FragmentOutcome::blended : FragmentOutcome::shaded);
+  c.statistics.trace->set_value(id, packet.packet, packet.lanes, c.tile.color[0]);
+}
 
 // OpenGL 4.6, section 17.3.1: alpha to coverage enables the first round(alpha · samples) samples.
 Mask alpha_covers(Real alpha, int samples, int sample) {
@@ -29,18 +50,26 @@ Mask alpha_covers(Real alpha, int samples, int sample) {
 }
 
 // Returns the depth of the fragments of packet i of a batch, as represented in the tile. z: depth of the triangle.
-Real late_depth(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, Real z) {
+template <class Shading>
+Real late_depth(const Shading& c, const FragmentOutput& out, std::size_t i, Real z) {
   if (c.mode != VisibilityMode::cover_only) return z;
   return depth_value(c.tile.depth_format, clamp(out.depth[i], Real(c.draw.depth_low), Real(c.draw.depth_high)));
 }
 
 // Runs the tests that come after the shader on packet i of a batch, with depth z. Returns the lanes to draw; writes depth and stencil.
-Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z) {
+template <class Shading>
+Mask late_tests(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z, [[maybe_unused]] TriangleId id) {
   const DepthState& state = c.draw.state.depth;
   if (c.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
+  if constexpr (kTracesShading<Shading>) {
+    c.statistics.trace->set_depth(id, packet, bits(mask), z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+    c.statistics.trace->set_outcome(id, packet, bits(mask), FragmentOutcome::depth_failed);  // unless something else follows
+  }
   if (c.stencil != nullptr) {
     const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
     const Mask passed = depth_test(state, c.tile, packet, z, stencil_passed);
+    if constexpr (kTracesShading<Shading>)
+      c.statistics.trace->set_outcome(id, packet, bits(mask & !stencil_passed), FragmentOutcome::stencil_failed);
     update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
     mask = passed;
   } else if (c.tests_late) {
@@ -51,37 +80,44 @@ Mask late_tests(const ImmediateShading& c, const FragmentOutput& out, std::size_
   return mask;
 }
 
-void add_to_layers(const ImmediateShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z) {
+template <class Shading>
+void add_to_layers(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z,
+                   [[maybe_unused]] TriangleId id) {
   const Mask merged = c.layers.add(packet, mask, z, out.packet_color(0, i));
   c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
+  if constexpr (kTracesShading<Shading>) c.statistics.trace->add_layers(id, packet, bits(mask), bits(merged));
 }
 
 // Packets of one triangle.
-struct TriangleShading : ImmediateShading {
+template <class Statistics>
+struct TriangleShading : ImmediateShading<Statistics> {
   TriangleId id;
   const CoverageList& list;
 };
 
 // Tests and writes sample s of packet i of a batch.
-void finish_sample(const TriangleShading& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
+template <class Shading>
+void finish_sample(const Shading& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
   Mask mask = mask_from_bits<Mask>(packet.lanes);
   if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
+  if constexpr (kTracesShading<Shading>) trace_shaded(c, out, i, packet, c.id);
   const bool is_late = c.mode != VisibilityMode::early;
   const Real z = is_late ? late_depth(c, out, i, load<Real>(&c.list.depth[static_cast<std::size_t>(packet.packet) * kLanes])) : Real(0.0f);
-  if (is_late) mask = late_tests(c, out, i, packet.packet, mask, z);
-  if (c.draw.state.order_independent) return add_to_layers(c, out, i, packet.packet, mask, z);
+  if (is_late) mask = late_tests(c, out, i, packet.packet, mask, z, c.id);
+  if (c.draw.state.order_independent) return add_to_layers(c, out, i, packet.packet, mask, z, c.id);
   const PacketMask drawn{packet.packet, static_cast<uint16_t>(bits(mask))};
   write_colors(c.draw, out, i, std::span(&drawn, 1), c.tile);
+  if constexpr (kTracesShading<Shading>) trace_written(c, drawn, c.id);
 }
 
-void count_fragments(const ImmediateShading& c, const PacketMask* packets, int count) {
+template <class Shading>
+void count_fragments(const Shading& c, const PacketMask* packets, int count) {
   for (int i = 0; i < count; ++i) c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[i].lanes));
 }
 
 // Runs the fragment function on packets, and calls finish(out, index in the batch, packet) for each of them.
-template <class F>
-void shade_packets(const TriangleShading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at,
-                   F finish) {
+template <class Shading, class F>
+void shade_packets(const Shading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at, F finish) {
   FragmentOutput& out = c.output;
   std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
   std::array<TriangleId, kFragmentBatch> ids;
@@ -102,7 +138,8 @@ void shade_packets(const TriangleShading& c, const PacketMask* packets, int coun
 }
 
 // Shades each sample separately.
-void shade_samples(const TriangleShading& c) {
+template <class Shading>
+void shade_samples(const Shading& c) {
   int begin = 0;
   for (int s = 0; s < c.tile.samples; ++s) {
     const int end = c.list.sample_end[static_cast<std::size_t>(s)];
@@ -114,7 +151,8 @@ void shade_samples(const TriangleShading& c) {
 }
 
 // Shades each pixel that has a covered sample once.
-void shade_pixels(const TriangleShading& c) {
+template <class Shading>
+void shade_pixels(const Shading& c) {
   std::array<uint16_t, kPackets> covered{};  // per packet of the tile's storage
   std::array<uint16_t, kPackets> any_sample{};
   int begin = 0;
@@ -142,19 +180,30 @@ void shade_pixels(const TriangleShading& c) {
 }
 
 // Runs the tests of packet i of a batch, which is packet k of the queue. Returns the lanes whose color must be written.
-uint16_t finish_queued(const ImmediateShading& c, const PacketQueue& queue, std::size_t k, std::size_t i) {
+template <class Shading>
+uint16_t finish_queued(const Shading& c, const PacketQueue& queue, std::size_t k, std::size_t i) {
   const PacketMask& packet = queue.packets[k];
   const Real z = late_depth(c, c.output, i, queue.depth[k]);
-  const Mask mask = late_tests(c, c.output, i, packet.packet, mask_from_bits<Mask>(packet.lanes), z);
+  const Mask mask = late_tests(c, c.output, i, packet.packet, mask_from_bits<Mask>(packet.lanes), z, queue.ids[k]);
   if (!c.draw.state.order_independent) return static_cast<uint16_t>(bits(mask));
-  add_to_layers(c, c.output, i, packet.packet, mask, z);
+  add_to_layers(c, c.output, i, packet.packet, mask, z, queue.ids[k]);
   return 0;
+}
+
+// Writes packets one by one, so that the color after each of them is known.
+template <class Shading>
+void write_traced(const Shading& c, std::span<const PacketMask> packets, const TriangleId* ids) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    write_colors(c.draw, c.output, i, packets.subspan(i, 1), c.tile);
+    trace_written(c, packets[i], ids[i]);
+  }
 }
 
 }  // namespace
 
-void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics) {
-  const ImmediateShading c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
+template <class Statistics>
+void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, Statistics& statistics) {
+  const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
   const SamplePosition center{kSubPixels / 2, kSubPixels / 2};
   for (int begin = 0; begin < queue.count; begin += kFragmentBatch) {
     PacketMask* packets = &queue.packets[static_cast<std::size_t>(begin)];
@@ -162,25 +211,42 @@ void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& la
     d.draw.kernels.fragment(d.draw.shader.get(), {&d.context, d.tile.x0, d.tile.y0, center, nullptr,
                                                   &queue.ids[static_cast<std::size_t>(begin)], packets, n, nullptr, &output});
     count_fragments(c, packets, n);
+    if constexpr (kTraces<Statistics>) {
+      for (int i = 0; i < n; ++i)
+        trace_shaded(c, output, static_cast<std::size_t>(i), packets[i], queue.ids[static_cast<std::size_t>(begin + i)]);
+    }
     for (int i = 0; d.mode != VisibilityMode::early && i < n; ++i)
       packets[i].lanes = finish_queued(c, queue, static_cast<std::size_t>(begin + i), static_cast<std::size_t>(i));
-    if (!d.draw.state.order_independent) write_colors(d.draw, output, 0, std::span(packets, static_cast<std::size_t>(n)), d.tile);
+    if (d.draw.state.order_independent) continue;
+    const std::span<const PacketMask> written(packets, static_cast<std::size_t>(n));
+    if constexpr (kTraces<Statistics>) {
+      write_traced(c, written, &queue.ids[static_cast<std::size_t>(begin)]);
+    } else {
+      write_colors(d.draw, output, 0, written, d.tile);
+    }
   }
   queue.count = 0;
 }
+template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PassStatistics&);
+template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, TracedStatistics&);
 
+template <class Statistics>
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
-                     TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics) {
+                     TransparentLayers& layers, FragmentOutput& output, Statistics& statistics) {
   const Triangle& t = triangle_of(context, id);
   const bool late_stencil = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only;
   const StencilFace* stencil = late_stencil ? stencil_face(draw.state, tile, t.is(kFrontFacing)) : nullptr;
   const bool tests_late = mode == VisibilityMode::cover_only;
-  const TriangleShading c{{context, draw, mode, tile, layers, output, stencil, tests_late, statistics}, id, list};
+  const TriangleShading<Statistics> c{{context, draw, mode, tile, layers, output, stencil, tests_late, statistics}, id, list};
   if (tile.samples == 1 || draw.shades_samples) {
     shade_samples(c);
   } else {
     shade_pixels(c);
   }
 }
+template void shade_immediate(const PassContext&, const Draw&, TriangleId, VisibilityMode, const CoverageList&, Tile&, TransparentLayers&,
+                              FragmentOutput&, PassStatistics&);
+template void shade_immediate(const PassContext&, const Draw&, TriangleId, VisibilityMode, const CoverageList&, Tile&, TransparentLayers&,
+                              FragmentOutput&, TracedStatistics&);
 
 }  // namespace halfspace

@@ -9,11 +9,13 @@
 namespace halfspace {
 
 /// Shades the packets of one triangle: runs the remaining tests, and blends and writes colors, or adds them to `layers` for draws with
-/// DrawState::order_independent. output: scratch memory.
+/// DrawState::order_independent. output: scratch memory. Statistics: as in visibility/visibility.h.
+template <class Statistics>
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
-                     TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics);
+                     TransparentLayers& layers, FragmentOutput& output, Statistics& statistics);
 
 /// The same for all packets of a queue, which become empty. d: the draw of the queue, which is shaded immediately.
-void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PassStatistics& statistics);
+template <class Statistics>
+void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, Statistics& statistics);
 
 }  // namespace halfspace

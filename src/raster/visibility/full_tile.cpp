@@ -2,10 +2,12 @@
 #include "halfspace/raster/visibility/full_tile.h"
 
 #include "halfspace/raster/visibility/depth_bounds.h"
+#include "halfspace/raster/visibility/trace_rejected.h"
 
 namespace halfspace {
 
-bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
+template <class Statistics>
+bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
   const bool covers = may_cover(t) && d.is_opaque && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);
   if (covers || (pending_ && d.is_opaque)) {
@@ -14,10 +16,14 @@ bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, Tri
     const BlockTest test = !d.tests   ? BlockTest::all_pass
                            : pending_ ? test_bounds(op, depth.low, depth.high, pending_->depth.low, pending_->depth.high)
                                       : test_tile(op, d.tile, depth.low, depth.high);
-    if (test == BlockTest::none_passes) return true;
+    if (test == BlockTest::none_passes) {
+      if constexpr (kTraces<Statistics>) trace_rejected(d, t, id, *statistics.trace);
+      return true;
+    }
     if (covers && test == BlockTest::all_pass) {
       statistics.samples_tested += kMaxTilePixels;
       statistics.samples_passed += kMaxTilePixels;
+      if constexpr (kTraces<Statistics>) trace_passed(d, t, id, *statistics.trace);
       if (is_visible() && d.mode != VisibilityMode::deferred) write();  // the new occluder does not replace its color
       pending_.emplace(Pending{d, &t, id, depth});
       return true;
@@ -25,6 +31,37 @@ bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, Tri
   }
   write();
   return false;
+}
+
+template bool FullTileOccluder::test_or_write(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
+template bool FullTileOccluder::test_or_write(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
+
+void FullTileOccluder::trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id, TileTrace& trace) const {
+  const SampleGrid grid(d.tile, 0);
+  const DepthBounds depth = depth_bounds(t, d.draw, d.tile.depth_format);
+  const RejectedPrimitive primitive{d, t, id, grid, depth.low, depth.high};
+  if (pending_) {
+    trace_rejected_tile(primitive, pending_->depth.low, pending_->depth.high, trace);
+  } else {
+    trace_rejected_tile(primitive, trace);
+  }
+}
+
+void FullTileOccluder::trace_passed(const DrawInTile& d, const Triangle& t, TriangleId id, TileTrace& trace) const {
+  const SampleGrid grid(d.tile, 0);
+  const TileEdges tile_edges{};
+  const BlockEdges edges(tile_edges);
+  const auto plane_of = [&](const Triangle& of, const Draw& draw) {
+    return DepthPlane<false>(of, tile_edges, draw, grid, d.tile.depth_format);
+  };
+  const DepthPlane<false> plane = plane_of(t, d.draw);
+  const DepthPlane<false> before = pending_ ? plane_of(*pending_->triangle, pending_->draw.draw) : plane;
+  const FragmentOutcome outcome = d.mode == VisibilityMode::deferred ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only;
+  for (int p = 0; p < kPackets; ++p) {
+    const int x = packet_x(p), y = packet_y(p);
+    const Real stored = pending_ ? before.at(edges, x, y) : load<Real>(&d.tile.depth[static_cast<std::size_t>(p) * kLanes]);
+    trace.add(id, p, kAllBits<Mask>, outcome, plane.at(edges, x, y), stored, d.tests);
+  }
 }
 
 void FullTileOccluder::write() {

@@ -5,6 +5,7 @@
 
 #include <bit>
 
+#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
@@ -15,9 +16,12 @@ namespace halfspace {
 
 /// Lists packets of a draw with one sample per pixel. In VisibilityMode::early, packets are tested and their depth is written before they
 /// are listed. In all other modes, depth is tested after the shader. Lanes that fail the test now are not listed if they cannot pass later.
+template <class S>
 class ListWriter {
  public:
-  ListWriter(const DrawInTile& d, PacketQueue& queue, PassStatistics& statistics)
+  using Statistics = S;
+
+  ListWriter(const DrawInTile& d, PacketQueue& queue, Statistics& statistics)
       : tile_(d.tile),
         queue_(queue),
         statistics_(statistics),
@@ -25,8 +29,10 @@ class ListWriter {
         is_final_(d.mode == VisibilityMode::early),
         tests_(d.tests && (is_final_ || (!d.draw.kernels.writes_depth && fails_for_good(compare_)))),
         writes_depth_(is_final_ && d.tests && d.draw.state.depth.write),
-        lists_depth_(!is_final_ && d.mode != VisibilityMode::cover_only) {}
+        lists_depth_(!is_final_ && d.mode != VisibilityMode::cover_only),
+        has_test_(d.tests) {}
 
+  Statistics& statistics() const { return statistics_; }
   bool tests() const { return tests_; }
   bool writes_depth() const { return writes_depth_; }
   CompareOp compare_op() const { return compare_; }
@@ -35,6 +41,7 @@ class ListWriter {
   template <class Z>
   HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
+    if constexpr (kTraces<Statistics>) trace(id, packet, covered, z_at());
     uint32_t passed = covered;
     Real z(0.0f);
     if (tests_ || lists_depth_) z = z_at();
@@ -50,6 +57,7 @@ class ListWriter {
 
   HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
     ++statistics_.samples_tested;
+    if constexpr (kTraces<Statistics>) trace(id, static_cast<int>(pixel) / kLanes, 1u << pixel % kLanes, Real(z));
     if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
     const int packet = static_cast<int>(pixel) / kLanes, lane = static_cast<int>(pixel) % kLanes;
     add_pixel(id, packet, lane, z);
@@ -61,6 +69,7 @@ class ListWriter {
   template <class Z>
   HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) {
     statistics_.samples_tested += kLanes;
+    if constexpr (kTraces<Statistics>) trace(id, packet, kAllBits<Mask>, z_at());
     Real z(0.0f);
     if (writes_depth_ || lists_depth_) z = z_at();
     if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z);
@@ -68,6 +77,14 @@ class ListWriter {
   }
 
  private:
+  // Records fragments before they are tested and listed. What becomes of listed ones is recorded when the queue is emptied.
+  void trace(TriangleId id, int packet, uint32_t covered, Real z) {
+    const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
+    const uint32_t passed = tests_ ? covered & bits(compare(compare_, z, old)) : covered;
+    statistics_.trace->add(id, packet, passed, FragmentOutcome::hidden_before_shading, z, old, has_test_);
+    statistics_.trace->add(id, packet, covered & ~passed, FragmentOutcome::depth_failed, z, old, has_test_);
+  }
+
   /// Returns true if a sample that fails the test also fails after other samples of the draw have passed and were written.
   static bool fails_for_good(CompareOp op) { return op != CompareOp::not_equal && op != CompareOp::always; }
 
@@ -98,9 +115,10 @@ class ListWriter {
 
   Tile& tile_;
   PacketQueue& queue_;
-  PassStatistics& statistics_;
+  Statistics& statistics_;
   CompareOp compare_;
   bool is_final_, tests_, writes_depth_, lists_depth_;
+  bool has_test_;  // there is a depth test, now or later
 };
 
 }  // namespace halfspace

@@ -5,6 +5,7 @@
 
 #include <bit>
 
+#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
@@ -13,9 +14,12 @@
 namespace halfspace {
 
 /// Tests and writes the triangles of an opaque draw in a tile.
+template <class S>
 class OpaqueWriter {
  public:
-  OpaqueWriter(const DrawInTile& d, PassStatistics& statistics)
+  using Statistics = S;
+
+  OpaqueWriter(const DrawInTile& d, Statistics& statistics)
       : tile_(d.tile),
         statistics_(statistics),
         compare_(d.draw.state.depth.compare),
@@ -23,6 +27,7 @@ class OpaqueWriter {
         writes_depth_(d.tests && d.draw.state.depth.write),
         writes_id_(d.mode == VisibilityMode::deferred) {}
 
+  Statistics& statistics() const { return statistics_; }
   bool tests() const { return tests_; }
   bool writes_depth() const { return writes_depth_; }
   CompareOp compare_op() const { return compare_; }
@@ -32,17 +37,20 @@ class OpaqueWriter {
   template <class Z>
   HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
+    if constexpr (kTraces<Statistics>) trace(id, packet, covered, z_at());
     return test_and_write(id, packet, covered, z_at);
   }
 
   /// The same for lanes that the shader keeps, which have been counted as tested before. z: their depth.
   bool write_decided(TriangleId id, int packet, uint32_t kept, const Real& z) {
+    if constexpr (kTraces<Statistics>) trace_decided(id, packet, kept, z);
     return test_and_write(id, packet, kept, [&] { return z; });
   }
 
   /// Tests and writes one covered pixel of the tile, and updates the depth bounds of its block.
   HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
     ++statistics_.samples_tested;
+    if constexpr (kTraces<Statistics>) trace(id, static_cast<int>(pixel / kLanes), 1u << pixel % kLanes, Real(z));
     if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
     ++statistics_.samples_passed;
     if (writes_id_) tile_.visibility[pixel] = id;
@@ -56,11 +64,29 @@ class OpaqueWriter {
   HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) {
     statistics_.samples_tested += kLanes;
     statistics_.samples_passed += kLanes;
+    if constexpr (kTraces<Statistics>) trace(id, packet, kAllBits<Mask>, z_at());
     if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z_at());
     if (writes_id_) store(&tile_.visibility[static_cast<std::size_t>(packet) * kLanes], Int(std::bit_cast<int32_t>(id)));
   }
 
  private:
+  // Records fragments before they are tested and written.
+  void trace(TriangleId id, int packet, uint32_t covered, Real z) {
+    const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
+    const uint32_t passed = tests_ ? covered & bits(compare(compare_, z, old)) : covered;
+    statistics_.trace->add(id, packet, passed, writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only, z, old,
+                           tests_);
+    statistics_.trace->add(id, packet, covered & ~passed, FragmentOutcome::depth_failed, z, old, tests_);
+  }
+  // The same for fragments that a ListWriter has recorded.
+  void trace_decided(TriangleId id, int packet, uint32_t kept, Real z) {
+    const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
+    const uint32_t passed = tests_ ? kept & bits(compare(compare_, z, old)) : kept;
+    statistics_.trace->set_depth(id, packet, kept, z, old);
+    statistics_.trace->set_outcome(id, packet, passed, writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only);
+    statistics_.trace->set_outcome(id, packet, kept & ~passed, FragmentOutcome::depth_failed);
+  }
+
   template <class Z>
   HS_INLINE bool test_and_write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
     float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
@@ -79,7 +105,7 @@ class OpaqueWriter {
   }
 
   Tile& tile_;
-  PassStatistics& statistics_;
+  Statistics& statistics_;
   CompareOp compare_;
   bool tests_, writes_depth_, writes_id_;
 };

@@ -10,6 +10,7 @@
 #include "halfspace/raster/visibility/centroid.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
+#include "halfspace/raster/visibility/trace_rejected.h"
 
 namespace halfspace {
 
@@ -18,7 +19,10 @@ namespace {
 bool tests_depth(const DepthState& state, const Tile& tile) { return state.test && tile.depth_format != DepthFormat::none; }
 
 // Values that all packets of a triangle share, for draws that are not opaque.
+template <class S>
 struct TriangleVisit {
+  using Statistics = S;
+
   const PassContext& context;
   const Draw& draw;
   const Triangle& triangle;
@@ -26,32 +30,50 @@ struct TriangleVisit {
   VisibilityMode mode;
   Tile& tile;
   CoverageList* list;
-  PassStatistics& statistics;
-  const StencilFace* stencil;     // null: no stencil test before shading
-  bool tests;                     // there is a depth test before shading
-  bool writes;                    // the depth test writes depth
-  bool asks_shader;               // the shader's visibility function must be called
-  bool rejects_blocks;            // skip blocks in which no depth can pass
-  bool is_slow;                   // the shader or the stencil test determines visibility
-  bool needs_bounds_test;         // covered pixels can be outside the bounds of the primitive
-  VisibilityBatch& pending;       // packets for the visibility function
-  SampleGrid grid;                // the current sample
+  Statistics& statistics;
+  const StencilFace* stencil;  // null: no stencil test before shading
+  bool tests;                  // there is a depth test before shading
+  bool writes;                 // the depth test writes depth
+  bool asks_shader;            // the shader's visibility function must be called
+  bool rejects_blocks;         // skip blocks in which no depth can pass
+  bool is_slow;                // the shader or the stencil test determines visibility
+  bool needs_bounds_test;      // covered pixels can be outside the bounds of the primitive
+  VisibilityBatch& pending;    // packets for the visibility function
+  SampleGrid grid;             // the current sample
+  const DrawInTile& draw_in_tile;
   float low = 0.0f, high = 1.0f;  // bounds of the triangle's depth
 };
 
+// Records the lanes of a packet that passed all tests before shading, and those that did not. Call it before depth is written.
+template <class Visit>
+void trace_packet(const Visit& c, int packet, Mask passed, Mask failed, FragmentOutcome failure, Real z) {
+  const Real stored = load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]);
+  const FragmentOutcome outcome = c.mode == VisibilityMode::depth_only || (c.mode == VisibilityMode::early && !c.draw.writes_color)
+                                      ? FragmentOutcome::depth_only
+                                      : FragmentOutcome::hidden_before_shading;
+  c.statistics.trace->add(c.id, packet, bits(passed), outcome, z, stored, c.draw_in_tile.tests);
+  c.statistics.trace->add(c.id, packet, bits(failed), failure, z, stored, c.draw_in_tile.tests);
+}
+
 // Runs the stencil test and the depth test, and updates the stencil values.
-Mask test_with_stencil(const TriangleVisit& c, int packet, Real z, Mask mask) {
+template <class Visit>
+Mask test_with_stencil(const Visit& c, int packet, Real z, Mask mask) {
   const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
   Mask passed = stencil_passed;
   if (c.tests) {
     passed = passed & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+  }
+  if constexpr (kTraces<typename Visit::Statistics>) {
+    trace_packet(c, packet, passed, stencil_passed & !passed, FragmentOutcome::depth_failed, z);
+    trace_packet(c, packet, Mask(false), mask & !stencil_passed, FragmentOutcome::stencil_failed, z);
   }
   update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
   return passed;
 }
 
 // Writes or lists the lanes that passed, depending on the mode.
-HS_INLINE void finish_packet(const TriangleVisit& c, int packet, Mask mask, Real z) {
+template <class Visit>
+HS_INLINE void finish_packet(const Visit& c, int packet, Mask mask, Real z) {
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
   Tile& tile = c.tile;
@@ -71,18 +93,29 @@ HS_INLINE void finish_packet(const TriangleVisit& c, int packet, Mask mask, Real
   c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
 }
 
-Mask test_depth(const TriangleVisit& c, int packet, Real z, Mask mask) {
+template <class Visit>
+Mask test_depth(const Visit& c, int packet, Real z, Mask mask) {
   if (!c.tests) return mask;
   return mask & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
 }
 
-void test_and_finish(const TriangleVisit& c, int packet, Mask mask, Real z) {
-  mask = c.stencil != nullptr ? test_with_stencil(c, packet, z, mask) : test_depth(c, packet, z, mask);
+// The same, where this is the last test before the packet is finished.
+template <class Visit>
+HS_INLINE Mask test_depth_last(const Visit& c, int packet, Real z, Mask mask) {
+  const Mask passed = test_depth(c, packet, z, mask);
+  if constexpr (kTraces<typename Visit::Statistics>) trace_packet(c, packet, passed, mask & !passed, FragmentOutcome::depth_failed, z);
+  return passed;
+}
+
+template <class Visit>
+void test_and_finish(const Visit& c, int packet, Mask mask, Real z) {
+  mask = c.stencil != nullptr ? test_with_stencil(c, packet, z, mask) : test_depth_last(c, packet, z, mask);
   finish_packet(c, packet, mask, z);
 }
 
 // Calls the visibility function for the pending packets, and finishes them. The function narrows their masks and may replace their depth.
-void ask_shader(const TriangleVisit& c) {
+template <class Visit>
+void ask_shader(const Visit& c) {
   VisibilityBatch& batch = c.pending;
   if (batch.count == 0) return;
   std::array<SamplePosition, kVisibilityBatch * kLanes> centroids;
@@ -97,9 +130,12 @@ void ask_shader(const TriangleVisit& c) {
   batch.tile_y0 = c.grid.y0;
   batch.position = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
   batch.centroids = needs_centroid ? centroids.data() : nullptr;
+  [[maybe_unused]] const std::array<uint32_t, kVisibilityBatch> covered = batch.lanes;
   c.draw.kernels.visibility(c.draw.shader.get(), batch);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
     Real z = batch.depth[i];
+    if constexpr (kTraces<typename Visit::Statistics>)
+      trace_packet(c, batch.packets[i], Mask(false), mask_from_bits<Mask>(covered[i] & ~batch.lanes[i]), FragmentOutcome::discarded, z);
     if (c.draw.kernels.writes_depth) z = depth_value(c.tile.depth_format, clamp(z, Real(c.draw.depth_low), Real(c.draw.depth_high)));
     test_and_finish(c, batch.packets[i], mask_from_bits<Mask>(batch.lanes[i]), z);
   }
@@ -107,14 +143,21 @@ void ask_shader(const TriangleVisit& c) {
 }
 
 // Processes a packet if the shader or the stencil test determines visibility.
-__attribute__((noinline)) void visit_packet_slowly(const TriangleVisit& c, int packet, Mask mask, Real z) {
+template <class Visit>
+__attribute__((noinline)) void visit_packet_slowly(const Visit& c, int packet, Mask mask, Real z) {
   if (c.mode == VisibilityMode::cover_only) {
+    if constexpr (kTraces<typename Visit::Statistics>) trace_packet(c, packet, mask, Mask(false), FragmentOutcome::depth_failed, z);
     c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
     return;
   }
   if (!c.asks_shader) return test_and_finish(c, packet, mask, z);
   // If the shader does not change depth, lanes that fail the depth test can be skipped. With a stencil test, they update the stencil.
-  if (!c.draw.kernels.writes_depth && c.stencil == nullptr) mask = test_depth(c, packet, z, mask);
+  if (!c.draw.kernels.writes_depth && c.stencil == nullptr) {
+    const Mask passed = test_depth(c, packet, z, mask);
+    if constexpr (kTraces<typename Visit::Statistics>)
+      trace_packet(c, packet, Mask(false), mask & !passed, FragmentOutcome::depth_failed, z);
+    mask = passed;
+  }
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
   VisibilityBatch& batch = c.pending;
@@ -125,25 +168,31 @@ __attribute__((noinline)) void visit_packet_slowly(const TriangleVisit& c, int p
   if (batch.count == kVisibilityBatch) ask_shader(c);
 }
 
-void visit_packet(const TriangleVisit& c, int packet, Mask mask, Real z) {
+template <class Visit>
+void visit_packet(const Visit& c, int packet, Mask mask, Real z) {
   c.statistics.samples_tested += static_cast<uint64_t>(std::popcount(bits(mask)));
   if (c.is_slow) return visit_packet_slowly(c, packet, mask, z);
-  finish_packet(c, packet, test_depth(c, packet, z, mask), z);
+  finish_packet(c, packet, test_depth_last(c, packet, z, mask), z);
 }
 
 // Called before the packets of a block. Returns false if none of its pixels can pass.
-bool enters_block(const TriangleVisit& c, int block) {
-  return !c.rejects_blocks || test_block(c.draw.state.depth.compare, c.tile, block, c.low, c.high) != BlockTest::none_passes;
+template <class Visit>
+bool enters_block(const Visit& c, int block) {
+  const bool enters = !c.rejects_blocks || test_block(c.draw.state.depth.compare, c.tile, block, c.low, c.high) != BlockTest::none_passes;
+  if constexpr (kTraces<typename Visit::Statistics>) {
+    if (!enters) trace_rejected_block({c.draw_in_tile, c.triangle, c.id, c.grid, c.low, c.high}, block, *c.statistics.trace);
+  }
+  return enters;
 }
 // Called after the packets of a block.
-void leave_block(const TriangleVisit& c, int block) {
+template <class Visit>
+void leave_block(const Visit& c, int block) {
   if (!c.writes || c.mode == VisibilityMode::cover_only) return;
   widen_hiz(c.draw.kernels.writes_depth ? CompareOp::always : c.draw.state.depth.compare, c.tile, block, c.low, c.high);
 }
 
-template <bool small>
-void visit_block(const TriangleVisit& c, const BlockEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool whole,
-                 int block) {
+template <bool small, class Visit>
+void visit_block(const Visit& c, const BlockEdges& edges, const DepthPlane<small>& plane, const TileRect& rect, bool whole, int block) {
   if (!enters_block(c, block)) return;
   for (int packet = block * kPacketsPerBlock; packet < (block + 1) * kPacketsPerBlock; ++packet) {
     const int x = packet_x(packet), y = packet_y(packet);
@@ -158,15 +207,16 @@ void visit_block(const TriangleVisit& c, const BlockEdges& edges, const DepthPla
 constexpr int kBlockMask = ~(kBlockSize - 1);
 
 // Finds the bounds of all depths that may be written: the bounds of the primitive, or the whole range if the shader writes depth.
-void find_depth_bounds(TriangleVisit& c) {
+template <class Visit>
+void find_depth_bounds(Visit& c) {
   const DepthBounds bounds = depth_bounds(c.triangle, c.draw, c.tile.depth_format);
   const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
   c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : bounds.low;
   c.high = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_high) : bounds.high;
 }
 
-template <bool small>
-void visit_triangle(TriangleVisit& c, const TileEdges& tile_edges, const TileRect& rect) {
+template <bool small, class Visit>
+void visit_triangle(Visit& c, const TileEdges& tile_edges, const TileRect& rect) {
   const DepthPlane<small> plane(c.triangle, tile_edges, c.draw, c.grid, c.tile.depth_format);
   find_depth_bounds(c);
   const BlockEdges edges(tile_edges);
@@ -180,7 +230,8 @@ void visit_triangle(TriangleVisit& c, const TileEdges& tile_edges, const TileRec
 }
 
 // A point covers a rectangle and has a constant depth.
-void visit_point_sprite(TriangleVisit& c, const TileRect& rect) {
+template <class Visit>
+void visit_point_sprite(Visit& c, const TileRect& rect) {
   find_depth_bounds(c);
   const Real z(depth_value(c.tile.depth_format, std::clamp(c.triangle.z0, c.draw.depth_low, c.draw.depth_high)));
   for (int by = rect.y0 & kBlockMask; by < rect.y1; by += kBlockSize) {
@@ -240,7 +291,8 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
 
 namespace {
 
-void rasterize_sample(TriangleVisit& c, const PixelBounds& b) {
+template <class Visit>
+void rasterize_sample(Visit& c, const PixelBounds& b) {
   const Triangle& t = c.triangle;
   const TileRect rect{b.x0 - c.grid.x0, b.y0 - c.grid.y0, b.x1 - c.grid.x0, b.y1 - c.grid.y0};
   if (t.is(kPointSprite)) return visit_point_sprite(c, rect);
@@ -255,7 +307,8 @@ void rasterize_sample(TriangleVisit& c, const PixelBounds& b) {
 
 }  // namespace
 
-void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics) {
+template <class Statistics>
+void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics) {
   const Triangle& t = d.context.chunks[chunk].triangles[index];
   if (d.is_opaque && is_small_triangle(t)) {
     const auto one = static_cast<uint16_t>(index);
@@ -269,7 +322,7 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
   const bool counts_failures = stencil != nullptr && (stencil->fail != StencilOp::keep || stencil->depth_fail != StencilOp::keep);
   const bool shader_writes_depth = d.asks_shader && d.draw.kernels.writes_depth;
   VisibilityBatch pending;  // only the count is initialized
-  TriangleVisit c{
+  TriangleVisit<Statistics> c{
       .context = d.context,
       .draw = d.draw,
       .triangle = t,
@@ -287,6 +340,7 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
       .needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine),
       .pending = pending,
       .grid = SampleGrid(d.tile, 0),
+      .draw_in_tile = d,
   };
   for (int s = 0; s < d.tile.samples; ++s) {
     if (s != 0) c.grid = SampleGrid(d.tile, s);
@@ -298,6 +352,8 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
     if (list != nullptr) list->sample_end[static_cast<std::size_t>(s)] = list->count;
   }
 }
+template void rasterize(const DrawInTile&, uint32_t, uint32_t, CoverageList*, PassStatistics&);
+template void rasterize(const DrawInTile&, uint32_t, uint32_t, CoverageList*, TracedStatistics&);
 
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask) {
   if (!tests_depth(state, tile)) return mask;

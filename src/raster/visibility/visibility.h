@@ -54,25 +54,33 @@ struct DrawInTile {
   bool is_queued;          ///< one sample per pixel and no stencil test; packets are listed in a PacketQueue until the shader runs
 };
 
+// Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).
+
 /// Rasterizes triangle `index` of chunk `chunk` in the tile. list can only be null for VisibilityMode::deferred and depth_only. The draw
 /// must not be a queued one.
-void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, PassStatistics& statistics);
+template <class Statistics>
+void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 
 /// The same for a triangle of an opaque draw (visibility_blocks.cpp).
-void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
+template <class Statistics>
+void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
 /// The same for a triangle of a queued draw, which is added to the queue.
-void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, PassStatistics& statistics);
+template <class Statistics>
+void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
 /// Returns true if the triangle can be drawn by rasterize_small().
 inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
 /// Rasterizes small triangles of an opaque draw in order. indices: 1 to W triangles of the chunk.
-void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics);
+template <class Statistics>
+void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
 /// The same for a queued draw. Stops when the queue is full. Returns the number of triangles that were added to the queue, at least 1.
+template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                   PassStatistics& statistics);
+                                   Statistics& statistics);
 
 /// Runs the visibility function for all packets of a queue, tests and writes them, and empties the queue (visibility_queue.cpp). d: the
 /// draw of the queue, which is deferred or depth_only.
-void decide_queued(const DrawInTile& d, PacketQueue& queue, PassStatistics& statistics);
+template <class Statistics>
+void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics);
 
 /// Returns true if a triangle of an opaque draw covers all pixels of the tile's storage.
 bool covers_tile(const DrawInTile& d, const Triangle& t);

@@ -7,6 +7,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/trace_rejected.h"
 
 namespace halfspace {
 
@@ -29,7 +30,10 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
   const auto [low, high] = depth_bounds(t, d.draw, tile.depth_format);
   const bool needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine);
   const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
-  if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) return;
+  if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) {
+    if constexpr (kTraces<typename Writer::Statistics>) trace_rejected_tile({d, t, id, grid, low, high}, *writer.statistics().trace);
+    return;
+  }
   constexpr int mask_to_block = ~(kBlockSize - 1);
   for (int y = rect.y0 & mask_to_block; y < rect.y1; y += kBlockSize) {
     for (int x = rect.x0 & mask_to_block; x < rect.x1; x += kBlockSize) {
@@ -37,7 +41,11 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       if (coverage == BlockCoverage::none) continue;
       const int block = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
       const BlockTest test = writer.tests() ? test_block(writer.compare_op(), tile, block, low, high) : BlockTest::all_pass;
-      if (test == BlockTest::none_passes) continue;
+      if (test == BlockTest::none_passes) {
+        if constexpr (kTraces<typename Writer::Statistics>)
+          trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
+        continue;
+      }
       const int first = block * kPacketsPerBlock;
       if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !needs_bounds_test) {
         for (int p = first; p < first + kPacketsPerBlock; ++p)
@@ -65,7 +73,11 @@ void rasterize_point(const DrawInTile& d, const Triangle& t, const TileRect& rec
   for (int by = rect.y0 & ~(kBlockSize - 1); by < rect.y1; by += kBlockSize) {
     for (int bx = rect.x0 & ~(kBlockSize - 1); bx < rect.x1; bx += kBlockSize) {
       const int block = by / kBlockSize * kBlocksPerRow + bx / kBlockSize;
-      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high) == BlockTest::none_passes) continue;
+      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high) == BlockTest::none_passes) {
+        if constexpr (kTraces<typename Writer::Statistics>)
+          trace_rejected_block({d, t, id, SampleGrid(d.tile, 0), low, high}, block, *writer.statistics().trace);
+        continue;
+      }
       const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
       for (int y = std::max(by, rect.y0 & ~(kPacketHeight - 1)); y < y1; y += kPacketHeight) {
         for (int x = std::max(bx, rect.x0 & ~(kPacketWidth - 1)); x < x1; x += kPacketWidth)
@@ -114,14 +126,20 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, cons
   for (int b = 0; b < kBlocks; ++b) set_hiz(d.tile, b, bounds.low, bounds.high);
 }
 
-void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
+template <class Statistics>
+void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   OpaqueWriter writer(d, statistics);
   rasterize_triangle(d, t, id, writer);
 }
+template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
+template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
 
-void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, PassStatistics& statistics) {
+template <class Statistics>
+void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
   ListWriter writer(d, queue, statistics);
   rasterize_triangle(d, t, id, writer);
 }
+template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, PassStatistics&);
+template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, TracedStatistics&);
 
 }  // namespace halfspace

@@ -11,7 +11,8 @@ namespace halfspace {
 namespace {
 
 // Tests and writes packet i of a batch.
-void write_decided(const DrawInTile& d, const VisibilityBatch& batch, std::size_t i, OpaqueWriter& writer) {
+template <class Writer>
+void write_decided(const DrawInTile& d, const VisibilityBatch& batch, std::size_t i, Writer& writer) {
   const Draw& draw = d.draw;
   const DepthFormat format = d.tile.depth_format;
   Real z = batch.depth[i];
@@ -28,7 +29,8 @@ void write_decided(const DrawInTile& d, const VisibilityBatch& batch, std::size_
 
 }  // namespace
 
-void decide_queued(const DrawInTile& d, PacketQueue& queue, PassStatistics& statistics) {
+template <class Statistics>
+void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics) {
   OpaqueWriter writer(d, statistics);
   VisibilityBatch batch;  // only what is used is initialized
   batch.context = &d.context;
@@ -46,9 +48,17 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, PassStatistics& stat
       batch.depth[i] = queue.depth[k];
     }
     d.draw.kernels.visibility(d.draw.shader.get(), batch);
+    if constexpr (kTraces<Statistics>) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+        const uint32_t listed = queue.packets[static_cast<std::size_t>(begin) + i].lanes;
+        statistics.trace->set_outcome(batch.ids[i], batch.packets[i], listed & ~batch.lanes[i], FragmentOutcome::discarded);
+      }
+    }
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) write_decided(d, batch, i, writer);
   }
   queue.count = 0;
 }
+template void decide_queued(const DrawInTile&, PacketQueue&, PassStatistics&);
+template void decide_queued(const DrawInTile&, PacketQueue&, TracedStatistics&);
 
 }  // namespace halfspace

@@ -41,7 +41,7 @@ struct SmallDepth {
 class SmallTriangles {
  public:
   // indices: 1 to W triangles of the chunk.
-  SmallTriangles(const DrawInTile& d, const Chunk& chunk, std::span<const uint16_t> indices) {
+  HS_INLINE SmallTriangles(const DrawInTile& d, const Chunk& chunk, std::span<const uint16_t> indices) {
     const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
     static_assert(offsetof(Triangle, z_edge1) == offsetof(Triangle, z0) + sizeof(float) &&
                   offsetof(Triangle, z_max) == offsetof(Triangle, z0) + 3 * sizeof(float));
@@ -251,15 +251,20 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
 
 }  // namespace
 
-void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
+template <class Statistics>
+void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
   const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   OpaqueWriter writer(d, statistics);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
   for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
 }
 
+template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
+template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
+
+template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                   PassStatistics& statistics) {
+                                   Statistics& statistics) {
   const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   ListWriter writer(d, queue, statistics);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
@@ -269,5 +274,7 @@ std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::spa
   } while (++k < indices.size() && !queue.is_full());
   return k;
 }
+template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
+template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, TracedStatistics&);
 
 }  // namespace halfspace

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs a shader's own functions for one fragment, in float. Shading in float gives the same bits as shading in lanes.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "halfspace/explain/pixel_history.h"
+#include "halfspace/raster/inspection.h"
+
+namespace halfspace {
+
+/// Where and of what a fragment is.
+struct FragmentPlace {
+  const InspectedTriangle& triangle;
+  glm::ivec2 pixel;   ///< in window coordinates, from the lower left
+  SamplePosition at;  ///< position within the pixel at which the shader is evaluated
+  float depth;
+};
+
+/// Values of a fragment, see FragmentDetail.
+struct FragmentValues {
+  std::string shader;
+  glm::vec3 barycentrics{1.0f, 0.0f, 0.0f};
+  float inv_w = 0.0f;
+  std::vector<NamedValue> varyings, terms, factors;
+  glm::vec4 color{0.0f};
+};
+
+/// Instantiates all shaders. light_names: names of the lights of the scene, in order.
+FragmentValues fragment_values(const SceneShader& shader, const FragmentPlace& place, std::span<const std::string> light_names);
+
+}  // namespace halfspace

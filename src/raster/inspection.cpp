@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/inspection.h"
+
+namespace halfspace {
+
+namespace {
+
+class TraceTiles : public TileRunner {
+ public:
+  explicit TraceTiles(PassTrace& trace) : trace_(trace) {}
+
+  void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
+           PassStatistics& statistics) override {
+    if (round.first) begin(context, attachments);
+    run_tiles(context, attachments, round, workers, statistics, trace_);
+    name_primitives(context);
+  }
+
+ private:
+  void begin(const PassContext& context, const Attachments& attachments) {
+    trace_ = {};
+    trace_.width = context.width;
+    trace_.height = context.height;
+    trace_.samples = context.samples;
+    if (!attachments.colors.empty()) trace_.format = attachments.colors[0].format;
+    trace_.resolved.resize(static_cast<std::size_t>(context.width) * static_cast<std::size_t>(context.height));
+    trace_.values.resize(trace_.resolved.size() * static_cast<std::size_t>(context.samples));
+  }
+
+  // Sets the draw, instance and primitive of the fragments of the last round.
+  void name_primitives(const PassContext& context) {
+    std::vector<std::vector<SubmittedPrimitive>> primitives;
+    for (const Chunk& c : context.chunks) primitives.push_back(submitted_primitives(context, c));
+    for (TileFragments& tile : trace_.rounds.back()) {
+      for (TracedFragment& f : tile.fragments) {
+        const Chunk& chunk = context.chunks[chunk_of(f.id)];
+        const DrawRange& range = chunk.ranges[chunk.triangles[index_in_chunk(f.id)].range()];
+        f.draw = range.draw;
+        f.instance = range.instance;
+        f.primitive = primitives[chunk_of(f.id)][index_in_chunk(f.id)].primitive;
+      }
+    }
+  }
+
+  PassTrace& trace_;
+};
+
+class VisitSetUp : public TileRunner {
+ public:
+  explicit VisitSetUp(const std::function<void(const PassContext&, int)>& visit) : visit_(visit) {}
+
+  void run(const PassContext& context, const Attachments&, Round, const Workers&, PassStatistics&) override { visit_(context, round_++); }
+
+ private:
+  const std::function<void(const PassContext&, int)>& visit_;
+  int round_ = 0;
+};
+
+// Runs the vertex function for the positions of three vertices of a draw.
+std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, const std::array<uint32_t, 3>& index) {
+  alignas(64) std::array<float, 4 * kVertexBatch> rows{};
+  StreamRoom room;
+  draw.kernels.position(draw.shader.get(), {at_instance(draw.vertices, instance, room), index.data(), 0, 3, 0, draw.state.base_vertex,
+                                            static_cast<int32_t>(instance), nullptr, rows.data(), nullptr});
+  std::array<glm::vec4, 3> out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
+  return out;
+}
+
+}  // namespace
+
+PassStatistics run_traced(Pass& pass, const Workers& workers, PassTrace& trace) {
+  TraceTiles tiles(trace);
+  return run_with(pass, tiles, workers);
+}
+
+void visit_set_up(Pass& pass, const Workers& workers, const std::function<void(const PassContext& context, int round)>& visit) {
+  VisitSetUp tiles(visit);
+  run_with(pass, tiles, workers);
+}
+
+TriangleInspector::TriangleInspector(const PassContext& context) : context_(context) {
+  for (const Chunk& chunk : context.chunks) primitives_.push_back(submitted_primitives(context, chunk));
+}
+
+void TriangleInspector::find(TriangleId id, InspectedTriangle& out) const {
+  const Chunk& chunk = context_.chunks[chunk_of(id)];
+  const DrawRange& range = chunk.ranges[chunk.triangles[index_in_chunk(id)].range()];
+  const ShadedVertices& shaded = context_.shaded[range.draw];
+  const SubmittedPrimitive& submitted = primitives_[chunk_of(id)][index_in_chunk(id)];
+  find_triangle(context_, id, out.source);
+  out.draw = &context_.draws[range.draw];
+  out.primitive = submitted.primitive;
+  out.instance = range.instance;
+  out.slot = submitted.vertex;
+  const uint32_t slot_base = shaded.first - range.instance * shaded.count;
+  for (std::size_t i = 0; i < 3; ++i) out.index[i] = out.slot[i] + slot_base;
+  out.position_cs = clip_positions(*out.draw, range.instance, out.index);
+}
+
+}  // namespace halfspace

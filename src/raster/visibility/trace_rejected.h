@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Records fragments that hierarchical Z rejects together. The pipeline does not know which samples they cover, so this is found here.
+#pragma once
+
+#include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/trace/tile_trace.h"
+#include "halfspace/raster/visibility/block_edges.h"
+#include "halfspace/raster/visibility/depth_bounds.h"
+#include "halfspace/raster/visibility/visibility.h"
+
+namespace halfspace {
+
+/// A triangle, point or line in one sample plane of a tile.
+struct RejectedPrimitive {
+  const DrawInTile& d;
+  const Triangle& triangle;
+  TriangleId id;
+  const SampleGrid& grid;
+  float low, high;  ///< bounds of its depth
+};
+
+/// The block is rejected because of its depth bounds. It must not have been changed since.
+void trace_rejected_block(const RejectedPrimitive& primitive, int block, TileTrace& trace);
+
+/// The tile is rejected. stored_low, stored_high: bounds of the depth in the tile.
+void trace_rejected_tile(const RejectedPrimitive& primitive, float stored_low, float stored_high, TileTrace& trace);
+
+/// The same, where the bounds are those of all blocks.
+void trace_rejected_tile(const RejectedPrimitive& primitive, TileTrace& trace);
+
+}  // namespace halfspace
