@@ -61,6 +61,14 @@ std::optional<std::array<glm::vec3, 3>> corners_ws(const PageInput& in, const St
   return out;
 }
 
+// Twice the area of a triangle divided by its longest edge, in pixels.
+double height_of(const Triangle& t) {
+  double longest = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, std::hypot(t.x[(i + 1) % 3] - t.x[i], t.y[(i + 1) % 3] - t.y[i]));
+  const double area = static_cast<double>(int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) - int64_t{t.y[1] - t.y[0]} * (t.x[2] - t.x[0]));
+  return std::fabs(area) / longest / kSubPixels;
+}
+
 // How far affine interpolation moves a value along the edge between two vertices of a triangle, at most, in pixels.
 double affine_error(const Triangle& t, const std::array<float, 3>& inv_w) {
   double error = 0.0;
@@ -216,9 +224,9 @@ PageJson perspective_json(const PageInput& in) {
       xy[k] = {v.x, v.y};
     }
     const Triangle ordered{.x = {xy[0][0], xy[1][0], xy[2][0]}, .y = {xy[0][1], xy[1][1], xy[2][1]}, .z0 = 0, .z_edge1 = 0, .z_edge2 = 0, .z_max = 0, .vertex = {}, .flags = 0};
-    const double error = affine_error(ordered, inv_w);
-    if (!(error > worst)) continue;
-    worst = error;
+    const double error = affine_error(ordered, inv_w), visible = std::min(error, height_of(ordered));  // not of slivers
+    if (!(visible > worst)) continue;
+    worst = visible;
     json = {{"object", object_name(in.description, in.scene.draws[p.draw])}, {"primitive", p.index}, {"xy", xy}, {"inv_w", inv_w}, {"error", error}};
   }
   return json;

@@ -34,7 +34,7 @@ function clipFormula(c) {
 chapter({
   id: "clipping", title: "Clipping", kicker: "Primitive setup",
   lead: () => "Points behind the eye cannot be divided by w. Triangles that cross the near plane, the far plane or the limits of the integer grid are cut to a polygon first. Triangles that only leave the window at its sides are not cut: the rasterizer just does not visit pixels outside.",
-  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are outside of the view as a whole, the others need no cut. A frame with clipped triangles: ${command("halfspace explain day-night --camera street")}.` : null),
+  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are outside of the view as a whole, the others need no cut. A frame with clipped triangles: ${command("halfspace explain shadow-plane --camera low")}.` : null),
   arrives: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: one bit per plane that a vertex is outside of"],
   leaves: () => [`${plural(DATA.statistics.clipped, "primitive")} cut`, `${plural(DATA.statistics.culled_outside, "primitive")} dropped, because they are entirely outside`],
   steps: () => CLIPPED.slice(0, 4).flatMap((c, i) => [

@@ -39,7 +39,7 @@ chapter({
   arrives: () => ["edge functions at a sample", "1/w of the three vertices"],
   leaves: () => ["three weights that add up to 1"],
   steps: () => [
-    {name: "Affine", caption: `Triangle ${fmt(P.primitive)} of <i>${escapeHtml(P.object)}</i>, the one of this frame for which it matters most. Its squares are interpolated with the edge functions alone: all have the same size on the screen.`, draw: () => checkered("linear")},
+    {name: "Affine", caption: `Triangle ${fmt(P.primitive)} of <i>${escapeHtml(P.object)}</i>, one of those in this frame for which it is easiest to see. Its squares are interpolated with the edge functions alone: all have the same size on the screen.`, draw: () => checkered("linear")},
     {name: "Perspective-correct", caption: `The same with the weights divided by w. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: () => checkered("perspective")},
     {name: "Difference", caption: `Where the weights differ: black is 0, yellow is a quarter or more. Along an edge, a value is displaced by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", "0.25")]},
   ],
