@@ -33,7 +33,7 @@ inline constexpr const char* kExplainSize = "640x360";  ///< default of --size
 std::filesystem::path page_path(const ExplainArguments& args);
 /// Returns the command line that explains the same frame, without the pixel and the output.
 std::string explain_command_line(const ExplainArguments& args, double seconds);
-/// Returns the page. scene: its name or file, as given.
-std::string page_of(const ExplainJob& job, const std::string& scene);
+/// Returns the page.
+std::string page_of(const ExplainJob& job);
 
 }  // namespace halfspace

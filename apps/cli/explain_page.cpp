@@ -31,8 +31,8 @@ std::string explain_command_line(const ExplainArguments& args, double seconds) {
   return line.replace(line.find(name), name.size(), "explain");
 }
 
-std::string page_of(const ExplainJob& job, const std::string& scene) {
-  return explain_page(job.scene, job.prepared, {scene, job.command, HALFSPACE_VERSION, job.pixel}, job.workers);
+std::string page_of(const ExplainJob& job) {
+  return explain_page(job.scene, job.prepared, {job.title, job.command, HALFSPACE_VERSION, job.pixel}, job.workers);
 }
 
 }  // namespace halfspace

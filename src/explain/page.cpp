@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/explain/page.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "halfspace/core/cpu.h"
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/page_encode.h"
 #include "halfspace/explain/page_quotes.h"
-#include "halfspace/explain/stage_context.h"
-#include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/explain/page_history.h"
+#include "halfspace/explain/pixel_history.h"
 #include "halfspace/raster/tile/tile.h"
-#include "halfspace/render/frame.h"
 
 namespace halfspace {
 
@@ -27,34 +22,24 @@ PageJson quotes_json() {
   return json;
 }
 
-Image<uint32_t> count_fragments(const PassContext& context, const StageGeometry& g) {
-  Image<uint32_t> counts(context.width, context.height);
-  for (std::size_t i = 0; i < g.triangles.size(); ++i) {
-    const Draw& draw = context.draws[g.primitives[g.primitive_of[i]].draw];
-    const Triangle& t = g.triangles[i];
-    const PixelBounds box = pixel_bounds(draw, t, draw.bounds, context.samples_at);
-    for (int y = box.y0; y < box.y1; ++y) {
-      for (int x = box.x0; x < box.x1; ++x) {
-        for (int s = 0; s < context.samples; ++s) counts.at(x, context.height - 1 - y) += covers(context, draw, t, x, y, s);
-      }
-    }
+// Returns the fragment that is visible at a pixel: the last one whose color replaced all others or, without one, the last one that was
+// shaded. Null if there is none.
+const TracedFragment* visible_fragment(const FrameTrace& trace, glm::ivec2 pixel) {
+  const TracedFragment* best = nullptr;
+  for (const TracedFragment& f : trace.at(pixel)) {
+    const bool replaces = f.outcome == FragmentOutcome::shaded;
+    if (replaces || (f.is_shaded && (best == nullptr || best->outcome != FragmentOutcome::shaded))) best = &f;
   }
-  return counts;
+  return best;
 }
 
-uint32_t example_primitive(const PassContext& context, const StageGeometry& g, const ValuePictures& values, const PreparedScene& scene,
-                           glm::ivec2 pixel) {
-  const uint32_t object = values.object.at(pixel.x, pixel.y), instance = values.instance.at(pixel.x, pixel.y),
-                 triangle = values.triangle.at(pixel.x, pixel.y);
-  uint32_t any = kNoPrimitive;
-  for (std::size_t i = 0; i < g.triangles.size(); ++i) {
-    const StagePrimitive& p = g.primitives[g.primitive_of[i]];
-    if (!covers(context, context.draws[p.draw], g.triangles[i], pixel.x, context.height - 1 - pixel.y, 0)) continue;
-    any = g.primitive_of[i];
-    const DrawSource& s = scene.draws[p.draw].source;
-    if (s.object == static_cast<int>(object) && static_cast<uint32_t>(s.instance) == instance && p.index == triangle) return any;
+uint32_t example_primitive(const StageGeometry& g, const TracedFragment* f) {
+  if (f == nullptr) return kNoPrimitive;
+  for (uint32_t i = 0; i < g.primitives.size(); ++i) {
+    const StagePrimitive& p = g.primitives[i];
+    if (p.draw == f->draw && p.instance == f->instance && p.index == f->primitive) return i;
   }
-  return any;
+  return kNoPrimitive;
 }
 
 std::string replaced(std::string text, std::string_view placeholder, std::string_view value) {
@@ -93,48 +78,48 @@ PageJson statistics_json(const PassStatistics& s) {
           {"flushes", s.flushes}};
 }
 
+PageJson frame_json(const PageInput& in, const FrameTrace& trace) {
+  return {{"width", trace.width},
+          {"height", trace.height},
+          {"samples", trace.samples},
+          {"pixel", {in.pixel.x, in.pixel.y}},
+          {"build", {{"description", build_description()}, {"lanes", kLanes}, {"packet", {kPacketWidth, kPacketHeight}}}},
+          {"statistics", statistics_json(trace.statistics)},
+          {"draws", draws_json(in)},
+          {"transforms", transforms_json(in)},
+          {"example", example_json(in)},
+          {"outcomes", outcomes_json(in)},
+          {"clipped", clip_json(in)},
+          {"wire", wireframe_json(in)},
+          {"bins", bins_json(in)},
+          {"perspective", perspective_json(in)},
+          {"pictures", pictures_json(in, trace.picture)},
+          {"depth", depth_json(in)},
+          {"mips", mip_json(in)},
+          {"terms", terms_json(in)},
+          {"shadow", shadow_json(in)},
+          {"tone", tone_json(in)},
+          {"sample_positions", samples_json(in)},
+          {"overdraw", overdraw_json(in, trace)},
+          {"history", histories_json(in, trace)},
+          {"tile_times", tile_times_json(in)},
+          {"quotes", quotes_json()}};
+}
+
 std::string explain_page(const SceneDescription& description, const PreparedScene& scene, const PageOptions& options,
                          const Workers& workers) {
-  const int width = scene.view.width_px, height = scene.view.height_px;
-  Image<glm::u8vec4> picture(width, height);
-  const PassStatistics statistics = render(scene, picture, workers);
-  Image<glm::vec4> light(width, height);
+  const FrameTrace trace = trace_frame(scene, workers);
+  const glm::ivec2 pixel = options.pixel.value_or(trace.busiest_pixel());
+  Image<glm::vec4> light(trace.width, trace.height);
   render(scene, light, workers);
-  const PassContext context = stage_context(scene, workers);
-  const StageGeometry geometry = stage_geometry(context);
   const ValuePictures values = value_pictures(scene, workers);
-  const Image<uint32_t> fragments = count_fragments(context, geometry);
-  const auto most = std::ranges::max_element(fragments.texels()) - fragments.texels().begin();
-  const glm::ivec2 pixel = options.pixel.value_or(glm::ivec2(most % width, most / width));
-  const PageInput in{description, scene, context, geometry, light, values, pixel, example_primitive(context, geometry, values, scene, pixel),
-                     workers};
-  PageJson json{{"scene", options.scene},
-                {"command", options.command},
-                {"title", description.head.title},
-                {"version", options.version},
-                {"width", width},
-                {"height", height},
-                {"samples", scene.samples},
-                {"pixel", {pixel.x, pixel.y}},
-                {"build", {{"description", build_description()}, {"lanes", kLanes}, {"packet", {kPacketWidth, kPacketHeight}}}},
-                {"statistics", statistics_json(statistics)},
-                {"draws", draws_json(in)},
-                {"transforms", transforms_json(in)},
-                {"example", example_json(in)},
-                {"outcomes", outcomes_json(in)},
-                {"clipped", clip_json(in)},
-                {"wire", wireframe_json(in)},
-                {"bins", bins_json(in)},
-                {"perspective", perspective_json(in)},
-                {"pictures", pictures_json(in, picture)},
-                {"depth", depth_json(in)},
-                {"mips", mip_json(in)},
-                {"terms", terms_json(in)},
-                {"shadow", shadow_json(in)},
-                {"tone", tone_json(in)},
-                {"sample_positions", samples_json(in)},
-                {"overdraw", overdraw_json(in, fragments)},
-                {"quotes", quotes_json()}};
+  PageJson json{{"scene", options.scene}, {"command", options.command}, {"title", description.head.title}, {"version", options.version}};
+  visit_set_up_scene(scene, workers, [&](const PassContext& context, int round) {
+    if (round > 0) return;  // the page shows the triangles of the first round of a very large scene
+    const StageGeometry geometry = stage_geometry(context);
+    const uint32_t example = example_primitive(geometry, visible_fragment(trace, pixel));
+    json.update(frame_json({description, scene, context, geometry, light, values, pixel, example, workers}, trace));
+  });
   std::string page(embedded_text("page.html"));
   page = replaced(std::move(page), "@style@", embedded_text("page.css"));
   page = replaced(std::move(page), "@script@", joined_scripts());

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "halfspace/explain/page.h"
+#include "halfspace/explain/pixel_history.h"
 #include "halfspace/explain/stage_example.h"
 #include "halfspace/explain/stage_geometry.h"
 #include "halfspace/explain/stage_pictures.h"
@@ -56,7 +57,8 @@ PageJson samples_json(const PageInput& in);
 PageJson pictures_json(const PageInput& in, const Image<glm::u8vec4>& picture);
 PageJson depth_json(const PageInput& in);
 PageJson mip_json(const PageInput& in);
-PageJson overdraw_json(const PageInput& in, const Image<uint32_t>& fragments);
+PageJson overdraw_json(const PageInput& in, const FrameTrace& trace);
+PageJson tile_times_json(const PageInput& in);
 
 PageJson statistics_json(const PassStatistics& s);
 

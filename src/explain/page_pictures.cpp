@@ -4,12 +4,17 @@
 
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/page_encode.h"
+#include "halfspace/raster/inspection.h"
+#include "halfspace/render/scene_pass.h"
 
 namespace halfspace {
 
 namespace {
 
 constexpr glm::u8vec4 kNothing(0, 0, 0, 0);
+
+// Times of tiles are the shortest of this many runs.
+constexpr int kTimedRuns = 5;
 
 // Builds a picture from a function that returns the code of a pixel.
 template <class F>
@@ -129,19 +134,40 @@ PageJson mip_json(const PageInput& in) {
           {"pixel", {{"lod", at.lod}, {"probes", at.probes}, {"dx", at.scale_x}, {"dy", at.scale_y}}}};
 }
 
-PageJson overdraw_json(const PageInput& in, const Image<uint32_t>& fragments) {
-  const uint32_t most = *std::ranges::max_element(fragments.texels());
+PageJson overdraw_json(const PageInput& in, const FrameTrace& trace) {
+  std::vector<uint32_t> counts;
+  for (int y = 0; y < trace.height; ++y) {
+    for (int x = 0; x < trace.width; ++x) counts.push_back(trace.count({x, y}));
+  }
+  const uint32_t most = *std::ranges::max_element(counts);
   std::vector<uint64_t> histogram(std::min<uint32_t>(most, 64) + 1);
   uint64_t total = 0;
-  for (const uint32_t n : fragments.texels()) {
+  for (const uint32_t n : counts) {
     ++histogram[std::min<std::size_t>(n, histogram.size() - 1)];
     total += n;
   }
   const std::string picture = picture_of(in, [&](int x, int y) {
-    const auto n = static_cast<float>(fragments.at(x, y));
+    const auto n = static_cast<float>(trace.count({x, y}));
     return n == 0.0f ? kNothing : heat_color(n / static_cast<float>(most));
   });
-  return {{"picture", picture}, {"most", most}, {"total", total}, {"histogram", histogram}, {"counts", packed_planes(fragments.texels())}};
+  return {{"picture", picture},
+          {"most", most},
+          {"total", total},
+          {"histogram", histogram},
+          {"counts", packed_planes(std::span<const uint32_t>(counts))}};
+}
+
+PageJson tile_times_json(const PageInput& in) {
+  const Workers one(1);
+  std::vector<float> best;
+  for (int i = 0; i < kTimedRuns; ++i) {
+    Image<glm::u8vec4> picture(in.scene.view.width_px, in.scene.view.height_px);
+    std::vector<float> ms;
+    render_with(in.scene, picture, one, [&](Pass& pass) { return run_timed(pass, one, ms); });
+    if (best.empty()) best = ms;
+    std::ranges::transform(best, ms, best.begin(), [](float a, float b) { return std::min(a, b); });
+  }
+  return {{"runs", kTimedRuns}, {"ms", best}};
 }
 
 }  // namespace halfspace

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "halfspace/core/float_mode.h"
-#include "halfspace/explain/stage_kernels.h"
 #include "halfspace/raster/pipeline/edge.h"
 #include "halfspace/raster/pipeline/line.h"
 #include "halfspace/raster/pipeline/pixel_box.h"

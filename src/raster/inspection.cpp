@@ -45,6 +45,20 @@ class TraceTiles : public TileRunner {
   PassTrace& trace_;
 };
 
+class TimeTiles : public TileRunner {
+ public:
+  explicit TimeTiles(std::vector<float>& ms) : ms_(ms) {}
+
+  void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
+           PassStatistics& statistics) override {
+    if (round.first) ms_.assign(static_cast<std::size_t>(context.tiles_x) * static_cast<std::size_t>(context.tiles_y), 0.0f);
+    run_tiles(context, attachments, round, workers, statistics, ms_);
+  }
+
+ private:
+  std::vector<float>& ms_;
+};
+
 class VisitSetUp : public TileRunner {
  public:
   explicit VisitSetUp(const std::function<void(const PassContext&, int)>& visit) : visit_(visit) {}
@@ -71,6 +85,11 @@ std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, con
 
 PassStatistics run_traced(Pass& pass, const Workers& workers, PassTrace& trace) {
   TraceTiles tiles(trace);
+  return run_with(pass, tiles, workers);
+}
+
+PassStatistics run_timed(Pass& pass, const Workers& workers, std::vector<float>& ms) {
+  TimeTiles tiles(ms);
   return run_with(pass, tiles, workers);
 }
 

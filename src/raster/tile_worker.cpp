@@ -2,6 +2,7 @@
 #include "halfspace/raster/tile_worker.h"
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 #include <optional>
 
@@ -26,12 +27,12 @@ Target between_flushes(Target target, const std::vector<std::byte>& spill) {
 }
 
 // Statistics: as in visibility/visibility.h.
-template <class Statistics>
+template <class Statistics, bool is_timed = false>
 class TileWorker {
  public:
-  // trace: null unless fragments are traced.
-  TileWorker(const PassContext& context, const Attachments& attachments, Round round, PassTrace* trace = nullptr)
-      : context_(context), attachments_(attachments), round_(round), trace_(trace) {}
+  // trace: null unless fragments are traced. ms: empty unless tiles are timed.
+  TileWorker(const PassContext& context, const Attachments& attachments, Round round, PassTrace* trace = nullptr, std::span<float> ms = {})
+      : context_(context), attachments_(attachments), round_(round), trace_(trace), ms_(ms) {}
 
   void run(const Workers& workers, PassStatistics& statistics) const {
     std::vector<int> rows(static_cast<std::size_t>(context_.tiles_y));
@@ -97,7 +98,7 @@ class TileWorker {
       fill_images(context_, attachments_, area);
       area = constant ? ConstantArea{pixels, draw} : ConstantArea{};
       // If this is the only round, a tile without geometry has a constant color and does not get here.
-      if (!constant) run_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics);
+      if (!constant) run_measured_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics);
     }
     fill_images(context_, attachments_, area);
     if constexpr (kTraces<Statistics>) statistics.trace.reset();
@@ -111,6 +112,17 @@ class TileWorker {
     const auto index = static_cast<std::size_t>(tile_y * context_.tiles_x + tile_x);
     trace.finish(tile, static_cast<uint16_t>(trace_->rounds.size() - 1), trace_->rounds.back()[index]);
     if (round_.last) record_values(tile, *trace_);
+  }
+
+  void run_measured_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
+    if constexpr (is_timed) {
+      const auto start = std::chrono::steady_clock::now();
+      run_tile(tile_x, tile_y, drawn, memory, statistics);
+      const std::chrono::duration<float, std::milli> time = std::chrono::steady_clock::now() - start;
+      ms_[static_cast<std::size_t>(tile_y * context_.tiles_x + tile_x)] += time.count();
+    } else {
+      run_tile(tile_x, tile_y, drawn, memory, statistics);
+    }
   }
 
   void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
@@ -186,6 +198,7 @@ class TileWorker {
   const Attachments& attachments_;
   Round round_;
   PassTrace* trace_;
+  std::span<float> ms_;
 };
 
 }  // namespace
@@ -211,6 +224,11 @@ void run_tiles(const PassContext& context, const Attachments& attachments, Round
                PassTrace& trace) {
   trace.rounds.emplace_back(static_cast<std::size_t>(context.tiles_x * context.tiles_y));
   TileWorker<TracedStatistics>(context, attachments, round, &trace).run(workers, statistics);
+}
+
+void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
+               std::span<float> ms) {
+  TileWorker<PassStatistics, true>(context, attachments, round, nullptr, ms).run(workers, statistics);
 }
 
 }  // namespace halfspace

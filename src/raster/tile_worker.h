@@ -4,6 +4,8 @@
 // tile is loaded or cleared, drawn, resolved, stored, and passed to the post step.
 #pragma once
 
+#include <span>
+
 #include "halfspace/core/parallel.h"
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/tile/attachments.h"
@@ -21,6 +23,10 @@ void run_tiles(const PassContext& context, const Attachments& attachments, Round
 /// are drawn like all others.
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
                PassTrace& trace);
+
+/// The same as the first one, and adds the time of each tile in milliseconds to ms, row by row from the lower left.
+void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
+               std::span<float> ms);
 
 /// Runs the tiles of each round of a pass.
 class TileRunner {

@@ -7,6 +7,7 @@
 Needs chromium, chromium-driver and python3-selenium of Debian. If a folder is given, it receives a screenshot of every chapter.
 """
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +20,7 @@ try:
     from selenium import webdriver
     from selenium.webdriver.chrome.options import Options
     from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.ui import WebDriverWait
@@ -136,36 +138,27 @@ class Page(unittest.TestCase):
     def tour(self, look):
         return self.driver.execute_async_script(TOUR.replace("LOOK", look))
 
-    def test_no_errors_and_all_steps_show_something_else(self):
+    def test_every_step_of_every_chapter(self):
         for name in SCENES:
             self.open(name)
             seen = {}
-            for chapter, step, picture in self.tour(PICTURE):
-                if picture is not None:
-                    self.assertNotIn(picture, seen.setdefault(chapter, []), f"{name}, {chapter}: step {step} shows what was shown before")
-                    seen[chapter].append(picture)
+            for chapter, step, look in self.tour(f"() => [({PICTURE})(), ({NAMELESS})(), ({EXERCISES})()]"):
+                picture, nameless, exercises = look
+                where = f"{name}, {chapter}, step {step}"
+                self.assertEqual(nameless, [], f"{where}: a control or picture has no name")
+                if "note" in exercises:
+                    self.assertIn("halfspace explain", exercises["note"], where)
+                    continue
+                self.assertEqual(exercises, {"count": 3, "bad": []}, where)
+                self.assertNotIn(picture, seen.setdefault(chapter, []), f"{where} shows what was shown before")
+                seen[chapter].append(picture)
             self.assertEqual(self.errors(), [], name)
-
-    def test_every_control_and_picture_has_a_name(self):
-        for name in SCENES:
-            self.open(name)
-            for chapter, step, nameless in self.tour(NAMELESS):
-                self.assertEqual(nameless, [], f"{name}, {chapter}, step {step}")
 
     def test_nothing_is_wider_than_a_phone(self):
         for name in SCENES:
             self.open(name, width=390)
             for chapter, step, width in self.tour(WIDTH):
                 self.assertLessEqual(width, 390, f"{name}, {chapter}, step {step}")
-
-    def test_each_chapter_has_three_exercises_or_says_what_is_missing(self):
-        for name in SCENES:
-            self.open(name)
-            for chapter, _, found in self.tour(EXERCISES):
-                if "note" in found:
-                    self.assertIn("halfspace explain", found["note"], f"{name}, {chapter}")
-                else:
-                    self.assertEqual(found, {"count": 3, "bad": []}, f"{name}, {chapter}")
 
     def test_answers_can_be_typed(self):
         self.open("earth", "frame")
@@ -211,6 +204,51 @@ class Page(unittest.TestCase):
         self.open("earth")
         own, expected = self.run_script("return [countCovered(), DATA.example.triangles[0].covered]")
         self.assertEqual(own, expected)
+
+    def show_pixel(self, x, y):
+        """Types a pixel into the form of the history, and returns the text that is shown, with all details open."""
+        fields = self.driver.find_elements(By.CSS_SELECTOR, "form.pixel input")
+        for field, value in zip(fields, (x, y)):
+            field.clear()
+            field.send_keys(str(value))
+        fields[0].send_keys(Keys.ENTER)
+        self.wait_for_panel(x, y)
+        self.run_script("document.querySelectorAll('#history-panel details').forEach((d) => { d.open = true; })")
+        return self.driver.find_element(By.ID, "history-panel").text
+
+    def wait_for_panel(self, x, y):
+        title = f"Pixel {x}, {y}"
+        WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("const h = document.querySelector('#history-panel h3'); return h && h.textContent") == title)
+
+    def test_a_pixel_shows_the_numbers_of_the_text(self):
+        number = re.compile(r"-?\d+\.\d+(?:e[-+]\d+)?|-?\d+e[-+]\d+")
+        for name, arguments in SCENES.items():
+            self.open(name, "history")
+            for pixel in (self.run_script("return PIXEL"), [160, 88], [8, 16]):
+                text = subprocess.run([PROGRAM, "explain", *arguments, "--size", "320x180", "--pixel", "{},{}".format(*pixel), "--text"],
+                                      check=True, capture_output=True, text=True, cwd=self.folder.name).stdout
+                shown = set(number.findall(self.show_pixel(*pixel)))
+                missing = [n for n in number.findall(text) if n not in shown]
+                self.assertEqual(missing, [], f"{name}, pixel {pixel}: numbers of --text that the page does not show\n{text}")
+
+    def test_a_click_selects_the_pixel(self):
+        self.open("earth", "history")
+        self.wait_for_panel(*self.run_script("return PIXEL"))
+        canvas = self.driver.find_element(By.CSS_SELECTOR, "figure canvas")
+        self.run_script("document.querySelector('figure canvas').scrollIntoView({block: 'center'})")
+        ActionChains(self.driver).move_to_element(canvas).click().perform()
+        WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("return historyState.pixel.join()") != d.execute_script("return PIXEL.join()"))
+        x, y = self.run_script("return historyState.pixel")
+        self.assertLessEqual(abs(x - 160), 1)
+        self.assertLessEqual(abs(y - 90), 1)
+
+    def test_other_pixels_show_the_nearest_one_and_the_command(self):
+        self.open("earth", "history")
+        x, y = self.run_script("return [...Array(W).keys()].map((x) => [x, H - 3]).find(([x]) => x % 8 === 3 && Math.abs(x - PIXEL[0]) > 80)")
+        shown = self.show_pixel(x, y)
+        self.assertIn(f"halfspace explain earth --size 320x180 --pixel {x},{y} --text", shown)
+        self.driver.find_element(By.CSS_SELECTOR, "#history-panel button").click()
+        WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("return detailsOf(...historyState.pixel) !== null"))
 
     def test_screenshots(self):
         if SCREENSHOTS is None:

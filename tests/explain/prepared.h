@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "halfspace/explain/stage_context.h"
+#include "halfspace/explain/pixel_history.h"
 #include "halfspace/explain/stage_geometry.h"
 #include "halfspace/scene/scene_file.h"
 
@@ -22,8 +22,7 @@ struct PreparedText {
 
   /// Calls f with the set-up frame and its primitives.
   void visit(const std::function<void(const PassContext&, const StageGeometry&)>& f) const {
-    const PassContext context = stage_context(prepared, workers);
-    f(context, stage_geometry(context));
+    visit_set_up_scene(prepared, workers, [&](const PassContext& context, int) { f(context, stage_geometry(context)); });
   }
 
   Workers workers;

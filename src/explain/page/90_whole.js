@@ -30,6 +30,44 @@ chapter({
   ],
 });
 
+// ---- tile times ---------------------------------------------------------------------------------------------------------
+
+const TIMES = DATA.tile_times.ms, slowest = Math.max(...TIMES, 1e-6), allTimes = TIMES.reduce((a, b) => a + b, 0);
+function timePicture() {
+  const read = (x, y) => { const tx = Math.floor(x / TILE), ty = Math.floor((H - 1 - y) / TILE), ms = TIMES[ty * BINS.columns + tx]; return `tile (${tx}, ${ty}): ${ms === 0 ? "filled with one color" : fmt(ms * 1000, 3) + " µs"}, ${plural(binCount(tx, ty), "primitive")}`; };
+  return [picture(DATA.pictures.final, "Tiles colored by the time that they took", {read, overlay: (pen, s) => eachTile((tx, ty, x, y, w, h) => {
+    pen.globalAlpha = 0.85;
+    pen.fillStyle = heat(TIMES[ty * BINS.columns + tx] / slowest);
+    pen.fillRect(x * s, y * s, w * s - 1, h * s - 1);
+    pen.globalAlpha = 1;
+  })}), legend("0", `${fmt(slowest * 1000, 3)} µs`)].flat();
+}
+function timePlot() {
+  const width = 720, height = 380, root = svgFigure(width, height, "Time of each tile against its number of primitives");
+  const to = (n, ms) => [60 + n / mostBinned * (width - 90), height - 45 - ms / slowest * (height - 75)];
+  root.append(svg("path", {d: `M60 20 V${height - 45} H${width - 20}`, fill: "none", stroke: "var(--line)"}));
+  TIMES.forEach((ms, i) => { if (ms === 0) return; const [x, y] = to(BINS.counts[i], ms); root.append(svg("circle", {cx: x, cy: y, r: 5, fill: "var(--accent)", "fill-opacity": 0.55})); });
+  const text = (x, y, value, anchor) => root.append(svg("text", {x, y, "font-size": 14, "text-anchor": anchor}, document.createTextNode(value)));
+  text(width - 20, height - 15, `${fmt(mostBinned)} primitives`, "end");
+  text(60, height - 15, "0", "middle");
+  text(66, 30, `${fmt(slowest * 1000, 3)} µs`, "start");
+  return el("div", {class: "stage"}, root);
+}
+
+chapter({
+  id: "times", title: "Tile times", kicker: "The whole frame",
+  lead: () => `Where does the time go? Each tile was timed on one thread of the machine that made this page, ${DATA.tile_times.runs} times; the shortest time counts. They differ from machine to machine, unlike the other numbers of this page.`,
+  steps: () => [
+    {name: "Time per tile", caption: `All tiles together: ${fmt(allTimes, 3)} ms. Tiles with a single color are filled together and not timed.`, draw: timePicture},
+    {name: "Time against primitives", caption: "One dot per tile. Primitives cost time, but so do shaded pixels: a tile with a single triangle can be slow if its shader is.", draw: timePlot},
+  ],
+  exercises: () => [
+    {ask: "How many tiles were timed?", answer: TIMES.filter((t) => t > 0).length, hint: `${TIMES.length} tiles, without those that are filled with one color.`, why: "The dots of the second step."},
+    {ask: "Which percentage of the time did the slowest tile take? (Rounded to a whole number.)", answer: Math.round(slowest / Math.max(allTimes, 1e-9) * 100), tolerance: 0.51, hint: "Its time is in the legend, the sum in the caption.", why: "The frame cannot be faster than its slowest tile, with any number of threads."},
+    {ask: "If all tiles were equally slow, how many threads could work at the same time?", answer: TIMES.filter((t) => t > 0).length, hint: "One thread takes one tile.", why: "More threads than tiles have nothing to do."},
+  ],
+});
+
 const STATISTICS = [
   ["vertices_in", "submitted indices"], ["vertices_shaded", "distinct vertices that the vertex function ran for"], ["primitives_in", "submitted primitives"],
   ["culled_non_finite", "dropped: a position is not a number"], ["culled_outside", "dropped: outside the view, or nothing left after clipping"], ["culled_face", "dropped: faces away"],

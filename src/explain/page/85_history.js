@@ -1,0 +1,166 @@
+// The history of a pixel: what the renderer did with each of its fragments.
+
+const HISTORY = DATA.history;
+let historyReady = null;
+
+async function unpackColumns(c) {
+  const n = c.count, of = (key, Type) => unpackArray(c[key], Type, n);
+  return {draw: await of("draw", Uint16Array), instance: await of("instance", Uint32Array), primitive: await of("primitive", Uint32Array), sample: await of("sample", Uint8Array), outcome: await of("outcome", Uint8Array), depth: await of("depth", Float32Array)};
+}
+
+// Unpacks the fragments of all pixels when they are first needed.
+function unpackHistory() {
+  historyReady ||= (async () => {
+    const d = HISTORY.details, counts = await unpackArray(HISTORY.counts, Uint8Array, W * H);
+    FRAME.history = {counts, first: offsets(counts), others: await unpackArray(HISTORY.others, Uint32Array, W * H), fragments: await unpackColumns(HISTORY.fragments)};
+    const full = {counts: await unpackArray(d.counts, Uint8Array, d.pixels), others: await unpackArray(d.others, Uint32Array, d.pixels), kind: await unpackArray(d.kind, Uint16Array, d.fragments.count), fragments: await unpackColumns(d.fragments), values: await unpackArray(d.values, Float32Array, d.numbers), at: new Map()};
+    placeDetails(full, await unpackArray(d.place, Uint32Array, d.pixels));
+    FRAME.details = full;
+  })();
+  return historyReady;
+}
+
+function offsets(counts) {
+  const first = new Uint32Array(counts.length + 1);
+  for (let i = 0; i < counts.length; ++i) first[i + 1] = first[i] + counts[i];
+  return first;
+}
+
+// Numbers of a fragment before those that depend on its shader (page_history.cpp), and of a pixel.
+const FIXED = 16, PIXEL_NUMBERS = 4 + 4 * DATA.samples + 12;
+const sizeOf = (kind) => FIXED + ["varyings", "terms", "factors"].flatMap((key) => kind[key]).reduce((n, [, size]) => n + size, 0);
+
+// Finds where the numbers of each detailed pixel begin.
+function placeDetails(full, place) {
+  const sizes = HISTORY.details.kinds.map(sizeOf);
+  let at = 0, fragment = 0;
+  place.forEach((xy, i) => {
+    full.at.set((xy >>> 16) * W + (xy & 0xffff), {index: i, at, fragment});
+    at += PIXEL_NUMBERS;
+    for (let k = 0; k < full.counts[i]; ++k) at += sizes[full.kind[fragment++]];
+  });
+}
+
+const rowOf = (columns, i) => ({draw: columns.draw[i], instance: columns.instance[i], primitive: columns.primitive[i], sample: columns.sample[i], outcome: HISTORY.outcomes[columns.outcome[i]], depth: columns.depth[i]});
+
+// The fragments of a pixel, without details.
+function fragmentsOf(x, y) {
+  const h = FRAME.history, p = y * W + x, list = [];
+  for (let i = h.first[p]; i < h.first[p + 1]; ++i) list.push(rowOf(h.fragments, i));
+  return {list, others: h.others[p]};
+}
+
+// All values of a pixel, or null if the page does not have them.
+function detailsOf(x, y) {
+  const full = FRAME.details, found = full.at.get(y * W + x);
+  if (!found) return null;
+  let at = found.at;
+  const take = (n) => [...full.values.subarray(at, at += n)];
+  const pixel = {clear: take(4), samples: Array.from({length: DATA.samples}, () => take(4)), light: take(4), exposure: take(1)[0], toneMapped: take(3), code: take(4), others: full.others[found.index], list: []};
+  for (let k = 0; k < full.counts[found.index]; ++k) {
+    const i = found.fragment + k, kind = HISTORY.details.kinds[full.kind[i]], [tested, stored, isTested, isShaded] = take(4);
+    const f = {...rowOf(full.fragments, i), kind, tested, stored, isTested, isShaded, barycentrics: take(3), invW: take(1)[0], color: take(4), value: take(4)};
+    for (const key of ["varyings", "terms", "factors"]) f[key] = kind[key].map(([name, size]) => [name, take(size)]);
+    pixel.list.push(f);
+  }
+  return pixel;
+}
+
+function nearestDetailed(x, y) {
+  let best = null, nearest = Infinity;
+  for (const p of FRAME.details.at.keys()) {
+    const d = (p % W - x) ** 2 + (Math.floor(p / W) - y) ** 2;
+    if (d < nearest) { nearest = d; best = [p % W, Math.floor(p / W)]; }
+  }
+  return best;
+}
+
+const objectOf = (f) => { const d = DATA.draws[f.draw]; return escapeHtml(d.object) + (d.copy + f.instance ? ` (${d.copy + f.instance})` : ""); };
+const primitiveName = (f) => `${{triangles: "triangle", points: "point", lines: "line"}[DATA.draws[f.draw].kind]} ${fmt(f.primitive)}`;
+// Formats a number like %.6g in C, as --text does.
+function shortest(x) {
+  if (!Number.isFinite(x)) return String(x);
+  if (x === 0) return Object.is(x, -0) ? "-0" : "0";
+  const trimmed = (digits) => (digits.includes(".") ? digits.replace(/\.?0+$/, "") : digits);
+  const [digits, exponent] = x.toExponential(5).split("e"), e = Number(exponent);
+  if (e < -4 || e >= 6) return `${trimmed(digits)}e${e < 0 ? "-" : "+"}${String(Math.abs(e)).padStart(2, "0")}`;
+  return trimmed(x.toPrecision(6));
+}
+const exact = (v) => v.map(shortest).join(", ");
+const exactNumber = (x) => `<span class="n">${shortest(x)}</span>`;
+const swatch = (c) => `<span class="swatch" style="background: rgb(${c.slice(0, 3).map((v) => Math.round(255 * Math.min(1, Math.max(0, encodeSrgb(Math.max(0, v)))))).join(" ")})"></span>`;
+
+function testText(f) {
+  if (!f.isTested) return "not tested";
+  const words = f.outcome.includes("block") || f.outcome.includes("tile") ? ["nearest depth of the primitive", "farthest stored there"] : ["its depth", "stored"];
+  return `${words[0]} ${exactNumber(f.tested)}, ${words[1]} ${exactNumber(f.stored)}`;
+}
+
+function valueTable(f) {
+  const rows = [["barycentrics", f.barycentrics], ["1/w", [f.invW]], ...f.varyings, ...f.terms, ...f.factors, ["color, with alpha", f.color]];
+  if (f.isShaded) rows.push(["sample afterwards", f.value]);
+  return el("div", {class: "table"}, el("table", {}, el("tbody", {}, ...rows.map(([name, v]) => el("tr", {}, el("th", {scope: "row"}, name), el("td", {html: exact(v)}))))));
+}
+
+function fragmentItem(f, i, open) {
+  const head = `${i + 1}. ${primitiveName(f)} of <i>${objectOf(f)}</i>${DATA.samples > 1 ? `, sample ${f.sample}` : ""}: <b>${f.outcome}</b> at depth ${exactNumber(f.depth)}`;
+  if (!f.kind) return el("li", {html: head});
+  return el("li", {}, el("details", {class: "quote", open}, el("summary", {html: (f.isShaded ? swatch(f.color) : "") + head}),
+    el("div", {class: "values"}, el("p", {html: `${f.kind.shader}. Depth test: ${testText(f)}.${f.kind.blend ? ` Blended: ${escapeHtml(f.kind.blend)}.` : ""}`}),
+      f.isShaded ? null : el("p", {class: "keys"}, "Not shaded in this frame; the values below were computed by the same shader code."), valueTable(f))));
+}
+
+function displayText(p) {
+  const samples = p.samples.length > 1 ? p.samples.map((s, i) => `sample ${i}    ${exact(s)}\n`).join("") : "";
+  return `before      ${exact(p.clear)}\n${samples}light       ${exact(p.light)}\nexposure    ${shortest(p.exposure)}\ndisplayed   ${exact(p.toneMapped)}\n<b>code        ${p.code.slice(0, 3).join(", ")}</b>`;
+}
+
+function historyPanel(x, y, go) {
+  const full = detailsOf(x, y), {list, others} = full || fragmentsOf(x, y), nearest = full ? null : nearestDetailed(x, y);
+  const last = list.map((f) => Boolean(f.isShaded)).lastIndexOf(true);
+  return [
+    el("h3", {}, `Pixel ${x}, ${y}`),
+    el("p", {html: `From the upper left; OpenGL window coordinates (${x + 0.5}, ${H - y - 0.5}). ${plural(list.length + others, "fragment")}${list.length + others ? ", in the order in which they were drawn" : ""}:`}),
+    el("ol", {class: "fragments"}, ...list.map((f, i) => fragmentItem(f, i, i === last))),
+    others ? el("p", {}, `… and ${plural(others, "more fragment")} that this page has no room for.`) : null,
+    full ? el("div", {class: "formula", tabindex: 0, role: "group", "aria-label": "From the light of the pixel to its code", html: displayText(full)}) : null,
+    full ? null : el("p", {html: `All values of this pixel: ${command(`${DATA.command} --pixel ${x},${y} --text`)}`}),
+    nearest ? el("p", {}, el("button", {type: "button", onclick: () => go(...nearest)}, `Show pixel ${nearest.join(", ")}, the nearest one with all values in this page`)) : null,
+  ];
+}
+
+function pixelForm(go) {
+  const field = (label, max, value) => el("input", {type: "number", min: 0, max, value, "aria-label": label});
+  const x = field("x of the pixel, from the left", W - 1, PIXEL[0]), y = field("y of the pixel, from above", H - 1, PIXEL[1]);
+  const submit = (e) => { e.preventDefault(); go(Math.min(W - 1, Math.max(0, Number(x.value))), Math.min(H - 1, Math.max(0, Number(y.value)))); };
+  return {form: el("form", {class: "pixel", onsubmit: submit}, el("span", {}, "x"), x, el("span", {}, "y"), y, el("button", {type: "submit"}, "Show pixel")), set: (px, py) => { x.value = px; y.value = py; }};
+}
+
+const historyState = {pixel: PIXEL};
+function historyPicture() {
+  const mark = el("div", {class: "mark", "aria-hidden": "true"}), panel = document.getElementById("history-panel");
+  const go = (x, y) => {
+    historyState.pixel = [x, y];
+    form.set(x, y);
+    mark.style.left = `${(x + 0.5) / W * 100}%`;
+    mark.style.top = `${(y + 0.5) / H * 100}%`;
+    unpackHistory().then(() => document.getElementById("history-panel").replaceChildren(...historyPanel(x, y, go).filter(Boolean)));
+  };
+  const form = pixelForm(go), [box, readout] = picture(DATA.pictures.final, "The final picture. Click a pixel to see its history.", {click: go, read: (x, y) => `pixel (${x}, ${y}): ${plural(fragmentsAt(x, y), "fragment")}`});
+  box.append(mark);
+  if (panel) panel.replaceChildren();
+  queueMicrotask(() => go(...historyState.pixel));
+  return [box, readout, form.form];
+}
+
+chapter({
+  id: "history", title: "Pixel history", kicker: "Output",
+  lead: () => "Click a pixel to see every fragment that competed for it, in the order in which they were drawn, and what the renderer did with each: rejected with a whole block, failed the depth test, hidden before it was shaded, or shaded.",
+  steps: () => [{name: "Choose a pixel", caption: `Draw, primitive, depth and outcome are stored for every pixel${HISTORY.most < 64 ? `, at most ${HISTORY.most} fragments each` : ""}. All values are stored for the 64 × 64 pixels around the example and for every eighth pixel in x and y.`, draw: historyPicture}],
+  body: () => el("div", {id: "history-panel", "aria-live": "polite"}),
+  exercises: () => [
+    {ask: `How many fragments has the example pixel (${PIXEL})?`, answer: fragmentsAt(...PIXEL), hint: "Type its coordinates below the picture.", why: "The list above shows them."},
+    {ask: "How many fragments has the pixel in the upper left corner?", answer: fragmentsAt(0, 0), hint: "Pixel 0, 0.", why: "Its history lists them."},
+    {ask: `What is y of the example pixel in OpenGL's window coordinates? (The center, with one digit after the point.)`, answer: H - PIXEL[1] - 0.5, tolerance: 0.01, hint: "Window coordinates count from below, and centers are at halves.", why: `${H} − ${PIXEL[1]} − 0.5.`},
+  ],
+});
