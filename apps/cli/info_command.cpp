@@ -11,6 +11,7 @@
 #include "halfspace/core/lanes.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/image/image_tool.h"
+#include "halfspace/model/draco_process.h"
 
 namespace halfspace {
 
@@ -24,18 +25,22 @@ constexpr const char* kCompiler =
 #endif
 
 void print_text() {
-  const std::filesystem::path tool = find_image_tool();
+  const std::filesystem::path tool = find_image_tool(), draco = find_draco_tool();
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
             << "build         " << build_description() << ", " << kCompiler << '\n'
             << "cores         " << Workers::cores() << '\n'
-            << "image tool    " << (tool.empty() ? "not found: only PNG images, and JPEG if its decoder is installed, can be read" : tool.string()) << '\n';
+            << "draco tool    " << (draco.empty() ? "not found: glTF meshes that are compressed with Draco cannot be read" : draco.string())
+            << '\n'
+            << "image tool    "
+            << (tool.empty() ? "not found: only PNG images, and JPEG if its decoder is installed, can be read" : tool.string()) << '\n';
 }
 
 void print_json() {
-  const std::filesystem::path tool = find_image_tool();
-  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", build_arch()},      {"lanes", kLanes},
-                                 {"compiler", kCompiler},        {"cores", Workers::cores()}, {"image_tool", nullptr}};
+  const std::filesystem::path tool = find_image_tool(), draco = find_draco_tool();
+  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", build_arch()},  {"lanes", kLanes},      {"compiler", kCompiler},
+                                 {"cores", Workers::cores()},    {"image_tool", nullptr}, {"draco_tool", nullptr}};
   if (!tool.empty()) json["image_tool"] = tool.string();
+  if (!draco.empty()) json["draco_tool"] = draco.string();
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 

@@ -305,7 +305,7 @@ TEST_F(Cli, PrintsStatisticsAsTextAndJson) {
 TEST_F(Cli, InfoPrintsVersionAndJsonKeys) {
   EXPECT_TRUE(run({"info"}).out.starts_with("halfspace "));
   const auto parsed = nlohmann::json::parse(run({"info", "--json"}).out);
-  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool"}) EXPECT_TRUE(parsed.contains(key)) << key;
+  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool", "draco_tool"}) EXPECT_TRUE(parsed.contains(key)) << key;
 }
 
 TEST_F(Cli, HelpFitsOnAScreenAndEndsWithTwoExamples) {
