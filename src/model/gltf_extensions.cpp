@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/model/gltf_extensions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -25,8 +27,10 @@ constexpr std::array<std::string_view, 7> kAppearance = {
     "KHR_texture_basisu", "KHR_texture_procedurals", "MSFT_texture_dds",
 };
 
+constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
+
 bool is_supported(std::string_view name) {
-  return name == "KHR_draco_mesh_compression" ? can_decode_draco() : std::ranges::find(kSupported, name) != kSupported.end();
+  return name == kDracoExtension ? can_decode_draco() : std::ranges::find(kSupported, name) != kSupported.end();
 }
 
 bool changes_only_appearance(std::string_view name) {
@@ -43,7 +47,9 @@ void read_gltf_extensions(GltfDocument& document, Model& model) {
   for (const GltfValue& item : document.array(document.root(), "extensionsRequired")) {
     const std::string name = name_of(item);
     if (!is_supported(name) && !changes_only_appearance(name)) {
-      document.fail(item, "the file requires the extension " + gltf_quoted(name) + ", which is not supported; expected a file without it");
+      const char* problem = name == kDracoExtension ? "whose decoder, halfspace-draco-tool, is not installed; expected it"
+                                                    : "which is not supported; expected a file without it";
+      document.fail(item, fmt::format("the file requires the extension {}, {}", gltf_quoted(name), problem));
     }
   }
   for (const GltfValue& item : document.array(document.root(), "extensionsUsed")) {
