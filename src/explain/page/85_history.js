@@ -138,17 +138,19 @@ function pixelForm(go) {
 
 const historyState = {pixel: PIXEL};
 function historyPicture() {
-  const mark = el("div", {class: "mark", "aria-hidden": "true"}), panel = document.getElementById("history-panel");
+  const mark = el("div", {class: "mark", "aria-hidden": "true"});
   const go = (x, y) => {
     historyState.pixel = [x, y];
     form.set(x, y);
     mark.style.left = `${(x + 0.5) / W * 100}%`;
     mark.style.top = `${(y + 0.5) / H * 100}%`;
-    unpackHistory().then(() => document.getElementById("history-panel").replaceChildren(...historyPanel(x, y, go).filter(Boolean)));
+    unpackHistory().then(() => {
+      const panel = document.getElementById("history-panel");  // null if the reader has left the chapter
+      if (panel && historyState.pixel.join() === [x, y].join()) panel.replaceChildren(...historyPanel(x, y, go).filter(Boolean));
+    });
   };
   const form = pixelForm(go), [box, readout] = picture(DATA.pictures.final, "The final picture. Click a pixel to see its history.", {click: go, read: (x, y) => `pixel (${x}, ${y}): ${plural(fragmentsAt(x, y), "fragment")}`});
   box.append(mark);
-  if (panel) panel.replaceChildren();
   queueMicrotask(() => go(...historyState.pixel));
   return [box, readout, form.form];
 }
@@ -157,7 +159,7 @@ chapter({
   id: "history", title: "Pixel history", kicker: "Output",
   lead: () => "Click a pixel to see every fragment that competed for it, in the order in which they were drawn, and what the renderer did with each: rejected with a whole block, failed the depth test, hidden before it was shaded, or shaded.",
   steps: () => [{name: "Choose a pixel", caption: `Draw, primitive, depth and outcome are stored for every pixel${HISTORY.most < 64 ? `, at most ${HISTORY.most} fragments each` : ""}. All values are stored for the 64 × 64 pixels around the example and for every eighth pixel in x and y.`, draw: historyPicture}],
-  body: () => el("div", {id: "history-panel", "aria-live": "polite"}),
+  body: () => el("div", {id: "history-panel", "aria-live": "polite"}, el("p", {class: "loading"}, "Unpacking the fragments …")),
   exercises: () => [
     {ask: `How many fragments has the example pixel (${PIXEL})?`, answer: fragmentsAt(...PIXEL), hint: "Type its coordinates below the picture.", why: "The list above shows them."},
     {ask: "How many fragments has the pixel in the upper left corner?", answer: fragmentsAt(0, 0), hint: "Pixel 0, 0.", why: "Its history lists them."},
