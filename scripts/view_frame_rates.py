@@ -36,7 +36,7 @@ def start_server():
     """Starts an X server without a screen. Returns it and its display."""
     read_end, write_end = os.pipe()
     server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1920x1200x24"], pass_fds=[write_end],
-                              stderr=subprocess.DEVNULL)
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     os.close(write_end)
     with os.fdopen(read_end) as number:
         return server, ":" + number.readline().strip()

@@ -50,6 +50,12 @@ class Folder(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory(prefix="halfspace-view-")
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
+        self.addTypeEqualityFunc(list, self.compare_lists)
+
+    def compare_lists(self, first, second, msg=None):
+        """Compares pictures and other lists. The default takes minutes to describe how two pictures differ."""
+        if first != second:
+            self.fail(f"{msg or 'lists differ'}: {str(first)[:100]} … {str(second)[:100]}")
 
     def rendered(self, scene, *options):
         """Returns the picture that `halfspace render` makes."""
@@ -230,7 +236,7 @@ class Desktop(Folder):
     def setUpClass(cls):
         read_end, write_end = os.pipe()
         cls.server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x1024x24", "-dpi", "96"],
-                                      pass_fds=[write_end], stderr=subprocess.DEVNULL)
+                                      pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write_end)
         with os.fdopen(read_end) as number:
             cls.environment = {**os.environ, "DISPLAY": ":" + number.readline().strip()}
@@ -313,7 +319,9 @@ class Desktop(Folder):
         left = lambda rows: [row[:3 * WIDTH // 2] for row in rows]  # noqa: E731  beside the panel
         self.press("Tab")
         self.wait_for(lambda: self.screenshot()[2][:HEIGHT - MESSAGE_ROWS] != plain, "panel opens")
-        self.tool("xdotool", "mousemove", "--window", self.window, WIDTH // 2 + 15, 60, "click", "1")
+        self.tool("xdotool", "mousemove", "--window", self.window, WIDTH // 2 + 12, 60, "click", "1")
+        time.sleep(0.5)
+        self.tool("xdotool", "mousemove", "--window", self.window, 10, 10)  # so that there is no tooltip
         time.sleep(0.5)
         self.tool("xdotool", "type", "--window", self.window, "ttv1")
         time.sleep(1.0)
