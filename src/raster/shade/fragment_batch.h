@@ -36,9 +36,12 @@ struct FragmentBatch {
   const TriangleId* ids;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
   const TriangleId* packet_ids;  ///< triangle of each packet; only used if ids is null
   const PacketMask* packets;
-  int count;                        ///< ≤ kFragmentBatch
+  int count;                        ///< ≤ kFragmentBatch, unless `codes` is set
   const SamplePosition* centroids;  ///< positions of centroid varyings, W for each packet; null if the same as position
   FragmentOutput* out;
+  /// If not null, the kernel encodes the first color of each packet as rgba8 and writes it here, indexed like the pixels of the tile's
+  /// storage; there is no other output. Only for ShaderKernels::color.
+  int32_t* codes = nullptr;
 };
 
 /// Computes the colors of a draw with a constant shader and stores them as packet 0 of out.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "halfspace/core/srgb.h"
 #include "halfspace/raster/shade/packet_merge.h"
 
 namespace halfspace::detail {
@@ -73,6 +74,14 @@ HS_INLINE PrimitiveId<FragmentReal> primitive_id(const PacketTriangles<N, kIdRow
   return {as_int(t.primitive[kIdPrimitive]), as_int(t.primitive[kIdInstance]), vec3<R>(R(1) - (second + third), second, third)};
 }
 
+/// Replaces the pixels of a packet; see FragmentBatch::codes.
+HS_INLINE void write_codes(int32_t* codes, PacketMask packet, Real r, Real g, Real b, Real a) {
+  const Int packed = linear_to_unorm8(r) | linear_to_unorm8(g) << 8 | linear_to_unorm8(b) << 16 | linear_to_unorm8(a) << 24;
+  int32_t* to = codes + static_cast<std::size_t>(packet.packet) * kLanes;
+  if (packet.lanes == kAllBits<Mask>) return store(to, packed);
+  store(to, select(mask_from_bits<Mask>(packet.lanes), packed, load<Int>(to)));
+}
+
 /// decides: the keep mask and the depth are needed as well.
 template <class S, bool decides>
 HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) {
@@ -119,6 +128,14 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
       face = from_components<P, R>(triangles.primitive);
     }
     const auto fragment = call_fragment<S, R>(s, in, face, px);
+    if constexpr (!decides || !(kDiscards<S> || kWritesDepth<S>)) {
+      if (batch.codes != nullptr) {
+        const vec4<R>& color = nth_color(fragment.color, 0);
+        write_codes(batch.codes, a, color.x.low, color.y.low, color.z.low, color.w.low);
+        write_codes(batch.codes, b, color.x.high, color.y.high, color.z.high, color.w.high);
+        continue;
+      }
+    }
     const auto i = static_cast<std::size_t>(first);
     for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
       const vec4<R>& color = nth_color(fragment.color, n_color);

@@ -81,6 +81,44 @@ void trace_visible(TriangleId uniform, std::span<const PacketMask> packets, cons
     trace.set_visible(uniform, tile, packets[i].packet, packets[i].lanes, out.packet_color(0, i));
 }
 
+// Returns the pixels to which the kernel of a draw can write directly, or null. A trace needs the colors that the kernel returns otherwise.
+template <class Statistics>
+int32_t* direct_codes(const Draw& draw, Tile& tile) {
+  const bool is_single =
+      !kTraces<Statistics> && tile.color_count == 1 && tile.color[0].format == ColorFormat::rgba8 && !draw.kernels.is_constant;
+  return is_single ? reinterpret_cast<int32_t*>(tile.color[0].bytes.data()) : nullptr;
+}
+
+// Shades packets of one draw.
+template <class Statistics>
+void shade_draw(const PassContext& context, Tile& tile, const Job& job, const Draw& draw, std::span<const PacketMask> packets,
+                FragmentOutput& out, Statistics& statistics) {
+  const bool spreads = job.share == Share::per_pixel && tile.samples > 1;
+  const bool needs_centroid = draw.kernels.uses_centroid && spreads;
+  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
+  FragmentBatch batch{&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, nullptr, packets.data(), 0, nullptr,
+                      &out};
+  if (!spreads) batch.codes = direct_codes<Statistics>(draw, tile);
+  const std::size_t most = batch.codes != nullptr ? packets.size() : static_cast<std::size_t>(kFragmentBatch);
+  for (; !packets.empty(); packets = packets.subspan(static_cast<std::size_t>(batch.count))) {
+    batch.packets = packets.data();
+    batch.count = static_cast<int>(std::min(packets.size(), most));
+    for (std::size_t i = 0; needs_centroid && i < static_cast<std::size_t>(batch.count); ++i) {
+      const int p = packets[i].packet;
+      find_centroids(context, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
+    }
+    if (needs_centroid) batch.centroids = centroids.data();
+    draw.kernels.color(draw.shader.get(), batch);
+    if (batch.codes != nullptr) continue;
+    const std::span<const PacketMask> shaded = packets.first(static_cast<std::size_t>(batch.count));
+    if (!spreads) write_colors(draw, out, 0, shaded, tile);
+    if constexpr (kTraces<Statistics>) {
+      if (!spreads) trace_visible(kNoTriangle, shaded, out, tile, *statistics.trace);
+    }
+    for (std::size_t i = 0; spreads && i < shaded.size(); ++i) write_samples(draw, out, i, shaded[i], job.ids, tile, statistics);
+  }
+}
+
 template <class Statistics>
 void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredShading& memory, Statistics& statistics) {
   std::array<ShadingWork, kMaxTilePixels>& work = memory.work;
@@ -88,70 +126,98 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredSha
   // Sort by draw, so that each shader runs on full batches. The order does not affect the result, because pixels are independent.
   const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   if (!std::is_sorted(work.begin(), work.begin() + count, by_draw)) std::stable_sort(work.begin(), work.begin() + count, by_draw);
-  FragmentOutput& out = memory.output;
-  std::array<PacketMask, kFragmentBatch> packets;
-  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
-  for (int begin = 0; begin < count;) {
-    const Draw& draw = *work[static_cast<std::size_t>(begin)].draw;
-    int n = 0;
-    while (n < kFragmentBatch && begin + n < count && work[static_cast<std::size_t>(begin + n)].draw == &draw) {
-      packets[static_cast<std::size_t>(n)] = work[static_cast<std::size_t>(begin + n)].packet;
-      statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[static_cast<std::size_t>(n)].lanes));
-      ++n;
+  for (int begin = 0, end = 0; begin < count; begin = end) {
+    const Draw* draw = work[static_cast<std::size_t>(begin)].draw;
+    while (end < count && work[static_cast<std::size_t>(end)].draw == draw) {
+      const PacketMask& packet = work[static_cast<std::size_t>(end)].packet;
+      memory.packets[static_cast<std::size_t>(end++)] = packet;
+      statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packet.lanes));
     }
-    const bool needs_centroid = draw.kernels.uses_centroid && tile.samples > 1 && job.share == Share::per_pixel;
-    for (std::size_t i = 0; needs_centroid && i < static_cast<std::size_t>(n); ++i) {
-      const int p = packets[i].packet;
-      find_centroids(context, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
-    }
-    draw.kernels.color(draw.shader.get(), {&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, nullptr,
-                                           packets.data(), n, needs_centroid ? centroids.data() : nullptr, &out});
-    if (job.share == Share::per_pixel && tile.samples > 1) {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) write_samples(draw, out, i, packets[i], job.ids, tile, statistics);
-    } else {
-      write_colors(draw, out, 0, std::span(packets).first(static_cast<std::size_t>(n)), tile);
-      if constexpr (kTraces<Statistics>)
-        trace_visible(kNoTriangle, std::span(packets).first(static_cast<std::size_t>(n)), out, tile, *statistics.trace);
-    }
-    begin += n;
+    shade_draw(context, tile, job, *draw,
+               std::span(memory.packets).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)), memory.output,
+               statistics);
   }
 }
 
 constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
 
-// Selects one unshaded triangle of each pixel, in the order of its samples. Returns false if there is none left. taken: bit mask of the
-// samples whose triangle was selected before.
-HS_INLINE bool next_layer(const PassContext& context, const Tile& tile, std::array<uint8_t, kMaxTilePixels>& taken,
+// Returns the number of the first pixel of a packet in the sample plane of sample s.
+std::size_t first_pixel(const Tile& tile, int packet, int s) {
+  return static_cast<std::size_t>(packet + packet_shift(sample_plane(tile.samples, s, tile.size))) * kLanes;
+}
+
+// Returns true if all samples of every pixel of a packet show the same triangle, or none, and all triangles are shaded per pixel.
+bool agree(const PassContext& context, const Tile& tile, int packet) {
+  const TriangleId* ids = &tile.visibility[first_pixel(tile, packet, 0)];
+  const Int first = load<Int>(ids);
+  Mask same(true);
+  for (int s = 1; s < tile.samples; ++s) same = same & (load<Int>(&tile.visibility[first_pixel(tile, packet, s)]) == first);
+  if (!all(same)) return false;
+  for (uint32_t rest = bits(first != Int(std::bit_cast<int32_t>(kNoTriangle))); rest != 0;) {
+    const TriangleId id = ids[std::countr_zero(rest)];
+    if (draw_of(context, id).shades_samples) return false;
+    rest &= ~bits(first == Int(std::bit_cast<int32_t>(id)));
+  }
+  return true;
+}
+
+// Selects one unshaded triangle of each pixel of a packet, as next_layer() does. Returns false if there is none left.
+bool next_layer_of_packet(const PassContext& context, const Tile& tile, int packet, std::array<uint8_t, kMaxTilePixels>& taken,
                           std::array<TriangleId, kMaxTilePixels>& layer) {
+  bool found = false;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const auto pixel = static_cast<std::size_t>(packet * kLanes + lane);
+    layer[pixel] = kNoTriangle;
+    for (int s = 0; s < tile.samples; ++s) {
+      if ((taken[pixel] >> s & 1) != 0) continue;
+      const TriangleId id = tile.visibility[first_pixel(tile, packet, s) + static_cast<std::size_t>(lane)];
+      const bool waits = id != kNoTriangle && (layer[pixel] == kNoTriangle ? !draw_of(context, id).shades_samples : id == layer[pixel]);
+      if (waits) layer[pixel] = id;
+      if (waits || id == kNoTriangle) taken[pixel] = static_cast<uint8_t>(taken[pixel] | 1 << s);
+    }
+    found |= layer[pixel] != kNoTriangle;
+  }
+  return found;
+}
+
+// Selects one unshaded triangle of each pixel, in the order of its samples. Returns false if there is none left. taken: bit mask of the
+// samples whose triangle was selected before. is_first: nothing was selected before.
+HS_INLINE bool next_layer(const PassContext& context, const Tile& tile, bool is_first, std::array<uint8_t, kMaxTilePixels>& taken,
+                          std::array<TriangleId, kMaxTilePixels>& layer) {
+  const auto all_taken = static_cast<uint8_t>((1 << tile.samples) - 1);
   bool found = false;
   for (int packet = 0; packet < kPackets; ++packet) {
     if (!is_in_cell(tile, packet)) continue;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const auto pixel = static_cast<std::size_t>(packet * kLanes + lane);
-      layer[pixel] = kNoTriangle;
-      for (int s = 0; s < tile.samples; ++s) {
-        if ((taken[pixel] >> s & 1) != 0) continue;
-        const auto shift = static_cast<std::size_t>(packet_shift(sample_plane(tile.samples, s, tile.size))) * kLanes;
-        const TriangleId id = tile.visibility[pixel + shift];
-        const bool waits = id != kNoTriangle && (layer[pixel] == kNoTriangle ? !draw_of(context, id).shades_samples : id == layer[pixel]);
-        if (waits) layer[pixel] = id;
-        if (waits || id == kNoTriangle) taken[pixel] = static_cast<uint8_t>(taken[pixel] | 1 << s);
-      }
-      found |= layer[pixel] != kNoTriangle;
+    const std::size_t first = first_pixel(tile, packet, 0);
+    if (is_first && agree(context, tile, packet)) {
+      const Int ids = load<Int>(&tile.visibility[first]);
+      store(&layer[first], ids);
+      std::fill_n(&taken[first], kLanes, all_taken);
+      found |= any(ids != Int(std::bit_cast<int32_t>(kNoTriangle)));
+    } else if (std::all_of(&taken[first], &taken[first] + kLanes, [&](uint8_t t) { return t == all_taken; })) {
+      std::fill_n(&layer[first], kLanes, kNoTriangle);
+    } else {
+      found |= next_layer_of_packet(context, tile, packet, taken, layer);
     }
   }
   return found;
 }
 
+// Returns false if no draw of the pass runs its fragment function per sample. A long list of draws is not searched for each tile.
+bool may_shade_samples(const PassContext& context) {
+  constexpr std::size_t max_searched = 64;
+  return context.draws.size() > max_searched || std::ranges::any_of(context.draws, &Draw::shades_samples);
+}
+
 template <class Statistics>
 void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics) {
-  for (int s = 0; s < tile.samples; ++s) {
+  for (int s = 0; s < tile.samples && may_shade_samples(context); ++s) {
     run_job(context, tile,
             {tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample}, memory,
             statistics);
   }
   memory.taken.fill(0);
-  while (next_layer(context, tile, memory.taken, memory.layer)) {
+  for (bool is_first = true; next_layer(context, tile, is_first, memory.taken, memory.layer); is_first = false) {
     run_job(context, tile, {memory.layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
   }
 }
@@ -162,17 +228,27 @@ template <class Statistics>
 void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, Statistics& statistics) {
   const Draw& draw = draw_of(context, id);
   statistics.fragments_shaded += kMaxTilePixels;
-  FragmentOutput& out = memory.output;
-  std::array<PacketMask, kFragmentBatch> packets;
-  std::array<TriangleId, kFragmentBatch> ids;
-  ids.fill(id);
-  for (int first = 0; first < kPackets; first += kFragmentBatch) {
-    for (int i = 0; i < kFragmentBatch; ++i)
-      packets[static_cast<std::size_t>(i)] = {static_cast<uint16_t>(first + i), static_cast<uint16_t>(kAllBits<Mask>)};
-    draw.kernels.color(draw.shader.get(),
-                       {&context, tile.x0, tile.y0, kPixelCenter, nullptr, ids.data(), packets.data(), kFragmentBatch, nullptr, &out});
-    write_colors(draw, out, 0, packets, tile);
-    if constexpr (kTraces<Statistics>) trace_visible(id, packets, out, tile, *statistics.trace);
+  std::fill_n(memory.layer.begin(), kPackets, id);
+  for (std::size_t p = 0; p < kPackets; ++p) memory.packets[p] = {static_cast<uint16_t>(p), static_cast<uint16_t>(kAllBits<Mask>)};
+  FragmentBatch batch{&context,
+                      tile.x0,
+                      tile.y0,
+                      kPixelCenter,
+                      nullptr,
+                      memory.layer.data(),
+                      memory.packets.data(),
+                      kPackets,
+                      nullptr,
+                      &memory.output,
+                      direct_codes<Statistics>(draw, tile)};
+  if (batch.codes != nullptr) return draw.kernels.color(draw.shader.get(), batch);
+  batch.count = kFragmentBatch;
+  for (std::size_t first = 0; first < kPackets; first += kFragmentBatch) {
+    batch.packets = &memory.packets[first];
+    draw.kernels.color(draw.shader.get(), batch);
+    const std::span<const PacketMask> packets = std::span(memory.packets).subspan(first, kFragmentBatch);
+    write_colors(draw, memory.output, 0, packets, tile);
+    if constexpr (kTraces<Statistics>) trace_visible(id, packets, memory.output, tile, *statistics.trace);
   }
 }
 template void shade_full_tile(const PassContext&, TriangleId, Tile&, DeferredShading&, PassStatistics&);

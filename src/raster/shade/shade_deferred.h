@@ -17,8 +17,9 @@ struct ShadingWork {
 struct DeferredShading {
   FragmentOutput output;  ///< not on the stack, because a kernel with many colors needs most of a small one
   std::array<ShadingWork, kMaxTilePixels> work;
-  std::array<TriangleId, kMaxTilePixels> layer;  ///< one triangle of each multisampled pixel
-  std::array<uint8_t, kMaxTilePixels> taken;     ///< bit mask of the samples that have been in a layer
+  std::array<PacketMask, kMaxTilePixels> packets;  ///< those of `work`
+  std::array<TriangleId, kMaxTilePixels> layer;    ///< one triangle of each multisampled pixel
+  std::array<uint8_t, kMaxTilePixels> taken;       ///< bit mask of the samples that have been in a layer
 };
 
 /// Shades all pending pixels of the tile and writes their colors. Statistics: as in visibility/visibility.h.
