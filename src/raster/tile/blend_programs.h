@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blend functions that are compiled for one state and one format. They return the same bits as the general code in blend.cpp.
+// Blend functions that are compiled for one format, and for common states also for the state. They return the same bits as the general code
+// in blend.cpp.
 #pragma once
 
 #include <span>
@@ -9,10 +10,11 @@
 
 namespace halfspace {
 
-/// Blends a color for each packet with the existing ones, in the order of the packets.
-using BlendProgram = void (*)(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src);
+/// Blends a color for each packet with the existing ones, in the order of the packets. src1: the second colors, for dual source blending.
+using BlendProgram = void (*)(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
+                              const BlendState& state);
 
-/// Returns the function for a state, or null if there is none. It writes all four channels.
+/// Returns the function for a state, or null if there is none for the format. It writes all four channels.
 BlendProgram blend_program(ColorFormat format, const BlendState& state);
 
 }  // namespace halfspace

@@ -314,7 +314,9 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
     const auto one = static_cast<uint16_t>(index);
     return rasterize_small(d, chunk, {&one, 1}, statistics);
   }
-  if (d.is_opaque) return rasterize_opaque(d, t, triangle_id(chunk, index), statistics);
+  const bool shades_later = d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only;
+  if (shades_later && !d.asks_shader && !(d.draw.state.stencil && d.tile.has_stencil))
+    return rasterize_opaque(d, t, triangle_id(chunk, index), statistics);
   const StencilFace* stencil = stencil_face(d.draw.state, d.tile, t.is(kFrontFacing));
   // If the shader determines visibility later, both tests are postponed as well, because stencil updates depend on the final result.
   const bool late = d.mode == VisibilityMode::test_only && stencil != nullptr;

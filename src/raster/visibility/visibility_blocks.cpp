@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of opaque draws (the common case): one sample per pixel, and only coverage and depth determine visibility. The results are the
-// same as with visibility.cpp, which supports all draws. Small triangles are drawn by visibility_small.cpp.
+// Visibility of draws where only coverage and depth determine visibility, and of queued draws. The results are the same as with
+// visibility.cpp, which supports all draws. Small triangles with one sample per pixel are drawn by visibility_small.cpp.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
@@ -88,9 +88,10 @@ void rasterize_point(const DrawInTile& d, const Triangle& t, const TileRect& rec
   }
 }
 
+// Rasterizes one sample of every pixel.
 template <class Writer>
-void rasterize_triangle(const DrawInTile& d, const Triangle& t, TriangleId id, Writer& writer) {
-  const SampleGrid grid(d.tile, 0);
+void rasterize_triangle(const DrawInTile& d, const Triangle& t, TriangleId id, int sample, Writer& writer) {
+  const SampleGrid grid(d.tile, sample);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
   if (b.empty()) return;
   const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
@@ -129,7 +130,9 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, cons
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   OpaqueWriter writer(d, statistics);
-  rasterize_triangle(d, t, id, writer);
+  for (int s = 0; s < d.tile.samples; ++s) {
+    if ((d.draw.sample_mask >> s & 1) != 0) rasterize_triangle(d, t, id, s, writer);
+  }
 }
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
@@ -137,7 +140,7 @@ template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, T
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
   ListWriter writer(d, queue, statistics);
-  rasterize_triangle(d, t, id, writer);
+  rasterize_triangle(d, t, id, 0, writer);
 }
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, PassStatistics&);
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, TracedStatistics&);
