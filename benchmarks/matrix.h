@@ -34,6 +34,7 @@ enum class MatrixTexture : uint8_t {
 enum class MatrixShader : uint8_t {
   lit,    ///< diffuse light times the mean of `textures` lookups
   alpha,  ///< lit, with the alpha of the texture
+  tint,   ///< an interpolated color with an alpha of 0.5
   dual,   ///< alpha, with a second color for dual source blending
   holes,  ///< lit; discards fragments with an alpha below `threshold`
   holes_visible,

@@ -19,7 +19,7 @@ struct MatrixJob {
 
 /// These add the draw calls of a row. Each accepts some of the fragment functions.
 void draw_matrix_lit(Pass& pass, const MatrixJob& job);
-void draw_matrix_blended(Pass& pass, const MatrixJob& job);  ///< alpha and dual
+void draw_matrix_blended(Pass& pass, const MatrixJob& job);  ///< alpha, tint and dual
 void draw_matrix_decided(Pass& pass, const MatrixJob& job);  ///< holes and depth, with and without visibility
 void draw_matrix_varyings(Pass& pass, const MatrixJob& job);
 void draw_matrix_full_screen(Pass& pass, const MatrixJob& job);

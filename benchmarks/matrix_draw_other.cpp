@@ -6,6 +6,7 @@ namespace halfspace {
 
 void draw_matrix_blended(Pass& pass, const MatrixJob& job) {
   if (job.row.shader == MatrixShader::dual) return matrix::draw_textured<MatrixDual>(pass, job);
+  if (job.row.shader == MatrixShader::tint) return matrix::draw_textured<MatrixTint>(pass, job);
   matrix::draw_textured<MatrixAlpha>(pass, job);
 }
 

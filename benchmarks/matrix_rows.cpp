@@ -99,6 +99,8 @@ void add_blending(std::vector<MatrixRow>& rows) {
   };
   triangles_row("blend_small", "200,000 blended triangles of 8 pixels", 200'000, 8);
   triangles_row("blend_medium", "20,000 blended triangles of 100 pixels", 20'000, 100);
+  triangles_row("blend_medium_tint", "blend_medium without a texture", 20'000, 100);
+  rows.back().shader = Shader::tint;
   triangles_row("blend_large", "200 blended triangles of 800 pixels", 200, 800);
 }
 

@@ -142,6 +142,12 @@ struct MatrixPassColor : MatrixPass {
     return {vec4<R>(in.uv.x, in.uv.y, R(0.5f), R(1))};
   }
 };
+struct MatrixTint : MatrixPass {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {vec4<R>(in.uv.x, in.uv.y, R(0.5f), R(0.5f))};
+  }
+};
 struct MatrixPassTexture : MatrixPass {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {

@@ -37,6 +37,7 @@ class MatrixWorkload final : public Workload {
       case MatrixShader::lit: draw_matrix_lit(pass, job_); break;
       case MatrixShader::varyings: draw_matrix_varyings(pass, job_); break;
       case MatrixShader::alpha:
+      case MatrixShader::tint:
       case MatrixShader::dual: draw_matrix_blended(pass, job_); break;
       case MatrixShader::constant:
       case MatrixShader::color:

@@ -201,6 +201,23 @@ def measure_sweeps(runners, args, progress_of):
     return rows
 
 
+def measure_matrix(runners, args, progress_of):
+    """Measures the matrix of states with all threads, at 1920x1080. The pictures of OpenGL are compared with those of Halfspace at 320x180."""
+    program = args.native / "halfspace-bench"
+    out = subprocess.run([program, "--matrix", "--list"], capture_output=True, text=True, check=True).stdout
+    names = [line.split()[0] for line in out.splitlines()]
+    chosen = [r for r in runners if r.key in (f"halfspace v3 {args.threads}", f"halfspace native {args.threads}", f"llvmpipe {args.threads}")]
+    pictures = {}
+    for r in chosen:
+        for line in r.run("--matrix", "--size", "320x180", "--seconds", "0", "--check", str(args.truths / "matrix")) or []:
+            pictures[r.key, line["workload"]] = {key: line[key] for key in ("picture", "difference") if key in line}
+    rounds = min(args.rounds, 3)
+    everyone = [Contender(r.key, r.command, r.threads) for r in chosen]
+    progress = progress_of(len(names) * rounds * len(everyone))
+    got = measure_rounds(everyone, names, ["1920x1080"], rounds, min(args.seconds, 0.2), ("--matrix",), progress)
+    return [{**row, **pictures.get((row["contender"], row["workload"]), {})} for row in got]
+
+
 def measure_threads(runners, args, progress_of):
     """Measures thread counts from 1 to twice the number of cores."""
     rows = []
@@ -238,6 +255,7 @@ def main():
     parser.add_argument("--rounds", type=int)
     parser.add_argument("--seconds", type=float, help="time per program and round")
     parser.add_argument("--no-sweeps", action="store_true", help="skip the parameter sweeps")
+    parser.add_argument("--no-matrix", action="store_true", help="skip the matrix of states")
     parser.add_argument("--quick", action="store_true", help="fewer and shorter rounds, without the largest meshes and images")
     args = parser.parse_args()
     args.rounds = args.rounds or (1 if args.quick else 5)
@@ -251,6 +269,7 @@ def main():
     results["limits"] = measure_limits(args.native / "halfspace-limits", args.threads, args.quick)
     progress = Progress(len(sizes) * args.rounds * sum(r.draws(name) for r in runners for name in names))
     results["workloads"] = measure_rounds(runners, names, sizes, args.rounds, args.seconds, progress=progress)
+    results["matrix"] = [] if args.no_matrix else measure_matrix(runners, args, Progress)
     results["sweeps"] = []
     if not args.no_sweeps:
         for measure in (measure_sweeps, measure_threads, measure_sizes):

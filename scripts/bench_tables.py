@@ -53,6 +53,11 @@ class Results:
         return math.exp(sum(map(math.log, found)) / len(found)) if found else None
 
 
+def mean_of_matrix(ratios, cap):
+    """The geometric mean of the rows of the matrix, each counted as at most cap, so that a few easy rows do not outweigh the others."""
+    return math.exp(sum(math.log(min(r, cap)) for r in ratios) / len(ratios)) if ratios else None
+
+
 def number(value):
     if value is None:
         return "–"
@@ -97,6 +102,37 @@ def time_table(results, size):
 
     rows = [[w, *(number(results.ms(c, w, size)) for c in columns), spread(w)] for w in results.names]
     return table([f"{size}, ms", *columns, f"rounds of native {n} / median"], rows)
+
+
+def matrix_table(results):
+    """Times of the rows of the matrix, llvmpipe's divided by ours, and both relative to the plain row."""
+    n = results.threads
+    rows = {(r["workload"], r["contender"]): r for r in results.raw.get("matrix", [])}
+    names = list(dict.fromkeys(workload for workload, _ in rows))
+    builds = [b for b in ("v3", "native") if ("plain", f"halfspace {b} {n}") in rows]
+
+    def ms(name, contender):
+        return rows[name, contender]["ms"] if (name, contender) in rows else None
+
+    def ratio(a, b):
+        return a / b if a and b else None
+
+    peer = f"llvmpipe {n}"
+    head = ["state", *(f"halfspace {b}, ms" for b in builds), "llvmpipe, ms", *(f"{b} vs llvmpipe" for b in builds),
+            *(f"{b} / plain" for b in builds), "llvmpipe / plain"]
+    lines, means = [], {b: [] for b in builds}
+    for name in names:
+        ours = {b: ms(name, f"halfspace {b} {n}") for b in builds}
+        theirs = ms(name, peer)
+        for b in builds:
+            if ratio(theirs, ours[b]):
+                means[b].append(ratio(theirs, ours[b]))
+        lines.append([name, *(number(ours[b]) for b in builds), number(theirs), *(times(ratio(theirs, ours[b])) for b in builds),
+                      *(times(ratio(ours[b], ms("plain", f"halfspace {b} {n}"))) for b in builds), times(ratio(theirs, ms("plain", peer)))])
+    caps = {"v3": 6, "native": 9}
+    lines.append(["**geometric mean**", *("" for _ in builds), "", *(times(mean_of_matrix(means[b], caps[b])) for b in builds),
+                  *("" for _ in builds), ""])
+    return table(head, lines)
 
 
 def ratio_table(results, size):
@@ -232,5 +268,6 @@ def sections(results):
         "resources": by_size(resource_table),
         "limits": stamped(limit_table(results)),
         "growth": stamped(growth_table(results)),
+        "matrix": stamped(matrix_table(results)) if results.raw.get("matrix") else "The matrix was not measured.",
         "readme": means + "\n\n" + source_line(results),
     }

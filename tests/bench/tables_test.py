@@ -32,6 +32,8 @@ def results(**changes):
         "pictures": [picture("halfspace native 1", "fill", 0, 0.25), picture("llvmpipe 1", "fill", 0, 0.25),
                      picture("halfspace native 1", "tiny_1m", 10, 0.25), picture("llvmpipe 1", "tiny_1m", 20, 0.30)],
         "limits": [{"limit": "memset 512x512", "unit": "GB/s", "value": 4.0, "threads": n} for n in (1, 2)] + [{"limit": "clock", "unit": "GHz", "value": 3.0, "threads": 1}],
+        "matrix": [row(who, w, ms, 2) for who, w, ms in (("halfspace v3 2", "plain", 2.0), ("llvmpipe 2", "plain", 6.0),
+                                                         ("halfspace v3 2", "srgb", 1.0), ("llvmpipe 2", "srgb", 12.0))],
         "sweeps": [{"sweep": "triangle_count", "x": x, "ms": x * 1e-5, "contender": "halfspace native 1", "workload": f"triangle_count={x}"} for x in (1e4, 1e5, 1e6)],
     }
     raw.update(changes)
@@ -79,6 +81,11 @@ class Tables(unittest.TestCase):
         self.assertEqual("AMD EPYC (family 25, model 17)", bench_measure.cpu_name(of_cores.format(25)))
         self.assertEqual("AMD EPYC (family 26, model 17)", bench_measure.cpu_name(of_cores.format(26)))
         self.assertEqual("Some core", bench_measure.cpu_name("model name : Some core\n"))
+
+    def test_matrix_caps_ratios_in_the_mean(self):
+        lines = bench_tables.matrix_table(results()).splitlines()
+        self.assertIn("| srgb | 1.00 | 12.0 | 12.00x | 0.50x | 2.00x |", lines)
+        self.assertIn("4.24x", lines[-1])  # the square root of 3 · 6, not of 3 · 12
 
     def test_every_section_is_made(self):
         for name, text in bench_tables.sections(results()).items():

@@ -35,6 +35,7 @@ std::string macros_of(const MatrixRow& row) {
     case MatrixShader::varyings:
       return text + fmt::format("#define VARYINGS {}\n", row.varyings) + list("ALL_VARYINGS", "VARYING", row.varyings / 4);
     case MatrixShader::alpha: return text + "#define ALPHA\n";
+    case MatrixShader::tint: return text + "#define TINT\n";
     case MatrixShader::dual: return text + "#define DUAL\n";
     case MatrixShader::holes:
     case MatrixShader::holes_visible: return text + "#define HOLES\n";
@@ -93,7 +94,7 @@ class GlMatrix final : public Workload {
     depth_ = target_.read_depth();
     return {&color_, &depth_};
   }
-  bool has_truth() const override { return row_.is_exact; }
+  bool has_truth() const override { return false; }  // Halfspace is compared with the truth, and this picture with Halfspace's
   WorkloadTruth truth() const override { return make_twin()->truth(); }
   std::unique_ptr<Workload> twin() const override { return row_.is_comparable ? make_twin() : nullptr; }
 
@@ -104,7 +105,8 @@ class GlMatrix final : public Workload {
   }
   // No lookup depends on these shaders' uniforms.
   bool is_constant() const {
-    return row_.shader == MatrixShader::varyings || row_.shader == MatrixShader::constant || row_.shader == MatrixShader::color;
+    return row_.shader == MatrixShader::varyings || row_.shader == MatrixShader::constant || row_.shader == MatrixShader::color ||
+           row_.shader == MatrixShader::tint;
   }
   DepthFormat depth_format() const { return row_.mesh == MatrixMesh::quad ? DepthFormat::none : row_.depth; }
 

@@ -90,6 +90,8 @@ void main() {
 void main() { result = vec4(0.25, 0.5, 0.75, 1.0); }
 #elif defined(COLOR)
 void main() { result = vec4(uv, 0.5, 1.0); }
+#elif defined(TINT)
+void main() { result = vec4(uv, 0.5, 0.5); }
 #elif defined(TEXTURE)
 void main() { result = vec4(texture(maps[0], uv).rgb, 1.0); }
 #else
