@@ -25,7 +25,7 @@ void ScenePanel::draw(Viewer& viewer, double ui_scale) {
   ImGui::SetNextWindowSize({width(ui_scale), display.y}, ImGuiCond_Always);
   std::vector<std::string> settings;
   ImGui::Begin("Scene", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
-  ImGui::PushItemWidth(-130.0f * scale);
+  ImGui::PushItemWidth(-std::min(130.0f * scale, 0.4f * width(ui_scale)));  // the rest is for names
   for (const NamedSection& section : sections_) {
     const std::string title = section.path.empty() ? "scene" : section.path;
     if (!ImGui::CollapsingHeader(title.c_str(), section.path.empty() ? ImGuiTreeNodeFlags_DefaultOpen : 0)) continue;
