@@ -4,8 +4,8 @@
 #include "halfspace/core/cpu.h"
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/page_encode.h"
-#include "halfspace/explain/page_quotes.h"
 #include "halfspace/explain/page_history.h"
+#include "halfspace/explain/page_quotes.h"
 #include "halfspace/explain/pixel_history.h"
 #include "halfspace/raster/tile/tile.h"
 

@@ -23,8 +23,8 @@ struct PageInput {
   const StageGeometry& geometry;
   const Image<glm::vec4>& light;
   const ValuePictures& values;
-  glm::ivec2 pixel;      ///< the example pixel, from the upper left
-  uint32_t primitive;    ///< the example primitive, visible at the pixel; kNoPrimitive: none
+  glm::ivec2 pixel;    ///< the example pixel, from the upper left
+  uint32_t primitive;  ///< the example primitive, visible at the pixel; kNoPrimitive: none
   const Workers& workers;
 };
 inline constexpr uint32_t kNoPrimitive = 0xffffffffu;

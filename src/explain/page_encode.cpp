@@ -39,8 +39,7 @@ std::string packed_bytes(std::span<const std::byte> bytes) {
   const std::size_t pixels = (bytes.size() + 2) / 3;
   Image<glm::u8vec4> image(kPackedWidth, static_cast<int>((pixels + kPackedWidth - 1) / kPackedWidth));
   std::fill_n(image.data(), image.texels().size(), glm::u8vec4(0, 0, 0, 255));
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-    image.data()[i / 3][static_cast<int>(i % 3)] = std::to_integer<uint8_t>(bytes[i]);
+  for (std::size_t i = 0; i < bytes.size(); ++i) image.data()[i / 3][static_cast<int>(i % 3)] = std::to_integer<uint8_t>(bytes[i]);
   return base64(encode_png(image, PngCodes::numbers));
 }
 

@@ -16,9 +16,15 @@ namespace {
 constexpr std::size_t kMaxWireTriangles = 4000, kWireRun = 32, kMaxClipped = 24;
 
 PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Triangle& t) {
-  PageJson json{{"x", t.x},           {"y", t.y},         {"z0", t.z0},
-                {"z_edge1", t.z_edge1}, {"z_edge2", t.z_edge2}, {"z_max", t.z_max},
-                {"front", t.is(kFrontFacing)}, {"small", t.is(kSmall)}, {"clipped", t.is(kClipped)}};
+  PageJson json{{"x", t.x},
+                {"y", t.y},
+                {"z0", t.z0},
+                {"z_edge1", t.z_edge1},
+                {"z_edge2", t.z_edge2},
+                {"z_max", t.z_max},
+                {"front", t.is(kFrontFacing)},
+                {"small", t.is(kSmall)},
+                {"clipped", t.is(kClipped)}};
   const PixelBounds box = pixel_bounds(draw, t, draw.bounds, context.samples_at);
   json["box"] = {box.x0, box.y0, box.x1, box.y1};
   json["covered"] = covered_pixels(context, draw, t);
@@ -115,7 +121,9 @@ PageJson draws_json(const PageInput& in) {
     const Draw& d = in.context.draws[i];
     json.push_back({{"object", object_name(in.description, draw)},
                     {"copy", draw.source.instance},
-                    {"kind", draws_points(draw.state) ? "points" : is_lines(draw.state.topology) ? "lines" : "triangles"},
+                    {"kind", draws_points(draw.state)        ? "points"
+                             : is_lines(draw.state.topology) ? "lines"
+                                                             : "triangles"},
                     {"vertices", d.vertex_count},
                     {"primitives", d.primitive_count * draw.state.instances},
                     {"cull", kCull[static_cast<std::size_t>(draw.state.cull)]},
@@ -223,11 +231,22 @@ PageJson perspective_json(const PageInput& in) {
       inv_w[k] = v.inv_w;
       xy[k] = {v.x, v.y};
     }
-    const Triangle ordered{.x = {xy[0][0], xy[1][0], xy[2][0]}, .y = {xy[0][1], xy[1][1], xy[2][1]}, .z0 = 0, .z_edge1 = 0, .z_edge2 = 0, .z_max = 0, .vertex = {}, .flags = 0};
+    const Triangle ordered{.x = {xy[0][0], xy[1][0], xy[2][0]},
+                           .y = {xy[0][1], xy[1][1], xy[2][1]},
+                           .z0 = 0,
+                           .z_edge1 = 0,
+                           .z_edge2 = 0,
+                           .z_max = 0,
+                           .vertex = {},
+                           .flags = 0};
     const double error = affine_error(ordered, inv_w), visible = std::min(error, height_of(ordered));  // not of slivers
     if (!(visible > worst)) continue;
     worst = visible;
-    json = {{"object", object_name(in.description, in.scene.draws[p.draw])}, {"primitive", p.index}, {"xy", xy}, {"inv_w", inv_w}, {"error", error}};
+    json = {{"object", object_name(in.description, in.scene.draws[p.draw])},
+            {"primitive", p.index},
+            {"xy", xy},
+            {"inv_w", inv_w},
+            {"error", error}};
   }
   return json;
 }

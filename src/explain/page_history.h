@@ -14,7 +14,8 @@ namespace halfspace {
 /// fragments; the number of the others is stored.
 inline constexpr std::size_t kMaxPageFragments = 1'600'000, kMaxPageValues = 1'500'000;
 
-/// Returns the largest number of fragments per pixel, at most FrameTrace::kMaxFragments, with which a page has at most `most` fragments, or 1.
+/// Returns the largest number of fragments per pixel, at most FrameTrace::kMaxFragments, with which a page has at most `most` fragments,
+/// or 1.
 uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t most);
 
 /// Returns the indices of the fragments of a pixel that a page keeps, in order: the shaded ones, and then the first ones of the others.

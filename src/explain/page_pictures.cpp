@@ -87,8 +87,8 @@ std::string barycentric_picture(const PageInput& in) {
 }  // namespace
 
 PageJson pictures_json(const PageInput& in, const Image<glm::u8vec4>& picture) {
-  return {{"final", picture_uri(picture)},           {"normal", normal_picture(in)},     {"uv", uv_picture(in)},
-          {"position", position_picture(in)},        {"albedo", albedo_picture(in)},     {"triangles", triangle_picture(in)},
+  return {{"final", picture_uri(picture)},          {"normal", normal_picture(in)}, {"uv", uv_picture(in)},
+          {"position", position_picture(in)},       {"albedo", albedo_picture(in)}, {"triangles", triangle_picture(in)},
           {"barycentrics", barycentric_picture(in)}};
 }
 

@@ -14,7 +14,7 @@ namespace halfspace {
 /// A vertex in every space. The renderer computes clip, window and outcode; the other positions are the same transform step by step, in
 /// double.
 struct StageVertex {
-  uint32_t index = 0;                        ///< in the mesh
+  uint32_t index = 0;                                               ///< in the mesh
   std::optional<glm::dvec3> position_os, position_ws, position_vs;  ///< not for the background, which has no mesh
   glm::vec4 clip{0.0f};
   glm::vec3 ndc{0.0f};  ///< clip / w

@@ -55,18 +55,20 @@ struct MipLevels {
 
 struct ColorMapOf {
   template <class S>
-  requires std::derived_from<S, LitSurface>
-  MipLevels operator()(const S& s) const {
+  requires std::derived_from<S, LitSurface> MipLevels operator()(const S& s) const {
     PlacedMap map;
     map.map = s.factors[kColor].map;
     map.sampler = s.factors[kColor].sampler;
     return {s.clip_from_object, map};
   }
   template <class S>
-  requires std::derived_from<S, MetallicMaterial>
-  MipLevels operator()(const S& s) const { return {s.clip_from_object, s.maps[kBaseColorMap]}; }
+  requires std::derived_from<S, MetallicMaterial> MipLevels operator()(const S& s) const {
+    return {s.clip_from_object, s.maps[kBaseColorMap]};
+  }
   template <class S>
-  MipLevels operator()(const S&) const { return {glm::mat4(0.0f), {}}; }
+  MipLevels operator()(const S&) const {
+    return {glm::mat4(0.0f), {}};
+  }
 };
 
 VertexStream uv_stream(std::span<const glm::vec2> uvs, std::size_t vertices) {
@@ -78,8 +80,8 @@ VertexStream uv_stream(std::span<const glm::vec2> uvs, std::size_t vertices) {
 
 Image<float> depth_buffer(const PreparedScene& scene, const Workers& workers) {
   Image<float> depth(scene.view.width_px, scene.view.height_px);
-  Pass pass(depth.width(), depth.height(), ColorTarget{.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, d32f_target(depth, 0.0f),
-            {.samples = scene.samples});
+  Pass pass(depth.width(), depth.height(), ColorTarget{.format = ColorFormat::rgba32f, .store = StoreOp::dont_care},
+            d32f_target(depth, 0.0f), {.samples = scene.samples});
   for (const PreparedDraw& draw : scene.draws) add_draw(pass, draw, draw.state);
   pass.run(workers);
   return depth;

@@ -22,8 +22,8 @@ ValuePictures value_pictures(const PreparedScene& scene, const Workers& workers)
 
 /// The look-up of the color map at a pixel.
 struct MipLookup {
-  float lod = 0;         ///< level of detail; negative: the map is magnified
-  float probes = 0;      ///< number of probes of an anisotropic look-up; 0: there is no map here
+  float lod = 0;                   ///< level of detail; negative: the map is magnified
+  float probes = 0;                ///< number of probes of an anisotropic look-up; 0: there is no map here
   float scale_x = 0, scale_y = 0;  ///< steps in texels of level 0 to the next pixel to the right and up
 };
 /// Returns the look-ups of the color maps of all opaque surfaces.

@@ -17,14 +17,14 @@ inline constexpr int kShadowReach = 6;
 inline constexpr int kShadowSide = 2 * kShadowReach + 1;
 
 struct ShadowLookup {
-  int view = -1;          ///< index of the view that contains the point; −1: none, the point is lit
+  int view = -1;  ///< index of the view that contains the point; −1: none, the point is lit
   glm::vec3 position_rws{0.0f}, normal_ws{0.0f}, to_light_ws{0.0f};
-  float x = 0, y = 0;     ///< in texels from the lower left corner of the map
-  float depth = 0;        ///< reversed window depth of the point, without bias
-  float biased = 0;       ///< the same with bias
-  float depth_dx = 0, depth_dy = 0;  ///< slope of the plane that texels are compared with, per texel
-  float factor = 1;       ///< fraction of the light that arrives
-  int i = 0, j = 0;       ///< texel that contains the point
+  float x = 0, y = 0;                                     ///< in texels from the lower left corner of the map
+  float depth = 0;                                        ///< reversed window depth of the point, without bias
+  float biased = 0;                                       ///< the same with bias
+  float depth_dx = 0, depth_dy = 0;                       ///< slope of the plane that texels are compared with, per texel
+  float factor = 1;                                       ///< fraction of the light that arrives
+  int i = 0, j = 0;                                       ///< texel that contains the point
   std::array<float, kShadowSide * kShadowSide> texels{};  ///< depths around (i, j), lowest row first
   std::array<float, kShadowSide * kShadowSide> lit{};     ///< 1: the texel does not occlude the point
 };

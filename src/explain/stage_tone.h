@@ -17,11 +17,11 @@ namespace halfspace {
 inline constexpr int kLowStop = -16, kHighStop = 16, kBinsPerStop = 8;
 
 struct StageTone {
-  ToneMapping tone;             ///< with the exposure of this frame
-  double log_average = 0.0;     ///< with auto_exposure: the measured luminance
+  ToneMapping tone;          ///< with the exposure of this frame
+  double log_average = 0.0;  ///< with auto_exposure: the measured luminance
   bool hdr = false;
-  std::vector<uint32_t> histogram;  ///< of the luminance of all pixels
-  uint32_t dark = 0, bright = 0;    ///< pixels below the first bin, and above the last
+  std::vector<uint32_t> histogram;          ///< of the luminance of all pixels
+  uint32_t dark = 0, bright = 0;            ///< pixels below the first bin, and above the last
   std::vector<std::array<float, 2>> curve;  ///< light before exposure, and display light
 };
 

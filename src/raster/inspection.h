@@ -26,8 +26,8 @@ PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);
 /// Runs a pass and traces its fragments. Images and statistics are the same as with Pass::run().
 PassStatistics run_traced(Pass& pass, const Workers& workers, PassTrace& trace);
 
-/// Runs a pass and measures its tiles: ms receives the time of each tile in milliseconds, row by row from the lower left, over all rounds. It is
-/// 0 for tiles that are filled together with others because they have a constant color.
+/// Runs a pass and measures its tiles: ms receives the time of each tile in milliseconds, row by row from the lower left, over all rounds.
+/// It is 0 for tiles that are filled together with others because they have a constant color.
 PassStatistics run_timed(Pass& pass, const Workers& workers, std::vector<float>& ms);
 
 /// Runs the stages of a pass up to binning and calls visit(context, round) in each round. Nothing is drawn.

@@ -37,7 +37,8 @@ TEST_F(ExplainPage, PrintsNothing) {
 
 TEST_F(ExplainPage, ContainsTheCommandThatMakesIt) {
   EXPECT_EQ(run({"explain", "earth", "--size", "64x36", "--set", "earth.normal=none", "-o", "page.html"}).exit_code, 0);
-  EXPECT_NE(read_bytes(directory / "page.html").find(R"("halfspace explain earth --size 64x36 --set earth.normal=none")"), std::string::npos);
+  EXPECT_NE(read_bytes(directory / "page.html").find(R"("halfspace explain earth --size 64x36 --set earth.normal=none")"),
+            std::string::npos);
 }
 
 struct Refused {

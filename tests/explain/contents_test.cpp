@@ -29,8 +29,9 @@ nlohmann::json data_of(const std::string& page) {
 
 TEST(Page, HasAllChapters) {
   const std::string page = page_of("earth", 2);
-  for (const char* id : {"frame", "spaces", "clipping", "culling", "setup", "binning", "coverage", "depth", "interpolation", "varyings", "mips",
-                         "lighting", "shadows", "tone", "srgb", "samples", "layers", "final", "history", "overdraw", "times", "statistics"})
+  for (const char* id : {"frame",         "spaces",   "clipping", "culling",  "setup",   "binning",   "coverage", "depth",
+                         "interpolation", "varyings", "mips",     "lighting", "shadows", "tone",      "srgb",     "samples",
+                         "layers",        "final",    "history",  "overdraw", "times",   "statistics"})
     EXPECT_NE(page.find("id: \"" + std::string(id) + "\""), std::string::npos) << id;
   EXPECT_EQ(page.find("http://") != std::string::npos, page.find("http://www.w3.org/2000/svg") != std::string::npos);
   EXPECT_EQ(page.find("https://"), std::string::npos) << "the page must not need a network";

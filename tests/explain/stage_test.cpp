@@ -3,12 +3,12 @@
 // The data of the stages: against values computed by hand, and against the pipeline itself.
 #include <gtest/gtest.h>
 
+#include "explain/prepared.h"
 #include "halfspace/explain/stage_example.h"
 #include "halfspace/explain/stage_geometry.h"
 #include "halfspace/explain/stage_shadow.h"
 #include "halfspace/explain/stage_terms.h"
 #include "halfspace/explain/stage_tone.h"
-#include "explain/prepared.h"
 
 namespace halfspace {
 namespace {
