@@ -176,8 +176,9 @@ HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
   RecentTriangles<F> recent;
   // Initializes all values, which GCC 12 cannot derive from `only`.
   triangles.only = {batch.ids[0], batch.ids[0]};
-  spread_triangle<0>(recent.of(*batch.context, batch.ids[0]), triangles);
-  spread_triangle<1>(recent.of(*batch.context, batch.ids[0]), triangles);
+  const auto& scalars = recent.first(*batch.context, batch.ids[0]);
+  spread_triangle<0>(scalars, triangles);
+  spread_triangle<1>(scalars, triangles);
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);
     const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);

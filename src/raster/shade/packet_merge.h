@@ -21,6 +21,9 @@ class RecentTriangles {
  public:
   using Scalars = TriangleScalars<kComponents<V>, with_id>;
 
+  /// Returns the values of the first triangle. The cache must be empty.
+  HS_INLINE const Scalars& first(const PassContext& context, TriangleId id) { return add(context, id); }
+
   /// Returns the values of a triangle. The result of the previous call remains valid.
   HS_INLINE const Scalars& of(const PassContext& context, TriangleId id) {
     uint32_t same = 0;
