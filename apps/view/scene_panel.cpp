@@ -32,7 +32,7 @@ void ScenePanel::draw(Viewer& viewer, double ui_scale) {
     ImGui::PushID(title.c_str());
     for (const Field& field : fields_of(section.section)) {
       const std::optional<std::string> text = draw_key(field);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", field.key->help);
+      if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", field.key->help);
       if (text) settings.push_back((section.path.empty() ? "" : section.path + ".") + field.key->name + "=" + *text);
     }
     ImGui::PopID();
