@@ -51,9 +51,9 @@ std::vector<std::string> names_of(const CLI::App& app, bool options) {
   return names;
 }
 
-std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {
+std::string suggested_word(std::string_view wrong, const std::vector<std::string>& names) {
   const std::vector<std::string_view> views(names.begin(), names.end());
-  return halfspace::suggestion(wrong, views);
+  return suggestion(wrong, views);
 }
 
 std::string see_help(const CLI::App& program) {
@@ -69,7 +69,7 @@ UsageError unknown_argument(const CLI::App& program) {
   if (rest.empty()) rest = program.remaining();
   const std::string word = rest.empty() ? "" : rest.front();
   if (word.starts_with("-"))
-    return UsageError("unknown option '" + word + "'" + suggestion(word.substr(0, word.find('=')), names_of(app, true)));
+    return UsageError("unknown option '" + word + "'" + suggested_word(word.substr(0, word.find('=')), names_of(app, true)));
   if (chosen.empty() && !names_of(program, false).empty())
     return UsageError("unknown command '" + word + "'" + suggested_command(word, program));
   return UsageError((chosen.empty() ? "" : app.get_name() + ": ") + "unexpected argument '" + word + "'" + see_help(program));
@@ -123,7 +123,7 @@ class HelpFormatter : public CLI::Formatter {
 
 }  // namespace
 
-std::string suggested_command(std::string_view wrong, const CLI::App& program) { return suggestion(wrong, names_of(program, false)); }
+std::string suggested_command(std::string_view wrong, const CLI::App& program) { return suggested_word(wrong, names_of(program, false)); }
 
 std::vector<std::string> words_after(const CLI::App& program, const std::string& command) {
   if (command.empty()) return names_of(program, false);

@@ -17,14 +17,14 @@ namespace halfspace {
 struct ExplainJob {
   const SceneDescription& scene;
   const PreparedScene& prepared;
+  std::string title;                ///< the scene as named by the user
   std::optional<glm::ivec2> pixel;  ///< the pixel that the user chose, from the upper left
   std::string command;              ///< command line that shows the history of a pixel if "--pixel X,Y --text" is appended
   const Workers& workers;
 };
 
 /// Returns the history of the chosen or busiest pixel as text or JSON (explain_history.cpp).
-std::string history_text(const ExplainJob& job);
-std::string history_json(const ExplainJob& job);
+std::string explained_history(const ExplainJob& job, bool json);
 
 inline constexpr const char* kExplainSize = "640x360";  ///< default of --size
 

@@ -6,23 +6,11 @@
 
 namespace halfspace {
 
-namespace {
-
-PixelHistory explained_history(const ExplainJob& job, const FrameTrace& trace) {
+std::string explained_history(const ExplainJob& job, bool json) {
+  const FrameTrace trace = trace_frame(job.prepared, job.workers);
   const glm::ivec2 pixel = job.pixel.value_or(trace.busiest_pixel());
-  return pixel_histories(job.scene, job.prepared, trace, std::span(&pixel, 1), job.workers)[0];
-}
-
-}  // namespace
-
-std::string history_text(const ExplainJob& job) {
-  const FrameTrace trace = trace_frame(job.prepared, job.workers);
-  return history_text(job.command, explained_history(job, trace), trace);
-}
-
-std::string history_json(const ExplainJob& job) {
-  const FrameTrace trace = trace_frame(job.prepared, job.workers);
-  return history_json(explained_history(job, trace), trace);
+  const PixelHistory history = pixel_histories(job.scene, job.prepared, trace, std::span(&pixel, 1), job.workers)[0];
+  return json ? history_json(history, trace) : history_text(job.title, history, trace);
 }
 
 }  // namespace halfspace
