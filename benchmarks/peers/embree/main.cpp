@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
                             .start = {},
                             .kinds = [] { return embree_workloads(); },
                             .sweeps = [] { return embree_sweeps(); },
+                            .matrix = {},
                             .identity =
                                 [] {
                                   return nlohmann::ordered_json{{"program", "embree"}, {"arch", build_arch()}, {"lanes", kLanes}};
