@@ -24,16 +24,23 @@ using Corners = std::vector<glm::vec4>;
 Corners whole(float z) { return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}}; }
 Corners part(float z) { return {{-0.9f, -0.9f, z, 1}, {0.9f, -0.9f, z, 1}, {-0.9f, 0.9f, z, 1}}; }
 
-// Discards everything, in the fragment function or in the visibility function.
-template <bool early>
+// Two small triangles of one draw. They fit into a queue together with any number of lanes.
+Corners two_small(float z0, float z1) {
+  Corners corners;
+  for (const float z : {z0, z1}) corners.insert(corners.end(), {{-0.05f, -0.05f, z, 1}, {0.1f, -0.05f, z, 1}, {-0.05f, 0.1f, z, 1}});
+  return corners;
+}
+
+// Discards or keeps everything, in the fragment function or in the visibility function.
+template <bool early, bool keeps = false>
 struct DiscardingShader : PositionShader {
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
-    return {vec4<R>(R(1)), MaskOf<R>(false)};
+    return {vec4<R>(R(1)), MaskOf<R>(keeps)};
   }
   template <class R>
   requires early Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px)
-  const { return {MaskOf<R>(false), px.z()}; }
+  const { return {MaskOf<R>(keeps), px.z()}; }
 };
 
 // A pass, its image and its trace.
@@ -144,6 +151,51 @@ TEST(PassTrace, DiscardedFragmentsHaveOnlyRunAFragmentFunctionIfThatDecides) {
   EXPECT_EQ(t.outcomes(10, 10), (Outcomes{discarded, discarded}));
   EXPECT_TRUE(t.at(10, 10)[0].is_shaded);
   EXPECT_FALSE(t.at(10, 10)[1].is_shaded);
+}
+
+TEST(PassTrace, QueuedTrianglesAreBlendedOneAfterAnother) {
+  Traced t;
+  t.draw(ConstantShader({1, 0, 0, 0.5f}), two_small(0.5f, 0.0f), kAlphaBlendState);
+  t.run();
+  const std::vector<TracedFragment> f = t.at(31, 31);
+  EXPECT_EQ(t.outcomes(31, 31), (Outcomes{blended, blended}));
+  EXPECT_EQ(f[0].primitive, 0u);
+  EXPECT_EQ(f[0].value.x, 0.5f);
+  EXPECT_EQ(f[1].primitive, 1u);
+  EXPECT_EQ(f[1].value.x, 0.75f);
+}
+
+TEST(PassTrace, QueuedFragmentsCanFailAfterTheyWereShaded) {
+  Traced t;
+  t.draw(DiscardingShader<false, true>(), two_small(-0.5f, 0.0f));
+  t.run();
+  const std::vector<TracedFragment> f = t.at(31, 31);
+  EXPECT_EQ(t.outcomes(31, 31), (Outcomes{shaded, depth_failed}));
+  EXPECT_EQ(f[0].stored_depth, 1.0f);
+  EXPECT_TRUE(f[1].is_shaded);
+  EXPECT_EQ(f[1].tested_depth, 0.5f);
+  EXPECT_EQ(f[1].stored_depth, 0.25f);  // of the triangle before it in the queue
+}
+
+TEST(PassTrace, QueuedFragmentsThatAVisibilityFunctionKeepsAreTestedInOrder) {
+  Traced nearer_first, farther_first;
+  nearer_first.draw(DiscardingShader<true, true>(), two_small(-0.5f, 0.0f));
+  farther_first.draw(DiscardingShader<true, true>(), two_small(0.0f, -0.5f));
+  nearer_first.run();
+  farther_first.run();
+  EXPECT_EQ(nearer_first.outcomes(31, 31), (Outcomes{shaded, depth_failed}));
+  EXPECT_EQ(nearer_first.at(31, 31)[1].stored_depth, 0.25f);
+  EXPECT_FALSE(nearer_first.at(31, 31)[1].is_shaded);
+  EXPECT_EQ(farther_first.outcomes(31, 31), (Outcomes{hidden_before_shading, shaded}));
+}
+
+TEST(PassTrace, QueuedLayersAllTakeTheValueAfterBlending) {
+  Traced t;
+  t.draw(ConstantShader({0, 1, 0, 0.5f}), two_small(-0.5f, 0.0f), {.depth = {.write = false}, .order_independent = true});
+  t.run();
+  EXPECT_EQ(t.outcomes(31, 31), (Outcomes{layered, layered}));
+  for (const TracedFragment& f : t.at(31, 31)) EXPECT_EQ(f.value, t.image.at(31, kSize - 1 - 31));
+  EXPECT_EQ(t.image.at(31, kSize - 1 - 31).y, 0.75f);
 }
 
 TEST(PassTrace, StencilFailuresComeBeforeDepthFailures) {
