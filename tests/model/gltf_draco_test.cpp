@@ -102,7 +102,7 @@ GltfBuilder draco_file(const Patch& patch, const std::vector<std::byte>& stream,
   return file;
 }
 
-std::string error_of(const GltfJson& json, const ReadModelOptions& options = {}) {
+std::string draco_error(const GltfJson& json, const ReadModelOptions& options = {}) {
   return input_error([&] { GltfBuilder::read_text(json.dump(), options); });
 }
 
@@ -173,7 +173,7 @@ TEST_F(GltfDracoTest, TriangleStripsAreDecodedAsTriangles) {
 TEST_F(GltfDracoTest, RejectsWhatDoesNotMatchTheStream) {
   const Patch patch(4);
   const GltfJson good = draco_file(patch, compressed(patch, draco::MESH_SEQUENTIAL_ENCODING)).finished();
-  ASSERT_EQ(error_of(good), "(no error)");
+  ASSERT_EQ(draco_error(good), "(no error)");
   struct Case {
     void (*damage)(GltfJson&);
     const char* words;
@@ -194,7 +194,7 @@ TEST_F(GltfDracoTest, RejectsWhatDoesNotMatchTheStream) {
   for (const Case& c : cases) {
     GltfJson json = good;
     c.damage(json);
-    EXPECT_TRUE(tells(error_of(json), "/none/a.gltf: ", {c.words}));
+    EXPECT_TRUE(tells(draco_error(json), "/none/a.gltf: ", {c.words}));
   }
 }
 
@@ -202,7 +202,7 @@ TEST_F(GltfDracoTest, DamagedStreamsGiveOneLineOrAMesh) {
   const Patch patch(3);
   const std::vector<std::byte> good = compressed(patch, draco::MESH_EDGEBREAKER_ENCODING);
   const auto check = [&](const std::vector<std::byte>& stream) {
-    const std::string message = error_of(draco_file(patch, stream).finished(), {.max_memory = 64u << 20});
+    const std::string message = draco_error(draco_file(patch, stream).finished(), {.max_memory = 64u << 20});
     EXPECT_TRUE(message == "(no error)" || tells(message, "/none/a.gltf: ", {"expected"})) << message;
     return message != "(no error)";
   };
@@ -215,7 +215,7 @@ TEST_F(GltfDracoTest, DamagedStreamsGiveOneLineOrAMesh) {
       check(damaged);
     }
   }
-  EXPECT_EQ(error_of(draco_file(patch, good).finished()), "(no error)");
+  EXPECT_EQ(draco_error(draco_file(patch, good).finished()), "(no error)");
 }
 
 // The counts follow the header of 11 bytes as variable-length integers.
@@ -230,15 +230,15 @@ TEST_F(GltfDracoTest, HugeCountsAreRefused) {
     triangles ? stream.insert(stream.end(), kMost.begin(), kMost.end()) : stream.insert(stream.end(), good[11]);
     points ? stream.insert(stream.end(), kMost.begin(), kMost.end()) : stream.insert(stream.end(), good[12]);
     stream.insert(stream.end(), good.begin() + 13, good.end());
-    EXPECT_TRUE(tells(error_of(draco_file(patch, stream).finished(), {.max_memory = 64u << 20}), "/none/a.gltf: ", {"expected"}));
+    EXPECT_TRUE(tells(draco_error(draco_file(patch, stream).finished(), {.max_memory = 64u << 20}), "/none/a.gltf: ", {"expected"}));
   }
 }
 
 TEST_F(GltfDracoTest, MemoryIsLimited) {
   const Patch patch(200);
   const GltfJson json = draco_file(patch, compressed(patch, draco::MESH_EDGEBREAKER_ENCODING)).finished();
-  EXPECT_TRUE(tells(error_of(json, {.max_memory = 4u << 20}), "/none/a.gltf: ", {"expected"}));
-  EXPECT_EQ(error_of(json), "(no error)");
+  EXPECT_TRUE(tells(draco_error(json, {.max_memory = 4u << 20}), "/none/a.gltf: ", {"expected"}));
+  EXPECT_EQ(draco_error(json), "(no error)");
 }
 
 TEST_F(GltfDracoTest, WithoutADecoderAnUncompressedCopyIsRead) {
@@ -246,8 +246,8 @@ TEST_F(GltfDracoTest, WithoutADecoderAnUncompressedCopyIsRead) {
   const std::vector<std::byte> stream = compressed(patch, draco::MESH_EDGEBREAKER_ENCODING);
   set_tool_folder("/none");
   EXPECT_FALSE(can_decode_draco());
-  EXPECT_TRUE(tells(error_of(draco_file(patch, stream).finished()), "/none/a.gltf: ", {kDraco, "not installed"}));
-  EXPECT_TRUE(tells(error_of(draco_file(patch, stream, false).finished()), "/none/a.gltf: ", {kDraco, "not installed"}));
+  EXPECT_TRUE(tells(draco_error(draco_file(patch, stream).finished()), "/none/a.gltf: ", {kDraco, "not installed"}));
+  EXPECT_TRUE(tells(draco_error(draco_file(patch, stream, false).finished()), "/none/a.gltf: ", {kDraco, "not installed"}));
   GltfBuilder file = draco_file(patch, stream, false);
   file.json["accessors"][0]["bufferView"] = file.view(patch.positions);
   file.json["accessors"][6]["bufferView"] = file.view(patch.indices);

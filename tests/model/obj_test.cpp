@@ -17,7 +17,7 @@ std::string with_triangle(std::string_view text) { return std::string(kTriangle)
 
 glm::dvec3 position(const ModelMesh& mesh, std::size_t index) { return mesh.origin + glm::dvec3(mesh.positions[mesh.indices[index]]); }
 
-std::string cube(double size, const glm::dvec3& center) {
+std::string obj_cube(double size, const glm::dvec3& center) {
   std::string text;
   char line[200];
   for (int i = 0; i < 8; ++i) {
@@ -191,12 +191,12 @@ TEST(Obj, MakesOneMeshPerMaterialAndTopology) {
 
 // The positions relative to the origin must not depend on where the cube is, and must be proportional to its size.
 TEST(Obj, KeepsPrecisionFarAwayAndAtAllSizes) {
-  const ModelMesh near = read_obj_text(cube(0.75, glm::dvec3(0.0))).meshes[0];
-  const ModelMesh far = read_obj_text(cube(0.75, glm::dvec3(5e6))).meshes[0];
+  const ModelMesh near = read_obj_text(obj_cube(0.75, glm::dvec3(0.0))).meshes[0];
+  const ModelMesh far = read_obj_text(obj_cube(0.75, glm::dvec3(5e6))).meshes[0];
   EXPECT_EQ(near.positions, far.positions);
   EXPECT_EQ(far.origin, glm::dvec3(5e6));
   for (const double size : {0x1p-20, 0x1p20}) {
-    const ModelMesh scaled = read_obj_text(cube(0.75 * size, glm::dvec3(0.0))).meshes[0];
+    const ModelMesh scaled = read_obj_text(obj_cube(0.75 * size, glm::dvec3(0.0))).meshes[0];
     ASSERT_EQ(scaled.positions.size(), near.positions.size());
     EXPECT_EQ(scaled.indices, near.indices);
     for (std::size_t i = 0; i < near.positions.size(); ++i) {
