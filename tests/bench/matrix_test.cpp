@@ -17,7 +17,7 @@ void PrintTo(const MatrixRow& row, std::ostream* out) { *out << row.name; }
 
 namespace {
 
-constexpr WorkloadSize kSize{320, 180};
+constexpr WorkloadSize kMatrixSize{320, 180};
 
 const WorkloadKind& workload_of(const MatrixRow& row) { return matrix_workloads()[static_cast<std::size_t>(&row - matrix_rows().data())]; }
 
@@ -25,7 +25,7 @@ class MatrixPictures : public testing::TestWithParam<const MatrixRow*> {};
 
 TEST_P(MatrixPictures, MatchDoublePrecision) {
   WorkloadAssets assets;
-  const std::unique_ptr<Workload> workload = workload_of(*GetParam()).prepare(kSize, assets);
+  const std::unique_ptr<Workload> workload = workload_of(*GetParam()).prepare(kMatrixSize, assets);
   workload->frame(Workers(1));
   const Image<glm::u8vec4> first = *workload->picture().color;
   workload->frame(Workers(3));
@@ -34,7 +34,7 @@ TEST_P(MatrixPictures, MatchDoublePrecision) {
   // At this size, triangles are smaller than a pixel, and a vertex that is snapped differently in double precision changes which of them
   // covers a pixel center.
   const PictureErrors errors = picture_errors(workload->picture(), workload->truth(), 1e-4);
-  EXPECT_GT(errors.covered, kSize.width * kSize.height / 5);
+  EXPECT_GT(errors.covered, kMatrixSize.width * kMatrixSize.height / 5);
   EXPECT_LE(errors.colors_off, errors.covered / 500) << "worst " << errors.worst_color << "/255";
   EXPECT_LE(errors.depths_off, errors.covered / 500) << "worst " << errors.worst_depth;
 }
@@ -59,10 +59,10 @@ TEST(Matrix, NamesAreUnique) {
 TEST(Matrix, ScissorLimitsTheRow) {
   WorkloadAssets assets;
   const auto row = std::ranges::find(matrix_rows(), "scissor", &MatrixRow::name);
-  const std::unique_ptr<Workload> workload = workload_of(*row).prepare(kSize, assets);
+  const std::unique_ptr<Workload> workload = workload_of(*row).prepare(kMatrixSize, assets);
   workload->frame(Workers(1));
   const Image<float>& depth = *workload->picture().depth;
-  EXPECT_EQ(std::ranges::count_if(depth.texels(), [](float z) { return z < 1.0f; }), kSize.width / 2 * (kSize.height / 2));
+  EXPECT_EQ(std::ranges::count_if(depth.texels(), [](float z) { return z < 1.0f; }), kMatrixSize.width / 2 * (kMatrixSize.height / 2));
 }
 
 }  // namespace
