@@ -100,7 +100,7 @@ Study study_max_error(const StudyOptions& options, const Workers& workers) {
       .setting = fmt::format("Moon and Earth, {}x{}; labels: maximum error in px, or latitude bands and samples per pixel", width, height),
       .error_name = "largest error of the outline, in pixels",
       .time_name = "frame with its shadow maps; textures and meshes are cached",
-      .truth = {fmt::format("the same scene with {} bands", finest), 0.0, "estimated as a third of the difference from half as many bands"},
+      .truth = {fmt::format("the same scene with {} bands", finest), 0.0, "a third of the change from half as many bands"},
   };
   for (const std::string name : {"moon", "earth"}) {
     SceneFile file = SceneFile::open(name);

@@ -60,7 +60,7 @@ Study study_normals(const StudyOptions& options, const Workers& workers) {
           fmt::format("The Earth's relief in gray, lit at a grazing angle, {}x{}; labels give the number of latitude bands", width, height),
       .error_name = "mean error of linear light over the image",
       .time_name = "frame",
-      .truth = {fmt::format("displaced with {} bands, normals per pixel", finest), 0.0, "estimated as a third of the difference from half as many bands"},
+      .truth = {fmt::format("displaced with {} bands, normals per pixel", finest), 0.0, "a third of the change from half as many bands"},
   };
   SceneAssets assets(workers);
   Image<glm::vec4> truth(width, height), half(width, height);

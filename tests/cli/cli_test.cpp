@@ -369,7 +369,7 @@ TEST_F(Cli, ListPrintsScenesAndKeys) {
 
 TEST_F(Cli, CompletionScriptsWork) {
   for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
-  EXPECT_EQ(run({"completion", "words"}).out, "render\nexport\nconvert-normal\nvalidate\ncompare\nchart\nlist\ninfo\ncompletion\n");
+  EXPECT_EQ(run({"completion", "words"}).out, "render\nexplain\nexport\nconvert-normal\nvalidate\ncompare\nchart\nlist\ninfo\ncompletion\n");
   std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
 halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
 compopt() { :; }

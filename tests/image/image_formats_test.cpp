@@ -238,12 +238,16 @@ TEST_F(ToolFormats, ImageMagickReadsTheSamePixels) {
   write_image(directory / "a.tif", codes);
   write_image(directory / "a.jpg", codes);
   if (identify(directory / "a.jpg", "%m") != "JPEG") GTEST_SKIP() << "ImageMagick's identify is absent or reads no JPEG";
-  EXPECT_EQ(identify(directory / "a.exr", "%m %w %h"), "EXR 9 5");
+  const bool reads_exr = identify(directory / "a.exr", "%m") == "EXR";
+  if (reads_exr) {
+    EXPECT_EQ(identify(directory / "a.exr", "%m %w %h"), "EXR 9 5");
+  }
   EXPECT_EQ(identify(directory / "a.hdr", "%m %w %h"), "HDR 9 5");
   EXPECT_EQ(identify(directory / "a.tif", "%m %w %h %C %z"), "TIFF 9 5 Zip 8");
   EXPECT_EQ(identify(directory / "a.jpg", "%m %w %h %Q"), "JPEG 9 5 95");
   const double expected[] = {0.75, 0.5, 0.25};
-  for (const char* name : {"a.exr", "a.hdr", "a.tif"}) {
+  for (const std::string name : {"a.exr", "a.hdr", "a.tif"}) {
+    if (name == "a.exr" && !reads_exr) continue;  // some builds of ImageMagick lack OpenEXR
     const std::vector<double> numbers = numbers_in(identify(directory / name, "%[fx:p{3,2}.r] %[fx:p{3,2}.g] %[fx:p{3,2}.b]"));
     ASSERT_EQ(numbers.size(), 3u) << name;
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(numbers[c], expected[c], 0.003) << name;
