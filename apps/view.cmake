@@ -1,11 +1,11 @@
 # The window, halfspace-view: a library without a window system (keys, camera, overlays, saving), and the program.
 set(view_without_window actions camera_control frame_maker overlay overlay_counts overlay_shadow overlay_values overlay_wireframe
-  pixel_fragments save_view scene_changes viewer)
+  picked_pixel save_view scene_changes viewer)
 list(TRANSFORM view_without_window REPLACE "(.+)" "view/\\1.cpp")
 add_library(halfspace_view STATIC ${view_without_window})
 target_include_directories(halfspace_view PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_compile_definitions(halfspace_view PRIVATE HALFSPACE_HAS_RAYS=$<TARGET_EXISTS:halfspace_reference>)
-target_link_libraries(halfspace_view PUBLIC halfspace_render PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
+target_link_libraries(halfspace_view PUBLIC halfspace_render PRIVATE halfspace_explain nlohmann_json::nlohmann_json fmt::fmt)
 if(TARGET halfspace_reference)
   target_link_libraries(halfspace_view PRIVATE halfspace_reference)
 endif()

@@ -70,14 +70,11 @@ void FrameMaker::render(const SceneDescription& scene, int divisor, Overlay over
   times_.overlay_ms = watch.lap_ms();
 }
 
-PixelFragments FrameMaker::fragments_at(const glm::ivec2& pixel) {
+PickedPixel FrameMaker::pick(const glm::ivec2& pixel, const std::string& title) const {
   HS_CHECK(scene_.has_value());
-  const glm::ivec2 at = pixel / divisor_;
-  Image<glm::u8vec4> picture(scene_->view.width_px, scene_->view.height_px);
-  halfspace::render(*scene_, picture, workers_);
-  PixelFragments fragments = pixel_fragments(*scene_, description_, picture, at, workers_);
-  fragments.pixel = pixel;
-  return fragments;
+  PickedPixel picked = picked_pixel(title, *scene_, description_, pixel / divisor_, workers_);
+  picked.pixel = pixel;
+  return picked;
 }
 
 }  // namespace halfspace

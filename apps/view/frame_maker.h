@@ -11,7 +11,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/render/prepared_scene.h"
 #include "view/overlay.h"
-#include "view/pixel_fragments.h"
+#include "view/picked_pixel.h"
 
 namespace halfspace {
 
@@ -51,8 +51,8 @@ class FrameMaker {
   /// enlarges them. Throws InputError.
   void render(const SceneDescription& scene, int divisor, Overlay overlay, Image<glm::u8vec4>& frame);
 
-  /// Returns what was drawn at a pixel of the last frame. There must have been one.
-  PixelFragments fragments_at(const glm::ivec2& pixel);
+  /// Returns the history of a pixel of the last frame. There must have been one. Its first line is `title`.
+  PickedPixel pick(const glm::ivec2& pixel, const std::string& title) const;
 
   const FrameTimes& times() const { return times_; }
   /// Sum over the passes of the last frame and its shadow maps.

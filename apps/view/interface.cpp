@@ -37,9 +37,18 @@ void draw_label(const char* name, float x, float y, const std::string& text) {
   ImGui::End();
 }
 
-void draw_picked(const PixelFragments& picked, float scale) {
-  begin_label("Pixel", 0.0f, 1.0f, 40.0f * scale);  // above the message
-  for (const std::string& line : lines_of(picked)) ImGui::TextUnformatted(line.c_str());
+// Shows the history of a pixel in a window that scrolls if it is long, above the message.
+void draw_picked(const PickedPixel& picked, float scale) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.0f, display.y - 40.0f * scale}, ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {display.x, 0.6f * display.y});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin("Pixel", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_HorizontalScrollbar);
+  if (picked.is_outdated) ImGui::TextUnformatted("of an earlier frame; stop time with the space bar");
+  ImGui::TextUnformatted(picked.history.c_str());
   ImGui::End();
   const ImVec2 at(static_cast<float>(picked.pixel.x) + 0.5f, static_cast<float>(picked.pixel.y) + 0.5f);
   for (const auto& [color, width] : {std::pair(IM_COL32(0, 0, 0, 255), 3.0f), std::pair(IM_COL32(255, 255, 255, 255), 1.0f)})

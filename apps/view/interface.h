@@ -45,8 +45,8 @@ class Interface {
   struct Contents {
     const FrameMaker& frames;
     const WindowTimes& times;
-    int divisor;                                  ///< of the last frame
-    const std::optional<PixelFragments>& picked;  ///< nothing: no pixel is picked
+    int divisor;                               ///< of the last frame
+    const std::optional<PickedPixel>& picked;  ///< nothing: no pixel is picked
     bool show_message;
   };
 

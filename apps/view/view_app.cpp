@@ -122,14 +122,22 @@ double ViewApp::advance() {
   return step;
 }
 
-void ViewApp::render_scene(int divisor) {
+// Traces the picked pixel, but not in every frame while something moves.
+void ViewApp::update_history(bool moving) {
+  if (!picked_) return;
+  if (moving && !picked_->history.empty()) {
+    picked_->is_outdated = true;
+    return;
+  }
+  const glm::ivec2 last(scene_frame_.width() - 1, scene_frame_.height() - 1);
+  picked_ = frames_.pick(glm::clamp(picked_->pixel, glm::ivec2(0), last), options_.name);
+  viewer_.set_picked_object(picked_->object);
+}
+
+void ViewApp::render_scene(int divisor, bool moving) {
   try {
     frames_.render(viewer_.description(), divisor, viewer_.overlay(), scene_frame_);
-    if (picked_) {
-      const glm::ivec2 last(scene_frame_.width() - 1, scene_frame_.height() - 1);
-      picked_ = frames_.fragments_at(glm::clamp(picked_->pixel, glm::ivec2(0), last));
-      viewer_.set_picked_object(picked_->visible_object());
-    }
+    update_history(moving);
   } catch (const InputError& e) {
     viewer_.set_message(e.what());
   }
@@ -139,11 +147,12 @@ void ViewApp::render_scene(int divisor) {
 void ViewApp::update_scene_frame(const glm::ivec2& size) {
   const bool moving = input_.is_moving() || viewer_.is_running();
   const int divisor = is_timed() ? 1 : coarse_.divisor(moving);
+  const bool is_stale = picked_ && picked_->is_outdated && !moving;
   const Shown next{viewer_.revision(), viewer_.animation_seconds(), viewer_.overlay(), size, divisor};
-  if (shown_ == next && !is_timed()) return;
+  if (shown_ == next && !is_timed() && !is_stale) return;
   if (scene_frame_.width() != size.x || scene_frame_.height() != size.y) scene_frame_ = Image<glm::u8vec4>(size.x, size.y);
   const Clock::time_point start = Clock::now();
-  render_scene(divisor);
+  render_scene(divisor, moving);
   coarse_.add_frame(divisor, milliseconds(Clock::now() - start));
   shown_ = next;
 }

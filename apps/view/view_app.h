@@ -50,7 +50,8 @@ class ViewApp {
   void handle_events();
   void show_frame();
   void update_scene_frame(const glm::ivec2& size);
-  void render_scene(int divisor);
+  void render_scene(int divisor, bool moving);
+  void update_history(bool moving);
   void add_times(RunTimes& sum) const;
   void pick();
   void save();
@@ -79,7 +80,7 @@ class ViewApp {
   };
   std::optional<Shown> shown_;  // nothing: the next frame must be rendered
   Image<glm::u8vec4> scene_frame_, frame_;
-  std::optional<PixelFragments> picked_;
+  std::optional<PickedPixel> picked_;
   WindowTimes times_;
   std::string last_message_;
   Clock::time_point message_time_, frame_time_;

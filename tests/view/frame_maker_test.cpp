@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/frame_maker.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -123,29 +124,25 @@ TEST(FrameMaker, mip_levels_follow_the_footprint) {
   EXPECT_GT(level3.y, level3.x) << "level 3 is green";
 }
 
-TEST(FrameMaker, fragments_are_listed_in_the_order_of_draws) {
+TEST(FrameMaker, a_picked_pixel_has_its_history) {
   Frame frame;
   frame.render(Overlay::none);
-  const PixelFragments center = frame.maker.fragments_at({kSize / 2, kSize / 2});
-  ASSERT_EQ(center.fragments.size(), 2u);
-  EXPECT_EQ(center.fragments[0].object, "back");
-  EXPECT_EQ(center.fragments[0].depth, 6.0f);
-  EXPECT_FALSE(center.fragments[0].visible);
-  EXPECT_EQ(center.fragments[1].object, "front");
-  EXPECT_EQ(center.fragments[1].depth, 5.0f);
-  EXPECT_TRUE(center.fragments[1].visible);
-  EXPECT_EQ(center.visible_object(), "front");
-  EXPECT_EQ(center.color, frame.picture.at(kSize / 2, kSize / 2));
-  const PixelFragments corner = frame.maker.fragments_at({0, 0});
-  ASSERT_EQ(corner.fragments.size(), 1u);
-  EXPECT_EQ(corner.visible_object(), "back");
+  const PickedPixel center = frame.maker.pick({kSize / 2, kSize / 2}, "squares");
+  EXPECT_EQ(center.object, "front");
+  EXPECT_TRUE(center.history.starts_with(fmt::format("squares, {0}x{0}, pixel {1},{1} ", kSize, kSize / 2))) << center.history;
+  EXPECT_NE(center.history.find("2 fragments"), std::string::npos) << center.history;
+  EXPECT_LT(center.history.find("1. back"), center.history.find("2. front")) << center.history;
+  const glm::u8vec4 code = frame.picture.at(kSize / 2, kSize / 2);
+  EXPECT_NE(center.history.find(fmt::format("{:>13}{:>13}{:>13}\n", code.x, code.y, code.z)), std::string::npos)
+      << center.history;
+  EXPECT_EQ(frame.maker.pick({0, 0}, "").object, "back");
 }
 
-TEST(FrameMaker, fragments_leave_the_frame_unchanged) {
+TEST(FrameMaker, picking_leaves_the_frame_unchanged) {
   Frame frame;
   frame.render(Overlay::none);
-  const PixelFragments first = frame.maker.fragments_at({10, 10});
-  EXPECT_EQ(lines_of(first), lines_of(frame.maker.fragments_at({10, 10})));
+  const PickedPixel first = frame.maker.pick({10, 10}, "a");
+  EXPECT_EQ(first.history, frame.maker.pick({10, 10}, "a").history);
 }
 
 TEST(SaveView, the_saved_scene_starts_at_the_time_that_was_shown) {
