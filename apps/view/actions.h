@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The keys of halfspace-view and what they do.
+// The keys of halfspace-view and their actions.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ struct PageOptions {
 };
 
 /// Returns the page. All numbers except times are the same on every machine and for any number of threads, apart from the packets, which
-/// have the width of this build. description: of the scene at the time that is shown.
+/// have the width of this build, and from which fragments are rejected with their block. description: of the scene at the time that is shown.
 std::string explain_page(const SceneDescription& description, const PreparedScene& scene, const PageOptions& options,
                          const Workers& workers);
 

@@ -29,9 +29,6 @@ struct PageInput {
 };
 inline constexpr uint32_t kNoPrimitive = 0xffffffffu;
 
-/// Returns the name of the object that a draw belongs to: "particles", "background" or its name in the scene.
-std::string object_name(const SceneDescription& scene, const PreparedDraw& draw);
-
 PageJson json_of(const glm::dvec2& v);
 PageJson json_of(const glm::dvec3& v);
 PageJson json_of(const glm::dvec4& v);

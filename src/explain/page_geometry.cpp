@@ -6,6 +6,7 @@
 #include "halfspace/explain/page_encode.h"
 #include "halfspace/raster/pipeline/edge.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 
@@ -96,12 +97,6 @@ bool is_on_screen(const PassContext& context, const Triangle& t) {
 
 }  // namespace
 
-std::string object_name(const SceneDescription& scene, const PreparedDraw& draw) {
-  if (draw.source.object < 0) return "background";
-  const auto i = static_cast<std::size_t>(draw.source.object);
-  return i < scene.objects.size() ? scene.objects[i].first : "particles";
-}
-
 PageJson json_of(const glm::dvec2& v) { return {v.x, v.y}; }
 PageJson json_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 PageJson json_of(const glm::dvec4& v) { return {v.x, v.y, v.z, v.w}; }
@@ -119,7 +114,7 @@ PageJson draws_json(const PageInput& in) {
   for (std::size_t i = 0; i < in.scene.draws.size(); ++i) {
     const PreparedDraw& draw = in.scene.draws[i];
     const Draw& d = in.context.draws[i];
-    json.push_back({{"object", object_name(in.description, draw)},
+    json.push_back({{"object", object_name(in.description, draw.source.object)},
                     {"copy", draw.source.instance},
                     {"kind", draws_points(draw.state)        ? "points"
                              : is_lines(draw.state.topology) ? "lines"
@@ -151,7 +146,7 @@ PageJson example_json(const PageInput& in) {
   PageJson json{{"draw", e.primitive.draw},
                 {"instance", e.primitive.instance},
                 {"primitive", e.primitive.index},
-                {"object", object_name(in.description, in.scene.draws[e.primitive.draw])},
+                {"object", object_name(in.description, in.scene.draws[e.primitive.draw].source.object)},
                 {"corners", e.corners}};
   for (int k = 0; k < e.corners; ++k) json["vertices"].push_back(json_of_vertex(e.vertices[static_cast<std::size_t>(k)]));
   const Draw& draw = in.context.draws[e.primitive.draw];
@@ -172,7 +167,7 @@ PageJson clip_json(const PageInput& in) {
   for (uint32_t i = 0; i < all.size() && json.size() < kMaxClipped; ++i) {
     if (all[i].outcome != StageOutcome::clipped || !is_triangle(in.context.draws[all[i].draw])) continue;
     const StageClip c = stage_clip(in.context, in.geometry, i);
-    PageJson item{{"object", object_name(in.description, in.scene.draws[all[i].draw])}, {"primitive", all[i].index}};
+    PageJson item{{"object", object_name(in.description, in.scene.draws[all[i].draw].source.object)}, {"primitive", all[i].index}};
     for (const glm::vec4& v : c.clip) item["before"].push_back(json_of(glm::dvec4(v)));
     for (int k = 0; k < c.polygon.count; ++k) {
       const ClipCorner& corner = c.polygon.corners[static_cast<std::size_t>(k)];
@@ -242,7 +237,7 @@ PageJson perspective_json(const PageInput& in) {
     const double error = affine_error(ordered, inv_w), visible = std::min(error, height_of(ordered));  // not of slivers
     if (!(visible > worst)) continue;
     worst = visible;
-    json = {{"object", object_name(in.description, in.scene.draws[p.draw])},
+    json = {{"object", object_name(in.description, in.scene.draws[p.draw].source.object)},
             {"primitive", p.index},
             {"xy", xy},
             {"inv_w", inv_w},

@@ -8,22 +8,12 @@
 #include "halfspace/explain/pixel_history.h"
 #include "halfspace/render/frame.h"
 #include "halfspace/render/scene_pass.h"
+#include "halfspace/scene/scene_paths.h"
 #include "halfspace/shading/tone.h"
 
 namespace halfspace {
 
 namespace {
-
-// As documented at FrameImages::object.
-std::string object_name(const SceneDescription& scene, const PreparedDraw& draw) {
-  const int object = draw.source.object;
-  if (object < 0) return std::holds_alternative<ShadowCatcher>(draw.shader) ? "floor" : "background";
-  const auto i = static_cast<std::size_t>(object);
-  if (i < scene.objects.size()) return scene.objects[i].first;
-  const std::size_t system = i - scene.objects.size();
-  if (system == 0 || system > scene.particle_systems.size()) return "particles";
-  return scene.particle_systems[system - 1].first;
-}
 
 constexpr std::array<const char*, 19> kFactorNames{"0",
                                                    "1",
@@ -80,7 +70,7 @@ class DetailFinder {
     const SamplePosition at = triangle.draw->shades_samples ? sample_position(trace_.samples, f.sample) : center;
     FragmentValues v = fragment_values(draw.shader, {triangle, {pixel.x, trace_.height - 1 - pixel.y}, at, f.depth}, light_names_);
     return {.fragment = f,
-            .object = object_name(scene_, draw),
+            .object = object_name(scene_, draw.source.object),
             .is_front = triangle.source.triangle->is(kFrontFacing),
             .topology = draw.state.topology,
             .copy = draw.source.instance,

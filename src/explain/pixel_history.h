@@ -68,7 +68,7 @@ struct NamedValue {
 /// All values of a fragment.
 struct FragmentDetail {
   TracedFragment fragment;
-  std::string object;    ///< name of the object in the scene, "particles", "floor" (with only shadows) or "background"
+  std::string object;    ///< as object_name() returns it
   bool is_front = true;  ///< the winding of the triangle as seen from the eye
   Topology topology = Topology::triangles;
   int copy = 0;            ///< copy of the object; for models with several parts, copy · parts + part

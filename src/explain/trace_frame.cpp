@@ -38,7 +38,7 @@ uint32_t limit_fragments(std::vector<TracedFragment>& fragments) {
   return removed;
 }
 
-// Sorts the fragments of all rounds by pixel.
+// Sorts the fragments of all rounds of the pass by pixel.
 void collect_fragments(PassTrace& pass, FrameTrace& out) {
   const std::size_t pixels = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
   std::vector<std::vector<std::span<const TracedFragment>>> by_pixel(pixels);

@@ -149,11 +149,18 @@ FoundKey find_key(SceneDescription& scene, std::string_view path, const std::str
   throw InputError(where + "unknown key '" + words.back() + "'" + suggestion(words.back(), names));
 }
 
-std::string object_path(const SceneDescription& scene, int object) {
+std::string object_name(const SceneDescription& scene, int object) {
   if (object < 0) return "background";
   const auto i = static_cast<std::size_t>(object), objects = scene.objects.size();
-  if (i < objects) return "objects." + scene.objects[i].first;
-  return i == objects ? "particles" : "particle_systems." + scene.particle_systems.at(i - objects - 1).first;
+  if (i < objects) return scene.objects[i].first;
+  return i == objects ? "particles" : scene.particle_systems.at(i - objects - 1).first;
+}
+
+std::string object_path(const SceneDescription& scene, int object) {
+  const auto objects = static_cast<int>(scene.objects.size());
+  const std::string name = object_name(scene, object);
+  if (object < 0 || object == objects) return name;
+  return (object < objects ? "objects." : "particle_systems.") + name;
 }
 
 }  // namespace halfspace

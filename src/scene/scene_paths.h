@@ -45,8 +45,10 @@ Section section_at(SceneDescription& scene, std::span<const std::string> words);
 /// Returns the reserved words at the top level of a scene file.
 std::vector<std::string_view> top_words(SceneDescription& scene);
 
-/// Returns the path of the object, particles or background that a number stands for, as in FrameImages::object (render/frame.h); −1 is the
-/// background.
+/// Returns the name of the object or particle system that a number stands for, as in FrameImages::object (render/frame.h): "particles" for
+/// the first particle system, and "background" for −1.
+std::string object_name(const SceneDescription& scene, int object);
+/// Returns its path instead, for example "objects.moon".
 std::string object_path(const SceneDescription& scene, int object);
 
 /// Returns the item with that name, or null.

@@ -9,19 +9,6 @@ namespace halfspace::test {
 
 void enable(GLenum what, bool on) { (on ? glEnable : glDisable)(what); }
 
-GLenum gl(Topology t) {
-  switch (t) {
-    case Topology::triangles: return GL_TRIANGLES;
-    case Topology::triangle_strip: return GL_TRIANGLE_STRIP;
-    case Topology::triangle_fan: return GL_TRIANGLE_FAN;
-    case Topology::points: return GL_POINTS;
-    case Topology::lines: return GL_LINES;
-    case Topology::line_strip: return GL_LINE_STRIP;
-    case Topology::line_loop: return GL_LINE_LOOP;
-  }
-  return GL_TRIANGLES;
-}
-
 GLenum gl(ColorFormat f) {
   constexpr std::array<GLenum, 5> k{GL_NONE, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16F, GL_RGBA32F};
   return k[static_cast<std::size_t>(f)];
@@ -33,42 +20,6 @@ GLenum gl(DepthFormat f) {
 }
 
 namespace {
-
-GLenum gl(CompareOp op) {
-  constexpr std::array<GLenum, 8> k{GL_NEVER, GL_LESS, GL_EQUAL, GL_LEQUAL, GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS};
-  return k[static_cast<std::size_t>(op)];
-}
-GLenum gl(BlendFactor f) {
-  constexpr std::array<GLenum, 19> k{GL_ZERO,
-                                     GL_ONE,
-                                     GL_SRC_COLOR,
-                                     GL_ONE_MINUS_SRC_COLOR,
-                                     GL_DST_COLOR,
-                                     GL_ONE_MINUS_DST_COLOR,
-                                     GL_SRC_ALPHA,
-                                     GL_ONE_MINUS_SRC_ALPHA,
-                                     GL_DST_ALPHA,
-                                     GL_ONE_MINUS_DST_ALPHA,
-                                     GL_CONSTANT_COLOR,
-                                     GL_ONE_MINUS_CONSTANT_COLOR,
-                                     GL_CONSTANT_ALPHA,
-                                     GL_ONE_MINUS_CONSTANT_ALPHA,
-                                     GL_SRC_ALPHA_SATURATE,
-                                     GL_SRC1_COLOR,
-                                     GL_ONE_MINUS_SRC1_COLOR,
-                                     GL_SRC1_ALPHA,
-                                     GL_ONE_MINUS_SRC1_ALPHA};
-  return k[static_cast<std::size_t>(f)];
-}
-GLenum gl(BlendEquation e) {
-  constexpr std::array<GLenum, 5> k{GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX};
-  return k[static_cast<std::size_t>(e)];
-}
-
-GLenum gl(StencilOp op) {
-  constexpr std::array<GLenum, 8> k{GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP};
-  return k[static_cast<std::size_t>(op)];
-}
 
 void set_stencil_state(const std::optional<StencilState>& s) {
   enable(GL_STENCIL_TEST, s.has_value());

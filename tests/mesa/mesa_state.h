@@ -6,10 +6,10 @@
 #include <epoxy/gl.h>
 
 #include "mesa/mesa_draw.h"
+#include "peers/gl/gl_enums.h"
 
 namespace halfspace::test {
 
-GLenum gl(Topology topology);
 GLenum gl(ColorFormat format);
 GLenum gl(DepthFormat format);
 

@@ -316,7 +316,7 @@ class Desktop(Folder):
         self.start("earth", *STILL)
         plain = self.rendered("earth", *STILL)
         self.wait_for_picture(plain, "first frame")
-        left = lambda rows: [row[:3 * WIDTH // 2] for row in rows]  # noqa: E731  beside the panel
+        left = lambda rows: [row[:3 * WIDTH // 2] for row in rows]  # noqa: E731  the part next to the panel
         self.press("Tab")
         self.wait_for(lambda: self.screenshot()[2][:HEIGHT - MESSAGE_ROWS] != plain, "panel opens")
         self.tool("xdotool", "mousemove", "--window", self.window, WIDTH // 2 + 12, 60, "click", "1")

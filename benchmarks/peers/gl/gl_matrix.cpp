@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "matrix_scene.h"
+#include "peers/gl/gl_enums.h"
 #include "peers/gl/gl_matrix_glsl.h"
 #include "peers/gl/gl_objects.h"
 #include "peers/gl/gl_state.h"
@@ -118,7 +119,7 @@ class GlMatrix final : public Workload {
     }
     glActiveTexture(GL_TEXTURE0);
     const std::span<const uint32_t> part = scene_.part(i, row_.draws);
-    mesh_.draw_part(gl_topology(row_.state.topology), static_cast<std::size_t>(part.data() - scene_.indices.data()), part.size(),
+    mesh_.draw_part(gl(row_.state.topology), static_cast<std::size_t>(part.data() - scene_.indices.data()), part.size(),
                     row_.state.instances);
   }
 

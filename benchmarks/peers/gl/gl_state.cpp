@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "peers/gl/gl_enums.h"
+
 namespace halfspace {
 
 namespace {
@@ -15,47 +17,11 @@ GLenum at(const std::array<GLenum, N>& table, E value) {
   return table[static_cast<std::size_t>(value)];
 }
 
-GLenum gl_compare(CompareOp op) {
-  static constexpr std::array<GLenum, 8> k{GL_NEVER, GL_LESS, GL_EQUAL, GL_LEQUAL, GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS};
-  return at(k, op);
-}
-GLenum gl_stencil_op(StencilOp op) {
-  static constexpr std::array<GLenum, 8> k{GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP};
-  return at(k, op);
-}
-GLenum gl_factor(BlendFactor f) {
-  static constexpr std::array<GLenum, 19> k{GL_ZERO,
-                                            GL_ONE,
-                                            GL_SRC_COLOR,
-                                            GL_ONE_MINUS_SRC_COLOR,
-                                            GL_DST_COLOR,
-                                            GL_ONE_MINUS_DST_COLOR,
-                                            GL_SRC_ALPHA,
-                                            GL_ONE_MINUS_SRC_ALPHA,
-                                            GL_DST_ALPHA,
-                                            GL_ONE_MINUS_DST_ALPHA,
-                                            GL_CONSTANT_COLOR,
-                                            GL_ONE_MINUS_CONSTANT_COLOR,
-                                            GL_CONSTANT_ALPHA,
-                                            GL_ONE_MINUS_CONSTANT_ALPHA,
-                                            GL_SRC_ALPHA_SATURATE,
-                                            GL_SRC1_COLOR,
-                                            GL_ONE_MINUS_SRC1_COLOR,
-                                            GL_SRC1_ALPHA,
-                                            GL_ONE_MINUS_SRC1_ALPHA};
-  return at(k, f);
-}
-GLenum gl_equation(BlendEquation e) {
-  static constexpr std::array<GLenum, 5> k{GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX};
-  return at(k, e);
-}
-
 void set_blend(const std::optional<BlendState>& blend) {
   enable(GL_BLEND, blend.has_value());
   if (!blend) return;
-  glBlendEquationSeparate(gl_equation(blend->color_equation), gl_equation(blend->alpha_equation));
-  glBlendFuncSeparate(gl_factor(blend->source_color), gl_factor(blend->destination_color), gl_factor(blend->source_alpha),
-                      gl_factor(blend->destination_alpha));
+  glBlendEquationSeparate(gl(blend->color_equation), gl(blend->alpha_equation));
+  glBlendFuncSeparate(gl(blend->source_color), gl(blend->destination_color), gl(blend->source_alpha), gl(blend->destination_alpha));
   glBlendColor(blend->constant.x, blend->constant.y, blend->constant.z, blend->constant.w);
 }
 
@@ -63,8 +29,8 @@ void set_stencil(const std::optional<StencilState>& stencil) {
   enable(GL_STENCIL_TEST, stencil.has_value());
   if (!stencil) return;
   const auto face = [](GLenum side, const StencilFace& f) {
-    glStencilFuncSeparate(side, gl_compare(f.compare), f.reference, f.read_mask);
-    glStencilOpSeparate(side, gl_stencil_op(f.fail), gl_stencil_op(f.depth_fail), gl_stencil_op(f.pass));
+    glStencilFuncSeparate(side, gl(f.compare), f.reference, f.read_mask);
+    glStencilOpSeparate(side, gl(f.fail), gl(f.depth_fail), gl(f.pass));
     glStencilMaskSeparate(side, f.write_mask);
   };
   face(GL_FRONT, stencil->front);
@@ -75,14 +41,14 @@ void set_stencil(const std::optional<StencilState>& stencil) {
 
 void set_gl_state(const DrawState& s, bool has_depth) {
   enable(GL_DEPTH_TEST, has_depth && s.depth.test);
-  glDepthFunc(gl_compare(s.depth.compare));
+  glDepthFunc(gl(s.depth.compare));
   glDepthMask(s.depth.write ? GL_TRUE : GL_FALSE);
   enable(GL_CULL_FACE, s.cull != CullMode::none);
   if (s.cull != CullMode::none) glCullFace(s.cull == CullMode::back ? GL_BACK : GL_FRONT);
   set_blend(s.blend);
   set_stencil(s.stencil);
-  const auto gl = [](bool b) { return static_cast<GLboolean>(b ? GL_TRUE : GL_FALSE); };
-  glColorMask(gl(s.color_mask.r), gl(s.color_mask.g), gl(s.color_mask.b), gl(s.color_mask.a));
+  const auto flag = [](bool b) { return static_cast<GLboolean>(b ? GL_TRUE : GL_FALSE); };
+  glColorMask(flag(s.color_mask.r), flag(s.color_mask.g), flag(s.color_mask.b), flag(s.color_mask.a));
   enable(GL_SCISSOR_TEST, s.scissor.has_value());
   if (s.scissor) glScissor(s.scissor->x, s.scissor->y, s.scissor->width, s.scissor->height);
   glPolygonMode(GL_FRONT_AND_BACK, s.polygon_mode == PolygonMode::line ? GL_LINE : GL_FILL);
@@ -90,12 +56,6 @@ void set_gl_state(const DrawState& s, bool has_depth) {
   enable(GL_SAMPLE_ALPHA_TO_COVERAGE, s.alpha_to_coverage);
   enable(GL_SAMPLE_SHADING, s.sample_shading);
   if (s.sample_shading) glMinSampleShading(1.0f);
-}
-
-GLenum gl_topology(Topology t) {
-  static constexpr std::array<GLenum, 7> k{GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_POINTS,
-                                           GL_LINES,     GL_LINE_STRIP,     GL_LINE_LOOP};
-  return at(k, t);
 }
 
 GLenum gl_color_format(ColorFormat f) {

@@ -13,7 +13,6 @@ namespace halfspace {
 
 /// Sets the complete state. has_depth: the framebuffer has a depth buffer.
 void set_gl_state(const DrawState& state, bool has_depth);
-GLenum gl_topology(Topology t);
 GLenum gl_color_format(ColorFormat f);
 GLenum gl_depth_format(DepthFormat f);  ///< 0 for none
 /// Sets filters, wrap modes and anisotropy of the bound texture.
