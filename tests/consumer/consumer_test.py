@@ -83,6 +83,8 @@ class Installation(unittest.TestCase):
                 for folder in (str(BUILD), str(ROOT), str(PREFIX)):
                     self.assertNotIn(folder, text, name)
                 if path.suffix != ".h":
+                    # For a prefix below /usr, CMake writes a comparison with the folder of the file: in a moved prefix it has no effect.
+                    text = re.sub(r"^# Use original install prefix.*?^unset\(_realCurr\)$", "", text, flags=re.M | re.S)
                     self.assertIsNone(re.search(r'["; =](/usr|/opt|/home)/', text), name)
 
     def test_programs_find_their_libraries(self):
