@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures what the window of halfspace-view costs, for the table in docs/howto/view.md.
+"""Measures the cost of the window of halfspace-view, for the table in docs/howto/view.md.
 
     view_frame_rates.py [--programs build/release/bin] [--frames 200] [NAME...]
 
 Each scene is rendered without a window, in a window with closed panels and in a window with open panels, three times in alternation; the
-table shows the medians. The own time of the window is that of its frames apart from rendering the scene. The window is on an X server of
-its own (Xvfb). Names select scenes; the default is all.
+table shows the medians. The window overhead is the part of the frame time that is not spent on rendering the scene. The window is on a
+virtual X server (Xvfb). NAME selects scenes; the default is all.
 """
 import argparse
 import os
@@ -61,7 +61,7 @@ def main():
     server, display = start_server()
     environment = {**os.environ, "DISPLAY": display}
     environment.pop("SDL_VIDEODRIVER", None)
-    print("| scene | without window | window | panels open | frames per second | own time of the window | with panels |\n"
+    print("| scene | without window | window | panels open | frames per second | window overhead | overhead with panels |\n"
           "|---|---|---|---|---|---|---|")
     try:
         with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 1: a triangle is the set of pixels whose centers are on the inner side of all three edges. Uses no library.
+// Lesson 1: a triangle covers the pixels whose centers are on the inner side of all three edges. Uses no library.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -15,8 +15,8 @@ struct Color {
   double red, green, blue;  // 0 to 1
 };
 
-// Twice the signed area of the triangle a, b, p. It is positive if p is to the right of the line for someone who goes from a to b in the
-// image, in which y points down.
+// Returns twice the signed area of the triangle a, b, p. It is positive if p is on the right when walking from a to b in the image, where
+// y points down.
 double edge(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
 uint8_t code_of(double value) { return static_cast<uint8_t>(255.0 * std::clamp(value, 0.0, 1.0) + 0.5); }

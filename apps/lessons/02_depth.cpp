@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 2: a depth buffer stores the depth of the nearest surface per pixel, so triangles can be drawn in any order. Uses no library.
+// Lesson 2: a depth buffer stores the depth of the nearest surface at each pixel, so triangles can be drawn in any order. Uses no library.
 #include <cstdint>
 #include <cstdio>
 #include <vector>
@@ -43,7 +43,7 @@ void draw(Image& image, const Triangle& t) {
 }
 
 int main(int argc, char** argv) {
-  // Each bar is in front of the next one, and the last is in front of the first, so no order of drawing is correct.
+  // Each bar is in front of the next one, and the last is in front of the first, so no drawing order is correct.
   const Triangle bars[]{
       {{70, 225, 0.2}, {110, 225, 0.2}, {120, 15, 0.8}, 230, 200, 70},
       {{300, 160, 0.2}, {300, 200, 0.2}, {20, 140, 0.8}, 80, 120, 220},

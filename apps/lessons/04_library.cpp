@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 4: the picture of lesson 3, drawn with the library. A camera is a matrix, a mesh is a list of vertices, and a shader says what to
-// do with them.
+// Lesson 4: the picture of lesson 3, drawn with the library. The camera is a matrix, the mesh is a list of vertices and indices, and the
+// shader transforms the vertices and colors the pixels.
 #include "halfspace/geometry/camera.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
@@ -21,14 +21,14 @@ struct FloorShader {
     vec2<R> uv;
   };
 
-  // Runs once per vertex. R is a number or several numbers at a time; lesson 11 shows why.
+  // Runs once per vertex. R is a float or several floats; lesson 11 explains why.
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.uv = in.uv;
     const vec4<R> position = clip_from_world * vec4<R>(in.position, R(1));
     return position;
   }
-  // Runs once per pixel, with varyings that the rasterizer has interpolated with perspective.
+  // Runs once per pixel, with perspective-correct varyings.
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in) const {
     const R tile = (floor(in.uv.x) + floor(in.uv.y)) * R(0.5f);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 5: a texture far away has many texels per pixel. Mip levels hold their averages.
+// Lesson 5: far away, a pixel covers many texels of a texture. Mip levels store their averages.
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -30,7 +30,7 @@ struct TexturedShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    // The change of uv from one pixel to the next is the size of a pixel on the texture. It selects the mip level.
+    // The change of uv from one pixel to the next gives the size of a pixel on the texture, which selects the mip level.
     const vec2<R> across = px.ddx(&Varyings<R>::uv), down = px.ddy(&Varyings<R>::uv);
     return {texture->sample<R>(sampler, in.uv, across, down)};
   }
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x)
       checks.at(x, y) = (x / 32 + y / 32) % 2 == 0 ? glm::u8vec4(230, 180, 60, 255) : glm::u8vec4(40, 60, 120, 255);
-  const Texture2D texture(checks, TexelFormat::srgb8a8);  // makes the mip levels
+  const Texture2D texture(checks, TexelFormat::srgb8a8);  // generates the mip levels
 
   const Mesh floor = plane(100.0f);
   const glm::dmat4 camera = perspective_reversed(0.9, 320.0 / 240.0, 0.1, 200.0) * look_at({0, 1.5, 0}, {0, 1, -3}, {0, 1, 0});

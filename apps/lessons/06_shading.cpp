@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 6: the same light on the same coarse sphere, computed per triangle (flat), per vertex (Gouraud) and per pixel (Phong).
+// Lesson 6: the same light on the same coarse sphere, with one normal per triangle (flat), with light per vertex (Gouraud) and with light
+// per pixel (Phong).
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -24,7 +25,7 @@ struct LitShader {
     vec3<R> position, normal, color;
   };
 
-  // Phong's reflection model: ambient, diffuse, and a highlight around the direction of reflection.
+  // Phong's reflection model: ambient light, diffuse light, and a highlight around the reflection vector.
   template <class R>
   vec3<R> light(const vec3<R>& position, const vec3<R>& normal) const {
     const vec3<R> to_light(glm::normalize(glm::vec3(-1, 2, 2)));

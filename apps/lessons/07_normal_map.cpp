@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 7: a normal map stores directions relative to the surface. Here it is made from heights, as a bump map is.
+// Lesson 7: a normal map stores normals relative to the surface. This one is computed from heights; a bump map stores the heights.
 #include <cmath>
 
 #include "halfspace/geometry/camera.h"
@@ -18,7 +18,7 @@ struct BumpyShader {
   template <class R>
   struct Attributes {
     vec3<R> position, normal;
-    vec4<R> tangent;  // direction in which u grows; w is -1 where the map is mirrored
+    vec4<R> tangent;  // direction in which u increases; w is -1 where the map is mirrored
     vec2<R> uv;
   };
   template <class R>
@@ -46,7 +46,8 @@ struct BumpyShader {
 
 double height(int x, int y) { return 0.05 * std::cos(x * 6.283185307179586 * 32 / 512) * std::cos(y * 6.283185307179586 * 12 / 256); }
 
-// The normal of a height map is (-dh/du, -dh/dv, 1), stored as 0..1. v grows downwards in the image and green points up.
+// The normal of a height map is (-dh/dx, -dh/dy, 1), normalized, with x to the right and y up in the map. Rows go down, so y is -row. The
+// components are scaled from -1..1 to 0..255.
 Image<glm::u8vec4> normal_map() {
   Image<glm::u8vec4> map(512, 256);
   for (int y = 0; y < 256; ++y)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 8: a shadow map is the depth buffer of the light. A point is in shadow if the light sees something nearer.
+// Lesson 8: a shadow map is a depth buffer drawn from the light. A point is in shadow if the map contains something nearer to the light.
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -28,7 +28,7 @@ struct ShadowShader {
     return clip_from_world * vec4<R>(in.position, R(1));
   }
 
-  // 1 if the light reaches a point with the given coordinates in the map, otherwise 0. The depth is reversed: 1 is next to the light.
+  // Returns 1 if the light reaches the point at (x, y, depth) in the map, otherwise 0. Depth is reversed: 1 is nearest to the light.
   template <class R>
   R lit(const R& x, const R& y, const R& depth) const {
     const R last(static_cast<float>(kMapSize - 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 9: a sphere without triangles. A point covers a square; the fragment function keeps a disk and computes normal and depth in it.
+// Lesson 9: a sphere without triangles. A point covers a square; the fragment function keeps a disk and computes its normal and depth.
 #include <cmath>
 
 #include "halfspace/geometry/camera.h"
@@ -27,7 +27,7 @@ struct SphereShader {
   PerVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     const vec4<R> position = clip_from_world * vec4<R>(in.center, R(1));
     out = {in.color, position.w};
-    const R pixels = R(2 * kRadius * 0.5f * kHeight / std::tan(0.5f * kFov)) / position.w;  // the diameter in perspective
+    const R pixels = R(2 * kRadius * 0.5f * kHeight / std::tan(0.5f * kFov)) / position.w;  // the projected diameter
     return {position, pixels, {}};
   }
   template <class R>
@@ -35,7 +35,7 @@ struct SphereShader {
     const vec2<R> coordinate = px.point_coord();  // 0 to 1 over the square, from its upper left corner
     const R x = coordinate.x * R(2) - R(1), y = R(1) - coordinate.y * R(2);
     const R squared = x * x + y * y;
-    const R z = sqrt(max(R(1) - squared, R(0)));  // towards the eye
+    const R z = sqrt(max(R(1) - squared, R(0)));  // toward the eye
     const R diffuse = max(dot(vec3<R>(x, y, z), vec3<R>(glm::normalize(glm::vec3(-1, 2, 2)))), R(0));
     const R depth = R(kNear) / (in.distance - z * R(kRadius));  // reversed Z: near / distance, for a far plane at infinity
     return {vec4<R>(in.color * (R(0.1f) + R(0.9f) * diffuse), R(1)), squared <= R(1), depth};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 10: light has no upper limit, pixels do. A float target keeps the light, and a tone curve brings it into range at the end.
+// Lesson 10: light has no upper limit, but pixels do. A float target stores the light, and a tone curve maps it to the display at the end.
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
   const glm::dmat4 camera = perspective_reversed(0.7, 320.0 / 240.0, 0.1, 100.0) * look_at({0, 2.2, 5}, {0, 0.4, 0}, {0, 1, 0});
 
   Image<glm::u8vec4> image(320, 240);
-  // The pass computes in half floats, which exist only while a tile is in work. The image receives the result of the tone curve.
+  // The pass renders to half floats, which exist only while a tile is being drawn. The tone curve writes its result to the image.
   Pass pass(320, 240, {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f, .clear_value = 0.0f});
   for (const Mesh& mesh : meshes)
     pass.draw(LampShader{glm::mat4(camera), {1.4f, 1.0f, 0.7f}}, make_vertex_view(stream(mesh.positions), stream(mesh.normals)),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 11: SIMD lanes compute the same formula for several pixels at once. Measures a scalar loop and a loop over lanes.
+// Lesson 11: SIMD lanes compute the same formula for several pixels at once. Measures a scalar loop and a loop that uses lanes.
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   const double lanes_ms = milliseconds([&] { draw_by_lanes(by_lanes.data()); });
   const bool same = std::memcmp(by_pixel.data(), by_lanes.data(), sizeof(float) * kSize * kSize) == 0;
   std::printf("scalar %.2f ms, %d lanes %.2f ms: %.1f times as fast, %s\n", scalar_ms, kLanes, lanes_ms, scalar_ms / lanes_ms,
-              same ? "the same image" : "another image");
+              same ? "the same image" : "different images");
   Image<glm::u8vec4> image(kSize, kSize);
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) image.at(x, y) = glm::u8vec4(glm::vec4(glm::vec3(by_lanes.at(x, y) * 255.0f / 64.0f), 255.0f));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 12: a tile fits into the cache of a core, and tiles are independent, so every core can draw its own. Measures one image drawn with
-// small and large tiles and with one thread and all.
+// Lesson 12: a tile fits into the cache of a core, and tiles are independent, so threads can draw them in parallel. Measures the frame time
+// with small and large tiles, on one thread and on all threads.
 #include <chrono>
 #include <cstdio>
 
