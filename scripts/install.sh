@@ -56,7 +56,7 @@ build=build/install
 modules=$(/usr/bin/python3 -c 'import sys; print("lib/python%d.%d" % sys.version_info[:2])' 2> /dev/null || echo lib/python3)
 if [ "$prefix" = "$(realpath -m ~/.local)" ]; then modules+=/site-packages; else modules+=/dist-packages; fi
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$prefix" -DHALFSPACE_BUILD_TESTS=OFF \
-  -DHALFSPACE_BUILD_EXAMPLES=OFF -DHALFSPACE_PYTHON_DIR="$modules" > /dev/null
+  -DHALFSPACE_BUILD_EXAMPLES=OFF -DHALFSPACE_WERROR=OFF -DHALFSPACE_PYTHON_DIR="$modules" > /dev/null
 cmake --build "$build" --target installed -- -j "$(nproc)"
 
 # The manifest is written before the files, so that an interrupted installation can be removed. An installation into a temporary folder

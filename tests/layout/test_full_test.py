@@ -40,6 +40,7 @@ class FailedBuilds(unittest.TestCase):
 
             names = run("list").stdout.split()
             self.assertIn("lessons", names)
+            names.remove("pip")  # pip_test.py, for which the stand-in runs, builds on its own
             result = run()
             self.assertEqual(result.returncode, 1, result.stderr)
             self.assertEqual(result.stdout.splitlines()[-1], "failed: " + " ".join(names))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the extension with CMake, for `pip install --no-build-isolation ./python`.
+"""Builds the extension with CMake, for `pip install .`.
 
 The environment variable CMAKE_ARGS has further arguments of CMake, for example -DHALFSPACE_ARCH=x86-64-v3. The default instruction set is
-that of this machine. scripts/install_deps.sh installs the packages that the build needs.
+that of this machine. The build needs a C++ compiler, CMake and the libraries that scripts/install_deps.sh installs.
 """
 
 import os
@@ -15,7 +15,16 @@ from pathlib import Path
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parent
+
+
+def pybind11_options():
+    """Returns where CMake finds the pybind11 of the build environment. Without one, CMake searches the system."""
+    try:
+        import pybind11
+    except ImportError:
+        return {}
+    return {"pybind11_DIR": pybind11.get_cmake_dir()}
 
 
 class CMakeBuild(build_ext):
@@ -24,7 +33,8 @@ class CMakeBuild(build_ext):
     def run(self):
         package = Path(self.get_ext_fullpath("halfspace._core")).resolve().parent
         build = Path(self.build_temp).resolve()
-        options = {"HALFSPACE_PYTHON": "ON", "HALFSPACE_PYTHON_DIR": ".", "Python_EXECUTABLE": sys.executable, "CMAKE_BUILD_TYPE": "Release"}
+        options = {"HALFSPACE_PYTHON": "ON", "HALFSPACE_PYTHON_DIR": ".", "Python_EXECUTABLE": sys.executable, "CMAKE_BUILD_TYPE": "Release",
+                   "HALFSPACE_WERROR": "OFF", **pybind11_options()}
         options.update({f"HALFSPACE_BUILD_{part}": "OFF" for part in ("APPS", "TESTS", "BENCHMARKS", "EXAMPLES")})
         defines = [f"-D{name}={value}" for name, value in options.items()]
         subprocess.run(["cmake", "-S", ROOT, "-B", build, *defines, *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
