@@ -31,6 +31,7 @@ struct BenchArguments {
   std::vector<std::string> only;  // empty: all workloads
   std::string sweep;              // empty: the table of workloads instead of a series
   bool matrix = false;            // the rows of the matrix instead of the table of workloads
+  bool scenes = false;            // the composed scenes instead of the table of workloads
   std::string size = "1920x1080";
   std::string threads;  // empty: one per core
   std::string seconds = "1";
@@ -160,8 +161,12 @@ void report(const BenchProgram& program, const BenchArguments& args, const Workl
 }
 
 std::span<const WorkloadKind> kinds_of(const BenchProgram& program, const BenchArguments& args) {
+  if (args.scenes && args.matrix) throw UsageError("--scenes cannot be combined with --matrix");
+  if (args.scenes && !args.sweep.empty()) throw UsageError("--scenes cannot be combined with --sweep");
   if (args.matrix && !program.matrix) throw UsageError("--matrix: " + program.name + " does not draw the matrix");
+  if (args.scenes && !program.scenes) throw UsageError("--scenes: " + program.name + " does not draw the scenes");
   if (args.matrix) return program.matrix();
+  if (args.scenes) return program.scenes();
   const std::string& sweep = args.sweep;
   if (sweep.empty()) return program.kinds();
   std::vector<std::string_view> names;
@@ -174,8 +179,7 @@ std::span<const WorkloadKind> kinds_of(const BenchProgram& program, const BenchA
 
 // Prepares the workloads together, measures them and prints their results.
 void measure(const BenchProgram& program, const BenchArguments& args, std::span<const WorkloadKind* const> kinds, PictureSize size,
-             const Workers& workers, double seconds) {
-  WorkloadAssets assets;
+             const Workers& workers, double seconds, WorkloadAssets& assets) {
   std::vector<std::unique_ptr<Workload>> prepared;
   for (const WorkloadKind* kind : kinds) prepared.push_back(kind->prepare({size.width, size.height}, assets));
   std::vector<FrameTimes> times;
@@ -205,11 +209,12 @@ void run_bench(const BenchProgram& program, const BenchArguments& args) {
     std::cout << size.width << 'x' << size.height << ", threads: " << threads << identity_text(program)
               << "\nworkload                     ms median       min       max       cpu  frames\n";
   }
-  if (!args.matrix) return measure(program, args, kinds, size, workers, seconds);
+  WorkloadAssets assets;
+  if (!args.matrix && !args.scenes) return measure(program, args, kinds, size, workers, seconds, assets);
   // All rows of the matrix together would take gigabytes. Rows that an OpenGL driver does not support are skipped.
   for (const WorkloadKind*& kind : kinds) {
     try {
-      measure(program, args, std::span(&kind, 1), size, workers, seconds);
+      measure(program, args, std::span(&kind, 1), size, workers, seconds, assets);
     } catch (const InputError& error) {
       std::cerr << kind->name << ": skipped: " << error.what() << '\n';
     }
@@ -223,6 +228,7 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   app.add_option("--only", args.only, "Run only these workloads (see --list)")->type_name("NAME,")->allow_extra_args(false)->delimiter(',');
   app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
   app.add_flag("--matrix", args.matrix, "Run one scene under many states, one at a time, instead of the workloads");
+  app.add_flag("--scenes", args.scenes, "Run three composed scenes, five cameras each, instead of the workloads");
   app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
   app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");
   app.add_option("--seconds", args.seconds, "Time per workload; 0: one frame each (default: 1)")->type_name("S");

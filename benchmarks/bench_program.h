@@ -30,6 +30,7 @@ struct BenchProgram {
   std::function<std::span<const WorkloadKind>()> kinds;
   std::function<std::span<const Sweep>()> sweeps;
   std::function<std::span<const WorkloadKind>()> matrix;  ///< empty if the program does not draw the matrix
+  std::function<std::span<const WorkloadKind>()> scenes;  ///< empty if the program does not draw the scenes
   /// The first fields of each line of --json output, which identify the renderer.
   std::function<nlohmann::ordered_json()> identity;
 };

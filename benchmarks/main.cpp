@@ -5,6 +5,7 @@
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "matrix.h"
+#include "scenes/scene.h"
 
 // The launcher of a portable build calls this function (see cmake/program.cmake).
 extern "C" int halfspace_bench_main(int argc, char** argv) {
@@ -16,6 +17,7 @@ extern "C" int halfspace_bench_main(int argc, char** argv) {
                             .kinds = [] { return workloads(); },
                             .sweeps = [] { return sweeps(); },
                             .matrix = [] { return matrix_workloads(); },
+                            .scenes = [] { return scene_workloads(); },
                             .identity =
                                 [] {
                                   return nlohmann::ordered_json{{"program", "halfspace"}, {"arch", build_arch()}, {"lanes", kLanes}};

@@ -8,6 +8,7 @@
 
 #include "halfspace/geometry/camera.h"
 #include "workload_canvas.h"
+#include "workload_random.h"
 
 namespace halfspace {
 
@@ -16,17 +17,6 @@ namespace {
 constexpr int kSheets = 3, kColumns = 258, kRows = 129, kTextures = 8;
 constexpr double kEyeZ = 3.5, kNearEyeZ = 0.75;
 constexpr uint32_t kRestart = 0xffffffffu;
-
-// Numbers from a linear congruential generator with the constants of Numerical Recipes.
-class Random {
- public:
-  uint32_t bits() { return (state_ = state_ * 1664525u + 1013904223u) >> 8; }
-  float unit() { return static_cast<float>(bits()) / 16777216.0f; }
-  uint32_t below(uint32_t n) { return static_cast<uint32_t>((uint64_t{bits()} * n) >> 24); }
-
- private:
-  uint32_t state_ = 12345;
-};
 
 // A wavy sheet of columns x rows quads that is wider than the view at its distance.
 void add_sheet(MatrixScene& scene, int sheet, int columns, int rows, double aspect) {
@@ -89,7 +79,7 @@ void use_strips(MatrixScene& scene) {
 }
 
 void add_triangles(MatrixScene& scene, int count, float pixels, double aspect) {
-  Random random;
+  WorkloadRandom random;
   const float side = pixels / 1080.0f;  // of the height, which is 2 in clip space
   for (int t = 0; t < count; ++t) {
     const glm::vec3 center(2 * random.unit() - 1, 2 * random.unit() - 1, 1.8f * random.unit() - 0.9f);
@@ -113,7 +103,7 @@ void add_quad(MatrixScene& scene) {
 }
 
 void shuffle_triangles(MatrixScene& scene) {
-  Random random;
+  WorkloadRandom random;
   for (auto n = static_cast<uint32_t>(scene.indices.size() / 3); n > 1; --n) {
     const uint32_t other = random.below(n);
     std::swap_ranges(&scene.indices[3 * (n - 1)], &scene.indices[3 * (n - 1)] + 3, &scene.indices[3 * std::size_t{other}]);
@@ -121,7 +111,7 @@ void shuffle_triangles(MatrixScene& scene) {
 }
 
 void shuffle_vertices(MatrixScene& scene) {
-  Random random;
+  WorkloadRandom random;
   std::vector<uint32_t> place(scene.vertices.size());
   std::iota(place.begin(), place.end(), 0u);
   for (auto n = static_cast<uint32_t>(place.size()); n > 1; --n) std::swap(place[n - 1], place[random.below(n)]);

@@ -10,8 +10,6 @@ namespace halfspace {
 
 namespace {
 
-constexpr int kMapSize = ShadowedShader::kMapSize;
-
 // The depth shader for the naive pipeline, which requires a fragment function.
 struct DepthTwin : DepthOnly {
   template <class R>
@@ -24,7 +22,7 @@ class Shadowed final : public Workload {
  public:
   Shadowed(WorkloadSize size, WorkloadAssets& assets)
       : canvas_(size),
-        map_(kMapSize, kMapSize),
+        map_(kShadowMapSize, kShadowMapSize),
         sphere_(assets.sphere(k200k.rows, k200k.columns)),
         sphere_indices_(sphere_->indices, sphere_->vertices.size()) {
     const ShadowCameras cameras = shadow_cameras(size);
@@ -38,7 +36,7 @@ class Shadowed final : public Workload {
   }
 
   void frame(const Workers& workers) override {
-    Pass light(kMapSize, kMapSize, ColorTarget{}, d32f_target(map_));
+    Pass light(kShadowMapSize, kShadowMapSize, ColorTarget{}, d32f_target(map_));
     light.draw_depth(depth_shader_, positions(), sphere_indices_, workload_state());
     light.run(workers);
     Pass pass = canvas_.pass();
@@ -50,9 +48,9 @@ class Shadowed final : public Workload {
 
   // The depth map is also rendered in double and then rounded to float, as it would be when stored.
   WorkloadTruth truth() const override {
-    Image<float> map(kMapSize, kMapSize);
+    Image<float> map(kShadowMapSize, kShadowMapSize);
     {
-      WorkloadTruth light(kMapSize, kMapSize, vec4<double>(0.0), 1.0);
+      WorkloadTruth light(kShadowMapSize, kShadowMapSize, vec4<double>(0.0), 1.0);
       draw_naive(light, DepthTwin{depth_shader_}, positions(), sphere_indices_, workload_state());
       for (std::size_t i = 0; i < map.texels().size(); ++i) map.data()[i] = static_cast<float>(light.depth.data()[i]);
     }

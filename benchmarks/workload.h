@@ -35,11 +35,12 @@ class Workload {
   virtual void frame(const Workers& workers) = 0;
   /// Returns the image drawn by the last frame.
   virtual WorkloadPicture picture() const = 0;
-  /// False for rows of the matrix that have no truth in double precision; truth() must not be called then.
+  /// False for rows of the matrix, and scenes, that have no truth in double precision; truth() must not be called then.
   virtual bool has_truth() const { return true; }
   /// Computes the truth with the naive pipeline, or analytically where possible. Slow.
   virtual WorkloadTruth truth() const = 0;
-  /// For the matrix drawn by another renderer: the picture that Halfspace draws, to compare with. Null for all other workloads.
+  /// For the matrix and the scenes drawn by another renderer: the picture that Halfspace draws, to compare with. Null for all other
+  /// workloads.
   virtual std::unique_ptr<Workload> twin() const { return nullptr; }
 };
 

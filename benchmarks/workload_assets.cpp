@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "halfspace/core/trig_double.h"
+#include "scenes/scene.h"
 
 namespace halfspace {
 
@@ -72,6 +73,12 @@ std::shared_ptr<const SphereMesh> WorkloadAssets::sphere(int rows, int columns) 
 std::shared_ptr<const Texture2D> WorkloadAssets::checker() {
   if (!checker_) checker_ = std::make_shared<const Texture2D>(checker_texture());
   return checker_;
+}
+
+std::shared_ptr<const Scene> WorkloadAssets::scene(SceneKind kind) {
+  std::shared_ptr<const Scene>& scene = scenes_[kind];
+  if (!scene) scene = std::make_shared<const Scene>(make_scene(kind));
+  return scene;
 }
 
 }  // namespace halfspace

@@ -32,14 +32,19 @@ SphereMesh sphere_mesh(int rows, int columns);
 /// previous one in 8-bit codes and rounds halves up.
 Texture2D checker_texture();
 
+enum class SceneKind : uint8_t;
+struct Scene;
+
 class WorkloadAssets {
  public:
   std::shared_ptr<const SphereMesh> sphere(int rows, int columns);
   std::shared_ptr<const Texture2D> checker();
+  std::shared_ptr<const Scene> scene(SceneKind kind);
 
  private:
   std::map<std::pair<int, int>, std::shared_ptr<const SphereMesh>> spheres_;
   std::shared_ptr<const Texture2D> checker_;
+  std::map<SceneKind, std::shared_ptr<const Scene>> scenes_;
 };
 
 }  // namespace halfspace

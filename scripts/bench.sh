@@ -6,7 +6,8 @@
 #     --quick   runs one short round, which takes a few minutes instead of about an hour
 #     --docs    also updates the tables in docs/results/performance.md and README.md, and the charts in docs/results/benchmark
 #     --out     output folder (default: build/bench/results)
-#   Other arguments are passed to scripts/bench_measure.py: --only, --threads, --sizes, --rounds, --seconds, --no-sweeps.
+#   Other arguments are passed to scripts/bench_measure.py: --only, --threads, --sizes, --rounds, --seconds, --no-sweeps, --no-matrix,
+#   --no-scenes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -18,7 +19,7 @@ while [ $# -gt 0 ]; do
     --quick) measure+=(--quick) ;;
     --docs) report+=(--docs) ;;
     --out) out=${2:?bench.sh: --out needs a directory}; shift ;;
-    -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) measure+=("$1") ;;
   esac
   shift

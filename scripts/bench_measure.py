@@ -153,8 +153,10 @@ def row_of(key, lines):
     return row
 
 
-def names_of(command):
-    return [line.split()[0] for line in subprocess.run([command, "--list"], capture_output=True, text=True, check=True).stdout.splitlines()]
+def names_of(command, *arguments):
+    """Returns the names that the program lists with the given arguments."""
+    out = subprocess.run([command, *arguments, "--list"], capture_output=True, text=True, check=True).stdout
+    return [line.split()[0] for line in out.splitlines()]
 
 
 def check_pictures(runners, names, sizes, truths):
@@ -179,11 +181,6 @@ def measure_limits(program, threads, quick):
     return rows
 
 
-def sweep_points(command, sweep):
-    out = subprocess.run([command, "--sweep", sweep, "--list"], capture_output=True, text=True, check=True).stdout
-    return [line.split()[0] for line in out.splitlines()]
-
-
 def measure_sweeps(runners, args, progress_of):
     """Measures the parameter sweeps; "x" is the parameter of a row. They run on one thread, which shows the cost most directly."""
     rows = []
@@ -192,7 +189,7 @@ def measure_sweeps(runners, args, progress_of):
     for sweep in ("triangle_size", "triangle_count", "overdraw", "varyings"):
         chosen = [r for r in runners if r.key in ("halfspace native 1", "llvmpipe 1") or (sweep == "triangle_count" and r.key == "Embree 1")]
         everyone = [Contender(r.key, r.command, r.threads) for r in chosen]
-        points = sweep_points(program, sweep)
+        points = names_of(program, "--sweep", sweep)
         if args.quick:  # the largest meshes take long to prepare
             points = [p for p in points if p not in ("triangle_count=3200000", "triangle_count=10000000")]
         progress = progress_of(len(points) * rounds * len(everyone))
@@ -201,20 +198,20 @@ def measure_sweeps(runners, args, progress_of):
     return rows
 
 
-def measure_matrix(runners, args, progress_of):
-    """Measures the matrix of states with all threads, at 1920x1080. The pictures of OpenGL are compared with those of Halfspace at 320x180."""
-    program = args.native / "halfspace-bench"
-    out = subprocess.run([program, "--matrix", "--list"], capture_output=True, text=True, check=True).stdout
-    names = [line.split()[0] for line in out.splitlines()]
+def measure_table(runners, args, progress_of, table):
+    """Measures the "matrix" of states or the composed "scenes" with all threads, at 1920x1080. The pictures of OpenGL are compared with those
+    of Halfspace at 320x180."""
+    flag = f"--{table}"
+    names = names_of(args.native / "halfspace-bench", flag)
     chosen = [r for r in runners if r.key in (f"halfspace v3 {args.threads}", f"halfspace native {args.threads}", f"llvmpipe {args.threads}")]
     pictures = {}
     for r in chosen:
-        for line in r.run("--matrix", "--size", "320x180", "--seconds", "0", "--check", str(args.truths / "matrix")) or []:
+        for line in r.run(flag, "--size", "320x180", "--seconds", "0", "--check", str(args.truths / table)) or []:
             pictures[r.key, line["workload"]] = {key: line[key] for key in ("picture", "difference") if key in line}
     rounds = min(args.rounds, 3)
     everyone = [Contender(r.key, r.command, r.threads) for r in chosen]
     progress = progress_of(len(names) * rounds * len(everyone))
-    got = measure_rounds(everyone, names, ["1920x1080"], rounds, min(args.seconds, 0.2), ("--matrix",), progress)
+    got = measure_rounds(everyone, names, ["1920x1080"], rounds, min(args.seconds, 0.2), (flag,), progress)
     return [{**row, **pictures.get((row["contender"], row["workload"]), {})} for row in got]
 
 
@@ -256,6 +253,7 @@ def main():
     parser.add_argument("--seconds", type=float, help="time per program and round")
     parser.add_argument("--no-sweeps", action="store_true", help="skip the parameter sweeps")
     parser.add_argument("--no-matrix", action="store_true", help="skip the matrix of states")
+    parser.add_argument("--no-scenes", action="store_true", help="skip the composed scenes")
     parser.add_argument("--quick", action="store_true", help="fewer and shorter rounds, without the largest meshes and images")
     args = parser.parse_args()
     args.rounds = args.rounds or (1 if args.quick else 5)
@@ -269,7 +267,8 @@ def main():
     results["limits"] = measure_limits(args.native / "halfspace-limits", args.threads, args.quick)
     progress = Progress(len(sizes) * args.rounds * sum(r.draws(name) for r in runners for name in names))
     results["workloads"] = measure_rounds(runners, names, sizes, args.rounds, args.seconds, progress=progress)
-    results["matrix"] = [] if args.no_matrix else measure_matrix(runners, args, Progress)
+    results["matrix"] = [] if args.no_matrix else measure_table(runners, args, Progress, "matrix")
+    results["scenes"] = [] if args.no_scenes else measure_table(runners, args, Progress, "scenes")
     results["sweeps"] = []
     if not args.no_sweeps:
         for measure in (measure_sweeps, measure_threads, measure_sizes):

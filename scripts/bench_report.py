@@ -24,7 +24,7 @@ def main():
     results = bench_tables.Results(json.loads(args.results.read_text()))
     sections = bench_tables.sections(results)
     args.out.mkdir(parents=True, exist_ok=True)
-    shown = ("source", "means", "times", "ratios", "resources", "limits", "growth", "matrix")
+    shown = ("source", "means", "times", "ratios", "resources", "limits", "growth", "matrix", "scenes")
     (args.out / "tables.md").write_text("\n\n".join(sections[name] for name in shown) + "\n")
     if args.docs:
         for name in DOCUMENTS:

@@ -53,8 +53,8 @@ class Results:
         return math.exp(sum(map(math.log, found)) / len(found)) if found else None
 
 
-def mean_of_matrix(ratios, cap):
-    """The geometric mean of the rows of the matrix, each counted as at most cap, so that a few easy rows do not outweigh the others."""
+def mean_of_rows(ratios, cap):
+    """The geometric mean of the rows of a table, each counted as at most cap, so that a few easy rows do not outweigh the others."""
     return math.exp(sum(math.log(min(r, cap)) for r in ratios) / len(ratios)) if ratios else None
 
 
@@ -104,34 +104,29 @@ def time_table(results, size):
     return table([f"{size}, ms", *columns, f"rounds of native {n} / median"], rows)
 
 
-def matrix_table(results):
-    """Times of the rows of the matrix, llvmpipe's divided by ours, and both relative to the plain row."""
+def state_table(results, key, first_column, plain=None):
+    """Times of the rows of results.raw[key] and llvmpipe's divided by ours. With a plain row, also all times relative to it."""
     n = results.threads
-    rows = {(r["workload"], r["contender"]): r for r in results.raw.get("matrix", [])}
+    rows = {(r["workload"], r["contender"]): r["ms"] for r in results.raw.get(key, [])}
     names = list(dict.fromkeys(workload for workload, _ in rows))
-    builds = [b for b in ("v3", "native") if ("plain", f"halfspace {b} {n}") in rows]
-
-    def ms(name, contender):
-        return rows[name, contender]["ms"] if (name, contender) in rows else None
+    peer = f"llvmpipe {n}"
+    ours = {b: f"halfspace {b} {n}" for b in ("v3", "native") if any(contender == f"halfspace {b} {n}" for _, contender in rows)}
 
     def ratio(a, b):
         return a / b if a and b else None
 
-    peer = f"llvmpipe {n}"
-    head = ["state", *(f"halfspace {b}, ms" for b in builds), "llvmpipe, ms", *(f"{b} vs llvmpipe" for b in builds),
-            *(f"{b} / plain" for b in builds), "llvmpipe / plain"]
-    lines, means = [], {b: [] for b in builds}
-    for name in names:
-        ours = {b: ms(name, f"halfspace {b} {n}") for b in builds}
-        theirs = ms(name, peer)
-        for b in builds:
-            if ratio(theirs, ours[b]):
-                means[b].append(ratio(theirs, ours[b]))
-        lines.append([name, *(number(ours[b]) for b in builds), number(theirs), *(times(ratio(theirs, ours[b])) for b in builds),
-                      *(times(ratio(ours[b], ms("plain", f"halfspace {b} {n}"))) for b in builds), times(ratio(theirs, ms("plain", peer)))])
+    def relative(name):
+        return [times(ratio(rows.get((name, c)), rows.get((plain, c)))) for c in (*ours.values(), peer)] if plain else []
+
+    head = [first_column, *(f"halfspace {b}, ms" for b in ours), "llvmpipe, ms", *(f"{b} vs llvmpipe" for b in ours)]
+    if plain:
+        head += [*(f"{b} / {plain}" for b in ours), f"llvmpipe / {plain}"]
+    ratios = {name: {b: ratio(rows.get((name, peer)), rows.get((name, c))) for b, c in ours.items()} for name in names}
+    lines = [[name, *(number(rows.get((name, c))) for c in (*ours.values(), peer)), *(times(r) for r in ratios[name].values()), *relative(name)]
+             for name in names]
     caps = {"v3": 6, "native": 9}
-    lines.append(["**geometric mean**", *("" for _ in builds), "", *(times(mean_of_matrix(means[b], caps[b])) for b in builds),
-                  *("" for _ in builds), ""])
+    means = [times(mean_of_rows([r[b] for r in ratios.values() if r[b]], caps[b])) for b in ours]
+    lines.append(["**geometric mean**", *("" for _ in ours), "", *means, *("" for _ in relative(plain))])
     return table(head, lines)
 
 
@@ -268,6 +263,7 @@ def sections(results):
         "resources": by_size(resource_table),
         "limits": stamped(limit_table(results)),
         "growth": stamped(growth_table(results)),
-        "matrix": stamped(matrix_table(results)) if results.raw.get("matrix") else "The matrix was not measured.",
+        "matrix": stamped(state_table(results, "matrix", "state", "plain")) if results.raw.get("matrix") else "The matrix was not measured.",
+        "scenes": stamped(state_table(results, "scenes", "scene and camera")) if results.raw.get("scenes") else "The scenes were not measured.",
         "readme": means + "\n\n" + source_line(results),
     }

@@ -50,7 +50,7 @@ BENCHMARK_TEMPLATE(shader_sphere, SphereGouraud);
 BENCHMARK_TEMPLATE(shader_sphere, SphereFlat);
 
 void shader_shadowed(benchmark::State& state) {
-  const std::vector<float> map(static_cast<std::size_t>(ShadowedShader::kMapSize) * ShadowedShader::kMapSize, 0.5f);
+  const std::vector<float> map(static_cast<std::size_t>(kShadowMapSize) * kShadowMapSize, 0.5f);
   const ShadowedShader shader{.clip_from_world = glm::mat4(1.0f),
                               .light_from_world = glm::mat4(1.0f),
                               .map = map.data(),

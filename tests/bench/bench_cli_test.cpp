@@ -38,6 +38,8 @@ TEST_P(BenchMistake, IsReportedInOneLine) {
 INSTANTIATE_TEST_SUITE_P(All, BenchMistake,
                          testing::Values(Mistake{"--only fil", "--only", {"'fil'", "'fill'"}},
                                          Mistake{"--sweep overdrew", "--sweep", {"'overdrew'", "'overdraw'"}},
+                                         Mistake{"--scenes --matrix", "--scenes", {"--matrix"}},
+                                         Mistake{"--scenes --sweep overdraw", "--scenes", {"--sweep"}},
                                          Mistake{"--size 0x4", "--size", {"'0x4'", "WxH"}},
                                          Mistake{"--threads 0", "--threads", {"'0'", "1 to 1024"}},
                                          Mistake{"--seconds -1", "--seconds", {"'-1'", "0 to 3600"}},
@@ -121,6 +123,7 @@ TEST(BenchCli, ListNamesEveryWorkload) {
   const Outcome outcome = bench("--list");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(lines_of(outcome.text).size(), 25u);
+  EXPECT_EQ(lines_of(bench("--scenes --list").text).size(), 15u);
 }
 
 }  // namespace

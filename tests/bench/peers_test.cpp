@@ -6,6 +6,7 @@
 
 #include "bench/program.h"
 #include "matrix.h"
+#include "scenes/scene.h"
 #include "support/errors.h"
 #include "sweeps.h"
 
@@ -65,23 +66,41 @@ TEST(BenchGl, DrawsTheSameImages) {
   }
 }
 
-// Points are placed on a coarser grid by llvmpipe, and it rounds intermediate sums of additive blending differently.
-TEST(BenchGl, DrawsTheSameMatrix) {
+// Draws a table of states with OpenGL and returns the JSON lines, or nothing if there is no OpenGL.
+std::vector<nlohmann::json> drawn_by_gl(const std::string& table) {
   const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
-  if (program.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built";
+  if (program.empty()) return {};
   const TemporaryFolder truths;
   const Outcome outcome =
-      test::run_program(program, "--matrix --size 320x180 --threads 2 --seconds 0 --json --check " + truths.path().string(), "2>/dev/null");
-  if (outcome.exit_code == 3) GTEST_SKIP() << outcome.text;
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-  const std::vector<nlohmann::json> rows = test::json_lines_of(outcome.text);
+      test::run_program(program, table + " --size 320x180 --threads 2 --seconds 0 --json --check " + truths.path().string(), "2>/dev/null");
+  if (outcome.exit_code == 3) return {};
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  return test::json_lines_of(outcome.text);
+}
+
+// Checks that at most a share of the pixels away from edges differs from Halfspace's by more than 2/255.
+void expect_same_picture(const nlohmann::json& row, double share) {
+  const double compared = row.at("difference").at("compared"), off = row.at("difference").at("off");
+  EXPECT_LE(off, compared * share) << row.dump();
+}
+
+// Points are placed on a coarser grid by llvmpipe, and it rounds intermediate sums of additive blending differently.
+TEST(BenchGl, DrawsTheSameMatrix) {
+  const std::vector<nlohmann::json> rows = drawn_by_gl("--matrix");
+  if (rows.empty()) GTEST_SKIP() << "no OpenGL";
   EXPECT_GE(rows.size(), matrix_rows().size() - 1);  // llvmpipe has at most 4 samples
   for (const nlohmann::json& row : rows) {
-    if (!row.contains("difference")) continue;
     const std::string name = row.at("workload");
-    const double compared = row.at("difference").at("compared"), off = row.at("difference").at("off");
-    EXPECT_LE(off, compared * (name == "points" || name == "blend_additive" ? 0.02 : 0.01)) << row.dump();
+    if (row.contains("difference")) expect_same_picture(row, name == "points" || name == "blend_additive" ? 0.02 : 0.01);
   }
+}
+
+// llvmpipe chooses levels of detail with less precision.
+TEST(BenchGl, DrawsTheSameScenes) {
+  const std::vector<nlohmann::json> rows = drawn_by_gl("--scenes");
+  if (rows.empty()) GTEST_SKIP() << "no OpenGL";
+  EXPECT_EQ(rows.size(), scene_rows().size());
+  for (const nlohmann::json& row : rows) expect_same_picture(row, 0.01);
 }
 
 // Rays hit the triangles, so only the outline and the edges of the checkerboard can differ. At this size the outline is 1.5% of the sphere,

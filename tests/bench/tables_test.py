@@ -34,6 +34,8 @@ def results(**changes):
         "limits": [{"limit": "memset 512x512", "unit": "GB/s", "value": 4.0, "threads": n} for n in (1, 2)] + [{"limit": "clock", "unit": "GHz", "value": 3.0, "threads": 1}],
         "matrix": [row(who, w, ms, 2) for who, w, ms in (("halfspace v3 2", "plain", 2.0), ("llvmpipe 2", "plain", 6.0),
                                                          ("halfspace v3 2", "srgb", 1.0), ("llvmpipe 2", "srgb", 12.0))],
+        "scenes": [row(who, w, ms, 2) for who, w, ms in (("halfspace native 2", "hall", 2.0), ("llvmpipe 2", "hall", 8.0),
+                                                         ("halfspace native 2", "garden", 5.0), ("llvmpipe 2", "garden", 10.0))],
         "sweeps": [{"sweep": "triangle_count", "x": x, "ms": x * 1e-5, "contender": "halfspace native 1", "workload": f"triangle_count={x}"} for x in (1e4, 1e5, 1e6)],
     }
     raw.update(changes)
@@ -83,9 +85,15 @@ class Tables(unittest.TestCase):
         self.assertEqual("Some core", bench_measure.cpu_name("model name : Some core\n"))
 
     def test_matrix_caps_ratios_in_the_mean(self):
-        lines = bench_tables.matrix_table(results()).splitlines()
+        lines = bench_tables.state_table(results(), "matrix", "state", "plain").splitlines()
         self.assertIn("| srgb | 1.00 | 12.0 | 12.00x | 0.50x | 2.00x |", lines)
         self.assertIn("4.24x", lines[-1])  # the square root of 3 · 6, not of 3 · 12
+
+    def test_scenes_have_no_plain_row(self):
+        lines = bench_tables.state_table(results(), "scenes", "scene").splitlines()
+        self.assertEqual("| scene | halfspace native, ms | llvmpipe, ms | native vs llvmpipe |", lines[0])
+        self.assertIn("| garden | 5.00 | 10.0 | 2.00x |", lines)
+        self.assertEqual("| **geometric mean** |  |  | 2.83x |", lines[-1])  # the square root of 4 · 2
 
     def test_every_section_is_made(self):
         for name, text in bench_tables.sections(results()).items():

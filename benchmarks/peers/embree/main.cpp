@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
                             .kinds = [] { return embree_workloads(); },
                             .sweeps = [] { return embree_sweeps(); },
                             .matrix = {},
+                            .scenes = {},
                             .identity =
                                 [] {
                                   return nlohmann::ordered_json{{"program", "embree"}, {"arch", build_arch()}, {"lanes", kLanes}};

@@ -29,25 +29,15 @@ void main() {
   gl_Position = clip_from_world * vec4(position, 1.0);
 }
 )";
-// The map is sampled with GL_NEAREST and GL_CLAMP_TO_EDGE (see GlTarget).
 constexpr std::string_view kFragment = R"(
 in vec3 position_ws, normal_ws;
 uniform mat4 light_from_world;
 uniform vec3 eye_ws, to_light_ws, base;
 uniform sampler2D map;
 out vec4 result;
-float visible() {
-  vec4 q = light_from_world * vec4(position_ws, 1.0);
-  vec3 s = 0.5 * q.xyz / q.w + 0.5;
-  float sum = 0.0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) sum += s.z - 0.004 <= textureLod(map, s.xy + vec2(dx, dy) / 2048.0, 0.0).r ? 1.0 : 0.0;
-  }
-  return sum / 9.0;
-}
 void main() {
   vec2 light = blinn_phong(normal_ws, to_light_ws, normalize(eye_ws - position_ws));
-  float seen = visible();
+  float seen = unoccluded_fraction(map, light_from_world, 0.004, position_ws);
   result = vec4(base * (0.08 + seen * (light.x - 0.08)) + seen * light.y, 1.0);
 }
 )";
@@ -72,7 +62,7 @@ class Shadowed final : public GlWorkload {
  private:
   Shadowed(const GlInput& in, const SphereMesh& mesh, const ShadowCameras& cameras)
       : GlWorkload(in),
-        map_({ShadowedShader::kMapSize, ShadowedShader::kMapSize}, 0, true),
+        map_({kShadowMapSize, kShadowMapSize}, 0, true),
         sphere_(floats_of(std::span<const SphereVertex>(mesh.vertices)), {3, 3, 2}, mesh.indices),
         plane_(floats_of(std::span<const PlaneVertex>(kShadowPlane)), {3, 3}, kRoundTriangles) {
     depth_program_.set("light_from_world", cameras.light_from_world);
@@ -84,7 +74,7 @@ class Shadowed final : public GlWorkload {
 
   GlTarget map_;
   GlProgram depth_program_{"", kDepthVertex, kNothing};
-  GlProgram program_{kGlslLight, kVertex, kFragment};
+  GlProgram program_{std::string(kGlslLight) + std::string(kGlslShadow), kVertex, kFragment};
   GlMesh sphere_, plane_;
 };
 

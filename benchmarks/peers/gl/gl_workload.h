@@ -26,7 +26,7 @@ class GlWorkload : public Workload {
   /// Draws a frame and waits with glFinish until it is complete.
   void frame(const Workers& workers) final;
   WorkloadPicture picture() const final;
-  WorkloadTruth truth() const final { return in_.twin.prepare(in_.size, in_.assets)->truth(); }
+  WorkloadTruth truth() const final { return make_twin()->truth(); }
 
  protected:
   virtual void draw() = 0;
@@ -37,6 +37,7 @@ class GlWorkload : public Workload {
     target_.clear(kBackground);
   }
   const GlTarget& target() const { return target_; }
+  std::unique_ptr<Workload> make_twin() const { return in_.twin.prepare(in_.size, in_.assets); }
 
  private:
   GlInput in_;

@@ -8,6 +8,7 @@
 #include "cli/errors.h"
 #include "peers/gl/gl_context.h"
 #include "peers/gl/gl_matrix.h"
+#include "peers/gl/gl_scenes.h"
 #include "peers/gl/gl_workload.h"
 
 namespace halfspace {
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
                             .kinds = [] { return gl_workloads(); },
                             .sweeps = [] { return gl_sweeps(); },
                             .matrix = [] { return gl_matrix_workloads(); },
+                            .scenes = [] { return gl_scene_workloads(); },
                             .identity =
                                 [&] {
                                   return nlohmann::ordered_json{{"program", driver}, {"renderer", context->description()}};

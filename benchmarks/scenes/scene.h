@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Composed scenes: an architectural interior, a garden and a workshop, each seen by five cameras. They are made by generators and drawn as
+// a program would draw them: a shadow map, then opaque and alpha-tested surfaces, then blended ones from back to front.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "matrix_scene.h"
+#include "workload.h"
+
+namespace halfspace {
+
+enum class SceneKind : uint8_t { hall, garden, workshop };
+
+/// In the order of drawing.
+enum class SceneSurface : uint8_t {
+  opaque,
+  cutout,  ///< discards fragments whose texture has an alpha below 1/2
+  unlit,   ///< casts no shadow
+  blended  ///< casts no shadow
+};
+
+struct SceneMaterial {
+  SceneSurface surface = SceneSurface::opaque;
+  std::size_t texture = 0;
+  glm::vec3 tint{1.0f};
+  float gloss = 0.0f;  ///< factor of the highlight
+  float alpha = 1.0f;  ///< of a blended surface seen head-on; multiplied by the alpha of the texture
+  bool two_sided = false;
+};
+
+using SceneVertex = MatrixVertex;  // positions are in object space
+
+/// A range of Scene::indices.
+struct SceneMesh {
+  uint32_t first, count;
+  glm::dvec3 center;  ///< of the bounding box
+};
+
+/// A draw call.
+struct SceneObject {
+  std::size_t mesh, material;
+  glm::dmat4 world_from_object;  ///< keeps the directions of the normals, apart from their length
+};
+
+struct SceneLight {
+  glm::vec3 to_sun;            ///< unit vector
+  glm::vec3 sun, sky, ground;  ///< colors; sky and ground light surfaces that face up and down
+  glm::vec3 lamp_ws, lamp;     ///< position and color of a lamp that casts no shadow
+  glm::vec3 haze;              ///< color of far surfaces
+  float haze_distance;         ///< at which half of the color is haze
+  glm::dvec3 shadow_center;    ///< center and half the side of the cube that the shadow map covers
+  double shadow_radius;
+};
+
+struct SceneCamera {
+  glm::dvec3 eye, target;
+};
+inline constexpr int kSceneCameras = 5;
+
+struct Scene {
+  std::vector<SceneVertex> vertices;
+  std::vector<uint32_t> indices;
+  std::vector<SceneMesh> meshes;
+  std::vector<std::shared_ptr<const Texture2D>> textures;
+  std::vector<SceneMaterial> materials;
+  std::vector<SceneObject> objects;
+  SceneLight light;
+  std::array<SceneCamera, kSceneCameras> cameras;
+
+  const SceneMaterial& material(const SceneObject& object) const { return materials[object.material]; }
+  const SceneMesh& mesh(const SceneObject& object) const { return meshes[object.mesh]; }
+  std::size_t triangles() const;  ///< of all objects
+};
+
+Scene make_scene(SceneKind kind);
+
+/// What a frame with one camera needs besides the scene.
+struct SceneView {
+  glm::mat4 clip_from_world, light_from_world;
+  glm::vec3 eye_ws;
+  std::vector<std::size_t> order;    ///< of the objects: by surface and material; blended ones from back to front
+  std::vector<std::size_t> casters;  ///< the objects that cast shadows, in the same order
+};
+SceneView scene_view(const Scene& scene, const SceneCamera& camera, WorkloadSize size);
+
+/// Draw states of the shadow map, of surfaces without blending, and of blended surfaces.
+DrawState scene_shadow_state();
+DrawState scene_state(const SceneMaterial& material);
+
+/// A surface is compared with the shadow map at a point that is moved along its normal by this distance, in meters.
+inline constexpr float kSceneNormalOffset = 0.05f;
+/// Bias of the comparison in window depth.
+inline constexpr float kSceneBias = 0.0004f;
+
+/// A row of the benchmark.
+struct SceneRow {
+  std::string name, what;
+  SceneKind kind;
+  int camera;
+};
+std::span<const SceneRow> scene_rows();
+/// Returns a workload for each row, drawn by Halfspace.
+std::span<const WorkloadKind> scene_workloads();
+
+}  // namespace halfspace

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws the objects of a scene to a pass.
+#pragma once
+
+#include "halfspace/raster/pass.h"
+#include "scenes/scene_shaders.h"
+
+namespace halfspace {
+
+/// A scene, seen by a camera, with everything that its draw calls need.
+struct SceneJob {
+  const Scene& scene;
+  const SceneView& view;
+  std::vector<Indices> meshes;
+  SceneUniforms uniforms;  ///< of the whole scene; those of the materials are set by each draw call
+};
+
+void draw_scene_depth(Pass& pass, const SceneJob& job, const SceneObject& object);
+void draw_scene_opaque(Pass& pass, const SceneJob& job, const SceneObject& object);
+void draw_scene_cutout(Pass& pass, const SceneJob& job, const SceneObject& object);
+void draw_scene_unlit(Pass& pass, const SceneJob& job, const SceneObject& object);
+void draw_scene_blended(Pass& pass, const SceneJob& job, const SceneObject& object);
+
+/// Draws an object with a shader that derives from SceneUniforms.
+template <class S>
+void draw_scene_object(Pass& pass, const SceneJob& job, const SceneObject& object) {
+  const std::vector<SceneVertex>& v = job.scene.vertices;
+  const SceneMaterial& material = job.scene.material(object);
+  S shader{job.uniforms};
+  shader.world_from_object = glm::mat4(object.world_from_object);
+  shader.map = job.scene.textures[material.texture].get();
+  shader.tint = material.tint;
+  shader.gloss = material.gloss;
+  shader.alpha = material.alpha;
+  pass.draw(shader, make_vertex_view(stream(v, &SceneVertex::position), stream(v, &SceneVertex::normal), stream(v, &SceneVertex::uv)),
+            job.meshes[object.mesh], scene_state(material));
+}
+
+}  // namespace halfspace

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/shading/depth_only.h"
+#include "scenes/scene_draw.h"
+
+namespace halfspace {
+
+void draw_scene_cutout(Pass& pass, const SceneJob& job, const SceneObject& object) { draw_scene_object<SceneCutout>(pass, job, object); }
+
+void draw_scene_depth(Pass& pass, const SceneJob& job, const SceneObject& object) {
+  const std::vector<SceneVertex>& v = job.scene.vertices;
+  const glm::mat4 clip_from_object = job.view.light_from_world * glm::mat4(object.world_from_object);
+  const Indices& indices = job.meshes[object.mesh];
+  const SceneMaterial& material = job.scene.material(object);
+  if (material.surface == SceneSurface::cutout) {
+    const auto view = make_vertex_view(stream(v, &SceneVertex::position), stream(v, &SceneVertex::uv));
+    pass.draw_depth(SceneCutoutDepth{clip_from_object, job.scene.textures[material.texture].get()}, view, indices, scene_shadow_state());
+  } else {
+    pass.draw_depth(DepthOnly{clip_from_object}, make_vertex_view(stream(v, &SceneVertex::position)), indices, scene_shadow_state());
+  }
+}
+
+}  // namespace halfspace
